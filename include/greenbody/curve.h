@@ -1,0 +1,43 @@
+#ifndef GREENBODY_CURVE_H
+#define GREENBODY_CURVE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+
+/* One recorded point of a run: one row of curve.csv.  Pressures in Pa; NaN where a value
+ * does not exist (py in 2D).  p is the mean pressure over the compressed axes: the one the
+ * loading programme obeys. */
+struct gb_point {
+    int branch;  /* 0 load; k >= 1 the k-th unloading branch; -1 relax (before loading) */
+    double branch_from_pa; /* pressure from which branch k unloads */
+    int64_t step;
+    double density;
+    double px_pa, py_pa, pz_pa, p_pa;
+    double coordination; /* pairs with r < d, per particle */
+    double bridged;      /* share of those pairs that carry a bridge */
+    double rattlers;     /* share of particles with fewer than two contacts */
+    double residual;     /* rms force and torque over the force scale */
+    int64_t iterations;  /* of the relaxer in this step */
+    int64_t evaluations; /* of the forces in this step */
+    double seconds;      /* since the start of the run */
+};
+
+/* Append-only list of points.  One writer; any number of readers may read every point below
+ * gb_curve_count at any time without a lock: points never move and never change. */
+struct gb_curve;
+
+bool gb_curve_create(struct gb_curve **out, struct gb_error *err);
+void gb_curve_destroy(struct gb_curve *curve); /* NULL is fine */
+bool gb_curve_append(struct gb_curve *curve, const struct gb_point *point,
+                     struct gb_error *err);
+size_t gb_curve_count(const struct gb_curve *curve);
+/* Point index < gb_curve_count; valid as long as the curve. */
+const struct gb_point *gb_curve_at(const struct gb_curve *curve, size_t index);
+
+/* "load", "relax", "unload:100MPa": the branch column.  Returns buffer. */
+char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t size);
+
+#endif

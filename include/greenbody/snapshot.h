@@ -1,0 +1,39 @@
+#ifndef GREENBODY_SNAPSHOT_H
+#define GREENBODY_SNAPSHOT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/curve.h"
+#include "greenbody/status.h"
+
+enum gb_run_state {
+    GB_RUN_PACKING, /* building the initial structure */
+    GB_RUN_RUNNING,
+    GB_RUN_PAUSED,
+    GB_RUN_DONE,
+    GB_RUN_STOPPED, /* asked to stop, or a guard tripped: results kept */
+    GB_RUN_FAILED
+};
+
+enum { GB_SNAPSHOT_HISTOGRAM = 16, GB_SNAPSHOT_ROSE = 18, GB_SNAPSHOT_EVENT = 160 };
+
+/* Plain data for the screen, copied whole through a triple buffer: no pointer, no lock. */
+struct gb_snapshot {
+    int state;          /* enum gb_run_state */
+    struct gb_point now; /* the last relaxed state (also between recorded points) */
+    bool now_valid;
+    double histogram[GB_SNAPSHOT_HISTOGRAM]; /* share of particles with 0, 1, ... contacts */
+    double rose[GB_SNAPSHOT_ROSE]; /* mean f_n (E d^2) in 5 degree bins of angle to z; NaN: empty */
+    int64_t evaluations;          /* of the whole run */
+    double evaluations_per_s;
+    double particle_evaluations_per_s;
+    double progress;              /* 0..1, of the loading programme */
+    double seconds, seconds_left; /* seconds_left < 0: unknown */
+    double live_residual;         /* of the relaxation under way */
+    int64_t events;               /* how many events so far */
+    char event[GB_SNAPSHOT_EVENT]; /* the last one */
+    struct gb_error error;        /* why it failed or stopped */
+};
+
+#endif

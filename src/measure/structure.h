@@ -1,0 +1,35 @@
+#ifndef GB_MEASURE_STRUCTURE_H
+#define GB_MEASURE_STRUCTURE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+#include "pack/cell.h"
+
+/* Measures of plain positions (count x 3, reduced units). */
+
+/* Radial distribution function, P1 eq. (14) (2D: its planar form).
+ *
+ * r_max      at most half the shortest periodic edge
+ * g          bins values; bin k covers [k, k+1) r_max / bins
+ * Errors: GB_ERR_INPUT for r_max out of range, GB_ERR_MEMORY.  Cost linear in count for a
+ * fixed r_max (cell grid). */
+bool gb_structure_rdf(const struct gb_cell *cell, int64_t count, const double *position,
+                      double r_max, int bins, double *g, struct gb_error *err);
+
+struct gb_connectivity {
+    int64_t clusters;     /* of particles closer than the reach */
+    int64_t largest;      /* particles in the largest */
+    bool percolates[3];   /* the largest spans axis k and meets its own image */
+    double coordination;  /* mean number of neighbours closer than the reach */
+    int64_t histogram[16]; /* particles with 0, 1, ..., 15 or more neighbours */
+};
+
+/* Clusters of particles closer than reach, and whether the largest joins its own periodic
+ * images (union-find that carries image shifts). */
+bool gb_structure_connectivity(const struct gb_cell *cell, int64_t count,
+                               const double *position, double reach,
+                               struct gb_connectivity *out, struct gb_error *err);
+
+#endif

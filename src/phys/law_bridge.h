@@ -1,0 +1,30 @@
+#ifndef GB_PHYS_LAW_BRIDGE_H
+#define GB_PHYS_LAW_BRIDGE_H
+
+#include <stdbool.h>
+
+#include "phys/law_rod.h"
+
+/* Solid bridge between two equal particles, P1 section II.A and eq. (2), Fig. 1.
+ *
+ * It forms when the overlap h exceeds `length` (drch); h_min = 1 - r_min is the deepest
+ * overlap since then.  Loading beyond h_min obeys the rod law; below it the force follows the
+ * tangent line at h_min.  When the contact opens by more than `length` behind h_min, h_min
+ * follows (partial break); at h <= 0 the bridge is gone. */
+struct gb_law_bridge {
+    double length;       /* drch, d; 1 or more: no bridges */
+    double strength;     /* sigma_b, E */
+    bool radius_current; /* a_ch from the printed form at the current r, not from r_min */
+};
+
+/* h_min after a contact with deepest overlap h_min (0: no bridge) is moved to overlap h. */
+double gb_law_bridge_deepest(const struct gb_law_bridge *law, double h_min, double h);
+/* Elastic force f_e at overlap h <= h_min of a bridged contact. */
+double gb_law_bridge_force(const struct gb_law_rod *rod, double h_min, double h);
+/* Contact radius a_ch = sqrt(h_min)/2, or the printed form at the current r. */
+double gb_law_bridge_radius(const struct gb_law_bridge *law, double h_min, double h);
+/* Mean normal stress that breaks the bridge (partly) at overlap h, in E; P1 Fig. 2. */
+double gb_law_bridge_peel_stress(const struct gb_law_bridge *law,
+                                 const struct gb_law_rod *rod, double h);
+
+#endif

@@ -1,0 +1,38 @@
+#ifndef GB_PHYS_LAW_SLIP_H
+#define GB_PHYS_LAW_SLIP_H
+
+#include "phys/law_bridge.h"
+#include "phys/law_rod.h"
+
+/* Shear (4), (5), pivoting (6)-(11) and rolling (12) of P1: three springs, one stick-slip
+ * rule.  Every stiffness is per half of the relative motion (P1: displacement and angle of
+ * the contact area).  Reduced units. */
+struct gb_law_slip {
+    double shear;    /* 4 / ((2-nu)(1+nu)); times a: stiffness */
+    double pivot;    /* 8 / (3 (1+nu)); times a^3 */
+    double roll;     /* 4 / (3 (1-nu^2)); times a_ch^3 */
+    double mu;       /* Coulomb cap of shear, mu f_e */
+    double mu_pivot; /* cap of pivoting, mu_f M(a) */
+    double strength; /* sigma_b, E */
+    double motion;   /* share of the relative motion a spring sees: 1/2, or 1 ("full") */
+};
+
+void gb_law_slip_init(struct gb_law_slip *law, double poisson, double mu, double mu_pivot,
+                      double strength, double motion);
+
+/* Stiffnesses at contact radius a (a_ch for a bridge). */
+double gb_law_slip_shear_stiffness(const struct gb_law_slip *law, double a);
+double gb_law_slip_pivot_stiffness(const struct gb_law_slip *law, double a);
+double gb_law_slip_roll_stiffness(const struct gb_law_slip *law, double a);
+
+/* Caps: of a contact without a bridge at overlap h, and of a bridge with radius a. */
+double gb_law_slip_shear_cap(const struct gb_law_slip *law, const struct gb_law_rod *rod,
+                             double h);
+double gb_law_slip_pivot_cap(const struct gb_law_slip *law, const struct gb_law_rod *rod,
+                             double h);
+double gb_law_slip_bridge_shear_cap(const struct gb_law_slip *law, double a);
+double gb_law_slip_bridge_pivot_cap(const struct gb_law_slip *law, double a);
+/* a_ch max(f_e, 0) / 3. */
+double gb_law_slip_roll_cap(double a, double force);
+
+#endif

@@ -1,0 +1,45 @@
+#ifndef GB_RUN_PUBLISH_H
+#define GB_RUN_PUBLISH_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+
+#include "greenbody/snapshot.h"
+
+/* The only atomics between engine and screen.
+ *
+ * Triple buffer: the engine writes its private slot and swaps it in; the reader takes the
+ * newest.  Neither ever waits.  One writer, one reader. */
+struct gb_publish {
+    struct gb_snapshot slot[3];
+    _Atomic unsigned middle; /* index of the shared slot, bit 2: fresh */
+    unsigned back, front;    /* writer's and reader's own */
+};
+
+void gb_publish_init(struct gb_publish *publish);
+/* Engine: the slot to fill, then hand it over. */
+struct gb_snapshot *gb_publish_back(struct gb_publish *publish);
+void gb_publish_swap(struct gb_publish *publish);
+/* Screen: takes the newest if there is one; true when it changed. */
+bool gb_publish_take(struct gb_publish *publish);
+const struct gb_snapshot *gb_publish_front(const struct gb_publish *publish);
+
+/* Screen to engine: a ring of commands, drained between slices.  One writer, one reader. */
+enum gb_command_kind { GB_COMMAND_PAUSE, GB_COMMAND_RESUME, GB_COMMAND_STOP };
+
+struct gb_command {
+    enum gb_command_kind kind;
+};
+
+enum { GB_COMMAND_RING = 64 };
+
+struct gb_command_ring {
+    struct gb_command slot[GB_COMMAND_RING];
+    _Atomic unsigned head, tail;
+};
+
+void gb_command_ring_init(struct gb_command_ring *ring);
+bool gb_command_ring_push(struct gb_command_ring *ring, struct gb_command command);
+bool gb_command_ring_pop(struct gb_command_ring *ring, struct gb_command *command);
+
+#endif
