@@ -1,0 +1,369 @@
+#include "pack/grow.h"
+
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "pack/grid.h"
+
+/* P1 follows a ray through the nearest images of the cell.  Rays are also cut at this
+ * length (in r_eq), or the cost would grow faster than the count in large cells.  The
+ * structure does not notice: two dozen lengths of r_meso are enough to find a pore. */
+static const double ray_longest = 48.0;
+
+/* Spheres of diameter r_eq whose centres lie within r_eq of a ray of n r_eq fill at most
+ * the cylinder of radius 1.5 r_eq and length (n + 1) r_eq: 13.5 (n + 1) of them. */
+enum { CANDIDATES_MOST = 662 };
+
+/* Centres closer than (1 - touch) r_eq overlap.  Above the rounding of a place on two
+ * spheres, so that the hexagons of 2D can close; below any distance that matters. */
+static const double touch = 1e-9;
+
+/* Rays that find no place: after the first number another particle becomes the origin;
+ * after the second, in a row, the structure counts as full. */
+enum { FAILURES_PER_ORIGIN = 64, FAILURES_MOST = 64 * 64 };
+
+/* The cancel flag is looked at once in this many rays. */
+enum { RAYS_PER_POLL = 64 };
+
+/* A place on the ray that touches particle j. */
+struct candidate {
+    int64_t j;
+    double along;     /* of the place, from the origin of the ray */
+    double offset[3]; /* from j to the place; as long as r_eq */
+};
+
+struct growth {
+    const struct gb_grow *grow;
+    struct gb_grid *grid;
+    gsl_rng rng;
+    struct candidate *candidates;
+    int64_t rays;
+};
+
+/* The generator's state comes from gb_alloc_array: gsl_rng_alloc would abort the program
+ * when memory is out. */
+static bool rng_open(gsl_rng *rng, uint64_t seed, struct gb_error *err)
+{
+    rng->type = gsl_rng_mt19937;
+    rng->state = gb_alloc_array(1, rng->type->size, err);
+    if (!rng->state) {
+        return false;
+    }
+    /* mt19937 looks at 32 bits only; fold the others in. */
+    gsl_rng_set(rng, (unsigned long)((seed ^ (seed >> 32)) & 0xffffffffu));
+    return true;
+}
+
+static void random_direction(struct growth *growth, double direction[3])
+{
+    if (growth->grow->dimension == 3) {
+        gsl_ran_dir_3d(&growth->rng, &direction[0], &direction[1], &direction[2]);
+    } else {
+        gsl_ran_dir_2d(&growth->rng, &direction[0], &direction[2]);
+        direction[1] = 0.0;
+    }
+}
+
+/* Where the ray leaves the block of the nearest images, or is cut. */
+static double ray_length(const struct growth *growth, const double origin[3],
+                         const double direction[3])
+{
+    const struct gb_cell *cell = &growth->grid->cell;
+    double length = ray_longest * growth->grow->r_eq;
+    for (int k = 0; k < 3; k++) {
+        if (!cell->periodic[k] || direction[k] == 0.0) {
+            continue;
+        }
+        const double border = direction[k] > 0.0 ? 2.0 * cell->edge[k] : -cell->edge[k];
+        length = fmin(length, (border - origin[k]) / direction[k]);
+    }
+    return length;
+}
+
+/* Farthest first. */
+static int compare_candidates(const void *left, const void *right)
+{
+    const struct candidate *a = left;
+    const struct candidate *b = right;
+    if (a->along != b->along) {
+        return a->along > b->along ? -1 : 1;
+    }
+    return (a->j > b->j) - (a->j < b->j);
+}
+
+/* All places on the far side of the particles that the ray passes within r_eq; overlaps
+ * are not looked at yet.  Returns how many. */
+static int collect_candidates(struct growth *growth, const double origin[3],
+                              const double direction[3])
+{
+    const double r_eq = growth->grow->r_eq;
+    struct gb_grid_ray ray;
+    struct gb_grid_hit hit;
+    int count = 0;
+    gb_grid_ray_init(&ray, growth->grid, origin, direction, r_eq,
+                     ray_length(growth, origin, direction));
+    while (count < CANDIDATES_MOST && gb_grid_ray_next(&ray, &hit)) {
+        const double across = fmax(0.0, hit.square - hit.along * hit.along);
+        struct candidate *candidate = &growth->candidates[count++];
+        candidate->j = hit.index;
+        candidate->along = hit.along + sqrt(r_eq * r_eq - across);
+        for (int k = 0; k < 3; k++) {
+            candidate->offset[k] = candidate->along * direction[k] - hit.r[k];
+        }
+    }
+    qsort(growth->candidates, (size_t)count, sizeof(*growth->candidates),
+          compare_candidates);
+    return count;
+}
+
+static void place_of(const struct growth *growth, const struct candidate *candidate,
+                     double place[3])
+{
+    const double *j = growth->grid->position + 3 * candidate->j;
+    for (int k = 0; k < 3; k++) {
+        place[k] = j[k] + candidate->offset[k];
+    }
+}
+
+static bool overlaps(const struct growth *growth, const double place[3])
+{
+    struct gb_grid_ball ball;
+    struct gb_grid_hit hit;
+    gb_grid_ball_init(&ball, growth->grid, place, (1.0 - touch) * growth->grow->r_eq);
+    return gb_grid_ball_next(&ball, &hit);
+}
+
+/* Neighbours within r_meso; stops counting at enough. */
+static int count_neighbours(const struct growth *growth, const double place[3],
+                            int enough)
+{
+    struct gb_grid_ball ball;
+    struct gb_grid_hit hit;
+    int count = 0;
+    gb_grid_ball_init(&ball, growth->grid, place, growth->grow->r_meso);
+    while (count < enough && gb_grid_ball_next(&ball, &hit)) {
+        count++;
+    }
+    return count;
+}
+
+/* The free place with the fewest neighbours, the farthest of several; NULL when the ray
+ * has none.  The candidates come farthest first, so only fewer neighbours win, and one
+ * neighbour (the particle touched) cannot be beaten. */
+static const struct candidate *choose_candidate(const struct growth *growth, int count)
+{
+    const struct candidate *best = NULL;
+    int fewest = INT32_MAX;
+    for (int i = 0; i < count && fewest > 1; i++) {
+        double place[3];
+        place_of(growth, &growth->candidates[i], place);
+        if (overlaps(growth, place)) {
+            continue;
+        }
+        const int neighbours = count_neighbours(growth, place, fewest);
+        if (neighbours < fewest) {
+            fewest = neighbours;
+            best = &growth->candidates[i];
+        }
+    }
+    return best;
+}
+
+/* The point nearest to `offset` at r_eq from both j (the origin here) and k.  False when
+ * the two are too far apart or offset lies on the line through them. */
+static bool touch_two(double r_eq, const double offset[3], const double k[3],
+                      double found[3])
+{
+    const double square = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
+    const double radius_square = r_eq * r_eq - 0.25 * square;
+    if (!(radius_square > 0.0) || !(square > 0.0)) {
+        return false;
+    }
+    const double share =
+        (offset[0] * k[0] + offset[1] * k[1] + offset[2] * k[2]) / square;
+    double across[3];
+    double length = 0.0;
+    for (int a = 0; a < 3; a++) {
+        across[a] = offset[a] - share * k[a];
+        length += across[a] * across[a];
+    }
+    if (length < 1e-24) {
+        return false;
+    }
+    const double scale = sqrt(radius_square / length);
+    for (int a = 0; a < 3; a++) {
+        found[a] = 0.5 * k[a] + scale * across[a];
+    }
+    return true;
+}
+
+static double square_of_difference(const double a[3], const double b[3])
+{
+    const double x = a[0] - b[0];
+    const double y = a[1] - b[1];
+    const double z = a[2] - b[2];
+    return x * x + y * y + z * z;
+}
+
+/* Rolls the new particle around j to the nearest place where it touches one more
+ * particle. On the sphere around j every other particle k forbids a cap.  The place on
+ * the ray is outside all caps, so the nearest point of the nearest cap is in no other
+ * cap: no search for overlaps is needed.  False when nothing is near enough to be
+ * touched. */
+static bool settle(const struct growth *growth, const struct candidate *candidate,
+                   double place[3])
+{
+    const double r_eq = growth->grow->r_eq;
+    const double *j = growth->grid->position + 3 * candidate->j;
+    struct gb_grid_ball ball;
+    struct gb_grid_hit hit;
+    double nearest = INFINITY;
+    gb_grid_ball_init(&ball, growth->grid, j, 2.0 * r_eq);
+    while (gb_grid_ball_next(&ball, &hit)) {
+        double found[3];
+        if (!touch_two(r_eq, candidate->offset, hit.r, found)) {
+            continue;
+        }
+        const double distance = square_of_difference(found, candidate->offset);
+        if (distance < nearest) {
+            nearest = distance;
+            for (int k = 0; k < 3; k++) {
+                place[k] = j[k] + found[k];
+            }
+        }
+    }
+    return nearest < INFINITY;
+}
+
+/* One ray from particle `origin`; places a particle when it finds room. */
+static bool shoot(struct growth *growth, int64_t origin)
+{
+    double start[3], direction[3], place[3];
+    memcpy(start, growth->grid->position + 3 * origin, sizeof(start));
+    random_direction(growth, direction);
+    growth->rays++;
+    if (growth->grid->count == 1) {
+        /* Nothing to roll onto: the second particle just touches the first. */
+        for (int k = 0; k < 3; k++) {
+            place[k] = start[k] + growth->grow->r_eq * direction[k];
+        }
+        gb_grid_insert(growth->grid, place);
+        return true;
+    }
+    const int count = collect_candidates(growth, start, direction);
+    const struct candidate *best = choose_candidate(growth, count);
+    if (!best || !settle(growth, best, place)) {
+        return false;
+    }
+    gb_grid_insert(growth->grid, place);
+    return true;
+}
+
+static double density(const struct growth *growth, int64_t count)
+{
+    const double one = growth->grow->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
+    return one * (double)count / gb_cell_volume(&growth->grid->cell);
+}
+
+static bool fill(struct growth *growth, struct gb_error *err)
+{
+    const struct gb_grow *grow = growth->grow;
+    struct gb_grid *grid = growth->grid;
+    int64_t origin = 0;
+    int failures = 0;
+    while (grid->count < grow->count) {
+        if (growth->rays % RAYS_PER_POLL == 0 && grow->cancelled &&
+            grow->cancelled(grow->data)) {
+            return gb_error_set(err, GB_ERR_CANCELLED, "packing cancelled");
+        }
+        if (shoot(growth, origin)) {
+            origin = grid->count - 1;
+            failures = 0;
+            continue;
+        }
+        failures++;
+        if (failures == FAILURES_MOST) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "structure.density = %.4g: not reached, stopped at %.3g "
+                                "(%lld of %lld particles; no room was found from there)",
+                                density(growth, grow->count),
+                                density(growth, grid->count), (long long)grid->count,
+                                (long long)grow->count);
+        }
+        if (failures % FAILURES_PER_ORIGIN == 0) {
+            origin =
+                (int64_t)gsl_rng_uniform_int(&growth->rng, (unsigned long)grid->count);
+        }
+    }
+    return true;
+}
+
+static bool check(const struct gb_grow *grow, const struct gb_cell *cell,
+                  struct gb_error *err)
+{
+    if (grow->count < 1) {
+        return gb_error_set(err, GB_ERR_INPUT, "particles.count = %lld: 1 or more",
+                            (long long)grow->count);
+    }
+    if (!(grow->r_eq > 0.0) || !(grow->r_meso > 0.0) || !isfinite(grow->r_meso)) {
+        return gb_error_set(err, GB_ERR_INPUT, "structure.r_meso = %g d: above 0 d",
+                            grow->r_meso);
+    }
+    /* Below two diameters a particle would touch its own images. */
+    if (!(gb_cell_shortest(cell) > 2.0 * grow->r_eq)) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "structure.base: a cell of %g x %g x %g d is too small, every "
+            "edge is above 2 d",
+            grow->edges[0], grow->edges[1], grow->edges[2]);
+    }
+    return true;
+}
+
+static void place_first(struct growth *growth)
+{
+    double place[3];
+    for (int k = 0; k < 3; k++) {
+        const double edge = growth->grid->cell.edge[k];
+        place[k] =
+            growth->grid->cell.periodic[k] ? edge * gsl_rng_uniform(&growth->rng) : 0.0;
+    }
+    gb_grid_insert(growth->grid, place);
+}
+
+bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error *err)
+{
+    struct growth growth = {.grow = grow};
+    struct gb_cell cell;
+    bool done = false;
+    gb_cell_init(&cell, grow->dimension, grow->edges);
+    if (!check(grow, &cell, err)) {
+        return false;
+    }
+    if (!rng_open(&growth.rng, grow->seed, err)) {
+        return false;
+    }
+    growth.candidates = gb_alloc_array(CANDIDATES_MOST, sizeof(struct candidate), err);
+    if (!growth.candidates) {
+        goto close_rng;
+    }
+    if (!gb_grid_create(&growth.grid, &cell, grow->r_eq, grow->count, err)) {
+        goto free_candidates;
+    }
+    place_first(&growth);
+    done = fill(&growth, err);
+    if (done) {
+        memcpy(position, growth.grid->position,
+               (size_t)grow->count * 3 * sizeof(*position));
+    }
+    gb_grid_destroy(growth.grid);
+free_candidates:
+    gb_alloc_free(growth.candidates);
+close_rng:
+    gb_alloc_free(growth.rng.state);
+    return done;
+}
