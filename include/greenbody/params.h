@@ -57,7 +57,7 @@ struct gb_params {
     int bridge_radius;   /* enum gb_bridge_radius */
     int relative_motion; /* enum gb_relative_motion */
     /* [structure] */
-    double structure_density;
+    double structure_density; /* NaN: auto, gb_params_structure_density */
     struct gb_relative base; /* relative with value 0: auto, P1's aspect ratio */
     struct gb_relative r_meso;
     uint64_t seed;
@@ -101,7 +101,9 @@ struct gb_field {
     const char *relative;  /* "d" or "E" for GB_FIELD_RELATIVE */
     double min, max;       /* inclusive, in SI (for relative fields: of the multiple) */
     bool auto_allowed;     /* "auto" is a value */
-    const char *const *choices; /* NULL-terminated, for GB_FIELD_CHOICE */
+    double automatic;      /* what "auto" is in memory */
+    const char *const *choices; /* NULL-terminated, for GB_FIELD_CHOICE (numbers stand for
+                                 * themselves, names for their index) and closed texts */
     const char *fallback;  /* default as typed in a preset */
     const char *meaning;   /* one sentence */
     const char *source;    /* paper and equation, or "numerical" */
@@ -125,6 +127,9 @@ bool gb_params_set(struct gb_params *params, const struct gb_field *field,
 char *gb_params_format(const struct gb_params *params, const struct gb_field *field,
                        char *buffer, size_t size);
 
+/* What the field accepts: "0 to 2", "auto, or 1 nm to 1 mm".  Returns buffer. */
+char *gb_params_accepted(const struct gb_field *field, char *buffer, size_t size);
+
 /* "group.key=value" as on the command line. */
 bool gb_params_assign(struct gb_params *params, const char *assignment,
                       struct gb_error *err);
@@ -136,6 +141,8 @@ bool gb_params_check(const struct gb_params *params, struct gb_error *err);
 /* Resolved lengths and pressures, SI. */
 double gb_params_bridge_length_m(const struct gb_params *params);
 double gb_params_shear_strength_pa(const struct gb_params *params);
+/* Density of the initial structure; auto is 0.24 in 3D and 0.5 in 2D (P1, P2). */
+double gb_params_structure_density(const struct gb_params *params);
 
 /* Edges of the initial cell in particle diameters (x, y, z); y is 1 in 2D, where the scene
  * lies in the x-z plane.  base = auto: in 3D the aspect ratio of P1's cells (18 x 18 x 53.87

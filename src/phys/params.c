@@ -1,0 +1,361 @@
+#include "greenbody/params.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/units.h"
+#include "phys/field.h"
+
+static const char *const kinds[] = {"quasistatic", NULL};
+static const char *const dimensions[] = {"3", "2", NULL};
+static const char *const distributions[] = {"mono", NULL};
+static const char *const normals[] = {"rod", NULL};
+static const char *const radii[] = {"deepest", "current", NULL};
+static const char *const motions[] = {"half", "full", NULL};
+static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", NULL};
+static const char *const fidelities[] = {"fast", "balanced", "reference", NULL};
+static const char *const relaxers[] = {"auto", "fire", "steepest", NULL};
+
+/* Member of gb_params, as offset and size. */
+#define AT(member) \
+    .offset = offsetof(struct gb_params, member), \
+    .size = sizeof(((struct gb_params *)0)->member)
+#define RANGE(low, high) .min = (low), .max = (high)
+#define AUTO(value) .auto_allowed = true, .automatic = (value)
+
+/* THE field table: everything a preset can say. */
+static const struct gb_field fields[] = {
+    {"scene", "title", GB_FIELD_TEXT, AT(title), .fallback = "",
+     .meaning = "name of the scene in figures and run directories", .source = "user"},
+    {"scene", "kind", GB_FIELD_CHOICE, AT(kind), .choices = kinds,
+     .fallback = "quasistatic", .meaning = "relaxed to equilibrium after every strain step",
+     .source = "P1 III"},
+    {"scene", "dimension", GB_FIELD_CHOICE, AT(dimension), .choices = dimensions,
+     .fallback = "3", .meaning = "spheres in space, or discs in the x-z plane",
+     .source = "P1, P2"},
+
+    {"material", "name", GB_FIELD_TEXT, AT(material), .fallback = "alumina",
+     .meaning = "name of the material", .source = "user"},
+    {"material", "young", GB_FIELD_NUMBER, AT(young_pa), .dimension = GB_DIM_PRESSURE, RANGE(1e3, 1e13),
+     .fallback = "382 GPa", .meaning = "Young's modulus E", .source = "P1 V"},
+    {"material", "poisson", GB_FIELD_NUMBER, AT(poisson), RANGE(0.0, 0.49),
+     .fallback = "0.25", .meaning = "Poisson's ratio nu", .source = "P1 V"},
+    {"material", "density", GB_FIELD_NUMBER, AT(density_kg_m3), .dimension = GB_DIM_MASS_DENSITY,
+     RANGE(1.0, 1e5), .fallback = "3990 kg/m3",
+     .meaning = "mass density of the solid (no effect in quasi-static runs)",
+     .source = "handbook value for alumina"},
+    {"material", "d0", GB_FIELD_NUMBER, AT(d0_m), .dimension = GB_DIM_LENGTH, RANGE(1e-11, 1e-8),
+     .fallback = "0.392 nm", .meaning = "molecular diameter of the dispersion law",
+     .source = "P1 (3)"},
+    {"material", "n_d0_cubed", GB_FIELD_NUMBER, AT(n_d0_cubed), RANGE(0.0, 10.0),
+     .fallback = "1.41421356", .meaning = "number of molecules per d0^3",
+     .source = "P1 (3)"},
+    {"material", "epsilon", GB_FIELD_NUMBER, AT(epsilon_j), .dimension = GB_DIM_ENERGY,
+     RANGE(0.0, 1e5 * GB_BOLTZMANN_J_K), .fallback = "1224 kB",
+     .meaning = "energy of the dispersion law; 0 switches attraction off",
+     .source = "P1 (3)"},
+
+    {"particles", "count", GB_FIELD_INTEGER, AT(count), RANGE(10.0, 1e7),
+     .fallback = "8000", .meaning = "number of particles in the periodic cell",
+     .source = "P1 III"},
+    {"particles", "diameter", GB_FIELD_NUMBER, AT(diameter_m), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-9, 1e-3), .fallback = "10 nm", .meaning = "particle diameter d",
+     .source = "P1 V"},
+    {"particles", "distribution", GB_FIELD_CHOICE, AT(distribution),
+     .choices = distributions, .fallback = "mono", .meaning = "all particles of one size",
+     .source = "P1 III"},
+
+    {"contact", "normal", GB_FIELD_CHOICE, AT(normal), .choices = normals,
+     .fallback = "rod", .meaning = "law of the elastic normal force", .source = "P1 (1)"},
+    {"contact", "alpha", GB_FIELD_NUMBER, AT(alpha), RANGE(0.05, 10.0), .fallback = "0.24",
+     .meaning = "least gap in the dispersion law, in d0", .source = "P1 (3), V"},
+    {"contact", "mu", GB_FIELD_NUMBER, AT(mu), RANGE(0.0, 2.0), .fallback = "0.1",
+     .meaning = "friction coefficient in shear", .source = "P1 (5), V"},
+    {"contact", "mu_pivot", GB_FIELD_NUMBER, AT(mu_pivot), RANGE(0.0, 2.0), AUTO(NAN),
+     .fallback = "auto", .meaning = "friction coefficient in pivoting; auto is mu",
+     .source = "P1 (8)"},
+    {"contact", "bridge_length", GB_FIELD_RELATIVE, AT(bridge_length), .dimension = GB_DIM_LENGTH, .relative = "d",
+     RANGE(1e-5, HUGE_VAL), .fallback = "0.008 d",
+     .meaning = "overlap at which a solid bridge forms; 1 d or more: no bridges",
+     .source = "P1 (2), V"},
+    {"contact", "shear_strength", GB_FIELD_RELATIVE, AT(shear_strength), .dimension = GB_DIM_PRESSURE,
+     .relative = "E", RANGE(0.0, 1.0), .fallback = "0.018 E", .meaning = "shear strength sigma_b",
+     .source = "P1 (5), V"},
+    {"contact", "bridge_radius", GB_FIELD_CHOICE, AT(bridge_radius), .choices = radii,
+     .fallback = "deepest",
+     .meaning = "bridge radius from the deepest overlap, or as printed from the current one",
+     .source = "P1 II.A"},
+    {"contact", "relative_motion", GB_FIELD_CHOICE, AT(relative_motion),
+     .choices = motions, .fallback = "half",
+     .meaning = "share of the relative motion that a tangential spring sees",
+     .source = "P1 II.B"},
+
+    {"structure", "density", GB_FIELD_NUMBER, AT(structure_density), RANGE(0.01, 0.74),
+     AUTO(NAN), .fallback = "auto",
+     .meaning = "density of the initial structure; auto is 0.24 in 3D, 0.5 in 2D",
+     .source = "P1 III, P2"},
+    {"structure", "base", GB_FIELD_RELATIVE, AT(base), .dimension = GB_DIM_LENGTH, .relative = "d",
+     RANGE(3.0, 1e4), AUTO(0.0), .fallback = "auto",
+     .meaning = "edges x and y of the cell; auto is P1's aspect ratio, a square in 2D",
+     .source = "P1 III"},
+    {"structure", "r_meso", GB_FIELD_RELATIVE, AT(r_meso), .dimension = GB_DIM_LENGTH, .relative = "d",
+     RANGE(1.0, 10.0), .fallback = "2 d",
+     .meaning = "reach within which the growth counts neighbours", .source = "P1 III"},
+    {"structure", "seed", GB_FIELD_SEED, AT(seed), .fallback = "1",
+     .meaning = "seed of the random numbers: same seed, same structure",
+     .source = "numerical"},
+
+    {"loading", "geometry", GB_FIELD_CHOICE, AT(geometry), .choices = geometries,
+     .fallback = "uniaxial", .meaning = "axes compressed: z, or y and z, or all",
+     .source = "P1 III, VI"},
+    {"loading", "step", GB_FIELD_NUMBER, AT(strain_step), .dimension = GB_DIM_FRACTION,
+     RANGE(1e-6, 0.02), .fallback = "0.1 %",
+     .meaning = "shrinkage of an axis per step, of its current length",
+     .source = "P1 III"},
+    {"loading", "until", GB_FIELD_UNTIL, AT(until_pressure_pa), .dimension = GB_DIM_PRESSURE,
+     RANGE(1e3, 1e12), .fallback = "1 GPa",
+     .meaning = "pressure or density at which loading ends", .source = "P1 V"},
+    {"loading", "unload_from", GB_FIELD_PRESSURES, AT(unload_from_pa), .dimension = GB_DIM_PRESSURE,
+     RANGE(1e3, 1e12), .fallback = "",
+     .meaning = "pressures from which branches of unloading start", .source = "P1 V, VI"},
+
+    {"numerics", "fidelity", GB_FIELD_CHOICE, AT(fidelity), .choices = fidelities,
+     .fallback = "balanced", .meaning = "picks every number of this group left at auto",
+     .source = "numerical"},
+    {"numerics", "relaxer", GB_FIELD_TEXT, AT(relaxer), .choices = relaxers,
+     .fallback = "auto", .meaning = "how a strain step is brought to equilibrium",
+     .source = "P1 (15); numerical"},
+    {"numerics", "tolerance", GB_FIELD_NUMBER, AT(tolerance), RANGE(1e-12, 0.1), AUTO(NAN),
+     .fallback = "auto",
+     .meaning = "rms residual force over the force scale at which a step is relaxed",
+     .source = "numerical"},
+    {"numerics", "cutoff", GB_FIELD_RELATIVE, AT(cutoff), .dimension = GB_DIM_LENGTH, .relative = "d",
+     RANGE(1.0, 3.0), AUTO(NAN), .fallback = "auto",
+     .meaning = "distance beyond which attraction is left out", .source = "numerical"},
+    {"numerics", "threads", GB_FIELD_INTEGER, AT(threads), RANGE(1.0, 1024.0), AUTO(-1.0),
+     .fallback = "auto", .meaning = "threads of the force sweep; results do not depend on it",
+     .source = "numerical"},
+    {"numerics", "max_evaluations", GB_FIELD_INTEGER, AT(max_evaluations),
+     RANGE(1.0, 1e9), AUTO(-1.0), .fallback = "auto",
+     .meaning = "force evaluations after which a strain step is given up",
+     .source = "numerical"},
+
+    {"output", "checkpoint_every", GB_FIELD_NUMBER, AT(checkpoint_every_s), .dimension = GB_DIM_TIME,
+     RANGE(0.1, 604800.0), .fallback = "60 s",
+     .meaning = "time between checkpoints of a run", .source = "numerical"},
+};
+
+const struct gb_field *gb_params_fields(size_t *count)
+{
+    *count = G_N_ELEMENTS(fields);
+    return fields;
+}
+
+const struct gb_field *gb_params_find(const char *group, const char *key)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(fields); i++) {
+        if (strcmp(fields[i].group, group) == 0 && strcmp(fields[i].key, key) == 0) {
+            return &fields[i];
+        }
+    }
+    return NULL;
+}
+
+void gb_params_init(struct gb_params *params)
+{
+    memset(params, 0, sizeof *params);
+    for (size_t i = 0; i < G_N_ELEMENTS(fields); i++) {
+        struct gb_error err;
+        if (!gb_field_read(&fields[i], params, fields[i].fallback, &err)) {
+            g_assert_not_reached(); /* a row of the table is wrong; the tests read it */
+        }
+    }
+}
+
+bool gb_params_set(struct gb_params *params, const struct gb_field *field,
+                   const char *text, struct gb_error *err)
+{
+    return gb_field_read(field, params, text, err);
+}
+
+char *gb_params_format(const struct gb_params *params, const struct gb_field *field,
+                       char *buffer, size_t size)
+{
+    return gb_field_write(field, params, buffer, size);
+}
+
+char *gb_params_accepted(const struct gb_field *field, char *buffer, size_t size)
+{
+    return gb_field_accepted(field, buffer, size);
+}
+
+/* Lists the keys of a group, or all groups when there is no such group. */
+static bool unknown_key(const char *group, const char *key, struct gb_error *err)
+{
+    GString *keys = g_string_new(NULL), *groups = g_string_new(NULL);
+    const char *last = "";
+    for (size_t i = 0; i < G_N_ELEMENTS(fields); i++) {
+        if (strcmp(fields[i].group, group) == 0) {
+            g_string_append_printf(keys, "%s%s", keys->len ? ", " : "", fields[i].key);
+        }
+        if (strcmp(fields[i].group, last) != 0) {
+            last = fields[i].group;
+            g_string_append_printf(groups, "%s%s", groups->len ? ", " : "", last);
+        }
+    }
+    gb_error_set(err, GB_ERR_INPUT, "%.40s.%.40s: no such %s; accepted %s", group, key,
+                 keys->len ? "key" : "group", keys->len ? keys->str : groups->str);
+    g_string_free(keys, TRUE);
+    g_string_free(groups, TRUE);
+    return false;
+}
+
+static bool assign_parts(struct gb_params *params, char *name, const char *value,
+                         struct gb_error *err)
+{
+    char *dot = strchr(name, '.');
+    if (!dot) {
+        return gb_error_set(err, GB_ERR_INPUT, "%.80s: accepted group.key=value", name);
+    }
+    *dot = '\0';
+    const char *key = dot + 1;
+    const struct gb_field *field = gb_params_find(name, key);
+    return field ? gb_params_set(params, field, value, err) : unknown_key(name, key, err);
+}
+
+bool gb_params_assign(struct gb_params *params, const char *assignment,
+                      struct gb_error *err)
+{
+    char *name = g_strdup(assignment);
+    char *equals = strchr(name, '=');
+    bool good = false;
+    if (equals) {
+        *equals = '\0';
+        good = assign_parts(params, g_strstrip(name), equals + 1, err);
+    } else {
+        gb_error_set(err, GB_ERR_INPUT, "%.80s: accepted group.key=value", assignment);
+    }
+    g_free(name);
+    return good;
+}
+
+double gb_params_bridge_length_m(const struct gb_params *params)
+{
+    return gb_field_absolute(gb_params_find("contact", "bridge_length"), params);
+}
+
+double gb_params_shear_strength_pa(const struct gb_params *params)
+{
+    return gb_field_absolute(gb_params_find("contact", "shear_strength"), params);
+}
+
+double gb_params_structure_density(const struct gb_params *params)
+{
+    if (!isnan(params->structure_density)) {
+        return params->structure_density;
+    }
+    return params->dimension == 2 ? 0.5 : 0.24;
+}
+
+/* Base of the initial cell in diameters.  auto in 3D: P1's 18 d for 8000 particles at
+ * density 0.24 and the same aspect ratio for other volumes. */
+static double base_edge(const struct gb_params *params, double volume)
+{
+    if (params->base.relative && params->base.value == 0.0) {
+        const double share = (double)params->count / 8000.0 *
+                             (0.24 / gb_params_structure_density(params));
+        return params->dimension == 2 ? sqrt(volume) : 18.0 * cbrt(share);
+    }
+    return params->base.relative ? params->base.value
+                                 : params->base.value / params->diameter_m;
+}
+
+void gb_params_cell(const struct gb_params *params, double edges[3])
+{
+    const double particle = params->dimension == 2 ? M_PI / 4.0 : M_PI / 6.0;
+    const double volume =
+        (double)params->count * particle / gb_params_structure_density(params);
+    const double base = base_edge(params, volume);
+    edges[0] = base;
+    edges[1] = params->dimension == 2 ? 1.0 : base;
+    edges[2] = volume / (edges[0] * edges[1]);
+}
+
+/* A program may have filled the struct itself: every value against its own row. */
+static bool check_fields(const struct gb_params *params, struct gb_error *err)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(fields); i++) {
+        if (!gb_field_valid(&fields[i], params)) {
+            char value[256], accepted[256];
+            return gb_error_set(err, GB_ERR_INPUT, "%s.%s = %.80s: accepted %s",
+                                fields[i].group, fields[i].key,
+                                gb_params_format(params, &fields[i], value, sizeof value),
+                                gb_params_accepted(&fields[i], accepted, sizeof accepted));
+        }
+    }
+    return true;
+}
+
+/* Two particles must meet through one periodic image only: an edge has room for twice the
+ * reach of the neighbour list. */
+static bool check_cell(const struct gb_params *params, struct gb_error *err)
+{
+    static const char axes[] = "xyz";
+    double reach = 1.5;
+    if (!isnan(params->cutoff.value)) {
+        const double cutoff =
+            gb_field_absolute(gb_params_find("numerics", "cutoff"), params);
+        reach = fmax(reach, cutoff / params->diameter_m);
+    }
+    double edges[3];
+    gb_params_cell(params, edges);
+    for (int k = 0; k < 3; k++) {
+        if ((params->dimension == 3 || k != 1) && !(edges[k] >= 2.0 * reach)) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "particles.count = %" G_GINT64_FORMAT
+                                " and structure.base give a cell of %.3g d along %c: "
+                                "accepted %g d or more",
+                                params->count, edges[k], axes[k], 2.0 * reach);
+        }
+    }
+    return true;
+}
+
+static bool check_programme(const struct gb_params *params, struct gb_error *err)
+{
+    const double start = gb_params_structure_density(params);
+    if (!isnan(params->until_density) && !(params->until_density > start)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "loading.until = density = %g: accepted above "
+                            "structure.density = %g",
+                            params->until_density, start);
+    }
+    if (!isnan(params->until_pressure_pa) && params->unload_count > 0) {
+        char from[64], until[64];
+        const double last = params->unload_from_pa[params->unload_count - 1];
+        if (last > params->until_pressure_pa) {
+            gb_units_format(last, GB_DIM_PRESSURE, from, sizeof from);
+            gb_units_format(params->until_pressure_pa, GB_DIM_PRESSURE, until,
+                            sizeof until);
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "loading.unload_from = %s: accepted up to "
+                                "loading.until = %s",
+                                from, until);
+        }
+    }
+    if (params->dimension == 2 && params->geometry == GB_GEOMETRY_BIAXIAL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "loading.geometry = biaxial: accepted uniaxial or isotropic "
+                            "with scene.dimension = 2, which has x and z only");
+    }
+    return true;
+}
+
+bool gb_params_check(const struct gb_params *params, struct gb_error *err)
+{
+    return check_fields(params, err) && check_cell(params, err) &&
+           check_programme(params, err);
+}
