@@ -1,0 +1,39 @@
+#ifndef GB_RUN_PACE_H
+#define GB_RUN_PACE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* How fast a run goes and how long it will still take, from what it reports about itself.
+ * All times are seconds of work: pauses are left out by the caller. */
+enum { GB_PACE_WINDOW = 64 };
+
+struct gb_pace {
+    /* the last reports: rates are taken over this sliding window */
+    double seconds[GB_PACE_WINDOW];
+    double evaluations[GB_PACE_WINDOW];
+    int filled, next;
+    /* progress per second, recent times weighing more */
+    double progress, progress_at, progress_rate;
+    int64_t slice;
+};
+
+void gb_pace_init(struct gb_pace *pace);
+
+/* Takes in one report. */
+void gb_pace_add(struct gb_pace *pace, double seconds, int64_t evaluations,
+                 double progress);
+
+/* Force evaluations per second over the window; 0 while unknown. */
+double gb_pace_rate(const struct gb_pace *pace);
+
+/* Seconds to the end of the programme; negative while unknown. */
+double gb_pace_left(const struct gb_pace *pace);
+
+/* Evaluations to allow in the next slice, so that it takes 5 to 20 ms. */
+int64_t gb_pace_slice(const struct gb_pace *pace);
+
+/* Tells how long the last slice took, and whether it used up what it was allowed. */
+void gb_pace_sliced(struct gb_pace *pace, double seconds, bool full);
+
+#endif

@@ -1,0 +1,67 @@
+#include <glib.h>
+
+#include "run/pace.h"
+
+static void test_rate(void)
+{
+    struct gb_pace pace;
+    gb_pace_init(&pace);
+    g_assert_cmpfloat(gb_pace_rate(&pace), ==, 0.0);
+    g_assert_cmpfloat(gb_pace_left(&pace), <, 0.0);
+    for (int i = 0; i <= 200; i++) {
+        gb_pace_add(&pace, 0.05 * i, 100 * i, 0.001 * i);
+    }
+    g_assert_cmpfloat_with_epsilon(gb_pace_rate(&pace), 2000.0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(gb_pace_left(&pace), 40.0, 1e-3);
+}
+
+/* The rate follows a change within the window; an old rate is forgotten. */
+static void test_window_slides(void)
+{
+    struct gb_pace pace;
+    gb_pace_init(&pace);
+    int64_t evaluations = 0;
+    for (int i = 0; i < 400; i++) {
+        evaluations += i < 200 ? 100 : 10;
+        gb_pace_add(&pace, 0.05 * i, evaluations, 0.0);
+    }
+    g_assert_cmpfloat_with_epsilon(gb_pace_rate(&pace), 200.0, 1e-6);
+    g_assert_cmpfloat(gb_pace_left(&pace), <, 0.0);
+}
+
+static void test_end(void)
+{
+    struct gb_pace pace;
+    gb_pace_init(&pace);
+    gb_pace_add(&pace, 0.1, 1, 0.5);
+    gb_pace_add(&pace, 0.2, 2, 1.0);
+    g_assert_cmpfloat(gb_pace_left(&pace), ==, 0.0);
+}
+
+static void test_slice(void)
+{
+    struct gb_pace pace;
+    gb_pace_init(&pace);
+    const int64_t first = gb_pace_slice(&pace);
+    g_assert_cmpint(first, >=, 1);
+    gb_pace_sliced(&pace, 0.001, true);
+    g_assert_cmpint(gb_pace_slice(&pace), >, first);
+    /* a slice that a point cut short says nothing about the bound */
+    const int64_t grown = gb_pace_slice(&pace);
+    gb_pace_sliced(&pace, 0.001, false);
+    g_assert_cmpint(gb_pace_slice(&pace), ==, grown);
+    for (int i = 0; i < 100; i++) {
+        gb_pace_sliced(&pace, 1.0, true);
+    }
+    g_assert_cmpint(gb_pace_slice(&pace), ==, 1);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/run/pace/rate", test_rate);
+    g_test_add_func("/run/pace/window-slides", test_window_slides);
+    g_test_add_func("/run/pace/end", test_end);
+    g_test_add_func("/run/pace/slice", test_slice);
+    return g_test_run();
+}
