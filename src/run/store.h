@@ -2,6 +2,7 @@
 #define GB_RUN_STORE_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "greenbody/curve.h"
 #include "greenbody/params.h"
@@ -18,6 +19,10 @@ struct gb_store;
 bool gb_store_create(struct gb_store **out, const char *directory,
                      const struct gb_params *params, bool force, struct gb_error *err);
 void gb_store_destroy(struct gb_store *store); /* NULL is fine */
+/* Destroys and removes the files and directories that were made: for a run that could not
+ * begin.  NULL is fine. */
+void gb_store_discard(struct gb_store *store);
+const char *gb_store_directory(const struct gb_store *store);
 
 bool gb_store_point(struct gb_store *store, const struct gb_point *point,
                     struct gb_error *err);

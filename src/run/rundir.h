@@ -1,0 +1,36 @@
+#ifndef GB_RUN_RUNDIR_H
+#define GB_RUN_RUNDIR_H
+
+#include <stdbool.h>
+
+#include "greenbody/status.h"
+
+/* The directory of a run as a place: may a run begin there, make it, take it back.  What is
+ * inside the files is the store's business. */
+struct gb_rundir {
+    char *path;
+    char *made; /* topmost directory that was created for it, NULL when path existed */
+    int lock;   /* open directory, locked as long as the run is written */
+};
+
+/* Could a run begin at path?  Changes nothing, so that a wrong --out is told before minutes
+ * of packing.
+ *
+ * force   an old run there may be replaced, unless it is still being written
+ * Errors: GB_ERR_INPUT (a file, an existing run, foreign files, a run under way),
+ * GB_ERR_MACHINE (the parent cannot be written). */
+bool gb_rundir_check(const char *path, bool force, struct gb_error *err);
+
+/* Checks, makes the directory and its parents, locks it and removes the files of an old
+ * run.  On error nothing is left to finish. */
+bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
+                    struct gb_error *err);
+
+/* Ends the lock and frees; the directory stays. */
+void gb_rundir_finish(struct gb_rundir *dir);
+
+/* Takes back what was begun: removes the files of the run and the directories that were
+ * made, then finishes. */
+void gb_rundir_unmake(struct gb_rundir *dir);
+
+#endif
