@@ -1,0 +1,115 @@
+#include "measure/observe.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/vec.h"
+
+double gb_observe_density(const struct gb_world *world)
+{
+    const struct gb_model *model = gb_world_model(world);
+    const double shape = model->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
+    return shape * (double)model->count / gb_cell_volume(gb_world_cell(world));
+}
+
+/* Adds f_i r_j of every pair of one list; stride doubles lie between the forces. */
+static void add_list(const struct gb_world *world, const struct gb_pair_list *list,
+                     const double *force, int64_t stride, double sum[3][3])
+{
+    const int64_t count = gb_world_model(world)->count;
+    for (int64_t i = 0; i < count; i++) {
+        for (int64_t k = list->start[i]; k < list->start[i + 1]; k++) {
+            double r[3];
+            gb_world_arm(world, list, i, k, r);
+            for (int a = 0; a < 3; a++) {
+                gb_vec_add(sum[a], force[k * stride + a], r);
+            }
+        }
+    }
+}
+
+void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
+{
+    const struct gb_pairs *pairs = gb_world_pairs(world);
+    const struct gb_wrench *wrench = gb_world_wrenches(world);
+    memset(pressure, 0, 9 * sizeof(double));
+    add_list(world, &pairs->near, &wrench->force[0], sizeof *wrench / sizeof(double),
+             pressure);
+    add_list(world, &pairs->far, gb_world_pulls(world), 3, pressure);
+    const double volume = gb_cell_volume(gb_world_cell(world));
+    for (int a = 0; a < 3; a++) {
+        gb_vec_scale(pressure[a], 1.0 / volume);
+    }
+}
+
+/* Contacts of particle i, from both lists. */
+static int contacts_of(const struct gb_world *world, int64_t i)
+{
+    const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
+    const int64_t count = gb_world_model(world)->count;
+    const struct gb_contact *contact = gb_world_contacts(world);
+    int n = 0;
+    for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
+        n += contact[k].deepest >= 0.0;
+    }
+    for (int64_t in = pairs->in_start[i]; in < pairs->in_start[i + 1]; in++) {
+        n += contact[pairs->in_slot[in]].deepest >= 0.0;
+    }
+    return n;
+}
+
+void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts *counts,
+                         double *share, int bins, int32_t *each)
+{
+    const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
+    const int64_t count = gb_world_model(world)->count;
+    const struct gb_contact *contact = gb_world_contacts(world);
+    *counts = (struct gb_contact_counts){0};
+    for (int b = 0; share && b < bins; b++) {
+        share[b] = 0.0;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        const int n = contacts_of(world, i);
+        counts->rattlers += n < 2;
+        if (share) {
+            share[n < bins ? n : bins - 1] += 1.0 / (double)count;
+        }
+        if (each) {
+            each[i] = n;
+        }
+    }
+    for (int64_t k = 0; k < pairs->pair_count; k++) {
+        counts->contacts += contact[k].deepest >= 0.0;
+        counts->bridged += contact[k].deepest > 0.0;
+    }
+    counts->coordination = 2.0 * (double)counts->contacts / (double)count;
+}
+
+void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
+{
+    const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
+    const int64_t count = gb_world_model(world)->count;
+    const struct gb_contact *contact = gb_world_contacts(world);
+    const struct gb_wrench *wrench = gb_world_wrenches(world);
+    enum { BINS_MOST = 360 };
+    double sum[BINS_MOST] = {0};
+    int64_t count[BINS_MOST] = {0};
+    bins = bins < BINS_MOST ? bins : BINS_MOST;
+    for (int64_t i = 0; i < count; i++) {
+        for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
+            if (contact[k].deepest >= 0.0) {
+                double r[3];
+                gb_world_arm(world, pairs, i, k, r);
+                const double length = gb_vec_length(r);
+                const double angle = acos(fmin(1.0, fabs(r[2]) / length));
+                const int b = (int)(angle / (0.5 * M_PI) * bins);
+                const int bin = b < bins ? b : bins - 1;
+                sum[bin] += gb_vec_dot(wrench[k].force, r) / length;
+                count[bin]++;
+            }
+        }
+    }
+    for (int b = 0; b < bins; b++) {
+        mean[b] = count[b] > 0 ? sum[b] / (double)count[b] : NAN;
+    }
+}

@@ -1,0 +1,350 @@
+#include "pack/pairs.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "phys/tolerances.h"
+
+/* Neighbours one particle may have within the reach: a dense packing has about a dozen. */
+enum { CROWD = 256 };
+
+struct grid {
+    const struct gb_cell *cell;
+    const double *position;
+    int n[3];        /* grid cells along each axis */
+    int span_low[3]; /* neighbouring cells to visit: span_low .. span_high */
+    int span_high[3];
+    double inverse[3];
+    const int32_t *head, *next;
+};
+
+static bool list_init(struct gb_pair_list *list, int64_t count, struct gb_error *err)
+{
+    list->start = gb_alloc_array((size_t)count + 1, sizeof *list->start, err);
+    list->in_start = gb_alloc_array((size_t)count + 1, sizeof *list->in_start, err);
+    return list->start && list->in_start;
+}
+
+static void list_drop_pairs(struct gb_pair_list *list)
+{
+    gb_alloc_free(list->other);
+    gb_alloc_free(list->image);
+    gb_alloc_free(list->in_slot);
+    list->other = NULL;
+    list->image = NULL;
+    list->in_slot = NULL;
+    list->capacity = 0;
+}
+
+static void list_finish(struct gb_pair_list *list)
+{
+    gb_alloc_free(list->start);
+    gb_alloc_free(list->in_start);
+    list_drop_pairs(list);
+}
+
+bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, struct gb_error *err)
+{
+    *pairs = (struct gb_pairs){.count = count};
+    pairs->next = gb_alloc_array((size_t)count, sizeof *pairs->next, err);
+    pairs->built_at = gb_alloc_array(3 * (size_t)count, sizeof *pairs->built_at, err);
+    if (!pairs->next || !pairs->built_at || !list_init(&pairs->near, count, err) ||
+        !list_init(&pairs->far, count, err)) {
+        gb_pairs_finish(pairs);
+        return false;
+    }
+    return true;
+}
+
+void gb_pairs_finish(struct gb_pairs *pairs)
+{
+    list_finish(&pairs->near);
+    list_finish(&pairs->far);
+    gb_alloc_free(pairs->head);
+    gb_alloc_free(pairs->next);
+    gb_alloc_free(pairs->built_at);
+    *pairs = (struct gb_pairs){0};
+}
+
+void gb_pairs_shifts(const struct gb_cell *cell, double shift[27][3])
+{
+    for (int image = 0; image < 27; image++) {
+        const int s[3] = {image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1};
+        for (int k = 0; k < 3; k++) {
+            shift[image][k] = cell->periodic[k] ? s[k] * cell->edge[k] : 0.0;
+        }
+    }
+}
+
+static int clamp(int value, int low, int high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+static int grid_index(const struct grid *grid, const double x[3])
+{
+    int c[3];
+    for (int k = 0; k < 3; k++) {
+        c[k] = clamp((int)(x[k] * grid->inverse[k]), 0, grid->n[k] - 1);
+    }
+    return (c[2] * grid->n[1] + c[1]) * grid->n[0] + c[0];
+}
+
+/* About one particle per grid cell at most, however dilute the packing. */
+static void grid_shape(struct grid *grid, double reach, int64_t count)
+{
+    const int most = (int)fmax(1.0, ceil(cbrt((double)count)) * 2.0);
+    for (int k = 0; k < 3; k++) {
+        const double edge = grid->cell->edge[k];
+        grid->n[k] = grid->cell->periodic[k] ? clamp((int)(edge / reach), 1, most * 8) : 1;
+        grid->inverse[k] = grid->n[k] / edge;
+        /* with one or two cells along an axis, -1 and +1 are the same cell */
+        grid->span_low[k] = grid->n[k] > 2 ? -1 : 0;
+        grid->span_high[k] = grid->n[k] > 1 ? 1 : 0;
+    }
+}
+
+static bool grid_fill(struct gb_pairs *pairs, struct grid *grid, struct gb_error *err)
+{
+    const int64_t cells = (int64_t)grid->n[0] * grid->n[1] * grid->n[2];
+    if (cells > pairs->head_capacity) {
+        gb_alloc_free(pairs->head);
+        pairs->head_capacity = 0;
+        pairs->head = gb_alloc_array((size_t)cells, sizeof *pairs->head, err);
+        if (!pairs->head) {
+            return false;
+        }
+        pairs->head_capacity = cells;
+    }
+    memset(pairs->head, 0xff, (size_t)cells * sizeof *pairs->head);
+    for (int64_t i = pairs->count - 1; i >= 0; i--) {
+        const int c = grid_index(grid, grid->position + 3 * i);
+        pairs->next[i] = pairs->head[c];
+        pairs->head[c] = (int32_t)i;
+    }
+    grid->head = pairs->head;
+    grid->next = pairs->next;
+    return true;
+}
+
+/* Nearest image of x_i - x_j; returns its index and the squared distance. */
+static uint8_t nearest_image(const struct gb_cell *cell, const double *xi, const double *xj,
+                             double *squared)
+{
+    int image = 0, weight = 1;
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double r = xi[k] - xj[k];
+        int s = 0;
+        if (cell->periodic[k]) {
+            const double half = 0.5 * cell->edge[k];
+            s = r > half ? -1 : r < -half ? 1 : 0;
+            r += s * cell->edge[k];
+        }
+        sum += r * r;
+        image += (s + 1) * weight;
+        weight *= 3;
+    }
+    *squared = sum;
+    return (uint8_t)image;
+}
+
+struct neighbour {
+    int32_t other;
+    uint8_t image;
+    bool near;
+};
+
+/* Squared distances that bound the two lists. */
+struct bounds {
+    double near, far;
+};
+
+static void insert_sorted(struct neighbour *list, int n, struct neighbour item)
+{
+    int k = n;
+    while (k > 0 && list[k - 1].other > item.other) {
+        list[k] = list[k - 1];
+        k--;
+    }
+    list[k] = item;
+}
+
+/* Members of one grid cell that come after i and lie within the bounds. */
+static int scan_cell(const struct grid *grid, int64_t i, int c, struct bounds bounds,
+                     struct neighbour *list, int n)
+{
+    for (int32_t j = grid->head[c]; j >= 0 && n < CROWD; j = grid->next[j]) {
+        if (j <= i) {
+            continue;
+        }
+        double squared;
+        const uint8_t image = nearest_image(grid->cell, grid->position + 3 * i,
+                                            grid->position + 3 * (int64_t)j, &squared);
+        if (squared < bounds.far) {
+            insert_sorted(list, n++,
+                          (struct neighbour){j, image, squared < bounds.near});
+        }
+    }
+    return n;
+}
+
+/* Neighbours j > i of particle i, sorted; CROWD when there are too many. */
+static int scan_particle(const struct grid *grid, int64_t i, struct bounds bounds,
+                         struct neighbour *list)
+{
+    int home[3], n = 0;
+    for (int k = 0; k < 3; k++) {
+        home[k] = clamp((int)(grid->position[3 * i + k] * grid->inverse[k]), 0,
+                        grid->n[k] - 1);
+    }
+    for (int w = grid->span_low[2]; w <= grid->span_high[2]; w++) {
+        const int cw = (home[2] + w + grid->n[2]) % grid->n[2];
+        for (int v = grid->span_low[1]; v <= grid->span_high[1]; v++) {
+            const int cv = (home[1] + v + grid->n[1]) % grid->n[1];
+            for (int u = grid->span_low[0]; u <= grid->span_high[0]; u++) {
+                const int cu = (home[0] + u + grid->n[0]) % grid->n[0];
+                const int c = (cw * grid->n[1] + cv) * grid->n[0] + cu;
+                n = scan_cell(grid, i, c, bounds, list, n);
+            }
+        }
+    }
+    return n;
+}
+
+static bool reserve(struct gb_pair_list *list, struct gb_error *err)
+{
+    if (list->pair_count <= list->capacity) {
+        return true;
+    }
+    const int64_t room = list->pair_count + list->pair_count / 16 + 64;
+    list_drop_pairs(list);
+    list->other = gb_alloc_array((size_t)room, sizeof *list->other, err);
+    list->image = gb_alloc_array((size_t)room, sizeof *list->image, err);
+    list->in_slot = gb_alloc_array((size_t)room, sizeof *list->in_slot, err);
+    if (!list->other || !list->image || !list->in_slot) {
+        return false;
+    }
+    list->capacity = room;
+    return true;
+}
+
+static bool count_pairs(struct gb_pairs *pairs, const struct grid *grid,
+                        struct bounds bounds, struct gb_error *err)
+{
+    struct neighbour found[CROWD + 1];
+    int64_t near = 0, far = 0;
+    for (int64_t i = 0; i < pairs->count; i++) {
+        pairs->near.start[i] = near;
+        pairs->far.start[i] = far;
+        const int n = scan_particle(grid, i, bounds, found);
+        if (n >= CROWD) {
+            return gb_error_set(err, GB_ERR_GUARD,
+                                "particle %lld has %d or more neighbours within %.3g d: "
+                                "the packing has collapsed",
+                                (long long)i, n, sqrt(bounds.far));
+        }
+        for (int k = 0; k < n; k++) {
+            near += found[k].near;
+            far += !found[k].near;
+        }
+    }
+    pairs->near.start[pairs->count] = pairs->near.pair_count = near;
+    pairs->far.start[pairs->count] = pairs->far.pair_count = far;
+    return reserve(&pairs->near, err) && reserve(&pairs->far, err);
+}
+
+static void fill_pairs(struct gb_pairs *pairs, const struct grid *grid, struct bounds bounds)
+{
+    struct neighbour found[CROWD + 1];
+    for (int64_t i = 0; i < pairs->count; i++) {
+        const int n = scan_particle(grid, i, bounds, found);
+        int64_t near = pairs->near.start[i], far = pairs->far.start[i];
+        for (int k = 0; k < n; k++) {
+            struct gb_pair_list *list = found[k].near ? &pairs->near : &pairs->far;
+            const int64_t slot = found[k].near ? near++ : far++;
+            list->other[slot] = found[k].other;
+            list->image[slot] = found[k].image;
+        }
+    }
+}
+
+/* The transposed list, by counting. */
+static void transpose(struct gb_pair_list *list, int64_t count)
+{
+    int64_t *in = list->in_start;
+    memset(in, 0, ((size_t)count + 1) * sizeof *in);
+    for (int64_t k = 0; k < list->pair_count; k++) {
+        in[list->other[k] + 1]++;
+    }
+    for (int64_t j = 0; j < count; j++) {
+        in[j + 1] += in[j];
+    }
+    for (int64_t k = 0; k < list->pair_count; k++) {
+        list->in_slot[in[list->other[k]]++] = (int32_t)k;
+    }
+    for (int64_t j = count; j > 0; j--) {
+        in[j] = in[j - 1];
+    }
+    in[0] = 0;
+}
+
+bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
+                    const double *position, double cutoff, double skin,
+                    struct gb_error *err)
+{
+    const double reach = cutoff + skin;
+    if (gb_cell_shortest(cell) < GB_EDGE_OVER_REACH * reach) {
+        return gb_error_set(err, GB_ERR_GUARD,
+                            "the cell has shrunk to %.3g d, less than twice the neighbour "
+                            "reach %.3g d: take more particles or another structure.base",
+                            gb_cell_shortest(cell), reach);
+    }
+    struct grid grid = {.cell = cell, .position = position};
+    grid_shape(&grid, reach, pairs->count);
+    const struct bounds bounds = {(1.0 + skin) * (1.0 + skin), reach * reach};
+    if (!grid_fill(pairs, &grid, err) || !count_pairs(pairs, &grid, bounds, err)) {
+        return false;
+    }
+    fill_pairs(pairs, &grid, bounds);
+    transpose(&pairs->near, pairs->count);
+    transpose(&pairs->far, pairs->count);
+    memcpy(pairs->built_at, position, 3 * (size_t)pairs->count * sizeof *position);
+    pairs->strain = 0.0;
+    return true;
+}
+
+bool gb_pairs_fresh(const struct gb_pairs *pairs, const double *position, double cutoff,
+                    double skin)
+{
+    /* Two particles at the cutoff now were at most cutoff (1 + strain) + 2 moved apart. */
+    const double spare = skin - cutoff * pairs->strain;
+    if (spare <= 0.0) {
+        return false;
+    }
+    double most = 0.0;
+    for (int64_t i = 0; i < pairs->count; i++) {
+        double sum = 0.0;
+        for (int k = 0; k < 3; k++) {
+            const double move = position[3 * i + k] - pairs->built_at[3 * i + k];
+            sum += move * move;
+        }
+        most = sum > most ? sum : most;
+    }
+    return 4.0 * most < spare * spare;
+}
+
+void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3])
+{
+    double change = 0.0;
+    for (int k = 0; k < 3; k++) {
+        change = fmax(change, fabs(1.0 / factor[k] - 1.0));
+    }
+    pairs->strain = (1.0 + pairs->strain) * (1.0 + change) - 1.0;
+    for (int64_t i = 0; i < pairs->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            pairs->built_at[3 * i + k] *= factor[k];
+        }
+    }
+}

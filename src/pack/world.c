@@ -1,0 +1,545 @@
+#include "pack/world.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/vec.h"
+#include "phys/tolerances.h"
+
+/* Particles whose tallies are summed as one: a fixed block, so that the order of the sums, and
+ * with it every bit, does not depend on the number of threads. */
+enum { BLOCK = 128 };
+
+/* Contact histories gathered in list order, for rebuilds and copies. */
+struct ledger {
+    int64_t count, capacity;
+    int32_t (*pair)[2];
+    struct gb_contact *contact;
+};
+
+struct gb_world {
+    const struct gb_model *model;
+    struct gb_cell cell;
+    int64_t count;
+    double *position, *turn, *force, *torque; /* count x 3 */
+    struct gb_pairs pairs;
+    double shift[27][3];          /* of the periodic images, as of the last evaluation */
+    int64_t near_room, far_room;  /* pairs the arrays below can hold */
+    struct gb_contact *contact;   /* one per near pair */
+    struct gb_wrench *wrench;
+    double *pull;                 /* three per far pair: force on the first particle */
+    struct ledger ledger;
+    struct gb_tally *block;       /* per block of particles */
+    struct gb_tally tally;
+    double force_rms, torque_rms;
+    bool listed;                  /* the pair list exists */
+    int64_t evaluations, rebuilds;
+};
+
+struct gb_world_copy {
+    struct gb_cell cell;
+    int64_t count;
+    double *position;
+    struct ledger ledger;
+};
+
+static int64_t block_count(const struct gb_world *world)
+{
+    return (world->count + BLOCK - 1) / BLOCK;
+}
+
+bool gb_world_create(struct gb_world **out, const struct gb_model *model,
+                     const double *position, struct gb_error *err)
+{
+    struct gb_world *world = gb_alloc_array(1, sizeof *world, err);
+    if (!world) {
+        return false;
+    }
+    const size_t n = (size_t)model->count;
+    world->model = model;
+    world->count = model->count;
+    gb_cell_init(&world->cell, model->dimension, model->edges);
+    world->position = gb_alloc_array(3 * n, sizeof(double), err);
+    world->turn = gb_alloc_array(3 * n, sizeof(double), err);
+    world->force = gb_alloc_array(3 * n, sizeof(double), err);
+    world->torque = gb_alloc_array(3 * n, sizeof(double), err);
+    world->block = gb_alloc_array((size_t)block_count(world), sizeof *world->block, err);
+    if (!world->position || !world->turn || !world->force || !world->torque ||
+        !world->block || !gb_pairs_init(&world->pairs, world->count, err)) {
+        gb_world_destroy(world);
+        return false;
+    }
+    memcpy(world->position, position, 3 * n * sizeof *position);
+    *out = world;
+    return true;
+}
+
+static void ledger_finish(struct ledger *ledger)
+{
+    gb_alloc_free(ledger->pair);
+    gb_alloc_free(ledger->contact);
+    *ledger = (struct ledger){0};
+}
+
+void gb_world_destroy(struct gb_world *world)
+{
+    if (!world) {
+        return;
+    }
+    gb_alloc_free(world->position);
+    gb_alloc_free(world->turn);
+    gb_alloc_free(world->force);
+    gb_alloc_free(world->torque);
+    gb_alloc_free(world->block);
+    gb_alloc_free(world->contact);
+    gb_alloc_free(world->wrench);
+    gb_alloc_free(world->pull);
+    ledger_finish(&world->ledger);
+    gb_pairs_finish(&world->pairs);
+    gb_alloc_free(world);
+}
+
+static bool ledger_reserve(struct ledger *ledger, int64_t need, struct gb_error *err)
+{
+    if (need <= ledger->capacity) {
+        return true;
+    }
+    ledger_finish(ledger);
+    const int64_t room = need + need / 8 + 16;
+    ledger->pair = gb_alloc_array((size_t)room, sizeof *ledger->pair, err);
+    ledger->contact = gb_alloc_array((size_t)room, sizeof *ledger->contact, err);
+    if (!ledger->pair || !ledger->contact) {
+        ledger_finish(ledger);
+        return false;
+    }
+    ledger->capacity = room;
+    return true;
+}
+
+/* Writes down every touching pair, in the order of the list. */
+static bool ledger_write(struct ledger *ledger, const struct gb_world *world,
+                         struct gb_error *err)
+{
+    int64_t touching = 0;
+    for (int64_t k = 0; world->listed && k < world->pairs.near.pair_count; k++) {
+        touching += world->contact[k].deepest >= 0.0;
+    }
+    if (!ledger_reserve(ledger, touching, err)) {
+        return false;
+    }
+    ledger->count = 0;
+    for (int64_t i = 0; world->listed && i < world->count; i++) {
+        for (int64_t k = world->pairs.near.start[i]; k < world->pairs.near.start[i + 1]; k++) {
+            if (world->contact[k].deepest >= 0.0) {
+                ledger->pair[ledger->count][0] = (int32_t)i;
+                ledger->pair[ledger->count][1] = world->pairs.near.other[k];
+                ledger->contact[ledger->count++] = world->contact[k];
+            }
+        }
+    }
+    return true;
+}
+
+/* Gives every pair of the new list its old history: both are sorted alike. */
+static void ledger_read(const struct ledger *ledger, struct gb_world *world)
+{
+    int64_t line = 0;
+    for (int64_t i = 0; i < world->count; i++) {
+        for (int64_t k = world->pairs.near.start[i]; k < world->pairs.near.start[i + 1]; k++) {
+            const int32_t j = world->pairs.near.other[k];
+            while (line < ledger->count &&
+                   (ledger->pair[line][0] < i ||
+                    (ledger->pair[line][0] == i && ledger->pair[line][1] < j))) {
+                line++; /* a pair that has left the reach: its history is over */
+            }
+            if (line < ledger->count && ledger->pair[line][0] == i &&
+                ledger->pair[line][1] == j) {
+                world->contact[k] = ledger->contact[line++];
+            } else {
+                gb_contact_clear(&world->contact[k]);
+            }
+        }
+    }
+}
+
+static bool reserve_slots(struct gb_world *world, struct gb_error *err)
+{
+    const int64_t near = world->pairs.near.capacity, far = world->pairs.far.capacity;
+    if (near > world->near_room) {
+        gb_alloc_free(world->contact);
+        gb_alloc_free(world->wrench);
+        world->near_room = 0;
+        world->wrench = NULL;
+        world->contact = gb_alloc_array((size_t)near, sizeof *world->contact, err);
+        world->wrench = gb_alloc_array((size_t)near, sizeof *world->wrench, err);
+        if (!world->contact || !world->wrench) {
+            return false;
+        }
+        world->near_room = near;
+    }
+    if (far > world->far_room) {
+        gb_alloc_free(world->pull);
+        world->far_room = 0;
+        world->pull = gb_alloc_array(3 * (size_t)far, sizeof *world->pull, err);
+        if (!world->pull) {
+            return false;
+        }
+        world->far_room = far;
+    }
+    return true;
+}
+
+static bool rebuild(struct gb_world *world, const struct ledger *ledger,
+                    struct gb_error *err)
+{
+    for (int64_t i = 0; i < world->count; i++) {
+        gb_cell_wrap(&world->cell, world->position + 3 * i);
+    }
+    world->listed = false;
+    const struct gb_numerics *numerics = &world->model->numerics;
+    if (!gb_pairs_build(&world->pairs, &world->cell, world->position, numerics->cutoff,
+                        numerics->skin, err) ||
+        !reserve_slots(world, err)) {
+        return false;
+    }
+    ledger_read(ledger, world);
+    world->listed = true;
+    world->rebuilds++;
+    return true;
+}
+
+static bool ensure_list(struct gb_world *world, struct gb_error *err)
+{
+    const struct gb_numerics *numerics = &world->model->numerics;
+    if (world->listed && gb_pairs_fresh(&world->pairs, world->position, numerics->cutoff,
+                                        numerics->skin)) {
+        return true;
+    }
+    return ledger_write(&world->ledger, world, err) && rebuild(world, &world->ledger, err);
+}
+
+/* Attraction across a gap: force on the first particle. */
+static void gap_force(const struct gb_model *model, const double r[3], double squared,
+                      double force[3])
+{
+    const double distance = sqrt(squared);
+    const double pull = gb_law_dispersion_force(&model->dispersion, distance) / distance;
+    for (int k = 0; k < 3; k++) {
+        force[k] = -pull * r[k];
+    }
+}
+
+static double arm_of(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
+                     int64_t k, double r[3])
+{
+    const double *xi = world->position + 3 * i;
+    const double *xj = world->position + 3 * (int64_t)list->other[k];
+    const double *shift = world->shift[list->image[k]];
+    for (int c = 0; c < 3; c++) {
+        r[c] = xi[c] - xj[c] + shift[c];
+    }
+    return gb_vec_dot(r, r);
+}
+
+/* Near pair k of particle i. */
+static void sweep_near(struct gb_world *world, int64_t i, int64_t k, double cutoff2,
+                       double force[3], double torque[3], struct gb_tally *tally)
+{
+    const struct gb_pair_list *near = &world->pairs.near;
+    struct gb_wrench *wrench = &world->wrench[k];
+    struct gb_contact *contact = &world->contact[k];
+    double r[3];
+    const double squared = arm_of(world, near, i, k, r);
+    if (squared < 1.0) {
+        gb_contact_advance(world->model, contact, r, sqrt(squared), world->turn + 3 * i,
+                           world->turn + 3 * (int64_t)near->other[k], wrench, torque,
+                           tally);
+    } else {
+        if (contact->deepest >= 0.0) {
+            gb_contact_clear(contact);
+        }
+        *wrench = (struct gb_wrench){0};
+        if (squared < cutoff2) {
+            gap_force(world->model, r, squared, wrench->force);
+        }
+    }
+    gb_vec_add(force, 1.0, wrench->force);
+}
+
+static void sweep_far(struct gb_world *world, int64_t i, int64_t k, double cutoff2,
+                      double force[3])
+{
+    double r[3];
+    double *pull = world->pull + 3 * k;
+    const double squared = arm_of(world, &world->pairs.far, i, k, r);
+    pull[0] = pull[1] = pull[2] = 0.0;
+    if (squared < cutoff2) {
+        gap_force(world->model, r, squared, pull);
+        gb_vec_add(force, 1.0, pull);
+    }
+}
+
+/* The own pairs of particle i, summed in list order. */
+static void sweep_particle(struct gb_world *world, int64_t i, struct gb_tally *tally)
+{
+    const struct gb_pairs *pairs = &world->pairs;
+    const double cutoff = world->model->terms.attraction ? world->model->numerics.cutoff : 0.0;
+    double force[3] = {0}, torque[3] = {0};
+    for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
+        sweep_near(world, i, k, cutoff * cutoff, force, torque, tally);
+    }
+    for (int64_t k = pairs->far.start[i]; k < pairs->far.start[i + 1]; k++) {
+        sweep_far(world, i, k, cutoff * cutoff, force);
+    }
+    memcpy(world->force + 3 * i, force, sizeof force);
+    memcpy(world->torque + 3 * i, torque, sizeof torque);
+}
+
+/* Adds what the pairs of others do to particle j, in slot order. */
+static void collect_particle(struct gb_world *world, int64_t j)
+{
+    const struct gb_pair_list *near = &world->pairs.near, *far = &world->pairs.far;
+    double *force = world->force + 3 * j, *torque = world->torque + 3 * j;
+    for (int64_t in = near->in_start[j]; in < near->in_start[j + 1]; in++) {
+        const struct gb_wrench *wrench = &world->wrench[near->in_slot[in]];
+        gb_vec_add(force, -1.0, wrench->force);
+        gb_vec_add(torque, 1.0, wrench->torque_j);
+    }
+    for (int64_t in = far->in_start[j]; in < far->in_start[j + 1]; in++) {
+        gb_vec_add(force, -1.0, world->pull + 3 * (int64_t)far->in_slot[in]);
+    }
+}
+
+static void sweep_block(struct gb_world *world, int64_t b)
+{
+    struct gb_tally tally = {0};
+    const int64_t end = (b + 1) * BLOCK < world->count ? (b + 1) * BLOCK : world->count;
+    for (int64_t i = b * BLOCK; i < end; i++) {
+        sweep_particle(world, i, &tally);
+    }
+    world->block[b] = tally;
+}
+
+static void collect_block(struct gb_world *world, int64_t b, double *force2,
+                          double *torque2)
+{
+    const int64_t end = (b + 1) * BLOCK < world->count ? (b + 1) * BLOCK : world->count;
+    *force2 = *torque2 = 0.0;
+    for (int64_t j = b * BLOCK; j < end; j++) {
+        collect_particle(world, j);
+        *force2 += gb_vec_dot(world->force + 3 * j, world->force + 3 * j);
+        *torque2 += gb_vec_dot(world->torque + 3 * j, world->torque + 3 * j);
+    }
+}
+
+static void add_tally(struct gb_tally *sum, const struct gb_tally *part)
+{
+    sum->contacts += part->contacts;
+    sum->sliding += part->sliding;
+    sum->normal_sum += part->normal_sum;
+    sum->deepest = fmax(sum->deepest, part->deepest);
+}
+
+static int64_t first_bad_particle(const struct gb_world *world)
+{
+    for (int64_t i = 0; i < world->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            if (!isfinite(world->force[3 * i + k]) || !isfinite(world->torque[3 * i + k])) {
+                return i;
+            }
+        }
+    }
+    return -1;
+}
+
+static bool check_sweep(const struct gb_world *world, struct gb_error *err)
+{
+    if (!isfinite(world->force_rms) || !isfinite(world->torque_rms)) {
+        return gb_error_set(err, GB_ERR_GUARD,
+                            "force on particle %lld is not a finite number",
+                            (long long)first_bad_particle(world));
+    }
+    if (world->tally.deepest > GB_OVERLAP_MOST) {
+        return gb_error_set(err, GB_ERR_GUARD,
+                            "two particles overlap by %.3g d: the strain step is too large "
+                            "or the pressure beyond the contact laws",
+                            world->tally.deepest);
+    }
+    return true;
+}
+
+bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
+{
+    if (!ensure_list(world, err)) {
+        return false;
+    }
+    gb_pairs_shifts(&world->cell, world->shift);
+    const int64_t blocks = block_count(world);
+    for (int64_t b = 0; b < blocks; b++) {
+        sweep_block(world, b);
+    }
+    world->tally = (struct gb_tally){0};
+    double force2 = 0.0, torque2 = 0.0;
+    for (int64_t b = 0; b < blocks; b++) {
+        double f2, t2;
+        collect_block(world, b, &f2, &t2);
+        force2 += f2;
+        torque2 += t2;
+        add_tally(&world->tally, &world->block[b]);
+    }
+    memset(world->turn, 0, 3 * (size_t)world->count * sizeof *world->turn);
+    world->force_rms = sqrt(force2 / (double)world->count);
+    world->torque_rms = sqrt(torque2 / (double)world->count);
+    world->evaluations++;
+    return check_sweep(world, err);
+}
+
+void gb_world_strain(struct gb_world *world, const double factor[3])
+{
+    for (int k = 0; k < 3; k++) {
+        world->cell.edge[k] *= factor[k];
+    }
+    for (int64_t i = 0; i < world->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            world->position[3 * i + k] *= factor[k];
+        }
+    }
+    gb_pairs_strain(&world->pairs, factor);
+}
+
+struct gb_bodies gb_world_bodies(struct gb_world *world)
+{
+    return (struct gb_bodies){world->count, world->position, world->turn, world->force,
+                              world->torque};
+}
+
+const struct gb_cell *gb_world_cell(const struct gb_world *world)
+{
+    return &world->cell;
+}
+
+const struct gb_model *gb_world_model(const struct gb_world *world)
+{
+    return world->model;
+}
+
+const struct gb_tally *gb_world_tally(const struct gb_world *world)
+{
+    return &world->tally;
+}
+
+const double *gb_world_position(const struct gb_world *world)
+{
+    return world->position;
+}
+
+double gb_world_residual(const struct gb_world *world)
+{
+    const double mean = world->tally.contacts > 0
+                            ? world->tally.normal_sum / (double)world->tally.contacts
+                            : 0.0;
+    const double scale = fmax(mean, world->model->adhesion);
+    const double rms = fmax(world->force_rms, world->torque_rms);
+    return scale > 0.0 ? rms / scale : 0.0;
+}
+
+const struct gb_pairs *gb_world_pairs(const struct gb_world *world)
+{
+    return &world->pairs;
+}
+
+const struct gb_contact *gb_world_contacts(const struct gb_world *world)
+{
+    return world->contact;
+}
+
+const struct gb_wrench *gb_world_wrenches(const struct gb_world *world)
+{
+    return world->wrench;
+}
+
+const double *gb_world_pulls(const struct gb_world *world)
+{
+    return world->pull;
+}
+
+void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
+                  int64_t k, double r[3])
+{
+    arm_of(world, list, i, k, r);
+}
+
+int64_t gb_world_evaluations(const struct gb_world *world)
+{
+    return world->evaluations;
+}
+
+int64_t gb_world_rebuilds(const struct gb_world *world)
+{
+    return world->rebuilds;
+}
+
+bool gb_world_save(const struct gb_world *world, struct gb_world_copy **copy,
+                   struct gb_error *err)
+{
+    const size_t n = 3 * (size_t)world->count;
+    if (!*copy) {
+        struct gb_world_copy *fresh = gb_alloc_array(1, sizeof *fresh, err);
+        if (!fresh) {
+            return false;
+        }
+        fresh->position = gb_alloc_array(n, sizeof *fresh->position, err);
+        if (!fresh->position) {
+            gb_alloc_free(fresh);
+            return false;
+        }
+        *copy = fresh;
+    }
+    (*copy)->cell = world->cell;
+    (*copy)->count = world->count;
+    memcpy((*copy)->position, world->position, n * sizeof *world->position);
+    return ledger_write(&(*copy)->ledger, world, err);
+}
+
+bool gb_world_restore(struct gb_world *world, const struct gb_world_copy *copy,
+                      struct gb_error *err)
+{
+    const size_t n = 3 * (size_t)world->count;
+    world->cell = copy->cell;
+    memcpy(world->position, copy->position, n * sizeof *world->position);
+    memset(world->turn, 0, n * sizeof *world->turn);
+    return rebuild(world, &copy->ledger, err);
+}
+
+void gb_world_copy_destroy(struct gb_world_copy *copy)
+{
+    if (copy) {
+        gb_alloc_free(copy->position);
+        ledger_finish(&copy->ledger);
+        gb_alloc_free(copy);
+    }
+}
+
+static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
+{
+    const unsigned char *byte = data;
+    for (size_t i = 0; i < size; i++) {
+        hash = (hash ^ byte[i]) * 1099511628211u; /* FNV-1a */
+    }
+    return hash;
+}
+
+uint64_t gb_world_hash(const struct gb_world *world)
+{
+    uint64_t hash = 14695981039346656037u;
+    hash = hash_bytes(hash, world->cell.edge, sizeof world->cell.edge);
+    hash = hash_bytes(hash, world->position,
+                      3 * (size_t)world->count * sizeof *world->position);
+    for (int64_t k = 0; world->listed && k < world->pairs.near.pair_count; k++) {
+        if (world->contact[k].deepest >= 0.0) {
+            hash = hash_bytes(hash, &world->contact[k], sizeof world->contact[k]);
+        }
+    }
+    return hash;
+}

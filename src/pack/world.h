@@ -1,0 +1,75 @@
+#ifndef GB_PACK_WORLD_H
+#define GB_PACK_WORLD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/model.h"
+#include "greenbody/status.h"
+#include "pack/cell.h"
+#include "pack/contact.h"
+#include "pack/pairs.h"
+
+/* Owner of a packing: cell, particles, contacts and their history.  Mutable, one thread only;
+ * the force sweep inside uses model->numerics.threads threads and gives the same bits for any
+ * number of them.  Reduced units. */
+struct gb_world;
+
+/* What relaxers and integrators move.  Arrays of count x 3, valid as long as the world. */
+struct gb_bodies {
+    int64_t count;
+    double *position;
+    double *turn;         /* rotation since the last evaluation; consumed by it */
+    const double *force;  /* of the last evaluation */
+    const double *torque;
+};
+
+/* World with the initial positions (count x 3, inside the cell); no history yet.  The model
+ * must outlive it. */
+bool gb_world_create(struct gb_world **out, const struct gb_model *model,
+                     const double *position, struct gb_error *err);
+void gb_world_destroy(struct gb_world *world); /* NULL is fine */
+
+/* Forces and torques at the present positions; advances the history of every contact by the
+ * motion since the last evaluation.  Errors: GB_ERR_GUARD with the particle named when a force
+ * is not finite or centres are about to cross; the history is then spoilt: restore a copy. */
+bool gb_world_evaluate(struct gb_world *world, struct gb_error *err);
+
+/* Scales the cell and all positions affinely, axis by axis. */
+void gb_world_strain(struct gb_world *world, const double factor[3]);
+
+struct gb_bodies gb_world_bodies(struct gb_world *world);
+const struct gb_cell *gb_world_cell(const struct gb_world *world);
+const struct gb_model *gb_world_model(const struct gb_world *world);
+const struct gb_tally *gb_world_tally(const struct gb_world *world);
+const double *gb_world_position(const struct gb_world *world);
+
+/* rms force (and torque over d, whichever is larger) over the force scale: the mean |f_n| of
+ * the contacts or f_a(d), whichever is larger. */
+double gb_world_residual(const struct gb_world *world);
+
+/* The neighbour list, for measures: records and wrenches belong to the pairs of `near`, pulls
+ * (force on the first particle) to those of `far`. */
+const struct gb_pairs *gb_world_pairs(const struct gb_world *world);
+const struct gb_contact *gb_world_contacts(const struct gb_world *world);
+const struct gb_wrench *gb_world_wrenches(const struct gb_world *world);
+const double *gb_world_pulls(const struct gb_world *world); /* far pairs x 3 */
+/* x_i - x_other of pair k of a list, as of the last evaluation. */
+void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
+                  int64_t k, double r[3]);
+
+int64_t gb_world_evaluations(const struct gb_world *world);
+int64_t gb_world_rebuilds(const struct gb_world *world);
+
+/* A copy of the state that matters (cell, positions, contact histories), to go back to. */
+struct gb_world_copy;
+bool gb_world_save(const struct gb_world *world, struct gb_world_copy **copy,
+                   struct gb_error *err); /* reuses *copy when not NULL */
+bool gb_world_restore(struct gb_world *world, const struct gb_world_copy *copy,
+                      struct gb_error *err);
+void gb_world_copy_destroy(struct gb_world_copy *copy); /* NULL is fine */
+
+/* 64-bit hash over cell, positions and histories: equal states, equal hashes. */
+uint64_t gb_world_hash(const struct gb_world *world);
+
+#endif

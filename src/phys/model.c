@@ -1,0 +1,211 @@
+#include "greenbody/model.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "phys/tolerances.h"
+
+struct normal_laws {
+    const struct gb_law_rod *rod;
+    double adhesion;
+};
+
+static double normal_force(double h, void *data)
+{
+    const struct normal_laws *laws = data;
+    return gb_law_rod_force(laws->rod, h) - laws->adhesion;
+}
+
+/* Root of f_e(h) = f_a(d); NaN when adhesion is too strong for the laws to hold. */
+static double equilibrium_overlap(const struct gb_law_rod *rod, double adhesion)
+{
+    if (adhesion <= 0.0) {
+        return 0.0;
+    }
+    struct normal_laws laws = {rod, adhesion};
+    if (normal_force(GB_OVERLAP_MOST, &laws) <= 0.0) {
+        return NAN;
+    }
+    gsl_function function = {normal_force, &laws};
+    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    if (!solver) {
+        return NAN;
+    }
+    double low = 0.0, high = GB_OVERLAP_MOST;
+    gsl_root_fsolver_set(solver, &function, low, high);
+    int status = GSL_CONTINUE;
+    for (int i = 0; i < 200 && status == GSL_CONTINUE; i++) {
+        gsl_root_fsolver_iterate(solver);
+        low = gsl_root_fsolver_x_lower(solver);
+        high = gsl_root_fsolver_x_upper(solver);
+        status = gsl_root_test_interval(low, high, 0.0, 1e-15);
+    }
+    const double h = gsl_root_fsolver_root(solver);
+    gsl_root_fsolver_free(solver);
+    return h;
+}
+
+static double by_fidelity(int fidelity, double fast, double balanced, double reference)
+{
+    switch (fidelity) {
+    case GB_FIDELITY_FAST:
+        return fast;
+    case GB_FIDELITY_REFERENCE:
+        return reference;
+    default:
+        return balanced;
+    }
+}
+
+static void pick_numerics(struct gb_model *model, const struct gb_params *params)
+{
+    struct gb_numerics *numerics = &model->numerics;
+    const bool named = params->relaxer[0] && strcmp(params->relaxer, "auto") != 0;
+    snprintf(numerics->relaxer, sizeof numerics->relaxer, "%s",
+             named ? params->relaxer : "fire");
+    numerics->tolerance = isfinite(params->tolerance)
+                              ? params->tolerance
+                              : by_fidelity(params->fidelity, GB_TOLERANCE_FAST,
+                                            GB_TOLERANCE_BALANCED,
+                                            GB_TOLERANCE_REFERENCE);
+    const double share = by_fidelity(params->fidelity, GB_CUTOFF_SHARE_FAST,
+                                     GB_CUTOFF_SHARE_BALANCED, GB_CUTOFF_SHARE_REFERENCE);
+    const double given = params->cutoff.relative
+                             ? params->cutoff.value
+                             : params->cutoff.value / params->diameter_m;
+    numerics->cutoff = isfinite(given) && given > 0.0
+                           ? given
+                           : gb_law_dispersion_reach(&model->dispersion, share);
+    if (!model->terms.attraction && !(isfinite(given) && given > 0.0)) {
+        numerics->cutoff = 1.0;
+    }
+    numerics->cutoff = fmax(numerics->cutoff, model->terms.attraction ? GB_CUTOFF_LEAST : 1.0);
+    numerics->skin = GB_SKIN;
+    numerics->threads = params->threads > 0 ? (int)params->threads : 0;
+    numerics->max_evaluations =
+        params->max_evaluations > 0 ? params->max_evaluations : GB_EVALUATIONS_MOST;
+}
+
+static void freeze_laws(struct gb_model *model, const struct gb_params *params)
+{
+    const double d = params->diameter_m, young = params->young_pa;
+    gb_law_rod_init(&model->rod, params->poisson);
+    gb_law_dispersion_init(&model->dispersion, params->n_d0_cubed,
+                           params->epsilon_j / (young * d * d * d), params->alpha,
+                           params->d0_m / d);
+    model->adhesion = model->dispersion.contact;
+    model->bridge = (struct gb_law_bridge){
+        .length = gb_params_bridge_length_m(params) / d,
+        .strength = gb_params_shear_strength_pa(params) / young,
+        .radius_current = params->bridge_radius == GB_BRIDGE_RADIUS_CURRENT,
+    };
+    const double mu_pivot = isfinite(params->mu_pivot) ? params->mu_pivot : params->mu;
+    gb_law_slip_init(&model->slip, params->poisson, params->mu, mu_pivot,
+                     model->bridge.strength,
+                     params->relative_motion == GB_MOTION_FULL ? 1.0 : 0.5);
+    model->terms.attraction = model->adhesion > 0.0;
+    model->terms.bridges = model->bridge.length < 1.0;
+    model->terms.friction = model->terms.bridges || params->mu > 0.0 || mu_pivot > 0.0;
+}
+
+static void freeze_programme(struct gb_model *model, const struct gb_params *params)
+{
+    model->geometry = params->geometry;
+    model->strain_step = params->strain_step;
+    model->until_pressure = isfinite(params->until_pressure_pa)
+                                ? params->until_pressure_pa / params->young_pa
+                                : INFINITY;
+    model->until_density =
+        isfinite(params->until_density) ? params->until_density : 1.0;
+    model->unload_count = params->unload_count;
+    for (int i = 0; i < params->unload_count; i++) {
+        model->unload_from[i] = params->unload_from_pa[i] / params->young_pa;
+    }
+}
+
+bool gb_model_init(struct gb_model *model, const struct gb_params *params,
+                   struct gb_error *err)
+{
+    const double d = params->diameter_m;
+    *model = (struct gb_model){
+        .dimension = params->dimension,
+        .count = params->count,
+        .seed = params->seed,
+        .r_meso = params->r_meso.relative ? params->r_meso.value : params->r_meso.value / d,
+        .pascal_per_stress = params->young_pa,
+        .metre_per_length = d,
+        .newton_per_force = params->young_pa * d * d,
+    };
+    gb_params_cell(params, model->edges);
+    const double shape = params->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
+    model->start_density = (double)params->count * shape /
+                           (model->edges[0] * model->edges[1] * model->edges[2]);
+    freeze_laws(model, params);
+    freeze_programme(model, params);
+    model->h_eq = equilibrium_overlap(&model->rod, model->adhesion);
+    if (!isfinite(model->h_eq)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "contact.alpha = %g, particles.diameter = %g nm: the adhesion "
+                            "%.3g E d^2 presses pairs deeper than %g d; accepted: a larger "
+                            "alpha or diameter, or a smaller material.epsilon",
+                            params->alpha, 1e9 * d, model->adhesion, GB_OVERLAP_MOST);
+    }
+    pick_numerics(model, params);
+    const double reach = model->numerics.cutoff + model->numerics.skin;
+    for (int k = 0; k < 3; k++) {
+        const bool periodic = params->dimension == 3 || k != 1;
+        if (periodic && model->edges[k] < GB_EDGE_OVER_REACH * reach) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "particles.count = %lld, structure.base: the cell is %.3g d "
+                                "wide along %c, less than twice the neighbour reach %.3g d; "
+                                "accepted: more particles, or another base",
+                                (long long)params->count, model->edges[k], "xyz"[k], reach);
+        }
+    }
+    return true;
+}
+
+const char *gb_model_note(const struct gb_model *model, int index, char *buffer, size_t size)
+{
+    const struct gb_numerics *numerics = &model->numerics;
+    const struct gb_terms *terms = &model->terms;
+    switch (index) {
+    case 0:
+        snprintf(buffer, size, "bridges: %s",
+                 terms->bridges ? "carried"
+                                : "left out (contact.bridge_length is a diameter or more)");
+        return buffer;
+    case 1:
+        snprintf(buffer, size, "friction, pivoting and their history: %s",
+                 terms->friction ? "carried" : "left out (mu = 0, no bridges)");
+        return buffer;
+    case 2:
+        snprintf(buffer, size,
+                 terms->attraction
+                     ? "attraction: carried to %.3f d, where it is %.1e of its contact value"
+                     : "attraction: left out (material.epsilon = 0)",
+                 numerics->cutoff,
+                 gb_law_dispersion_force(&model->dispersion, numerics->cutoff) /
+                     model->adhesion);
+        return buffer;
+    case 3:
+        snprintf(buffer, size,
+                 "relaxer %s, tolerance %g of the mean contact force, at most %lld "
+                 "evaluations per strain step",
+                 numerics->relaxer, numerics->tolerance,
+                 (long long)numerics->max_evaluations);
+        return buffer;
+    case 4:
+        if (model->dimension == 2) {
+            snprintf(buffer, size, "third dimension: left out (scene.dimension = 2)");
+            return buffer;
+        }
+        return NULL;
+    default:
+        return NULL;
+    }
+}

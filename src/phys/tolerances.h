@@ -1,0 +1,42 @@
+#ifndef GB_PHYS_TOLERANCES_H
+#define GB_PHYS_TOLERANCES_H
+
+/* Every tolerance of the engine: its meaning, and what breaks when it changes. */
+
+/* Share of f_a(d) to which the attraction has fallen at the automatic cutoff, by fidelity.
+ * Larger: attraction is lost and the force jumps where pairs cross the cutoff, so that tight
+ * relaxations stall.  Smaller: longer neighbour lists, slower sweeps. */
+#define GB_CUTOFF_SHARE_FAST 3e-3
+#define GB_CUTOFF_SHARE_BALANCED 1e-3
+#define GB_CUTOFF_SHARE_REFERENCE 2e-4
+
+/* The cutoff never lies closer than this (d): contacts need a margin to be found in time. */
+#define GB_CUTOFF_LEAST 1.05
+
+/* Margin of the neighbour list beyond the cutoff (d).  Larger: rarer rebuilds, more pairs to
+ * look at in every sweep.  No result depends on it. */
+#define GB_SKIN 0.08
+
+/* rms residual over force scale at which a strain step counts as relaxed, by fidelity. */
+#define GB_TOLERANCE_FAST 3e-2
+#define GB_TOLERANCE_BALANCED 1e-2
+#define GB_TOLERANCE_REFERENCE 2e-3
+
+/* Force evaluations after which a strain step is recorded unrelaxed, by relaxer speed. */
+#define GB_EVALUATIONS_MOST 200000
+
+/* A step recorded unrelaxed with a residual above this many tolerances stops the run. */
+#define GB_RESIDUAL_STOP 30.0
+
+/* Overlap (d) beyond which the contact laws have lost their meaning: h -> 1 is singular, and
+ * two centres about to cross mean that a strain step was too large. */
+#define GB_OVERLAP_MOST 0.5
+
+/* Unloading ends when the pressure is below this share of where it began. */
+#define GB_UNLOADED_SHARE 1e-3
+
+/* Length of a cell edge over the reach of the neighbour list: below 2 a pair would meet two
+ * images of the same particle. */
+#define GB_EDGE_OVER_REACH 2.0
+
+#endif

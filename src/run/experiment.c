@@ -1,0 +1,312 @@
+#include "run/experiment.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "measure/observe.h"
+#include "pack/grow.h"
+#include "pack/world.h"
+#include "solve/guard.h"
+#include "solve/load.h"
+#include "solve/relax.h"
+
+enum { EVENTS = 32, EVENT_TEXT = 640 };
+
+struct gb_experiment {
+    struct gb_params params;
+    struct gb_model model;
+    struct gb_world *world;
+    struct gb_world_copy *good;   /* before the strain step under way */
+    struct gb_world_copy *branch; /* where the unloading branch began */
+    struct gb_relax *relax;
+    struct gb_load load;
+    struct gb_guard guard;
+    double factor[3];             /* strain step under way */
+    int64_t step;                 /* strain steps recorded */
+    int64_t spent_iterations, spent_evaluations; /* by attempts that were taken back */
+    bool have_good;
+    bool over;
+    struct gb_point point;
+    char event[EVENTS][EVENT_TEXT];
+    int events_first, events_count;
+};
+
+static void add_event(struct gb_experiment *experiment, const char *text)
+{
+    if (text[0] == '\0') {
+        return;
+    }
+    if (experiment->events_count == EVENTS) { /* the oldest gives way */
+        experiment->events_first = (experiment->events_first + 1) % EVENTS;
+        experiment->events_count--;
+    }
+    const int at = (experiment->events_first + experiment->events_count++) % EVENTS;
+    snprintf(experiment->event[at], EVENT_TEXT, "%s", text);
+}
+
+bool gb_experiment_event(struct gb_experiment *experiment, char *text, size_t size)
+{
+    if (experiment->events_count == 0) {
+        return false;
+    }
+    snprintf(text, size, "%s", experiment->event[experiment->events_first]);
+    experiment->events_first = (experiment->events_first + 1) % EVENTS;
+    experiment->events_count--;
+    return true;
+}
+
+static bool grow_world(struct gb_experiment *experiment, bool (*cancelled)(void *data),
+                       void *data, struct gb_error *err)
+{
+    const struct gb_model *model = &experiment->model;
+    double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
+    if (!position) {
+        return false;
+    }
+    struct gb_grow grow = {
+        .dimension = model->dimension,
+        .count = model->count,
+        .r_eq = 1.0 - model->h_eq,
+        .r_meso = model->r_meso,
+        .seed = model->seed,
+        .cancelled = cancelled,
+        .data = data,
+    };
+    memcpy(grow.edges, model->edges, sizeof grow.edges);
+    const bool done = gb_grow_place(&grow, position, err) &&
+                      gb_world_create(&experiment->world, model, position, err);
+    gb_alloc_free(position);
+    return done;
+}
+
+bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *params,
+                          bool (*cancelled)(void *data), void *data, struct gb_error *err)
+{
+    struct gb_experiment *experiment = gb_alloc_array(1, sizeof *experiment, err);
+    if (!experiment) {
+        return false;
+    }
+    experiment->params = *params;
+    if (!gb_params_check(params, err) || !gb_model_init(&experiment->model, params, err) ||
+        !gb_relax_create(&experiment->relax, &experiment->model, err) ||
+        !grow_world(experiment, cancelled, data, err)) {
+        gb_experiment_destroy(experiment);
+        return false;
+    }
+    gb_load_init(&experiment->load, &experiment->model);
+    gb_relax_start(experiment->relax, experiment->world);
+    *out = experiment;
+    return true;
+}
+
+void gb_experiment_destroy(struct gb_experiment *experiment)
+{
+    if (!experiment) {
+        return;
+    }
+    gb_world_destroy(experiment->world);
+    gb_world_copy_destroy(experiment->good);
+    gb_world_copy_destroy(experiment->branch);
+    gb_relax_destroy(experiment->relax);
+    gb_alloc_free(experiment);
+}
+
+/* Normal pressures of the world, E. */
+static void pressures(const struct gb_experiment *experiment, double pressure[3])
+{
+    double tensor[3][3];
+    gb_observe_pressure(experiment->world, tensor);
+    for (int k = 0; k < 3; k++) {
+        pressure[k] = tensor[k][k];
+    }
+}
+
+static void measure(const struct gb_experiment *experiment, struct gb_point *point)
+{
+    const double pascal = experiment->model.pascal_per_stress;
+    double pressure[3];
+    struct gb_contact_counts counts;
+    pressures(experiment, pressure);
+    gb_observe_contacts(experiment->world, &counts, NULL, 0, NULL);
+    const int branch = experiment->load.branch;
+    *point = (struct gb_point){
+        .branch = branch,
+        .branch_from_pa = branch > 0
+                              ? experiment->params.unload_from_pa[branch - 1]
+                              : 0.0,
+        .step = experiment->step,
+        .density = gb_observe_density(experiment->world),
+        .px_pa = pressure[0] * pascal,
+        .py_pa = experiment->model.dimension == 3 ? pressure[1] * pascal : (double)NAN,
+        .pz_pa = pressure[2] * pascal,
+        .p_pa = gb_load_pressure(&experiment->load, pressure) * pascal,
+        .coordination = counts.coordination,
+        .bridged = counts.contacts > 0 ? (double)counts.bridged / (double)counts.contacts
+                                       : 0.0,
+        .rattlers = (double)counts.rattlers / (double)experiment->model.count,
+        .residual = experiment->relax->residual,
+        .iterations = experiment->spent_iterations + experiment->relax->iterations,
+        .evaluations = experiment->spent_evaluations + experiment->relax->evaluations,
+    };
+}
+
+static void strain(struct gb_experiment *experiment)
+{
+    gb_world_strain(experiment->world, experiment->factor);
+    gb_relax_start(experiment->relax, experiment->world);
+}
+
+static void unload_event(struct gb_experiment *experiment)
+{
+    char text[EVENT_TEXT];
+    const int branch = experiment->load.branch;
+    snprintf(text, sizeof text, "unloading from %.6g MPa (asked for %.6g MPa)",
+             1e-6 * experiment->point.p_pa,
+             1e-6 * experiment->params.unload_from_pa[branch - 1]);
+    add_event(experiment, text);
+}
+
+/* After a recorded state: what the programme orders next. */
+static bool obey(struct gb_experiment *experiment, struct gb_error *err)
+{
+    double pressure[3];
+    for (;;) {
+        pressures(experiment, pressure);
+        const double density = gb_observe_density(experiment->world);
+        switch (gb_load_next(&experiment->load, pressure, density, experiment->factor)) {
+        case GB_LOAD_RESTORE:
+            add_event(experiment, "unloaded; loading goes on from the saved state");
+            /* the evaluation brings the forces of the restored state, so that the programme
+             * sees its pressure */
+            if (!gb_world_restore(experiment->world, experiment->branch, err) ||
+                !gb_world_evaluate(experiment->world, err)) {
+                return false;
+            }
+            continue;
+        case GB_LOAD_END:
+            experiment->over = true;
+            return true;
+        case GB_LOAD_UNLOAD:
+            unload_event(experiment);
+            if (!gb_world_save(experiment->world, &experiment->branch, err)) {
+                return false;
+            }
+            break;
+        case GB_LOAD_STRAIN:
+            break;
+        }
+        experiment->have_good = gb_world_save(experiment->world, &experiment->good, err);
+        if (experiment->have_good) {
+            strain(experiment);
+        }
+        return experiment->have_good;
+    }
+}
+
+/* Back to the state before the strain step under way. */
+static bool take_back(struct gb_experiment *experiment, struct gb_error *err)
+{
+    experiment->spent_iterations += experiment->relax->iterations;
+    experiment->spent_evaluations += experiment->relax->evaluations;
+    return experiment->have_good &&
+           gb_world_restore(experiment->world, experiment->good, err);
+}
+
+static enum gb_advance stop(struct gb_experiment *experiment)
+{
+    struct gb_error ignored;
+    if (take_back(experiment, &ignored)) {
+        gb_world_evaluate(experiment->world, &ignored);
+    }
+    experiment->over = true;
+    return GB_ADVANCE_STOPPED;
+}
+
+static enum gb_advance record(struct gb_experiment *experiment, struct gb_error *err)
+{
+    measure(experiment, &experiment->point);
+    experiment->spent_iterations = experiment->spent_evaluations = 0;
+    experiment->step++;
+    gb_load_recover(&experiment->load);
+    if (!obey(experiment, err)) {
+        experiment->over = true;
+        return GB_ADVANCE_STOPPED;
+    }
+    return GB_ADVANCE_POINT;
+}
+
+enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
+                                      int64_t max_evaluations, struct gb_error *err)
+{
+    if (experiment->over) {
+        return GB_ADVANCE_DONE;
+    }
+    struct gb_error local;
+    struct gb_error *why = err ? err : &local;
+    const enum gb_relax_outcome outcome =
+        gb_relax_advance(experiment->relax, experiment->world, max_evaluations, why);
+    if (outcome == GB_RELAX_MORE) {
+        return GB_ADVANCE_MORE;
+    }
+    char text[EVENT_TEXT];
+    switch (gb_guard_judge(&experiment->guard, outcome, experiment->relax, text, sizeof text,
+                           why)) {
+    case GB_GUARD_ACCEPT:
+        add_event(experiment, text);
+        return record(experiment, why);
+    case GB_GUARD_RETRY:
+        if (!take_back(experiment, why)) {
+            return stop(experiment);
+        }
+        add_event(experiment, text);
+        gb_load_halve(&experiment->load, experiment->factor);
+        strain(experiment);
+        return GB_ADVANCE_MORE;
+    case GB_GUARD_STOP:
+        break;
+    }
+    add_event(experiment, why->text);
+    return stop(experiment);
+}
+
+const struct gb_point *gb_experiment_point(const struct gb_experiment *experiment)
+{
+    return &experiment->point;
+}
+
+void gb_experiment_observe(const struct gb_experiment *experiment,
+                           struct gb_snapshot *snapshot)
+{
+    struct gb_contact_counts counts;
+    snapshot->now = experiment->point;
+    snapshot->now_valid = experiment->step > 0;
+    gb_observe_contacts(experiment->world, &counts, snapshot->histogram,
+                        GB_SNAPSHOT_HISTOGRAM, NULL);
+    gb_observe_rose(experiment->world, GB_SNAPSHOT_ROSE, snapshot->rose);
+    snapshot->evaluations = gb_world_evaluations(experiment->world);
+    snapshot->live_residual = experiment->relax->residual;
+    snapshot->progress =
+        experiment->over ? 1.0
+                         : gb_load_progress(&experiment->load,
+                                            experiment->point.p_pa /
+                                                experiment->model.pascal_per_stress,
+                                            experiment->point.density,
+                                            experiment->model.start_density);
+}
+
+const struct gb_model *gb_experiment_model(const struct gb_experiment *experiment)
+{
+    return &experiment->model;
+}
+
+const struct gb_params *gb_experiment_params(const struct gb_experiment *experiment)
+{
+    return &experiment->params;
+}
+
+const struct gb_world *gb_experiment_world(const struct gb_experiment *experiment)
+{
+    return experiment->world;
+}

@@ -1,0 +1,50 @@
+#include "solve/guard.h"
+
+#include <stdio.h>
+
+#include "phys/tolerances.h"
+
+/* Halvings in a row after which the step is hopeless. */
+enum { HALVINGS_MOST = 6 };
+
+/* The relaxer ran out of evaluations: mostly two states of a breaking bridge that take turns,
+ * with a small residual left.  A large one means that there is no equilibrium to be found. */
+static enum gb_guard_action judge_exhausted(struct gb_guard *guard,
+                                            const struct gb_relax *relax, char *text,
+                                            size_t size, struct gb_error *err)
+{
+    if (relax->residual > GB_RESIDUAL_STOP * relax->tolerance) {
+        gb_error_set(err, GB_ERR_NOT_CONVERGED,
+                     "no equilibrium after %lld evaluations: residual %.2e, tolerance %.2e",
+                     (long long)relax->evaluations, relax->residual, relax->tolerance);
+        return GB_GUARD_STOP;
+    }
+    guard->unrelaxed = true;
+    snprintf(text, size,
+             "not fully relaxed: residual %.2e after %lld evaluations, tolerance %.2e",
+             relax->residual, (long long)relax->evaluations, relax->tolerance);
+    return GB_GUARD_ACCEPT;
+}
+
+enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcome outcome,
+                                    const struct gb_relax *relax, char *text, size_t size,
+                                    struct gb_error *err)
+{
+    text[0] = '\0';
+    guard->unrelaxed = false;
+    if (outcome == GB_RELAX_EXHAUSTED) {
+        guard->halvings = 0;
+        return judge_exhausted(guard, relax, text, size, err);
+    }
+    if (outcome != GB_RELAX_FAILED) {
+        guard->halvings = 0;
+        return GB_GUARD_ACCEPT;
+    }
+    if (err->code != GB_ERR_GUARD || guard->halvings >= HALVINGS_MOST) {
+        return GB_GUARD_STOP;
+    }
+    guard->halvings++;
+    snprintf(text, size, "guard: %s; strain step halved (%d in a row)", err->text,
+             guard->halvings);
+    return GB_GUARD_RETRY;
+}

@@ -1,0 +1,129 @@
+#include "solve/load.h"
+
+#include <math.h>
+
+#include "phys/tolerances.h"
+
+/* An unloading branch that has grown its edges by this factor has no pressure to lose. */
+static const double expansion_most = 1.5;
+
+void gb_load_init(struct gb_load *load, const struct gb_model *model)
+{
+    *load = (struct gb_load){
+        .step = model->strain_step,
+        .step_most = model->strain_step,
+        .until_pressure = model->until_pressure,
+        .until_density = model->until_density,
+        .unload_count = model->unload_count,
+        .branch = -1,
+    };
+    for (int i = 0; i < model->unload_count; i++) {
+        load->unload_from[i] = model->unload_from[i];
+    }
+    load->compressed[2] = true;
+    load->compressed[1] = model->dimension == 3 && model->geometry != GB_GEOMETRY_UNIAXIAL;
+    load->compressed[0] = model->geometry == GB_GEOMETRY_ISOTROPIC;
+    for (int k = 0; k < 3; k++) {
+        load->axes += load->compressed[k];
+    }
+}
+
+double gb_load_pressure(const struct gb_load *load, const double pressure[3])
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        sum += load->compressed[k] ? pressure[k] : 0.0;
+    }
+    return sum / load->axes;
+}
+
+static void scale_axes(const struct gb_load *load, double along, double factor[3])
+{
+    for (int k = 0; k < 3; k++) {
+        factor[k] = load->compressed[k] ? along : 1.0;
+    }
+}
+
+/* One strain step of compression, shortened to end at until_density. */
+static enum gb_load_order compress(const struct gb_load *load, double density,
+                                   double factor[3])
+{
+    const double full = 1.0 - load->step;
+    const double to_end = pow(density / load->until_density, 1.0 / load->axes);
+    scale_axes(load, fmax(full, to_end), factor);
+    return GB_LOAD_STRAIN;
+}
+
+/* The way back: the inverse of a compression step; the last one only as far as the pressure of
+ * the step before foretells zero. */
+static double expansion(struct gb_load *load, double pressure)
+{
+    const double full = 1.0 / (1.0 - load->step);
+    double share = 1.0;
+    const double drop = load->last_pressure - pressure;
+    if (load->expansions > 0 && drop > 0.0) {
+        const double foretold = pressure / drop * (load->last_expansion / (full - 1.0));
+        share = fmin(1.0, fmax(foretold, 0.02));
+    }
+    load->last_expansion = share * (full - 1.0);
+    load->last_pressure = pressure;
+    load->expansions++;
+    return 1.0 + load->last_expansion;
+}
+
+static bool unloaded(const struct gb_load *load, double pressure)
+{
+    const double grown = pow(1.0 / (1.0 - load->step), load->expansions);
+    return pressure <= GB_UNLOADED_SHARE * load->top_pressure || grown > expansion_most;
+}
+
+enum gb_load_order gb_load_next(struct gb_load *load, const double pressure[3],
+                                double density, double factor[3])
+{
+    const double p = gb_load_pressure(load, pressure);
+    if (load->branch > 0) {
+        if (unloaded(load, p)) {
+            load->branch = 0;
+            return GB_LOAD_RESTORE;
+        }
+        scale_axes(load, expansion(load, p), factor);
+        return GB_LOAD_STRAIN;
+    }
+    load->branch = 0;
+    if (load->next_unload < load->unload_count && p >= load->unload_from[load->next_unload]) {
+        load->branch = ++load->next_unload;
+        load->top_pressure = p;
+        load->expansions = 0;
+        scale_axes(load, expansion(load, p), factor);
+        return GB_LOAD_UNLOAD;
+    }
+    if (p >= load->until_pressure || density >= load->until_density * (1.0 - 1e-12)) {
+        return GB_LOAD_END;
+    }
+    return compress(load, density, factor);
+}
+
+void gb_load_halve(struct gb_load *load, double factor[3])
+{
+    load->step *= 0.5;
+    for (int k = 0; k < 3; k++) {
+        factor[k] = sqrt(factor[k]);
+    }
+}
+
+void gb_load_recover(struct gb_load *load)
+{
+    load->step = fmin(2.0 * load->step, load->step_most);
+}
+
+double gb_load_progress(const struct gb_load *load, double pressure, double density,
+                        double start_density)
+{
+    /* Curves reach 1 GPa near a density of 0.75, whatever the powder; time goes with the
+     * number of strain steps, that is with the logarithm of density. */
+    const double end = load->until_density < 1.0 ? load->until_density : 0.75;
+    const double by_density = log(density / start_density) / log(end / start_density);
+    const double by_pressure =
+        isfinite(load->until_pressure) ? pressure / load->until_pressure : 0.0;
+    return fmin(1.0, fmax(0.0, fmax(fmin(by_density, 0.99), by_pressure * by_pressure)));
+}

@@ -1,0 +1,104 @@
+#include "solve/relax.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+
+static const struct gb_relaxer *const table[] = {&gb_relax_fire, &gb_relax_steepest, NULL};
+
+const struct gb_relaxer *const *gb_relax_table(void)
+{
+    return table;
+}
+
+const struct gb_relaxer *gb_relax_find(const char *name)
+{
+    for (int i = 0; table[i]; i++) {
+        if (strcmp(table[i]->name, name) == 0) {
+            return table[i];
+        }
+    }
+    return NULL;
+}
+
+static bool unknown_relaxer(const char *name, struct gb_error *err)
+{
+    char names[160] = "";
+    for (int i = 0; table[i]; i++) {
+        strncat(names, i ? ", " : "", sizeof names - strlen(names) - 1);
+        strncat(names, table[i]->name, sizeof names - strlen(names) - 1);
+    }
+    return gb_error_set(err, GB_ERR_INPUT, "numerics.relaxer = %s: accepted %s, auto", name,
+                        names);
+}
+
+bool gb_relax_create(struct gb_relax **out, const struct gb_model *model,
+                     struct gb_error *err)
+{
+    const struct gb_relaxer *method = gb_relax_find(model->numerics.relaxer);
+    if (!method) {
+        return unknown_relaxer(model->numerics.relaxer, err);
+    }
+    struct gb_relax *relax = gb_alloc_array(1, sizeof *relax, err);
+    if (!relax) {
+        return false;
+    }
+    relax->method = method;
+    relax->tolerance = model->numerics.tolerance;
+    relax->max_evaluations = model->numerics.max_evaluations;
+    relax->state = gb_alloc_array(1, method->state_size, err);
+    bool whole = relax->state != NULL;
+    for (int v = 0; v < method->vectors && whole; v++) {
+        relax->vector[v] = gb_alloc_array(3 * (size_t)model->count, sizeof(double), err);
+        whole = relax->vector[v] != NULL;
+    }
+    if (!whole) {
+        gb_relax_destroy(relax);
+        return false;
+    }
+    *out = relax;
+    return true;
+}
+
+void gb_relax_destroy(struct gb_relax *relax)
+{
+    if (!relax) {
+        return;
+    }
+    gb_alloc_free(relax->state);
+    for (int v = 0; v < 4; v++) {
+        gb_alloc_free(relax->vector[v]);
+    }
+    gb_alloc_free(relax);
+}
+
+void gb_relax_start(struct gb_relax *relax, struct gb_world *world)
+{
+    relax->iterations = 0;
+    relax->evaluations = 0;
+    relax->method->start(relax, world);
+}
+
+enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *world,
+                                       int64_t max_evaluations, struct gb_error *err)
+{
+    for (int64_t slice = 0; slice < max_evaluations; slice++) {
+        /* the move comes before the evaluation, except before the very first one */
+        if (relax->evaluations > 0) {
+            relax->method->move(relax, world);
+            relax->iterations++;
+        }
+        if (!gb_world_evaluate(world, err)) {
+            return GB_RELAX_FAILED;
+        }
+        relax->evaluations++;
+        relax->residual = gb_world_residual(world);
+        if (relax->residual <= relax->tolerance) {
+            return GB_RELAX_DONE;
+        }
+        if (relax->evaluations >= relax->max_evaluations) {
+            return GB_RELAX_EXHAUSTED;
+        }
+    }
+    return GB_RELAX_MORE;
+}

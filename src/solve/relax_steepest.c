@@ -1,0 +1,111 @@
+/* The reference relaxer: displacements proportional to the forces, P1 eq. (15).
+ *
+ * "The value of k is set in such a way that the displacement of the particle under the maximum
+ * force is equal to (d - r_eq)/2; the particle is not moved farther than the position where the
+ * minimum of the absolute value of the force is reached."  The second rule is the stiffness of
+ * the most strongly held particle: k <= 1/K.  Rotations follow the torques with the mobility of
+ * the same k over the rotational inertia that makes them as soft as translations. */
+#include <math.h>
+
+#include "base/vec.h"
+#include "solve/relax.h"
+
+static const double inertia = 0.4; /* m d^2, as in FIRE */
+/* Displacement under the largest force when there is no adhesion and h_eq = 0 (d). */
+static const double move_least = 0.0025;
+/* Moves between two looks at the stiffness of the packing. */
+enum { LOOK = 50 };
+
+struct steepest {
+    double k_most; /* 1 / stiffness of the most strongly held particle */
+    double last;   /* residual at the last look */
+    double safety; /* halved when the residual grows, which a stable k never lets it do */
+};
+
+static void start(struct gb_relax *relax, struct gb_world *world)
+{
+    struct steepest *state = relax->state;
+    (void)world;
+    *state = (struct steepest){0.0, INFINITY, 1.0};
+}
+
+static double contact_stiffness(const struct gb_model *model, const struct gb_contact *c,
+                                double h)
+{
+    const double normal =
+        c->deepest > 0.0 ? c->line_slope : gb_law_rod_stiffness(&model->rod, h);
+    if (!model->terms.friction) {
+        return normal;
+    }
+    const double a = c->deepest > 0.0 ? gb_law_bridge_radius(&model->bridge, c->deepest, h)
+                                      : 0.5 * sqrt(fmax(h, 0.0));
+    const double shear = model->slip.motion * gb_law_slip_shear_stiffness(&model->slip, a);
+    return fmax(normal, shear * (1.0 + 0.25 / inertia));
+}
+
+/* Sum of the stiffnesses around the most strongly held particle. */
+static double stiffest_particle(const struct gb_world *world, double *sum)
+{
+    const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
+    const int64_t count = gb_world_model(world)->count;
+    const struct gb_contact *contact = gb_world_contacts(world);
+    double most = 0.0;
+    for (int64_t i = 0; i < count; i++) {
+        sum[i] = 0.0;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
+            if (contact[k].deepest >= 0.0) {
+                const double h = 1.0 - gb_vec_length(contact[k].arm);
+                const double stiffness =
+                    contact_stiffness(gb_world_model(world), &contact[k], h);
+                sum[i] += stiffness;
+                sum[pairs->other[k]] += stiffness;
+            }
+        }
+    }
+    for (int64_t i = 0; i < count; i++) {
+        most = fmax(most, sum[i]);
+    }
+    return most;
+}
+
+static void look(struct gb_relax *relax, struct gb_world *world)
+{
+    struct steepest *state = relax->state;
+    const double stiffness = stiffest_particle(world, relax->vector[0]);
+    if (relax->residual > 1.5 * state->last) {
+        state->safety *= 0.5;
+    }
+    state->last = relax->residual;
+    state->k_most = stiffness > 0.0 ? state->safety / stiffness : INFINITY;
+}
+
+static void move(struct gb_relax *relax, struct gb_world *world)
+{
+    struct steepest *state = relax->state;
+    if (relax->iterations % LOOK == 0) {
+        look(relax, world);
+    }
+    const struct gb_bodies b = gb_world_bodies(world);
+    double most = 0.0;
+    for (int64_t i = 0; i < b.count; i++) {
+        most = fmax(most, gb_vec_dot(b.force + 3 * i, b.force + 3 * i));
+    }
+    const double reach = fmax(0.5 * gb_world_model(world)->h_eq, move_least);
+    const double k = most > 0.0 ? fmin(reach / sqrt(most), state->k_most) : state->k_most;
+    const double k_turn = k / inertia;
+    for (int64_t i = 0; i < 3 * b.count && isfinite(k); i++) {
+        b.position[i] += k * b.force[i];
+        b.turn[i] += k_turn * b.torque[i];
+    }
+}
+
+const struct gb_relaxer gb_relax_steepest = {
+    .name = "steepest",
+    .doc = "displacements proportional to the forces, P1 (15): the reference",
+    .state_size = sizeof(struct steepest),
+    .vectors = 1,
+    .start = start,
+    .move = move,
+};
