@@ -131,7 +131,7 @@ static void publish_if_due(struct gb_runner *runner)
 
 static void change_state(struct gb_runner *runner, enum gb_run_state state)
 {
-    runner->shown.state = state;
+    runner->shown.state = (int) state;
     publish(runner);
 }
 
