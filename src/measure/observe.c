@@ -46,7 +46,6 @@ void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
 static int contacts_of(const struct gb_world *world, int64_t i)
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
-    const int64_t count = gb_world_model(world)->count;
     const struct gb_contact *contact = gb_world_contacts(world);
     int n = 0;
     for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
@@ -93,7 +92,7 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
     const struct gb_wrench *wrench = gb_world_wrenches(world);
     enum { BINS_MOST = 360 };
     double sum[BINS_MOST] = {0};
-    int64_t count[BINS_MOST] = {0};
+    int64_t hits[BINS_MOST] = {0};
     bins = bins < BINS_MOST ? bins : BINS_MOST;
     for (int64_t i = 0; i < count; i++) {
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
@@ -105,11 +104,11 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
                 const int b = (int)(angle / (0.5 * M_PI) * bins);
                 const int bin = b < bins ? b : bins - 1;
                 sum[bin] += gb_vec_dot(wrench[k].force, r) / length;
-                count[bin]++;
+                hits[bin]++;
             }
         }
     }
     for (int b = 0; b < bins; b++) {
-        mean[b] = count[b] > 0 ? sum[b] / (double)count[b] : NAN;
+        mean[b] = hits[b] > 0 ? sum[b] / (double)hits[b] : NAN;
     }
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/vec.h"
 #include "measure/observe.h"
 #include "pack/grow.h"
 #include "pack/world.h"
@@ -294,6 +295,57 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
                                                 experiment->model.pascal_per_stress,
                                             experiment->point.density,
                                             experiment->model.start_density);
+}
+
+static void copy_pairs(const struct gb_world *world, struct gb_state *state)
+{
+    const struct gb_pair_list *near = &gb_world_pairs(world)->near;
+    const struct gb_contact *contact = gb_world_contacts(world);
+    const struct gb_wrench *wrench = gb_world_wrenches(world);
+    int64_t line = 0;
+    for (int64_t i = 0; i < state->count; i++) {
+        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
+            if (contact[k].deepest < 0.0) {
+                continue;
+            }
+            double r[3];
+            gb_world_arm(world, near, i, k, r);
+            state->pair[2 * line] = (int32_t)i;
+            state->pair[2 * line + 1] = near->other[k];
+            memcpy(state->pair_force + 3 * line, wrench[k].force, sizeof wrench[k].force);
+            state->pair_normal[line] = gb_vec_dot(wrench[k].force, r) / gb_vec_length(r);
+            state->pair_bridged[line++] = contact[k].deepest > 0.0;
+        }
+    }
+}
+
+bool gb_experiment_state(const struct gb_experiment *experiment, struct gb_state **out,
+                         struct gb_error *err)
+{
+    const struct gb_world *world = experiment->world;
+    const struct gb_model *model = &experiment->model;
+    struct gb_contact_counts counts;
+    gb_observe_contacts(world, &counts, NULL, 0, NULL);
+    if (!gb_state_create(out, model->count, counts.contacts, err)) {
+        return false;
+    }
+    struct gb_state *state = *out;
+    state->dimension = model->dimension;
+    memcpy(state->cell, gb_world_cell(world)->edge, sizeof state->cell);
+    gb_observe_contacts(world, &counts, NULL, 0, state->contacts);
+    for (int64_t i = 0; i < model->count; i++) {
+        memcpy(state->position + 3 * i, gb_world_position(world) + 3 * i, 3 * sizeof(double));
+        gb_cell_wrap(gb_world_cell(world), state->position + 3 * i);
+        state->radius[i] = 0.5;
+    }
+    copy_pairs(world, state);
+    measure(experiment, &state->point);
+    state->metre_per_length = model->metre_per_length;
+    state->pascal_per_stress = model->pascal_per_stress;
+    state->seed = model->seed;
+    snprintf(state->preset, sizeof state->preset, "%s", experiment->params.title);
+    snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
+    return true;
 }
 
 const struct gb_model *gb_experiment_model(const struct gb_experiment *experiment)

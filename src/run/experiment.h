@@ -8,6 +8,7 @@
 #include "greenbody/model.h"
 #include "greenbody/params.h"
 #include "greenbody/snapshot.h"
+#include "run/state.h"
 
 /* Params + loading programme -> points.  No threads, no files, no printing. */
 struct gb_experiment;
@@ -39,6 +40,10 @@ bool gb_experiment_event(struct gb_experiment *experiment, char *text, size_t si
 /* Fills all of the snapshot that the experiment knows (not state, seconds, rates). */
 void gb_experiment_observe(const struct gb_experiment *experiment,
                            struct gb_snapshot *snapshot);
+
+/* Copies the packing for pictures and files. */
+bool gb_experiment_state(const struct gb_experiment *experiment, struct gb_state **out,
+                         struct gb_error *err);
 
 const struct gb_model *gb_experiment_model(const struct gb_experiment *experiment);
 const struct gb_params *gb_experiment_params(const struct gb_experiment *experiment);

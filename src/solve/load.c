@@ -119,9 +119,9 @@ void gb_load_recover(struct gb_load *load)
 double gb_load_progress(const struct gb_load *load, double pressure, double density,
                         double start_density)
 {
-    /* Curves reach 1 GPa near a density of 0.75, whatever the powder; time goes with the
+    /* Curves reach 1 GPa near a density of 0.62, whatever the powder; time goes with the
      * number of strain steps, that is with the logarithm of density. */
-    const double end = load->until_density < 1.0 ? load->until_density : 0.75;
+    const double end = load->until_density < 1.0 ? load->until_density : 0.62;
     const double by_density = log(density / start_density) / log(end / start_density);
     const double by_pressure =
         isfinite(load->until_pressure) ? pressure / load->until_pressure : 0.0;
