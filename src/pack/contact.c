@@ -1,6 +1,7 @@
 #include "pack/contact.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/vec.h"
 
@@ -27,6 +28,25 @@ void gb_contact_derive(const struct gb_model *model, struct gb_contact *contact)
         contact->line_force = gb_law_rod_force(&model->rod, contact->deepest);
         contact->line_slope = gb_law_rod_stiffness(&model->rod, contact->deepest);
     }
+}
+
+struct gb_contact_core gb_contact_core(const struct gb_contact *contact)
+{
+    struct gb_contact_core core = {.deepest = contact->deepest, .pivot = contact->pivot};
+    memcpy(core.shear, contact->shear, sizeof core.shear);
+    memcpy(core.roll, contact->roll, sizeof core.roll);
+    return core;
+}
+
+struct gb_contact gb_contact_revive(const struct gb_model *model,
+                                    const struct gb_contact_core *core, const double arm[3])
+{
+    struct gb_contact contact = {.deepest = core->deepest, .pivot = core->pivot};
+    memcpy(contact.shear, core->shear, sizeof contact.shear);
+    memcpy(contact.roll, core->roll, sizeof contact.roll);
+    memcpy(contact.arm, arm, sizeof contact.arm);
+    gb_contact_derive(model, &contact);
+    return contact;
 }
 
 static void set_deepest(const struct gb_model *model, struct gb_contact *contact,

@@ -18,6 +18,15 @@ struct gb_contact {
     double line_slope;
 };
 
+/* What of it must be kept in a copy made right after an evaluation: the arm and the line follow
+ * from the positions and h_min. */
+struct gb_contact_core {
+    double deepest;
+    double shear[3];
+    double roll[3];
+    double pivot;
+};
+
 /* What a contact does to its two particles: the force on i (the opposite on j) and the torques.
  * The torque of the shear force is the same on both, those of pivoting and rolling opposed. */
 struct gb_wrench {
@@ -46,6 +55,11 @@ void gb_contact_advance(const struct gb_model *model, struct gb_contact *contact
                         const double r[3], double distance, const double turn_i[3],
                         const double turn_j[3], struct gb_wrench *wrench,
                         double torque_i[3], struct gb_tally *tally);
+
+struct gb_contact_core gb_contact_core(const struct gb_contact *contact);
+struct gb_contact gb_contact_revive(const struct gb_model *model,
+                                    const struct gb_contact_core *core,
+                                    const double arm[3]);
 
 /* Refreshes line_force and line_slope from deepest, after a record was read or set. */
 void gb_contact_derive(const struct gb_model *model, struct gb_contact *contact);

@@ -1,6 +1,9 @@
 #include "pack/world.h"
 
 #include <math.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 #include <string.h>
 
 #include "base/alloc.h"
@@ -11,11 +14,19 @@
  * with it every bit, does not depend on the number of threads. */
 enum { BLOCK = 128 };
 
-/* Contact histories gathered in list order, for rebuilds and copies. */
+/* Touching pairs in list order, with their whole histories (rebuilds) or their cores (copies):
+ * one of the two arrays is used. */
 struct ledger {
     int64_t count, capacity;
     int32_t (*pair)[2];
-    struct gb_contact *contact;
+    struct gb_contact *whole;
+    struct gb_contact_core *core;
+};
+
+/* Sums over one block of particles. */
+struct block {
+    struct gb_tally tally;
+    double force2, torque2;
 };
 
 struct gb_world {
@@ -30,7 +41,8 @@ struct gb_world {
     struct gb_wrench *wrench;
     double *pull;                 /* three per far pair: force on the first particle */
     struct ledger ledger;
-    struct gb_tally *block;       /* per block of particles */
+    struct block *block;
+    int threads;
     struct gb_tally tally;
     double force_rms, torque_rms;
     bool listed;                  /* the pair list exists */
@@ -43,6 +55,22 @@ struct gb_world_copy {
     double *position;
     struct ledger ledger;
 };
+
+/* Particles per thread below which a second thread costs more than it brings. */
+enum { PARTICLES_PER_THREAD = 2000 };
+
+static int thread_count(const struct gb_model *model)
+{
+#ifdef _OPENMP
+    const int64_t useful = model->count / PARTICLES_PER_THREAD;
+    const int cores = omp_get_num_procs();
+    const int automatic = (int)(useful < 1 ? 1 : useful < cores ? useful : cores);
+    return model->numerics.threads > 0 ? model->numerics.threads : automatic;
+#else
+    (void)model;
+    return 1;
+#endif
+}
 
 static int64_t block_count(const struct gb_world *world)
 {
@@ -59,6 +87,7 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
     const size_t n = (size_t)model->count;
     world->model = model;
     world->count = model->count;
+    world->threads = thread_count(model);
     gb_cell_init(&world->cell, model->dimension, model->edges);
     world->position = gb_alloc_array(3 * n, sizeof(double), err);
     world->turn = gb_alloc_array(3 * n, sizeof(double), err);
@@ -78,7 +107,8 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
 static void ledger_finish(struct ledger *ledger)
 {
     gb_alloc_free(ledger->pair);
-    gb_alloc_free(ledger->contact);
+    gb_alloc_free(ledger->whole);
+    gb_alloc_free(ledger->core);
     *ledger = (struct ledger){0};
 }
 
@@ -100,54 +130,93 @@ void gb_world_destroy(struct gb_world *world)
     gb_alloc_free(world);
 }
 
-static bool ledger_reserve(struct ledger *ledger, int64_t need, struct gb_error *err)
+static bool ledger_reserve(struct ledger *ledger, int64_t need, bool whole,
+                           struct gb_error *err)
 {
     if (need <= ledger->capacity) {
         return true;
     }
     ledger_finish(ledger);
-    const int64_t room = need + need / 8 + 16;
-    ledger->pair = gb_alloc_array((size_t)room, sizeof *ledger->pair, err);
-    ledger->contact = gb_alloc_array((size_t)room, sizeof *ledger->contact, err);
-    if (!ledger->pair || !ledger->contact) {
+    const size_t room = (size_t)(need + need / 16 + 16);
+    ledger->pair = gb_alloc_array(room, sizeof *ledger->pair, err);
+    if (whole) {
+        ledger->whole = gb_alloc_array(room, sizeof *ledger->whole, err);
+    } else {
+        ledger->core = gb_alloc_array(room, sizeof *ledger->core, err);
+    }
+    if (!ledger->pair || !(ledger->whole || ledger->core)) {
         ledger_finish(ledger);
         return false;
     }
-    ledger->capacity = room;
+    ledger->capacity = (int64_t)room;
     return true;
 }
 
 /* Writes down every touching pair, in the order of the list. */
-static bool ledger_write(struct ledger *ledger, const struct gb_world *world,
+static bool ledger_write(struct ledger *ledger, const struct gb_world *world, bool whole,
                          struct gb_error *err)
 {
+    const struct gb_pair_list *near = &world->pairs.near;
     int64_t touching = 0;
-    for (int64_t k = 0; world->listed && k < world->pairs.near.pair_count; k++) {
+    for (int64_t k = 0; world->listed && k < near->pair_count; k++) {
         touching += world->contact[k].deepest >= 0.0;
     }
-    if (!ledger_reserve(ledger, touching, err)) {
+    if (!ledger_reserve(ledger, touching, whole, err)) {
         return false;
     }
-    ledger->count = 0;
+    int64_t line = 0;
     for (int64_t i = 0; world->listed && i < world->count; i++) {
-        for (int64_t k = world->pairs.near.start[i]; k < world->pairs.near.start[i + 1]; k++) {
-            if (world->contact[k].deepest >= 0.0) {
-                ledger->pair[ledger->count][0] = (int32_t)i;
-                ledger->pair[ledger->count][1] = world->pairs.near.other[k];
-                ledger->contact[ledger->count++] = world->contact[k];
+        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
+            if (world->contact[k].deepest < 0.0) {
+                continue;
             }
+            ledger->pair[line][0] = (int32_t)i;
+            ledger->pair[line][1] = near->other[k];
+            if (whole) {
+                ledger->whole[line] = world->contact[k];
+            } else {
+                ledger->core[line] = gb_contact_core(&world->contact[k]);
+            }
+            line++;
         }
     }
+    ledger->count = line;
     return true;
+}
+
+static double arm_of(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
+                     int64_t k, double r[3])
+{
+    const double *xi = world->position + 3 * i;
+    const double *xj = world->position + 3 * (int64_t)list->other[k];
+    const double *shift = world->shift[list->image[k]];
+    for (int c = 0; c < 3; c++) {
+        r[c] = xi[c] - xj[c] + shift[c];
+    }
+    return gb_vec_dot(r, r);
+}
+
+/* Puts line `line` of the ledger into near pair k of particle i. */
+static void ledger_put(const struct ledger *ledger, int64_t line, struct gb_world *world,
+                       int64_t i, int64_t k)
+{
+    if (ledger->whole) {
+        world->contact[k] = ledger->whole[line];
+        return;
+    }
+    double arm[3];
+    arm_of(world, &world->pairs.near, i, k, arm);
+    world->contact[k] = gb_contact_revive(world->model, &ledger->core[line], arm);
 }
 
 /* Gives every pair of the new list its old history: both are sorted alike. */
 static void ledger_read(const struct ledger *ledger, struct gb_world *world)
 {
+    const struct gb_pair_list *near = &world->pairs.near;
     int64_t line = 0;
     for (int64_t i = 0; i < world->count; i++) {
-        for (int64_t k = world->pairs.near.start[i]; k < world->pairs.near.start[i + 1]; k++) {
-            const int32_t j = world->pairs.near.other[k];
+        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
+            const int32_t j = near->other[k];
             while (line < ledger->count &&
                    (ledger->pair[line][0] < i ||
                     (ledger->pair[line][0] == i && ledger->pair[line][1] < j))) {
@@ -155,7 +224,7 @@ static void ledger_read(const struct ledger *ledger, struct gb_world *world)
             }
             if (line < ledger->count && ledger->pair[line][0] == i &&
                 ledger->pair[line][1] == j) {
-                world->contact[k] = ledger->contact[line++];
+                ledger_put(ledger, line++, world, i, k);
             } else {
                 gb_contact_clear(&world->contact[k]);
             }
@@ -203,6 +272,7 @@ static bool rebuild(struct gb_world *world, const struct ledger *ledger,
         !reserve_slots(world, err)) {
         return false;
     }
+    gb_pairs_shifts(&world->cell, world->shift);
     ledger_read(ledger, world);
     world->listed = true;
     world->rebuilds++;
@@ -216,7 +286,7 @@ static bool ensure_list(struct gb_world *world, struct gb_error *err)
                                         numerics->skin)) {
         return true;
     }
-    return ledger_write(&world->ledger, world, err) && rebuild(world, &world->ledger, err);
+    return ledger_write(&world->ledger, world, true, err) && rebuild(world, &world->ledger, err);
 }
 
 /* Attraction across a gap: force on the first particle. */
@@ -228,18 +298,6 @@ static void gap_force(const struct gb_model *model, const double r[3], double sq
     for (int k = 0; k < 3; k++) {
         force[k] = -pull * r[k];
     }
-}
-
-static double arm_of(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
-                     int64_t k, double r[3])
-{
-    const double *xi = world->position + 3 * i;
-    const double *xj = world->position + 3 * (int64_t)list->other[k];
-    const double *shift = world->shift[list->image[k]];
-    for (int c = 0; c < 3; c++) {
-        r[c] = xi[c] - xj[c] + shift[c];
-    }
-    return gb_vec_dot(r, r);
 }
 
 /* Near pair k of particle i. */
@@ -318,19 +376,20 @@ static void sweep_block(struct gb_world *world, int64_t b)
     for (int64_t i = b * BLOCK; i < end; i++) {
         sweep_particle(world, i, &tally);
     }
-    world->block[b] = tally;
+    world->block[b].tally = tally;
 }
 
-static void collect_block(struct gb_world *world, int64_t b, double *force2,
-                          double *torque2)
+static void collect_block(struct gb_world *world, int64_t b)
 {
+    double force2 = 0.0, torque2 = 0.0;
     const int64_t end = (b + 1) * BLOCK < world->count ? (b + 1) * BLOCK : world->count;
-    *force2 = *torque2 = 0.0;
     for (int64_t j = b * BLOCK; j < end; j++) {
         collect_particle(world, j);
-        *force2 += gb_vec_dot(world->force + 3 * j, world->force + 3 * j);
-        *torque2 += gb_vec_dot(world->torque + 3 * j, world->torque + 3 * j);
+        force2 += gb_vec_dot(world->force + 3 * j, world->force + 3 * j);
+        torque2 += gb_vec_dot(world->torque + 3 * j, world->torque + 3 * j);
     }
+    world->block[b].force2 = force2;
+    world->block[b].torque2 = torque2;
 }
 
 static void add_tally(struct gb_tally *sum, const struct gb_tally *part)
@@ -376,21 +435,27 @@ bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
     }
     gb_pairs_shifts(&world->cell, world->shift);
     const int64_t blocks = block_count(world);
-    for (int64_t b = 0; b < blocks; b++) {
-        sweep_block(world, b);
+#pragma omp parallel num_threads(world->threads) if (world->threads > 1)
+    {
+#pragma omp for schedule(static)
+        for (int64_t b = 0; b < blocks; b++) {
+            sweep_block(world, b);
+        }
+#pragma omp for schedule(static)
+        for (int64_t b = 0; b < blocks; b++) {
+            collect_block(world, b);
+        }
     }
-    world->tally = (struct gb_tally){0};
-    double force2 = 0.0, torque2 = 0.0;
+    struct block sum = {0};
     for (int64_t b = 0; b < blocks; b++) {
-        double f2, t2;
-        collect_block(world, b, &f2, &t2);
-        force2 += f2;
-        torque2 += t2;
-        add_tally(&world->tally, &world->block[b]);
+        sum.force2 += world->block[b].force2;
+        sum.torque2 += world->block[b].torque2;
+        add_tally(&sum.tally, &world->block[b].tally);
     }
+    world->tally = sum.tally;
     memset(world->turn, 0, 3 * (size_t)world->count * sizeof *world->turn);
-    world->force_rms = sqrt(force2 / (double)world->count);
-    world->torque_rms = sqrt(torque2 / (double)world->count);
+    world->force_rms = sqrt(sum.force2 / (double)world->count);
+    world->torque_rms = sqrt(sum.torque2 / (double)world->count);
     world->evaluations++;
     return check_sweep(world, err);
 }
@@ -499,7 +564,7 @@ bool gb_world_save(const struct gb_world *world, struct gb_world_copy **copy,
     (*copy)->cell = world->cell;
     (*copy)->count = world->count;
     memcpy((*copy)->position, world->position, n * sizeof *world->position);
-    return ledger_write(&(*copy)->ledger, world, err);
+    return ledger_write(&(*copy)->ledger, world, false, err);
 }
 
 bool gb_world_restore(struct gb_world *world, const struct gb_world_copy *copy,
