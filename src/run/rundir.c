@@ -15,7 +15,8 @@ static const char *const known_files[] = {"preset.ini", "curve.csv", "events.log
                                           "status.json", "state.h5"};
 static const char snapshot_folder[] = "snapshots";
 
-/* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed. */
+/* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed.
+ */
 static bool is_leftover(const char *tail)
 {
     if (strcmp(tail, ".tmp") == 0) {
@@ -57,8 +58,8 @@ static bool has_type(const char *path, mode_t type)
 
 /* Name of the first entry that no run writes (g_free), NULL when there is none.  *entries
  * counts what was seen. */
-static char *first_foreign(const char *path, bool (*known)(const char *name), int *entries,
-                           GError **failure)
+static char *first_foreign(const char *path, bool (*known)(const char *name),
+                           int *entries, GError **failure)
 {
     GDir *dir = g_dir_open(path, 0, failure);
     if (dir == NULL) {
@@ -84,8 +85,8 @@ static char *first_foreign(const char *path, bool (*known)(const char *name), in
     return foreign;
 }
 
-/* Opens path and locks it; -1 with errno when either fails.  File systems without such locks
- * (some network ones) lose only the protection against two writers. */
+/* Opens path and locks it; -1 with errno when either fails.  File systems without such
+ * locks (some network ones) lose only the protection against two writers. */
 static int lock_directory(const char *path)
 {
     const int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -99,10 +100,11 @@ static int lock_directory(const char *path)
 
 static bool busy_error(const char *path, struct gb_error *err)
 {
-    return gb_error_set(err, GB_ERR_INPUT,
-                        "%s: a run that is under way writes there; stop it first or choose "
-                        "another directory",
-                        path);
+    return gb_error_set(
+        err, GB_ERR_INPUT,
+        "%s: a run that is under way writes there; stop it first or choose "
+        "another directory",
+        path);
 }
 
 /* May the files in this directory be replaced by those of a new run? */
@@ -148,7 +150,8 @@ static bool check_parent(const char *path, struct gb_error *err)
     char *at = nearest_existing(path);
     bool ok = true;
     if (!g_file_test(at, G_FILE_TEST_IS_DIR)) {
-        ok = gb_error_set(err, GB_ERR_INPUT, "%s: cannot be made: %s is a file", path, at);
+        ok =
+            gb_error_set(err, GB_ERR_INPUT, "%s: cannot be made: %s is a file", path, at);
     } else if (access(at, W_OK | X_OK) != 0) {
         ok = gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be made in %s: %s", path, at,
                           g_strerror(errno));
@@ -192,7 +195,8 @@ static bool clear_files(const char *path, bool (*known)(const char *name),
                         struct gb_error *err)
 {
     GDir *dir = g_dir_open(path, 0, NULL);
-    bool ok = dir != NULL || gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be read", path);
+    bool ok =
+        dir != NULL || gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be read", path);
     const char *name;
     while (ok && (name = g_dir_read_name(dir)) != NULL) {
         char *full = g_build_filename(path, name, NULL);
@@ -235,8 +239,8 @@ static void remove_made(const char *path, const char *made)
     g_free(at);
 }
 
-/* Makes path, which does not exist, with its parents; only one of two processes that try at
- * once succeeds.  Gives the topmost directory that was missing. */
+/* Makes path, which does not exist, with its parents; only one of two processes that try
+ * at once succeeds.  Gives the topmost directory that was missing. */
 static bool make_missing(struct gb_rundir *dir, struct gb_error *err)
 {
     char *full = g_canonicalize_filename(dir->path, NULL);
@@ -273,10 +277,10 @@ bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
     }
     dir->lock = lock_directory(path);
     if (dir->lock < 0) {
-        (void)(errno == EWOULDBLOCK ? busy_error(path, err)
-                                    : gb_error_set(err, GB_ERR_MACHINE,
-                                                   "%s: cannot be opened: %s", path,
-                                                   g_strerror(errno)));
+        (void)(errno == EWOULDBLOCK
+                   ? busy_error(path, err)
+                   : gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be opened: %s", path,
+                                  g_strerror(errno)));
         goto fail;
     }
     /* once more: it may have changed before the lock was ours */

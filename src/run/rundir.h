@@ -5,16 +5,16 @@
 
 #include "greenbody/status.h"
 
-/* The directory of a run as a place: may a run begin there, make it, take it back.  What is
- * inside the files is the store's business. */
+/* The directory of a run as a place: may a run begin there, make it, take it back.  What
+ * is inside the files is the store's business. */
 struct gb_rundir {
     char *path;
     char *made; /* topmost directory that was created for it, NULL when path existed */
     int lock;   /* open directory, locked as long as the run is written */
 };
 
-/* Could a run begin at path?  Changes nothing, so that a wrong --out is told before minutes
- * of packing.
+/* Could a run begin at path?  Changes nothing, so that a wrong --out is told before
+ * minutes of packing.
  *
  * force   an old run there may be replaced, unless it is still being written
  * Errors: GB_ERR_INPUT (a file, an existing run, foreign files, a run under way),

@@ -84,7 +84,8 @@ static bool log_sync(const struct log *log, struct gb_error *err)
     return fsync(log->fd) == 0 || log_error(log, errno, err);
 }
 
-/* ",value" with the fewest digits that read back the same; only "," where there is none. */
+/* ",value" with the fewest digits that read back the same; only "," where there is none.
+ */
 static void append_number(GString *row, double value)
 {
     char text[NUMBER_MAX];
@@ -129,14 +130,16 @@ static bool write_curve_head(struct log *curve, const struct gb_params *params,
     GString *head = g_string_new("# greenbody " GB_VERSION "\n# preset: ");
     append_line_text(head, params->title);
     g_string_append_printf(head, "# seed: %" PRIu64 "\n", params->seed);
-    g_string_append(head, "# units: pressures in MPa; density is the share of the volume "
-                          "that is solid; bridged is a share of the contacts, rattlers of "
-                          "the particles; residual is relative to the force scale; seconds "
-                          "of wall time since the start\n");
-    g_string_append_printf(head,
-                           "# p_MPa: mean pressure over the compressed axes (%s), positive "
-                           "in compression\n",
-                           compressed_axes(params));
+    g_string_append(head,
+                    "# units: pressures in MPa; density is the share of the volume "
+                    "that is solid; bridged is a share of the contacts, rattlers of "
+                    "the particles; residual is relative to the force scale; seconds "
+                    "of wall time since the start\n");
+    g_string_append_printf(
+        head,
+        "# p_MPa: mean pressure over the compressed axes (%s), positive "
+        "in compression\n",
+        compressed_axes(params));
     g_string_append(head, "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,"
                           "bridged,rattlers,residual,iterations,evaluations,seconds\n");
     const bool ok = log_append(curve, head, err);
@@ -153,30 +156,13 @@ static bool replace_file(const char *path, const char *text, size_t length,
                                  G_FILE_SET_CONTENTS_CONSISTENT, 0666, &failure)) {
         return true;
     }
-    gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path, failure->message);
+    gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
+                 failure->message);
     g_error_free(failure);
     return false;
 }
 
-/* Puts the version above a saved preset: a preset does not say by what it was run. */
-static bool add_version(const char *path, struct gb_error *err)
-{
-    char *text = NULL;
-    GError *failure = NULL;
-    if (!g_file_get_contents(path, &text, NULL, &failure)) {
-        gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be read back: %s", path,
-                     failure->message);
-        g_error_free(failure);
-        return false;
-    }
-    char *whole = g_strconcat("# Complete preset of this run, greenbody " GB_VERSION "\n",
-                              text, NULL);
-    const bool ok = replace_file(path, whole, strlen(whole), err);
-    g_free(whole);
-    g_free(text);
-    return ok;
-}
-
+/* A complete preset written without a file before it names the program's version. */
 static bool write_preset(const char *directory, const struct gb_params *params,
                          struct gb_error *err)
 {
@@ -186,7 +172,7 @@ static bool write_preset(const char *directory, const struct gb_params *params,
     }
     *gb_preset_params(preset) = *params;
     char *path = g_build_filename(directory, "preset.ini", NULL);
-    const bool ok = gb_preset_save(preset, path, true, err) && add_version(path, err);
+    const bool ok = gb_preset_save(preset, path, true, err);
     g_free(path);
     gb_preset_destroy(preset);
     return ok;
@@ -246,16 +232,15 @@ bool gb_store_point(struct gb_store *store, const struct gb_point *point,
     char seconds[NUMBER_MAX];
     GString *row = g_string_new(gb_curve_branch_name(point, branch, sizeof branch));
     g_string_append_printf(row, ",%" PRId64, point->step);
-    const double before[] = {point->density,      point->px_pa / 1e6, point->py_pa / 1e6,
-                             point->pz_pa / 1e6,  point->p_pa / 1e6,  point->coordination,
-                             point->bridged,      point->rattlers,    point->residual};
+    const double before[] = {point->density,     point->px_pa / 1e6, point->py_pa / 1e6,
+                             point->pz_pa / 1e6, point->p_pa / 1e6,  point->coordination,
+                             point->bridged,     point->rattlers,    point->residual};
     for (size_t k = 0; k < G_N_ELEMENTS(before); k++) {
         append_number(row, before[k]);
     }
-    g_string_append_printf(row, ",%" PRId64 ",%" PRId64 ",%s\n", point->iterations,
-                           point->evaluations,
-                           g_ascii_formatd(seconds, sizeof seconds, "%.3f",
-                                           point->seconds));
+    g_string_append_printf(
+        row, ",%" PRId64 ",%" PRId64 ",%s\n", point->iterations, point->evaluations,
+        g_ascii_formatd(seconds, sizeof seconds, "%.3f", point->seconds));
     const bool ok = log_append(&store->curve, row, err);
     store->points += ok;
     g_string_free(row, TRUE);
@@ -320,7 +305,8 @@ static void add_progress(JsonBuilder *json, const struct gb_store *store,
     add_double(json, "coordination", now->coordination, known);
     add_integer(json, "evaluations", shot->evaluations);
     add_double(json, "evaluations_per_s", shot->evaluations_per_s, true);
-    add_double(json, "particle_evaluations_per_s", shot->particle_evaluations_per_s, true);
+    add_double(json, "particle_evaluations_per_s", shot->particle_evaluations_per_s,
+               true);
     add_double(json, "seconds", shot->seconds, true);
     add_double(json, "seconds_left", shot->seconds_left, shot->seconds_left >= 0.0);
     add_integer(json, "events", shot->events);

@@ -1,0 +1,358 @@
+#include "cli/cmd_run.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "cli/progress.h"
+#include "run/experiment.h"
+#include "run/pace.h"
+#include "run/preset.h"
+#include "run/rundir.h"
+#include "run/store.h"
+
+/* Others look at status.json at most this much later than it happened. */
+static const double status_every_s = 1.5;
+/* A packing that takes longer than this is announced before it is known to succeed. */
+static const double patience_s = 2.0;
+
+enum { EVENT_MAX = 640 };
+
+struct run {
+    const char *preset_name;
+    char *directory;
+    bool force;
+    struct gb_preset *preset;
+    struct gb_model model;
+    struct gb_store *store;
+    struct gb_experiment *experiment;
+    struct gb_pace pace;
+    struct gb_progress progress;
+    struct gb_snapshot shot;
+    struct gb_error stopped; /* by a guard: the run is kept */
+    bool announced;
+    double started, packed, status_at, state_at;
+    int64_t points;
+};
+
+/* Set by the handler, looked at between slices. */
+static volatile sig_atomic_t caught;
+
+static void on_signal(int number)
+{
+    caught = number;
+}
+
+/* The first signal ends the run in good order, the second at once. */
+static void install_handlers(void)
+{
+    struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGHUP, &action, NULL);
+    /* a reader of stderr that goes away, or a file size limit, are errors of a write */
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+static double clock_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double elapsed(const struct run *run)
+{
+    return clock_s() - run->started;
+}
+
+static const struct gb_params *params_of(const struct run *run)
+{
+    return gb_preset_params(run->preset);
+}
+
+/* Everything that can be known to be wrong before any work is done. */
+static bool prepare(struct run *run, char **assignments, struct gb_error *err)
+{
+    if (!gb_preset_load(&run->preset, run->preset_name, err)) {
+        return false;
+    }
+    struct gb_params *params = gb_preset_params(run->preset);
+    for (char **text = assignments; text != NULL && *text != NULL; text++) {
+        if (!gb_params_assign(params, *text, err)) {
+            return false;
+        }
+    }
+    if (run->directory == NULL) {
+        run->directory = gb_store_default_directory(gb_preset_path(run->preset));
+    }
+    return gb_params_check(params, err) && gb_model_init(&run->model, params, err) &&
+           gb_rundir_check(run->directory, run->force, err);
+}
+
+static void announce(struct run *run)
+{
+    char note[256];
+    const struct gb_params *params = params_of(run);
+    run->announced = true;
+    gb_progress_say(&run->progress,
+                    "%s: %" G_GINT64_FORMAT " particles, seed %" G_GUINT64_FORMAT,
+                    params->title, params->count, params->seed);
+    for (int k = 0; gb_model_note(&run->model, k, note, sizeof note) != NULL; k++) {
+        gb_progress_say(&run->progress, "  %s", note);
+    }
+}
+
+/* Polled while the packing grows. */
+static bool packing_cancelled(void *data)
+{
+    struct run *run = data;
+    if (!run->announced && elapsed(run) > patience_s) {
+        announce(run);
+        gb_progress_say(&run->progress, "  building the packing");
+    }
+    return caught != 0;
+}
+
+static void observe(struct run *run, enum gb_run_state state)
+{
+    struct gb_snapshot *shot = &run->shot;
+    const double progress = shot->progress;
+    gb_experiment_observe(run->experiment, shot);
+    if (state == GB_RUN_STOPPED) {
+        shot->progress = progress;
+    }
+    shot->state = (int)state;
+    shot->seconds = elapsed(run);
+    gb_pace_add(&run->pace, shot->seconds - run->packed, shot->evaluations,
+                shot->progress);
+    shot->evaluations_per_s = gb_pace_rate(&run->pace);
+    shot->particle_evaluations_per_s =
+        shot->evaluations_per_s * (double)params_of(run)->count;
+    shot->seconds_left = state == GB_RUN_RUNNING ? gb_pace_left(&run->pace) : -1.0;
+    if (state == GB_RUN_DONE) {
+        shot->seconds_left = 0.0;
+    }
+}
+
+static bool keep_event(struct run *run, const char *text, struct gb_error *err)
+{
+    run->shot.events++;
+    g_strlcpy(run->shot.event, text, sizeof run->shot.event);
+    gb_progress_say(&run->progress, "step %" G_GINT64_FORMAT ": %s", run->shot.now.step,
+                    text);
+    return gb_store_event(run->store, run->shot.now.step, text, err);
+}
+
+static bool keep_events(struct run *run, struct gb_error *err)
+{
+    char text[EVENT_MAX];
+    while (gb_experiment_event(run->experiment, text, sizeof text)) {
+        observe(run, GB_RUN_RUNNING); /* for the step */
+        if (!keep_event(run, text, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool keep_point(struct run *run, struct gb_error *err)
+{
+    struct gb_point point = *gb_experiment_point(run->experiment);
+    point.seconds = elapsed(run);
+    run->points++;
+    return gb_store_point(run->store, &point, err);
+}
+
+static bool keep_state(struct run *run, struct gb_error *err)
+{
+    struct gb_state *state = NULL;
+    run->state_at = elapsed(run);
+    const bool kept = gb_experiment_state(run->experiment, &state, err) &&
+                      gb_store_state(run->store, state, err);
+    gb_state_destroy(state);
+    return kept;
+}
+
+/* Tells others and the terminal, when it is time. */
+static bool report(struct run *run, struct gb_error *err)
+{
+    const double now = elapsed(run);
+    if (now - run->state_at >= params_of(run)->checkpoint_every_s &&
+        !keep_state(run, err)) {
+        return false;
+    }
+    const bool status = now - run->status_at >= status_every_s;
+    const bool show = gb_progress_due(&run->progress, now);
+    if (!status && !show) {
+        return true;
+    }
+    observe(run, GB_RUN_RUNNING);
+    if (show) {
+        gb_progress_show(&run->progress, &run->shot);
+    }
+    if (status) {
+        run->status_at = now;
+        return gb_store_status(run->store, &run->shot, err);
+    }
+    return true;
+}
+
+static bool pack(struct run *run, struct gb_error *err)
+{
+    run->started = clock_s();
+    if (!gb_experiment_create(&run->experiment, params_of(run), packing_cancelled, run,
+                              err)) {
+        return false;
+    }
+    run->packed = elapsed(run);
+    if (!gb_store_create(&run->store, run->directory, params_of(run), run->force, err)) {
+        return false;
+    }
+    if (!run->announced) {
+        announce(run);
+    }
+    gb_progress_say(&run->progress,
+                    "  packing built in %.1f s, %.1f MB in arrays; "
+                    "writing to %s",
+                    run->packed, (double)gb_alloc_bytes() / 1e6, run->directory);
+    gb_pace_init(&run->pace);
+    observe(run, GB_RUN_RUNNING);
+    run->status_at = elapsed(run);
+    return keep_state(run, err) && gb_store_status(run->store, &run->shot, err);
+}
+
+/* Presses to the end of the programme, a guard or a signal.  False only when the results
+ * cannot be kept. */
+static bool press(struct run *run, enum gb_run_state *state, struct gb_error *err)
+{
+    *state = GB_RUN_STOPPED;
+    while (caught == 0) {
+        const double from = elapsed(run);
+        const enum gb_advance how = gb_experiment_advance(
+            run->experiment, gb_pace_slice(&run->pace), &run->stopped);
+        gb_pace_sliced(&run->pace, elapsed(run) - from, how == GB_ADVANCE_MORE);
+        if (!keep_events(run, err) ||
+            (how == GB_ADVANCE_POINT && !keep_point(run, err))) {
+            return false;
+        }
+        if (how == GB_ADVANCE_DONE || how == GB_ADVANCE_STOPPED) {
+            *state = how == GB_ADVANCE_DONE ? GB_RUN_DONE : GB_RUN_STOPPED;
+            return true;
+        }
+        if (!report(run, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Last words in the run directory. */
+static bool conclude(struct run *run, enum gb_run_state state, struct gb_error *err)
+{
+    if (caught != 0) {
+        gb_error_set(&run->stopped, GB_ERR_CANCELLED, "stopped by signal %d (%s)",
+                     (int)caught, strsignal((int)caught));
+    }
+    observe(run, state);
+    run->shot.error = run->stopped;
+    /* guards have put themselves among the events already */
+    if (gb_status_exit_code(run->stopped.code) > 1 &&
+        !keep_event(run, run->stopped.text, err)) {
+        return false;
+    }
+    return keep_state(run, err) && gb_store_sync(run->store, err) &&
+           gb_store_status(run->store, &run->shot, err);
+}
+
+static void summarise(struct run *run, enum gb_run_state state)
+{
+    const struct gb_point *now = &run->shot.now;
+    gb_progress_say(&run->progress,
+                    "%s after %.1f s: density %.4f, p %.4g MPa, %" G_GINT64_FORMAT
+                    " points in %s",
+                    state == GB_RUN_DONE ? "done" : "stopped", elapsed(run), now->density,
+                    now->p_pa / 1e6, run->points, run->directory);
+}
+
+static int exit_status(const struct gb_error *err)
+{
+    return err->code == GB_ERR_CANCELLED && caught != 0 ? 128 + (int)caught
+                                                        : gb_status_exit_code(err->code);
+}
+
+/* The run cannot go on keeping its results: say so where it can still be said. */
+static void give_up(struct run *run, const struct gb_error *err)
+{
+    if (run->store != NULL) {
+        run->shot.state = GB_RUN_FAILED;
+        run->shot.error = *err;
+        (void)gb_store_sync(run->store, NULL);
+        (void)gb_store_status(run->store, &run->shot, NULL);
+    }
+}
+
+static int perform(struct run *run, char **assignments)
+{
+    struct gb_error err = {0};
+    enum gb_run_state state = GB_RUN_FAILED;
+    if (!prepare(run, assignments, &err) || !pack(run, &err) ||
+        !press(run, &state, &err) || !conclude(run, state, &err)) {
+        give_up(run, &err);
+        gb_progress_clear(&run->progress);
+        fprintf(stderr, "greenbody: %s\n", err.text);
+        return exit_status(&err);
+    }
+    summarise(run, state);
+    if (run->stopped.code != GB_OK && run->progress.quiet) {
+        fprintf(stderr, "greenbody: %s\n", run->stopped.text);
+    }
+    return exit_status(&run->stopped);
+}
+
+int gb_cmd_run(int argc, char **argv)
+{
+    struct run run = {0};
+    char **assignments = NULL;
+    gboolean force = FALSE;
+    gboolean quiet = FALSE;
+    const GOptionEntry entries[] = {
+        {"set", 's', 0, G_OPTION_ARG_STRING_ARRAY, &assignments,
+         "Change a value of the preset (repeatable)", "GROUP.KEY=VALUE"},
+        {"out", 'o', 0, G_OPTION_ARG_FILENAME, &run.directory,
+         "Directory of the results (default: runs/PRESET-N)", "DIR"},
+        {"force", 'f', 0, G_OPTION_ARG_NONE, &force, "Replace an old run in DIR", NULL},
+        {"quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "Tell only what went wrong", NULL},
+        G_OPTION_ENTRY_NULL};
+    GOptionContext *options = g_option_context_new("PRESET");
+    g_option_context_set_summary(options, "One run without a screen.");
+    g_option_context_add_main_entries(options, entries, NULL);
+    GError *failure = NULL;
+    int status = 2;
+    if (!g_option_context_parse(options, &argc, &argv, &failure)) {
+        fprintf(stderr, "greenbody: run: %s\n", failure->message);
+        g_clear_error(&failure);
+    } else if (argc != 2) {
+        fprintf(stderr, "greenbody: run: one PRESET is needed (a name or a file); see "
+                        "greenbody run --help\n");
+    } else {
+        run.preset_name = argv[1];
+        run.force = force;
+        gb_progress_init(&run.progress, quiet);
+        install_handlers();
+        status = perform(&run, assignments);
+    }
+    g_option_context_free(options);
+    gb_store_destroy(run.store);
+    gb_experiment_destroy(run.experiment);
+    gb_preset_destroy(run.preset);
+    g_free(run.directory);
+    g_strfreev(assignments);
+    return status;
+}

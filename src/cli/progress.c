@@ -1,0 +1,112 @@
+#include "cli/progress.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+static const double terminal_every_s = 0.25;
+static const double plain_every_s = 5.0;
+
+enum { LINE_MAX_BYTES = 256, WIDTH_UNKNOWN = 80 };
+
+void gb_progress_init(struct gb_progress *progress, bool quiet)
+{
+    progress->quiet = quiet;
+    progress->terminal = isatty(STDERR_FILENO) == 1;
+    progress->shown = 0;
+    progress->told_at = 0.0;
+}
+
+void gb_progress_clear(struct gb_progress *progress)
+{
+    if (progress->shown > 0) {
+        fprintf(stderr, "\r%*s\r", progress->shown, "");
+        fflush(stderr);
+        progress->shown = 0;
+    }
+}
+
+void gb_progress_say(struct gb_progress *progress, const char *format, ...)
+{
+    if (progress->quiet) {
+        return;
+    }
+    gb_progress_clear(progress);
+    va_list args;
+    va_start(args, format);
+    vfprintf(stderr, format, args);
+    va_end(args);
+    fputc('\n', stderr);
+}
+
+bool gb_progress_due(const struct gb_progress *progress, double seconds)
+{
+    const double every = progress->terminal ? terminal_every_s : plain_every_s;
+    return !progress->quiet && seconds - progress->told_at >= every;
+}
+
+/* "1 h 05 min", "2 min 10 s", "7 s". */
+static void format_left(double seconds, char *text, size_t size)
+{
+    if (!(seconds >= 0.0) || seconds > 1e8) {
+        snprintf(text, size, "time left unknown");
+        return;
+    }
+    const long whole = (long)ceil(seconds);
+    if (whole >= 3600) {
+        snprintf(text, size, "%ld h %02ld min left", whole / 3600, whole / 60 % 60);
+    } else if (whole >= 60) {
+        snprintf(text, size, "%ld min %02ld s left", whole / 60, whole % 60);
+    } else {
+        snprintf(text, size, "%ld s left", whole);
+    }
+}
+
+static void format_line(const struct gb_snapshot *shot, char *line, size_t size)
+{
+    char left[48];
+    char where[64] = "relaxing the start";
+    format_left(shot->seconds_left, left, sizeof left);
+    if (shot->now_valid) {
+        snprintf(where, sizeof where, "density %.4f  p %.4g MPa", shot->now.density,
+                 shot->now.p_pa / 1e6);
+    }
+    snprintf(line, size, "%s  %.3gM particle-evaluations/s  %.0f %%  %s", where,
+             shot->particle_evaluations_per_s / 1e6, 100.0 * shot->progress, left);
+}
+
+/* A line longer than the terminal would wrap and could not be rewritten. */
+static int terminal_width(void)
+{
+    struct winsize window;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1) {
+        return window.ws_col;
+    }
+    return WIDTH_UNKNOWN;
+}
+
+void gb_progress_show(struct gb_progress *progress, const struct gb_snapshot *snapshot)
+{
+    char line[LINE_MAX_BYTES];
+    if (progress->quiet) {
+        return;
+    }
+    progress->told_at = snapshot->seconds;
+    format_line(snapshot, line, sizeof line);
+    if (!progress->terminal) {
+        fprintf(stderr, "%s\n", line);
+        return;
+    }
+    const int width = terminal_width() - 1;
+    if ((int)strlen(line) > width) {
+        line[width] = '\0';
+    }
+    const int length = (int)strlen(line);
+    const int before = progress->shown < width ? progress->shown : width;
+    fprintf(stderr, "\r%-*s", before, line);
+    fflush(stderr);
+    progress->shown = length > before ? length : before;
+}
