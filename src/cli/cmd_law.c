@@ -1,0 +1,509 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "cli/points.h"
+#include "greenbody/model.h"
+
+/* Points between two corners of a path. */
+enum { PATH_STEPS = 200 };
+
+/* Nearest neighbours and volume per particle (in r^3) of a lattice. */
+struct lattice {
+    const char *name;
+    double neighbours;
+    double volume;
+};
+
+static const struct lattice lattices[] = {
+    {"sc", 6.0, 1.0},
+    {"fcc", 12.0, M_SQRT1_2},
+    {"bcc", 8.0, 0.76980035891950102}, /* 4 / (3 sqrt 3) */
+    {"diamond", 4.0, 1.5396007178390020}, /* 8 / (3 sqrt 3) */
+};
+
+/* What a row is computed from. */
+struct input {
+    const struct gb_model *model;
+    const struct lattice *lattice;
+    double x;     /* h or r */
+    double h_min; /* of a bridge; NaN: the deepest allowed */
+};
+
+struct law {
+    const char *name;
+    const char *header;
+    const char *variable; /* "h", "r", or NULL: one row without a variable */
+    bool path;            /* has a history to follow */
+    bool h_min;           /* takes h_min beside h */
+    bool bridged;         /* makes sense in scenes with bridges only */
+    double low, high;     /* of the variable; high is exclusive */
+    void (*print)(const struct input *input);
+};
+
+static double newton(const struct gb_model *model, double force)
+{
+    return force * model->newton_per_force * 1e9;
+}
+
+static void print_force(const struct gb_model *model, double h, double force,
+                        double stiffness)
+{
+    printf("%.17g,%.17g,%.17g,%.17g\n", h, force, stiffness, newton(model, force));
+}
+
+static void print_rod(const struct input *input)
+{
+    const struct gb_law_rod *rod = &input->model->rod;
+    print_force(input->model, input->x, gb_law_rod_force(rod, input->x),
+                gb_law_rod_stiffness(rod, input->x));
+}
+
+static void print_dispersion(const struct input *input)
+{
+    const double force = gb_law_dispersion_force(&input->model->dispersion, input->x);
+    printf("%.17g,%.17g,%.17g\n", input->x, force, newton(input->model, force));
+}
+
+/* f_n = f_e - f_a; h_min = 0: no bridge.  The slope is df_n/dh of the active branch. */
+static void print_contact(const struct gb_model *model, double h, double h_min)
+{
+    const struct gb_law_dispersion *dispersion = &model->dispersion;
+    const double attraction = gb_law_dispersion_force(dispersion, 1.0 - h);
+    double force = gb_law_rod_force(&model->rod, h);
+    double stiffness = gb_law_rod_stiffness(&model->rod, h);
+    if (h_min > 0.0 && h_min > h) {
+        force = gb_law_bridge_force(&model->rod, h_min, h);
+        stiffness = gb_law_rod_stiffness(&model->rod, h_min);
+    } else if (h < 0.0) {
+        stiffness += gb_law_dispersion_slope(dispersion, 1.0 - h);
+    }
+    print_force(model, h, force - attraction, stiffness);
+}
+
+static void print_normal(const struct input *input)
+{
+    print_contact(input->model, input->x, 0.0);
+}
+
+/* A bridge cannot be opened by more than its length: beyond it h_min has followed. */
+static void print_bridge(const struct input *input)
+{
+    const double deepest = input->x + input->model->bridge.length;
+    const double h_min = isnan(input->h_min) ? deepest : fmin(input->h_min, deepest);
+    print_contact(input->model, input->x, h_min);
+}
+
+static double contact_radius(double h)
+{
+    return 0.5 * sqrt(fmax(h, 0.0));
+}
+
+static void print_shear(const struct input *input)
+{
+    const struct gb_model *model = input->model;
+    printf("%.17g,%.17g,%.17g\n", input->x,
+           gb_law_slip_shear_stiffness(&model->slip, contact_radius(input->x)),
+           gb_law_slip_shear_cap(&model->slip, &model->rod, input->x));
+}
+
+static void print_pivot(const struct input *input)
+{
+    const struct gb_model *model = input->model;
+    printf("%.17g,%.17g,%.17g\n", input->x,
+           gb_law_slip_pivot_stiffness(&model->slip, contact_radius(input->x)),
+           gb_law_slip_pivot_cap(&model->slip, &model->rod, input->x));
+}
+
+static void print_roll(const struct input *input)
+{
+    const struct gb_model *model = input->model;
+    const double a = contact_radius(input->x);
+    printf("%.17g,%.17g,%.17g\n", input->x, gb_law_slip_roll_stiffness(&model->slip, a),
+           gb_law_slip_roll_cap(a, gb_law_rod_force(&model->rod, input->x)));
+}
+
+static void print_equilibrium(const struct input *input)
+{
+    const struct gb_model *model = input->model;
+    printf("%.17g,%.17g,%.17g\n", model->h_eq, model->adhesion,
+           newton(model, model->adhesion));
+}
+
+static void print_strength(const struct input *input)
+{
+    const struct gb_model *model = input->model;
+    const double stress = gb_law_bridge_peel_stress(&model->bridge, &model->rod, input->x);
+    printf("%.17g,%.17g\n", input->x, stress * model->pascal_per_stress * 1e-9);
+}
+
+/* Pressure of a perfect lattice from the virial of its nearest neighbours. */
+static void print_lattice(const struct input *input)
+{
+    const struct gb_model *model = input->model;
+    const double r = 1.0 - input->x;
+    const double volume = input->lattice->volume * r * r * r;
+    const double force = gb_law_rod_force(&model->rod, input->x) -
+                         gb_law_dispersion_force(&model->dispersion, r);
+    const double pressure = input->lattice->neighbours * force * r / (6.0 * volume);
+    printf("%.17g,%.17g,%.17g\n", input->x, M_PI / 6.0 / volume,
+           pressure * model->pascal_per_stress * 1e-9);
+}
+
+static const char force_header[] = "h,force,stiffness,force_nN";
+static const char slip_header[] = "h,stiffness,cap";
+static const double far = 1e6; /* diameters; no law reaches there */
+
+static const struct law laws[] = {
+    {"rod", force_header, "h", false, false, false, -1e6, 1.0, print_rod},
+    {"bridge", force_header, "h", true, true, true, 0.0, 1.0, print_bridge},
+    {"dispersion", "r,force,force_nN", "r", false, false, false, 0.0, 1e6,
+     print_dispersion},
+    {"normal", force_header, "h", true, false, false, -1e6, 1.0, print_normal},
+    {"shear", slip_header, "h", false, false, false, -1e6, 1.0, print_shear},
+    {"pivot", slip_header, "h", false, false, false, -1e6, 1.0, print_pivot},
+    {"roll", slip_header, "h", false, false, false, -1e6, 1.0, print_roll},
+    {"equilibrium", "h_eq,force_max,force_max_nN", NULL, false, false, false, 0.0, 0.0,
+     print_equilibrium},
+    {"bridge-strength", "h,strength_GPa", "h", false, false, true, 0.0, 1.0,
+     print_strength},
+    {"lattice", "h,density,pressure_GPa", "h", false, false, false, -1e6, 1.0,
+     print_lattice},
+};
+
+struct request {
+    const struct law *law;
+    struct input input;
+    char **at;
+    char *range;
+    char *path;
+    bool dry; /* check only: nothing is printed before all of the request is understood */
+};
+
+static bool check_value(const struct law *law, const struct gb_model *model, double value,
+                        struct gb_error *err)
+{
+    const double room = law->bridged ? model->bridge.length : 0.0;
+    if (value >= law->low && value + room < law->high) {
+        return true;
+    }
+    return gb_error_set(err, GB_ERR_INPUT, "%s = %g: accepted %g up to below %g for %s",
+                        law->variable, value, law->low, law->high - room, law->name);
+}
+
+/* One row; false when the reader has gone or the disk is full. */
+static bool print_row(struct request *request, double x, struct gb_error *err)
+{
+    if (!check_value(request->law, request->input.model, x, err)) {
+        return false;
+    }
+    if (request->dry) {
+        return true;
+    }
+    request->input.x = x;
+    request->law->print(&request->input);
+    return !ferror(stdout) || gb_options_output_failed(err);
+}
+
+static bool set_h_min(struct request *request, double value, struct gb_error *err)
+{
+    if (!(value > 0.0 && value < 1.0)) {
+        return gb_error_set(err, GB_ERR_INPUT, "h_min = %g: accepted above 0 and below 1",
+                            value);
+    }
+    request->input.h_min = value;
+    return true;
+}
+
+/* Reads the variables of one --at; *x stays NaN when only h_min is there. */
+static bool read_at(struct request *request, const char *text, double *x,
+                    struct gb_error *err)
+{
+    struct gb_points_at at;
+    if (!gb_points_at(&at, text, err)) {
+        return false;
+    }
+    const struct law *law = request->law;
+    *x = NAN;
+    request->input.h_min = NAN;
+    for (int i = 0; i < MIN(at.count, GB_POINTS_FIXED); i++) {
+        const struct gb_points_value *item = &at.item[i];
+        const bool h_min = law->h_min && strcmp(item->name, "h_min") == 0;
+        if (h_min && isnan(request->input.h_min)) {
+            if (!set_h_min(request, item->value, err)) {
+                return false;
+            }
+        } else if (!h_min && strcmp(item->name, law->variable) == 0 && isnan(*x)) {
+            *x = item->value;
+        } else {
+            return gb_error_set(err, GB_ERR_INPUT, "--at %.80s: accepted %s%s, each once",
+                                text, law->variable, law->h_min ? " and h_min" : "");
+        }
+    }
+    if (!isnan(*x) && !isnan(request->input.h_min) && *x > request->input.h_min) {
+        return gb_error_set(err, GB_ERR_INPUT, "--at %.80s: accepted h up to h_min", text);
+    }
+    return true;
+}
+
+static bool missing_variable(const struct law *law, struct gb_error *err)
+{
+    return gb_error_set(err, GB_ERR_INPUT,
+                        "law %s needs --at %s=VALUE or --range %s=FROM:TO:COUNT%s",
+                        law->name, law->variable, law->variable,
+                        law->path ? " or --path H,H,..." : "");
+}
+
+static bool print_points(struct request *request, struct gb_error *err)
+{
+    for (int i = 0; request->at[i]; i++) {
+        double x = NAN;
+        if (!read_at(request, request->at[i], &x, err)) {
+            return false;
+        }
+        if (isnan(x)) {
+            return missing_variable(request->law, err);
+        }
+        if (!print_row(request, x, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Beside --range one --at may hold h_min. */
+static bool read_fixed(struct request *request, struct gb_error *err)
+{
+    double x = NAN;
+    if (!request->at) {
+        return true;
+    }
+    if (!read_at(request, request->at[0], &x, err)) {
+        return false;
+    }
+    return (isnan(x) && !request->at[1]) ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "--at %.80s: %s is in --range already; accepted one --at h_min=H",
+                        request->at[0], request->law->variable);
+}
+
+static bool print_range(struct request *request, struct gb_error *err)
+{
+    struct gb_points_range range;
+    if (!gb_points_range(&range, request->range, err) || !read_fixed(request, err)) {
+        return false;
+    }
+    if (strcmp(range.name, request->law->variable) != 0) {
+        return gb_error_set(err, GB_ERR_INPUT, "--range %.80s: accepted %s for law %s",
+                            request->range, request->law->variable, request->law->name);
+    }
+    if (!isnan(request->input.h_min) && range.to > request->input.h_min) {
+        return gb_error_set(err, GB_ERR_INPUT, "--range %.80s: accepted h up to h_min",
+                            request->range);
+    }
+    const int64_t stride = request->dry && range.count > 1 ? range.count - 1 : 1;
+    for (int64_t i = 0; i < range.count; i += stride) {
+        if (!print_row(request, gb_points_range_value(&range, i), err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Follows the history of one contact through the corners. */
+static bool follow(const struct gb_model *model, const double *corners, int count,
+                   struct gb_error *err)
+{
+    double h_min = 0.0;
+    for (int leg = 0; leg < count; leg++) {
+        const double to = corners[leg];
+        const double from = leg > 0 ? corners[leg - 1] : to;
+        const int steps = leg > 0 ? PATH_STEPS : 1;
+        for (int i = 1; i <= steps; i++) {
+            const double h = i == steps ? to : from + (to - from) * i / steps;
+            h_min = model->terms.bridges ? gb_law_bridge_deepest(&model->bridge, h_min, h)
+                                         : 0.0;
+            print_contact(model, h, h_min);
+            if (ferror(stdout)) {
+                return gb_options_output_failed(err);
+            }
+        }
+    }
+    return true;
+}
+
+static bool print_path(const struct request *request, struct gb_error *err)
+{
+    double *corners = g_new(double, GB_POINTS_CORNERS);
+    int count = 0;
+    bool good = gb_points_path(corners, &count, request->path, err);
+    for (int i = 0; i < count && good; i++) {
+        if (!(corners[i] > -far && corners[i] < 1.0)) {
+            good = gb_error_set(err, GB_ERR_INPUT, "--path %.80s: accepted h below 1",
+                                request->path);
+        }
+    }
+    good = good && (request->dry || follow(request->input.model, corners, count, err));
+    g_free(corners);
+    return good;
+}
+
+/* Which options this law takes, and that the scene has what it describes. */
+static bool check_request(const struct request *request, struct gb_error *err)
+{
+    const struct law *law = request->law;
+    const int given = (request->path ? 1 : 0) + (request->range || request->at ? 1 : 0);
+    if (law->bridged && !request->input.model->terms.bridges) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "law %s: the scene has no bridges; accepted "
+                            "contact.bridge_length below 1 d",
+                            law->name);
+    }
+    if ((request->path && !law->path) || given > 1 || (!law->variable && given > 0)) {
+        return gb_error_set(err, GB_ERR_INPUT, "law %s: accepted %s", law->name,
+                            !law->variable ? "no --at, --range or --path"
+                            : law->path    ? "--at, --range or --path alone"
+                                           : "--at or --range");
+    }
+    return !law->variable || given > 0 || missing_variable(law, err);
+}
+
+static bool print_rows(struct request *request, struct gb_error *err)
+{
+    if (!request->law->variable) {
+        if (!request->dry) {
+            request->law->print(&request->input);
+        }
+        return true;
+    }
+    return request->path    ? print_path(request, err)
+           : request->range ? print_range(request, err)
+                            : print_points(request, err);
+}
+
+static bool print_law(struct request *request, struct gb_error *err)
+{
+    request->dry = true;
+    if (!check_request(request, err) || !print_rows(request, err)) {
+        return false;
+    }
+    puts(request->law->header);
+    request->dry = false;
+    return print_rows(request, err);
+}
+
+static bool find_law(const char *name, const struct law **out, struct gb_error *err)
+{
+    GString *names = g_string_new(NULL);
+    *out = NULL;
+    for (size_t i = 0; i < G_N_ELEMENTS(laws); i++) {
+        if (name && strcmp(laws[i].name, name) == 0) {
+            *out = &laws[i];
+        }
+        g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", laws[i].name);
+    }
+    if (!*out) {
+        gb_error_set(err, GB_ERR_INPUT, "law %.40s: accepted %s", name ? name : "without name",
+                     names->str);
+    }
+    g_string_free(names, TRUE);
+    return *out != NULL;
+}
+
+static bool find_lattice(const char *name, struct request *request, struct gb_error *err)
+{
+    if ((strcmp(request->law->name, "lattice") == 0) != (name != NULL)) {
+        return gb_error_set(err, GB_ERR_INPUT, "law %s: %s", request->law->name,
+                            name ? "--lattice is for law lattice"
+                                 : "needs --lattice sc, fcc, bcc or diamond");
+    }
+    for (size_t i = 0; name && i < G_N_ELEMENTS(lattices); i++) {
+        if (strcmp(lattices[i].name, name) == 0) {
+            request->input.lattice = &lattices[i];
+        }
+    }
+    return !name || request->input.lattice ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "--lattice %.40s: accepted sc, fcc, bcc or diamond", name);
+}
+
+static bool run(struct request *request, const char *lattice, char **words, char **sets,
+                struct gb_error *err)
+{
+    if (!find_law(words[0], &request->law, err) || !find_lattice(lattice, request, err)) {
+        return false;
+    }
+    struct gb_preset *preset = NULL;
+    if (!gb_options_scene(&preset, words + 1, sets, false, err)) {
+        return false;
+    }
+    struct gb_model model;
+    request->input.model = &model;
+    request->input.h_min = NAN;
+    const bool good =
+        gb_model_init(&model, gb_preset_params(preset), err) && print_law(request, err);
+    gb_preset_destroy(preset);
+    return good;
+}
+
+static const struct gb_options_page page = {
+    .usage = "NAME [PRESET] [group.key=value]...",
+    .summary =
+        "Values of a contact law as CSV, with 17 digits.  NAME is one of rod, bridge,\n"
+        "dispersion, normal, shear, pivot, roll, equilibrium, bridge-strength, lattice.\n"
+        "Reduced units: overlap h and distance r in particle diameters d, force in\n"
+        "E d^2, stiffness in E d (E d^3 for pivot and roll), moments in E d^3.",
+    .description =
+        "rod          elastic force f_e of two spheres, P1 (1)\n"
+        "dispersion   attraction f_a at distance r, P1 (3)\n"
+        "normal       f_e - f_a without a bridge; h below 0 is a gap\n"
+        "bridge       f_e - f_a of a bridged contact; h_min is its deepest overlap\n"
+        "             (--at h_min=0.02,h=0.012), by default h + bridge_length\n"
+        "shear, pivot stiffness per half of the relative motion, and cap, no bridge\n"
+        "roll         the same for a bridge whose deepest overlap is h\n"
+        "equilibrium  overlap where f_e = f_a, and the greatest attraction\n"
+        "bridge-strength  normal stress that breaks a bridge at overlap h\n"
+        "lattice      density and pressure of a perfect lattice, nearest neighbours\n"
+        "\n"
+        "--path visits overlaps one after the other in fine steps and keeps the history\n"
+        "of one contact: bridges form and break on the way (normal and bridge).\n"
+        "\n"
+        "Figure 1 of P1 (contact of 16 nm particles: A-B-C-D, then to C' and open):\n"
+        "  greenbody law normal p1-set2-16nm --path=-0.02,0.0081,-0.01,0.02,-0.01\n"
+        "Figure 2 of P1 (strength of bridges; the other lines with 0.01 d and 0.015 d):\n"
+        "  greenbody law bridge-strength contact.bridge_length=0.005d --range h=0:0.05:101",
+};
+
+int gb_cmd_law(int argc, char **argv)
+{
+    struct request request = {0};
+    char *lattice = NULL;
+    char **sets = NULL, **words = NULL;
+    const GOptionEntry entries[] = {
+        {"at", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.at, "one point; may be repeated",
+         "h=0.01"},
+        {"range", 0, 0, G_OPTION_ARG_STRING, &request.range, "from, to, number of points",
+         "h=0:0.1:101"},
+        {"path", 0, 0, G_OPTION_ARG_STRING, &request.path, "overlaps to visit",
+         "0,0.02,-0.01"},
+        {"lattice", 0, 0, G_OPTION_ARG_STRING, &lattice, "sc, fcc, bcc or diamond", "NAME"},
+        GB_OPTIONS_SET(&sets),
+        {0},
+    };
+    int status = 0;
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        struct gb_error err = {0};
+        if (!run(&request, lattice, words, sets, &err)) {
+            status = gb_options_fail(&err);
+        }
+    }
+    g_strfreev(request.at);
+    g_free(request.range);
+    g_free(request.path);
+    g_free(lattice);
+    g_strfreev(sets);
+    g_strfreev(words);
+    return status;
+}

@@ -1,0 +1,156 @@
+#include "cli/options.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+static GOptionContext *make_context(const struct gb_options_page *page,
+                                    const GOptionEntry *entries, const char *command)
+{
+    /* GLib's own help leaves through exit(), which would skip the check of stdout. */
+    GOptionContext *context = g_option_context_new(page->usage);
+    g_option_context_set_help_enabled(context, FALSE);
+    g_option_context_set_summary(context, page->summary);
+    g_option_context_set_description(context, page->description);
+    g_option_context_add_main_entries(context, entries, NULL);
+    char *name = strcmp(command, "greenbody") == 0
+                     ? g_strdup(command)
+                     : g_strconcat("greenbody ", command, NULL);
+    g_set_prgname(name);
+    g_free(name);
+    return context;
+}
+
+static void print_help(GOptionContext *context)
+{
+    char *text = g_option_context_get_help(context, TRUE, NULL);
+    fputs(text, stdout);
+    g_free(text);
+}
+
+/* The words behind the options, a '--' between them left out. */
+static char **take_words(char **arguments)
+{
+    GPtrArray *words = g_ptr_array_new();
+    bool dashes = false;
+    for (int i = 1; arguments[i]; i++) {
+        if (!dashes && strcmp(arguments[i], "--") == 0) {
+            dashes = true;
+        } else {
+            g_ptr_array_add(words, g_strdup(arguments[i]));
+        }
+    }
+    g_ptr_array_add(words, NULL);
+    return (char **)g_ptr_array_free(words, FALSE);
+}
+
+bool gb_options_parse(const struct gb_options_page *page, const GOptionEntry *entries,
+                      int argc, char **argv, char ***words, int *status)
+{
+    gboolean help = FALSE;
+    const GOptionEntry own[] = {
+        {"help", 'h', 0, G_OPTION_ARG_NONE, &help, "show this page", NULL},
+        {0},
+    };
+    GOptionContext *context = make_context(page, entries, argv[0]);
+    g_option_context_add_main_entries(context, own, NULL);
+    char **arguments = g_new0(char *, (gsize)argc + 1);
+    for (int i = 0; i < argc; i++) {
+        arguments[i] = g_strdup(argv[i]);
+    }
+    GError *trouble = NULL;
+    const bool good = g_option_context_parse_strv(context, &arguments, &trouble);
+    *status = 0;
+    if (!good) {
+        struct gb_error err;
+        gb_error_set(&err, GB_ERR_INPUT, "%s; see %s --help", trouble->message,
+                     g_get_prgname());
+        g_error_free(trouble);
+        *status = gb_options_fail(&err);
+    } else if (help) {
+        print_help(context);
+    } else {
+        *words = take_words(arguments);
+    }
+    g_strfreev(arguments);
+    g_option_context_free(context);
+    return good && !help;
+}
+
+static bool assign_all(struct gb_params *params, char **assignments, bool skip_names,
+                       struct gb_error *err)
+{
+    for (int i = 0; assignments && assignments[i]; i++) {
+        if (skip_names && !strchr(assignments[i], '=')) {
+            continue;
+        }
+        if (!gb_params_assign(params, assignments[i], err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The only word without '=', or NULL. */
+static bool find_name(char **words, const char **name, struct gb_error *err)
+{
+    *name = NULL;
+    for (int i = 0; words && words[i]; i++) {
+        if (strchr(words[i], '=')) {
+            continue;
+        }
+        if (*name) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "%.80s: one preset is enough, %.80s is given already",
+                                words[i], *name);
+        }
+        *name = words[i];
+    }
+    return true;
+}
+
+bool gb_options_scene(struct gb_preset **out, char **words, char **sets, bool needed,
+                      struct gb_error *err)
+{
+    const char *name = NULL;
+    if (!find_name(words, &name, err)) {
+        return false;
+    }
+    if (needed && !name) {
+        char **known = gb_preset_list();
+        char *list = g_strjoinv(", ", known);
+        gb_error_set(err, GB_ERR_INPUT, "a preset is needed: a file, or one of %s", list);
+        g_free(list);
+        g_strfreev(known);
+        return false;
+    }
+    struct gb_preset *preset = NULL;
+    if (name ? !gb_preset_load(&preset, name, err) : !gb_preset_create(&preset, err)) {
+        return false;
+    }
+    struct gb_params *params = gb_preset_params(preset);
+    if (!assign_all(params, words, true, err) || !assign_all(params, sets, false, err) ||
+        !gb_params_check(params, err)) {
+        gb_preset_destroy(preset);
+        return false;
+    }
+    *out = preset;
+    return true;
+}
+
+int gb_options_fail(const struct gb_error *err)
+{
+    if (err->code != GB_OK) {
+        fprintf(stderr, "greenbody: %s\n", err->text);
+    }
+    return gb_status_exit_code(err->code);
+}
+
+bool gb_options_output_failed(struct gb_error *err)
+{
+    const int number = errno;
+    if (number == EPIPE) {
+        return gb_error_set(err, GB_OK, "the reader has gone");
+    }
+    return gb_error_set(err, GB_ERR_MACHINE, "standard output: %s", g_strerror(number));
+}
