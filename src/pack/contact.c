@@ -133,16 +133,24 @@ static void stretch_springs(const struct gb_model *model, struct gb_contact *con
     }
 }
 
+/* True when a spring of squared length length2 carries more than its cap.  Squares spare the
+ * root of every contact that sticks, which is nearly all of them. */
+static bool beyond(double stiffness, double length2, double cap)
+{
+    return stiffness * stiffness * length2 > cap * cap;
+}
+
 /* A bridge whose shear or pivoting cap is reached shrinks to the present overlap, or is gone;
  * P1 below (5) and (11). */
 static bool bridge_fails(const struct gb_model *model, const struct gb_contact *contact,
-                         const struct geometry *g, double shear)
+                         const struct geometry *g)
 {
     const struct gb_law_slip *slip = &model->slip;
-    return gb_law_slip_shear_stiffness(slip, g->a) * shear >=
-               gb_law_slip_bridge_shear_cap(slip, g->a) ||
-           gb_law_slip_pivot_stiffness(slip, g->a) * fabs(contact->pivot) >=
-               gb_law_slip_bridge_pivot_cap(slip, g->a);
+    return beyond(gb_law_slip_shear_stiffness(slip, g->a),
+                  gb_vec_dot(contact->shear, contact->shear),
+                  gb_law_slip_bridge_shear_cap(slip, g->a)) ||
+           beyond(gb_law_slip_pivot_stiffness(slip, g->a), contact->pivot * contact->pivot,
+                  gb_law_slip_bridge_pivot_cap(slip, g->a));
 }
 
 static void fail_bridge(const struct gb_model *model, struct gb_contact *contact,
@@ -152,14 +160,13 @@ static void fail_bridge(const struct gb_model *model, struct gb_contact *contact
     settle(model, contact, g);
 }
 
-/* Cuts a spring back so that stiffness * length <= cap; returns the load after the cut over
- * the length, i.e. the stiffness, and tells whether it was cut. */
-static bool cut(double *spring, int n, double length, double stiffness, double cap)
+/* Cuts a spring back so that its load is at the cap; tells whether it was cut. */
+static bool cut(double *spring, int n, double length2, double stiffness, double cap)
 {
-    if (stiffness * length <= cap) {
+    if (!beyond(stiffness, length2, cap)) {
         return false;
     }
-    const double keep = cap / (stiffness * length);
+    const double keep = cap / (stiffness * sqrt(length2));
     for (int k = 0; k < n; k++) {
         spring[k] *= keep;
     }
@@ -171,20 +178,20 @@ static void tangential_wrench(const struct gb_model *model, struct gb_contact *c
                               double torque_i[3], struct gb_tally *tally)
 {
     const struct gb_law_slip *slip = &model->slip;
-    const double shear = gb_vec_length(contact->shear);
-    if (contact->deepest > 0.0 && bridge_fails(model, contact, g, shear)) {
+    if (contact->deepest > 0.0 && bridge_fails(model, contact, g)) {
         fail_bridge(model, contact, g);
     }
     const struct caps caps = caps_of(model, contact, g);
     const double k_shear = gb_law_slip_shear_stiffness(slip, g->a);
     const double k_pivot = gb_law_slip_pivot_stiffness(slip, g->a);
-    tally->sliding += cut(contact->shear, 3, shear, k_shear, caps.shear);
-    cut(&contact->pivot, 1, fabs(contact->pivot), k_pivot, caps.pivot);
+    tally->sliding += cut(contact->shear, 3, gb_vec_dot(contact->shear, contact->shear),
+                          k_shear, caps.shear);
+    cut(&contact->pivot, 1, contact->pivot * contact->pivot, k_pivot, caps.pivot);
 
     double twist[3] = {0.0, 0.0, 0.0};
     if (contact->deepest > 0.0) {
         const double k_roll = gb_law_slip_roll_stiffness(slip, g->a);
-        cut(contact->roll, 3, gb_vec_length(contact->roll), k_roll,
+        cut(contact->roll, 3, gb_vec_dot(contact->roll, contact->roll), k_roll,
             gb_law_slip_roll_cap(g->a, g->force));
         gb_vec_add(twist, -k_roll, contact->roll);
     } else {

@@ -6,7 +6,8 @@
 #include "base/alloc.h"
 #include "phys/tolerances.h"
 
-/* Neighbours one particle may have within the reach: a dense packing has about a dozen. */
+/* Neighbours one particle may have within the reach: a dense packing has about a dozen.  Also
+ * the slack of the lists. */
 enum { CROWD = 256 };
 
 struct grid {
@@ -213,31 +214,51 @@ static int scan_particle(const struct grid *grid, int64_t i, struct bounds bound
     return n;
 }
 
-static bool reserve(struct gb_pair_list *list, struct gb_error *err)
+/* Room for `need` pairs; keeps those already in the list. */
+static bool reserve(struct gb_pair_list *list, int64_t need, struct gb_error *err)
 {
-    if (list->pair_count <= list->capacity) {
+    if (need <= list->capacity) {
         return true;
     }
-    const int64_t room = list->pair_count + list->pair_count / 16 + 64;
-    list_drop_pairs(list);
-    list->other = gb_alloc_array((size_t)room, sizeof *list->other, err);
-    list->image = gb_alloc_array((size_t)room, sizeof *list->image, err);
-    list->in_slot = gb_alloc_array((size_t)room, sizeof *list->in_slot, err);
-    if (!list->other || !list->image || !list->in_slot) {
+    const size_t room = (size_t)(need + need / 16 + CROWD);
+    const size_t used = (size_t)list->pair_count;
+    int32_t *other = gb_alloc_array(room, sizeof *other, err);
+    uint8_t *image = gb_alloc_array(room, sizeof *image, err);
+    int32_t *in_slot = gb_alloc_array(room, sizeof *in_slot, err);
+    if (!other || !image || !in_slot) {
+        gb_alloc_free(other);
+        gb_alloc_free(image);
+        gb_alloc_free(in_slot);
         return false;
     }
-    list->capacity = room;
+    if (used > 0) {
+        memcpy(other, list->other, used * sizeof *other);
+        memcpy(image, list->image, used * sizeof *image);
+    }
+    list_drop_pairs(list);
+    list->other = other;
+    list->image = image;
+    list->in_slot = in_slot;
+    list->capacity = (int64_t)room;
     return true;
 }
 
-static bool count_pairs(struct gb_pairs *pairs, const struct grid *grid,
-                        struct bounds bounds, struct gb_error *err)
+static void append(struct gb_pair_list *list, struct neighbour found)
+{
+    list->other[list->pair_count] = found.other;
+    list->image[list->pair_count++] = found.image;
+}
+
+/* Fills both lists, particle by particle. */
+static bool fill_pairs(struct gb_pairs *pairs, const struct grid *grid, struct bounds bounds,
+                       struct gb_error *err)
 {
     struct neighbour found[CROWD + 1];
-    int64_t near = 0, far = 0;
+    struct gb_pair_list *near = &pairs->near, *far = &pairs->far;
+    near->pair_count = far->pair_count = 0;
     for (int64_t i = 0; i < pairs->count; i++) {
-        pairs->near.start[i] = near;
-        pairs->far.start[i] = far;
+        near->start[i] = near->pair_count;
+        far->start[i] = far->pair_count;
         const int n = scan_particle(grid, i, bounds, found);
         if (n >= CROWD) {
             return gb_error_set(err, GB_ERR_GUARD,
@@ -245,29 +266,17 @@ static bool count_pairs(struct gb_pairs *pairs, const struct grid *grid,
                                 "the packing has collapsed",
                                 (long long)i, n, sqrt(bounds.far));
         }
+        if (!reserve(near, near->pair_count + n, err) ||
+            !reserve(far, far->pair_count + n, err)) {
+            return false;
+        }
         for (int k = 0; k < n; k++) {
-            near += found[k].near;
-            far += !found[k].near;
+            append(found[k].near ? near : far, found[k]);
         }
     }
-    pairs->near.start[pairs->count] = pairs->near.pair_count = near;
-    pairs->far.start[pairs->count] = pairs->far.pair_count = far;
-    return reserve(&pairs->near, err) && reserve(&pairs->far, err);
-}
-
-static void fill_pairs(struct gb_pairs *pairs, const struct grid *grid, struct bounds bounds)
-{
-    struct neighbour found[CROWD + 1];
-    for (int64_t i = 0; i < pairs->count; i++) {
-        const int n = scan_particle(grid, i, bounds, found);
-        int64_t near = pairs->near.start[i], far = pairs->far.start[i];
-        for (int k = 0; k < n; k++) {
-            struct gb_pair_list *list = found[k].near ? &pairs->near : &pairs->far;
-            const int64_t slot = found[k].near ? near++ : far++;
-            list->other[slot] = found[k].other;
-            list->image[slot] = found[k].image;
-        }
-    }
+    near->start[pairs->count] = near->pair_count;
+    far->start[pairs->count] = far->pair_count;
+    return true;
 }
 
 /* The transposed list, by counting. */
@@ -304,10 +313,9 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
     struct grid grid = {.cell = cell, .position = position};
     grid_shape(&grid, reach, pairs->count);
     const struct bounds bounds = {(1.0 + skin) * (1.0 + skin), reach * reach};
-    if (!grid_fill(pairs, &grid, err) || !count_pairs(pairs, &grid, bounds, err)) {
+    if (!grid_fill(pairs, &grid, err) || !fill_pairs(pairs, &grid, bounds, err)) {
         return false;
     }
-    fill_pairs(pairs, &grid, bounds);
     transpose(&pairs->near, pairs->count);
     transpose(&pairs->far, pairs->count);
     memcpy(pairs->built_at, position, 3 * (size_t)pairs->count * sizeof *position);

@@ -1,6 +1,7 @@
 #ifndef GB_PHYS_LAW_BRIDGE_H
 #define GB_PHYS_LAW_BRIDGE_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "phys/law_rod.h"
@@ -18,11 +19,30 @@ struct gb_law_bridge {
 };
 
 /* h_min after a contact with deepest overlap h_min (0: no bridge) is moved to overlap h. */
-double gb_law_bridge_deepest(const struct gb_law_bridge *law, double h_min, double h);
+static inline double gb_law_bridge_deepest(const struct gb_law_bridge *law, double h_min,
+                                           double h)
+{
+    if (h <= 0.0) {
+        return 0.0;
+    }
+    if (h_min <= 0.0) {
+        return h > law->length ? h : 0.0;
+    }
+    if (h >= h_min) {
+        return h;
+    }
+    return h_min - h > law->length ? h + law->length : h_min;
+}
+
 /* Elastic force f_e at overlap h <= h_min of a bridged contact. */
 double gb_law_bridge_force(const struct gb_law_rod *rod, double h_min, double h);
 /* Contact radius a_ch = sqrt(h_min)/2, or the printed form at the current r. */
-double gb_law_bridge_radius(const struct gb_law_bridge *law, double h_min, double h);
+static inline double gb_law_bridge_radius(const struct gb_law_bridge *law, double h_min,
+                                          double h)
+{
+    return 0.5 * sqrt(law->radius_current ? h + law->length : h_min);
+}
+
 /* Mean normal stress that breaks the bridge (partly) at overlap h, in E; P1 Fig. 2. */
 double gb_law_bridge_peel_stress(const struct gb_law_bridge *law,
                                  const struct gb_law_rod *rod, double h);

@@ -14,21 +14,6 @@ void gb_law_slip_init(struct gb_law_slip *law, double poisson, double mu, double
     law->motion = motion;
 }
 
-double gb_law_slip_shear_stiffness(const struct gb_law_slip *law, double a)
-{
-    return law->shear * a;
-}
-
-double gb_law_slip_pivot_stiffness(const struct gb_law_slip *law, double a)
-{
-    return law->pivot * a * a * a;
-}
-
-double gb_law_slip_roll_stiffness(const struct gb_law_slip *law, double a)
-{
-    return law->roll * a * a * a;
-}
-
 double gb_law_slip_shear_cap(const struct gb_law_slip *law, const struct gb_law_rod *rod,
                              double h)
 {
@@ -42,19 +27,4 @@ double gb_law_slip_pivot_cap(const struct gb_law_slip *law, const struct gb_law_
     const double a = 0.5 * sqrt(fmax(h, 0.0));
     return fmin(law->mu_pivot * gb_law_rod_moment(rod, h),
                 gb_law_slip_bridge_pivot_cap(law, a));
-}
-
-double gb_law_slip_bridge_shear_cap(const struct gb_law_slip *law, double a)
-{
-    return M_PI * a * a * law->strength;
-}
-
-double gb_law_slip_bridge_pivot_cap(const struct gb_law_slip *law, double a)
-{
-    return 0.5 * M_PI * a * a * a * law->strength;
-}
-
-double gb_law_slip_roll_cap(double a, double force)
-{
-    return a * fmax(force, 0.0) / 3.0;
 }

@@ -1,6 +1,8 @@
 #ifndef GB_PHYS_LAW_SLIP_H
 #define GB_PHYS_LAW_SLIP_H
 
+#include <math.h>
+
 #include "phys/law_bridge.h"
 #include "phys/law_rod.h"
 
@@ -21,18 +23,42 @@ void gb_law_slip_init(struct gb_law_slip *law, double poisson, double mu, double
                       double strength, double motion);
 
 /* Stiffnesses at contact radius a (a_ch for a bridge). */
-double gb_law_slip_shear_stiffness(const struct gb_law_slip *law, double a);
-double gb_law_slip_pivot_stiffness(const struct gb_law_slip *law, double a);
-double gb_law_slip_roll_stiffness(const struct gb_law_slip *law, double a);
+static inline double gb_law_slip_shear_stiffness(const struct gb_law_slip *law, double a)
+{
+    return law->shear * a;
+}
 
-/* Caps: of a contact without a bridge at overlap h, and of a bridge with radius a. */
+static inline double gb_law_slip_pivot_stiffness(const struct gb_law_slip *law, double a)
+{
+    return law->pivot * a * a * a;
+}
+
+static inline double gb_law_slip_roll_stiffness(const struct gb_law_slip *law, double a)
+{
+    return law->roll * a * a * a;
+}
+
+/* Caps of a bridge with radius a; also what sigma_b allows a plain contact of radius a. */
+static inline double gb_law_slip_bridge_shear_cap(const struct gb_law_slip *law, double a)
+{
+    return M_PI * a * a * law->strength;
+}
+
+static inline double gb_law_slip_bridge_pivot_cap(const struct gb_law_slip *law, double a)
+{
+    return 0.5 * M_PI * a * a * a * law->strength;
+}
+
+/* a_ch max(f_e, 0) / 3. */
+static inline double gb_law_slip_roll_cap(double a, double force)
+{
+    return force > 0.0 ? a * force / 3.0 : 0.0;
+}
+
+/* Caps of a contact without a bridge at overlap h. */
 double gb_law_slip_shear_cap(const struct gb_law_slip *law, const struct gb_law_rod *rod,
                              double h);
 double gb_law_slip_pivot_cap(const struct gb_law_slip *law, const struct gb_law_rod *rod,
                              double h);
-double gb_law_slip_bridge_shear_cap(const struct gb_law_slip *law, double a);
-double gb_law_slip_bridge_pivot_cap(const struct gb_law_slip *law, double a);
-/* a_ch max(f_e, 0) / 3. */
-double gb_law_slip_roll_cap(double a, double force);
 
 #endif
