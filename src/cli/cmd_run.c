@@ -1,5 +1,3 @@
-#include "cli/cmd_run.h"
-
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,6 +6,8 @@
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "cli/commands.h"
+#include "cli/options.h"
 #include "cli/progress.h"
 #include "run/experiment.h"
 #include "run/pace.h"
@@ -23,7 +23,6 @@ static const double patience_s = 2.0;
 enum { EVENT_MAX = 640 };
 
 struct run {
-    const char *preset_name;
     char *directory;
     bool force;
     struct gb_preset *preset;
@@ -55,8 +54,7 @@ static void install_handlers(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
-    /* a reader of stderr that goes away, or a file size limit, are errors of a write */
-    signal(SIGPIPE, SIG_IGN);
+    /* a file that may not grow is an error of a write */
     signal(SIGXFSZ, SIG_IGN);
 }
 
@@ -78,21 +76,15 @@ static const struct gb_params *params_of(const struct run *run)
 }
 
 /* Everything that can be known to be wrong before any work is done. */
-static bool prepare(struct run *run, char **assignments, struct gb_error *err)
+static bool prepare(struct run *run, char **words, char **sets, struct gb_error *err)
 {
-    if (!gb_preset_load(&run->preset, run->preset_name, err)) {
+    if (!gb_options_scene(&run->preset, words, sets, true, err)) {
         return false;
-    }
-    struct gb_params *params = gb_preset_params(run->preset);
-    for (char **text = assignments; text != NULL && *text != NULL; text++) {
-        if (!gb_params_assign(params, *text, err)) {
-            return false;
-        }
     }
     if (run->directory == NULL) {
         run->directory = gb_store_default_directory(gb_preset_path(run->preset));
     }
-    return gb_params_check(params, err) && gb_model_init(&run->model, params, err) &&
+    return gb_model_init(&run->model, params_of(run), err) &&
            gb_rundir_check(run->directory, run->force, err);
 }
 
@@ -298,61 +290,55 @@ static void give_up(struct run *run, const struct gb_error *err)
     }
 }
 
-static int perform(struct run *run, char **assignments)
+static int perform(struct run *run, char **words, char **sets)
 {
     struct gb_error err = {0};
     enum gb_run_state state = GB_RUN_FAILED;
-    if (!prepare(run, assignments, &err) || !pack(run, &err) ||
+    if (!prepare(run, words, sets, &err) || !pack(run, &err) ||
         !press(run, &state, &err) || !conclude(run, state, &err)) {
         give_up(run, &err);
         gb_progress_clear(&run->progress);
-        fprintf(stderr, "greenbody: %s\n", err.text);
+        (void)gb_options_fail(&err);
         return exit_status(&err);
     }
     summarise(run, state);
     if (run->stopped.code != GB_OK && run->progress.quiet) {
-        fprintf(stderr, "greenbody: %s\n", run->stopped.text);
+        (void)gb_options_fail(&run->stopped);
     }
     return exit_status(&run->stopped);
 }
 
 int gb_cmd_run(int argc, char **argv)
 {
+    static const struct gb_options_page page = {
+        "PRESET [group.key=value]...",
+        "One run without a screen.  The results go to a directory; progress goes to "
+        "stderr.",
+        "SIGINT and SIGTERM stop the run in good order: points and state are kept."};
     struct run run = {0};
-    char **assignments = NULL;
+    char **sets = NULL;
+    char **words = NULL;
     gboolean force = FALSE;
     gboolean quiet = FALSE;
+    int status = 0;
     const GOptionEntry entries[] = {
-        {"set", 's', 0, G_OPTION_ARG_STRING_ARRAY, &assignments,
-         "Change a value of the preset (repeatable)", "GROUP.KEY=VALUE"},
+        GB_OPTIONS_SET(&sets),
         {"out", 'o', 0, G_OPTION_ARG_FILENAME, &run.directory,
-         "Directory of the results (default: runs/PRESET-N)", "DIR"},
-        {"force", 'f', 0, G_OPTION_ARG_NONE, &force, "Replace an old run in DIR", NULL},
-        {"quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "Tell only what went wrong", NULL},
-        G_OPTION_ENTRY_NULL};
-    GOptionContext *options = g_option_context_new("PRESET");
-    g_option_context_set_summary(options, "One run without a screen.");
-    g_option_context_add_main_entries(options, entries, NULL);
-    GError *failure = NULL;
-    int status = 2;
-    if (!g_option_context_parse(options, &argc, &argv, &failure)) {
-        fprintf(stderr, "greenbody: run: %s\n", failure->message);
-        g_clear_error(&failure);
-    } else if (argc != 2) {
-        fprintf(stderr, "greenbody: run: one PRESET is needed (a name or a file); see "
-                        "greenbody run --help\n");
-    } else {
-        run.preset_name = argv[1];
+         "directory of the results (default: runs/PRESET-1, -2, ...)", "DIR"},
+        {"force", 'f', 0, G_OPTION_ARG_NONE, &force, "replace an old run in DIR", NULL},
+        {"quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "tell only what went wrong", NULL},
+        {0}};
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         run.force = force;
         gb_progress_init(&run.progress, quiet);
         install_handlers();
-        status = perform(&run, assignments);
+        status = perform(&run, words, sets);
     }
-    g_option_context_free(options);
     gb_store_destroy(run.store);
     gb_experiment_destroy(run.experiment);
     gb_preset_destroy(run.preset);
     g_free(run.directory);
-    g_strfreev(assignments);
+    g_strfreev(words);
+    g_strfreev(sets);
     return status;
 }

@@ -114,8 +114,10 @@ static int open_scene(int argc, char **argv)
 #ifdef GB_HAVE_CMD_RUN
     if (!isatty(STDOUT_FILENO)) {
         static char name[] = "run";
+        static char preset[] = "default";
         argv[0] = name;
-        return gb_cmd_run(argc, argv);
+        return argc > 1 ? gb_cmd_run(argc, argv)
+                        : gb_cmd_run(2, (char *[]){name, preset, NULL});
     }
 #endif
 #ifdef GB_HAVE_CMD_WORKBENCH

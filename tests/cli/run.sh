@@ -1,0 +1,174 @@
+#!/bin/sh
+# `greenbody run` as a user meets it: what a run leaves behind, and what wrong input gets.
+# Usage: run.sh GREENBODY PRESET_FOLDER
+set -u
+
+greenbody=$1
+presets=$2
+here=$(mktemp -d) || exit 1
+trap 'rm -rf "$here"' EXIT
+cd "$here" || exit 1
+export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
+tests=0
+bad=0
+
+result() { # name, 0 when good
+    tests=$((tests + 1))
+    if [ "$2" -eq 0 ]; then
+        echo "ok $tests $1"
+    else
+        echo "not ok $tests $1"
+        sed 's/^/# /' stderr
+        bad=1
+    fi
+}
+
+is() { # name, command...: good when the command succeeds
+    name=$1
+    shift
+    "$@"
+    result "$name" $?
+}
+
+run() { # more arguments: the small scene
+    "$greenbody" run default --set particles.count=200 --set "loading.until=5 MPa" \
+        --set loading.unload_from= --set numerics.fidelity=fast "$@" >stdout 2>stderr
+}
+
+# name, expected status, command: one line on stderr, nothing on stdout, nothing left behind
+refused() {
+    name=$1
+    expected=$2
+    shift 2
+    timeout 20 "$@" >stdout 2>stderr
+    status=$?
+    [ $status -eq "$expected" ] && [ "$(wc -l <stderr)" -eq 1 ] && [ ! -s stdout ] &&
+        [ ! -e out ] && [ ! -e runs ]
+    good=$?
+    [ $good -eq 0 ] || echo "# status $status, expected $expected"
+    result "$name" $good
+}
+
+header=branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,bridged,rattlers,
+header=${header}residual,iterations,evaluations,seconds
+
+# --- a run ------------------------------------------------------------------------------
+run --out out
+is 'a run ends with status 0' [ $? -eq 0 ]
+for file in preset.ini curve.csv events.log status.json state.h5; do
+    is "there is $file" [ -f "out/$file" ]
+done
+is 'header of the curve' grep -qx "$header" out/curve.csv
+is 'the curve names the seed' grep -q '^# seed: 1$' out/curve.csv
+is 'several points' [ "$(grep -c '^load,' out/curve.csv)" -gt 1 ]
+is '14 columns everywhere' \
+    awk -F, '!/^#/ && NF != 14 { bad = 1 } END { exit bad }' out/curve.csv
+is 'no nan or inf' sh -c '! grep -v "^#" out/curve.csv | grep -qiE "nan|inf"'
+is 'the pressure was reached' \
+    awk -F, '/^load/ { p = $7 } END { exit !(p >= 5) }' out/curve.csv
+is 'status says done' grep -q '"state" : "done"' out/status.json
+is 'no temporary file is left' [ "$(find out -type f | wc -l)" -eq 5 ]
+is 'last line names the directory' sh -c 'tail -n 1 stderr | grep -q out'
+
+# --- the directory again ----------------------------------------------------------------
+cp out/curve.csv first.csv
+run --out out
+is 'an old run is not overwritten' [ $? -eq 2 ]
+is 'one line says so' [ "$(wc -l <stderr)" -eq 1 ]
+is 'and it is as it was' cmp -s out/curve.csv first.csv
+run --out out --force
+is 'with --force it is replaced' [ $? -eq 0 ]
+# seconds, the last column, are of the clock
+cut -d, -f1-13 out/curve.csv >second.cut
+cut -d, -f1-13 first.csv | cmp -s - second.cut
+result 'same seed, same curve' $?
+mv out/preset.ini again.ini
+rm -rf out
+"$greenbody" run again.ini --out out --quiet >stdout 2>stderr
+is 'the stored preset repeats the run' [ $? -eq 0 ]
+is 'quiet is quiet' [ ! -s stderr ]
+cut -d, -f1-13 out/curve.csv | cmp -s - second.cut
+result 'with the same curve' $?
+touch out/thesis.tex
+run --out out --force
+is 'a directory with foreign files is refused' [ $? -eq 2 ]
+is 'the foreign file is named' grep -q thesis.tex stderr
+rm -rf out
+
+run
+is 'without --out it goes to runs/' [ -f runs/default-1/curve.csv ]
+rm -rf runs
+
+# --- a signal ---------------------------------------------------------------------------
+for signal in INT:130 TERM:143; do
+    # a shell ignores INT in what it puts in the background; env gives it back
+    env --default-signal=INT "$greenbody" run default --set particles.count=3000 \
+        --set numerics.fidelity=reference --out out >stdout 2>stderr &
+    pid=$!
+    tries=0
+    until [ -e out/status.json ] && grep -q '^load' out/curve.csv; do
+        tries=$((tries + 1))
+        [ $tries -lt 600 ] || break
+        sleep 0.05
+    done
+    kill -s "${signal%:*}" $pid
+    wait $pid
+    is "${signal%:*} gives ${signal#*:}" [ $? -eq "${signal#*:}" ]
+    is 'the state is kept' [ -s out/state.h5 ]
+    is 'status says stopped' grep -q '"state" : "stopped"' out/status.json
+    rm -rf out
+done
+
+# --- a size limit, as a full disk -------------------------------------------------------
+(
+    ulimit -f 16 # blocks of 512 bytes: less than the curve
+    exec "$greenbody" run default --out out >stdout 2>stderr
+)
+is 'a full disk gives 3' [ $? -eq 3 ]
+is 'and names a file' grep -q '^greenbody: out/' stderr
+rm -rf out
+
+# --- wrong input ------------------------------------------------------------------------
+refused 'no preset' 2 "$greenbody" run --out out
+refused 'two presets' 2 "$greenbody" run default p1-set2-9.7nm --out out
+refused 'unknown option' 2 "$greenbody" run default --colour --out out
+refused 'unknown preset' 2 "$greenbody" run no-such-preset --out out
+refused 'a file that is missing' 2 "$greenbody" run ./missing.ini --out out
+refused 'a directory as preset' 2 "$greenbody" run . --out out
+printf 'not a preset\n' >broken.ini
+refused 'a broken file' 2 "$greenbody" run broken.ini --out out
+head -c 3000 /dev/urandom >noise.ini
+refused 'a binary file' 2 "$greenbody" run noise.ini --out out
+if [ "$(id -u)" -ne 0 ]; then
+    : >locked.ini
+    chmod 000 locked.ini
+    refused 'an unreadable file' 3 "$greenbody" run ./locked.ini --out out
+fi
+refused_set() { # name, assignment
+    refused "$1" 2 "$greenbody" run default --set "$2" --out out
+}
+refused_set 'unknown key' contact.nu=0.1
+refused_set 'unknown group' contcat.mu=0.1
+refused_set 'no value' contact.mu
+refused_set 'wrong unit' 'particles.diameter=10 MPa'
+refused_set 'missing unit' particles.diameter=10
+refused_set 'negative size' 'particles.diameter=-10 nm'
+refused_set 'nan' contact.mu=nan
+refused_set 'infinite' contact.mu=inf
+refused_set 'empty number' contact.mu=
+refused_set 'decimal comma' contact.mu=0,1
+refused_set 'count of zero' particles.count=0
+refused_set 'fraction of a particle' particles.count=10.5
+refused_set 'density that cannot be reached' structure.density=0.7
+refused_set 'cell too small for the cutoff' 'structure.base=2 d'
+refused_set 'unloading beyond the end' 'loading.unload_from=2 GPa'
+refused_set 'unknown choice' loading.geometry=sideways
+refused_set 'unknown relaxer' numerics.relaxer=prayer
+refused 'an empty directory name' 2 "$greenbody" run default --out ''
+touch file
+refused 'a file as directory' 2 "$greenbody" run default --out file
+refused 'below a file' 2 "$greenbody" run default --out file/run
+refused 'a directory that cannot be made' 3 "$greenbody" run default --out /proc/gb/run
+
+echo "1..$tests"
+exit $bad
