@@ -1,0 +1,152 @@
+#include "run/bench.h"
+
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "greenbody/model.h"
+#include "measure/observe.h"
+#include "pack/grow.h"
+#include "pack/world.h"
+#include "solve/relax.h"
+
+/* Batches timed, and evaluations in each: the median of the batches is what counts, because
+ * other work on the machine comes and goes. */
+enum { BATCHES = 15, BATCH = 24 };
+
+/* Strain steps on the way to the wanted coordination number, and where to give up. */
+static const double press_step = 0.01, bench_step = 0.001;
+enum { PRESS_MOST = 200 };
+
+static double seconds_since(gint64 start)
+{
+    return 1e-6 * (double)(g_get_monotonic_time() - start);
+}
+
+static bool grow(struct gb_world **world, const struct gb_model *model, double *seconds,
+                 struct gb_error *err)
+{
+    double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
+    if (!position) {
+        return false;
+    }
+    struct gb_grow order = {.dimension = model->dimension,
+                            .count = model->count,
+                            .r_eq = 1.0 - model->h_eq,
+                            .r_meso = model->r_meso,
+                            .seed = model->seed};
+    memcpy(order.edges, model->edges, sizeof order.edges);
+    const gint64 start = g_get_monotonic_time();
+    const bool done = gb_grow_place(&order, position, err);
+    *seconds = seconds_since(start);
+    const bool made = done && gb_world_create(world, model, position, err);
+    gb_alloc_free(position);
+    return made;
+}
+
+static void squeeze(struct gb_world *world, struct gb_relax *relax, double step)
+{
+    const double factor[3] = {1.0, 1.0, 1.0 - step};
+    gb_world_strain(world, factor);
+    gb_relax_start(relax, world);
+}
+
+static bool press(struct gb_world *world, struct gb_relax *relax, double coordination,
+                  struct gb_error *err)
+{
+    for (int step = 0; step < PRESS_MOST; step++) {
+        if (gb_relax_advance(relax, world, relax->max_evaluations, err) == GB_RELAX_FAILED) {
+            return false;
+        }
+        struct gb_contact_counts counts;
+        gb_observe_contacts(world, &counts, NULL, 0, NULL);
+        if (counts.coordination >= coordination) {
+            return true;
+        }
+        squeeze(world, relax, press_step);
+    }
+    return gb_error_set(err, GB_ERR_GUARD, "coordination %g: not reached", coordination);
+}
+
+/* Median time of one evaluation with its move.  The tolerance is out of reach, so that every
+ * batch has its full length. */
+static bool time_batches(struct gb_world *world, struct gb_relax *relax, double *median,
+                         struct gb_error *err)
+{
+    double seconds[BATCHES];
+    relax->tolerance = 0.0;
+    for (int batch = 0; batch < BATCHES; batch++) {
+        squeeze(world, relax, bench_step);
+        const gint64 start = g_get_monotonic_time();
+        if (gb_relax_advance(relax, world, BATCH, err) == GB_RELAX_FAILED) {
+            return false;
+        }
+        seconds[batch] = seconds_since(start) / BATCH;
+    }
+    gsl_sort(seconds, 1, BATCHES);
+    *median = gsl_stats_median_from_sorted_data(seconds, 1, BATCHES);
+    return true;
+}
+
+/* The same batches on another number of threads, from the same state. */
+static bool time_on(const struct gb_model *model, int threads,
+                    const struct gb_world_copy *copy, const double *position, double *median,
+                    uint64_t *hash, struct gb_error *err)
+{
+    struct gb_model threaded = *model;
+    threaded.numerics.threads = threads;
+    struct gb_world *world = NULL;
+    struct gb_relax *relax = NULL;
+    const bool done = gb_world_create(&world, &threaded, position, err) &&
+                      gb_relax_create(&relax, &threaded, err) &&
+                      gb_world_restore(world, copy, err) &&
+                      time_batches(world, relax, median, err);
+    *hash = done ? gb_world_hash(world) : 0;
+    gb_relax_destroy(relax);
+    gb_world_destroy(world);
+    return done;
+}
+
+static bool measure(struct gb_bench *bench, const struct gb_model *model,
+                    struct gb_world *world, struct gb_relax *relax, double coordination,
+                    struct gb_error *err)
+{
+    struct gb_world_copy *copy = NULL;
+    struct gb_contact_counts counts;
+    uint64_t one = 0, all = 0;
+    bool done = press(world, relax, coordination, err) && gb_world_save(world, &copy, err);
+    if (done) {
+        gb_observe_contacts(world, &counts, NULL, 0, NULL);
+        bench->coordination = counts.coordination;
+        bench->density = gb_observe_density(world);
+        bench->bytes_per_particle = (double)gb_alloc_bytes() / (double)model->count;
+        bench->cores = (int)g_get_num_processors();
+        done = time_on(model, 1, copy, gb_world_position(world), &bench->evaluation_s, &one,
+                       err) &&
+               time_on(model, bench->cores, copy, gb_world_position(world),
+                       &bench->evaluation_all_s, &all, err);
+        bench->same_bits = one == all;
+    }
+    gb_world_copy_destroy(copy);
+    return done;
+}
+
+bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
+                  double coordination, struct gb_error *err)
+{
+    struct gb_model model;
+    struct gb_world *world = NULL;
+    struct gb_relax *relax = NULL;
+    *bench = (struct gb_bench){0};
+    const bool done = gb_model_init(&model, params, err) &&
+                      grow(&world, &model, &bench->grow_s, err) &&
+                      gb_relax_create(&relax, &model, err) &&
+                      (gb_relax_start(relax, world), true) &&
+                      measure(bench, &model, world, relax, coordination, err);
+    gb_relax_destroy(relax);
+    gb_world_destroy(world);
+    return done;
+}
