@@ -1,0 +1,44 @@
+#!/bin/sh
+# Fills the manual page from the program itself, so that it cannot leave out a command, an
+# option or a key.  Usage: manual.sh TEMPLATE GREENBODY VERSION >greenbody.1
+set -eu
+
+template=$1
+greenbody=$2
+version=$3
+export LC_ALL=C
+# a program built with AddressSanitizer writes help, too
+export ASAN_OPTIONS=detect_leaks=0
+
+# Text as it stands: no requests, no escapes, hyphens that can be copied.
+verbatim() {
+    sed -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^[.']/\\\\\&&/"
+}
+
+commands() {
+    "$greenbody" --help |
+        sed -n '/^Commands:/,/^$/s/^  \([a-z][a-z]*\)  *\(.*\)$/\1 \2/p' |
+        while read -r name summary; do
+            printf '.SS "greenbody %s: %s"\n.nf\n' "$name" "$summary"
+            "$greenbody" "$name" --help | verbatim
+            printf '.fi\n'
+        done
+}
+
+# | `key` | default | range | unit | meaning | source |
+keys() {
+    "$greenbody" params --markdown | sed 1,2d | verbatim |
+        awk -F ' *[|] *' '{
+            gsub("`", "", $2)
+            printf ".TP\n.BI %s \" = %s\"\n%s; %s\n", $2, $3, $6, $4
+        }'
+}
+
+while IFS= read -r line; do
+    case $line in
+    @COMMANDS@) commands ;;
+    @KEYS@) keys ;;
+    *@VERSION@*) printf '%s%s%s\n' "${line%%@VERSION@*}" "$version" "${line#*@VERSION@}" ;;
+    *) printf '%s\n' "$line" ;;
+    esac
+done <"$template"
