@@ -1,0 +1,53 @@
+#include "base/file.h"
+
+#include <errno.h>
+#include <glib.h>
+#include <glib/gstdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* GLib's message names its temporary file; the user knows only the path, so what is kept is
+ * the reason after the last colon. */
+static const char *reason(const GError *error)
+{
+    const char *colon = strrchr(error->message, ':');
+    return colon != NULL && colon[1] == ' ' ? colon + 2 : error->message;
+}
+
+bool gb_file_check_target(const char *path, struct gb_error *err)
+{
+    struct stat info;
+    if (path[0] == '\0') {
+        return gb_error_set(err, GB_ERR_INPUT, "the name of the output file is empty");
+    }
+    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: is not a regular file", path);
+    }
+    char *folder = g_path_get_dirname(path);
+    const bool writable = access(folder, W_OK | X_OK) == 0;
+    const int why = errno;
+    const bool is_folder = g_file_test(folder, G_FILE_TEST_IS_DIR);
+    g_free(folder);
+    if (!writable || !is_folder) {
+        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
+                            g_strerror(writable ? ENOTDIR : why));
+    }
+    return true;
+}
+
+bool gb_file_replace(const char *path, const void *data, size_t size, struct gb_error *err)
+{
+    if (!gb_file_check_target(path, err)) {
+        return false;
+    }
+    GError *error = NULL;
+    const GFileSetContentsFlags flags =
+        G_FILE_SET_CONTENTS_CONSISTENT | G_FILE_SET_CONTENTS_DURABLE;
+    if (g_file_set_contents_full(path, data, (gssize)size, flags, 0666, &error)) {
+        return true;
+    }
+    gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path, reason(error));
+    g_error_free(error);
+    return false;
+}
