@@ -323,15 +323,9 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
     return true;
 }
 
-bool gb_pairs_fresh(const struct gb_pairs *pairs, const double *position, double cutoff,
-                    double skin)
+double gb_pairs_travel(const struct gb_pairs *pairs, const double *position)
 {
-    /* Two particles at the cutoff now were at most cutoff (1 + strain) + 2 moved apart. */
-    const double spare = skin - cutoff * pairs->strain;
-    if (spare <= 0.0) {
-        return false;
-    }
-    double most = 0.0;
+    double most = 0.0, total = 0.0;
     for (int64_t i = 0; i < pairs->count; i++) {
         double sum = 0.0;
         for (int k = 0; k < 3; k++) {
@@ -339,8 +333,15 @@ bool gb_pairs_fresh(const struct gb_pairs *pairs, const double *position, double
             sum += move * move;
         }
         most = sum > most ? sum : most;
+        total += sum;
     }
-    return 4.0 * most < spare * spare;
+    return isfinite(total) ? sqrt(most) : (double)NAN; /* comparisons pass NaN by */
+}
+
+bool gb_pairs_fresh(const struct gb_pairs *pairs, double travel, double cutoff, double skin)
+{
+    /* Two particles at the cutoff now were at most cutoff (1 + strain) + 2 travel apart. */
+    return 2.0 * travel < skin - cutoff * pairs->strain;
 }
 
 void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3])

@@ -39,10 +39,13 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
                     const double *position, double cutoff, double skin,
                     struct gb_error *err);
 
-/* False when a pair may be missing or in the wrong list: motion and strain since the build have
- * used up the skin. */
-bool gb_pairs_fresh(const struct gb_pairs *pairs, const double *position, double cutoff,
-                    double skin);
+/* Longest way a particle has come since the build, beside the affine motion; NaN when a
+ * position is not finite. */
+double gb_pairs_travel(const struct gb_pairs *pairs, const double *position);
+
+/* False when, after that travel, a pair may be missing or in the wrong list: motion and strain
+ * since the build have used up the skin. */
+bool gb_pairs_fresh(const struct gb_pairs *pairs, double travel, double cutoff, double skin);
 
 /* Scales the remembered positions with the cell. */
 void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3]);

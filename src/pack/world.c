@@ -282,11 +282,16 @@ static bool rebuild(struct gb_world *world, const struct ledger *ledger,
 static bool ensure_list(struct gb_world *world, struct gb_error *err)
 {
     const struct gb_numerics *numerics = &world->model->numerics;
-    if (world->listed && gb_pairs_fresh(&world->pairs, world->position, numerics->cutoff,
-                                        numerics->skin)) {
+    const double travel = gb_pairs_travel(&world->pairs, world->position);
+    if (!isfinite(travel)) {
+        return gb_error_set(err, GB_ERR_GUARD, "a particle's place is not a finite number");
+    }
+    if (world->listed &&
+        gb_pairs_fresh(&world->pairs, travel, numerics->cutoff, numerics->skin)) {
         return true;
     }
-    return ledger_write(&world->ledger, world, true, err) && rebuild(world, &world->ledger, err);
+    return ledger_write(&world->ledger, world, true, err) &&
+           rebuild(world, &world->ledger, err);
 }
 
 /* Attraction across a gap: force on the first particle. */

@@ -1,0 +1,79 @@
+#ifndef GB_TESTS_SCENE_H
+#define GB_TESTS_SCENE_H
+
+#include <glib.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "greenbody/model.h"
+#include "pack/grow.h"
+#include "pack/world.h"
+
+/* Parameters of a small alumina packing, then assignments "group.key=value", NULL at the end. */
+static inline struct gb_params scene_params(const char *first, ...)
+{
+    struct gb_params params;
+    struct gb_error err = {0};
+    gb_params_init(&params);
+    g_assert_true(gb_params_assign(&params, "particles.count=200", &err));
+    g_assert_true(gb_params_assign(&params, "particles.diameter=9.7 nm", &err));
+    va_list more;
+    va_start(more, first);
+    for (const char *text = first; text; text = va_arg(more, const char *)) {
+        if (!gb_params_assign(&params, text, &err)) {
+            g_error("%s: %s", text, err.text);
+        }
+    }
+    va_end(more);
+    return params;
+}
+
+static inline struct gb_model scene_model(const struct gb_params *params)
+{
+    struct gb_model model;
+    struct gb_error err = {0};
+    if (!gb_model_init(&model, params, &err)) {
+        g_error("%s", err.text);
+    }
+    return model;
+}
+
+/* Positions of the initial structure, freed with gb_alloc_free. */
+static inline double *scene_positions(const struct gb_model *model)
+{
+    struct gb_error err = {0};
+    double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, &err);
+    struct gb_grow grow = {.dimension = model->dimension,
+                           .count = model->count,
+                           .r_eq = 1.0 - model->h_eq,
+                           .r_meso = model->r_meso,
+                           .seed = model->seed};
+    memcpy(grow.edges, model->edges, sizeof grow.edges);
+    if (!position || !gb_grow_place(&grow, position, &err)) {
+        g_error("%s", err.text);
+    }
+    return position;
+}
+
+static inline struct gb_world *scene_world(const struct gb_model *model)
+{
+    struct gb_world *world = NULL;
+    struct gb_error err = {0};
+    double *position = scene_positions(model);
+    if (!gb_world_create(&world, model, position, &err)) {
+        g_error("%s", err.text);
+    }
+    gb_alloc_free(position);
+    return world;
+}
+
+static inline void scene_evaluate(struct gb_world *world)
+{
+    struct gb_error err = {0};
+    if (!gb_world_evaluate(world, &err)) {
+        g_error("%s", err.text);
+    }
+}
+
+#endif

@@ -1,0 +1,217 @@
+#include <glib.h>
+#include <math.h>
+
+#include "base/vec.h"
+#include "common/scene.h"
+
+/* Two particles, moved by hand. */
+struct pair {
+    struct gb_model model;
+    struct gb_contact contact;
+    double r[3], turn_i[3], turn_j[3];
+    struct gb_wrench wrench;
+    double torque_i[3];
+    struct gb_tally tally;
+};
+
+static void start(struct pair *pair, const struct gb_params *params, double h)
+{
+    *pair = (struct pair){.model = scene_model(params)};
+    gb_contact_clear(&pair->contact);
+    pair->r[2] = 1.0 - h;
+}
+
+static void advance(struct pair *pair)
+{
+    memset(pair->torque_i, 0, sizeof pair->torque_i);
+    gb_contact_advance(&pair->model, &pair->contact, pair->r, gb_vec_length(pair->r),
+                       pair->turn_i, pair->turn_j, &pair->wrench, pair->torque_i,
+                       &pair->tally);
+    memset(pair->turn_i, 0, sizeof pair->turn_i);
+    memset(pair->turn_j, 0, sizeof pair->turn_j);
+}
+
+static void assert_near(double a, double b, double scale)
+{
+    g_assert_cmpfloat_with_epsilon(a / scale, b / scale, 1e-10);
+}
+
+/* delta is half of the relative displacement, (4). */
+static void test_half_motion(void)
+{
+    const struct gb_params params =
+        scene_params("contact.bridge_length=1 d", "contact.mu=1", NULL);
+    struct pair pair;
+    start(&pair, &params, 0.02);
+    advance(&pair);
+    pair.r[0] = 1e-6;
+    advance(&pair);
+    const double a = 0.5 * sqrt(0.02);
+    const double stiffness = gb_law_slip_shear_stiffness(&pair.model.slip, a);
+    const double normal = gb_law_rod_force(&pair.model.rod, 0.02) - pair.model.adhesion;
+    /* the axis has turned by 1e-6 / r: the normal force tilts with it */
+    assert_near(pair.wrench.force[0], -stiffness * 0.5e-6 + normal * 1e-6 / 0.98, 1e-7);
+}
+
+/* A pair that turns as one body keeps its forces: springs turn with it. */
+static void test_rigid_rotation(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    struct pair pair;
+    start(&pair, &params, 0.02);
+    advance(&pair);
+    pair.r[0] = 1e-5; /* load the shear spring, */
+    pair.turn_i[2] = 1e-5; /* the pivot */
+    pair.turn_j[0] = 1e-5; /* and, with shear, the roll */
+    advance(&pair);
+    const double load = gb_vec_length(pair.wrench.force);
+    const double before_shear = gb_vec_length(pair.contact.shear);
+    const double before_roll = gb_vec_length(pair.contact.roll);
+    const double before_pivot = pair.contact.pivot;
+    const int steps = 2000;
+    const double angle = 1.0 / steps;
+    for (int i = 0; i < steps; i++) {
+        const double x = pair.r[0], z = pair.r[2];
+        pair.r[0] = cos(angle) * x + sin(angle) * z;
+        pair.r[2] = -sin(angle) * x + cos(angle) * z;
+        pair.turn_i[1] = pair.turn_j[1] = angle;
+        advance(&pair);
+    }
+    /* the increment of a finite rotation is exact to second order in the angle */
+    g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.contact.shear) / before_shear, 1.0, 2e-2);
+    g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.contact.roll) / before_roll, 1.0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(pair.contact.pivot / before_pivot, 1.0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.wrench.force) / load, 1.0, 1e-4);
+}
+
+/* Forces and torques on the pair balance whatever the springs do. */
+static void test_balance(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    struct pair pair;
+    start(&pair, &params, 0.02);
+    GRand *random = g_rand_new_with_seed(7);
+    for (int i = 0; i < 500; i++) {
+        for (int k = 0; k < 3; k++) {
+            pair.r[k] += g_rand_double_range(random, -1e-4, 1e-4);
+            pair.turn_i[k] = g_rand_double_range(random, -1e-3, 1e-3);
+            pair.turn_j[k] = g_rand_double_range(random, -1e-3, 1e-3);
+        }
+        if (gb_vec_length(pair.r) >= 1.0) {
+            pair.r[2] = 0.98;
+        }
+        advance(&pair);
+        /* angular momentum about the centre of j: r x f_i + t_i + t_j = 0 */
+        double moment[3];
+        gb_vec_cross(pair.r, pair.wrench.force, moment);
+        for (int k = 0; k < 3; k++) {
+            assert_near(moment[k] + pair.torque_i[k] + pair.wrench.torque_j[k], 0.0, 1e-3);
+        }
+    }
+    g_rand_free(random);
+}
+
+/* Without a bridge the shear force stops at mu f_e and a closed cycle dissipates. */
+static void test_coulomb(void)
+{
+    const struct gb_params params =
+        scene_params("contact.bridge_length=1 d", "contact.mu=0.1", NULL);
+    struct pair pair;
+    start(&pair, &params, 0.02);
+    advance(&pair);
+    const double cap = 0.1 * gb_law_rod_force(&pair.model.rod, 0.02);
+    double work = 0.0;
+    const double dx = 1e-5;
+    for (int i = 0; i < 4000; i++) {
+        const double move = (i / 1000) % 2 == 0 ? dx : -dx;
+        /* both turn so that the contact slides while the axis stays */
+        pair.turn_i[1] = pair.turn_j[1] = -move / 0.98;
+        advance(&pair);
+        g_assert_cmpfloat(fabs(pair.wrench.force[0]), <=, cap * (1.0 + 1e-12));
+        work -= pair.wrench.force[0] * move;
+    }
+    g_assert_cmpfloat(fabs(pair.wrench.force[0]), >, 0.999 * cap);
+    g_assert_cmpfloat(work, >, 0.5 * cap * 4000 * dx);
+    g_assert_cmpint(pair.tally.sliding, >, 1000);
+}
+
+/* A bridge sheared to pi a_ch^2 sigma_b shrinks to the present overlap (deep contact) or is
+ * gone (shallow one). */
+static void test_bridge_failure(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    struct pair pair;
+    start(&pair, &params, 0.03);
+    advance(&pair);
+    pair.r[2] = 1.0 - 0.026; /* opened a little: h_min stays at 0.03 */
+    advance(&pair);
+    g_assert_cmpfloat_with_epsilon(pair.contact.deepest, 0.03, 1e-12);
+    for (int i = 0; i < 400; i++) {
+        pair.turn_i[1] = pair.turn_j[1] = -1e-4;
+        advance(&pair);
+    }
+    g_assert_cmpfloat_with_epsilon(pair.contact.deepest, 0.026, 1e-12);
+    const double a = 0.5 * sqrt(0.026);
+    const double cap = gb_law_slip_bridge_shear_cap(&pair.model.slip, a);
+    g_assert_cmpfloat_with_epsilon(fabs(pair.wrench.force[0]) / cap, 1.0, 1e-9);
+
+    start(&pair, &params, 0.010);
+    advance(&pair);
+    pair.r[2] = 1.0 - 0.006; /* below drch: the next failure ends the bridge */
+    advance(&pair);
+    g_assert_cmpfloat(pair.contact.deepest, >, 0.0);
+    for (int i = 0; i < 400; i++) {
+        pair.turn_i[1] = pair.turn_j[1] = -1e-4;
+        advance(&pair);
+    }
+    g_assert_cmpfloat(pair.contact.deepest, ==, 0.0);
+    const double coulomb = 0.1 * gb_law_rod_force(&pair.model.rod, 0.006);
+    g_assert_cmpfloat_with_epsilon(fabs(pair.wrench.force[0]) / coulomb, 1.0, 1e-9);
+}
+
+/* Reaching the rolling cap a_ch f_e / 3 breaks nothing. */
+static void test_rolling_cap(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    struct pair pair;
+    start(&pair, &params, 0.03);
+    advance(&pair);
+    for (int i = 0; i < 500; i++) {
+        pair.turn_i[0] = 1e-3; /* equal and opposite: rolling without sliding */
+        pair.turn_j[0] = -1e-3;
+        advance(&pair);
+    }
+    g_assert_cmpfloat_with_epsilon(pair.contact.deepest, 0.03, 1e-12);
+    const double a = 0.5 * sqrt(0.03);
+    const double cap = a * gb_law_rod_force(&pair.model.rod, 0.03) / 3.0;
+    g_assert_cmpfloat_with_epsilon(fabs(pair.torque_i[0]) / cap, 1.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(fabs(pair.wrench.torque_j[0]) / cap, 1.0, 1e-9);
+}
+
+/* full doubles what the springs see, current takes the printed radius. */
+static void test_switches(void)
+{
+    const struct gb_params params = scene_params(
+        "contact.relative_motion=full", "contact.bridge_radius=current", NULL);
+    struct pair pair;
+    start(&pair, &params, 0.03);
+    advance(&pair);
+    pair.turn_i[2] = 1e-6;
+    advance(&pair);
+    const double a = 0.5 * sqrt(0.03 + 0.008);
+    assert_near(pair.torque_i[2],
+                -gb_law_slip_pivot_stiffness(&pair.model.slip, a) * 1e-6, 1e-9);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/contact/half-motion", test_half_motion);
+    g_test_add_func("/contact/rigid-rotation", test_rigid_rotation);
+    g_test_add_func("/contact/balance", test_balance);
+    g_test_add_func("/contact/coulomb", test_coulomb);
+    g_test_add_func("/contact/bridge-failure", test_bridge_failure);
+    g_test_add_func("/contact/rolling-cap", test_rolling_cap);
+    g_test_add_func("/contact/switches", test_switches);
+    return g_test_run();
+}

@@ -1,0 +1,339 @@
+#include <glib.h>
+#include <math.h>
+
+#include "base/vec.h"
+#include "common/scene.h"
+#include "measure/observe.h"
+
+static void squeeze(struct gb_world *world, double step)
+{
+    const double factor[3] = {1.0, 1.0, 1.0 - step};
+    gb_world_strain(world, factor);
+}
+
+/* A crude but deterministic motion along the forces. */
+static void drift(struct gb_world *world, double k)
+{
+    const struct gb_bodies b = gb_world_bodies(world);
+    for (int64_t i = 0; i < 3 * b.count; i++) {
+        b.position[i] += k * b.force[i];
+        b.turn[i] += k * b.torque[i];
+    }
+}
+
+static void press(struct gb_world *world, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        squeeze(world, 0.002);
+        for (int k = 0; k < 30; k++) {
+            scene_evaluate(world);
+            drift(world, 2.0);
+        }
+    }
+    scene_evaluate(world);
+}
+
+static int64_t brute_pairs(const struct gb_world *world, double reach)
+{
+    const double *x = gb_world_position(world);
+    int64_t found = 0;
+    for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
+        for (int64_t j = 0; j < i; j++) {
+            double r[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
+                           x[3 * i + 2] - x[3 * j + 2]};
+            gb_cell_nearest(gb_world_cell(world), r);
+            found += gb_vec_length(r) < reach;
+        }
+    }
+    return found;
+}
+
+/* The list holds just the pairs that a scan of all finds, in order, in 3D and 2D, also in cells
+ * barely wider than twice the reach. */
+static void test_pairs(void)
+{
+    const char *scene[][2] = {{"particles.count=150", "structure.seed=3"},
+                              {"particles.count=2000", "structure.seed=4"},
+                              {"scene.dimension=2", "structure.seed=5"}};
+    for (int s = 0; s < 3; s++) {
+        const struct gb_params params = scene_params(scene[s][0], scene[s][1], NULL);
+        const struct gb_model model = scene_model(&params);
+        struct gb_world *world = scene_world(&model);
+        scene_evaluate(world);
+        const struct gb_pairs *pairs = gb_world_pairs(world);
+        const double reach = model.numerics.cutoff + model.numerics.skin;
+        g_assert_cmpint(pairs->near.pair_count + pairs->far.pair_count, ==,
+                        brute_pairs(world, reach));
+        g_assert_cmpint(pairs->near.pair_count, ==,
+                        brute_pairs(world, 1.0 + model.numerics.skin));
+        for (int64_t i = 0; i < model.count; i++) {
+            for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
+                g_assert_cmpint(pairs->near.other[k], >, i);
+                g_assert_true(k == pairs->near.start[i] ||
+                              pairs->near.other[k - 1] < pairs->near.other[k]);
+            }
+        }
+        gb_world_destroy(world);
+    }
+}
+
+static void sum_forces(struct gb_world *world, double force[3], double *largest)
+{
+    const struct gb_bodies b = gb_world_bodies(world);
+    *largest = 0.0;
+    force[0] = force[1] = force[2] = 0.0;
+    for (int64_t i = 0; i < b.count; i++) {
+        gb_vec_add(force, 1.0, b.force + 3 * i);
+        *largest = fmax(*largest, gb_vec_length(b.force + 3 * i));
+    }
+}
+
+static void test_momentum(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    for (int i = 0; i < 10; i++) {
+        press(world, 3);
+        double force[3], largest;
+        sum_forces(world, force, &largest);
+        g_assert_cmpfloat(gb_vec_length(force), <, 1e-13 * (double)model.count * largest);
+    }
+    gb_world_destroy(world);
+}
+
+/* Potential energy of a frictionless, unbridged packing, with the attraction cut off where the
+ * sweep cuts it. */
+static double energy(const struct gb_world *world)
+{
+    const struct gb_model *model = gb_world_model(world);
+    const double *x = gb_world_position(world);
+    double sum = 0.0;
+    for (int64_t i = 0; i < model->count; i++) {
+        for (int64_t j = 0; j < i; j++) {
+            double r[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
+                           x[3 * i + 2] - x[3 * j + 2]};
+            gb_cell_nearest(gb_world_cell(world), r);
+            const double distance = gb_vec_length(r);
+            if (distance < model->numerics.cutoff) {
+                sum += gb_law_rod_energy(&model->rod, 1.0 - distance) +
+                       gb_law_dispersion_energy(&model->dispersion, distance) -
+                       gb_law_dispersion_energy(&model->dispersion, model->numerics.cutoff);
+            }
+        }
+    }
+    return sum;
+}
+
+/* Forces are minus the gradient of the energy, the pressure minus its derivative by volume. */
+static void test_gradient(void)
+{
+    const struct gb_params params = scene_params(
+        "contact.bridge_length=1 d", "contact.mu=0", "contact.mu_pivot=0", NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    press(world, 5);
+    const struct gb_bodies b = gb_world_bodies(world);
+    const double step = 1e-6;
+    for (int64_t i = 0; i < b.count; i += 17) {
+        for (int k = 0; k < 3; k++) {
+            const double keep = b.position[3 * i + k];
+            b.position[3 * i + k] = keep + step;
+            const double up = energy(world);
+            b.position[3 * i + k] = keep - step;
+            const double down = energy(world);
+            b.position[3 * i + k] = keep;
+            g_assert_cmpfloat_with_epsilon(b.force[3 * i + k], -(up - down) / (2.0 * step),
+                                           1e-8);
+        }
+    }
+    double pressure[3][3];
+    gb_observe_pressure(world, pressure);
+    const double volume = gb_cell_volume(gb_world_cell(world));
+    squeeze(world, step);
+    const double squeezed = energy(world);
+    squeeze(world, -2.0 * step);
+    const double widened = energy(world);
+    g_assert_cmpfloat_with_epsilon(pressure[2][2],
+                                   (squeezed - widened) / (2.0 * step * volume), 1e-8);
+    gb_world_destroy(world);
+}
+
+/* The skin decides when lists are rebuilt, never what comes out: histories are carried over. */
+static void test_skin(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    double pressure[3][3][3];
+    int64_t rebuilds[3];
+    for (int s = 0; s < 3; s++) {
+        struct gb_model model = scene_model(&params);
+        model.numerics.skin = 0.02 * (1 << s);
+        struct gb_world *world = scene_world(&model);
+        press(world, 12);
+        gb_observe_pressure(world, pressure[s]);
+        rebuilds[s] = gb_world_rebuilds(world);
+        gb_world_destroy(world);
+    }
+    g_assert_cmpint(rebuilds[0], >, rebuilds[1]);
+    g_assert_cmpint(rebuilds[1], >, rebuilds[2]);
+    for (int s = 1; s < 3; s++) {
+        for (int k = 0; k < 3; k++) {
+            g_assert_cmpfloat_with_epsilon(pressure[s][k][k] / pressure[0][k][k], 1.0, 1e-6);
+        }
+    }
+}
+
+static void test_threads(void)
+{
+    const struct gb_params params = scene_params("particles.count=700", NULL);
+    uint64_t first = 0;
+    for (int threads = 1; threads <= 8; threads++) {
+        struct gb_model model = scene_model(&params);
+        model.numerics.threads = threads;
+        struct gb_world *world = scene_world(&model);
+        press(world, 3);
+        const uint64_t hash = gb_world_hash(world);
+        first = threads == 1 ? hash : first;
+        g_assert_cmpuint(hash, ==, first);
+        gb_world_destroy(world);
+    }
+}
+
+/* Going back to a copy and repeating gives the same bits as the first time. */
+static void test_copy(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    struct gb_world_copy *copy = NULL;
+    struct gb_error err = {0};
+    uint64_t hash[2];
+    press(world, 5);
+    g_assert_true(gb_world_save(world, &copy, &err));
+    for (int i = 0; i < 2; i++) {
+        press(world, 4);
+        g_assert_true(gb_world_restore(world, copy, &err));
+        press(world, 4);
+        hash[i] = gb_world_hash(world);
+    }
+    g_assert_cmpuint(hash[0], ==, hash[1]);
+    gb_world_copy_destroy(copy);
+    gb_world_destroy(world);
+}
+
+static void test_not_finite(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    struct gb_error err = {0};
+    scene_evaluate(world);
+    gb_world_bodies(world).turn[3 * 17] = (double)NAN;
+    g_assert_false(gb_world_evaluate(world, &err));
+    g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
+    g_assert_nonnull(strstr(err.text, "not a finite number"));
+    gb_world_destroy(world);
+
+    world = scene_world(&model);
+    scene_evaluate(world);
+    gb_world_bodies(world).position[3 * 17] = (double)NAN;
+    g_assert_false(gb_world_evaluate(world, &err));
+    g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
+    gb_world_destroy(world);
+}
+
+/* The cell shrinks until the list cannot be built any more. */
+static void test_small_cell(void)
+{
+    const struct gb_params params =
+        scene_params("contact.bridge_length=1 d", "particles.diameter=38 nm", NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    struct gb_error err = {0};
+    scene_evaluate(world);
+    const double factor[3] = {2.0 * 1.02 / model.edges[0], 1.0, 3.0};
+    gb_world_strain(world, factor);
+    g_assert_false(gb_world_evaluate(world, &err));
+    g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
+    gb_world_destroy(world);
+}
+
+/* The k-th allocation fails, for every k until all pass. */
+static void test_memory(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    const struct gb_model model = scene_model(&params);
+    double *position = scene_positions(&model);
+    const size_t before = gb_alloc_bytes();
+    bool passed = false;
+    int k = 0;
+    while (!passed) {
+        struct gb_world *world = NULL;
+        struct gb_world_copy *copy = NULL;
+        struct gb_error err = {0};
+        gb_alloc_fail_after(++k);
+        passed = gb_world_create(&world, &model, position, &err) &&
+                 gb_world_evaluate(world, &err) && gb_world_save(world, &copy, &err) &&
+                 gb_world_restore(world, copy, &err);
+        gb_alloc_fail_after(0);
+        g_assert_true(passed || err.code == GB_ERR_MEMORY);
+        gb_world_copy_destroy(copy);
+        gb_world_destroy(world);
+        g_assert_cmpuint(gb_alloc_bytes(), ==, before);
+    }
+    g_assert_cmpint(k, >, 15);
+    gb_alloc_free(position);
+}
+
+/* Equal normal forces in all directions: a simple cubic crystal under pressure. */
+static void test_lattice(void)
+{
+    const struct gb_params params =
+        scene_params("particles.count=125", "contact.bridge_length=1 d", NULL);
+    struct gb_model model = scene_model(&params);
+    const double h = 0.02, r = 1.0 - h;
+    double position[3 * 125];
+    for (int i = 0; i < 125; i++) {
+        position[3 * i] = r * (i % 5 + 0.5);
+        position[3 * i + 1] = r * (i / 5 % 5 + 0.5);
+        position[3 * i + 2] = r * (i / 25 + 0.5);
+    }
+    model.edges[0] = model.edges[1] = model.edges[2] = 5.0 * r;
+    model.numerics.cutoff = 1.2;
+    struct gb_world *world = NULL;
+    struct gb_error err = {0};
+    g_assert_true(gb_world_create(&world, &model, position, &err));
+    scene_evaluate(world);
+    double pressure[3][3];
+    gb_observe_pressure(world, pressure);
+    const double expected =
+        (gb_law_rod_force(&model.rod, h) - model.adhesion) / (r * r);
+    double rose[9];
+    struct gb_contact_counts counts;
+    gb_observe_contacts(world, &counts, NULL, 0, NULL);
+    gb_observe_rose(world, 9, rose);
+    g_assert_cmpfloat(counts.coordination, ==, 6.0);
+    for (int k = 0; k < 3; k++) {
+        g_assert_cmpfloat_with_epsilon(pressure[k][k] / expected, 1.0, 1e-10);
+    }
+    g_assert_cmpfloat_with_epsilon(rose[0] / rose[8], 1.0, 1e-10);
+    g_assert_true(isnan(rose[4]));
+    g_assert_cmpfloat(gb_world_residual(world), <, 1e-12);
+    gb_world_destroy(world);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/world/pairs", test_pairs);
+    g_test_add_func("/world/momentum", test_momentum);
+    g_test_add_func("/world/gradient", test_gradient);
+    g_test_add_func("/world/skin", test_skin);
+    g_test_add_func("/world/threads", test_threads);
+    g_test_add_func("/world/copy", test_copy);
+    g_test_add_func("/world/not-finite", test_not_finite);
+    g_test_add_func("/world/small-cell", test_small_cell);
+    g_test_add_func("/world/memory", test_memory);
+    g_test_add_func("/world/lattice", test_lattice);
+    return g_test_run();
+}
