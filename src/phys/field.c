@@ -415,7 +415,7 @@ static void write_until(const struct gb_params *params, char *buffer, size_t siz
 static void write_pressures(const struct gb_params *params, char *buffer, size_t size)
 {
     buffer[0] = '\0';
-    for (int i = 0; i < params->unload_count; i++) {
+    for (int i = 0; i < MIN(params->unload_count, GB_UNLOAD_MAX); i++) {
         char number[64];
         gb_units_format(params->unload_from_pa[i], GB_DIM_PRESSURE, number, sizeof number);
         g_strlcat(buffer, i > 0 ? "; " : "", size);
@@ -464,7 +464,7 @@ char *gb_field_write(const struct gb_field *field, const struct gb_params *param
         write_choice(field, *(const int *)value, buffer, size);
         break;
     case GB_FIELD_TEXT:
-        g_strlcpy(buffer, value, size);
+        snprintf(buffer, size, "%.*s", (int)field->size, (const char *)value);
         break;
     case GB_FIELD_UNTIL:
         write_until(params, buffer, size);

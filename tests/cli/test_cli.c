@@ -1,0 +1,253 @@
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include <glib.h>
+
+/* The real program as a user calls it: exit status, one line on stderr, numbers. */
+
+static const char *program;
+
+struct result {
+    int status;
+    char *out, *err;
+};
+
+static struct result call(const char *words)
+{
+    struct result result = {0};
+    char **arguments = NULL;
+    char *line = g_strconcat("greenbody ", words, NULL);
+    g_assert_true(g_shell_parse_argv(line, NULL, &arguments, NULL));
+    g_free(arguments[0]);
+    arguments[0] = g_strdup(program);
+    int wait = 0;
+    g_assert_true(g_spawn_sync(NULL, arguments, NULL, G_SPAWN_STDIN_FROM_DEV_NULL, NULL,
+                               NULL, &result.out, &result.err, &wait, NULL));
+    result.status = WIFEXITED(wait) ? WEXITSTATUS(wait) : -1;
+    g_strfreev(arguments);
+    g_free(line);
+    return result;
+}
+
+static void finish(struct result *result)
+{
+    g_free(result->out);
+    g_free(result->err);
+}
+
+/* Words, and a part of the one line on stderr; exit status 2. */
+static const char *const refused[][2] = {
+    {"nothing", "nothing: no such option, command, file or preset; commands:"},
+    {"params extra", "params takes no words"},
+    {"params --bogus", "Unknown option --bogus"},
+    {"law", "accepted rod, bridge, dispersion"},
+    {"law storm --at h=0.1", "law storm: accepted rod"},
+    {"law rod", "law rod needs --at h=VALUE or --range"},
+    {"law rod --bogus", "Unknown option --bogus"},
+    {"law rod --at", "Missing argument"},
+    {"law rod --at h=1", "h = 1: accepted"},
+    {"law rod --at h=nan", "--at h=nan: accepted"},
+    {"law rod --at h=inf", "--at h=inf: accepted"},
+    {"law rod --at h=1e999", "accepted"},
+    {"law rod --at h=", "accepted"},
+    {"law rod --at h", "accepted"},
+    {"law rod --at r=0.1", "--at r=0.1: accepted h"},
+    {"law rod --at h=0.1,h=0.2", "accepted h, each once"},
+    {"law rod --at h=0.1,h_min=0.2", "accepted h, each once"},
+    {"law rod --range h=0:0.1:0", "--range h=0:0.1:0: accepted"},
+    {"law rod --range h=0:0.1:-5", "accepted"},
+    {"law rod --range h=0:0.1:10000001", "count 1 to 10000000"},
+    {"law rod --range h=0:0.1:1e300", "count 1 to 10000000"},
+    {"law rod --range h=0:0.1:2.5", "accepted"},
+    {"law rod --range h=0.1:0:5", "from below to"},
+    {"law rod --range h=0.1:0.1:5", "from below to"},
+    {"law rod --range h=0:0.1", "accepted name=from:to:count"},
+    {"law rod --range h=0:1:5", "h = 1: accepted"},
+    {"law rod --range r=0:0.1:5", "accepted h for law rod"},
+    {"law rod --range h=0:nan:5", "accepted"},
+    {"law rod --path 0,0.1", "law rod: accepted --at or --range"},
+    {"law normal --path 0", "--path 0: accepted two or more"},
+    {"law normal --path 0,1", "--path 0,1: accepted h below 1"},
+    {"law normal --path 0,x", "accepted two or more"},
+    {"law normal --path 0,0.1 --at h=0.1", "alone"},
+    {"law dispersion --at r=-1", "r = -1: accepted"},
+    {"law bridge --at h_min=0.02", "needs --at h="},
+    {"law bridge --at h_min=0.02,h=0.03", "accepted h up to h_min"},
+    {"law bridge --at h_min=2,h=0.03", "h_min = 2"},
+    {"law bridge --at h=0.01 contact.bridge_length=1d", "no bridges"},
+    {"law equilibrium --at h=0.1", "no --at"},
+    {"law lattice --at h=0.01", "needs --lattice"},
+    {"law lattice --lattice hcp --at h=0.01", "accepted sc, fcc, bcc or diamond"},
+    {"law rod --lattice sc --at h=0.01", "--lattice is for"},
+    {"law rod --at h=0.1 --set contact.mu=-1", "contact.mu = -1: accepted 0 to 2"},
+    {"law rod --at h=0.1 contact.muu=1", "no such key"},
+    {"law rod --at h=0.1 --set nonsense", "accepted group.key=value"},
+    {"law rod --at h=0.1 no-preset", "no-preset: no such file or preset; presets: default"},
+    {"law rod --at h=0.1 default p1-set2-38nm", "one preset is enough"},
+    {"law rod --at h=0.1 /dev/zero", "/dev/zero: larger"},
+    {"law equilibrium contact.alpha=0.05 'material.epsilon=100000 kB'", "adhesion"},
+};
+
+static void test_refused(void)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(refused); i++) {
+        struct result result = call(refused[i][0]);
+        g_test_message("%s: %d %s", refused[i][0], result.status, result.err);
+        g_assert_cmpint(result.status, ==, 2);
+        g_assert_cmpstr(result.out, ==, "");
+        g_assert_true(g_str_has_prefix(result.err, "greenbody: "));
+        g_assert_nonnull(strstr(result.err, refused[i][1]));
+        const char *newline = strchr(result.err, '\n');
+        g_assert_true(newline && newline[1] == '\0'); /* one line */
+        finish(&result);
+    }
+}
+
+static const char *const fine[][2] = {
+    {"--help", "Commands:"},
+    {"-h", "Commands:"},
+    {"--version", "compiler: "},
+    {"law --help", "Figure 1 of P1"},
+    {"params --help", "--markdown"},
+    {"params", "contact.mu "},
+    {"params --markdown", "| `contact.mu` | 0.1 | 0 to 2 | - |"},
+    {"law rod --at h=0.01", "h,force,stiffness,force_nN\n0.01,"},
+    {"law dispersion --at r=1", "r,force,force_nN\n1,"},
+    {"law shear --at h=0.01", "h,stiffness,cap\n"},
+    {"law pivot --at h=0.01", "h,stiffness,cap\n"},
+    {"law roll --at h=0.01", "h,stiffness,cap\n"},
+    {"law equilibrium", "h_eq,force_max,force_max_nN\n"},
+    {"law bridge-strength --at h=0", "h,strength_GPa\n0,"},
+    {"law lattice --lattice bcc --at h=0.02", "h,density,pressure_GPa\n"},
+    {"law rod --range h=0.1:0.1:1", "\n0.1"},
+};
+
+static void test_fine(void)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(fine); i++) {
+        struct result result = call(fine[i][0]);
+        g_test_message("%s: %d %s", fine[i][0], result.status, result.err);
+        g_assert_cmpint(result.status, ==, 0);
+        g_assert_cmpstr(result.err, ==, "");
+        g_assert_nonnull(strstr(result.out, fine[i][1]));
+        finish(&result);
+    }
+}
+
+/* Words, column of the first row, value. */
+static const struct {
+    const char *words;
+    int column;
+    double value;
+} values[] = {
+    {"law rod --at h=0.02", 1, 1.196710123552e-3},
+    {"law rod --at h=0.02", 2, 9.465896406283e-2},
+    {"law roll --at h=0.05", 1, 1.987615980000e-3},
+    {"law dispersion --at r=1 particles.diameter=9.7nm", 2, 2.930977912525e+1},
+    {"law dispersion --at r=1.2 --set particles.diameter=38nm", 1, 1.534127738445e-8},
+    {"law equilibrium p1-set2-9.7nm", 0, 1.568325077091e-2},
+    {"law equilibrium p1-set1-uniaxial", 0, 8.531363037942e-3},
+    {"law bridge p1-set2-9.7nm --at h_min=0.02,h=0.012", 1, -3.760273184113e-4},
+    {"law bridge p1-set2-9.7nm --at h=0", 1, -9.731570609486e-4},
+    {"law bridge p1-set2-38nm --at h=0.042", 1, 3.629017196809e-3},
+    {"law normal p1-set2-9.7nm --at h=-0.05", 1, -1.772580304453e-5},
+    {"law bridge-strength contact.bridge_length=0.015d --at h=0.02", 1, 3.986581957290},
+    {"law lattice --lattice sc p1-set2-9.7nm --at h=0.02", 2, 1.516403150176e-1},
+    {"law lattice --lattice fcc p1-set2-38nm --at h=0.05", 2, 5.961866653769},
+    {"law lattice --lattice fcc --at h=0", 1, 0.74048048969306},
+    {"law lattice --lattice bcc --at h=0", 1, 0.68017476158710},
+    {"law lattice --lattice diamond --at h=0", 1, 0.34008738079355},
+};
+
+static void test_values(void)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(values); i++) {
+        struct result result = call(values[i].words);
+        g_test_message("%s: %s%s", values[i].words, result.err, "");
+        g_assert_cmpint(result.status, ==, 0);
+        char **lines = g_strsplit(result.out, "\n", -1);
+        char **cells = g_strsplit(lines[1], ",", -1);
+        const double got = g_ascii_strtod(cells[values[i].column], NULL);
+        g_assert_cmpfloat_with_epsilon(got, values[i].value, 1e-10 * fabs(values[i].value));
+        g_strfreev(cells);
+        g_strfreev(lines);
+        finish(&result);
+    }
+}
+
+/* The stiffness column is the slope of the force column, on each branch of Fig. 1. */
+static void test_path(void)
+{
+    struct result result =
+        call("law normal p1-set2-16nm --path=-0.02,0.0081,-0.01,0.02,-0.01");
+    g_assert_cmpint(result.status, ==, 0);
+    char **lines = g_strsplit(g_strchomp(result.out), "\n", -1);
+    g_assert_cmpuint(g_strv_length(lines), ==, 1 + 1 + 4 * 200);
+    double last[3] = {NAN, NAN, NAN};
+    int smooth = 0, jumps = 0;
+    for (int i = 1; lines[i]; i++) {
+        char **cells = g_strsplit(lines[i], ",", -1);
+        double now[3];
+        for (int k = 0; k < 3; k++) {
+            now[k] = g_ascii_strtod(cells[k], NULL);
+        }
+        const double rise = now[1] - last[1];
+        const double want = 0.5 * (now[2] + last[2]) * (now[0] - last[0]);
+        const bool fits = fabs(rise - want) < 0.02 * fabs(want) + 1e-7;
+        smooth += fits;
+        jumps += now[0] <= 0.0 && last[0] > 0.0; /* D to B */
+        memcpy(last, now, sizeof last);
+        g_strfreev(cells);
+    }
+    g_assert_cmpint(jumps, ==, 2);
+    g_assert_cmpint(smooth, >, 600); /* the rest is partial breaking, and jumps */
+    g_strfreev(lines);
+    finish(&result);
+}
+
+/* A full disk is the machine's fault; a reader that goes away is nobody's. */
+static void test_output(void)
+{
+    static const struct {
+        const char *shell;
+        int status;
+        const char *said;
+    } rows[] = {
+        {"\"$0\" law rod --range h=0:0.1:100000 > /dev/full", 3, "standard output: No space"},
+        {"\"$0\" params > /dev/full", 3, "standard output: No space"},
+        {"\"$0\" law rod --range h=0:0.1:10000000 | head -n 1", 0, ""},
+        {"\"$0\" --help | true", 0, ""},
+    };
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        char *arguments[] = {(char *)"/bin/sh", (char *)"-c", (char *)rows[i].shell,
+                             (char *)program, NULL};
+        struct result result = {0};
+        int wait = 0;
+        g_assert_true(g_spawn_sync(NULL, arguments, NULL, G_SPAWN_DEFAULT, NULL, NULL,
+                                   &result.out, &result.err, &wait, NULL));
+        g_test_message("%s: %s", rows[i].shell, result.err);
+        g_assert_cmpint(WEXITSTATUS(wait), ==, rows[i].status);
+        g_assert_nonnull(strstr(result.err, rows[i].said));
+        g_assert_true(rows[i].status != 0 || result.err[0] == '\0');
+        finish(&result);
+    }
+}
+
+/* Usage: test_cli PROGRAM PRESET_FOLDER */
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_assert_cmpint(argc, ==, 3);
+    program = argv[1];
+    g_setenv("GB_PRESET_DIR", argv[2], TRUE);
+    g_setenv("XDG_CONFIG_HOME", "/nonexistent", TRUE);
+    g_setenv("LC_ALL", "C.UTF-8", TRUE);
+    g_test_add_func("/cli/refused", test_refused);
+    g_test_add_func("/cli/fine", test_fine);
+    g_test_add_func("/cli/values", test_values);
+    g_test_add_func("/cli/path", test_path);
+    g_test_add_func("/cli/output", test_output);
+    return g_test_run();
+}
