@@ -172,14 +172,16 @@ static bool keep_state(struct run *run, struct gb_error *err)
     return kept;
 }
 
+static bool state_due(const struct run *run)
+{
+    return caught != 0 ||
+           elapsed(run) - run->state_at >= params_of(run)->checkpoint_every_s;
+}
+
 /* Tells others and the terminal, when it is time. */
 static bool report(struct run *run, struct gb_error *err)
 {
     const double now = elapsed(run);
-    if (now - run->state_at >= params_of(run)->checkpoint_every_s &&
-        !keep_state(run, err)) {
-        return false;
-    }
     const bool status = now - run->status_at >= status_every_s;
     const bool show = gb_progress_due(&run->progress, now);
     if (!status && !show) {
@@ -217,19 +219,30 @@ static bool pack(struct run *run, struct gb_error *err)
     gb_pace_init(&run->pace);
     observe(run, GB_RUN_RUNNING);
     run->status_at = elapsed(run);
-    return keep_state(run, err) && gb_store_status(run->store, &run->shot, err);
+    return gb_store_status(run->store, &run->shot, err);
+}
+
+static enum gb_advance advance(struct run *run, int64_t evaluations)
+{
+    const double from = elapsed(run);
+    const enum gb_advance how =
+        gb_experiment_advance(run->experiment, evaluations, &run->stopped);
+    gb_pace_sliced(&run->pace, elapsed(run) - from, how == GB_ADVANCE_MORE);
+    return how;
 }
 
 /* Presses to the end of the programme, a guard or a signal.  False only when the results
- * cannot be kept. */
+ * cannot be kept.
+ *
+ * A recorded point leaves the next strain step pending: forces and positions of a state
+ * belong together after one more evaluation. */
 static bool press(struct run *run, enum gb_run_state *state, struct gb_error *err)
 {
+    enum gb_advance how = GB_ADVANCE_POINT;
     *state = GB_RUN_STOPPED;
-    while (caught == 0) {
-        const double from = elapsed(run);
-        const enum gb_advance how = gb_experiment_advance(
-            run->experiment, gb_pace_slice(&run->pace), &run->stopped);
-        gb_pace_sliced(&run->pace, elapsed(run) - from, how == GB_ADVANCE_MORE);
+    while (caught == 0 || how == GB_ADVANCE_POINT) {
+        const bool due = state_due(run);
+        how = advance(run, due ? 1 : gb_pace_slice(&run->pace));
         if (!keep_events(run, err) ||
             (how == GB_ADVANCE_POINT && !keep_point(run, err))) {
             return false;
@@ -238,7 +251,8 @@ static bool press(struct run *run, enum gb_run_state *state, struct gb_error *er
             *state = how == GB_ADVANCE_DONE ? GB_RUN_DONE : GB_RUN_STOPPED;
             return true;
         }
-        if (!report(run, err)) {
+        if ((due && how == GB_ADVANCE_MORE && !keep_state(run, err)) ||
+            !report(run, err)) {
             return false;
         }
     }
