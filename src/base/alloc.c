@@ -7,7 +7,8 @@
 
 enum { ALIGNMENT = 64 };
 
-/* The size of a block stands in the line before it, so that freeing can keep the count. */
+/* The size of a block stands in the line before it, so that freeing can keep the count.
+ */
 struct head {
     _Alignas(ALIGNMENT) size_t bytes;
 };

@@ -268,9 +268,9 @@ static double decimal_value(const struct decimal *decimal)
     return g_ascii_strtod(text, NULL);
 }
 
-/* Number of the unit's multiples in value_si, its power of ten left out: with as few digits
- * as read back to value_si, or with exactly `digits`.  False when 17 digits are not enough
- * (possible where the factor is no power of ten). */
+/* Number of the unit's multiples in value_si, its power of ten left out: with as few
+ * digits as read back to value_si, or with exactly `digits`.  False when 17 digits are
+ * not enough (possible where the factor is no power of ten). */
 static bool decimal_of(double value_si, double factor, int digits, struct decimal *out)
 {
     const double number = value_si / factor;
@@ -320,7 +320,10 @@ static char *format_digits(double value_si, enum gb_dimension dimension, int dig
                            char *buffer, size_t size)
 {
     if (!isfinite(value_si)) {
-        snprintf(buffer, size, "%s", isnan(value_si) ? "nan" : value_si > 0 ? "inf" : "-inf");
+        snprintf(buffer, size, "%s",
+                 isnan(value_si) ? "nan"
+                 : value_si > 0  ? "inf"
+                                 : "-inf");
         return buffer;
     }
     const struct unit *best = NULL;

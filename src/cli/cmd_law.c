@@ -3,187 +3,26 @@
 #include <string.h>
 
 #include "cli/commands.h"
+#include "cli/lawtable.h"
 #include "cli/options.h"
 #include "cli/points.h"
-#include "greenbody/model.h"
 
 /* Points between two corners of a path. */
 enum { PATH_STEPS = 200 };
 
-/* Nearest neighbours and volume per particle (in r^3) of a lattice. */
-struct lattice {
-    const char *name;
-    double neighbours;
-    double volume;
-};
-
-static const struct lattice lattices[] = {
-    {"sc", 6.0, 1.0},
-    {"fcc", 12.0, M_SQRT1_2},
-    {"bcc", 8.0, 0.76980035891950102}, /* 4 / (3 sqrt 3) */
-    {"diamond", 4.0, 1.5396007178390020}, /* 8 / (3 sqrt 3) */
-};
-
-/* What a row is computed from. */
-struct input {
-    const struct gb_model *model;
-    const struct lattice *lattice;
-    double x;     /* h or r */
-    double h_min; /* of a bridge; NaN: the deepest allowed */
-};
-
-struct law {
-    const char *name;
-    const char *header;
-    const char *variable; /* "h", "r", or NULL: one row without a variable */
-    bool path;            /* has a history to follow */
-    bool h_min;           /* takes h_min beside h */
-    bool bridged;         /* makes sense in scenes with bridges only */
-    double low, high;     /* of the variable; high is exclusive */
-    void (*print)(const struct input *input);
-};
-
-static double newton(const struct gb_model *model, double force)
-{
-    return force * model->newton_per_force * 1e9;
-}
-
-static void print_force(const struct gb_model *model, double h, double force,
-                        double stiffness)
-{
-    printf("%.17g,%.17g,%.17g,%.17g\n", h, force, stiffness, newton(model, force));
-}
-
-static void print_rod(const struct input *input)
-{
-    const struct gb_law_rod *rod = &input->model->rod;
-    print_force(input->model, input->x, gb_law_rod_force(rod, input->x),
-                gb_law_rod_stiffness(rod, input->x));
-}
-
-static void print_dispersion(const struct input *input)
-{
-    const double force = gb_law_dispersion_force(&input->model->dispersion, input->x);
-    printf("%.17g,%.17g,%.17g\n", input->x, force, newton(input->model, force));
-}
-
-/* f_n = f_e - f_a; h_min = 0: no bridge.  The slope is df_n/dh of the active branch. */
-static void print_contact(const struct gb_model *model, double h, double h_min)
-{
-    const struct gb_law_dispersion *dispersion = &model->dispersion;
-    const double attraction = gb_law_dispersion_force(dispersion, 1.0 - h);
-    double force = gb_law_rod_force(&model->rod, h);
-    double stiffness = gb_law_rod_stiffness(&model->rod, h);
-    if (h_min > 0.0 && h_min > h) {
-        force = gb_law_bridge_force(&model->rod, h_min, h);
-        stiffness = gb_law_rod_stiffness(&model->rod, h_min);
-    } else if (h < 0.0) {
-        stiffness += gb_law_dispersion_slope(dispersion, 1.0 - h);
-    }
-    print_force(model, h, force - attraction, stiffness);
-}
-
-static void print_normal(const struct input *input)
-{
-    print_contact(input->model, input->x, 0.0);
-}
-
-/* A bridge cannot be opened by more than its length: beyond it h_min has followed. */
-static void print_bridge(const struct input *input)
-{
-    const double deepest = input->x + input->model->bridge.length;
-    const double h_min = isnan(input->h_min) ? deepest : fmin(input->h_min, deepest);
-    print_contact(input->model, input->x, h_min);
-}
-
-static double contact_radius(double h)
-{
-    return 0.5 * sqrt(fmax(h, 0.0));
-}
-
-static void print_shear(const struct input *input)
-{
-    const struct gb_model *model = input->model;
-    printf("%.17g,%.17g,%.17g\n", input->x,
-           gb_law_slip_shear_stiffness(&model->slip, contact_radius(input->x)),
-           gb_law_slip_shear_cap(&model->slip, &model->rod, input->x));
-}
-
-static void print_pivot(const struct input *input)
-{
-    const struct gb_model *model = input->model;
-    printf("%.17g,%.17g,%.17g\n", input->x,
-           gb_law_slip_pivot_stiffness(&model->slip, contact_radius(input->x)),
-           gb_law_slip_pivot_cap(&model->slip, &model->rod, input->x));
-}
-
-static void print_roll(const struct input *input)
-{
-    const struct gb_model *model = input->model;
-    const double a = contact_radius(input->x);
-    printf("%.17g,%.17g,%.17g\n", input->x, gb_law_slip_roll_stiffness(&model->slip, a),
-           gb_law_slip_roll_cap(a, gb_law_rod_force(&model->rod, input->x)));
-}
-
-static void print_equilibrium(const struct input *input)
-{
-    const struct gb_model *model = input->model;
-    printf("%.17g,%.17g,%.17g\n", model->h_eq, model->adhesion,
-           newton(model, model->adhesion));
-}
-
-static void print_strength(const struct input *input)
-{
-    const struct gb_model *model = input->model;
-    const double stress = gb_law_bridge_peel_stress(&model->bridge, &model->rod, input->x);
-    printf("%.17g,%.17g\n", input->x, stress * model->pascal_per_stress * 1e-9);
-}
-
-/* Pressure of a perfect lattice from the virial of its nearest neighbours. */
-static void print_lattice(const struct input *input)
-{
-    const struct gb_model *model = input->model;
-    const double r = 1.0 - input->x;
-    const double volume = input->lattice->volume * r * r * r;
-    const double force = gb_law_rod_force(&model->rod, input->x) -
-                         gb_law_dispersion_force(&model->dispersion, r);
-    const double pressure = input->lattice->neighbours * force * r / (6.0 * volume);
-    printf("%.17g,%.17g,%.17g\n", input->x, M_PI / 6.0 / volume,
-           pressure * model->pascal_per_stress * 1e-9);
-}
-
-static const char force_header[] = "h,force,stiffness,force_nN";
-static const char slip_header[] = "h,stiffness,cap";
 static const double far = 1e6; /* diameters; no law reaches there */
 
-static const struct law laws[] = {
-    {"rod", force_header, "h", false, false, false, -1e6, 1.0, print_rod},
-    {"bridge", force_header, "h", true, true, true, 0.0, 1.0, print_bridge},
-    {"dispersion", "r,force,force_nN", "r", false, false, false, 0.0, 1e6,
-     print_dispersion},
-    {"normal", force_header, "h", true, false, false, -1e6, 1.0, print_normal},
-    {"shear", slip_header, "h", false, false, false, -1e6, 1.0, print_shear},
-    {"pivot", slip_header, "h", false, false, false, -1e6, 1.0, print_pivot},
-    {"roll", slip_header, "h", false, false, false, -1e6, 1.0, print_roll},
-    {"equilibrium", "h_eq,force_max,force_max_nN", NULL, false, false, false, 0.0, 0.0,
-     print_equilibrium},
-    {"bridge-strength", "h,strength_GPa", "h", false, false, true, 0.0, 1.0,
-     print_strength},
-    {"lattice", "h,density,pressure_GPa", "h", false, false, false, -1e6, 1.0,
-     print_lattice},
-};
-
 struct request {
-    const struct law *law;
-    struct input input;
+    const struct gb_lawtable_law *law;
+    struct gb_lawtable_input input;
     char **at;
     char *range;
     char *path;
     bool dry; /* check only: nothing is printed before all of the request is understood */
 };
 
-static bool check_value(const struct law *law, const struct gb_model *model, double value,
-                        struct gb_error *err)
+static bool check_value(const struct gb_lawtable_law *law, const struct gb_model *model,
+                        double value, struct gb_error *err)
 {
     const double room = law->bridged ? model->bridge.length : 0.0;
     if (value >= law->low && value + room < law->high) {
@@ -225,7 +64,7 @@ static bool read_at(struct request *request, const char *text, double *x,
     if (!gb_points_at(&at, text, err)) {
         return false;
     }
-    const struct law *law = request->law;
+    const struct gb_lawtable_law *law = request->law;
     *x = NAN;
     request->input.h_min = NAN;
     for (int i = 0; i < MIN(at.count, GB_POINTS_FIXED); i++) {
@@ -243,17 +82,17 @@ static bool read_at(struct request *request, const char *text, double *x,
         }
     }
     if (!isnan(*x) && !isnan(request->input.h_min) && *x > request->input.h_min) {
-        return gb_error_set(err, GB_ERR_INPUT, "--at %.80s: accepted h up to h_min", text);
+        return gb_error_set(err, GB_ERR_INPUT, "--at %.80s: accepted h up to h_min",
+                            text);
     }
     return true;
 }
 
-static bool missing_variable(const struct law *law, struct gb_error *err)
+static bool missing_variable(const struct gb_lawtable_law *law, struct gb_error *err)
 {
-    return gb_error_set(err, GB_ERR_INPUT,
-                        "law %s needs --at %s=VALUE or --range %s=FROM:TO:COUNT%s",
-                        law->name, law->variable, law->variable,
-                        law->path ? " or --path H,H,..." : "");
+    return gb_error_set(
+        err, GB_ERR_INPUT, "law %s needs --at %s=VALUE or --range %s=FROM:TO:COUNT%s",
+        law->name, law->variable, law->variable, law->path ? " or --path H,H,..." : "");
 }
 
 static bool print_points(struct request *request, struct gb_error *err)
@@ -325,7 +164,7 @@ static bool follow(const struct gb_model *model, const double *corners, int coun
             const double h = i == steps ? to : from + (to - from) * i / steps;
             h_min = model->terms.bridges ? gb_law_bridge_deepest(&model->bridge, h_min, h)
                                          : 0.0;
-            print_contact(model, h, h_min);
+            gb_lawtable_print_contact(model, h, h_min);
             if (ferror(stdout)) {
                 return gb_options_output_failed(err);
             }
@@ -353,7 +192,7 @@ static bool print_path(const struct request *request, struct gb_error *err)
 /* Which options this law takes, and that the scene has what it describes. */
 static bool check_request(const struct request *request, struct gb_error *err)
 {
-    const struct law *law = request->law;
+    const struct gb_lawtable_law *law = request->law;
     const int given = (request->path ? 1 : 0) + (request->range || request->at ? 1 : 0);
     if (law->bridged && !request->input.model->terms.bridges) {
         return gb_error_set(err, GB_ERR_INPUT,
@@ -394,19 +233,22 @@ static bool print_law(struct request *request, struct gb_error *err)
     return print_rows(request, err);
 }
 
-static bool find_law(const char *name, const struct law **out, struct gb_error *err)
+static bool find_law(const char *name, const struct gb_lawtable_law **out,
+                     struct gb_error *err)
 {
     GString *names = g_string_new(NULL);
     *out = NULL;
-    for (size_t i = 0; i < G_N_ELEMENTS(laws); i++) {
+    size_t count = 0;
+    const struct gb_lawtable_law *laws = gb_lawtable_laws(&count);
+    for (size_t i = 0; i < count; i++) {
         if (name && strcmp(laws[i].name, name) == 0) {
             *out = &laws[i];
         }
         g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", laws[i].name);
     }
     if (!*out) {
-        gb_error_set(err, GB_ERR_INPUT, "law %.40s: accepted %s", name ? name : "without name",
-                     names->str);
+        gb_error_set(err, GB_ERR_INPUT, "law %.40s: accepted %s",
+                     name ? name : "without name", names->str);
     }
     g_string_free(names, TRUE);
     return *out != NULL;
@@ -419,7 +261,9 @@ static bool find_lattice(const char *name, struct request *request, struct gb_er
                             name ? "--lattice is for law lattice"
                                  : "needs --lattice sc, fcc, bcc or diamond");
     }
-    for (size_t i = 0; name && i < G_N_ELEMENTS(lattices); i++) {
+    size_t count = 0;
+    const struct gb_lawtable_lattice *lattices = gb_lawtable_lattices(&count);
+    for (size_t i = 0; name && i < count; i++) {
         if (strcmp(lattices[i].name, name) == 0) {
             request->input.lattice = &lattices[i];
         }
@@ -473,7 +317,8 @@ static const struct gb_options_page page = {
         "Figure 1 of P1 (contact of 16 nm particles: A-B-C-D, then to C' and open):\n"
         "  greenbody law normal p1-set2-16nm --path=-0.02,0.0081,-0.01,0.02,-0.01\n"
         "Figure 2 of P1 (strength of bridges; the other lines with 0.01 d and 0.015 d):\n"
-        "  greenbody law bridge-strength contact.bridge_length=0.005d --range h=0:0.05:101",
+        "  greenbody law bridge-strength contact.bridge_length=0.005d --range "
+        "h=0:0.05:101",
 };
 
 int gb_cmd_law(int argc, char **argv)
@@ -488,7 +333,8 @@ int gb_cmd_law(int argc, char **argv)
          "h=0:0.1:101"},
         {"path", 0, 0, G_OPTION_ARG_STRING, &request.path, "overlaps to visit",
          "0,0.02,-0.01"},
-        {"lattice", 0, 0, G_OPTION_ARG_STRING, &lattice, "sc, fcc, bcc or diamond", "NAME"},
+        {"lattice", 0, 0, G_OPTION_ARG_STRING, &lattice, "sc, fcc, bcc or diamond",
+         "NAME"},
         GB_OPTIONS_SET(&sets),
         {0},
     };

@@ -34,7 +34,8 @@ static void write_row(const struct gb_field *field, char cells[COLUMNS][CELL])
 
 static void print_markdown(const struct gb_field *fields, size_t count)
 {
-    puts("| key | default | range | unit | meaning | source |\n|---|---|---|---|---|---|");
+    puts(
+        "| key | default | range | unit | meaning | source |\n|---|---|---|---|---|---|");
     for (size_t i = 0; i < count; i++) {
         char cells[COLUMNS][CELL];
         write_row(&fields[i], cells);
@@ -83,9 +84,10 @@ int gb_cmd_params(int argc, char **argv)
     };
     static const struct gb_options_page page = {
         .usage = "",
-        .summary = "Every preset key: default, range, unit, meaning, source.\n"
-                   "Keys are written under [group] in a preset, or as group.key=value on the\n"
-                   "command line.",
+        .summary =
+            "Every preset key: default, range, unit, meaning, source.\n"
+            "Keys are written under [group] in a preset, or as group.key=value on the\n"
+            "command line.",
     };
     char **words = NULL;
     int status = 0;

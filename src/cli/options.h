@@ -16,19 +16,21 @@ struct gb_options_page {
 };
 
 /* Reads a command's options (entries end with a zeroed one) and gives the words left over
- * (*words, g_strfreev).  False when the command is over: --help was printed (*status 0), or
- * a line about a bad option (*status 2). */
+ * (*words, g_strfreev).  False when the command is over: --help was printed (*status 0),
+ * or a line about a bad option (*status 2). */
 bool gb_options_parse(const struct gb_options_page *page, const GOptionEntry *entries,
                       int argc, char **argv, char ***words, int *status);
 
 /* The entry of --set, to be put into a command's list. */
-#define GB_OPTIONS_SET(target) \
-    {"set", 0, 0, G_OPTION_ARG_STRING_ARRAY, (target), \
-     "give a parameter another value; may be repeated", "group.key=value"}
+#define GB_OPTIONS_SET(target)                                                           \
+    {                                                                                    \
+        "set", 0, 0, G_OPTION_ARG_STRING_ARRAY, (target),                                \
+            "give a parameter another value; may be repeated", "group.key=value"         \
+    }
 
 /* Scene of a command: the preset named by the words (no word without '=': all defaults,
- * unless needed), then the words that contain '=' and the values of --set, then the check.
- * sets may be NULL.  The caller destroys *out. */
+ * unless needed), then the words that contain '=' and the values of --set, then the
+ * check. sets may be NULL.  The caller destroys *out. */
 bool gb_options_scene(struct gb_preset **out, char **words, char **sets, bool needed,
                       struct gb_error *err);
 

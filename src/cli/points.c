@@ -30,7 +30,8 @@ static const char *read_name(const char *text, char name[16])
 static bool refuse(const char *option, const char *text, const char *accepted,
                    struct gb_error *err)
 {
-    return gb_error_set(err, GB_ERR_INPUT, "%s %.80s: accepted %s", option, text, accepted);
+    return gb_error_set(err, GB_ERR_INPUT, "%s %.80s: accepted %s", option, text,
+                        accepted);
 }
 
 bool gb_points_at(struct gb_points_at *at, const char *text, struct gb_error *err)
@@ -48,20 +49,21 @@ bool gb_points_at(struct gb_points_at *at, const char *text, struct gb_error *er
         }
     }
     g_strfreev(parts);
-    return good || refuse("--at", text, "name=number, as in h=0.01 or h_min=0.02,h=0.015",
-                          err);
+    return good ||
+           refuse("--at", text, "name=number, as in h=0.01 or h_min=0.02,h=0.015", err);
 }
 
-bool gb_points_range(struct gb_points_range *range, const char *text, struct gb_error *err)
+bool gb_points_range(struct gb_points_range *range, const char *text,
+                     struct gb_error *err)
 {
     const char *rest = read_name(text, range->name);
     char **parts = g_strsplit(rest ? rest : "", ":", 4);
     double count = 0.0;
-    const bool good = g_strv_length(parts) == 3 && read_number(parts[0], &range->from) &&
-                      read_number(parts[1], &range->to) && read_number(parts[2], &count) &&
-                      count == floor(count) && count >= 1.0 && count <= GB_POINTS_MOST &&
-                      (range->from < range->to ||
-                       (range->from == range->to && count == 1.0));
+    const bool good =
+        g_strv_length(parts) == 3 && read_number(parts[0], &range->from) &&
+        read_number(parts[1], &range->to) && read_number(parts[2], &count) &&
+        count == floor(count) && count >= 1.0 && count <= GB_POINTS_MOST &&
+        (range->from < range->to || (range->from == range->to && count == 1.0));
     g_strfreev(parts);
     if (!good) {
         return refuse("--range", text,
@@ -78,7 +80,8 @@ double gb_points_range_value(const struct gb_points_range *range, int64_t index)
     if (index + 1 == range->count && index > 0) {
         return range->to;
     }
-    const double share = range->count > 1 ? (double)index / (double)(range->count - 1) : 0.0;
+    const double share =
+        range->count > 1 ? (double)index / (double)(range->count - 1) : 0.0;
     return range->from + (range->to - range->from) * share;
 }
 
@@ -92,6 +95,6 @@ bool gb_points_path(double *corners, int *count, const char *text, struct gb_err
     }
     g_strfreev(parts);
     *count = (int)length;
-    return good || refuse("--path", text,
-                          "two or more overlaps, as in 0,0.02,-0.01", err);
+    return good ||
+           refuse("--path", text, "two or more overlaps, as in 0,0.02,-0.01", err);
 }

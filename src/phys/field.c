@@ -9,14 +9,6 @@
 
 #include "base/units.h"
 
-/* Bounds of what the loading fields accept; the table has room for one range a field. */
-static const double density_min = 0.02, density_max = 0.99;
-
-static void *member(struct gb_params *params, const struct gb_field *field)
-{
-    return (char *)params + field->offset;
-}
-
 static const void *member_const(const struct gb_params *params,
                                 const struct gb_field *field)
 {
@@ -36,7 +28,7 @@ static bool is_automatic(const struct gb_field *field, double value)
     return isnan(field->automatic) ? isnan(value) : value == field->automatic;
 }
 
-static bool in_range(const struct gb_field *field, double value)
+bool gb_field_in_range(const struct gb_field *field, double value)
 {
     return isfinite(value) && value >= field->min && value <= field->max;
 }
@@ -52,15 +44,13 @@ double gb_field_absolute(const struct gb_field *field, const struct gb_params *p
     return value->relative ? value->value * reference(field, params) : value->value;
 }
 
-/* A choice whose names are numbers ("3", "2") is stored as that number, else as the index. */
-static int choice_value(const struct gb_field *field, int index)
+int gb_field_choice_value(const struct gb_field *field, int index)
 {
     const char *name = field->choices[index];
     return g_ascii_isdigit(name[0]) ? atoi(name) : index;
 }
 
-/* Index of the choice with this name, or -1. */
-static int find_choice(const struct gb_field *field, const char *text)
+int gb_field_find_choice(const struct gb_field *field, const char *text)
 {
     for (int i = 0; field->choices[i]; i++) {
         if (strcmp(field->choices[i], text) == 0) {
@@ -114,7 +104,7 @@ char *gb_field_accepted(const struct gb_field *field, char *buffer, size_t size)
         write_range(field, range, sizeof range);
         snprintf(buffer, size, "%s%s%s", field->auto_allowed ? "auto, or " : "",
                  field->type == GB_FIELD_INTEGER && !field->auto_allowed ? "whole number "
-                                                                        : "",
+                                                                         : "",
                  range);
         break;
     case GB_FIELD_SEED:
@@ -132,8 +122,8 @@ char *gb_field_accepted(const struct gb_field *field, char *buffer, size_t size)
         break;
     case GB_FIELD_UNTIL:
         write_range(field, range, sizeof range);
-        snprintf(buffer, size, "%s, or density = %g to %g", range, density_min,
-                 density_max);
+        snprintf(buffer, size, "%s, or density = %g to %g", range, GB_FIELD_DENSITY_MIN,
+                 GB_FIELD_DENSITY_MAX);
         break;
     case GB_FIELD_PRESSURES:
         write_range(field, range, sizeof range);
@@ -144,98 +134,7 @@ char *gb_field_accepted(const struct gb_field *field, char *buffer, size_t size)
     return buffer;
 }
 
-/* Units are listed only where the unit is what went wrong. */
-static bool refuse(const struct gb_field *field, const char *text, bool units,
-                   struct gb_error *err)
-{
-    char accepted[256];
-    gb_field_accepted(field, accepted, sizeof accepted);
-    const bool has_unit =
-        field->dimension != GB_DIM_NONE && field->dimension != GB_DIM_FRACTION;
-    return gb_error_set(err, GB_ERR_INPUT, "%s.%s = %.80s: accepted %s%s%s", field->group,
-                        field->key, text, accepted, units && has_unit ? "; units " : "",
-                        units && has_unit ? gb_units_accepted(unit_of(field)) : "");
-}
-
-static bool read_number(const struct gb_field *field, const char *text, double *out,
-                        struct gb_error *err)
-{
-    double value = 0.0;
-    if (!gb_units_parse(text, unit_of(field), &value, NULL)) {
-        return refuse(field, text, true, err);
-    }
-    if (!in_range(field, value)) {
-        return refuse(field, text, false, err);
-    }
-    *out = value;
-    return true;
-}
-
-static bool read_integer(const struct gb_field *field, const char *text, int64_t *out,
-                         struct gb_error *err)
-{
-    double value = 0.0;
-    if (!gb_units_parse(text, GB_DIM_NONE, &value, NULL) || value != floor(value) ||
-        !in_range(field, value)) {
-        return refuse(field, text, false, err);
-    }
-    *out = (int64_t)value;
-    return true;
-}
-
-static bool read_seed(const struct gb_field *field, const char *text, uint64_t *out,
-                      struct gb_error *err)
-{
-    guint64 value = 0;
-    if (!g_ascii_string_to_unsigned(text, 10, 0, UINT64_MAX, &value, NULL)) {
-        return refuse(field, text, false, err);
-    }
-    *out = value;
-    return true;
-}
-
-/* "0.008 d" or "0.1 nm".  The second is compared with the range only by gb_params_check,
- * because the diameter may change after it. */
-static bool read_relative(const struct gb_field *field, const char *text,
-                          struct gb_relative *out, struct gb_error *err)
-{
-    const char *end = NULL;
-    double value = 0.0;
-    if (!gb_units_number(text, &end, &value)) {
-        return refuse(field, text, true, err);
-    }
-    while (*end == ' ' || *end == '\t') {
-        end++;
-    }
-    if (strcmp(end, field->relative) == 0) {
-        if (!in_range(field, value)) {
-            return refuse(field, text, false, err);
-        }
-        *out = (struct gb_relative){value, true};
-        return true;
-    }
-    if (!gb_units_parse(text, unit_of(field), &value, NULL)) {
-        return refuse(field, text, true, err);
-    }
-    if (!(value >= 0.0)) {
-        return refuse(field, text, false, err);
-    }
-    *out = (struct gb_relative){value, false};
-    return true;
-}
-
-static bool read_choice(const struct gb_field *field, const char *text, int *out,
-                        struct gb_error *err)
-{
-    const int index = find_choice(field, text);
-    if (index < 0) {
-        return refuse(field, text, false, err);
-    }
-    *out = choice_value(field, index);
-    return true;
-}
-
-static bool plain_text(const char *text)
+bool gb_field_plain_text(const char *text)
 {
     if (!g_utf8_validate(text, -1, NULL)) {
         return false;
@@ -246,136 +145,6 @@ static bool plain_text(const char *text)
         }
     }
     return true;
-}
-
-static bool read_text(const struct gb_field *field, const char *text, char *out,
-                      struct gb_error *err)
-{
-    const size_t length = strlen(text);
-    if (length >= field->size || !plain_text(text) ||
-        (field->choices && find_choice(field, text) < 0)) {
-        return refuse(field, text, false, err);
-    }
-    memset(out, 0, field->size); /* equal values are equal bytes */
-    memcpy(out, text, length);
-    return true;
-}
-
-static bool read_until(const struct gb_field *field, const char *text,
-                       struct gb_params *params, struct gb_error *err)
-{
-    static const char word[] = "density";
-    if (!g_str_has_prefix(text, word)) {
-        double pressure = 0.0;
-        if (!read_number(field, text, &pressure, err)) {
-            return false;
-        }
-        params->until_pressure_pa = pressure;
-        params->until_density = NAN;
-        return true;
-    }
-    const char *at = text + strlen(word);
-    at += strspn(at, " \t");
-    double density = 0.0;
-    if (*at != '=' || !gb_units_parse(at + 1, GB_DIM_NONE, &density, NULL) ||
-        !(density >= density_min && density <= density_max)) {
-        return refuse(field, text, false, err);
-    }
-    params->until_density = density;
-    params->until_pressure_pa = NAN;
-    return true;
-}
-
-static int compare_numbers(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static bool read_pressures(const struct gb_field *field, const char *text,
-                           struct gb_params *params, struct gb_error *err)
-{
-    double list[GB_UNLOAD_MAX] = {0};
-    int count = 0;
-    char **parts = g_strsplit(text, ";", GB_UNLOAD_MAX + 2);
-    bool good = true;
-    for (int i = 0; parts[i] && good; i++) {
-        g_strstrip(parts[i]);
-        if (parts[i][0] == '\0') {
-            continue; /* a trailing ';' is GLib's own way of writing a list */
-        }
-        double value = 0.0;
-        if (count == GB_UNLOAD_MAX) {
-            good = refuse(field, text, false, err);
-        } else if (!gb_units_parse(parts[i], unit_of(field), &value, NULL)) {
-            good = refuse(field, text, true, err);
-        } else if (!in_range(field, value)) {
-            good = refuse(field, text, false, err);
-        } else {
-            list[count++] = value;
-        }
-    }
-    g_strfreev(parts);
-    qsort(list, (size_t)count, sizeof list[0], compare_numbers);
-    for (int i = 1; i < count && good; i++) {
-        good = list[i] > list[i - 1] || refuse(field, text, false, err);
-    }
-    if (good) {
-        memset(params->unload_from_pa, 0, sizeof params->unload_from_pa);
-        memcpy(params->unload_from_pa, list, (size_t)count * sizeof list[0]);
-        params->unload_count = count;
-    }
-    return good;
-}
-
-/* Stores what "auto" is in memory. */
-static void set_automatic(const struct gb_field *field, void *out)
-{
-    if (field->type == GB_FIELD_NUMBER) {
-        *(double *)out = field->automatic;
-    } else if (field->type == GB_FIELD_INTEGER) {
-        *(int64_t *)out = (int64_t)field->automatic;
-    } else {
-        *(struct gb_relative *)out = (struct gb_relative){field->automatic, true};
-    }
-}
-
-static bool read_trimmed(const struct gb_field *field, struct gb_params *params,
-                         const char *text, struct gb_error *err)
-{
-    void *out = member(params, field);
-    if (field->auto_allowed && strcmp(text, "auto") == 0) {
-        set_automatic(field, out);
-        return true;
-    }
-    switch (field->type) {
-    case GB_FIELD_NUMBER:
-        return read_number(field, text, out, err);
-    case GB_FIELD_RELATIVE:
-        return read_relative(field, text, out, err);
-    case GB_FIELD_INTEGER:
-        return read_integer(field, text, out, err);
-    case GB_FIELD_SEED:
-        return read_seed(field, text, out, err);
-    case GB_FIELD_CHOICE:
-        return read_choice(field, text, out, err);
-    case GB_FIELD_TEXT:
-        return read_text(field, text, out, err);
-    case GB_FIELD_UNTIL:
-        return read_until(field, text, params, err);
-    case GB_FIELD_PRESSURES:
-        return read_pressures(field, text, params, err);
-    }
-    return false;
-}
-
-bool gb_field_read(const struct gb_field *field, struct gb_params *params,
-                   const char *text, struct gb_error *err)
-{
-    char *trimmed = g_strstrip(g_strdup(text));
-    const bool good = read_trimmed(field, params, trimmed, err);
-    g_free(trimmed);
-    return good;
 }
 
 static void write_relative(const struct gb_field *field, const struct gb_relative *value,
@@ -390,10 +159,11 @@ static void write_relative(const struct gb_field *field, const struct gb_relativ
     snprintf(buffer, size, "%s %s", number, field->relative);
 }
 
-static void write_choice(const struct gb_field *field, int value, char *buffer, size_t size)
+static void write_choice(const struct gb_field *field, int value, char *buffer,
+                         size_t size)
 {
     for (int i = 0; field->choices[i]; i++) {
-        if (choice_value(field, i) == value) {
+        if (gb_field_choice_value(field, i) == value) {
             g_strlcpy(buffer, field->choices[i], size);
             return;
         }
@@ -417,7 +187,8 @@ static void write_pressures(const struct gb_params *params, char *buffer, size_t
     buffer[0] = '\0';
     for (int i = 0; i < MIN(params->unload_count, GB_UNLOAD_MAX); i++) {
         char number[64];
-        gb_units_format(params->unload_from_pa[i], GB_DIM_PRESSURE, number, sizeof number);
+        gb_units_format(params->unload_from_pa[i], GB_DIM_PRESSURE, number,
+                        sizeof number);
         g_strlcat(buffer, i > 0 ? "; " : "", size);
         g_strlcat(buffer, number, size);
     }
@@ -479,7 +250,7 @@ char *gb_field_write(const struct gb_field *field, const struct gb_params *param
 static bool valid_choice(const struct gb_field *field, int value)
 {
     for (int i = 0; field->choices[i]; i++) {
-        if (choice_value(field, i) == value) {
+        if (gb_field_choice_value(field, i) == value) {
             return true;
         }
     }
@@ -489,10 +260,11 @@ static bool valid_choice(const struct gb_field *field, int value)
 static bool valid_until(const struct gb_field *field, const struct gb_params *params)
 {
     if (isnan(params->until_density)) {
-        return in_range(field, params->until_pressure_pa);
+        return gb_field_in_range(field, params->until_pressure_pa);
     }
-    return isnan(params->until_pressure_pa) && params->until_density >= density_min &&
-           params->until_density <= density_max;
+    return isnan(params->until_pressure_pa) &&
+           params->until_density >= GB_FIELD_DENSITY_MIN &&
+           params->until_density <= GB_FIELD_DENSITY_MAX;
 }
 
 static bool valid_pressures(const struct gb_field *field, const struct gb_params *params)
@@ -502,7 +274,7 @@ static bool valid_pressures(const struct gb_field *field, const struct gb_params
         return false;
     }
     for (int i = 0; i < params->unload_count; i++) {
-        if (!in_range(field, list[i]) || (i > 0 && !(list[i] > list[i - 1]))) {
+        if (!gb_field_in_range(field, list[i]) || (i > 0 && !(list[i] > list[i - 1]))) {
             return false;
         }
     }
@@ -519,19 +291,19 @@ bool gb_field_valid(const struct gb_field *field, const struct gb_params *params
     switch (field->type) {
     case GB_FIELD_NUMBER:
     case GB_FIELD_INTEGER:
-        return in_range(field, number);
+        return gb_field_in_range(field, number);
     case GB_FIELD_RELATIVE:
         if (!((const struct gb_relative *)value)->relative) {
             number /= reference(field, params);
         }
-        return in_range(field, number);
+        return gb_field_in_range(field, number);
     case GB_FIELD_SEED:
         return true;
     case GB_FIELD_CHOICE:
         return valid_choice(field, *(const int *)value);
     case GB_FIELD_TEXT:
-        return memchr(value, '\0', field->size) && plain_text(value) &&
-               (!field->choices || find_choice(field, value) >= 0);
+        return memchr(value, '\0', field->size) && gb_field_plain_text(value) &&
+               (!field->choices || gb_field_find_choice(field, value) >= 0);
     case GB_FIELD_UNTIL:
         return valid_until(field, params);
     case GB_FIELD_PRESSURES:

@@ -110,7 +110,8 @@ static bool take_all(struct scanner *scanner, size_t length, struct gb_error *er
     const char *last = at + length;
     for (int line = 1; at < last; line++) {
         const char *newline = memchr(at, '\n', (size_t)(last - at));
-        struct piece piece = {.start = at, .stop = newline ? newline : last, .line = line};
+        struct piece piece = {
+            .start = at, .stop = newline ? newline : last, .line = line};
         at = newline ? newline + 1 : last;
         piece.end = (size_t)(at - scanner->text);
         while (piece.start < piece.stop && g_ascii_isspace(*piece.start)) {

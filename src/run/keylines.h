@@ -6,15 +6,15 @@
 
 #include "greenbody/status.h"
 
-/* Where the keys of a key file stand.  GKeyFile parses values but forgets line numbers and
- * the exact bytes, which messages and saving need. */
+/* Where the keys of a key file stand.  GKeyFile parses values but forgets line numbers
+ * and the exact bytes, which messages and saving need. */
 struct gb_keyline {
     char *group;
-    char *key;          /* NULL: the line of a [group] */
-    int line;           /* from 1 */
-    size_t value;       /* offset of the first byte of the value, blanks skipped */
-    size_t value_end;   /* behind its last byte, trailing blanks left out */
-    size_t end;         /* offset of the next line */
+    char *key;        /* NULL: the line of a [group] */
+    int line;         /* from 1 */
+    size_t value;     /* offset of the first byte of the value, blanks skipped */
+    size_t value_end; /* behind its last byte, trailing blanks left out */
+    size_t end;       /* offset of the next line */
 };
 
 struct gb_keylines {
@@ -22,8 +22,9 @@ struct gb_keylines {
     size_t count, room;
 };
 
-/* Indexes text.  Errors (GB_ERR_INPUT) begin with "path:line: ": NUL bytes, invalid UTF-8,
- * lines that are neither group, key nor comment, keys before a group, duplicate keys. */
+/* Indexes text.  Errors (GB_ERR_INPUT) begin with "path:line: ": NUL bytes, invalid
+ * UTF-8, lines that are neither group, key nor comment, keys before a group, duplicate
+ * keys. */
 bool gb_keylines_init(struct gb_keylines *lines, const char *path, const char *text,
                       size_t length, struct gb_error *err);
 void gb_keylines_finish(struct gb_keylines *lines); /* zeroed is fine */

@@ -68,8 +68,9 @@ static bool read_file(const char *path, GString *text, struct gb_error *err)
         return fail_errno(path, number, err);
     }
     if (text->len > PRESET_BYTES_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "%s: larger than a preset may be, %d bytes",
-                            path, PRESET_BYTES_MAX);
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: larger than a preset may be, %d bytes", path,
+                            PRESET_BYTES_MAX);
     }
     if (g_str_has_prefix(text->str, byte_order_mark)) {
         g_string_erase(text, 0, (gssize)strlen(byte_order_mark));
@@ -111,8 +112,8 @@ static bool apply_line(struct gb_preset *preset, GKeyFile *file,
         g_free(text);
     }
     g_free(value);
-    return good || gb_error_set(err, why.code, "%s:%d: %s", preset->path, line->line,
-                                why.text);
+    return good ||
+           gb_error_set(err, why.code, "%s:%d: %s", preset->path, line->line, why.text);
 }
 
 static bool apply(struct gb_preset *preset, struct gb_error *err)
@@ -180,15 +181,16 @@ static char *resolve(const char *name, struct gb_error *err)
     if (!path) {
         char **known = gb_preset_list();
         char *list = g_strjoinv(", ", known);
-        gb_error_set(err, GB_ERR_INPUT, "%.80s: no such file or preset; presets: %s", name,
-                     list);
+        gb_error_set(err, GB_ERR_INPUT, "%.80s: no such file or preset; presets: %s",
+                     name, list);
         g_free(list);
         g_strfreev(known);
     }
     return path;
 }
 
-bool gb_preset_load(struct gb_preset **out, const char *name_or_path, struct gb_error *err)
+bool gb_preset_load(struct gb_preset **out, const char *name_or_path,
+                    struct gb_error *err)
 {
     char *path = resolve(name_or_path, err);
     if (!path) {
@@ -218,17 +220,19 @@ const char *gb_preset_path(const struct gb_preset *preset)
     return preset->path;
 }
 
-/* Does the text of the file still say what params hold?  Compared in written form, so that
- * "0.1nm" and "0.10 nm" stay as typed. */
+/* Does the text of the file still say what params hold?  Compared in written form, so
+ * that "0.1nm" and "0.10 nm" stay as typed. */
 static bool says_same(const struct gb_preset *preset, const struct gb_keyline *line,
                       const struct gb_field *field, const char *now)
 {
-    char *typed = g_strndup(preset->text->str + line->value, line->value_end - line->value);
+    char *typed =
+        g_strndup(preset->text->str + line->value, line->value_end - line->value);
     struct gb_params then = preset->params;
     char written[PRESET_VALUE_MAX] = "";
     const bool good = gb_params_set(&then, field, typed, NULL);
     g_free(typed);
-    return good && strcmp(gb_params_format(&then, field, written, sizeof written), now) == 0;
+    return good &&
+           strcmp(gb_params_format(&then, field, written, sizeof written), now) == 0;
 }
 
 static bool is_fallback(const struct gb_field *field, const char *now)
@@ -303,9 +307,10 @@ static bool update_text(struct gb_preset *preset, bool complete, struct gb_error
 static bool write_text(const GString *text, const char *path, struct gb_error *err)
 {
     GError *trouble = NULL;
-    if (g_file_set_contents_full(
-            path, text->str, (gssize)text->len,
-            G_FILE_SET_CONTENTS_DURABLE | G_FILE_SET_CONTENTS_CONSISTENT, 0666, &trouble)) {
+    if (g_file_set_contents_full(path, text->str, (gssize)text->len,
+                                 G_FILE_SET_CONTENTS_DURABLE |
+                                     G_FILE_SET_CONTENTS_CONSISTENT,
+                                 0666, &trouble)) {
         return true;
     }
     const bool input = trouble->code == G_FILE_ERROR_NOENT ||
@@ -338,8 +343,8 @@ bool gb_preset_save(struct gb_preset *preset, const char *path, bool complete,
 static char **folders(void)
 {
     GPtrArray *list = g_ptr_array_new();
-    g_ptr_array_add(list, g_build_filename(g_get_user_config_dir(), "greenbody", "presets",
-                                           NULL));
+    g_ptr_array_add(
+        list, g_build_filename(g_get_user_config_dir(), "greenbody", "presets", NULL));
     const char *given = g_getenv("GB_PRESET_DIR");
     if (given && *given) {
         g_ptr_array_add(list, g_strdup(given));

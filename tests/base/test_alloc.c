@@ -25,8 +25,11 @@ static void test_zeroed_aligned_counted(void)
 
 static void test_overflow(void)
 {
-    static const size_t bad[][2] = {
-        {SIZE_MAX, 2}, {2, SIZE_MAX}, {SIZE_MAX / 8, 9}, {SIZE_MAX, 1}, {SIZE_MAX / 2, 1}};
+    static const size_t bad[][2] = {{SIZE_MAX, 2},
+                                    {2, SIZE_MAX},
+                                    {SIZE_MAX / 8, 9},
+                                    {SIZE_MAX, 1},
+                                    {SIZE_MAX / 2, 1}};
     for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
         struct gb_error err = {0};
         g_assert_null(gb_alloc_array(bad[i][0], bad[i][1], &err));

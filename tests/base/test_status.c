@@ -42,9 +42,12 @@ static void test_nested(void)
 
 static void test_exit_codes(void)
 {
-    static const int want[][2] = {{GB_OK, 0},           {GB_ERR_INPUT, 2},
-                                  {GB_ERR_MACHINE, 3},  {GB_ERR_MEMORY, 3},
-                                  {GB_ERR_GUARD, 1},    {GB_ERR_NOT_CONVERGED, 1},
+    static const int want[][2] = {{GB_OK, 0},
+                                  {GB_ERR_INPUT, 2},
+                                  {GB_ERR_MACHINE, 3},
+                                  {GB_ERR_MEMORY, 3},
+                                  {GB_ERR_GUARD, 1},
+                                  {GB_ERR_NOT_CONVERGED, 1},
                                   {GB_ERR_CANCELLED, 130}};
     for (size_t i = 0; i < G_N_ELEMENTS(want); i++) {
         g_assert_cmpint(gb_status_exit_code((enum gb_status)want[i][0]), ==, want[i][1]);

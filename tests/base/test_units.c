@@ -81,8 +81,8 @@ static void check_readings(void)
             char buffer[64];
             g_assert_true(good);
             g_assert_cmpfloat(value, ==, r->value);
-            g_assert_cmpstr(gb_units_format(value, r->dimension, buffer, sizeof buffer), ==,
-                            r->written);
+            g_assert_cmpstr(gb_units_format(value, r->dimension, buffer, sizeof buffer),
+                            ==, r->written);
         }
     }
 }

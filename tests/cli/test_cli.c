@@ -84,7 +84,8 @@ static const char *const refused[][2] = {
     {"law rod --at h=0.1 --set contact.mu=-1", "contact.mu = -1: accepted 0 to 2"},
     {"law rod --at h=0.1 contact.muu=1", "no such key"},
     {"law rod --at h=0.1 --set nonsense", "accepted group.key=value"},
-    {"law rod --at h=0.1 no-preset", "no-preset: no such file or preset; presets: default"},
+    {"law rod --at h=0.1 no-preset",
+     "no-preset: no such file or preset; presets: default"},
     {"law rod --at h=0.1 default p1-set2-38nm", "one preset is enough"},
     {"law rod --at h=0.1 /dev/zero", "/dev/zero: larger"},
     {"law equilibrium contact.alpha=0.05 'material.epsilon=100000 kB'", "adhesion"},
@@ -170,7 +171,8 @@ static void test_values(void)
         char **lines = g_strsplit(result.out, "\n", -1);
         char **cells = g_strsplit(lines[1], ",", -1);
         const double got = g_ascii_strtod(cells[values[i].column], NULL);
-        g_assert_cmpfloat_with_epsilon(got, values[i].value, 1e-10 * fabs(values[i].value));
+        g_assert_cmpfloat_with_epsilon(got, values[i].value,
+                                       1e-10 * fabs(values[i].value));
         g_strfreev(cells);
         g_strfreev(lines);
         finish(&result);
@@ -215,7 +217,8 @@ static void test_output(void)
         int status;
         const char *said;
     } rows[] = {
-        {"\"$0\" law rod --range h=0:0.1:100000 > /dev/full", 3, "standard output: No space"},
+        {"\"$0\" law rod --range h=0:0.1:100000 > /dev/full", 3,
+         "standard output: No space"},
         {"\"$0\" params > /dev/full", 3, "standard output: No space"},
         {"\"$0\" law rod --range h=0:0.1:10000000 | head -n 1", 0, ""},
         {"\"$0\" --help | true", 0, ""},

@@ -17,7 +17,8 @@ static void assert_close(double got, double want, double relative)
     }
 }
 
-static void make_model(struct gb_model *model, double diameter, double alpha, double length)
+static void make_model(struct gb_model *model, double diameter, double alpha,
+                       double length)
 {
     struct gb_params params;
     struct gb_error err = {0};
@@ -92,12 +93,14 @@ static double evaluate(const char *law, const struct gb_model *model, const char
 static void test_exact_values(void)
 {
     char *text = NULL;
-    g_assert_true(g_file_get_contents(GB_TEST_DIR "/exact_values_p1.csv", &text, NULL, NULL));
+    g_assert_true(
+        g_file_get_contents(GB_TEST_DIR "/exact_values_p1.csv", &text, NULL, NULL));
     char **lines = g_strsplit(text, "\n", -1);
     int rows = 0;
     for (int i = 0; lines[i]; i++) {
         char **cells = g_strsplit(lines[i], ",", -1);
-        if (lines[i][0] != '#' && g_strv_length(cells) == 5 && strcmp(cells[0], "law") != 0) {
+        if (lines[i][0] != '#' && g_strv_length(cells) == 5 &&
+            strcmp(cells[0], "law") != 0) {
             struct gb_model model;
             make_model(&model, find(cells[1], "d=", 1e-8), find(cells[1], "alpha=", 0.24),
                        find(cells[1], "drch=", 0.008));
@@ -150,7 +153,8 @@ static void test_force_is_slope_of_energy(void)
         gb_law_rod_init(&rod, poissons[k]);
         for (double h = 1e-4; h < 0.9; h *= 1.37) {
             const double step = 1e-3 * fmin(h, 1.0 - h);
-            assert_close(slope(rod_energy, &rod, h, step), gb_law_rod_force(&rod, h), 1e-9);
+            assert_close(slope(rod_energy, &rod, h, step), gb_law_rod_force(&rod, h),
+                         1e-9);
             assert_close(slope(rod_force, &rod, h, step), gb_law_rod_stiffness(&rod, h),
                          1e-9);
         }
@@ -162,8 +166,8 @@ static void test_force_is_slope_of_energy(void)
         const double r = 1.0 + gap, step = 1e-3 * (r + law->shift - 1.0);
         assert_close(slope(dispersion_energy, law, r, step),
                      gb_law_dispersion_force(law, r), 1e-6);
-        assert_close(slope(dispersion_force, law, r, step), gb_law_dispersion_slope(law, r),
-                     1e-8);
+        assert_close(slope(dispersion_force, law, r, step),
+                     gb_law_dispersion_slope(law, r), 1e-8);
     }
     assert_close(gb_law_dispersion_energy(law, 0.9),
                  gb_law_dispersion_energy(law, 1.0) - 0.1 * law->contact, 1e-12);
@@ -176,9 +180,11 @@ static void test_series_border(void)
     gb_law_rod_init(&rod, 0.25);
     const double border = 0.0625, step = 1e-10;
     const double below = border - step, above = border + step;
-    assert_close(gb_law_rod_force(&rod, above) - gb_law_rod_stiffness(&rod, border) * 2 * step,
+    assert_close(gb_law_rod_force(&rod, above) -
+                     gb_law_rod_stiffness(&rod, border) * 2 * step,
                  gb_law_rod_force(&rod, below), 1e-13);
-    assert_close(gb_law_rod_energy(&rod, above) - gb_law_rod_force(&rod, border) * 2 * step,
+    assert_close(gb_law_rod_energy(&rod, above) -
+                     gb_law_rod_force(&rod, border) * 2 * step,
                  gb_law_rod_energy(&rod, below), 1e-11);
     const double rise = (gb_law_rod_moment(&rod, border * 1.001) -
                          gb_law_rod_moment(&rod, border * 0.999)) /
@@ -298,12 +304,14 @@ static void test_continuity(void)
     assert_close(gb_law_dispersion_energy(law, 1.0 + eps),
                  gb_law_dispersion_energy(law, 1.0 - eps), 1e-9);
     struct contact contact = {&model, 0.0};
-    const double before = move(&contact, 0.008 - eps), after = move(&contact, 0.008 + eps);
+    const double before = move(&contact, 0.008 - eps),
+                 after = move(&contact, 0.008 + eps);
     g_assert_true(contact.h_min > 0.0); /* forming */
     assert_close(after, before, 1e-9);
     const double deepest = move(&contact, 0.03);
     assert_close(move(&contact, 0.03 - eps), deepest, 1e-9);
-    const double whole = move(&contact, 0.022 + eps), broken = move(&contact, 0.022 - eps);
+    const double whole = move(&contact, 0.022 + eps),
+                 broken = move(&contact, 0.022 - eps);
     g_assert_cmpfloat(contact.h_min, <, 0.03); /* partial break */
     assert_close(broken, whole, 1e-9);
 }
@@ -321,10 +329,10 @@ static void test_caps(void)
         assert_close(gb_law_slip_bridge_shear_cap(slip, a), strength, 1e-12);
         assert_close(gb_law_slip_bridge_pivot_cap(slip, a),
                      G_PI / 2.0 * a * a * a * 0.018, 1e-12);
-        assert_close(gb_law_slip_pivot_cap(slip, &model.rod, h),
-                     fmin(0.1 * gb_law_rod_moment(&model.rod, h),
-                          G_PI / 2.0 * a * a * a * 0.018),
-                     1e-12);
+        assert_close(
+            gb_law_slip_pivot_cap(slip, &model.rod, h),
+            fmin(0.1 * gb_law_rod_moment(&model.rod, h), G_PI / 2.0 * a * a * a * 0.018),
+            1e-12);
         assert_close(gb_law_slip_roll_cap(a, 0.3), 0.1 * a, 1e-12);
     }
     g_assert_cmpfloat(gb_law_slip_roll_cap(0.1, -1.0), ==, 0.0);

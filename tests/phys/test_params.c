@@ -21,7 +21,8 @@ static void test_table(void)
         g_assert_true(gb_params_find(field->group, field->key) == field);
         g_assert_cmpstr(gb_params_format(&params, field, text, sizeof text), ==,
                         field->fallback);
-        g_assert_cmpuint(strlen(gb_params_accepted(field, accepted, sizeof accepted)), >, 0);
+        g_assert_cmpuint(strlen(gb_params_accepted(field, accepted, sizeof accepted)), >,
+                         0);
         g_assert_nonnull(field->meaning);
         g_assert_nonnull(field->source);
         g_assert_true(gb_params_set(&params, field, text, NULL));
@@ -61,7 +62,8 @@ static void test_assign(void)
     g_assert_true(p.until_density == 0.6 && isnan(p.until_pressure_pa));
     g_assert_true(gb_params_assign(&p, "loading.until = 500 MPa", NULL));
     g_assert_true(p.until_pressure_pa == 5e8 && isnan(p.until_density));
-    g_assert_true(gb_params_assign(&p, "loading.unload_from=200 MPa;100MPa; 150 MPa;", NULL));
+    g_assert_true(
+        gb_params_assign(&p, "loading.unload_from=200 MPa;100MPa; 150 MPa;", NULL));
     g_assert_cmpint(p.unload_count, ==, 3);
     g_assert_true(p.unload_from_pa[0] == 1e8 && p.unload_from_pa[2] == 2e8);
     g_assert_true(gb_params_assign(&p, "loading.unload_from=", NULL));
@@ -147,7 +149,8 @@ static const struct check checks[] = {
     {{"loading.unload_from=2 GPa"}, {"loading.unload_from = 2 GPa", "loading.until"}},
     {{"loading.unload_from=2 GPa", "loading.until=density=0.6"}, {NULL}},
     {{"loading.until=density=0.2"}, {"loading.until", "structure.density"}},
-    {{"scene.dimension=2", "loading.geometry=biaxial"}, {"loading.geometry", "dimension"}},
+    {{"scene.dimension=2", "loading.geometry=biaxial"},
+     {"loading.geometry", "dimension"}},
     {{"scene.dimension=2", "loading.geometry=isotropic"}, {NULL}},
     {{"scene.dimension=2", "loading.until=density=0.45"}, {"loading.until", "0.5"}},
     {{"particles.count=10", "structure.base=3 d"}, {"particles.count", "structure.base"}},

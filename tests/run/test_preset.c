@@ -157,14 +157,18 @@ static const struct {
     {"[contact]\nmu = -1\n", 0, {":2: contact.mu = -1: accepted 0 to 2"}},
     {"[contact]\n\n# x\nmuu = 1\n", 0, {":4: contact.muu: no such key; accepted"}},
     {"[contact]\nmu = 0.1 # no comments here\n", 0, {":2:", "accepted 0 to 2"}},
-    {"[contact]\nmu = 0.1\n[x]\n[contact]\nmu = 0.2\n", 0, {":5:", "contact.mu", "line 2"}},
+    {"[contact]\nmu = 0.1\n[x]\n[contact]\nmu = 0.2\n",
+     0,
+     {":5:", "contact.mu", "line 2"}},
     {"mu = 1\n", 0, {":1:", "[group]"}},
     {"[contact\nmu = 1\n", 0, {":1:", "[group]"}},
     {"[]\n", 0, {":1:", "[group]"}},
     {"[contact]\nmu\n", 0, {":2: mu:", "key = value"}},
     {"[contact]\n= 3\n", 0, {":2:", "key = value"}},
     {"[contact]\nmu =\n", 0, {":2: contact.mu = : accepted 0 to 2"}},
-    {"[particles]\ndiameter = 10 MPa\n", 0, {":2: particles.diameter = 10 MPa", "units nm"}},
+    {"[particles]\ndiameter = 10 MPa\n",
+     0,
+     {":2: particles.diameter = 10 MPa", "units nm"}},
     {"[scene]\nkind = dynamic\n", 0, {":2: scene.kind = dynamic: accepted quasistatic"}},
     {"[contact]\nmu = 0.1\nal\0pha = 1\n", 28, {":3:", "NUL"}},
     {"[contact]\nmu = \xff\xfe\n", 0, {":2:", "UTF-8"}},
@@ -196,9 +200,13 @@ static void test_hostile(void)
 /* Files that are fine, however odd. */
 static void test_odd(void)
 {
-    static const char *const texts[] = {
-        "", "\n\n", "# only a comment", "[contact]\r\nmu = 0.3\r\n",
-        "\xef\xbb\xbf[contact]\nmu = 0.3\n", "[other]\nmu = -1\n", "[contact]\nx-mu = -1\n"};
+    static const char *const texts[] = {"",
+                                        "\n\n",
+                                        "# only a comment",
+                                        "[contact]\r\nmu = 0.3\r\n",
+                                        "\xef\xbb\xbf[contact]\nmu = 0.3\n",
+                                        "[other]\nmu = -1\n",
+                                        "[contact]\nx-mu = -1\n"};
     for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
         char *path = write_text(texts[i]);
         struct gb_preset *preset = load(path);
@@ -258,14 +266,15 @@ static void test_failed_save(void)
     g_free(path);
 }
 
-/* Files changed at random are read or refused in one line, and never break the program. */
+/* Files changed at random are read or refused in one line, and never break the program.
+ */
 static void test_random(void)
 {
     char *path = g_build_filename(GB_TEST_PRESETS, "default.ini", NULL);
     char *text = read_text(path);
     const gint32 length = (gint32)strlen(text);
     g_free(path);
-    for (int i = 0; i < 400; i++) {
+    for (int i = 0; i < 150; i++) {
         char *bytes = g_memdup2(text, (gsize)length);
         const int changes = g_test_rand_int_range(1, 6);
         for (int k = 0; k < changes; k++) {
@@ -343,8 +352,8 @@ int main(int argc, char **argv)
     g_test_add_func("/preset/list", test_list);
     g_test_add_func("/preset/lookup", test_lookup);
     const int status = g_test_run();
-    static const char *const files[] = {"a.ini", "b.ini", "complete.ini",
-                                        "greenbody/presets", "greenbody", ""};
+    static const char *const files[] = {
+        "a.ini", "b.ini", "complete.ini", "greenbody/presets", "greenbody", ""};
     for (size_t i = 0; i < G_N_ELEMENTS(files); i++) {
         char *path = in_folder(files[i]);
         g_remove(path);
