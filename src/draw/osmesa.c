@@ -1,0 +1,564 @@
+#define GL_GLEXT_PROTOTYPES
+#include "draw/osmesa.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <GL/osmesa.h>
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "draw/shaders.h"
+
+enum {
+    SAMPLES = 2,          /* a side, of one pixel */
+    TILE = 2048,          /* largest tile, pixels */
+    SHADOW = 2048,        /* side of the shadow map */
+    REACH_LIMIT = 192,    /* samples; farthest look of the occlusion, and margin of a tile */
+    CANVAS = 16,          /* OSMesa's own buffer, not drawn to */
+    RIBBON = 6,           /* vertices of a box edge */
+    TEXTURES = 6,
+    PROGRAMS = 4
+};
+
+/* Diameters within which neighbours take light from a particle. */
+static const float occlusion_reach = 3.0F;
+/* Width of box edges as a share of the shorter side of the image. */
+static const float edge_width = 0.0014F;
+
+enum program { PROGRAM_SPHERE, PROGRAM_EDGE, PROGRAM_SHADE, PROGRAM_RESOLVE };
+enum texture { TEXTURE_SEEN, TEXTURE_DEPTH, TEXTURE_SHADOW, TEXTURE_SPHERES,
+               TEXTURE_COLOURS, TEXTURE_SAMPLES };
+
+struct gb_osmesa {
+    OSMesaContext context;
+    uint8_t canvas[CANVAS * CANVAS * 4];
+    GLuint program[PROGRAMS];
+    GLint most_spheres;
+};
+
+/* Where a pass looks from, as the shaders take it. */
+struct lens {
+    float lens[4], range[2];
+    float turn[9], shift[3]; /* turn by columns */
+};
+
+/* One painting: names of GL objects, and the tile under way. */
+struct pass {
+    const struct gb_osmesa *painter;
+    const struct gb_scene *scene;
+    const struct gb_image *image;
+    GLuint texture[TEXTURES];
+    GLuint buffer[4]; /* spheres, colours, indices, ribbons */
+    GLuint frame[4];  /* seen, shadow, samples, pixels */
+    GLuint pixels, array[2];
+    uint32_t *index;
+    struct lens eye, light;
+    int margin;            /* of a tile, samples */
+    int x, y, width, height; /* tile, pixels */
+    int most_width, most_height;
+};
+
+static bool compile(GLuint program, GLenum stage, const char *text, struct gb_error *err)
+{
+    GLint done = 0;
+    const GLuint shader = glCreateShader(stage);
+    glShaderSource(shader, 1, &text, NULL);
+    glCompileShader(shader);
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+    if (done == 0) {
+        char log[200] = "";
+        glGetShaderInfoLog(shader, sizeof log, NULL, log);
+        gb_error_set(err, GB_ERR_MACHINE, "OpenGL refuses a shader: %s", log);
+    }
+    glAttachShader(program, shader);
+    glDeleteShader(shader);
+    return done != 0;
+}
+
+static bool build(GLuint *program, const struct gb_shaders_text *text, struct gb_error *err)
+{
+    GLint done = 0;
+    *program = glCreateProgram();
+    if (!compile(*program, GL_VERTEX_SHADER, text->vertex, err) ||
+        !compile(*program, GL_FRAGMENT_SHADER, text->fragment, err)) {
+        return false;
+    }
+    glLinkProgram(*program);
+    glGetProgramiv(*program, GL_LINK_STATUS, &done);
+    return done != 0 || gb_error_set(err, GB_ERR_MACHINE, "OpenGL cannot link a shader");
+}
+
+static bool make_current(struct gb_osmesa *painter, struct gb_error *err)
+{
+    return OSMesaMakeCurrent(painter->context, painter->canvas, GL_UNSIGNED_BYTE, CANVAS,
+                             CANVAS) != 0 ||
+           gb_error_set(err, GB_ERR_MACHINE, "OSMesa cannot use its context");
+}
+
+bool gb_osmesa_open(struct gb_osmesa **out, struct gb_error *err)
+{
+    static const int wanted[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE,
+                                 OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3,
+                                 OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+    static const struct gb_shaders_text *const text[PROGRAMS] = {
+        &gb_shaders_sphere, &gb_shaders_edge, &gb_shaders_shade, &gb_shaders_resolve};
+    *out = NULL;
+    struct gb_osmesa *painter = gb_alloc_array(1, sizeof *painter, err);
+    if (painter == NULL) {
+        return false;
+    }
+    painter->context = OSMesaCreateContextAttribs(wanted, NULL);
+    if (painter->context == NULL) {
+        gb_error_set(err, GB_ERR_MACHINE, "OSMesa has no OpenGL 3.3: no pictures");
+        goto fail;
+    }
+    if (!make_current(painter, err)) {
+        goto fail;
+    }
+    for (int k = 0; k < PROGRAMS; k++) {
+        if (!build(&painter->program[k], text[k], err)) {
+            goto fail;
+        }
+    }
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &painter->most_spheres);
+    *out = painter;
+    return true;
+fail:
+    gb_osmesa_close(painter);
+    return false;
+}
+
+void gb_osmesa_close(struct gb_osmesa *painter)
+{
+    if (painter == NULL) {
+        return;
+    }
+    if (painter->context != NULL) {
+        OSMesaDestroyContext(painter->context);
+    }
+    gb_alloc_free(painter);
+}
+
+static void set_float(GLuint program, const char *name, float x)
+{
+    glUniform1f(glGetUniformLocation(program, name), x);
+}
+
+static void set_vector(GLuint program, const char *name, const float *x)
+{
+    glUniform3fv(glGetUniformLocation(program, name), 1, x);
+}
+
+static void set_sampler(GLuint program, const char *name, enum texture unit)
+{
+    glUniform1i(glGetUniformLocation(program, name), (GLint)unit);
+}
+
+static void set_lens(GLuint program, const struct lens *lens, int width, int height)
+{
+    glUniform4fv(glGetUniformLocation(program, "lens"), 1, lens->lens);
+    glUniform2fv(glGetUniformLocation(program, "range"), 1, lens->range);
+    glUniformMatrix3fv(glGetUniformLocation(program, "turn"), 1, GL_FALSE, lens->turn);
+    set_vector(program, "shift", lens->shift);
+    glUniform2f(glGetUniformLocation(program, "size"), (float)width, (float)height);
+}
+
+/* sRGB byte to linear light. */
+static float linear(uint8_t byte)
+{
+    const float x = (float)byte / 255.0F;
+    return x <= 0.04045F ? x / 12.92F : powf((x + 0.055F) / 1.055F, 2.4F);
+}
+
+static void linear_colour(const uint8_t rgb[3], float out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = linear(rgb[k]);
+    }
+}
+
+static void set_eye_lens(struct pass *pass)
+{
+    const struct gb_view *view = &pass->scene->view;
+    struct lens *lens = &pass->eye;
+    *lens = (struct lens){.turn = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    for (int k = 0; k < 2; k++) {
+        const int origin = k == 0 ? pass->x : pass->y;
+        lens->lens[k] = (float)(SAMPLES * (view->centre[k] - origin) + pass->margin);
+    }
+    lens->lens[2] = (float)(SAMPLES * view->focal);
+    lens->lens[3] = view->orthographic ? 1.0F : 0.0F;
+    lens->range[0] = (float)view->near;
+    lens->range[1] = (float)view->far;
+}
+
+static float dot(const float a[3], const float b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Axes of the view from the light: rows of turn. */
+static void light_axes(const float light[3], float axis[3][3])
+{
+    const float size = sqrtf(dot(light, light));
+    for (int k = 0; k < 3; k++) {
+        axis[2][k] = -light[k] / size;
+    }
+    const float flat = hypotf(axis[2][0], axis[2][2]);
+    axis[0][0] = axis[2][2] / flat;
+    axis[0][1] = 0.0F;
+    axis[0][2] = -axis[2][0] / flat;
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3;
+        const int j = (k + 2) % 3;
+        axis[1][k] = axis[2][i] * axis[0][j] - axis[2][j] * axis[0][i];
+    }
+}
+
+/* Parallel light that sees all spheres. */
+static void set_light_lens(struct pass *pass)
+{
+    const struct gb_scene *scene = pass->scene;
+    struct lens *lens = &pass->light;
+    float axis[3][3];
+    float low[3] = {INFINITY, INFINITY, INFINITY};
+    float high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    light_axes(scene->light, axis);
+    for (size_t i = 0; i < scene->count; i++) {
+        const float *ball = &scene->sphere[4 * i];
+        for (int k = 0; k < 3; k++) {
+            const float x = dot(ball, axis[k]);
+            low[k] = fminf(low[k], x - ball[3]);
+            high[k] = fmaxf(high[k], x + ball[3]);
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        for (int j = 0; j < 3; j++) {
+            lens->turn[3 * j + k] = axis[k][j];
+        }
+        lens->shift[k] = k < 2 ? -0.5F * (low[k] + high[k]) : -low[k];
+    }
+    lens->lens[0] = lens->lens[1] = 0.5F * SHADOW;
+    lens->lens[2] = 0.96F * SHADOW / fmaxf(high[0] - low[0], high[1] - low[1]);
+    lens->lens[3] = 1.0F;
+    lens->range[0] = 0.0F;
+    lens->range[1] = high[2] - low[2];
+}
+
+static void new_texture(struct pass *pass, enum texture unit, GLint internal, GLenum format,
+                        GLenum type, int width, int height)
+{
+    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    glBindTexture(GL_TEXTURE_2D, pass->texture[unit]);
+    glTexImage2D(GL_TEXTURE_2D, 0, internal, width, height, 0, format, type, NULL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+static void attach(GLuint frame, GLenum place, GLuint texture)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, frame);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, place, GL_TEXTURE_2D, texture, 0);
+}
+
+static void make_targets(struct pass *pass)
+{
+    const int width = SAMPLES * pass->most_width + 2 * pass->margin;
+    const int height = SAMPLES * pass->most_height + 2 * pass->margin;
+    glGenTextures(TEXTURES, pass->texture);
+    glGenFramebuffers(4, pass->frame);
+    new_texture(pass, TEXTURE_SEEN, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, width, height);
+    new_texture(pass, TEXTURE_DEPTH, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT,
+                width, height);
+    new_texture(pass, TEXTURE_SHADOW, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT,
+                SHADOW, SHADOW);
+    new_texture(pass, TEXTURE_SAMPLES, GL_RGBA16F, GL_RGBA, GL_FLOAT, width, height);
+    attach(pass->frame[0], GL_COLOR_ATTACHMENT0, pass->texture[TEXTURE_SEEN]);
+    attach(pass->frame[0], GL_DEPTH_ATTACHMENT, pass->texture[TEXTURE_DEPTH]);
+    attach(pass->frame[1], GL_DEPTH_ATTACHMENT, pass->texture[TEXTURE_SHADOW]);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    attach(pass->frame[2], GL_COLOR_ATTACHMENT0, pass->texture[TEXTURE_SAMPLES]);
+    glGenRenderbuffers(1, &pass->pixels);
+    glBindRenderbuffer(GL_RENDERBUFFER, pass->pixels);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, pass->most_width, pass->most_height);
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[3]);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                              pass->pixels);
+}
+
+static void make_table(struct pass *pass, int which, enum texture unit, GLenum format,
+                       const void *data, size_t size)
+{
+    glBindBuffer(GL_TEXTURE_BUFFER, pass->buffer[which]);
+    glBufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)size, data, GL_STATIC_DRAW);
+    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    glBindTexture(GL_TEXTURE_BUFFER, pass->texture[unit]);
+    glTexBuffer(GL_TEXTURE_BUFFER, format, pass->buffer[which]);
+}
+
+static void make_inputs(struct pass *pass)
+{
+    const struct gb_scene *scene = pass->scene;
+    glGenBuffers(4, pass->buffer);
+    glGenVertexArrays(2, pass->array);
+    make_table(pass, 0, TEXTURE_SPHERES, GL_RGBA32F, scene->sphere, 16 * scene->count);
+    make_table(pass, 1, TEXTURE_COLOURS, GL_RGBA8, scene->colour, 4 * scene->count);
+    glBindVertexArray(pass->array[0]);
+    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[2]);
+    glVertexAttribIPointer(0, 1, GL_UNSIGNED_INT, 0, NULL);
+    glVertexAttribDivisor(0, 1);
+    glEnableVertexAttribArray(0);
+    glBindVertexArray(pass->array[1]);
+    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[3]);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
+    glEnableVertexAttribArray(0);
+}
+
+static void free_pass(struct pass *pass)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteVertexArrays(2, pass->array);
+    glDeleteBuffers(4, pass->buffer);
+    glDeleteRenderbuffers(1, &pass->pixels);
+    glDeleteFramebuffers(4, pass->frame);
+    glDeleteTextures(TEXTURES, pass->texture);
+    gb_alloc_free(pass->index);
+}
+
+/* Whether a sphere may show in the target; generous by the slant of perspective. */
+static bool in_target(const struct lens *lens, const float *ball, int width, int height)
+{
+    const float scale = lens->lens[3] != 0.0F ? lens->lens[2] : lens->lens[2] / ball[2];
+    const float x = lens->lens[0] + scale * ball[0];
+    const float y = lens->lens[1] - scale * ball[1];
+    const float r = 1.5F * scale * ball[3] + 2.0F;
+    return x + r >= 0.0F && y + r >= 0.0F && x - r <= (float)width && y - r <= (float)height;
+}
+
+static void draw_spheres(struct pass *pass, const struct lens *lens, bool all, int width,
+                         int height)
+{
+    const GLuint program = pass->painter->program[PROGRAM_SPHERE];
+    GLsizei count = 0;
+    for (size_t i = 0; i < pass->scene->count; i++) {
+        if (all || in_target(lens, &pass->scene->sphere[4 * i], width, height)) {
+            pass->index[count++] = (uint32_t)i;
+        }
+    }
+    glUseProgram(program);
+    set_lens(program, lens, width, height);
+    set_sampler(program, "spheres", TEXTURE_SPHERES);
+    glBindVertexArray(pass->array[0]);
+    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[2]);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)count * 4, pass->index, GL_STREAM_DRAW);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+}
+
+/* Two triangles along an edge, in samples of the tile. */
+static void ribbon(const struct lens *lens, const float edge[6], float width, float *out)
+{
+    static const int corner[RIBBON] = {0, 1, 2, 2, 1, 3};
+    float end[2][3];
+    for (int k = 0; k < 2; k++) {
+        const float *p = &edge[3 * k];
+        const bool flat = lens->lens[3] != 0.0F;
+        const float scale = flat ? lens->lens[2] : lens->lens[2] / p[2];
+        end[k][0] = lens->lens[0] + scale * p[0];
+        end[k][1] = lens->lens[1] - scale * p[1];
+        end[k][2] = flat ? p[2] : 1.0F / p[2];
+    }
+    const float dx = end[1][0] - end[0][0];
+    const float dy = end[1][1] - end[0][1];
+    const float half = 0.5F * width / fmaxf(hypotf(dx, dy), 1e-3F);
+    for (int k = 0; k < RIBBON; k++) {
+        const float *from = end[corner[k] >> 1];
+        const float side = (corner[k] & 1) != 0 ? half : -half;
+        const float past = corner[k] >> 1 != 0 ? half : -half; /* corners meet */
+        out[3 * k] = from[0] - side * dy + past * dx;
+        out[3 * k + 1] = from[1] + side * dx + past * dy;
+        out[3 * k + 2] = from[2];
+    }
+}
+
+static void draw_edges(struct pass *pass, int width, int height)
+{
+    const GLuint program = pass->painter->program[PROGRAM_EDGE];
+    const int side = pass->image->width < pass->image->height ? pass->image->width
+                                                              : pass->image->height;
+    const float thick = SAMPLES * fmaxf(edge_width * (float)side, 0.8F);
+    float vertices[12][3 * RIBBON];
+    for (int k = 0; k < pass->scene->edge_count; k++) {
+        ribbon(&pass->eye, pass->scene->edge[k], thick, vertices[k]);
+    }
+    glUseProgram(program);
+    set_lens(program, &pass->eye, width, height);
+    glBindVertexArray(pass->array[1]);
+    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[3]);
+    glBufferData(GL_ARRAY_BUFFER, sizeof vertices, vertices, GL_STREAM_DRAW);
+    glDrawArrays(GL_TRIANGLES, 0, RIBBON * pass->scene->edge_count);
+}
+
+static void draw_shadow(struct pass *pass)
+{
+    set_light_lens(pass);
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[1]);
+    glViewport(0, 0, SHADOW, SHADOW);
+    glEnable(GL_DEPTH_TEST);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    draw_spheres(pass, &pass->light, true, SHADOW, SHADOW);
+}
+
+static void draw_seen(struct pass *pass, int width, int height)
+{
+    static const GLuint nobody[4] = {0xffffffffU, 0, 0, 0};
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[0]);
+    glViewport(0, 0, width, height);
+    glEnable(GL_DEPTH_TEST);
+    glClearBufferuiv(GL_COLOR, 0, nobody);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    draw_spheres(pass, &pass->eye, false, width, height);
+    draw_edges(pass, width, height);
+}
+
+static void set_shade(const struct pass *pass, GLuint program, const float ground[3])
+{
+    const struct gb_scene *scene = pass->scene;
+    uint8_t rgb[3];
+    float ink[3];
+    float light[3];
+    gb_scene_ink(scene->ground, rgb);
+    linear_colour(rgb, ink);
+    const float size = sqrtf(dot(scene->light, scene->light));
+    for (int k = 0; k < 3; k++) {
+        light[k] = scene->light[k] / size;
+    }
+    const float sky[3] = {(float)scene->view.right[2], (float)scene->view.up[2],
+                          (float)scene->view.away[2]};
+    set_vector(program, "ground", ground);
+    set_vector(program, "ink", ink);
+    set_vector(program, "light", light);
+    set_vector(program, "sky", sky);
+    set_float(program, "reach", occlusion_reach * scene->diameter);
+    set_float(program, "reach_limit", (float)pass->margin);
+    set_float(program, "cue", scene->depth_cue);
+    set_float(program, "shadow_share", scene->shadow_share);
+    glUniformMatrix3fv(glGetUniformLocation(program, "light_turn"), 1, GL_FALSE,
+                       pass->light.turn);
+    set_vector(program, "light_shift", pass->light.shift);
+    glUniform4fv(glGetUniformLocation(program, "light_lens"), 1, pass->light.lens);
+    glUniform2fv(glGetUniformLocation(program, "light_range"), 1, pass->light.range);
+}
+
+static void draw_shade(struct pass *pass, int width, int height)
+{
+    const GLuint program = pass->painter->program[PROGRAM_SHADE];
+    uint8_t rgb[3];
+    float ground[4];
+    gb_scene_ground(pass->scene->ground, rgb);
+    linear_colour(rgb, ground);
+    ground[3] = 1.0F;
+    static const float nothing[4] = {0.0F, 0.0F, 0.0F, 0.0F};
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[2]);
+    glDisable(GL_DEPTH_TEST);
+    glClearBufferfv(GL_COLOR, 0,
+                    pass->scene->ground == GB_GROUND_TRANSPARENT ? nothing : ground);
+    glUseProgram(program);
+    set_lens(program, &pass->eye, width, height);
+    set_sampler(program, "seen", TEXTURE_SEEN);
+    set_sampler(program, "depths", TEXTURE_DEPTH);
+    set_sampler(program, "shadows", TEXTURE_SHADOW);
+    set_sampler(program, "spheres", TEXTURE_SPHERES);
+    set_sampler(program, "colours", TEXTURE_COLOURS);
+    set_shade(pass, program, ground);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+static void draw_pixels(struct pass *pass)
+{
+    const GLuint program = pass->painter->program[PROGRAM_RESOLVE];
+    const struct gb_image *image = pass->image;
+    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[3]);
+    glViewport(0, 0, pass->width, pass->height);
+    glUseProgram(program);
+    set_sampler(program, "samples", TEXTURE_SAMPLES);
+    glUniform2i(glGetUniformLocation(program, "inset"), pass->margin, pass->margin);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glPixelStorei(GL_PACK_ROW_LENGTH, image->width);
+    glReadPixels(0, 0, pass->width, pass->height, GL_RGBA, GL_UNSIGNED_BYTE,
+                 &image->rgba[4 * ((size_t)pass->y * (size_t)image->width + (size_t)pass->x)]);
+}
+
+static void paint_tile(struct pass *pass)
+{
+    const int width = SAMPLES * pass->width + 2 * pass->margin;
+    const int height = SAMPLES * pass->height + 2 * pass->margin;
+    set_eye_lens(pass);
+    draw_seen(pass, width, height);
+    draw_shade(pass, width, height);
+    draw_pixels(pass);
+}
+
+/* Samples around a tile that its own occlusion looks at; even, as pixels are 2 x 2. */
+static int tile_margin(const struct gb_scene *scene)
+{
+    const double near = scene->view.orthographic ? 1.0 : scene->view.near;
+    const double reach = SAMPLES * scene->view.focal / near * (double)occlusion_reach;
+    return 2 * (int)ceil(0.5 * fmin(reach, REACH_LIMIT));
+}
+
+static bool gl_failed(struct gb_error *err)
+{
+    const GLenum code = glGetError();
+    if (code == GL_NO_ERROR) {
+        return false;
+    }
+    gb_error_set(err, code == GL_OUT_OF_MEMORY ? GB_ERR_MEMORY : GB_ERR_MACHINE,
+                 "OpenGL cannot paint the picture (error 0x%x)", code);
+    return true;
+}
+
+static int tile_size(int side)
+{
+    const int tiles = (side + TILE - 1) / TILE;
+    return (side + tiles - 1) / tiles;
+}
+
+bool gb_osmesa_paint(struct gb_osmesa *painter, const struct gb_scene *scene,
+                     struct gb_image *image, struct gb_error *err)
+{
+    struct pass pass = {.painter = painter, .scene = scene, .image = image};
+    if (scene->count > (size_t)painter->most_spheres) {
+        return gb_error_set(err, GB_ERR_INPUT, "a picture of %zu particles: at most %d",
+                            scene->count, painter->most_spheres);
+    }
+    if (!make_current(painter, err)) {
+        return false;
+    }
+    pass.index = gb_alloc_array(scene->count, sizeof *pass.index, err);
+    if (pass.index == NULL) {
+        return false;
+    }
+    pass.margin = tile_margin(scene);
+    pass.most_width = tile_size(image->width);
+    pass.most_height = tile_size(image->height);
+    make_targets(&pass);
+    make_inputs(&pass);
+    bool failed = gl_failed(err);
+    if (!failed) {
+        draw_shadow(&pass);
+    }
+    for (pass.y = 0; pass.y < image->height && !failed; pass.y += pass.most_height) {
+        pass.height = MIN(pass.most_height, image->height - pass.y);
+        for (pass.x = 0; pass.x < image->width && !failed; pass.x += pass.most_width) {
+            pass.width = MIN(pass.most_width, image->width - pass.x);
+            paint_tile(&pass);
+            failed = gl_failed(err);
+        }
+    }
+    free_pass(&pass);
+    return !failed;
+}

@@ -1,0 +1,32 @@
+#ifndef GB_DRAW_PICTURE_H
+#define GB_DRAW_PICTURE_H
+
+#include <stdbool.h>
+
+#include "draw/image.h"
+#include "draw/scene.h"
+#include "draw/view.h"
+#include "greenbody/status.h"
+#include "run/state.h"
+
+/* From a packing to a PNG: layout, scene, paint, caption, file. */
+struct gb_picture {
+    int width, height;
+    struct gb_look look;
+    enum gb_ground ground;
+    bool words; /* title, colour bar, scale bar, density and pressure */
+};
+
+/* 1600 x 1200 on white from above the side, with words. */
+void gb_picture_init(struct gb_picture *picture);
+
+/* The libraries below have a voice of their own: stderr leads nowhere meanwhile.  Not for a
+ * process in which another thread has something to say there. */
+bool gb_picture_paint(struct gb_image **out, const struct gb_picture *picture,
+                      const struct gb_state *state, struct gb_error *err);
+
+/* Paints and writes, with version, title, seed, density and pressure as text chunks. */
+bool gb_picture_write(const struct gb_picture *picture, const struct gb_state *state,
+                      const char *path, struct gb_error *err);
+
+#endif

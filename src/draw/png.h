@@ -1,0 +1,19 @@
+#ifndef GB_DRAW_PNG_H
+#define GB_DRAW_PNG_H
+
+#include <stdbool.h>
+
+#include "draw/image.h"
+#include "greenbody/status.h"
+
+/* A text chunk: a PNG keyword (1 to 79 Latin letters) and UTF-8. */
+struct gb_png_text {
+    const char *key, *value;
+};
+
+/* Writes the image as sRGB PNG and puts it in place as a whole.  opaque leaves the alpha out.
+ * Errors: as gb_file_replace, GB_ERR_MEMORY. */
+bool gb_png_write(const struct gb_image *image, bool opaque, const struct gb_png_text *texts,
+                  int text_count, const char *path, struct gb_error *err);
+
+#endif

@@ -1,0 +1,47 @@
+#ifndef GB_DRAW_VIEW_H
+#define GB_DRAW_VIEW_H
+
+#include <stdbool.h>
+
+#include "greenbody/status.h"
+
+/* From where a picture looks at the box. */
+struct gb_look {
+    double azimuth_deg;   /* of the viewer around z; 0 is on the x axis, -90 on -y */
+    double elevation_deg; /* of the viewer above the x-y plane */
+    bool orthographic;
+};
+
+/* "corner", "front" (along y), "side" (along x), "top", or "AZIMUTH,ELEVATION" in degrees;
+ * ",flat" behind any of them makes it orthographic.  Errors: GB_ERR_INPUT saying what is
+ * accepted. */
+bool gb_view_parse(const char *text, struct gb_look *look, struct gb_error *err);
+
+/* Rectangle of the image that the box may fill, pixels, y downwards. */
+struct gb_frame {
+    double left, top, width, height;
+};
+
+/* A frozen camera.  Eye coordinates: x right, y up, w depth away from the viewer; a point
+ * is seen at pixel (centre + focal (x, -y) / w), without the division when orthographic. */
+struct gb_view {
+    double right[3], up[3], away[3]; /* orthonormal, in cell axes */
+    double target[3];                /* middle of the box */
+    double distance;                 /* depth of target; 0 when orthographic */
+    double focal, centre[2];
+    bool orthographic;
+    double near, far; /* depths of the box and the spheres that stick out of it */
+};
+
+/* Camera that sees the whole box, with `margin` around it, as large as the frame allows. */
+void gb_view_init(struct gb_view *view, const struct gb_look *look, const double cell[3],
+                  double margin, const struct gb_frame *frame);
+
+/* Eye coordinates of a point of the cell. */
+void gb_view_eye(const struct gb_view *view, const double point[3], double eye[3]);
+/* Pixel of a point in eye coordinates. */
+void gb_view_pixel(const struct gb_view *view, const double eye[3], double pixel[2]);
+/* Pixels per diameter in the middle of the box. */
+double gb_view_scale(const struct gb_view *view);
+
+#endif

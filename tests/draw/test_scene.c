@@ -1,0 +1,194 @@
+/* What there is to see, without a painter: views, frames, edges, colours, sizes. */
+#include "draw/scene.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "draw/image.h"
+#include "draw/palette.h"
+
+static const struct gb_frame frame = {100.0, 50.0, 800.0, 600.0};
+
+static struct gb_state *packing(int dimension)
+{
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    g_assert_true(gb_state_create(&state, 3, 0, &err));
+    state->dimension = dimension;
+    state->cell[0] = 4.0;
+    state->cell[1] = dimension == 2 ? 1.0 : 5.0;
+    state->cell[2] = 9.0;
+    for (int i = 0; i < 3; i++) {
+        state->position[3 * i] = 1.0 + i;
+        state->position[3 * i + 2] = 2.0 * i;
+        state->radius[i] = 0.5;
+        state->contacts[i] = 6 * i;
+    }
+    return state;
+}
+
+static void assert_inside(const struct gb_view *view, const double point[3])
+{
+    double eye[3];
+    double pixel[2];
+    gb_view_eye(view, point, eye);
+    gb_view_pixel(view, eye, pixel);
+    g_assert_cmpfloat(pixel[0], >=, frame.left - 1e-6);
+    g_assert_cmpfloat(pixel[1], >=, frame.top - 1e-6);
+    g_assert_cmpfloat(pixel[0], <=, frame.left + frame.width + 1e-6);
+    g_assert_cmpfloat(pixel[1], <=, frame.top + frame.height + 1e-6);
+    g_assert_cmpfloat(eye[2], >=, view->near - 1e-9);
+    g_assert_cmpfloat(eye[2], <=, view->far + 1e-9);
+}
+
+/* From everywhere the whole box is in the frame, and never behind the viewer. */
+static void test_fit(void)
+{
+    const double cell[3] = {4.0, 5.0, 9.0};
+    for (int flat = 0; flat < 2; flat++) {
+        for (int a = -360; a <= 360; a += 45) {
+            for (int e = -90; e <= 90; e += 30) {
+                const struct gb_look look = {a, e, flat != 0};
+                struct gb_view view;
+                gb_view_init(&view, &look, cell, 0.5, &frame);
+                for (int corner = 0; corner < 8; corner++) {
+                    double point[3];
+                    for (int k = 0; k < 3; k++) {
+                        point[k] = (corner >> k & 1) != 0 ? cell[k] + 0.5 : -0.5;
+                    }
+                    assert_inside(&view, point);
+                }
+                g_assert_true(flat != 0 || view.near > 0.0);
+            }
+        }
+    }
+}
+
+static void test_front_is_upright(void)
+{
+    const double cell[3] = {4.0, 5.0, 9.0};
+    const double low[3] = {0.0, 0.0, 0.0};
+    const double high[3] = {4.0, 0.0, 9.0};
+    double eye[2][3];
+    struct gb_view view;
+    struct gb_look look = {0};
+    g_assert_true(gb_view_parse("front,flat", &look, NULL));
+    gb_view_init(&view, &look, cell, 0.5, &frame);
+    gb_view_eye(&view, low, eye[0]);
+    gb_view_eye(&view, high, eye[1]);
+    g_assert_cmpfloat_with_epsilon(eye[1][0] - eye[0][0], 4.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(eye[1][1] - eye[0][1], 9.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(eye[1][2], eye[0][2], 1e-12);
+    g_assert_cmpfloat_with_epsilon(gb_view_scale(&view), 600.0 / 10.0, 1e-9);
+}
+
+static void test_views(void)
+{
+    struct gb_look look = {1.0, 2.0, false};
+    struct gb_error err = {0};
+    const char *wrong[] = {"", "back", "1", "1,", "1,2,3", "nan,0", "inf,0", "0,91", "361,0",
+                           "1,2,flat,flat", "corner ", ",flat", "0x10,1"};
+    for (size_t k = 0; k < G_N_ELEMENTS(wrong); k++) {
+        g_assert_false(gb_view_parse(wrong[k], &look, &err));
+        g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+        g_assert_nonnull(strstr(err.text, "corner"));
+        g_assert_cmpfloat(look.azimuth_deg, ==, 1.0);
+    }
+    g_assert_true(gb_view_parse("-30,12.5,flat", &look, &err));
+    g_assert_cmpfloat(look.azimuth_deg, ==, -30.0);
+    g_assert_cmpfloat(look.elevation_deg, ==, 12.5);
+    g_assert_true(look.orthographic);
+}
+
+static void test_sizes(void)
+{
+    struct gb_error err = {0};
+    int width = 0;
+    int height = 0;
+    const char *wrong[] = {"", "x", "1600", "1600x", "x1200", "15x100", "100x16385",
+                           "99999999999x100", "-5x100", "1600X1200", "1600x1200 ", "1e3x100"};
+    for (size_t k = 0; k < G_N_ELEMENTS(wrong); k++) {
+        g_assert_false(gb_image_parse_size(wrong[k], &width, &height, &err));
+        g_assert_nonnull(strstr(err.text, "16 to 16384"));
+    }
+    g_assert_true(gb_image_parse_size("16x16384", &width, &height, &err));
+    g_assert_cmpint(width, ==, 16);
+    g_assert_cmpint(height, ==, 16384);
+}
+
+/* Lightness grows along the scale: the order survives grey and any colour blindness. */
+static void test_palette(void)
+{
+    double last = -1.0;
+    uint8_t top[3];
+    uint8_t beyond[3];
+    for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
+        uint8_t rgb[3];
+        gb_palette_contacts(k, rgb);
+        const double light = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
+        g_assert_cmpfloat(light, >, last + 5.0);
+        last = light;
+    }
+    gb_palette_contacts(GB_PALETTE_CONTACTS, top);
+    gb_palette_contacts(100, beyond);
+    g_assert_cmpint(memcmp(top, beyond, 3), ==, 0);
+    gb_palette_contacts(0, top);
+    gb_palette_contacts(-3, beyond);
+    g_assert_cmpint(memcmp(top, beyond, 3), ==, 0);
+}
+
+static void test_scene(void)
+{
+    struct gb_scene *scene = NULL;
+    struct gb_error err = {0};
+    struct gb_state *state = packing(3);
+    const struct gb_look look = {-58.0, 20.0, false};
+    g_assert_true(gb_scene_create(&scene, state, &look, &frame, GB_GROUND_WHITE, &err));
+    g_assert_cmpuint(scene->count, ==, 3);
+    g_assert_cmpint(scene->edge_count, ==, 12);
+    for (int k = 0; k < 3; k++) {
+        uint8_t rgb[3];
+        gb_palette_contacts(6 * k, rgb);
+        g_assert_cmpint(memcmp(rgb, &scene->colour[4 * k], 3), ==, 0);
+        g_assert_cmpfloat(scene->sphere[4 * k + 3], ==, 0.5F);
+    }
+    double sum = 0.0;
+    for (int k = 0; k < 12; k++) {
+        const float *e = scene->edge[k];
+        sum += hypot(hypot(e[3] - e[0], e[4] - e[1]), e[5] - e[2]);
+    }
+    g_assert_cmpfloat_with_epsilon(sum, 4.0 * (4.0 + 5.0 + 9.0), 1e-3);
+    gb_scene_destroy(scene);
+    gb_state_destroy(state);
+}
+
+/* 2D: four edges, all at one depth, no perspective whatever was asked for. */
+static void test_planar(void)
+{
+    struct gb_scene *scene = NULL;
+    struct gb_error err = {0};
+    struct gb_state *state = packing(2);
+    const struct gb_look look = {-58.0, 20.0, false};
+    g_assert_true(gb_scene_create(&scene, state, &look, &frame, GB_GROUND_WHITE, &err));
+    g_assert_true(scene->view.orthographic);
+    g_assert_cmpint(scene->edge_count, ==, 4);
+    for (size_t k = 0; k < 3; k++) {
+        g_assert_cmpfloat_with_epsilon(scene->sphere[4 * k + 2], 0.0F, 1e-6F);
+    }
+    gb_scene_destroy(scene);
+    gb_state_destroy(state);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/draw/scene/fit", test_fit);
+    g_test_add_func("/draw/scene/front-is-upright", test_front_is_upright);
+    g_test_add_func("/draw/scene/views", test_views);
+    g_test_add_func("/draw/scene/sizes", test_sizes);
+    g_test_add_func("/draw/scene/palette", test_palette);
+    g_test_add_func("/draw/scene/scene", test_scene);
+    g_test_add_func("/draw/scene/planar", test_planar);
+    return g_test_run();
+}

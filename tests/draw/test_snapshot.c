@@ -1,0 +1,314 @@
+/* Pictures: a few spheres at known places, looked up in the pixels. */
+#include <glib.h>
+#include <glib/gstdio.h>
+#include <math.h>
+#include <png.h>
+#include <string.h>
+
+#include "draw/caption.h"
+#include "draw/palette.h"
+#include "draw/picture.h"
+#include "draw/png.h"
+
+enum { SIDE = 400 };
+
+/* One sphere in front of another, and one aside; the box is large. */
+static struct gb_state *packing(int dimension)
+{
+    static const double place[3][3] = {{5.0, 2.0, 5.0}, {5.0, 8.0, 5.0}, {2.0, 5.0, 8.0}};
+    static const int contacts[3] = {2, 12, 7};
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    g_assert_true(gb_state_create(&state, 3, 0, &err));
+    state->dimension = dimension;
+    for (int k = 0; k < 3; k++) {
+        state->cell[k] = dimension == 2 && k == 1 ? 1.0 : 10.0;
+        memcpy(&state->position[3 * k], place[k], sizeof place[k]);
+        state->radius[k] = k == 1 ? 0.9 : 1.0;
+        state->contacts[k] = contacts[k];
+        if (dimension == 2) {
+            state->position[3 * k] = 2.0 + 3.0 * k;
+            state->position[3 * k + 1] = 0.0;
+        }
+    }
+    state->point.density = 0.5123;
+    state->point.p_pa = 1e8;
+    state->metre_per_length = 1e-8;
+    state->seed = 42;
+    g_strlcpy(state->preset, "Al₂O₃ test", sizeof state->preset);
+    return state;
+}
+
+static struct gb_picture front(void)
+{
+    struct gb_picture picture;
+    gb_picture_init(&picture);
+    picture.width = picture.height = SIDE;
+    picture.words = false;
+    g_assert_true(gb_view_parse("front", &picture.look, NULL));
+    return picture;
+}
+
+static struct gb_image *paint(const struct gb_picture *picture, const struct gb_state *state)
+{
+    struct gb_image *image = NULL;
+    struct gb_error err = {0};
+    const bool done = gb_picture_paint(&image, picture, state, &err);
+    g_assert_cmpstr(err.text, ==, "");
+    g_assert_true(done);
+    return image;
+}
+
+static const uint8_t *at(const struct gb_image *image, double x, double y)
+{
+    return &image->rgba[4 * ((size_t)lround(y) * (size_t)image->width + (size_t)lround(x))];
+}
+
+/* Where the camera of a picture sees a particle. */
+static const uint8_t *particle(const struct gb_image *image, const struct gb_picture *picture,
+                               const struct gb_state *state, int index)
+{
+    struct gb_caption_layout layout;
+    struct gb_scene *scene = NULL;
+    struct gb_error err = {0};
+    double pixel[2];
+    gb_caption_place(image->width, image->height, picture->words, &layout);
+    g_assert_true(gb_scene_create(&scene, state, &picture->look, &layout.scene,
+                                  picture->ground, &err));
+    const float *ball = &scene->sphere[4 * index];
+    gb_view_pixel(&scene->view, (const double[3]){ball[0], ball[1], ball[2]}, pixel);
+    gb_scene_destroy(scene);
+    return at(image, pixel[0], pixel[1]);
+}
+
+/* The coordination number whose colour has the hue nearest to a lit pixel. */
+static int nearest_contacts(const uint8_t *pixel)
+{
+    int best = -1;
+    double closest = 1e9;
+    const double size = hypot(hypot(pixel[0], pixel[1]), pixel[2]);
+    for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
+        uint8_t rgb[3];
+        gb_palette_contacts(k, rgb);
+        const double full = hypot(hypot(rgb[0], rgb[1]), rgb[2]);
+        double far = 0.0;
+        for (int c = 0; c < 3; c++) {
+            far += fabs(pixel[c] / size - rgb[c] / full);
+        }
+        if (far < closest) {
+            closest = far;
+            best = k;
+        }
+    }
+    return best;
+}
+
+/* The sphere in front hides the one behind it; each has its colour; the rest is ground. */
+static void test_colours_and_depth(void)
+{
+    struct gb_state *state = packing(3);
+    struct gb_picture picture = front();
+    struct gb_image *image = paint(&picture, state);
+    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 0)) - 2), <=, 1);
+    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 2)) - 7), <=, 1);
+    const uint8_t white[4] = {255, 255, 255, 255};
+    g_assert_cmpint(memcmp(at(image, 2, 2), white, 4), ==, 0);
+    gb_image_destroy(image);
+    /* from the other side it is the other way round */
+    g_assert_true(gb_view_parse("90,0,flat", &picture.look, NULL));
+    image = paint(&picture, state);
+    g_assert_cmpint(nearest_contacts(particle(image, &picture, state, 1)), >=, 11);
+    gb_image_destroy(image);
+    gb_state_destroy(state);
+}
+
+/* The silhouette is a disc of the right area: antialiased coverage, transparent ground. */
+static void test_silhouette(void)
+{
+    struct gb_state *state = packing(3);
+    struct gb_picture picture = front();
+    struct gb_caption_layout layout;
+    struct gb_scene *scene = NULL;
+    double covered = 0.0;
+    double inked = 0.0;
+    g_assert_true(gb_view_parse("front,flat", &picture.look, NULL));
+    picture.ground = GB_GROUND_TRANSPARENT;
+    struct gb_image *image = paint(&picture, state);
+    gb_caption_place(SIDE, SIDE, false, &layout);
+    g_assert_true(gb_scene_create(&scene, state, &picture.look, &layout.scene,
+                                  GB_GROUND_TRANSPARENT, NULL));
+    const double scale = gb_view_scale(&scene->view);
+    for (int y = 0; y < SIDE; y++) {
+        for (int x = 0; x < SIDE; x++) {
+            const double alpha = at(image, x, y)[3] / 255.0;
+            const bool inside = x > 60 && y > 60 && x < SIDE - 60 && y < SIDE - 60;
+            covered += inside ? alpha : 0.0;
+            inked += inside ? 0.0 : alpha;
+        }
+    }
+    /* two discs: the third is hidden */
+    g_assert_cmpfloat_with_epsilon(covered / (2.0 * G_PI * scale * scale), 1.0, 0.01);
+    g_assert_cmpfloat(inked, >, SIDE); /* the box */
+    gb_scene_destroy(scene);
+    gb_image_destroy(image);
+    gb_state_destroy(state);
+}
+
+static void test_same_bits(void)
+{
+    struct gb_state *state = packing(3);
+    struct gb_picture picture;
+    gb_picture_init(&picture);
+    picture.width = 640;
+    picture.height = 480;
+    struct gb_image *one = paint(&picture, state);
+    struct gb_image *two = paint(&picture, state);
+    g_assert_cmpint(memcmp(one->rgba, two->rgba, (size_t)640 * 480 * 4), ==, 0);
+    gb_image_destroy(one);
+    gb_image_destroy(two);
+    gb_state_destroy(state);
+}
+
+/* A picture wider than a tile has no seam: it is the same picture. */
+static void test_tiles(void)
+{
+    struct gb_state *state = packing(3);
+    struct gb_picture picture = front();
+    picture.width = 2100; /* two tiles */
+    picture.height = 300;
+    struct gb_image *image = paint(&picture, state);
+    /* the middle column crosses the nearest sphere: its row must be as smooth there */
+    const int y = 150;
+    for (int x = 1030; x < 1070; x++) {
+        for (int c = 0; c < 3; c++) {
+            g_assert_cmpint(abs(at(image, x, y)[c] - at(image, x + 1, y)[c]), <=, 12);
+        }
+    }
+    gb_image_destroy(image);
+    gb_state_destroy(state);
+}
+
+static void test_colour_bar(void)
+{
+    struct gb_state *state = packing(3);
+    struct gb_picture picture;
+    struct gb_caption_layout layout;
+    gb_picture_init(&picture);
+    picture.width = 800;
+    picture.height = 600;
+    struct gb_image *image = paint(&picture, state);
+    gb_caption_place(800, 600, true, &layout);
+    const double step = layout.bar.height / (GB_PALETTE_CONTACTS + 1);
+    for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
+        uint8_t rgb[3];
+        const double y = layout.bar.top + layout.bar.height - (k + 0.5) * step;
+        gb_palette_contacts(k, rgb);
+        const uint8_t *pixel = at(image, layout.bar.left + 0.5 * layout.bar.width, y);
+        g_assert_cmpint(memcmp(pixel, rgb, 3), ==, 0);
+    }
+    gb_image_destroy(image);
+    gb_state_destroy(state);
+}
+
+static void test_scale_bar(void)
+{
+    char label[64];
+    g_assert_cmpfloat_with_epsilon(gb_caption_bar_length(7e-8, label, sizeof label), 5e-8,
+                                   1e-20);
+    g_assert_cmpstr(label, ==, "50 nm");
+    g_assert_cmpfloat_with_epsilon(gb_caption_bar_length(1e-6, label, sizeof label), 1e-6,
+                                   1e-20);
+    g_assert_cmpfloat_with_epsilon(gb_caption_bar_length(4.9e-9, label, sizeof label), 2e-9,
+                                   1e-20);
+}
+
+static void test_planar(void)
+{
+    struct gb_state *state = packing(2);
+    struct gb_picture picture = front();
+    struct gb_image *image = paint(&picture, state);
+    g_assert_cmpint(nearest_contacts(particle(image, &picture, state, 1)), >=, 11);
+    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 0)) - 2), <=, 1);
+    gb_image_destroy(image);
+    gb_state_destroy(state);
+}
+
+/* Every allowed shape of image, however odd, is painted. */
+static void test_odd_sizes(void)
+{
+    static const int sizes[][2] = {{16, 16}, {16, 3000}, {3000, 16}, {17, 243}, {241, 240}};
+    struct gb_state *state = packing(3);
+    for (size_t k = 0; k < G_N_ELEMENTS(sizes); k++) {
+        struct gb_picture picture;
+        gb_picture_init(&picture);
+        picture.width = sizes[k][0];
+        picture.height = sizes[k][1];
+        gb_image_destroy(paint(&picture, state));
+    }
+    gb_state_destroy(state);
+}
+
+static void assert_text(png_const_textp text, int count, const char *key, const char *value)
+{
+    for (int k = 0; k < count; k++) {
+        if (strcmp(text[k].key, key) == 0) {
+            g_assert_cmpstr(text[k].text, ==, value);
+            return;
+        }
+    }
+    g_error("no text chunk %s", key);
+}
+
+static void test_file(void)
+{
+    char *folder = g_dir_make_tmp("greenbody-draw-XXXXXX", NULL);
+    char *path = g_build_filename(folder, "x.png", NULL);
+    struct gb_state *state = packing(3);
+    struct gb_picture picture = front();
+    struct gb_error err = {0};
+    g_assert_true(gb_picture_write(&picture, state, path, &err));
+
+    FILE *file = fopen(path, "rb");
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png_create_info_struct(png);
+    png_textp text = NULL;
+    int count = 0;
+    png_init_io(png, file);
+    png_read_png(png, info, PNG_TRANSFORM_IDENTITY, NULL);
+    g_assert_cmpint((int)png_get_image_width(png, info), ==, SIDE);
+    g_assert_cmpint((int)png_get_image_height(png, info), ==, SIDE);
+    png_get_text(png, info, &text, &count);
+    assert_text(text, count, "Software", "greenbody " GB_VERSION);
+    assert_text(text, count, "Title", "Al₂O₃ test");
+    assert_text(text, count, "Seed", "42");
+    assert_text(text, count, "Density", "0.5123");
+    assert_text(text, count, "Pressure", "100 MPa");
+    png_destroy_read_struct(&png, &info, NULL);
+    fclose(file);
+
+    g_remove(path);
+    g_rmdir(folder);
+    g_assert_false(gb_picture_write(&picture, state, path, &err));
+    g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);
+    g_assert_nonnull(strstr(err.text, path));
+    g_assert_false(gb_picture_write(&picture, state, "/dev/null", &err));
+    g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+    gb_state_destroy(state);
+    g_free(path);
+    g_free(folder);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/draw/snapshot/colours-and-depth", test_colours_and_depth);
+    g_test_add_func("/draw/snapshot/silhouette", test_silhouette);
+    g_test_add_func("/draw/snapshot/same-bits", test_same_bits);
+    g_test_add_func("/draw/snapshot/tiles", test_tiles);
+    g_test_add_func("/draw/snapshot/colour-bar", test_colour_bar);
+    g_test_add_func("/draw/snapshot/scale-bar", test_scale_bar);
+    g_test_add_func("/draw/snapshot/planar", test_planar);
+    g_test_add_func("/draw/snapshot/odd-sizes", test_odd_sizes);
+    g_test_add_func("/draw/snapshot/file", test_file);
+    return g_test_run();
+}
