@@ -43,6 +43,7 @@ struct gb_model {
     struct gb_law_slip slip;
     double h_eq;          /* equilibrium overlap of an unbridged pair, d; 0 without attraction */
     double adhesion;      /* f_a(d), E d^2 */
+    double force_floor;   /* least force scale of the stopping rule, E d^2 */
     struct gb_numerics numerics;
     int geometry;         /* enum gb_geometry */
     double strain_step;

@@ -264,6 +264,18 @@ static void place_first(struct growth *growth)
     gb_grid_insert(growth->grid, place);
 }
 
+struct gb_grow gb_grow_of(const struct gb_model *model)
+{
+    return (struct gb_grow){
+        .dimension = model->dimension,
+        .count = model->count,
+        .edges = {model->edges[0], model->edges[1], model->edges[2]},
+        .r_eq = 1.0 - model->h_eq,
+        .r_meso = model->r_meso,
+        .seed = model->seed,
+    };
+}
+
 bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error *err)
 {
     struct growth growth = {.grow = grow};

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "greenbody/model.h"
 #include "greenbody/status.h"
 #include "pack/cell.h"
 
@@ -18,6 +19,9 @@ struct gb_grow {
     bool (*cancelled)(void *data); /* polled; NULL is fine */
     void *data;
 };
+
+/* The structure a model begins with; cancelled is left NULL. */
+struct gb_grow gb_grow_of(const struct gb_model *model);
 
 /* Places the particles.
  *

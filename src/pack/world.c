@@ -509,9 +509,9 @@ double gb_world_residual(const struct gb_world *world)
     const double mean = world->tally.contacts > 0
                             ? world->tally.normal_sum / (double)world->tally.contacts
                             : 0.0;
-    const double scale = fmax(mean, world->model->adhesion);
+    const double scale = fmax(mean, world->model->force_floor);
     const double rms = fmax(world->force_rms, world->torque_rms);
-    return scale > 0.0 ? rms / scale : 0.0;
+    return rms / scale;
 }
 
 const struct gb_pairs *gb_world_pairs(const struct gb_world *world)

@@ -45,7 +45,7 @@ const struct gb_tally *gb_world_tally(const struct gb_world *world);
 const double *gb_world_position(const struct gb_world *world);
 
 /* rms force (and torque over d, whichever is larger) over the force scale: the mean |f_n| of
- * the contacts or f_a(d), whichever is larger. */
+ * the contacts or f_a(d), whichever is larger (without adhesion: a small floor). */
 double gb_world_residual(const struct gb_world *world);
 
 /* The neighbour list, for measures: records and wrenches belong to the pairs of `near`, pulls

@@ -98,6 +98,8 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
                            params->epsilon_j / (young * d * d * d), params->alpha,
                            params->d0_m / d);
     model->adhesion = model->dispersion.contact;
+    model->force_floor =
+        fmax(model->adhesion, gb_law_rod_force(&model->rod, GB_OVERLAP_FLOOR));
     model->bridge = (struct gb_law_bridge){
         .length = gb_params_bridge_length_m(params) / d,
         .strength = gb_params_shear_strength_pa(params) / young,

@@ -22,6 +22,11 @@
 #define GB_TOLERANCE_BALANCED 1e-2
 #define GB_TOLERANCE_REFERENCE 2e-3
 
+/* The force scale of the stopping rule never falls below f_e at this overlap (d): without
+ * adhesion a loose packing carries no force at all, and a share of nothing cannot be reached.
+ * At 1e-4 the floor is worth about 0.1 MPa in alumina. */
+#define GB_OVERLAP_FLOOR 1e-4
+
 /* Force evaluations after which a strain step is recorded unrelaxed, by relaxer speed. */
 #define GB_EVALUATIONS_MOST 200000
 

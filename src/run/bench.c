@@ -33,12 +33,7 @@ static bool grow(struct gb_world **world, const struct gb_model *model, double *
     if (!position) {
         return false;
     }
-    struct gb_grow order = {.dimension = model->dimension,
-                            .count = model->count,
-                            .r_eq = 1.0 - model->h_eq,
-                            .r_meso = model->r_meso,
-                            .seed = model->seed};
-    memcpy(order.edges, model->edges, sizeof order.edges);
+    const struct gb_grow order = gb_grow_of(model);
     const gint64 start = g_get_monotonic_time();
     const bool done = gb_grow_place(&order, position, err);
     *seconds = seconds_since(start);

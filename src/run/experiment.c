@@ -66,16 +66,9 @@ static bool grow_world(struct gb_experiment *experiment, bool (*cancelled)(void 
     if (!position) {
         return false;
     }
-    struct gb_grow grow = {
-        .dimension = model->dimension,
-        .count = model->count,
-        .r_eq = 1.0 - model->h_eq,
-        .r_meso = model->r_meso,
-        .seed = model->seed,
-        .cancelled = cancelled,
-        .data = data,
-    };
-    memcpy(grow.edges, model->edges, sizeof grow.edges);
+    struct gb_grow grow = gb_grow_of(model);
+    grow.cancelled = cancelled;
+    grow.data = data;
     const bool done = gb_grow_place(&grow, position, err) &&
                       gb_world_create(&experiment->world, model, position, err);
     gb_alloc_free(position);

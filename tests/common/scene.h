@@ -44,12 +44,7 @@ static inline double *scene_positions(const struct gb_model *model)
 {
     struct gb_error err = {0};
     double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, &err);
-    struct gb_grow grow = {.dimension = model->dimension,
-                           .count = model->count,
-                           .r_eq = 1.0 - model->h_eq,
-                           .r_meso = model->r_meso,
-                           .seed = model->seed};
-    memcpy(grow.edges, model->edges, sizeof grow.edges);
+    const struct gb_grow grow = gb_grow_of(model);
     if (!position || !gb_grow_place(&grow, position, &err)) {
         g_error("%s", err.text);
     }

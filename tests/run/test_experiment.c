@@ -1,0 +1,247 @@
+#include <glib.h>
+#include <math.h>
+
+#include "common/scene.h"
+#include "pack/world.h"
+#include "run/experiment.h"
+
+static struct gb_experiment *create(const struct gb_params *params)
+{
+    struct gb_experiment *experiment = NULL;
+    struct gb_error err = {0};
+    if (!gb_experiment_create(&experiment, params, NULL, NULL, &err)) {
+        g_error("%s", err.text);
+    }
+    return experiment;
+}
+
+struct trace {
+    GArray *points; /* struct gb_point */
+    GString *events;
+    enum gb_advance end;
+    struct gb_error err;
+    uint64_t hash;
+};
+
+static void take_events(struct trace *trace, struct gb_experiment *experiment)
+{
+    char text[640];
+    while (gb_experiment_event(experiment, text, sizeof text)) {
+        g_string_append_printf(trace->events, "%s\n", text);
+    }
+}
+
+static struct trace run(const struct gb_params *params, int64_t slice)
+{
+    struct trace trace = {.points = g_array_new(FALSE, FALSE, sizeof(struct gb_point)),
+                          .events = g_string_new(NULL)};
+    struct gb_experiment *experiment = create(params);
+    do {
+        trace.end = gb_experiment_advance(experiment, slice, &trace.err);
+        if (trace.end == GB_ADVANCE_POINT) {
+            g_array_append_vals(trace.points, gb_experiment_point(experiment), 1);
+        }
+        take_events(&trace, experiment);
+    } while (trace.end == GB_ADVANCE_MORE || trace.end == GB_ADVANCE_POINT);
+    trace.hash = gb_world_hash(gb_experiment_world(experiment));
+    gb_experiment_destroy(experiment);
+    return trace;
+}
+
+static void drop(struct trace *trace)
+{
+    g_array_free(trace->points, TRUE);
+    g_string_free(trace->events, TRUE);
+}
+
+static const struct gb_point *at(const struct trace *trace, guint i)
+{
+    return &g_array_index(trace->points, struct gb_point, i);
+}
+
+/* Loading goes up, unloading comes back to zero and gives most of the way to loading again. */
+static void test_programme(void)
+{
+    const struct gb_params params =
+        scene_params("loading.until=40 MPa", "loading.unload_from=20 MPa",
+                     "loading.step=0.4 %", "numerics.tolerance=1e-2", NULL);
+    struct trace trace = run(&params, 1000);
+    g_assert_cmpint(trace.end, ==, GB_ADVANCE_DONE);
+    g_assert_cmpint(at(&trace, 0)->branch, ==, -1);
+    double top = 0.0, after = NAN, unloaded = NAN, density = 0.0;
+    for (guint i = 1; i < trace.points->len; i++) {
+        const struct gb_point *p = at(&trace, i);
+        g_assert_cmpfloat(p->residual, <=, 1e-2);
+        g_assert_cmpint(p->evaluations, >, 0);
+        g_assert_cmpint(p->step, ==, i);
+        g_assert_cmpfloat_with_epsilon(p->p_pa, p->pz_pa, 1e-6);
+        if (p->branch == 1) {
+            g_assert_cmpfloat(p->branch_from_pa, ==, 20e6);
+            top = fmax(top, p->density);
+            unloaded = p->p_pa;
+        } else {
+            g_assert_cmpfloat(p->density, >, density);
+            if (isfinite(unloaded) && isnan(after)) {
+                after = p->p_pa;
+            }
+            density = p->density;
+        }
+    }
+    g_assert_cmpfloat(fabs(unloaded), <, 2e6);
+    g_assert_cmpfloat(after, >, 15e6);
+    g_assert_cmpfloat(at(&trace, trace.points->len - 1)->p_pa, >=, 40e6);
+    g_assert_nonnull(strstr(trace.events->str, "unloading from"));
+    drop(&trace);
+}
+
+/* Same parameters, same bits: again, in other slices, on other threads. */
+static void test_repeat(void)
+{
+    const char *threads[] = {"numerics.threads=1", "numerics.threads=1",
+                             "numerics.threads=3", "numerics.threads=8"};
+    const int64_t slice[] = {100000, 3, 17, 1000};
+    uint64_t hash[4];
+    for (int i = 0; i < 4; i++) {
+        const struct gb_params params =
+            scene_params(threads[i], "particles.count=400", "loading.until=density = 0.27",
+                         "numerics.tolerance=1e-2", "loading.step=0.5 %", NULL);
+        struct trace trace = run(&params, slice[i]);
+        g_assert_cmpint(trace.end, ==, GB_ADVANCE_DONE);
+        hash[i] = trace.hash;
+        drop(&trace);
+    }
+    for (int i = 1; i < 4; i++) {
+        g_assert_cmpuint(hash[i], ==, hash[0]);
+    }
+}
+
+/* Every loading geometry, with and without bridges, in 3D and 2D, ends in order. */
+static void test_scenes(void)
+{
+    const char *scene[][2] = {
+        {"loading.geometry=uniaxial", "contact.bridge_length=1 d"},
+        {"loading.geometry=biaxial", "contact.bridge_length=0.008 d"},
+        {"loading.geometry=isotropic", "contact.mu=0"},
+        {"scene.dimension=2", "loading.geometry=isotropic"},
+        {"scene.dimension=2", "loading.geometry=uniaxial"},
+        {"material.epsilon=0 kB", "loading.geometry=isotropic"},
+    };
+    for (size_t s = 0; s < G_N_ELEMENTS(scene); s++) {
+        const struct gb_params params =
+            scene_params(scene[s][0], scene[s][1], "loading.until=10 MPa",
+                         "loading.step=0.5 %", "numerics.tolerance=2e-2", NULL);
+        struct trace trace = run(&params, 1000);
+        if (trace.end != GB_ADVANCE_DONE) {
+            g_error("%s %s: %s", scene[s][0], scene[s][1], trace.err.text);
+        }
+        const struct gb_point *last = at(&trace, trace.points->len - 1);
+        g_assert_cmpfloat(last->p_pa, >=, 10e6);
+        g_assert_true(isfinite(last->px_pa));
+        g_assert_true((params.dimension == 2) == (bool)isnan(last->py_pa));
+        drop(&trace);
+    }
+}
+
+/* A cell that becomes too small stops the run with the last good state kept. */
+static void test_stop(void)
+{
+    const struct gb_params params = scene_params(
+        "particles.count=40", "loading.geometry=isotropic", "loading.until=1 GPa",
+        "contact.bridge_length=1 d", "particles.diameter=38 nm", "loading.step=2 %",
+        "numerics.tolerance=3e-2", NULL);
+    struct trace trace = run(&params, 1000);
+    g_assert_cmpint(trace.end, ==, GB_ADVANCE_STOPPED);
+    g_assert_cmpint(trace.err.code, ==, GB_ERR_GUARD);
+    g_assert_nonnull(strstr(trace.err.text, "cell has shrunk"));
+    g_assert_nonnull(strstr(trace.events->str, "halved"));
+    g_assert_cmpuint(trace.points->len, >, 3);
+    g_assert_true(isfinite(at(&trace, trace.points->len - 1)->p_pa));
+    drop(&trace);
+}
+
+static bool cancel_at_once(void *data)
+{
+    (void)data;
+    return true;
+}
+
+static void test_cancel(void)
+{
+    const struct gb_params params = scene_params("particles.count=20000", NULL);
+    struct gb_experiment *experiment = NULL;
+    struct gb_error err = {0};
+    g_assert_false(gb_experiment_create(&experiment, &params, cancel_at_once, NULL, &err));
+    g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
+}
+
+/* The k-th allocation fails, for every k until creation and ten points pass. */
+static void test_memory(void)
+{
+    const struct gb_params params =
+        scene_params("loading.step=1 %", "numerics.tolerance=3e-2", NULL);
+    const size_t before = gb_alloc_bytes();
+    bool passed = false;
+    int k = 0;
+    while (!passed) {
+        struct gb_experiment *experiment = NULL;
+        struct gb_error err = {0};
+        gb_alloc_fail_after(++k);
+        passed = gb_experiment_create(&experiment, &params, NULL, NULL, &err);
+        for (int i = 0; i < 10 && passed; i++) {
+            const enum gb_advance result = gb_experiment_advance(experiment, 1000, &err);
+            passed = result != GB_ADVANCE_STOPPED;
+        }
+        gb_alloc_fail_after(0);
+        g_assert_true(passed || err.code == GB_ERR_MEMORY);
+        gb_experiment_destroy(experiment);
+        g_assert_cmpuint(gb_alloc_bytes(), ==, before);
+    }
+    g_assert_cmpint(k, >, 20);
+}
+
+/* The state that pictures are made of agrees with the point. */
+static void test_state(void)
+{
+    const struct gb_params params =
+        scene_params("loading.until=5 MPa", "loading.step=0.5 %", NULL);
+    struct gb_experiment *experiment = create(&params);
+    struct gb_error err = {0};
+    while (gb_experiment_advance(experiment, 1000, &err) != GB_ADVANCE_DONE) {
+        g_assert_cmpint(err.code, ==, GB_OK);
+    }
+    struct gb_state *state = NULL;
+    g_assert_true(gb_experiment_state(experiment, &state, &err));
+    const struct gb_point *point = gb_experiment_point(experiment);
+    int64_t contacts = 0;
+    double virial = 0.0;
+    for (int64_t i = 0; i < state->count; i++) {
+        contacts += state->contacts[i];
+        for (int k = 0; k < 3; k++) {
+            g_assert_cmpfloat(state->position[3 * i + k], >=, 0.0);
+            g_assert_cmpfloat(state->position[3 * i + k], <, state->cell[k]);
+        }
+    }
+    for (int64_t p = 0; p < state->pair_count; p++) {
+        virial += state->pair_normal[p];
+    }
+    g_assert_true(isfinite(virial));
+    g_assert_cmpint(contacts, ==, 2 * state->pair_count);
+    g_assert_cmpfloat_with_epsilon(point->coordination,
+                                   (double)contacts / (double)state->count, 1e-12);
+    g_assert_cmpfloat_with_epsilon(point->density, state->point.density, 1e-12);
+    gb_state_destroy(state);
+    gb_experiment_destroy(experiment);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/experiment/programme", test_programme);
+    g_test_add_func("/experiment/repeat", test_repeat);
+    g_test_add_func("/experiment/scenes", test_scenes);
+    g_test_add_func("/experiment/stop", test_stop);
+    g_test_add_func("/experiment/cancel", test_cancel);
+    g_test_add_func("/experiment/memory", test_memory);
+    g_test_add_func("/experiment/state", test_state);
+    return g_test_run();
+}
