@@ -11,8 +11,9 @@
 #include <glib/gstdio.h>
 
 /* Files of a run by name; everything else in a directory is somebody's and stays. */
-static const char *const known_files[] = {"preset.ini", "curve.csv", "events.log",
-                                          "status.json", "state.h5"};
+static const char *const known_files[] = {"preset.ini",  "curve.csv",     "events.log",
+                                          "status.json", "state.h5",      "packing.csv",
+                                          "g.csv",       "structure.json"};
 static const char snapshot_folder[] = "snapshots";
 
 /* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed.
