@@ -143,6 +143,9 @@ if [ "$(id -u)" -ne 0 ]; then
     : >locked.ini
     chmod 000 locked.ini
     refused 'an unreadable file' 3 "$greenbody" run ./locked.ini --out out
+    mkdir closed
+    chmod 555 closed
+    refused 'a parent that cannot be written' 3 "$greenbody" run default --out closed/run
 fi
 refused_set() { # name, assignment
     refused "$1" 2 "$greenbody" run default --set "$2" --out out
