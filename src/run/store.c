@@ -1,7 +1,5 @@
 #include "run/store.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
@@ -11,78 +9,17 @@
 #include <json-glib/json-glib.h>
 
 #include "run/preset.h"
+#include "run/rows.h"
 #include "run/rundir.h"
-
-/* A file that grows by whole lines. */
-struct log {
-    char *path;
-    int fd;
-    off_t length; /* of the whole lines so far */
-};
 
 struct gb_store {
     struct gb_rundir dir;
-    struct log curve, events;
+    struct gb_rows curve, events;
     char *status_path, *state_path;
     int64_t points;
 };
 
 enum { NUMBER_MAX = 32 };
-
-static bool log_open(struct log *log, const char *directory, const char *name,
-                     struct gb_error *err)
-{
-    log->path = g_build_filename(directory, name, NULL);
-    log->length = 0;
-    log->fd = open(log->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (log->fd < 0) {
-        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be made: %s", log->path,
-                            g_strerror(errno));
-    }
-    return true;
-}
-
-static void log_close(struct log *log)
-{
-    if (log->fd >= 0) {
-        close(log->fd);
-    }
-    g_free(log->path);
-}
-
-static bool log_error(const struct log *log, int why, struct gb_error *err)
-{
-    return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", log->path,
-                        g_strerror(why));
-}
-
-/* Appends text, or leaves the file as it was: a full disk must not leave half a row. */
-static bool log_append(struct log *log, const GString *text, struct gb_error *err)
-{
-    size_t done = 0;
-    while (done < text->len) {
-        const ssize_t n = pwrite(log->fd, text->str + done, text->len - done,
-                                 log->length + (off_t)done);
-        if (n < 0 && errno == EINTR) {
-            continue;
-        }
-        if (n <= 0) {
-            const int why = n < 0 ? errno : EIO;
-            if (ftruncate(log->fd, log->length) != 0) {
-                return log_error(log, errno, err);
-            }
-            return log_error(log, why, err);
-        }
-        done += (size_t)n;
-    }
-    log->length += (off_t)text->len;
-    return true;
-}
-
-static bool log_sync(const struct log *log, struct gb_error *err)
-{
-    return fsync(log->fd) == 0 || log_error(log, errno, err);
-}
 
 /* ",value" with the fewest digits that read back the same; only "," where there is none.
  */
@@ -124,7 +61,7 @@ static const char *compressed_axes(const struct gb_params *params)
     }
 }
 
-static bool write_curve_head(struct log *curve, const struct gb_params *params,
+static bool write_curve_head(struct gb_rows *curve, const struct gb_params *params,
                              struct gb_error *err)
 {
     GString *head = g_string_new("# greenbody " GB_VERSION "\n# preset: ");
@@ -142,7 +79,7 @@ static bool write_curve_head(struct log *curve, const struct gb_params *params,
         compressed_axes(params));
     g_string_append(head, "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,"
                           "bridged,rattlers,residual,iterations,evaluations,seconds\n");
-    const bool ok = log_append(curve, head, err);
+    const bool ok = gb_rows_append(curve, head->str, err);
     g_string_free(head, TRUE);
     return ok;
 }
@@ -190,8 +127,8 @@ bool gb_store_create(struct gb_store **out, const char *directory,
     store->status_path = g_build_filename(directory, "status.json", NULL);
     store->state_path = g_build_filename(directory, "state.h5", NULL);
     if (!write_preset(directory, params, err) ||
-        !log_open(&store->curve, directory, "curve.csv", err) ||
-        !log_open(&store->events, directory, "events.log", err) ||
+        !gb_rows_open(&store->curve, directory, "curve.csv", err) ||
+        !gb_rows_open(&store->events, directory, "events.log", err) ||
         !write_curve_head(&store->curve, params, err) || !gb_store_sync(store, err)) {
         gb_store_discard(store);
         return false;
@@ -202,8 +139,8 @@ bool gb_store_create(struct gb_store **out, const char *directory,
 
 static void free_store(struct gb_store *store)
 {
-    log_close(&store->curve);
-    log_close(&store->events);
+    gb_rows_close(&store->curve);
+    gb_rows_close(&store->events);
     g_free(store->status_path);
     g_free(store->state_path);
     g_free(store);
@@ -241,7 +178,7 @@ bool gb_store_point(struct gb_store *store, const struct gb_point *point,
     g_string_append_printf(
         row, ",%" PRId64 ",%" PRId64 ",%s\n", point->iterations, point->evaluations,
         g_ascii_formatd(seconds, sizeof seconds, "%.3f", point->seconds));
-    const bool ok = log_append(&store->curve, row, err);
+    const bool ok = gb_rows_append(&store->curve, row->str, err);
     store->points += ok;
     g_string_free(row, TRUE);
     return ok;
@@ -253,7 +190,7 @@ bool gb_store_event(struct gb_store *store, int64_t step, const char *text,
     GString *line = g_string_new(NULL);
     g_string_append_printf(line, "step %" PRId64 ": ", step);
     append_line_text(line, text);
-    const bool ok = log_append(&store->events, line, err);
+    const bool ok = gb_rows_append(&store->events, line->str, err);
     g_string_free(line, TRUE);
     return ok;
 }
@@ -343,7 +280,7 @@ bool gb_store_state(struct gb_store *store, const struct gb_state *state,
 
 bool gb_store_sync(struct gb_store *store, struct gb_error *err)
 {
-    return log_sync(&store->curve, err) && log_sync(&store->events, err);
+    return gb_rows_sync(&store->curve, err) && gb_rows_sync(&store->events, err);
 }
 
 const char *gb_store_directory(const struct gb_store *store)

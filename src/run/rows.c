@@ -1,0 +1,64 @@
+#include "run/rows.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <glib.h>
+
+static bool write_error(const struct gb_rows *rows, int why, struct gb_error *err)
+{
+    return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", rows->path,
+                        g_strerror(why));
+}
+
+bool gb_rows_open(struct gb_rows *rows, const char *directory, const char *name,
+                  struct gb_error *err)
+{
+    rows->path = g_build_filename(directory, name, NULL);
+    rows->length = 0;
+    rows->fd = open(rows->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (rows->fd < 0) {
+        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be made: %s", rows->path,
+                            g_strerror(errno));
+    }
+    return true;
+}
+
+void gb_rows_close(struct gb_rows *rows)
+{
+    if (rows->fd >= 0) {
+        close(rows->fd);
+    }
+    g_free(rows->path);
+    *rows = (struct gb_rows){.fd = -1};
+}
+
+bool gb_rows_append(struct gb_rows *rows, const char *text, struct gb_error *err)
+{
+    const size_t size = strlen(text);
+    size_t done = 0;
+    while (done < size) {
+        const ssize_t n =
+            pwrite(rows->fd, text + done, size - done, rows->length + (off_t)done);
+        if (n < 0 && errno == EINTR) {
+            continue;
+        }
+        if (n <= 0) {
+            const int why = n < 0 ? errno : EIO;
+            if (ftruncate(rows->fd, rows->length) != 0) {
+                return write_error(rows, errno, err);
+            }
+            return write_error(rows, why, err);
+        }
+        done += (size_t)n;
+    }
+    rows->length += (off_t)size;
+    return true;
+}
+
+bool gb_rows_sync(const struct gb_rows *rows, struct gb_error *err)
+{
+    return fsync(rows->fd) == 0 || write_error(rows, errno, err);
+}
