@@ -6,15 +6,15 @@
 #include "base/alloc.h"
 #include "base/units.h"
 
-/* Chunk k holds FIRST_CHUNK << k points and is never moved or freed before the curve, so a
- * reader's pointer stays good while the writer goes on.  The chunks double: 32 of them are
- * more points than memory can hold. */
+/* Chunk k holds FIRST_CHUNK << k points and is never moved or freed before the curve, so
+ * a reader's pointer stays good while the writer goes on.  The chunks double: 32 of them
+ * are more points than memory can hold. */
 enum { FIRST_CHUNK = 256, CHUNKS = 32 };
 
 struct gb_curve {
     struct gb_point *chunk[CHUNKS];
-    /* Released after the point and its chunk are written, acquired by readers: whoever sees
-     * the count sees the points below it. */
+    /* Released after the point and its chunk are written, acquired by readers: whoever
+     * sees the count sees the points below it. */
     _Atomic size_t count;
 };
 
@@ -22,8 +22,8 @@ struct gb_curve {
 static size_t locate(size_t index, size_t *place)
 {
     size_t k = 0;
-    while (index >= (size_t) FIRST_CHUNK << k) {
-        index -= (size_t) FIRST_CHUNK << k;
+    while (index >= (size_t)FIRST_CHUNK << k) {
+        index -= (size_t)FIRST_CHUNK << k;
         k++;
     }
     *place = index;
@@ -62,7 +62,7 @@ bool gb_curve_append(struct gb_curve *curve, const struct gb_point *point,
         return gb_error_set(err, GB_ERR_MEMORY, "the curve is full: %zu points", count);
     }
     if (curve->chunk[k] == NULL) {
-        curve->chunk[k] = gb_alloc_array((size_t) FIRST_CHUNK << k, sizeof *point, err);
+        curve->chunk[k] = gb_alloc_array((size_t)FIRST_CHUNK << k, sizeof *point, err);
         if (curve->chunk[k] == NULL) {
             return false;
         }

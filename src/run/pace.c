@@ -43,7 +43,7 @@ void gb_pace_add(struct gb_pace *pace, double seconds, int64_t evaluations,
                  double progress)
 {
     pace->seconds[pace->next] = seconds;
-    pace->evaluations[pace->next] = (double) evaluations;
+    pace->evaluations[pace->next] = (double)evaluations;
     pace->next = (pace->next + 1) % GB_PACE_WINDOW;
     if (pace->filled < GB_PACE_WINDOW) {
         pace->filled++;

@@ -23,8 +23,8 @@ struct gb_snapshot *gb_publish_back(struct gb_publish *publish)
  * is no longer read by the other side. */
 void gb_publish_swap(struct gb_publish *publish)
 {
-    const unsigned old = atomic_exchange_explicit(
-        &publish->middle, publish->back | fresh, memory_order_acq_rel);
+    const unsigned old = atomic_exchange_explicit(&publish->middle, publish->back | fresh,
+                                                  memory_order_acq_rel);
     publish->back = old & index_mask;
 }
 
@@ -34,8 +34,8 @@ bool gb_publish_take(struct gb_publish *publish)
     if (!(atomic_load_explicit(&publish->middle, memory_order_relaxed) & fresh)) {
         return false;
     }
-    const unsigned old = atomic_exchange_explicit(&publish->middle, publish->front,
-                                                  memory_order_acq_rel);
+    const unsigned old =
+        atomic_exchange_explicit(&publish->middle, publish->front, memory_order_acq_rel);
     publish->front = old & index_mask;
     return true;
 }
@@ -52,8 +52,8 @@ void gb_command_ring_init(struct gb_command_ring *ring)
     atomic_init(&ring->tail, 0);
 }
 
-/* head and tail count all commands ever pushed and popped; unsigned wrap-around keeps their
- * difference right because the ring's size divides the range. */
+/* head and tail count all commands ever pushed and popped; unsigned wrap-around keeps
+ * their difference right because the ring's size divides the range. */
 bool gb_command_ring_push(struct gb_command_ring *ring, struct gb_command command)
 {
     const unsigned head = atomic_load_explicit(&ring->head, memory_order_relaxed);

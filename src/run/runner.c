@@ -12,8 +12,8 @@
 
 /* The screen cannot use more than this, and each one costs a sweep over the contacts. */
 static const double publish_every_s = 0.05;
-/* Share of the engine's time that filling snapshots may take: a large packing is looked at
- * less often. */
+/* Share of the engine's time that filling snapshots may take: a large packing is looked
+ * at less often. */
 static const double publish_share = 0.1;
 
 enum { EVENTS = 256 };
@@ -49,7 +49,7 @@ static double clock_s(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double) now.tv_sec + 1e-9 * (double) now.tv_nsec;
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 static double elapsed(const struct gb_runner *runner)
@@ -96,7 +96,7 @@ static void observe(struct gb_runner *runner)
         gb_pace_add(&runner->pace, shown->seconds - runner->packed, shown->evaluations,
                     shown->progress);
         shown->evaluations_per_s = gb_pace_rate(&runner->pace);
-        shown->particle_evaluations_per_s = shown->evaluations_per_s * (double) count;
+        shown->particle_evaluations_per_s = shown->evaluations_per_s * (double)count;
     }
     shown->seconds_left = state == GB_RUN_PACKING || state >= GB_RUN_STOPPED
                               ? -1.0
@@ -131,7 +131,7 @@ static void publish_if_due(struct gb_runner *runner)
 
 static void change_state(struct gb_runner *runner, enum gb_run_state state)
 {
-    runner->shown.state = (int) state;
+    runner->shown.state = (int)state;
     publish(runner);
 }
 
@@ -207,8 +207,8 @@ static bool slice(struct gb_runner *runner)
 {
     struct gb_error err = {0};
     const double from = clock_s();
-    const enum gb_advance how = gb_experiment_advance(
-        runner->experiment, gb_pace_slice(&runner->pace), &err);
+    const enum gb_advance how =
+        gb_experiment_advance(runner->experiment, gb_pace_slice(&runner->pace), &err);
     gb_pace_sliced(&runner->pace, clock_s() - from, how == GB_ADVANCE_MORE);
     switch (how) {
     case GB_ADVANCE_MORE:
@@ -370,8 +370,8 @@ const struct gb_params *gb_runner_params(const struct gb_runner *runner)
 bool gb_runner_event(struct gb_runner *runner, int64_t index, char *text, size_t size)
 {
     pthread_mutex_lock(&runner->mutex);
-    const bool kept = index >= 0 && index < runner->events &&
-                      runner->events - index <= EVENTS;
+    const bool kept =
+        index >= 0 && index < runner->events && runner->events - index <= EVENTS;
     if (kept) {
         snprintf(text, size, "%s", runner->event[index % EVENTS]);
     }

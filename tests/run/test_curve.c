@@ -9,7 +9,7 @@ enum { MANY = 5000 };
 
 static struct gb_point numbered(size_t index)
 {
-    return (struct gb_point){.step = (int64_t) index, .density = (double) index / MANY};
+    return (struct gb_point){.step = (int64_t)index, .density = (double)index / MANY};
 }
 
 static struct gb_curve *filled(size_t count)
@@ -29,7 +29,7 @@ static void test_append(void)
     struct gb_curve *curve = filled(MANY);
     g_assert_cmpuint(gb_curve_count(curve), ==, MANY);
     for (size_t i = 0; i < MANY; i++) {
-        g_assert_cmpint(gb_curve_at(curve, i)->step, ==, (int64_t) i);
+        g_assert_cmpint(gb_curve_at(curve, i)->step, ==, (int64_t)i);
     }
     gb_curve_destroy(curve);
     gb_curve_destroy(NULL);
@@ -56,7 +56,7 @@ static gpointer read_along(gpointer data)
         const size_t count = gb_curve_count(curve);
         g_assert_cmpuint(count, >=, seen);
         for (; seen < count; seen++) {
-            g_assert_cmpint(gb_curve_at(curve, seen)->step, ==, (int64_t) seen);
+            g_assert_cmpint(gb_curve_at(curve, seen)->step, ==, (int64_t)seen);
         }
     }
     return NULL;

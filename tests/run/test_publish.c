@@ -12,7 +12,7 @@ static void fill(struct gb_snapshot *snapshot, int64_t number)
 {
     snapshot->evaluations = number;
     for (int i = 0; i < GB_SNAPSHOT_HISTOGRAM; i++) {
-        snapshot->histogram[i] = (double) number;
+        snapshot->histogram[i] = (double)number;
     }
     snapshot->now.step = number;
     snapshot->events = number;
@@ -24,7 +24,7 @@ static void check(const struct gb_snapshot *snapshot)
     g_assert_cmpint(snapshot->now.step, ==, number);
     g_assert_cmpint(snapshot->events, ==, number);
     for (int i = 0; i < GB_SNAPSHOT_HISTOGRAM; i++) {
-        g_assert_cmpfloat(snapshot->histogram[i], ==, (double) number);
+        g_assert_cmpfloat(snapshot->histogram[i], ==, (double)number);
     }
 }
 

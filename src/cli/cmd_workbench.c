@@ -1,0 +1,62 @@
+#include <glib.h>
+#include <string.h>
+
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "tui/app.h"
+
+static bool names_preset(char **words)
+{
+    for (int i = 0; words[i] != NULL; i++) {
+        if (strchr(words[i], '=') == NULL) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Without a preset the workbench opens the one that answers in seconds. */
+static char **with_default(char **words)
+{
+    GPtrArray *all = g_ptr_array_new();
+    g_ptr_array_add(all, g_strdup("default"));
+    for (int i = 0; words[i] != NULL; i++) {
+        g_ptr_array_add(all, words[i]);
+    }
+    g_ptr_array_add(all, NULL);
+    g_free(words);
+    return (char **)g_ptr_array_free(all, FALSE);
+}
+
+int gb_cmd_workbench(int argc, char **argv)
+{
+    char **sets = NULL;
+    char **words = NULL;
+    int status = 0;
+    const GOptionEntry entries[] = {GB_OPTIONS_SET(&sets), {0}};
+    const struct gb_options_page page = {
+        .usage = "[PRESET] [group.key=value]...",
+        .summary = "The workbench: a pressing seen live, its parameters at hand.",
+        .description =
+            "Without a preset it opens the one named default.  ? lists the keys.",
+    };
+    if (!gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        g_strfreev(sets);
+        return status;
+    }
+    if (!names_preset(words)) {
+        words = with_default(words);
+    }
+    struct gb_error err = {0};
+    struct gb_preset *preset = NULL;
+    if (gb_options_scene(&preset, words, sets, false, &err)) {
+        status = gb_app_run(preset, &err);
+    }
+    if (err.code != GB_OK) {
+        status = gb_options_fail(&err);
+    }
+    gb_preset_destroy(preset);
+    g_strfreev(words);
+    g_strfreev(sets);
+    return status;
+}

@@ -1,0 +1,40 @@
+#ifndef GB_TUI_DIALOG_H
+#define GB_TUI_DIALOG_H
+
+#include "tui/keys.h"
+#include "tui/paint.h"
+#include "tui/prompt.h"
+
+/* What lies over the panes: help, the list of presets, the name to save under, the question
+ * before quitting.  One at a time. */
+enum gb_dialog_kind {
+    GB_DIALOG_NONE,
+    GB_DIALOG_HELP,
+    GB_DIALOG_OPEN,
+    GB_DIALOG_SAVE,
+    GB_DIALOG_QUIT
+};
+
+struct gb_dialog {
+    enum gb_dialog_kind kind;
+    int top, focus, page;
+    char **names;    /* presets to open; owned */
+    char note[400];  /* why the last answer was not taken */
+    bool warned;     /* the note was a warning: the same answer again is taken */
+    struct gb_prompt prompt;
+};
+
+/* text: what a prompt begins with; NULL is fine. */
+void gb_dialog_show(struct gb_dialog *dialog, enum gb_dialog_kind kind, const char *text);
+void gb_dialog_close(struct gb_dialog *dialog);
+
+void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);
+
+/* Takes an event; true when the answer is given and waits in gb_dialog_answer.  Esc closes
+ * the dialog. */
+bool gb_dialog_type(struct gb_dialog *dialog, const struct gb_term_event *event);
+
+/* The preset chosen, the name typed; "" for yes. */
+const char *gb_dialog_answer(struct gb_dialog *dialog);
+
+#endif

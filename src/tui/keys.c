@@ -1,0 +1,61 @@
+#include "tui/keys.h"
+
+#include <ncurses.h>
+
+enum { CTRL_L = 'L' & 31 };
+
+/* Every action has a plain letter: terminals and multiplexers eat function keys. */
+static const struct gb_key table[] = {
+    {{KEY_UP, 'k'}, "Up k", NULL, "up", GB_ACTION_UP},
+    {{KEY_DOWN, 'j'}, "Down j", NULL, "down", GB_ACTION_DOWN},
+    {{KEY_LEFT, 'h'}, "Left h", NULL, "plot: cursor to the point before",
+     GB_ACTION_LEFT},
+    {{KEY_RIGHT, 'l'}, "Right l", NULL, "plot: cursor to the next point",
+     GB_ACTION_RIGHT},
+    {{KEY_PPAGE, '['}, "PgUp [", NULL, "one page or ten points back",
+     GB_ACTION_PAGE_UP},
+    {{KEY_NPAGE, ']'}, "PgDn ]", NULL, "one page or ten points on",
+     GB_ACTION_PAGE_DOWN},
+    {{KEY_HOME, 'g'}, "Home g", NULL, "to the beginning", GB_ACTION_HOME},
+    {{KEY_END, 'G'}, "End G", NULL, "to the end", GB_ACTION_END},
+    {{'\t', 'n'}, "Tab n", "pane", "next pane", GB_ACTION_NEXT_PANE},
+    {{KEY_BTAB, 'N'}, "S-Tab N", NULL, "previous pane", GB_ACTION_PREVIOUS_PANE},
+    {{'\n', '\r', KEY_ENTER, 'i'}, "Enter i", "edit",
+     "change the parameter; accept", GB_ACTION_ENTER},
+    {{GB_KEY_ESCAPE}, "Esc", NULL, "one level back; cursor off", GB_ACTION_BACK},
+    {{'u'}, "u", NULL, "parameter back to what the run uses", GB_ACTION_UNDO},
+    {{'r'}, "r", "run", "start anew with the parameters shown", GB_ACTION_RESTART},
+    {{'p'}, "p", "pause", "pause or resume the engine", GB_ACTION_PAUSE},
+    {{' '}, "Space", "freeze", "freeze the view; the engine goes on",
+     GB_ACTION_FREEZE},
+    {{'1'}, "1", NULL, "pressure against density", GB_ACTION_VIEW_CURVE},
+    {{'2'}, "2", NULL, "contacts per particle", GB_ACTION_VIEW_HISTOGRAM},
+    {{'3'}, "3", NULL, "contact force against direction", GB_ACTION_VIEW_ROSE},
+    {{'L'}, "L", "log", "logarithmic or linear pressure", GB_ACTION_LOG},
+    {{'m'}, "m", NULL, "show or hide earlier runs", GB_ACTION_EARLIER},
+    {{'b'}, "b", NULL, "draw with braille, blocks or ASCII", GB_ACTION_GLYPHS},
+    {{'w'}, "w", "save", "save the parameters as a preset", GB_ACTION_SAVE},
+    {{'o'}, "o", "open", "open a preset and run it", GB_ACTION_OPEN},
+    {{CTRL_L}, "^L", NULL, "paint the screen anew", GB_ACTION_REPAINT},
+    {{'?', KEY_F(1)}, "? F1", "help", "this list", GB_ACTION_HELP},
+    {{'q', KEY_F(10)}, "q F10", "quit", "quit; asks while a run is live",
+     GB_ACTION_QUIT},
+};
+
+const struct gb_key *gb_keys_table(size_t *count)
+{
+    *count = sizeof table / sizeof table[0];
+    return table;
+}
+
+enum gb_action gb_keys_action(int code)
+{
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+        for (int k = 0; k < GB_KEYS_PER_ROW && table[i].code[k] != 0; k++) {
+            if (table[i].code[k] == code) {
+                return table[i].action;
+            }
+        }
+    }
+    return GB_ACTION_NONE;
+}

@@ -1,0 +1,81 @@
+#ifndef GB_TUI_PANELS_H
+#define GB_TUI_PANELS_H
+
+#include "tui/keys.h"
+#include "tui/paint.h"
+#include "tui/prompt.h"
+#include "tui/session.h"
+
+/* The four panes.  Each draws into its rectangle and answers actions while it has the
+ * focus.  They see the run only through the session. */
+
+/* What stands on the message line, and how serious it is. */
+struct gb_message {
+    char text[600];
+    enum gb_style style;
+};
+
+/* [parameters] */
+struct gb_panel_params {
+    int focus; /* row of the field table */
+    int top;   /* first line shown */
+    int page;  /* lines shown by the last draw */
+    bool editing;
+    int choice; /* of a field with choices, while editing */
+    struct gb_prompt prompt;
+};
+
+void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *paint,
+                          struct gb_session *session, bool focus);
+/* False when the action is not for this pane. */
+bool gb_panel_params_act(struct gb_panel_params *panel, struct gb_session *session,
+                         enum gb_action action, struct gb_message *message);
+/* A key while editing. */
+void gb_panel_params_type(struct gb_panel_params *panel, struct gb_session *session,
+                          const struct gb_term_event *event, struct gb_message *message);
+/* Meaning and range of the parameter with the focus. */
+void gb_panel_params_explain(const struct gb_panel_params *panel,
+                             struct gb_session *session, struct gb_message *message);
+
+/* [plot] */
+enum gb_view { GB_VIEW_CURVE, GB_VIEW_HISTOGRAM, GB_VIEW_ROSE };
+
+struct gb_panel_plot {
+    enum gb_view view;
+    bool log, hide_earlier;
+    enum gb_plot_glyphs glyphs;
+    bool cursor_on;
+    size_t cursor; /* point of the curve */
+    struct gb_plot plot;
+    double *x, *y; /* series under construction */
+    size_t capacity;
+};
+
+void gb_panel_plot_init(struct gb_panel_plot *panel, const struct gb_term *term);
+void gb_panel_plot_finish(struct gb_panel_plot *panel);
+void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *paint,
+                        const struct gb_session *session, bool focus);
+bool gb_panel_plot_act(struct gb_panel_plot *panel, const struct gb_session *session,
+                       enum gb_action action);
+/* The point under the cursor, or what the view shows. */
+void gb_panel_plot_explain(const struct gb_panel_plot *panel,
+                           const struct gb_session *session, struct gb_message *message);
+
+/* [state] */
+void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
+                         bool focus);
+/* "running", with its sign; the style says the same in colour. */
+const char *gb_panel_state_word(int state, enum gb_style *style);
+
+/* [events] */
+struct gb_panel_events {
+    int back; /* lines scrolled back from the last */
+    int page;
+};
+
+void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *paint,
+                          const struct gb_session *session, bool focus);
+bool gb_panel_events_act(struct gb_panel_events *panel, const struct gb_session *session,
+                         enum gb_action action);
+
+#endif

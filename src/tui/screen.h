@@ -1,0 +1,24 @@
+#ifndef GB_TUI_SCREEN_H
+#define GB_TUI_SCREEN_H
+
+#include "tui/dialog.h"
+#include "tui/panels.h"
+
+/* Everything the screen shows, in one place: app.c changes it, screen.c draws it. */
+struct gb_screen {
+    struct gb_term *term;
+    struct gb_session session;
+    struct gb_layout layout;
+    enum gb_pane focus;
+    struct gb_panel_params params;
+    struct gb_panel_plot plot;
+    struct gb_panel_events events;
+    struct gb_dialog dialog;
+    struct gb_message message; /* "": the focused pane explains itself */
+};
+
+/* Draws all of it into curses' memory; what differs from the terminal is sent by
+ * gb_term_flush. */
+void gb_screen_draw(struct gb_screen *screen);
+
+#endif

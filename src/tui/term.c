@@ -1,0 +1,408 @@
+#include "tui/term.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <glib.h>
+#include <langinfo.h>
+#include <locale.h>
+#include <ncurses.h>
+#include <poll.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <sys/signalfd.h>
+#include <term.h>
+#include <unistd.h>
+
+#include "base/alloc.h"
+#include "tui/crash.h"
+#include "tui/term_style.h"
+
+/* After Esc a terminal sends the rest of a function key within this time. */
+enum { ESCAPE_MS = 40 };
+
+static const int caught[] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,
+                             SIGTSTP, SIGCONT, SIGWINCH};
+
+enum { CAUGHT = sizeof caught / sizeof caught[0] };
+
+struct gb_term {
+    SCREEN *screen;
+    WINDOW *keys; /* a pad: reading from it does not refresh the screen */
+    FILE *out, *in;
+    int out_fd, in_fd, signal_fd;
+    int saved_out, saved_err;
+    bool utf8, braille;
+    struct termios modes;
+    sigset_t mask_before;
+    struct sigaction before[CAUGHT], pipe_before;
+    uint64_t style[GB_STYLE_COUNT];
+};
+
+static int open_log(void)
+{
+    char *folder = g_build_filename(g_get_user_state_dir(), "greenbody", NULL);
+    char *path = g_build_filename(folder, "workbench.log", NULL);
+    g_mkdir_with_parents(folder, 0700);
+    int fd = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+    if (fd < 0) {
+        fd = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    }
+    g_free(path);
+    g_free(folder);
+    return fd;
+}
+
+/* Libraries write to standard error, some to standard output; on the screen that would be
+ * garbage. */
+static void redirect(struct gb_term *term)
+{
+    fflush(stdout);
+    const int log = open_log();
+    if (log >= 0) {
+        dup2(log, STDOUT_FILENO);
+        dup2(log, STDERR_FILENO);
+        close(log);
+    }
+    (void)term;
+}
+
+static void undirect(struct gb_term *term)
+{
+    fflush(stdout);
+    dup2(term->saved_out, STDOUT_FILENO);
+    dup2(term->saved_err, STDERR_FILENO);
+}
+
+static bool places_cursor(const char *type, int fd)
+{
+    int found = 0;
+    if (setupterm(type, fd, &found) != OK) {
+        return false;
+    }
+    const bool places = cursor_address != NULL;
+    del_curterm(cur_term);
+    return places;
+}
+
+/* The terminal's own type, or for one that terminfo does not know (common over ssh) the
+ * one that nearly all of them understand. */
+static const char *choose_type(int fd, struct gb_error *err)
+{
+    const char *own = getenv("TERM");
+    int found = 0;
+    const bool known = own != NULL && *own != '\0' && setupterm(own, fd, &found) == OK;
+    if (known) {
+        del_curterm(cur_term);
+    }
+    static const char *const fallback[] = {"xterm-256color", "xterm", "vt100"};
+    if (known && places_cursor(own, fd)) {
+        return own;
+    }
+    for (size_t i = 0; !known && i < G_N_ELEMENTS(fallback); i++) {
+        if (places_cursor(fallback[i], fd)) {
+            return fallback[i];
+        }
+    }
+    gb_error_set(err, GB_ERR_MACHINE,
+                 "the terminal type TERM=%s %s; `greenbody run PRESET` needs no screen",
+                 own == NULL ? "" : own,
+                 known ? "cannot place the cursor" : "is unknown");
+    return NULL;
+}
+
+static void set_locale(struct gb_term *term, const char *type)
+{
+    setlocale(LC_ALL, "");
+    setlocale(LC_NUMERIC, "C"); /* numbers keep their point everywhere */
+    term->utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+    term->braille = term->utf8 && strcmp(type, "linux") != 0;
+}
+
+static void set_modes(void)
+{
+    cbreak();
+    noecho();
+    nonl();
+    curs_set(0);
+}
+
+static bool start_screen(struct gb_term *term, const char *type, struct gb_error *err)
+{
+    use_env(FALSE); /* stale LINES and COLUMNS lie */
+    use_tioctl(TRUE);
+    term->screen = newterm(type, term->out, term->in);
+    if (term->screen == NULL) {
+        return gb_error_set(err, GB_ERR_MACHINE, "cannot use the terminal type %s", type);
+    }
+    set_modes();
+    set_escdelay(ESCAPE_MS);
+    gb_term_style_init(term->style);
+    term->keys = newpad(1, 1);
+    keypad(term->keys, TRUE);
+    nodelay(term->keys, TRUE);
+    return true;
+}
+
+static void catch_signals(struct gb_term *term)
+{
+    sigset_t mask;
+    sigemptyset(&mask);
+    for (int i = 0; i < CAUGHT; i++) {
+        sigaction(caught[i], NULL, &term->before[i]);
+        sigaddset(&mask, caught[i]);
+    }
+    const struct sigaction ignore = {.sa_handler = SIG_IGN};
+    sigaction(SIGPIPE, &ignore, &term->pipe_before);
+    pthread_sigmask(SIG_BLOCK, &mask, &term->mask_before);
+    term->signal_fd = signalfd(-1, &mask, SFD_CLOEXEC | SFD_NONBLOCK);
+}
+
+static void release_signals(struct gb_term *term)
+{
+    for (int i = 0; i < CAUGHT; i++) {
+        sigaction(caught[i], &term->before[i], NULL);
+    }
+    sigaction(SIGPIPE, &term->pipe_before, NULL);
+    close(term->signal_fd);
+    pthread_sigmask(SIG_SETMASK, &term->mask_before, NULL);
+}
+
+static void arm_crash(const struct gb_term *term)
+{
+    char reset[192];
+    const char *leave = tigetstr("rmcup");
+    const char *cursor = tigetstr("cnorm");
+    const char *plain = tigetstr("sgr0");
+    g_snprintf(reset, sizeof reset, "%s%s%s\r\n",
+               plain != NULL && plain != (char *)-1 ? plain : "",
+               leave != NULL && leave != (char *)-1 ? leave : "",
+               cursor != NULL && cursor != (char *)-1 ? cursor : "");
+    gb_crash_arm(term->out_fd, term->saved_err, &term->modes, reset);
+}
+
+static int duplicate(int fd)
+{
+    return fcntl(fd, F_DUPFD_CLOEXEC, 3);
+}
+
+/* Keys come from standard input, or from the terminal itself when input is a pipe. */
+static bool open_streams(struct gb_term *term, struct gb_error *err)
+{
+    if (!isatty(STDOUT_FILENO)) {
+        return gb_error_set(err, GB_ERR_MACHINE, "standard output is not a terminal");
+    }
+    term->saved_out = duplicate(STDOUT_FILENO);
+    term->saved_err = duplicate(STDERR_FILENO);
+    term->out_fd = duplicate(STDOUT_FILENO);
+    term->in_fd = isatty(STDIN_FILENO) ? duplicate(STDIN_FILENO)
+                                       : open("/dev/tty", O_RDONLY | O_CLOEXEC);
+    term->out = term->out_fd < 0 ? NULL : fdopen(term->out_fd, "w");
+    term->in = term->in_fd < 0 ? NULL : fdopen(term->in_fd, "r");
+    if (term->out == NULL || term->in == NULL ||
+        tcgetattr(term->out_fd, &term->modes) != 0) {
+        return gb_error_set(err, GB_ERR_MACHINE, "cannot open the terminal: %s",
+                            strerror(errno));
+    }
+    return true;
+}
+
+static void close_streams(struct gb_term *term)
+{
+    if (term->out != NULL) {
+        fclose(term->out);
+    }
+    if (term->in != NULL) {
+        fclose(term->in);
+    }
+    if (term->saved_out >= 0) {
+        close(term->saved_out);
+    }
+    if (term->saved_err >= 0) {
+        close(term->saved_err);
+    }
+}
+
+bool gb_term_start(struct gb_term **out, struct gb_error *err)
+{
+    struct gb_term *term = gb_alloc_array(1, sizeof *term, err);
+    if (term == NULL) {
+        return false;
+    }
+    term->saved_out = term->saved_err = -1;
+    if (!open_streams(term, err)) {
+        goto fail;
+    }
+    const char *type = choose_type(term->out_fd, err);
+    if (type == NULL) {
+        goto fail;
+    }
+    set_locale(term, type);
+    catch_signals(term);
+    if (!start_screen(term, type, err)) {
+        release_signals(term);
+        goto fail;
+    }
+    redirect(term);
+    arm_crash(term);
+    *out = term;
+    return true;
+fail:
+    close_streams(term);
+    gb_alloc_free(term);
+    return false;
+}
+
+void gb_term_stop(struct gb_term *term)
+{
+    if (term == NULL) {
+        return;
+    }
+    gb_crash_disarm();
+    delwin(term->keys);
+    endwin();
+    delscreen(term->screen);
+    undirect(term);
+    release_signals(term);
+    close_streams(term);
+    gb_alloc_free(term);
+}
+
+void gb_term_suspend(struct gb_term *term)
+{
+    endwin();
+    undirect(term);
+    sigset_t stop;
+    sigemptyset(&stop);
+    sigaddset(&stop, SIGTSTP);
+    const struct sigaction plain = {.sa_handler = SIG_DFL};
+    sigaction(SIGTSTP, &plain, NULL);
+    pthread_sigmask(SIG_UNBLOCK, &stop, NULL);
+    raise(SIGTSTP); /* returns when the process goes on */
+    pthread_sigmask(SIG_BLOCK, &stop, NULL);
+    redirect(term);
+    set_modes();
+}
+
+/* The new size is taken from the kernel here and not in a handler. */
+static struct gb_term_event resized(struct gb_term *term)
+{
+    struct winsize size;
+    if (ioctl(term->out_fd, TIOCGWINSZ, &size) == 0 && size.ws_row > 0 &&
+        size.ws_col > 0) {
+        resizeterm(size.ws_row, size.ws_col);
+    }
+    return (struct gb_term_event){GB_TERM_RESIZED, 0};
+}
+
+static struct gb_term_event from_signal(struct gb_term *term)
+{
+    struct signalfd_siginfo info;
+    const struct gb_term_event nothing = {GB_TERM_NOTHING, 0};
+    if (read(term->signal_fd, &info, sizeof info) != (ssize_t)sizeof info) {
+        return nothing;
+    }
+    switch (info.ssi_signo) {
+    case SIGINT:
+        return (struct gb_term_event){GB_TERM_INTERRUPT, SIGINT};
+    case SIGTERM:
+    case SIGQUIT:
+        return (struct gb_term_event){GB_TERM_TERMINATE, (int32_t)info.ssi_signo};
+    case SIGHUP:
+        return (struct gb_term_event){GB_TERM_GONE, SIGHUP};
+    case SIGTSTP:
+        gb_term_suspend(term);
+        gb_term_repaint(term);
+        return resized(term);
+    case SIGCONT:
+        reset_prog_mode();
+        gb_term_repaint(term);
+        return resized(term);
+    case SIGWINCH:
+        return resized(term);
+    default:
+        return nothing;
+    }
+}
+
+static bool next_key(struct gb_term *term, struct gb_term_event *event)
+{
+    wint_t code = 0;
+    const int how = wget_wch(term->keys, &code);
+    if (how == ERR) {
+        return false;
+    }
+    if (how == KEY_CODE_YES) {
+        event->kind = code == KEY_RESIZE ? GB_TERM_RESIZED : GB_TERM_KEY;
+    } else {
+        event->kind = code < 32 || code == 127 ? GB_TERM_KEY : GB_TERM_TEXT;
+    }
+    event->code = (int32_t)code;
+    return true;
+}
+
+/* A closed terminal answers every read at once with nothing: asking it again would spin.
+ */
+static bool is_gone(const struct gb_term *term, short revents)
+{
+    int waiting = 0;
+    if (revents & (POLLHUP | POLLERR | POLLNVAL)) {
+        return true;
+    }
+    return (revents & POLLIN) && ioctl(term->in_fd, FIONREAD, &waiting) == 0 &&
+           waiting == 0;
+}
+
+struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms)
+{
+    struct gb_term_event event = {GB_TERM_NOTHING, 0};
+    if (next_key(term, &event)) {
+        return event;
+    }
+    struct pollfd fds[] = {{term->signal_fd, POLLIN, 0}, {term->in_fd, POLLIN, 0}};
+    if (poll(fds, 2, timeout_ms) <= 0) {
+        return event;
+    }
+    if (fds[0].revents != 0) {
+        return from_signal(term);
+    }
+    if (is_gone(term, fds[1].revents)) {
+        return (struct gb_term_event){GB_TERM_GONE, SIGHUP};
+    }
+    next_key(term, &event);
+    return event;
+}
+
+void gb_term_repaint(struct gb_term *term)
+{
+    (void)term;
+    clearok(curscr, TRUE);
+}
+
+void gb_term_flush(struct gb_term *term)
+{
+    (void)term;
+    refresh();
+}
+
+void gb_term_size(const struct gb_term *term, int *rows, int *cols)
+{
+    (void)term;
+    *rows = LINES;
+    *cols = COLS;
+}
+
+bool gb_term_utf8(const struct gb_term *term)
+{
+    return term->utf8;
+}
+
+bool gb_term_braille(const struct gb_term *term)
+{
+    return term->braille;
+}
+
+uint64_t gb_term_style(const struct gb_term *term, enum gb_style style)
+{
+    return term->style[style];
+}

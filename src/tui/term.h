@@ -1,0 +1,69 @@
+#ifndef GB_TUI_TERM_H
+#define GB_TUI_TERM_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+
+/* The terminal: taken at the start, given back on every way out.  While curses owns it,
+ * standard output and error of everybody else go to a log file. */
+struct gb_term;
+
+/* Meanings, not colours: what they look like depends on the terminal and on NO_COLOR, and
+ * each of them is told by a word or a mark as well. */
+enum gb_style {
+    GB_STYLE_PLAIN,
+    GB_STYLE_DIM,
+    GB_STYLE_BOLD,
+    GB_STYLE_TITLE,
+    GB_STYLE_FOCUS,    /* title of the pane with the focus */
+    GB_STYLE_SELECTED, /* line with the focus */
+    GB_STYLE_EDIT,     /* text being typed */
+    GB_STYLE_CHANGED,  /* parameter the run does not use yet */
+    GB_STYLE_GOOD,
+    GB_STYLE_WARN,
+    GB_STYLE_BAD,
+    GB_STYLE_SERIES, /* + colour, GB_TERM_SERIES of them */
+    GB_STYLE_COUNT = GB_STYLE_SERIES + 6
+};
+
+enum gb_term_event_kind {
+    GB_TERM_NOTHING,   /* the time is over */
+    GB_TERM_KEY,       /* curses key code or control character */
+    GB_TERM_TEXT,      /* printable character */
+    GB_TERM_RESIZED,   /* also after a suspension: paint everything */
+    GB_TERM_INTERRUPT, /* SIGINT */
+    GB_TERM_TERMINATE, /* SIGTERM, SIGQUIT */
+    GB_TERM_GONE       /* SIGHUP, or the terminal is closed: it must not be touched */
+};
+
+struct gb_term_event {
+    enum gb_term_event_kind kind;
+    int32_t code;
+};
+
+/* Takes the terminal.  Errors (GB_ERR_MACHINE): not a terminal, unknown and no fallback
+ * works, cannot place the cursor; nothing has been changed then. */
+bool gb_term_start(struct gb_term **out, struct gb_error *err);
+void gb_term_stop(struct gb_term *term); /* NULL is fine */
+
+/* Sleeps until something happens, at most timeout_ms (negative: for ever). */
+struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms);
+
+/* Stops the process as Ctrl-Z does, and takes the screen back when it goes on. */
+void gb_term_suspend(struct gb_term *term);
+
+/* Paints the whole screen with the next flush, whatever it shows now. */
+void gb_term_repaint(struct gb_term *term);
+/* Sends what has changed. */
+void gb_term_flush(struct gb_term *term);
+
+void gb_term_size(const struct gb_term *term, int *rows, int *cols);
+bool gb_term_utf8(const struct gb_term *term);
+/* Braille is in no font of the Linux console. */
+bool gb_term_braille(const struct gb_term *term);
+/* curses attributes of a style. */
+uint64_t gb_term_style(const struct gb_term *term, enum gb_style style);
+
+#endif
