@@ -3,9 +3,9 @@
 
 #include <termios.h>
 
-/* Gives the terminal back even when the process dies of a fault: on SIGSEGV, SIGBUS, SIGFPE,
- * SIGILL and SIGABRT writes the reset text to the terminal, restores its modes and standard
- * error, and lets the signal do what it did before.  Async-signal-safe.
+/* Gives the terminal back even when the process dies of a fault: on SIGSEGV, SIGBUS,
+ * SIGFPE, SIGILL and SIGABRT writes the reset text to the terminal, restores its modes
+ * and standard error, and lets the signal do what it did before.  Async-signal-safe.
  *
  * screen  descriptor of the terminal
  * err     standard error as it was before the screen was taken

@@ -5,8 +5,8 @@
 #include "tui/paint.h"
 #include "tui/prompt.h"
 
-/* What lies over the panes: help, the list of presets, the name to save under, the question
- * before quitting.  One at a time. */
+/* What lies over the panes: help, the list of presets, the name to save under, the
+ * question before quitting.  One at a time. */
 enum gb_dialog_kind {
     GB_DIALOG_NONE,
     GB_DIALOG_HELP,
@@ -18,9 +18,9 @@ enum gb_dialog_kind {
 struct gb_dialog {
     enum gb_dialog_kind kind;
     int top, focus, page;
-    char **names;    /* presets to open; owned */
-    char note[400];  /* why the last answer was not taken */
-    bool warned;     /* the note was a warning: the same answer again is taken */
+    char **names;   /* presets to open; owned */
+    char note[400]; /* why the last answer was not taken */
+    bool warned;    /* the note was a warning: the same answer again is taken */
     struct gb_prompt prompt;
 };
 
@@ -30,8 +30,8 @@ void gb_dialog_close(struct gb_dialog *dialog);
 
 void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);
 
-/* Takes an event; true when the answer is given and waits in gb_dialog_answer.  Esc closes
- * the dialog. */
+/* Takes an event; true when the answer is given and waits in gb_dialog_answer.  Esc
+ * closes the dialog. */
 bool gb_dialog_type(struct gb_dialog *dialog, const struct gb_term_event *event);
 
 /* The preset chosen, the name typed; "" for yes. */

@@ -5,9 +5,9 @@
 #include "tui/plot.h"
 #include "tui/term.h"
 
-/* Drawing into a rectangle of the screen.  Rows and columns count from its top left corner;
- * what lies outside is cut.  Control characters become '?', and on a screen without UTF-8
- * the few signs the workbench uses are replaced. */
+/* Drawing into a rectangle of the screen.  Rows and columns count from its top left
+ * corner; what lies outside is cut.  Control characters become '?', and on a screen
+ * without UTF-8 the few signs the workbench uses are replaced. */
 struct gb_paint {
     const struct gb_term *term;
     struct gb_rect rect;

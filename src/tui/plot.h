@@ -10,8 +10,8 @@
 
 /* Series -> cells, without curses: what is drawn here can be read in a test. */
 
-/* How dots become characters: 2 x 4 dots a cell (braille), 1 x 2 (half blocks, which every
- * console font has), 1 x 2 of ' . : (ASCII). */
+/* How dots become characters: 2 x 4 dots a cell (braille), 1 x 2 (half blocks, which
+ * every console font has), 1 x 2 of ' . : (ASCII). */
 enum gb_plot_glyphs { GB_PLOT_BRAILLE, GB_PLOT_BLOCK, GB_PLOT_ASCII, GB_PLOT_GLYPHS };
 
 /* Meaning of a cell, for whoever gives it colours. */
@@ -50,8 +50,8 @@ struct gb_plot_entry {
 };
 
 struct gb_plot {
-    int rows, cols;      /* of the whole picture */
-    int top, left;       /* of the field inside the axes */
+    int rows, cols; /* of the whole picture */
+    int top, left;  /* of the field inside the axes */
     int field_rows, field_cols;
     enum gb_plot_glyphs glyphs;
     struct gb_plot_axis x, y;

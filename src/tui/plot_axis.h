@@ -18,9 +18,9 @@ struct gb_plot_axis {
 /* Fits an axis around data between low and high.
  *
  * most   how many ticks there is room for (at least 2)
- * log    falls back to linear when high is not positive; a low that is not positive becomes
- *        three decades below high
- * Never fails: equal or non-finite ends become an axis from 0 to 1 or around the value. */
+ * log    falls back to linear when high is not positive; a low that is not positive
+ * becomes three decades below high Never fails: equal or non-finite ends become an axis
+ * from 0 to 1 or around the value. */
 void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool log,
                       int most);
 

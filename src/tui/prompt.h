@@ -17,7 +17,8 @@ struct gb_prompt {
 /* Begins with a text; the cursor stands behind it. */
 void gb_prompt_set(struct gb_prompt *prompt, const char *text);
 
-/* Takes a key or a character; false when it is not for the prompt (Enter, Esc, Tab, ...). */
+/* Takes a key or a character; false when it is not for the prompt (Enter, Esc, Tab, ...).
+ */
 bool gb_prompt_take(struct gb_prompt *prompt, const struct gb_term_event *event);
 
 /* The text as UTF-8, valid until the next change. */

@@ -4,15 +4,15 @@
 #include "run/preset.h"
 #include "run/runner.h"
 
-/* What the workbench works on, without a screen: the parameters being edited, the run under
- * way, what it has shown so far and the runs before it. */
+/* What the workbench works on, without a screen: the parameters being edited, the run
+ * under way, what it has shown so far and the runs before it. */
 
 enum { GB_SESSION_EARLIER = 6, GB_SESSION_LOG = 200, GB_SESSION_DIFFERENCE = 96 };
 
 /* A run that was replaced: what the plot needs of it. */
 struct gb_earlier {
     struct gb_params params;
-    char letter; /* 'a', 'b', ...: its mark in the plot */
+    char letter;                            /* 'a', 'b', ...: its mark in the plot */
     char difference[GB_SESSION_DIFFERENCE]; /* its own values where the new run differs */
     size_t count;
     double *density, *pressure_pa; /* NaN between branches */
@@ -27,7 +27,7 @@ struct gb_session {
     int engine;               /* enum gb_run_state now, even while the view is frozen */
     bool frozen;
     bool pause_wanted;
-    bool waiting;             /* a command was sent, its effect not yet seen */
+    bool waiting; /* a command was sent, its effect not yet seen */
     struct gb_earlier earlier[GB_SESSION_EARLIER];
     int earlier_count;
     int runs; /* started so far */
