@@ -3,7 +3,7 @@
 /* Simple cubic lattice of n x n x n points, a apart. */
 static double *cubic(int n, double a)
 {
-    double *position = g_new(double, 3 * n * n * n);
+    double *position = g_new(double, (gsize)(3 * n * n * n));
     for (int i = 0; i < n * n * n; i++) {
         position[3 * i] = a * (i % n);
         position[3 * i + 1] = a * (i / n % n);
@@ -175,8 +175,8 @@ static void test_own_image(void)
 static int64_t flood(const struct gb_cell *cell, int64_t count, const double *position,
                      double reach)
 {
-    int64_t *stack = g_new(int64_t, count);
-    bool *seen = g_new0(bool, count);
+    int64_t *stack = g_new(int64_t, (gsize)count);
+    bool *seen = g_new0(bool, (gsize)count);
     int64_t clusters = 0;
     for (int64_t start = 0; start < count; start++) {
         int64_t waiting = 0;
