@@ -26,8 +26,8 @@ struct gb_grow gb_grow_of(const struct gb_model *model);
 /* Places the particles.
  *
  * position   count x 3, filled with places inside the cell (y = 0 in 2D)
- * Errors: GB_ERR_INPUT "structure.density ... cannot be reached" when no place is left
- * (says which density was reached), GB_ERR_MEMORY, GB_ERR_CANCELLED.
+ * Errors: GB_ERR_INPUT "structure.density = 0.7: not reached, stopped at 0.44 (...)" when
+ * no place is left, GB_ERR_MEMORY, GB_ERR_CANCELLED.
  * Deterministic: same struct, same bits.  Cost about linear in count. */
 bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error *err);
 
