@@ -232,17 +232,12 @@ static enum gb_advance advance(struct run *run, int64_t evaluations)
 }
 
 /* Presses to the end of the programme, a guard or a signal.  False only when the results
- * cannot be kept.
- *
- * A recorded point leaves the next strain step pending: forces and positions of a state
- * belong together after one more evaluation. */
+ * cannot be kept. */
 static bool press(struct run *run, enum gb_run_state *state, struct gb_error *err)
 {
-    enum gb_advance how = GB_ADVANCE_POINT;
     *state = GB_RUN_STOPPED;
-    while (caught == 0 || how == GB_ADVANCE_POINT) {
-        const bool due = state_due(run);
-        how = advance(run, due ? 1 : gb_pace_slice(&run->pace));
+    while (caught == 0) {
+        const enum gb_advance how = advance(run, gb_pace_slice(&run->pace));
         if (!keep_events(run, err) ||
             (how == GB_ADVANCE_POINT && !keep_point(run, err))) {
             return false;
@@ -251,8 +246,7 @@ static bool press(struct run *run, enum gb_run_state *state, struct gb_error *er
             *state = how == GB_ADVANCE_DONE ? GB_RUN_DONE : GB_RUN_STOPPED;
             return true;
         }
-        if ((due && how == GB_ADVANCE_MORE && !keep_state(run, err)) ||
-            !report(run, err)) {
+        if ((state_due(run) && !keep_state(run, err)) || !report(run, err)) {
             return false;
         }
     }

@@ -24,11 +24,13 @@ struct gb_experiment {
     struct gb_relax *relax;
     struct gb_load load;
     struct gb_guard guard;
-    double factor[3];             /* strain step under way */
+    double factor[3];             /* strain step under way, or to be taken next */
+    bool strain_due;              /* it waits for the next slice, so that between slices after
+                                   * a point forces, places and histories belong together */
     int64_t step;                 /* strain steps recorded */
     int64_t spent_iterations, spent_evaluations; /* by attempts that were taken back */
     bool have_good;
-    bool over;
+    bool over, stopped;
     struct gb_point point;
     char event[EVENTS][EVENT_TEXT];
     int events_first, events_count;
@@ -85,7 +87,8 @@ bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *pa
     experiment->params = *params;
     if (!gb_params_check(params, err) || !gb_model_init(&experiment->model, params, err) ||
         !gb_relax_create(&experiment->relax, &experiment->model, err) ||
-        !grow_world(experiment, cancelled, data, err)) {
+        !grow_world(experiment, cancelled, data, err) ||
+        !gb_world_evaluate(experiment->world, err)) {
         gb_experiment_destroy(experiment);
         return false;
     }
@@ -150,6 +153,7 @@ static void strain(struct gb_experiment *experiment)
 {
     gb_world_strain(experiment->world, experiment->factor);
     gb_relax_start(experiment->relax, experiment->world);
+    experiment->strain_due = false;
 }
 
 static void unload_event(struct gb_experiment *experiment)
@@ -192,9 +196,7 @@ static bool obey(struct gb_experiment *experiment, struct gb_error *err)
             break;
         }
         experiment->have_good = gb_world_save(experiment->world, &experiment->good, err);
-        if (experiment->have_good) {
-            strain(experiment);
-        }
+        experiment->strain_due = experiment->have_good;
         return experiment->have_good;
     }
 }
@@ -205,16 +207,15 @@ static bool take_back(struct gb_experiment *experiment, struct gb_error *err)
     experiment->spent_iterations += experiment->relax->iterations;
     experiment->spent_evaluations += experiment->relax->evaluations;
     return experiment->have_good &&
-           gb_world_restore(experiment->world, experiment->good, err);
+           gb_world_restore(experiment->world, experiment->good, err) &&
+           gb_world_evaluate(experiment->world, err);
 }
 
 static enum gb_advance stop(struct gb_experiment *experiment)
 {
     struct gb_error ignored;
-    if (take_back(experiment, &ignored)) {
-        gb_world_evaluate(experiment->world, &ignored);
-    }
-    experiment->over = true;
+    take_back(experiment, &ignored);
+    experiment->over = experiment->stopped = true;
     return GB_ADVANCE_STOPPED;
 }
 
@@ -225,7 +226,7 @@ static enum gb_advance record(struct gb_experiment *experiment, struct gb_error 
     experiment->step++;
     gb_load_recover(&experiment->load);
     if (!obey(experiment, err)) {
-        experiment->over = true;
+        experiment->over = experiment->stopped = true;
         return GB_ADVANCE_STOPPED;
     }
     return GB_ADVANCE_POINT;
@@ -239,6 +240,9 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
     }
     struct gb_error local;
     struct gb_error *why = err ? err : &local;
+    if (experiment->strain_due) {
+        strain(experiment);
+    }
     const enum gb_relax_outcome outcome =
         gb_relax_advance(experiment->relax, experiment->world, max_evaluations, why);
     if (outcome == GB_RELAX_MORE) {
@@ -256,7 +260,7 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
         }
         add_event(experiment, text);
         gb_load_halve(&experiment->load, experiment->factor);
-        strain(experiment);
+        experiment->strain_due = true;
         return GB_ADVANCE_MORE;
     case GB_GUARD_STOP:
         break;
@@ -281,13 +285,12 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
     gb_observe_rose(experiment->world, GB_SNAPSHOT_ROSE, snapshot->rose);
     snapshot->evaluations = gb_world_evaluations(experiment->world);
     snapshot->live_residual = experiment->relax->residual;
-    snapshot->progress =
-        experiment->over ? 1.0
-                         : gb_load_progress(&experiment->load,
-                                            experiment->point.p_pa /
-                                                experiment->model.pascal_per_stress,
-                                            experiment->point.density,
-                                            experiment->model.start_density);
+    const double pressure = experiment->point.p_pa / experiment->model.pascal_per_stress;
+    snapshot->progress = experiment->over && !experiment->stopped
+                             ? 1.0
+                             : gb_load_progress(&experiment->load, pressure,
+                                                experiment->point.density,
+                                                experiment->model.start_density);
 }
 
 static void copy_pairs(const struct gb_world *world, struct gb_state *state)
