@@ -204,11 +204,20 @@ static const char *state_word(int state)
     return state >= 0 && state < (int)G_N_ELEMENTS(words) ? words[state] : "unknown";
 }
 
+/* json-glib writes 1e-08 as "1e-08.0", which no reader accepts.  The next double has more digits
+ * and a point, and goes through. */
+static double writable(double value)
+{
+    char text[G_ASCII_DTOSTR_BUF_SIZE];
+    g_ascii_dtostr(text, sizeof text, value);
+    return strchr(text, 'e') && !strchr(text, '.') ? nextafter(value, INFINITY) : value;
+}
+
 static void add_double(JsonBuilder *json, const char *name, double value, bool known)
 {
     json_builder_set_member_name(json, name);
     if (known && isfinite(value)) {
-        json_builder_add_double_value(json, value);
+        json_builder_add_double_value(json, writable(value));
     } else {
         json_builder_add_null_value(json);
     }

@@ -157,10 +157,12 @@ static void test_status(void)
     g_assert_true(gb_store_status(store, &shot, &err));
     shot.now = some_point();
     shot.now_valid = true;
+    shot.progress = 1e-8;
     g_assert_true(gb_store_status(store, &shot, &err));
     gb_store_destroy(store);
 
     char *text = content(directory, "status.json");
+    g_assert_null(strstr(text, "e-08.0")); /* no JSON */
     JsonNode *root = json_from_string(text, NULL);
     g_assert_nonnull(root);
     JsonObject *object = json_node_get_object(root);
