@@ -29,7 +29,7 @@ static void write_title(const struct gb_panel_plot *panel,
 {
     static const char *const names[] = {
         [GB_VIEW_CURVE] = "1 Pressure against density",
-        [GB_VIEW_HISTOGRAM] = "2 Contacts a particle",
+        [GB_VIEW_HISTOGRAM] = "2 Particles by their number of contacts",
         [GB_VIEW_ROSE] = "3 Mean normal force by direction",
     };
     snprintf(title, size, "%s%s%s", names[panel->view],

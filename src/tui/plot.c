@@ -243,9 +243,12 @@ void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int
     if (!(from >= 0.0 && to <= 1.0 && from <= to && top > 0.0)) {
         return;
     }
-    const int last = field_col(plot, to);
-    for (int col = field_col(plot, from); col <= last; col++) {
-        gb_plot_raster_column(plot, col, top > 1.0 ? 1.0 : top, ink);
+    /* bars of equal share get equal widths, with a column between them */
+    const int width = MAX((int)floor((to - from) * plot->field_cols) - 1, 1);
+    const int col = field_col(plot, from);
+    const int end = MIN(col + width, plot->left + plot->field_cols);
+    for (int c = col; c < end; c++) {
+        gb_plot_raster_column(plot, c, top > 1.0 ? 1.0 : top, ink);
     }
 }
 

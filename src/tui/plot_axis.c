@@ -45,17 +45,29 @@ static void add_tick(struct gb_plot_axis *axis, double value, double step)
     }
 }
 
+/* Whole steps between two values. */
+static double steps_inside(const struct gb_plot_axis *axis, double step, double *first)
+{
+    *first = ceil(axis->low / step - 1e-6);
+    return floor(axis->high / step + 1e-6) - *first;
+}
+
 /* The ends are round to a fifth of a tick: whole ticks would leave up to half of a small
- * plot empty. */
+ * plot empty.  Fewer than two ticks would leave the scale open. */
 static void fit_linear(struct gb_plot_axis *axis, double low, double high, int most)
 {
-    const double step = nice_step((high - low) / (most > 2 ? most - 1 : 1));
+    double step = nice_step((high - low) / (most > 2 ? most - 1 : 1));
     const double fine = step / 5.0;
+    double first = 0.0;
     axis->low = floor(low / fine + 1e-9) * fine;
     axis->high = ceil(high / fine - 1e-9) * fine;
-    const double last = floor(axis->high / step + 1e-6);
-    for (double i = ceil(axis->low / step - 1e-6); i <= last; i += 1.0) {
-        add_tick(axis, i * step, step);
+    double count = steps_inside(axis, step, &first);
+    if (count < 1.0) {
+        step = nice_step(step * 0.4);
+        count = steps_inside(axis, step, &first);
+    }
+    for (double i = 0.0; i <= count; i += 1.0) {
+        add_tick(axis, (first + i) * step, step);
     }
 }
 

@@ -96,6 +96,9 @@ static void segment(struct gb_plot *plot, const double from[2], const double end
     const double y = (1.0 - a[1]) * last_y;
     const double dx = b[0] * last_x - x;
     const double dy = (1.0 - b[1]) * last_y - y;
+    if (!isfinite(x + y + dx + dy)) {
+        return; /* ends so far apart that their distance overflows */
+    }
     const int steps = (int)ceil(fmax(fabs(dx), fabs(dy)));
     for (int i = 0; i <= steps; i++) {
         const double t = steps > 0 ? (double)i / steps : 0.0;

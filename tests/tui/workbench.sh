@@ -1,0 +1,279 @@
+#!/bin/sh
+# The workbench in a real terminal, as a user meets it.  Waits for what the screen shows, with
+# a deadline, and never for a time.
+# Usage: workbench.sh GREENBODY PRESET_FOLDER
+set -u
+
+greenbody=$1
+presets=$2
+socket=greenbody-test-$$
+here=$(mktemp -d) || exit 1
+tests=0
+bad=0
+deadline_s=30
+
+export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
+export XDG_STATE_HOME="$here/state" LC_ALL=C.UTF-8 ENV=
+unset NO_COLOR COLORTERM TMUX LINES COLUMNS
+
+finish() {
+    term kill-server 2>/dev/null
+    rm -rf "$here"
+}
+trap finish EXIT
+trap 'exit 1' HUP INT TERM
+
+term() {
+    tmux -u -L "$socket" -f /dev/null "$@"
+}
+
+screen() {
+    term capture-pane -p
+}
+
+keys() {
+    term send-keys "$@"
+}
+
+result() { # name, 0 when good
+    tests=$((tests + 1))
+    if [ "$2" -eq 0 ]; then
+        echo "ok $tests $1"
+    else
+        echo "not ok $tests $1"
+        screen | sed 's/^/# /'
+        bad=1
+    fi
+}
+
+# command...: until it succeeds or the deadline is over
+until_true() {
+    end=$(($(date +%s) + deadline_s))
+    while ! "$@"; do
+        [ "$(date +%s)" -lt "$end" ] || return 1
+        sleep 0.05
+    done
+}
+
+has() {
+    screen | grep -q -- "$1"
+}
+
+has_not() {
+    ! has "$1"
+}
+
+shows() { # name, pattern
+    until_true has "$2"
+    result "$1" $?
+}
+
+hides() { # name, pattern
+    until_true has_not "$2"
+    result "$1" $?
+}
+
+is() { # name, command...
+    name=$1
+    shift
+    "$@"
+    result "$name" $?
+}
+
+# U+2800 to U+28FF, byte by byte: no grep knows them as a range in every locale
+has_braille() {
+    screen | LC_ALL=C grep -q "$(printf '\342[\240-\243]')"
+}
+
+density() {
+    screen | sed -n 's/.*density *\(0\.[0-9][0-9]*\).*/\1/p' | tail -n 1
+}
+
+density_changed() {
+    now=$(density)
+    [ -n "$now" ] && [ "$now" != "$before" ]
+}
+
+grows() { # name: the density on the screen changes twice
+    before=
+    until_true density_changed && before=$now && until_true density_changed
+    result "$1" $?
+}
+
+# The shell begins a line of its own with the status of what it ran.
+start() { # words after greenbody, and settings before it in $with
+    keys "clear; ${with:-} '$greenbody' $*; echo status=\$?" Enter
+}
+
+terminal_is_back() {
+    [ "$(term display-message -p '#{alternate_on} #{cursor_flag}')" = "0 1" ] || return 1
+    keys "clear; stty -a | tr ' ;' '\\n\\n' | grep -x -e echo -e icanon -e isig | tr '\\n' ." \
+        Enter
+    until_true has 'isig.icanon.echo\.'
+}
+
+go_to() { # parameter: with the focus on the first one
+    for _ in $(seq 60); do
+        if has "^ $1: "; then
+            return 0
+        fi
+        before=$(screen)
+        keys j
+        until_true screen_changed || return 1
+    done
+    return 1
+}
+
+screen_changed() {
+    [ "$(screen)" != "$before" ]
+}
+
+command -v tmux >/dev/null || {
+    echo "Bail out! tmux is needed (./bootstrap installs it)"
+    exit 1
+}
+term new-session -d -x 80 -y 24 /bin/sh || exit 1
+keys "PS1='ready''> '" Enter
+until_true has '^ready>'
+
+# --- the default scene
+start default
+shows "opens the default preset" 'Pressure against density'
+grows "the curve grows"
+is "dots of braille" until_true has_braille
+is "parameters are listed" has 'Parameters'
+is "state is shown" has 'State'
+is "events are shown" has 'Events'
+
+# --- editing
+keys g
+is "focus reaches mu" go_to mu
+keys Enter C-u abc Enter
+shows "a bad value is refused with the reason" 'contact.mu = abc: accepted'
+keys C-u 0.3 Enter
+shows "a good value is marked" '^\*mu  *0\.3'
+shows "what applies when is said" 'applies at restart'
+keys r
+shows "r starts anew" 'run 2 started'
+grows "the new curve grows"
+shows "the earlier run is named by what differed" 'a mu 0\.1'
+keys Enter C-u 0.25 Escape
+shows "Esc leaves the value" '^ mu  *0\.3'
+shows "a run comes to its end" '✓ done'
+
+# --- an idle screen sends nothing: the one place where time has to pass
+term pipe-pane "cat >'$here/sent'"
+sleep 1
+term pipe-pane
+is "an idle screen sends nothing" [ ! -s "$here/sent" ]
+
+# --- views and dialogs
+keys L
+shows "L makes the axis logarithmic" '(log)'
+keys 2
+shows "2 shows contacts" '2 Particles by their number'
+keys 3
+shows "3 shows directions" '3 Mean normal force'
+keys 1 '?'
+shows "? lists the keys" 'Keys (Up and Down'
+keys Escape
+hides "Esc closes the help" 'Keys (Up and Down'
+keys w
+shows "w asks for a name" 'Save the parameters'
+keys C-u mine Enter
+shows "saves" 'saved as'
+is "the preset stands on disk" grep -q '^mu *= *0.3' "$here/config/greenbody/presets/mine.ini"
+keys w C-u mine Enter
+shows "does not replace silently" 'exists: Enter again'
+keys Escape o
+shows "o lists presets" 'Open a preset'
+is "its own among them" has 'mine'
+keys Escape
+keys q
+shows "q leaves at once when the run is over" 'status=0'
+is "the terminal is back" terminal_is_back
+
+# --- a longer run: pause, freeze, sizes
+start default particles.count=6000
+shows "opens with settings" 'N 6000'
+shows "it runs" '▶ running'
+keys p
+shows "p pauses the engine" '‖ paused'
+keys p
+hides "p again resumes it" '‖ paused'
+shows "it runs again" '▶ running'
+keys Space
+shows "space freezes the view" 'view frozen'
+keys Space
+hides "space again lets it go" 'view frozen'
+term resize-window -x 60 -y 20
+hides "60 x 20 has one pane" 'State'
+keys Tab
+shows "60 x 20 shows the plot" 'Pressure against density'
+shows "60 x 20 shows the state" 'State'
+term resize-window -x 30 -y 10
+shows "too small says so" 'needs 40 x 12'
+term resize-window -x 200 -y 60
+shows "200 x 60 spells names out" 'contacts a particle'
+is "nothing was lost" has 'run 1 started'
+term resize-window -x 80 -y 24
+shows "80 x 24 again" 'Parameters'
+keys C-z
+shows "Ctrl-Z gives the shell" 'Stopped'
+keys "clear; fg; echo status=\$?" Enter
+shows "fg brings the screen back" 'Parameters'
+keys q
+shows "q asks while a run is live" 'Quit?'
+keys n
+hides "n goes back" 'Quit?'
+keys q
+shows "q asks again" 'Quit?'
+keys y
+shows "y quits" 'status=0'
+is "the terminal is back after y" terminal_is_back
+
+# --- other ways out
+start default particles.count=6000
+shows "opens again" 'Parameters'
+keys C-c
+shows "Ctrl-C asks" 'Quit?'
+keys C-c
+shows "Ctrl-C again leaves" 'status=130'
+is "the terminal is back after Ctrl-C" terminal_is_back
+keep_pid="sh -c 'echo \$\$ >$here/pid; exec $greenbody default particles.count=6000'"
+keys "clear; $keep_pid; echo status=\$?" Enter
+shows "opens a third time" 'Parameters'
+kill -TERM "$(cat "$here/pid")"
+shows "SIGTERM leaves" 'status=143'
+is "the terminal is back after SIGTERM" terminal_is_back
+
+# --- other terminals
+with='LC_ALL=C' start default
+shows "without UTF-8 it opens" 'Parameters'
+grows "without UTF-8 the curve grows"
+is "without UTF-8 all is ASCII" eval '! screen | LC_ALL=C grep -q "[^ -~]"'
+keys q y
+shows "and closes" 'status=0'
+with='NO_COLOR=1' start default
+grows "with NO_COLOR the curve grows"
+is "with NO_COLOR there is none" \
+    eval '! term capture-pane -p -e | grep -q "$(printf "\033")\[[0-9;]*[34][0-8]"'
+keys q y
+shows "and closes, too" 'status=0'
+with='TERM=of-tomorrow' start default
+shows "an unknown terminal gets the usual one" 'Parameters'
+keys q y
+shows "and closes as well" 'status=0'
+with='TERM=dumb' start default
+shows "a dumb terminal gets one line" 'dumb cannot place the cursor'
+shows "and status 3" 'status=3'
+
+# --- the terminal goes away
+keys "clear; $keep_pid" Enter
+shows "opens a last time" 'Parameters'
+pid=$(cat "$here/pid")
+term kill-server
+is "ends when the terminal is closed" until_true eval "! kill -0 $pid 2>/dev/null"
+
+echo "1..$tests"
+exit "$bad"
