@@ -9,20 +9,18 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "run/hdf_memory.h"
 
-enum {
-    TEXT_MAX = 4096,     /* longest text attribute that is read */
-    IMAGE_STEP = 1 << 20 /* growth of the file in memory */
-};
+enum { TEXT_MAX = 4096 }; /* longest text attribute that is read */
 
-/* Deflate cannot pack tighter than this: data that claims more is not there, and asking for
- * its memory would let a small file take all of it. */
+/* Deflate cannot pack tighter than this: data that claims more is not there, and asking
+ * for its memory would let a small file take all of it. */
 static const double packing_limit = 1032.0;
 
 struct gb_hdf {
     hid_t file;
     char *path;
-    void *image; /* content of a written file, ours after its close */
+    struct gb_hdf_memory memory; /* of a file under construction */
 };
 
 /* HDF5 prints its error stack by itself; ours is the only voice.  The setting belongs to
@@ -86,69 +84,6 @@ static struct gb_hdf *wrap(const char *path, struct gb_error *err)
     return file;
 }
 
-/* The memory of a file under construction.  H5Fget_file_image would copy it, and in 1.10
- * clears a flag of the header without renewing its checksum; so the close hands over the
- * finished image instead of freeing it. */
-static void *image_malloc(size_t size, H5FD_file_image_op_t why, void *data)
-{
-    (void)why;
-    (void)data;
-    return malloc(size);
-}
-
-static void *image_realloc(void *image, size_t size, H5FD_file_image_op_t why, void *data)
-{
-    (void)why;
-    (void)data;
-    return realloc(image, size);
-}
-
-static herr_t image_free(void *image, H5FD_file_image_op_t why, void *data)
-{
-    struct gb_hdf *file = data;
-    if (why == H5FD_FILE_IMAGE_OP_FILE_CLOSE) {
-        file->image = image;
-    } else {
-        free(image);
-    }
-    return 0;
-}
-
-static void *same_data(void *data)
-{
-    return data;
-}
-
-static herr_t keep_data(void *data)
-{
-    (void)data;
-    return 0;
-}
-
-/* A file in memory.  Format 1.8: checksummed headers, read by every h5py.  No times: equal
- * packings make equal files. */
-static hid_t create_in_memory(struct gb_hdf *file)
-{
-    H5FD_file_image_callbacks_t calls = {.image_malloc = image_malloc,
-                                         .image_realloc = image_realloc,
-                                         .image_free = image_free,
-                                         .udata_copy = same_data,
-                                         .udata_free = keep_data,
-                                         .udata = file};
-    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    const hid_t create = H5Pcreate(H5P_FILE_CREATE);
-    hid_t id = H5I_INVALID_HID;
-    if (H5Pset_fapl_core(access, IMAGE_STEP, false) >= 0 &&
-        H5Pset_file_image_callbacks(access, &calls) >= 0 &&
-        H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) >= 0 &&
-        H5Pset_obj_track_times(create, false) >= 0) {
-        id = H5Fcreate(file->path, H5F_ACC_TRUNC, create, access);
-    }
-    H5Pclose(create);
-    H5Pclose(access);
-    return id;
-}
-
 bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err)
 {
     hush();
@@ -156,7 +91,7 @@ bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err)
     if (*out == NULL) {
         return false;
     }
-    (*out)->file = create_in_memory(*out);
+    (*out)->file = gb_hdf_memory_create(&(*out)->memory, path);
     if ((*out)->file < 0) {
         unwritten(*out, "/", err);
         gb_hdf_destroy(*out);
@@ -166,25 +101,17 @@ bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err)
     return true;
 }
 
-/* Size of a finished image.  Known only after the close, which gives back spare room at the
- * end; it is the end-of-file address in the header (format 1.8: superblock 2, byte 28). */
-static size_t image_size(const void *image)
-{
-    uint64_t size = 0;
-    memcpy(&size, (const char *)image + 28, sizeof size);
-    return (size_t)GUINT64_FROM_LE(size);
-}
-
 bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err)
 {
     hush();
     const bool flushed = H5Fflush(file->file, H5F_SCOPE_GLOBAL) >= 0;
     const bool closed = H5Fclose(file->file) >= 0;
     file->file = H5I_INVALID_HID;
-    if (!flushed || !closed || file->image == NULL) {
+    if (!flushed || !closed || file->memory.image == NULL) {
         return unwritten(file, "/", err);
     }
-    return gb_file_replace(file->path, file->image, image_size(file->image), err);
+    return gb_file_replace(file->path, file->memory.image,
+                           gb_hdf_memory_size(&file->memory), err);
 }
 
 bool gb_hdf_open(struct gb_hdf **out, const char *path, struct gb_error *err)
@@ -232,7 +159,7 @@ void gb_hdf_destroy(struct gb_hdf *file)
     if (file->file >= 0) {
         H5Fclose(file->file);
     }
-    free(file->image);
+    free(file->memory.image);
     g_free(file->path);
     gb_alloc_free(file);
 }
@@ -337,8 +264,8 @@ static const char *shape_fault(hid_t set, const struct gb_hdf_array *array, int6
 }
 
 /* Opens a dataset of this very file whose type and columns fit; negative on error. */
-static hid_t open_set(struct gb_hdf *file, const struct gb_hdf_array *array, int64_t *rows,
-                      struct gb_error *err)
+static hid_t open_set(struct gb_hdf *file, const struct gb_hdf_array *array,
+                      int64_t *rows, struct gb_error *err)
 {
     H5L_info_t link;
     if (H5Lget_info(file->file, array->name, &link, H5P_DEFAULT) < 0) {
@@ -461,7 +388,8 @@ bool gb_hdf_put_text(struct gb_hdf *file, const char *name, const char *text,
     return put_text_on(file->file, name, text) || unwritten(file, name, err);
 }
 
-/* A title ends up in terminals and captions: no escape sequences, whole characters only. */
+/* A title ends up in terminals and captions: no escape sequences, whole characters only.
+ */
 static void clean_text(char *text)
 {
     const char *end = NULL;

@@ -13,9 +13,16 @@
  * for, and links, external or virtual data that lead to other files are refused. */
 struct gb_hdf;
 
-enum gb_hdf_type { GB_HDF_DOUBLE, GB_HDF_INT32, GB_HDF_INT64, GB_HDF_UINT64, GB_HDF_UINT8 };
+enum gb_hdf_type {
+    GB_HDF_DOUBLE,
+    GB_HDF_INT32,
+    GB_HDF_INT64,
+    GB_HDF_UINT64,
+    GB_HDF_UINT8
+};
 
-/* An empty file that gb_hdf_store puts at path; after that only gb_hdf_destroy is left. */
+/* An empty file that gb_hdf_store puts at path; after that only gb_hdf_destroy is left.
+ */
 bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err);
 bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err);
 /* An existing file, to be read. */
@@ -33,15 +40,16 @@ struct gb_hdf_array {
 
 bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
                       const void *data, struct gb_error *err);
-/* Rows of a dataset whose type and columns are as in array; array->rows is not looked at. */
+/* Rows of a dataset whose type and columns are as in array; array->rows is not looked at.
+ */
 bool gb_hdf_rows(struct gb_hdf *file, const struct gb_hdf_array *array, int64_t *rows,
                  struct gb_error *err);
 /* Reads a dataset that has exactly the shape of array. */
 bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, void *data,
                       struct gb_error *err);
 
-/* Attributes of the root group: count numbers of one type, or a text.  A text that is read
- * is cut to size, made valid UTF-8 and freed from control characters. */
+/* Attributes of the root group: count numbers of one type, or a text.  A text that is
+ * read is cut to size, made valid UTF-8 and freed from control characters. */
 bool gb_hdf_put_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
                         int count, const void *data, struct gb_error *err);
 bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
