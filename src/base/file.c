@@ -7,8 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* GLib's message names its temporary file; the user knows only the path, so what is kept is
- * the reason after the last colon. */
+/* GLib's message names its temporary file; the user knows only the path, so what is kept
+ * is the reason after the last colon. */
 static const char *reason(const GError *error)
 {
     const char *colon = strrchr(error->message, ':');
@@ -36,7 +36,8 @@ bool gb_file_check_target(const char *path, struct gb_error *err)
     return true;
 }
 
-bool gb_file_replace(const char *path, const void *data, size_t size, struct gb_error *err)
+bool gb_file_replace(const char *path, const void *data, size_t size,
+                     struct gb_error *err)
 {
     if (!gb_file_check_target(path, err)) {
         return false;

@@ -10,9 +10,10 @@
  * synced.  After a crash or a full disk the old content is still there and no temporary
  * file is left by a failed write.
  *
- * Errors: GB_ERR_MACHINE naming path and reason; GB_ERR_INPUT when path is something other
- * than a regular file (a rename would turn /dev/null into one). */
-bool gb_file_replace(const char *path, const void *data, size_t size, struct gb_error *err);
+ * Errors: GB_ERR_MACHINE naming path and reason; GB_ERR_INPUT when path is something
+ * other than a regular file (a rename would turn /dev/null into one). */
+bool gb_file_replace(const char *path, const void *data, size_t size,
+                     struct gb_error *err);
 
 /* The checks of gb_file_replace that can be made before the work: path is absent or a
  * regular file, and its folder exists and can be written. */

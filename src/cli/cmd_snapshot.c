@@ -1,5 +1,7 @@
-#include <glib.h>
+#include <signal.h>
 #include <string.h>
+
+#include <glib.h>
 
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -47,7 +49,8 @@ static bool parse_request(const struct request *request, struct gb_picture *pict
                             "snapshot needs -o FILE.png for the picture");
     }
     if (!g_str_has_suffix(request->output, ".png")) {
-        return gb_error_set(err, GB_ERR_INPUT, "-o %.300s: a name ending in .png is accepted",
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "-o %.300s: a name ending in .png is accepted",
                             request->output);
     }
     return (request->view == NULL || gb_view_parse(request->view, &picture->look, err)) &&
@@ -60,11 +63,13 @@ static bool parse_request(const struct request *request, struct gb_picture *pict
 /* The state file of a run directory, or the file itself. */
 static char *state_path(const char *place)
 {
-    return g_file_test(place, G_FILE_TEST_IS_DIR) ? g_build_filename(place, "state.h5", NULL)
-                                                  : g_strdup(place);
+    return g_file_test(place, G_FILE_TEST_IS_DIR)
+               ? g_build_filename(place, "state.h5", NULL)
+               : g_strdup(place);
 }
 
-static bool take_picture(const struct request *request, char **words, struct gb_error *err)
+static bool take_picture(const struct request *request, char **words,
+                         struct gb_error *err)
 {
     struct gb_picture picture;
     struct gb_state *state = NULL;
@@ -76,9 +81,10 @@ static bool take_picture(const struct request *request, char **words, struct gb_
         return false;
     }
     if (request->at != NULL) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "--at %.80s: %.200s keeps only its final state; leave --at out",
-                            request->at, words[0]);
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--at %.80s: %.200s keeps only its final state; leave --at out", request->at,
+            words[0]);
     }
     if (!request->force && g_file_test(request->output, G_FILE_TEST_EXISTS)) {
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
@@ -108,15 +114,17 @@ int gb_cmd_snapshot(int argc, char **argv)
          "WIDTHxHEIGHT"},
         {"ground", 0, 0, G_OPTION_ARG_STRING, &request.ground,
          "white, dark or transparent", "COLOUR"},
-        {"bare", 0, 0, G_OPTION_ARG_NONE, &request.bare, "the packing without words", NULL},
+        {"bare", 0, 0, G_OPTION_ARG_NONE, &request.bare, "the packing without words",
+         NULL},
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at, "a kept state, as \"p=100 MPa\"",
          "POINT"},
         {0},
     };
     static const struct gb_options_page page = {
         .usage = "DIR -o FILE.png",
-        .summary = "Picture of a packing: particles in their box, coloured by coordination\n"
-                   "number.  DIR is a run directory or a state.h5.",
+        .summary =
+            "Picture of a packing: particles in their box, coloured by coordination\n"
+            "number.  DIR is a run directory or a state.h5.",
     };
     char **words = NULL;
     int status = 0;
@@ -125,6 +133,8 @@ int gb_cmd_snapshot(int argc, char **argv)
         free_request(&request);
         return status;
     }
+    /* a file that may not grow is an error of a write */
+    signal(SIGXFSZ, SIG_IGN);
     const bool done = take_picture(&request, words, &err);
     g_strfreev(words);
     free_request(&request);

@@ -62,8 +62,8 @@ static void set_ink(const struct pen *pen)
                          pen->ink[2] / 255.0);
 }
 
-/* One line at (x, y); align 0, 0.5, 1: x is its left end, middle, right end; y its middle.
- * Longer than room (> 0), it is cut with an ellipsis. */
+/* One line at (x, y); align 0, 0.5, 1: x is its left end, middle, right end; y its
+ * middle. Longer than room (> 0), it is cut with an ellipsis. */
 static double write_line(const struct pen *pen, const char *line, double x, double y,
                          double align, double scale, double room)
 {
@@ -104,7 +104,8 @@ static void draw_colour_bar(const struct pen *pen, const struct gb_frame *bar)
     cairo_rectangle(pen->cairo, bar->left, bar->top, bar->width, bar->height);
     cairo_stroke(pen->cairo);
     cairo_save(pen->cairo);
-    cairo_translate(pen->cairo, bar->left - 0.95 * pen->unit, bar->top + 0.5 * bar->height);
+    cairo_translate(pen->cairo, bar->left - 0.95 * pen->unit,
+                    bar->top + 0.5 * bar->height);
     cairo_rotate(pen->cairo, -0.5 * G_PI);
     write_line(pen, "coordination number", 0.0, 0.0, 0.5, 0.95, 0.0);
     cairo_restore(pen->cairo);
@@ -118,7 +119,8 @@ static void draw_scale_bar(const struct pen *pen, const struct gb_scene *scene,
     char text[96];
     const double pixel_per_metre = gb_view_scale(&scene->view) / state->metre_per_length;
     const double length =
-        gb_caption_bar_length(most / pixel_per_metre, label, sizeof label) * pixel_per_metre;
+        gb_caption_bar_length(most / pixel_per_metre, label, sizeof label) *
+        pixel_per_metre;
     snprintf(text, sizeof text, "%s%s", label,
              scene->view.orthographic ? "" : " at mid-depth");
     set_ink(pen);

@@ -16,9 +16,11 @@ struct gb_caption_layout {
 };
 
 /* Pure: sizes -> rectangles. */
-void gb_caption_place(int width, int height, bool words, struct gb_caption_layout *layout);
+void gb_caption_place(int width, int height, bool words,
+                      struct gb_caption_layout *layout);
 
-/* Longest of 1, 2, 5 x 10^k nm (or um, mm) that is at most `most` metres; label is its text. */
+/* Longest of 1, 2, 5 x 10^k nm (or um, mm) that is at most `most` metres; label is its
+ * text. */
 double gb_caption_bar_length(double most, char *label, size_t size);
 
 bool gb_caption_draw(struct gb_image *image, const struct gb_caption_layout *layout,

@@ -12,12 +12,12 @@
 #include "draw/shaders.h"
 
 enum {
-    SAMPLES = 2,          /* a side, of one pixel */
-    TILE = 2048,          /* largest tile, pixels */
-    SHADOW = 2048,        /* side of the shadow map */
-    REACH_LIMIT = 192,    /* samples; farthest look of the occlusion, and margin of a tile */
-    CANVAS = 16,          /* OSMesa's own buffer, not drawn to */
-    RIBBON = 6,           /* vertices of a box edge */
+    SAMPLES = 2,       /* a side, of one pixel */
+    TILE = 2048,       /* largest tile, pixels */
+    SHADOW = 2048,     /* side of the shadow map */
+    REACH_LIMIT = 192, /* samples; farthest look of the occlusion, and margin of a tile */
+    CANVAS = 16,       /* OSMesa's own buffer, not drawn to */
+    RIBBON = 6,        /* vertices of a box edge */
     TEXTURES = 6,
     PROGRAMS = 4
 };
@@ -77,7 +77,8 @@ static bool compile(GLuint program, GLenum stage, const char *text, struct gb_er
     return done != 0;
 }
 
-static bool build(GLuint *program, const struct gb_shaders_text *text, struct gb_error *err)
+static bool build(GLuint *program, const struct gb_shaders_text *text,
+                  struct gb_error *err)
 {
     GLint done = 0;
     *program = glCreateProgram();
@@ -247,8 +248,8 @@ static void set_light_lens(struct pass *pass)
     lens->range[1] = high[2] - low[2];
 }
 
-static void new_texture(struct pass *pass, enum texture unit, GLint internal, GLenum format,
-                        GLenum type, int width, int height)
+static void new_texture(struct pass *pass, enum texture unit, GLint internal,
+                        GLenum format, GLenum type, int width, int height)
 {
     glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
     glBindTexture(GL_TEXTURE_2D, pass->texture[unit]);
@@ -269,7 +270,8 @@ static void make_targets(struct pass *pass)
     const int height = SAMPLES * pass->most_height + 2 * pass->margin;
     glGenTextures(TEXTURES, pass->texture);
     glGenFramebuffers(4, pass->frame);
-    new_texture(pass, TEXTURE_SEEN, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, width, height);
+    new_texture(pass, TEXTURE_SEEN, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, width,
+                height);
     new_texture(pass, TEXTURE_DEPTH, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT,
                 width, height);
     new_texture(pass, TEXTURE_SHADOW, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT,
@@ -335,7 +337,8 @@ static bool in_target(const struct lens *lens, const float *ball, int width, int
     const float x = lens->lens[0] + scale * ball[0];
     const float y = lens->lens[1] - scale * ball[1];
     const float r = 1.5F * scale * ball[3] + 2.0F;
-    return x + r >= 0.0F && y + r >= 0.0F && x - r <= (float)width && y - r <= (float)height;
+    return x + r >= 0.0F && y + r >= 0.0F && x - r <= (float)width &&
+           y - r <= (float)height;
 }
 
 static void draw_spheres(struct pass *pass, const struct lens *lens, bool all, int width,
@@ -488,8 +491,9 @@ static void draw_pixels(struct pass *pass)
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glPixelStorei(GL_PACK_ROW_LENGTH, image->width);
-    glReadPixels(0, 0, pass->width, pass->height, GL_RGBA, GL_UNSIGNED_BYTE,
-                 &image->rgba[4 * ((size_t)pass->y * (size_t)image->width + (size_t)pass->x)]);
+    glReadPixels(
+        0, 0, pass->width, pass->height, GL_RGBA, GL_UNSIGNED_BYTE,
+        &image->rgba[4 * ((size_t)pass->y * (size_t)image->width + (size_t)pass->x)]);
 }
 
 static void paint_tile(struct pass *pass)

@@ -28,6 +28,6 @@ void gb_palette_scale(double x, uint8_t rgb[3])
 void gb_palette_contacts(int contacts, uint8_t rgb[3])
 {
     const double share = (double)contacts / GB_PALETTE_CONTACTS;
-    gb_palette_scale(contacts_start + (1.0 - contacts_start) * fmin(fmax(share, 0.0), 1.0),
-                     rgb);
+    gb_palette_scale(
+        contacts_start + (1.0 - contacts_start) * fmin(fmax(share, 0.0), 1.0), rgb);
 }

@@ -6,9 +6,9 @@
 /* Highest coordination number with a colour of its own; more than that share it. */
 enum { GB_PALETTE_CONTACTS = 12 };
 
-/* Perceptually even scale, the same to colour-blind eyes and in grey: viridis (van der Walt
- * and Smith 2015, CC0) without its nearly black end, which would hide the shading.  x is cut
- * to [0, 1]; rgb is sRGB. */
+/* Perceptually even scale, the same to colour-blind eyes and in grey: viridis (van der
+ * Walt and Smith 2015, CC0) without its nearly black end, which would hide the shading.
+ * x is cut to [0, 1]; rgb is sRGB. */
 void gb_palette_scale(double x, uint8_t rgb[3]);
 
 /* Colour of a coordination number; below 0 counts as 0. */

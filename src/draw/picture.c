@@ -18,8 +18,8 @@ void gb_picture_init(struct gb_picture *picture)
     gb_view_parse("corner", &picture->look, NULL);
 }
 
-/* Mesa, LLVM, fontconfig and Pango complain on stderr by themselves.  Returns the real one,
- * or -1. */
+/* Mesa, LLVM, fontconfig and Pango complain on stderr by themselves.  Returns the real
+ * one, or -1. */
 static int hush(void)
 {
     fflush(stderr);
@@ -84,7 +84,8 @@ bool gb_picture_write(const struct gb_picture *picture, const struct gb_state *s
     char pressure[48] = "unknown";
     struct gb_image *image = NULL;
     /* before the work, not after it */
-    if (!gb_file_check_target(path, err) || !gb_picture_paint(&image, picture, state, err)) {
+    if (!gb_file_check_target(path, err) ||
+        !gb_picture_paint(&image, picture, state, err)) {
         return false;
     }
     snprintf(seed, sizeof seed, "%" PRIu64, state->seed);

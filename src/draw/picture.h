@@ -20,8 +20,8 @@ struct gb_picture {
 /* 1600 x 1200 on white from above the side, with words. */
 void gb_picture_init(struct gb_picture *picture);
 
-/* The libraries below have a voice of their own: stderr leads nowhere meanwhile.  Not for a
- * process in which another thread has something to say there. */
+/* The libraries below have a voice of their own: stderr leads nowhere meanwhile.  Not for
+ * a process in which another thread has something to say there. */
 bool gb_picture_paint(struct gb_image **out, const struct gb_picture *picture,
                       const struct gb_state *state, struct gb_error *err);
 

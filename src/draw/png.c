@@ -58,10 +58,10 @@ static void put_header(struct writer *writer, const struct gb_image *image, bool
         text[k].key = (png_charp)(uintptr_t)texts[k].key;
         text[k].text = (png_charp)(uintptr_t)texts[k].value;
     }
-    png_set_IHDR(writer->png, writer->info, (png_uint_32)image->width,
-                 (png_uint_32)image->height, 8,
-                 opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(
+        writer->png, writer->info, (png_uint_32)image->width, (png_uint_32)image->height,
+        8, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+        PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(writer->png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(writer->png, writer->info, text, text_count);
     png_set_compression_level(writer->png, LEVEL);
@@ -100,8 +100,9 @@ static bool encode(struct writer *writer, const struct gb_image *image, bool opa
     return true;
 }
 
-bool gb_png_write(const struct gb_image *image, bool opaque, const struct gb_png_text *texts,
-                  int text_count, const char *path, struct gb_error *err)
+bool gb_png_write(const struct gb_image *image, bool opaque,
+                  const struct gb_png_text *texts, int text_count, const char *path,
+                  struct gb_error *err)
 {
     struct writer writer = {.png = NULL};
     char *memory = NULL;
@@ -114,7 +115,8 @@ bool gb_png_write(const struct gb_image *image, bool opaque, const struct gb_png
         return false;
     }
     writer.stream = open_memstream(&memory, &size);
-    writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, on_error, on_warning);
+    writer.png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, on_error, on_warning);
     writer.info = writer.png != NULL ? png_create_info_struct(writer.png) : NULL;
     bool done = writer.stream != NULL && writer.info != NULL &&
                 encode(&writer, image, opaque, texts, MIN(text_count, TEXTS_MAX));
@@ -124,9 +126,10 @@ bool gb_png_write(const struct gb_image *image, bool opaque, const struct gb_png
     if (writer.stream != NULL && fclose(writer.stream) != 0) {
         done = false;
     }
-    done = done ? gb_file_replace(path, memory, size, err)
-                : gb_error_set(err, GB_ERR_MEMORY, "%s: libpng cannot write the picture: %s",
-                               path, writer.reason[0] != '\0' ? writer.reason : "no memory");
+    done =
+        done ? gb_file_replace(path, memory, size, err)
+             : gb_error_set(err, GB_ERR_MEMORY, "%s: libpng cannot write the picture: %s",
+                            path, writer.reason[0] != '\0' ? writer.reason : "no memory");
     free(memory);
     gb_alloc_free(writer.row);
     return done;

@@ -11,9 +11,10 @@ struct gb_png_text {
     const char *key, *value;
 };
 
-/* Writes the image as sRGB PNG and puts it in place as a whole.  opaque leaves the alpha out.
- * Errors: as gb_file_replace, GB_ERR_MEMORY. */
-bool gb_png_write(const struct gb_image *image, bool opaque, const struct gb_png_text *texts,
-                  int text_count, const char *path, struct gb_error *err);
+/* Writes the image as sRGB PNG and puts it in place as a whole.  opaque leaves the alpha
+ * out. Errors: as gb_file_replace, GB_ERR_MEMORY. */
+bool gb_png_write(const struct gb_image *image, bool opaque,
+                  const struct gb_png_text *texts, int text_count, const char *path,
+                  struct gb_error *err);
 
 #endif

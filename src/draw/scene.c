@@ -6,8 +6,8 @@
 #include "base/alloc.h"
 #include "draw/palette.h"
 
-/* Share of the ground mixed into the farthest particles: enough to tell near from far, too
- * little to be read as another coordination number. */
+/* Share of the ground mixed into the farthest particles: enough to tell near from far,
+ * too little to be read as another coordination number. */
 static const float depth_cue = 0.14F;
 /* Light that a shadow takes; the sky keeps it readable. */
 static const float shadow_share = 0.75F;
@@ -73,7 +73,8 @@ static void set_camera(struct gb_scene *scene, const struct gb_state *state,
     if (planar) {
         cell[1] = 0.0; /* discs lie in the plane y = 0 */
     }
-    gb_view_init(&scene->view, planar ? &along_y : look, cell, largest_radius(state), frame);
+    gb_view_init(&scene->view, planar ? &along_y : look, cell, largest_radius(state),
+                 frame);
 }
 
 bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,

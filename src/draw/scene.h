@@ -26,8 +26,8 @@ struct gb_scene {
     float shadow_share; /* 0: no shadows */
 };
 
-/* Spheres coloured by coordination number in their periodic box, seen so that the box fills
- * the frame.  2D packings are always seen along y without perspective. */
+/* Spheres coloured by coordination number in their periodic box, seen so that the box
+ * fills the frame.  2D packings are always seen along y without perspective. */
 bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
                      const struct gb_look *look, const struct gb_frame *frame,
                      enum gb_ground ground, struct gb_error *err);

@@ -4,8 +4,8 @@
  * range: depth of 0 and of 1 in the depth buffer, which is linear. */
 #define LENS "uniform vec4 lens;\nuniform vec2 range;\n"
 
-/* A ray meets a sphere.  Measured from the point of the ray nearest to the centre: the plain
- * quadratic loses all digits when the viewer is many diameters away. */
+/* A ray meets a sphere.  Measured from the point of the ray nearest to the centre: the
+ * plain quadratic loses all digits when the viewer is many diameters away. */
 static const char sphere_vertex[] =
     "#version 330 core\n" LENS
     "uniform samplerBuffer spheres;\n"
@@ -79,12 +79,13 @@ static const char edge_fragment[] =
     "    seen = 0xfffffffeu;\n"
     "}\n";
 
-#define WHOLE_SCREEN                                                                         \
-    "#version 330 core\n"                                                                    \
-    "void main()\n"                                                                          \
-    "{\n"                                                                                    \
-    "    vec2 at = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n"    \
-    "    gl_Position = vec4(at, 0.0, 1.0);\n"                                                \
+#define WHOLE_SCREEN                                                                     \
+    "#version 330 core\n"                                                                \
+    "void main()\n"                                                                      \
+    "{\n"                                                                                \
+    "    vec2 at = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : "        \
+    "-1.0);\n"                                                                           \
+    "    gl_Position = vec4(at, 0.0, 1.0);\n"                                            \
     "}\n"
 
 /* Light: an even sky that the neighbours block (occlusion: share of a spiral of samples
@@ -92,8 +93,7 @@ static const char edge_fragment[] =
  * highlight.  Colours are linear here.  The four samples of a pixel turn the spiral by
  * quarters of its step, so that a pixel sees four times as many directions. */
 static const char shade_fragment[] =
-    "#version 330 core\n" LENS
-    "uniform usampler2D seen;\n"
+    "#version 330 core\n" LENS "uniform usampler2D seen;\n"
     "uniform sampler2D depths;\n"
     "uniform sampler2D shadows;\n"
     "uniform samplerBuffer spheres;\n"
@@ -148,7 +148,8 @@ static const char shade_fragment[] =
     "    float open = 0.0;\n"
     "    for (int k = 0; k < shadow_taps; k++) {\n"
     "        float angle = 2.39996 * (float(k) + turn);\n"
-    "        float r = 0.11 * light_lens.z * sqrt((float(k) + turn) / float(shadow_taps));\n"
+    "        float r = 0.11 * light_lens.z * sqrt((float(k) + turn) / "
+    "float(shadow_taps));\n"
     "        ivec2 at = ivec2(centre + r * vec2(cos(angle), sin(angle)));\n"
     "        open += texelFetch(shadows, at, 0).r + bias >= depth ? 1.0 : 0.0;\n"
     "    }\n"

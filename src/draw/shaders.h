@@ -2,8 +2,8 @@
 #define GB_DRAW_SHADERS_H
 
 /* GLSL of the pictures.  A packing is drawn in two passes: who is seen where (index and
- * depth of spheres and box edges, once from the eye and once from the light), then shading
- * of every sample from that, then the samples become pixels. */
+ * depth of spheres and box edges, once from the eye and once from the light), then
+ * shading of every sample from that, then the samples become pixels. */
 struct gb_shaders_text {
     const char *vertex, *fragment;
 };

@@ -144,6 +144,8 @@ void gb_view_init(struct gb_view *view, const struct gb_look *look, const double
     bounds(view, cell, margin, low, high);
     view->focal =
         fmin(frame->width / (high[0] - low[0]), frame->height / (high[1] - low[1]));
-    view->centre[0] = frame->left + 0.5 * frame->width - 0.5 * view->focal * (low[0] + high[0]);
-    view->centre[1] = frame->top + 0.5 * frame->height - 0.5 * view->focal * (low[1] + high[1]);
+    view->centre[0] =
+        frame->left + 0.5 * frame->width - 0.5 * view->focal * (low[0] + high[0]);
+    view->centre[1] =
+        frame->top + 0.5 * frame->height - 0.5 * view->focal * (low[1] + high[1]);
 }

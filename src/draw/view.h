@@ -12,7 +12,8 @@ struct gb_look {
     bool orthographic;
 };
 
-/* "corner", "front" (along y), "side" (along x), "top", or "AZIMUTH,ELEVATION" in degrees;
+/* "corner", "front" (along y), "side" (along x), "top", or "AZIMUTH,ELEVATION" in
+ * degrees;
  * ",flat" behind any of them makes it orthographic.  Errors: GB_ERR_INPUT saying what is
  * accepted. */
 bool gb_view_parse(const char *text, struct gb_look *look, struct gb_error *err);
@@ -23,7 +24,8 @@ struct gb_frame {
 };
 
 /* A frozen camera.  Eye coordinates: x right, y up, w depth away from the viewer; a point
- * is seen at pixel (centre + focal (x, -y) / w), without the division when orthographic. */
+ * is seen at pixel (centre + focal (x, -y) / w), without the division when orthographic.
+ */
 struct gb_view {
     double right[3], up[3], away[3]; /* orthonormal, in cell axes */
     double target[3];                /* middle of the box */
@@ -33,7 +35,8 @@ struct gb_view {
     double near, far; /* depths of the box and the spheres that stick out of it */
 };
 
-/* Camera that sees the whole box, with `margin` around it, as large as the frame allows. */
+/* Camera that sees the whole box, with `margin` around it, as large as the frame allows.
+ */
 void gb_view_init(struct gb_view *view, const struct gb_look *look, const double cell[3],
                   double margin, const struct gb_frame *frame);
 

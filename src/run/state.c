@@ -29,10 +29,12 @@ static const struct array_row arrays[] = {
     {"/radius", GB_HDF_DOUBLE, 1, false, offsetof(struct gb_state, radius), "d"},
     {"/contacts", GB_HDF_INT32, 1, false, offsetof(struct gb_state, contacts), "1"},
     {"/pair", GB_HDF_INT32, 2, true, offsetof(struct gb_state, pair), "1"},
-    {"/pair_force", GB_HDF_DOUBLE, 3, true, offsetof(struct gb_state, pair_force), "E d^2"},
+    {"/pair_force", GB_HDF_DOUBLE, 3, true, offsetof(struct gb_state, pair_force),
+     "E d^2"},
     {"/pair_normal", GB_HDF_DOUBLE, 1, true, offsetof(struct gb_state, pair_normal),
      "E d^2"},
-    {"/pair_bridged", GB_HDF_UINT8, 1, true, offsetof(struct gb_state, pair_bridged), "1"},
+    {"/pair_bridged", GB_HDF_UINT8, 1, true, offsetof(struct gb_state, pair_bridged),
+     "1"},
 };
 
 /* A number of the file's root group: unit in the name, as in curve.csv and the struct. */
@@ -215,7 +217,8 @@ static bool read_layout(struct gb_hdf *file, const char *path, struct gb_error *
     return true;
 }
 
-static bool read_numbers(struct gb_state *state, struct gb_hdf *file, struct gb_error *err)
+static bool read_numbers(struct gb_state *state, struct gb_hdf *file,
+                         struct gb_error *err)
 {
     int32_t dimension = 0;
     int32_t branch = 0;

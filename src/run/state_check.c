@@ -45,8 +45,8 @@ static const char *header_fault(const struct gb_state *state)
         return state->point.step < 0 ? "step" : "branch";
     }
     for (size_t k = 0; k < sizeof finite_numbers / sizeof finite_numbers[0]; k++) {
-        const double *value =
-            (const double *)(const void *)((const char *)state + finite_numbers[k].offset);
+        const double *value = (const double *)(const void *)((const char *)state +
+                                                             finite_numbers[k].offset);
         if (isinf(*value)) {
             return finite_numbers[k].name;
         }

@@ -87,8 +87,9 @@ static void test_views(void)
 {
     struct gb_look look = {1.0, 2.0, false};
     struct gb_error err = {0};
-    const char *wrong[] = {"", "back", "1", "1,", "1,2,3", "nan,0", "inf,0", "0,91", "361,0",
-                           "1,2,flat,flat", "corner ", ",flat", "0x10,1"};
+    const char *wrong[] = {"",        "back",  "1",     "1,",    "1,2,3",
+                           "nan,0",   "inf,0", "0,91",  "361,0", "1,2,flat,flat",
+                           "corner ", ",flat", "0x10,1"};
     for (size_t k = 0; k < G_N_ELEMENTS(wrong); k++) {
         g_assert_false(gb_view_parse(wrong[k], &look, &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
@@ -106,8 +107,9 @@ static void test_sizes(void)
     struct gb_error err = {0};
     int width = 0;
     int height = 0;
-    const char *wrong[] = {"", "x", "1600", "1600x", "x1200", "15x100", "100x16385",
-                           "99999999999x100", "-5x100", "1600X1200", "1600x1200 ", "1e3x100"};
+    const char *wrong[] = {"",       "x",         "1600",       "1600x",
+                           "x1200",  "15x100",    "100x16385",  "99999999999x100",
+                           "-5x100", "1600X1200", "1600x1200 ", "1e3x100"};
     for (size_t k = 0; k < G_N_ELEMENTS(wrong); k++) {
         g_assert_false(gb_image_parse_size(wrong[k], &width, &height, &err));
         g_assert_nonnull(strstr(err.text, "16 to 16384"));

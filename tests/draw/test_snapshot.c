@@ -49,7 +49,8 @@ static struct gb_picture front(void)
     return picture;
 }
 
-static struct gb_image *paint(const struct gb_picture *picture, const struct gb_state *state)
+static struct gb_image *paint(const struct gb_picture *picture,
+                              const struct gb_state *state)
 {
     struct gb_image *image = NULL;
     struct gb_error err = {0};
@@ -61,11 +62,13 @@ static struct gb_image *paint(const struct gb_picture *picture, const struct gb_
 
 static const uint8_t *at(const struct gb_image *image, double x, double y)
 {
-    return &image->rgba[4 * ((size_t)lround(y) * (size_t)image->width + (size_t)lround(x))];
+    return &image->rgba[4 *
+                        ((size_t)lround(y) * (size_t)image->width + (size_t)lround(x))];
 }
 
 /* Where the camera of a picture sees a particle. */
-static const uint8_t *particle(const struct gb_image *image, const struct gb_picture *picture,
+static const uint8_t *particle(const struct gb_image *image,
+                               const struct gb_picture *picture,
                                const struct gb_state *state, int index)
 {
     struct gb_caption_layout layout;
@@ -103,14 +106,17 @@ static int nearest_contacts(const uint8_t *pixel)
     return best;
 }
 
-/* The sphere in front hides the one behind it; each has its colour; the rest is ground. */
+/* The sphere in front hides the one behind it; each has its colour; the rest is ground.
+ */
 static void test_colours_and_depth(void)
 {
     struct gb_state *state = packing(3);
     struct gb_picture picture = front();
     struct gb_image *image = paint(&picture, state);
-    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 0)) - 2), <=, 1);
-    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 2)) - 7), <=, 1);
+    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 0)) - 2), <=,
+                    1);
+    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 2)) - 7), <=,
+                    1);
     const uint8_t white[4] = {255, 255, 255, 255};
     g_assert_cmpint(memcmp(at(image, 2, 2), white, 4), ==, 0);
     gb_image_destroy(image);
@@ -122,7 +128,8 @@ static void test_colours_and_depth(void)
     gb_state_destroy(state);
 }
 
-/* The silhouette is a disc of the right area: antialiased coverage, transparent ground. */
+/* The silhouette is a disc of the right area: antialiased coverage, transparent ground.
+ */
 static void test_silhouette(void)
 {
     struct gb_state *state = packing(3);
@@ -218,8 +225,8 @@ static void test_scale_bar(void)
     g_assert_cmpstr(label, ==, "50 nm");
     g_assert_cmpfloat_with_epsilon(gb_caption_bar_length(1e-6, label, sizeof label), 1e-6,
                                    1e-20);
-    g_assert_cmpfloat_with_epsilon(gb_caption_bar_length(4.9e-9, label, sizeof label), 2e-9,
-                                   1e-20);
+    g_assert_cmpfloat_with_epsilon(gb_caption_bar_length(4.9e-9, label, sizeof label),
+                                   2e-9, 1e-20);
 }
 
 static void test_planar(void)
@@ -228,7 +235,8 @@ static void test_planar(void)
     struct gb_picture picture = front();
     struct gb_image *image = paint(&picture, state);
     g_assert_cmpint(nearest_contacts(particle(image, &picture, state, 1)), >=, 11);
-    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 0)) - 2), <=, 1);
+    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 0)) - 2), <=,
+                    1);
     gb_image_destroy(image);
     gb_state_destroy(state);
 }
@@ -236,7 +244,8 @@ static void test_planar(void)
 /* Every allowed shape of image, however odd, is painted. */
 static void test_odd_sizes(void)
 {
-    static const int sizes[][2] = {{16, 16}, {16, 3000}, {3000, 16}, {17, 243}, {241, 240}};
+    static const int sizes[][2] = {
+        {16, 16}, {16, 3000}, {3000, 16}, {17, 243}, {241, 240}};
     struct gb_state *state = packing(3);
     for (size_t k = 0; k < G_N_ELEMENTS(sizes); k++) {
         struct gb_picture picture;
@@ -248,7 +257,8 @@ static void test_odd_sizes(void)
     gb_state_destroy(state);
 }
 
-static void assert_text(png_const_textp text, int count, const char *key, const char *value)
+static void assert_text(png_const_textp text, int count, const char *key,
+                        const char *value)
 {
     for (int k = 0; k < count; k++) {
         if (strcmp(text[k].key, key) == 0) {

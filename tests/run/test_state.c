@@ -32,7 +32,8 @@ static struct gb_state *made_up(int64_t count, int64_t pair_count)
     }
     for (int64_t i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) {
-            state->position[3 * i + k] = fmod(0.7 * (double)(3 * i + k) + 1.0 / 3.0, 10.0);
+            state->position[3 * i + k] =
+                fmod(0.7 * (double)(3 * i + k) + 1.0 / 3.0, 10.0);
         }
         state->radius[i] = 0.5 + 1e-3 * (double)(i % 7);
         state->contacts[i] = (int32_t)(i % 13);
@@ -156,8 +157,8 @@ static void test_same_bytes(void)
 /* Without the sync of g_file_set_contents, which takes most of the time of a test. */
 static bool put_file(const char *path, const char *text, gsize size)
 {
-    return g_file_set_contents_full(path, text, (gssize)size, G_FILE_SET_CONTENTS_NONE, 0644,
-                                    NULL);
+    return g_file_set_contents_full(path, text, (gssize)size, G_FILE_SET_CONTENTS_NONE,
+                                    0644, NULL);
 }
 
 /* Cut anywhere, the file is refused; no cut gives a state. */
@@ -289,10 +290,11 @@ static void test_links(void)
 static void test_wrong_values(void)
 {
     char *path = in_scratch("value.h5");
-    const char *says[] = {"/position", "/position", "/radius",  "/radius",     "/contacts",
-                          "/pair",     "/pair",     "/pair",    "/pair_force", "/pair_normal",
-                          "dimension", "cell_d",    "cell_d",   "metre_per",   "pascal_per",
-                          "p_pa",      "branch",    "/pair_bri"};
+    const char *says[] = {"/position",   "/position",    "/radius",    "/radius",
+                          "/contacts",   "/pair",        "/pair",      "/pair",
+                          "/pair_force", "/pair_normal", "dimension",  "cell_d",
+                          "cell_d",      "metre_per",    "pascal_per", "p_pa",
+                          "branch",      "/pair_bri"};
     for (size_t k = 0; k < G_N_ELEMENTS(says); k++) {
         struct gb_error err = {0};
         struct gb_state *s = made_up(50, 60);
