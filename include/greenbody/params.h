@@ -53,7 +53,7 @@ struct gb_params {
     double mu;
     double mu_pivot; /* NaN in memory: follows mu ("auto" in files) */
     struct gb_relative bridge_length;
-    struct gb_relative shear_strength;
+    struct gb_relative shear_strength; /* NaN: auto, by whether there are bridges */
     int bridge_radius;   /* enum gb_bridge_radius */
     int relative_motion; /* enum gb_relative_motion */
     /* [structure] */

@@ -90,9 +90,9 @@ static const struct gb_field fields[] = {
      .source = "P1 (2), V"},
     {"contact", "shear_strength", GB_FIELD_RELATIVE, AT(shear_strength),
      .dimension = GB_DIM_PRESSURE,
-     .relative = "E", RANGE(0.0, 1.0), .fallback = "0.018 E",
-     .meaning = "shear strength sigma_b",
-     .source = "P1 (5), V"},
+     .relative = "E", RANGE(0.0, 1.0), AUTO(NAN), .fallback = "auto",
+     .meaning = "shear strength sigma_b; auto is 0.018 E, and no limit without bridges",
+     .source = "P1 (4), (5), V"},
     {"contact", "bridge_radius", GB_FIELD_CHOICE, AT(bridge_radius), .choices = radii,
      .fallback = "deepest",
      .meaning = "bridge radius from the deepest overlap, or as printed from the current",
@@ -259,6 +259,12 @@ bool gb_params_assign(struct gb_params *params, const char *assignment,
     return good;
 }
 
+/* sigma_b when the preset leaves it open, in E.  With bridges: P1's set II.  Without: P1 calls mu
+ * the only free parameter of such scenes, and with 0.018 E the strength, not mu, would limit the
+ * friction of the finest powders (density differences at 100 MPa come out a fifth too small). No
+ * shear spring ever carries E. */
+static const double strength_bridged = 0.018, strength_unlimited = 1.0;
+
 double gb_params_bridge_length_m(const struct gb_params *params)
 {
     return gb_field_absolute(gb_params_find("contact", "bridge_length"), params);
@@ -266,6 +272,10 @@ double gb_params_bridge_length_m(const struct gb_params *params)
 
 double gb_params_shear_strength_pa(const struct gb_params *params)
 {
+    if (isnan(params->shear_strength.value)) {
+        const bool bridges = gb_params_bridge_length_m(params) < params->diameter_m;
+        return (bridges ? strength_bridged : strength_unlimited) * params->young_pa;
+    }
     return gb_field_absolute(gb_params_find("contact", "shear_strength"), params);
 }
 

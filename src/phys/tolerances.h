@@ -18,7 +18,7 @@
 #define GB_SKIN 0.08
 
 /* rms residual over force scale at which a strain step counts as relaxed, by fidelity. */
-#define GB_TOLERANCE_FAST 3e-2
+#define GB_TOLERANCE_FAST 2e-2
 #define GB_TOLERANCE_BALANCED 1e-2
 #define GB_TOLERANCE_REFERENCE 2e-3
 
