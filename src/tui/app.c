@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "base/alloc.h"
+#include "tui/saving.h"
 #include "tui/screen.h"
 
 /* At most ten frames a second; between frames the engine is asked as often for news. */
@@ -53,42 +54,11 @@ static void leave(struct gb_app *app, int status)
     app->status = status;
 }
 
-/* "my-NAME" for the preset of that name: a shipped one is not to be hidden by accident.
- */
 static void ask_save(struct gb_app *app)
 {
-    const char *path = gb_preset_path(app->screen.session.preset);
-    char *base = g_path_get_basename(*path != '\0' ? path : "preset.ini");
-    if (g_str_has_suffix(base, ".ini")) {
-        base[strlen(base) - 4] = '\0';
-    }
-    const bool own = g_str_has_prefix(path, g_get_user_config_dir());
-    char *name = g_strdup_printf("%s%s", own ? "" : "my-", base);
+    char *name = gb_saving_suggest(app->screen.session.preset);
     gb_dialog_show(&app->screen.dialog, GB_DIALOG_SAVE, name);
     g_free(name);
-    g_free(base);
-}
-
-/* Where a name is saved; NULL and a note in the dialog when it cannot be one.  g_free. */
-static char *save_path(struct gb_dialog *dialog, const char *name)
-{
-    if (strchr(name, '/') != NULL) {
-        return g_strdup(name);
-    }
-    if (*name == '\0' || *name == '.' || *name == '-') {
-        g_strlcpy(dialog->note, "a name is needed, not beginning with '.' or '-'",
-                  sizeof dialog->note);
-        return NULL;
-    }
-    char *folder =
-        g_build_filename(g_get_user_config_dir(), "greenbody", "presets", NULL);
-    char *file =
-        g_strdup_printf("%s%s", name, g_str_has_suffix(name, ".ini") ? "" : ".ini");
-    char *path = g_build_filename(folder, file, NULL);
-    g_mkdir_with_parents(folder, 0700);
-    g_free(file);
-    g_free(folder);
-    return path;
 }
 
 static void save(struct gb_app *app)
@@ -96,8 +66,9 @@ static void save(struct gb_app *app)
     struct gb_dialog *dialog = &app->screen.dialog;
     struct gb_preset *preset = app->screen.session.preset;
     struct gb_error err = {0};
-    char *path = save_path(dialog, gb_dialog_answer(dialog));
+    char *path = gb_saving_path(gb_dialog_answer(dialog), &err);
     if (path == NULL) {
+        g_strlcpy(dialog->note, err.text, sizeof dialog->note);
         return;
     }
     if (!dialog->warned && g_file_test(path, G_FILE_TEST_EXISTS)) {

@@ -17,6 +17,7 @@
 #include "base/alloc.h"
 #include "tui/crash.h"
 #include "tui/term_style.h"
+#include "tui/term_tty.h"
 
 /* After Esc a terminal sends the rest of a function key within this time. */
 enum { ESCAPE_MS = 40 };
@@ -38,78 +39,6 @@ struct gb_term {
     struct sigaction before[CAUGHT], pipe_before;
     uint64_t style[GB_STYLE_COUNT];
 };
-
-static int open_log(void)
-{
-    char *folder = g_build_filename(g_get_user_state_dir(), "greenbody", NULL);
-    char *path = g_build_filename(folder, "workbench.log", NULL);
-    g_mkdir_with_parents(folder, 0700);
-    int fd = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
-    if (fd < 0) {
-        fd = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    }
-    g_free(path);
-    g_free(folder);
-    return fd;
-}
-
-/* Libraries write to standard error, some to standard output; on the screen that would be
- * garbage. */
-static void redirect(struct gb_term *term)
-{
-    fflush(stdout);
-    const int log = open_log();
-    if (log >= 0) {
-        dup2(log, STDOUT_FILENO);
-        dup2(log, STDERR_FILENO);
-        close(log);
-    }
-    (void)term;
-}
-
-static void undirect(struct gb_term *term)
-{
-    fflush(stdout);
-    dup2(term->saved_out, STDOUT_FILENO);
-    dup2(term->saved_err, STDERR_FILENO);
-}
-
-static bool places_cursor(const char *type, int fd)
-{
-    int found = 0;
-    if (setupterm(type, fd, &found) != OK) {
-        return false;
-    }
-    const bool places = cursor_address != NULL;
-    del_curterm(cur_term);
-    return places;
-}
-
-/* The terminal's own type, or for one that terminfo does not know (common over ssh) the
- * one that nearly all of them understand. */
-static const char *choose_type(int fd, struct gb_error *err)
-{
-    const char *own = getenv("TERM");
-    int found = 0;
-    const bool known = own != NULL && *own != '\0' && setupterm(own, fd, &found) == OK;
-    if (known) {
-        del_curterm(cur_term);
-    }
-    static const char *const fallback[] = {"xterm-256color", "xterm", "vt100"};
-    if (known && places_cursor(own, fd)) {
-        return own;
-    }
-    for (size_t i = 0; !known && i < G_N_ELEMENTS(fallback); i++) {
-        if (places_cursor(fallback[i], fd)) {
-            return fallback[i];
-        }
-    }
-    gb_error_set(err, GB_ERR_MACHINE,
-                 "the terminal type TERM=%s %s; `greenbody run PRESET` needs no screen",
-                 own == NULL ? "" : own,
-                 known ? "cannot place the cursor" : "is unknown");
-    return NULL;
-}
 
 static void set_locale(struct gb_term *term, const char *type)
 {
@@ -233,7 +162,7 @@ bool gb_term_start(struct gb_term **out, struct gb_error *err)
     if (!open_streams(term, err)) {
         goto fail;
     }
-    const char *type = choose_type(term->out_fd, err);
+    const char *type = gb_term_tty_type(term->out_fd, err);
     if (type == NULL) {
         goto fail;
     }
@@ -243,7 +172,7 @@ bool gb_term_start(struct gb_term **out, struct gb_error *err)
         release_signals(term);
         goto fail;
     }
-    redirect(term);
+    gb_term_tty_redirect();
     arm_crash(term);
     *out = term;
     return true;
@@ -262,7 +191,7 @@ void gb_term_stop(struct gb_term *term)
     delwin(term->keys);
     endwin();
     delscreen(term->screen);
-    undirect(term);
+    gb_term_tty_restore(term->saved_out, term->saved_err);
     release_signals(term);
     close_streams(term);
     gb_alloc_free(term);
@@ -271,7 +200,7 @@ void gb_term_stop(struct gb_term *term)
 void gb_term_suspend(struct gb_term *term)
 {
     endwin();
-    undirect(term);
+    gb_term_tty_restore(term->saved_out, term->saved_err);
     sigset_t stop;
     sigemptyset(&stop);
     sigaddset(&stop, SIGTSTP);
@@ -280,7 +209,7 @@ void gb_term_suspend(struct gb_term *term)
     pthread_sigmask(SIG_UNBLOCK, &stop, NULL);
     raise(SIGTSTP); /* returns when the process goes on */
     pthread_sigmask(SIG_BLOCK, &stop, NULL);
-    redirect(term);
+    gb_term_tty_redirect();
     set_modes();
 }
 

@@ -139,6 +139,10 @@ until_true has '^ready>'
 # --- the default scene
 start default
 shows "opens the default preset" 'Pressure against density'
+[ "$bad" -eq 0 ] || { # without it every step below would wait in vain
+    echo "Bail out! the workbench does not open"
+    exit 1
+}
 grows "the curve grows"
 is "dots of braille" until_true has_braille
 is "parameters are listed" has 'Parameters'
@@ -246,6 +250,12 @@ shows "opens a third time" 'Parameters'
 kill -TERM "$(cat "$here/pid")"
 shows "SIGTERM leaves" 'status=143'
 is "the terminal is back after SIGTERM" terminal_is_back
+keys "clear; ulimit -c 0; $keep_pid; echo status=\$?" Enter
+shows "opens a fourth time" 'Parameters'
+kill -SEGV "$(cat "$here/pid")"
+shows "a crash is told" 'the program has failed'
+shows "with the signal's status" 'status=139'
+is "the terminal is back after a crash" terminal_is_back
 
 # --- other terminals
 with='LC_ALL=C' start default
