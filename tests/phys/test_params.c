@@ -50,6 +50,19 @@ static void test_defaults(void)
     g_assert_cmpfloat(gb_params_structure_density(&p), ==, 0.24);
 }
 
+/* sigma_b left open: set II's with bridges, no limit without; a given one always counts. */
+static void test_shear_strength(void)
+{
+    struct gb_params p;
+    struct gb_error err = {0};
+    gb_params_init(&p);
+    g_assert_cmpfloat(gb_params_shear_strength_pa(&p), ==, 0.018 * 382e9);
+    g_assert_true(gb_params_assign(&p, "contact.bridge_length=1 d", &err));
+    g_assert_cmpfloat(gb_params_shear_strength_pa(&p), ==, 382e9);
+    g_assert_true(gb_params_assign(&p, "contact.shear_strength=2 GPa", &err));
+    g_assert_cmpfloat_with_epsilon(gb_params_shear_strength_pa(&p), 2e9, 1.0);
+}
+
 static void test_assign(void)
 {
     struct gb_params p;
@@ -235,6 +248,7 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/params/table", test_table);
     g_test_add_func("/params/defaults", test_defaults);
+    g_test_add_func("/params/shear-strength", test_shear_strength);
     g_test_add_func("/params/assign", test_assign);
     g_test_add_func("/params/refused", test_refused);
     g_test_add_func("/params/checks", test_checks);
