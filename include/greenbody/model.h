@@ -27,9 +27,24 @@ struct gb_numerics {
     int64_t max_evaluations; /* per strain step */
 };
 
+/* What a dynamic scene carries beyond a quasi-static one.  The reduced unit of time
+ * sqrt(m/(E d)) is P2's T. */
+struct gb_dynamics {
+    double viscous;         /* A over T; 0: no viscous forces */
+    double rate;            /* (1/rho) d rho/dt per reduced time */
+    double relax, hold;     /* reduced times */
+    double time_step;       /* reduced; 0: auto */
+    double step_error;      /* what auto may err by, as a fraction */
+    double record_density;  /* relative growth of density between recorded points */
+    double record_time;     /* reduced time between recorded points of relax and hold */
+    double second_per_time; /* T in s */
+    double inertia;         /* J, m d^2 */
+};
+
 /* Frozen from gb_params: reduced units (length d, stress E, mass m), all derived constants.
  * Const during a run. */
 struct gb_model {
+    int kind; /* enum gb_kind */
     int dimension;
     int64_t count;
     uint64_t seed;
@@ -51,6 +66,7 @@ struct gb_model {
     double until_density;  /* 1 when a pressure ends the run */
     double unload_from[GB_UNLOAD_MAX];
     int unload_count;
+    struct gb_dynamics dynamics; /* zero unless kind is GB_KIND_DYNAMIC */
     double pascal_per_stress; /* E in Pa */
     double metre_per_length;  /* d in m */
     double newton_per_force;  /* E d^2 in N */

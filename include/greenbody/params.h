@@ -12,7 +12,7 @@
  * One row per field in the field table (phys/params.c): preset files, --set, the editor,
  * `greenbody params` and the run directory follow from it. */
 
-enum gb_kind { GB_KIND_QUASISTATIC };
+enum gb_kind { GB_KIND_QUASISTATIC, GB_KIND_DYNAMIC };
 enum gb_distribution { GB_DISTRIBUTION_MONO };
 enum gb_normal { GB_NORMAL_ROD };
 enum gb_bridge_radius { GB_BRIDGE_RADIUS_DEEPEST, GB_BRIDGE_RADIUS_CURRENT };
@@ -22,9 +22,9 @@ enum gb_fidelity { GB_FIDELITY_FAST, GB_FIDELITY_BALANCED, GB_FIDELITY_REFERENCE
 
 enum { GB_UNLOAD_MAX = 16 };
 
-/* A quantity given either in SI or as a multiple of the particle diameter ("0.008 d") or of
- * Young's modulus ("0.018 E").  Kept as typed, so that changing the diameter keeps its
- * meaning. */
+/* A quantity given either in SI or as a multiple of the particle diameter ("0.008 d"), of
+ * Young's modulus ("0.018 E") or of the reduced time ("0.04 T").  Kept as typed, so that
+ * changing the diameter keeps its meaning. */
 struct gb_relative {
     double value; /* SI, or the multiple */
     bool relative;
@@ -56,6 +56,7 @@ struct gb_params {
     struct gb_relative shear_strength; /* NaN: auto, by whether there are bridges */
     int bridge_radius;   /* enum gb_bridge_radius */
     int relative_motion; /* enum gb_relative_motion */
+    double viscosity_pa_s; /* dynamic scenes */
     /* [structure] */
     double structure_density; /* NaN: auto, gb_params_structure_density */
     struct gb_relative base; /* relative with value 0: auto, P1's aspect ratio */
@@ -68,6 +69,10 @@ struct gb_params {
     double until_density;     /* NaN when the run stops at a pressure */
     double unload_from_pa[GB_UNLOAD_MAX];
     int unload_count;
+    double rate_per_s; /* (1/rho) d rho/dt; this and the next four: dynamic scenes */
+    double relax_s, hold_s;
+    double record_density; /* relative growth of density between recorded points */
+    double record_time_s;  /* between recorded points of relax and hold */
     /* [numerics]: NaN or negative means "auto", picked by fidelity when the model is made */
     int fidelity; /* enum gb_fidelity */
     char relaxer[24]; /* name in the relaxer table, or "auto" */
@@ -75,6 +80,8 @@ struct gb_params {
     struct gb_relative cutoff;
     int64_t threads;
     int64_t max_evaluations; /* per strain step */
+    struct gb_relative time_step; /* dynamic scenes; NaN: auto */
+    double step_error;            /* what auto may err by */
     /* [output] */
     double checkpoint_every_s;
 };
@@ -98,7 +105,7 @@ struct gb_field {
     size_t offset;
     size_t size;           /* of the member, for text */
     int dimension;         /* enum gb_dimension of base/units.h */
-    const char *relative;  /* "d" or "E" for GB_FIELD_RELATIVE */
+    const char *relative;  /* "d", "E" or "T" for GB_FIELD_RELATIVE */
     double min, max;       /* inclusive, in SI (for relative fields: of the multiple) */
     bool auto_allowed;     /* "auto" is a value */
     double automatic;      /* what "auto" is in memory */
@@ -143,6 +150,12 @@ double gb_params_bridge_length_m(const struct gb_params *params);
 double gb_params_shear_strength_pa(const struct gb_params *params);
 /* Density of the initial structure; auto is 0.24 in 3D and 0.5 in 2D (P1, P2). */
 double gb_params_structure_density(const struct gb_params *params);
+
+/* The reduced unit of time T = sqrt(m/(E d)) = sqrt(pi rho_m d^2/(6 E)), 0.74 ps for alumina
+ * of 10 nm.  Source: P2 section 2. */
+double gb_params_unit_time_s(const struct gb_params *params);
+/* Time step of dynamic scenes; NaN: auto. */
+double gb_params_time_step_s(const struct gb_params *params);
 
 /* Edges of the initial cell in particle diameters (x, y, z); y is 1 in 2D, where the scene
  * lies in the x-z plane.  base = auto: in 3D the aspect ratio of P1's cells (18 x 18 x 53.87

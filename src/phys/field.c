@@ -35,7 +35,14 @@ bool gb_field_in_range(const struct gb_field *field, double value)
 
 static double reference(const struct gb_field *field, const struct gb_params *params)
 {
-    return field->relative[0] == 'E' ? params->young_pa : params->diameter_m;
+    switch (field->relative[0]) {
+    case 'E':
+        return params->young_pa;
+    case 'T':
+        return gb_params_unit_time_s(params);
+    default:
+        return params->diameter_m;
+    }
 }
 
 double gb_field_absolute(const struct gb_field *field, const struct gb_params *params)

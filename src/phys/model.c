@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "phys/dynamics.h"
 #include "phys/tolerances.h"
 
 struct normal_laws {
@@ -134,6 +135,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
 {
     const double d = params->diameter_m;
     *model = (struct gb_model){
+        .kind = params->kind,
         .dimension = params->dimension,
         .count = params->count,
         .seed = params->seed,
@@ -141,6 +143,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .pascal_per_stress = params->young_pa,
         .metre_per_length = d,
         .newton_per_force = params->young_pa * d * d,
+        .dynamics = gb_dynamics_of(params),
     };
     gb_params_cell(params, model->edges);
     const double shape = params->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
@@ -195,6 +198,9 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
                      model->adhesion);
         return buffer;
     case 3:
+        if (model->kind == GB_KIND_DYNAMIC) {
+            return gb_dynamics_note(model, 0, buffer, size);
+        }
         snprintf(buffer, size,
                  "relaxer %s, tolerance %g of the mean contact force, at most %lld "
                  "evaluations per strain step",
@@ -206,8 +212,9 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
             snprintf(buffer, size, "third dimension: left out (scene.dimension = 2)");
             return buffer;
         }
-        return NULL;
+        return gb_dynamics_note(model, 1, buffer, size);
     default:
-        return NULL;
+        return gb_dynamics_note(model, index - (model->dimension == 2 ? 4 : 3), buffer,
+                                size);
     }
 }

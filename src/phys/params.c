@@ -7,9 +7,10 @@
 #include <glib.h>
 
 #include "base/units.h"
+#include "phys/dynamics.h"
 #include "phys/field.h"
 
-static const char *const kinds[] = {"quasistatic", NULL};
+static const char *const kinds[] = {"quasistatic", "dynamic", NULL};
 static const char *const dimensions[] = {"3", "2", NULL};
 static const char *const distributions[] = {"mono", NULL};
 static const char *const normals[] = {"rod", NULL};
@@ -32,8 +33,8 @@ static const struct gb_field fields[] = {
      .meaning = "name of the scene in figures and run directories", .source = "user"},
     {"scene", "kind", GB_FIELD_CHOICE, AT(kind), .choices = kinds,
      .fallback = "quasistatic",
-     .meaning = "relaxed to equilibrium after every strain step",
-     .source = "P1 III"},
+     .meaning = "relaxed to equilibrium after every strain step, or Newton's equations",
+     .source = "P1 III, P2 (1)"},
     {"scene", "dimension", GB_FIELD_CHOICE, AT(dimension), .choices = dimensions,
      .fallback = "3", .meaning = "spheres in space, or discs in the x-z plane",
      .source = "P1, P2"},
@@ -101,6 +102,10 @@ static const struct gb_field fields[] = {
      .choices = motions, .fallback = "half",
      .meaning = "share of the relative motion that a tangential spring sees",
      .source = "P1 II.B"},
+    {"contact", "viscosity", GB_FIELD_NUMBER, AT(viscosity_pa_s),
+     .dimension = GB_DIM_VISCOSITY, RANGE(0.0, 1e3), .fallback = "1 mPa s",
+     .meaning = "shear viscosity eta of the solid in dynamic scenes; 0: no viscous forces",
+     .source = "P2 (3)"},
 
     {"structure", "density", GB_FIELD_NUMBER, AT(structure_density), RANGE(0.01, 0.74),
      AUTO(NAN), .fallback = "auto",
@@ -134,6 +139,24 @@ static const struct gb_field fields[] = {
      .dimension = GB_DIM_PRESSURE,
      RANGE(1e3, 1e12), .fallback = "",
      .meaning = "pressures from which branches of unloading start", .source = "P1 V, VI"},
+    {"loading", "rate", GB_FIELD_NUMBER, AT(rate_per_s), .dimension = GB_DIM_RATE,
+     RANGE(1.0, 1e12), .fallback = "680 1/us",
+     .meaning = "densification rate (1/rho) d rho/dt of dynamic scenes",
+     .source = "P2 2, v1"},
+    {"loading", "relax", GB_FIELD_NUMBER, AT(relax_s), .dimension = GB_DIM_TIME,
+     RANGE(0.0, 1.0), .fallback = "10 ns",
+     .meaning = "time a dynamic scene relaxes before it is compressed", .source = "P2 3"},
+    {"loading", "hold", GB_FIELD_NUMBER, AT(hold_s), .dimension = GB_DIM_TIME,
+     RANGE(0.0, 1.0), .fallback = "30 ns",
+     .meaning = "time a dynamic scene is held at the end density", .source = "P2 3"},
+    {"loading", "record", GB_FIELD_NUMBER, AT(record_density),
+     .dimension = GB_DIM_FRACTION, RANGE(1e-6, 0.1), .fallback = "0.1 %",
+     .meaning = "growth of density between recorded points of a dynamic scene",
+     .source = "numerical"},
+    {"loading", "record_time", GB_FIELD_NUMBER, AT(record_time_s),
+     .dimension = GB_DIM_TIME, RANGE(1e-15, 1.0), .fallback = "20 ps",
+     .meaning = "time between recorded points of relax and hold in a dynamic scene",
+     .source = "numerical"},
 
     {"numerics", "fidelity", GB_FIELD_CHOICE, AT(fidelity), .choices = fidelities,
      .fallback = "balanced", .meaning = "picks every number of this group left at auto",
@@ -157,6 +180,14 @@ static const struct gb_field fields[] = {
     {"numerics", "max_evaluations", GB_FIELD_INTEGER, AT(max_evaluations),
      RANGE(1.0, 1e9), AUTO(-1.0), .fallback = "auto",
      .meaning = "force evaluations after which a strain step is given up",
+     .source = "numerical"},
+    {"numerics", "time_step", GB_FIELD_RELATIVE, AT(time_step), .dimension = GB_DIM_TIME,
+     .relative = "T", RANGE(1e-6, 10.0), AUTO(NAN), .fallback = "auto",
+     .meaning = "time step of dynamic scenes, T = sqrt(pi rho d^2/(6 E)); auto: step_error",
+     .source = "P2 2 (0.04 T)"},
+    {"numerics", "step_error", GB_FIELD_NUMBER, AT(step_error),
+     .dimension = GB_DIM_FRACTION, RANGE(1e-8, 0.5), .fallback = "0.1 %",
+     .meaning = "error in end pressure and energy that an automatic time step may make",
      .source = "numerical"},
 
     {"output", "checkpoint_every", GB_FIELD_NUMBER, AT(checkpoint_every_s),
@@ -287,6 +318,17 @@ double gb_params_structure_density(const struct gb_params *params)
     return params->dimension == 2 ? 0.5 : 0.24;
 }
 
+double gb_params_unit_time_s(const struct gb_params *params)
+{
+    return params->diameter_m *
+           sqrt(M_PI * params->density_kg_m3 / (6.0 * params->young_pa));
+}
+
+double gb_params_time_step_s(const struct gb_params *params)
+{
+    return gb_field_absolute(gb_params_find("numerics", "time_step"), params);
+}
+
 /* Base of the initial cell in diameters.  auto in 3D: P1's 18 d for 8000 particles at
  * density 0.24 and the same aspect ratio for other volumes. */
 static double base_edge(const struct gb_params *params, double volume)
@@ -384,5 +426,5 @@ static bool check_programme(const struct gb_params *params, struct gb_error *err
 bool gb_params_check(const struct gb_params *params, struct gb_error *err)
 {
     return check_fields(params, err) && check_cell(params, err) &&
-           check_programme(params, err);
+           check_programme(params, err) && gb_dynamics_check(params, err);
 }

@@ -169,7 +169,7 @@ static const struct {
     {"[particles]\ndiameter = 10 MPa\n",
      0,
      {":2: particles.diameter = 10 MPa", "units nm"}},
-    {"[scene]\nkind = dynamic\n", 0, {":2: scene.kind = dynamic: accepted quasistatic"}},
+    {"[scene]\nkind = die\n", 0, {":2: scene.kind = die: accepted quasistatic or dynamic"}},
     {"[contact]\nmu = 0.1\nal\0pha = 1\n", 28, {":3:", "NUL"}},
     {"[contact]\nmu = \xff\xfe\n", 0, {":2:", "UTF-8"}},
     {"\xff\xfe[\0c\0]\0", 8, {":1:", "NUL"}},
