@@ -7,11 +7,15 @@
 
 #include "greenbody/status.h"
 
+/* Branches that are not unloading: before loading, loading, and held at the end density
+ * of a dynamic run. */
+enum { GB_BRANCH_RELAX = -1, GB_BRANCH_LOAD = 0, GB_BRANCH_HOLD = -2 };
+
 /* One recorded point of a run: one row of curve.csv.  Pressures in Pa; NaN where a value
- * does not exist (py in 2D).  p is the mean pressure over the compressed axes: the one the
- * loading programme obeys. */
+ * does not exist (py in 2D).  p is the mean pressure over the compressed axes: the one
+ * the loading programme obeys. */
 struct gb_point {
-    int branch;  /* 0 load; k >= 1 the k-th unloading branch; -1 relax (before loading) */
+    int branch;            /* GB_BRANCH_...; k >= 1: the k-th unloading branch */
     double branch_from_pa; /* pressure from which branch k unloads */
     int64_t step;
     double density;
@@ -23,10 +27,15 @@ struct gb_point {
     int64_t iterations;  /* of the relaxer in this step */
     int64_t evaluations; /* of the forces in this step */
     double seconds;      /* since the start of the run */
+    /* Dynamic runs only, NaN in quasi-static ones.  work: done on the packing by the
+     * moving cell since the start; elastic: in the contacts and their attraction. */
+    double time_s;                             /* simulated */
+    double kinetic, work, elastic, dissipated; /* J */
+    double energy_residual; /* what the energies fail to add up by, over the work */
 };
 
-/* Append-only list of points.  One writer; any number of readers may read every point below
- * gb_curve_count at any time without a lock: points never move and never change. */
+/* Append-only list of points.  One writer; any number of readers may read every point
+ * below gb_curve_count at any time without a lock: points never move and never change. */
 struct gb_curve;
 
 bool gb_curve_create(struct gb_curve **out, struct gb_error *err);
@@ -37,7 +46,7 @@ size_t gb_curve_count(const struct gb_curve *curve);
 /* Point index < gb_curve_count; valid as long as the curve. */
 const struct gb_point *gb_curve_at(const struct gb_curve *curve, size_t index);
 
-/* "load", "relax", "unload:100MPa": the branch column.  Returns buffer. */
+/* "load", "relax", "hold", "unload:100MPa": the branch column.  Returns buffer. */
 char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t size);
 
 #endif

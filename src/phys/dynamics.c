@@ -45,8 +45,8 @@ bool gb_dynamics_check(const struct gb_params *params, struct gb_error *err)
                             params->geometry == GB_GEOMETRY_UNIAXIAL ? "uniaxial"
                                                                      : "biaxial");
     }
-    const double lag = gb_law_viscous_time(params->viscosity_pa_s, params->young_pa,
-                                           params->poisson);
+    const double lag =
+        gb_law_viscous_time(params->viscosity_pa_s, params->young_pa, params->poisson);
     if (!isfinite(lag)) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "material.poisson = %g: accepted above 0 with "
@@ -62,8 +62,8 @@ struct gb_dynamics gb_dynamics_of(const struct gb_params *params)
         return (struct gb_dynamics){0};
     }
     const double unit = gb_params_unit_time_s(params);
-    const double lag = gb_law_viscous_time(params->viscosity_pa_s, params->young_pa,
-                                           params->poisson);
+    const double lag =
+        gb_law_viscous_time(params->viscosity_pa_s, params->young_pa, params->poisson);
     const double step = gb_params_time_step_s(params);
     return (struct gb_dynamics){
         .viscous = lag / unit,
@@ -98,8 +98,7 @@ static void note_step(const struct gb_dynamics *dynamics, char *buffer, size_t s
                  dynamics->time_step, step, unit);
         return;
     }
-    gb_units_format_short(dynamics->step_error, GB_DIM_FRACTION, 4, error,
-                          sizeof error);
+    gb_units_format_short(dynamics->step_error, GB_DIM_FRACTION, 4, error, sizeof error);
     snprintf(buffer, size,
              "Newton's equations by velocity Verlet, time step chosen for an error up to "
              "%s (T = %s)",

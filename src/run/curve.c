@@ -86,12 +86,11 @@ const struct gb_point *gb_curve_at(const struct gb_curve *curve, size_t index)
 
 char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t size)
 {
-    if (point->branch == 0) {
-        snprintf(buffer, size, "load");
-        return buffer;
-    }
-    if (point->branch < 0) {
-        snprintf(buffer, size, "relax");
+    if (point->branch <= 0) {
+        snprintf(buffer, size, "%s",
+                 point->branch == GB_BRANCH_LOAD   ? "load"
+                 : point->branch == GB_BRANCH_HOLD ? "hold"
+                                                   : "relax");
         return buffer;
     }
     char pressure[48];

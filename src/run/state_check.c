@@ -41,7 +41,7 @@ static const char *header_fault(const struct gb_state *state)
     if (!positive(state->pascal_per_stress, 1e30)) {
         return "pascal_per_stress";
     }
-    if (state->point.step < 0 || state->point.branch < -1) {
+    if (state->point.step < 0 || state->point.branch < GB_BRANCH_HOLD) {
         return state->point.step < 0 ? "step" : "branch";
     }
     for (size_t k = 0; k < sizeof finite_numbers / sizeof finite_numbers[0]; k++) {

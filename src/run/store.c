@@ -16,6 +16,7 @@ struct gb_store {
     struct gb_rundir dir;
     struct gb_rows curve, events;
     char *status_path, *state_path;
+    bool dynamic; /* the curve has the columns of a dynamic run */
     int64_t points;
 };
 
@@ -77,8 +78,18 @@ static bool write_curve_head(struct gb_rows *curve, const struct gb_params *para
         "# p_MPa: mean pressure over the compressed axes (%s), positive "
         "in compression\n",
         compressed_axes(params));
+    if (params->kind == GB_KIND_DYNAMIC) {
+        g_string_append(
+            head, "# dynamic: time_ns is simulated time; kinetic, work (done by the "
+                  "moving cell), elastic and dissipated energy in J; "
+                  "energy_residual is relative to the work\n");
+    }
     g_string_append(head, "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,"
-                          "bridged,rattlers,residual,iterations,evaluations,seconds\n");
+                          "bridged,rattlers,residual,iterations,evaluations,seconds");
+    g_string_append(head, params->kind == GB_KIND_DYNAMIC
+                              ? ",time_ns,kinetic,work,elastic,dissipated,"
+                                "energy_residual\n"
+                              : "\n");
     const bool ok = gb_rows_append(curve, head->str, err);
     g_string_free(head, TRUE);
     return ok;
@@ -120,6 +131,7 @@ bool gb_store_create(struct gb_store **out, const char *directory,
 {
     struct gb_store *store = g_new0(struct gb_store, 1);
     store->curve.fd = store->events.fd = -1;
+    store->dynamic = params->kind == GB_KIND_DYNAMIC;
     if (!gb_rundir_make(&store->dir, directory, force, err)) {
         g_free(store);
         return false;
@@ -162,6 +174,16 @@ void gb_store_discard(struct gb_store *store)
     }
 }
 
+static void append_dynamics(GString *row, const struct gb_point *point)
+{
+    const double values[] = {1e9 * point->time_s, point->kinetic,
+                             point->work,         point->elastic,
+                             point->dissipated,   point->energy_residual};
+    for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
+        append_number(row, values[k]);
+    }
+}
+
 bool gb_store_point(struct gb_store *store, const struct gb_point *point,
                     struct gb_error *err)
 {
@@ -176,8 +198,12 @@ bool gb_store_point(struct gb_store *store, const struct gb_point *point,
         append_number(row, before[k]);
     }
     g_string_append_printf(
-        row, ",%" PRId64 ",%" PRId64 ",%s\n", point->iterations, point->evaluations,
+        row, ",%" PRId64 ",%" PRId64 ",%s", point->iterations, point->evaluations,
         g_ascii_formatd(seconds, sizeof seconds, "%.3f", point->seconds));
+    if (store->dynamic) {
+        append_dynamics(row, point);
+    }
+    g_string_append_c(row, '\n');
     const bool ok = gb_rows_append(&store->curve, row->str, err);
     store->points += ok;
     g_string_free(row, TRUE);
@@ -204,8 +230,8 @@ static const char *state_word(int state)
     return state >= 0 && state < (int)G_N_ELEMENTS(words) ? words[state] : "unknown";
 }
 
-/* json-glib writes 1e-08 as "1e-08.0", which no reader accepts.  The next double has more digits
- * and a point, and goes through. */
+/* json-glib writes 1e-08 as "1e-08.0", which no reader accepts.  The next double has more
+ * digits and a point, and goes through. */
 static double writable(double value)
 {
     char text[G_ASCII_DTOSTR_BUF_SIZE];

@@ -10,8 +10,9 @@
 static struct gb_params p2_params(void)
 {
     static const char *const sets[] = {
-        "scene.kind=dynamic",  "scene.dimension=2",          "particles.count=1000",
-        "contact.mu=0.5",      "loading.geometry=isotropic", "loading.until=density=0.95",
+        "scene.kind=dynamic",         "scene.dimension=2",
+        "particles.count=1000",       "contact.mu=0.5",
+        "loading.geometry=isotropic", "loading.until=density=0.95",
         "loading.rate=6.8e8 1/s"};
     struct gb_params params;
     gb_params_init(&params);
@@ -142,9 +143,9 @@ static void test_refusals(void)
 
 static void test_accepted(void)
 {
-    static const char *const sets[] = {
-        "contact.viscosity=0 Pa s", "loading.relax=0 s", "loading.hold=0 s",
-        "numerics.time_step=0.03 ps", "loading.rate=6.8e4 1/s"};
+    static const char *const sets[] = {"contact.viscosity=0 Pa s", "loading.relax=0 s",
+                                       "loading.hold=0 s", "numerics.time_step=0.03 ps",
+                                       "loading.rate=6.8e4 1/s"};
     struct gb_params p = p2_params();
     g_assert_true(gb_params_check(&p, NULL));
     for (size_t i = 0; i < G_N_ELEMENTS(sets); i++) {

@@ -97,10 +97,12 @@ static void test_branch_name(void)
 {
     char name[64];
     const struct gb_point load = {.branch = 0};
-    const struct gb_point relax = {.branch = -1};
+    const struct gb_point relax = {.branch = GB_BRANCH_RELAX};
+    const struct gb_point hold = {.branch = GB_BRANCH_HOLD};
     const struct gb_point unload = {.branch = 2, .branch_from_pa = 1e8};
     g_assert_cmpstr(gb_curve_branch_name(&load, name, sizeof name), ==, "load");
     g_assert_cmpstr(gb_curve_branch_name(&relax, name, sizeof name), ==, "relax");
+    g_assert_cmpstr(gb_curve_branch_name(&hold, name, sizeof name), ==, "hold");
     g_assert_cmpstr(gb_curve_branch_name(&unload, name, sizeof name), ==,
                     "unload:100MPa");
 }

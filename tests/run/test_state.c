@@ -315,7 +315,7 @@ static void test_wrong_values(void)
         case 13: s->metre_per_length = -1.0; break;
         case 14: s->pascal_per_stress = 0.0; break;
         case 15: s->point.p_pa = INFINITY; break;
-        case 16: s->point.branch = -2; break;
+        case 16: s->point.branch = GB_BRANCH_HOLD - 1; break;
         default: s->pair_bridged[3] = 2; break;
         }
         g_assert_true(gb_state_write(s, path, &err));

@@ -129,6 +129,38 @@ static void test_rows(void)
     g_free(directory);
 }
 
+/* The contract columns first and unchanged, then those of dynamic runs. */
+static void test_dynamic_rows(void)
+{
+    char *directory = in_base("run");
+    struct gb_params params = some_params();
+    struct gb_error err = {0};
+    struct gb_store *store = NULL;
+    params.kind = GB_KIND_DYNAMIC;
+    g_assert_true(gb_store_create(&store, directory, &params, false, &err));
+    struct gb_point point = some_point();
+    point.branch = GB_BRANCH_HOLD;
+    point.time_s = 1.5e-9;
+    point.kinetic = 1e-18;
+    point.work = 4e-17;
+    point.elastic = 3e-17;
+    point.dissipated = (double)NAN;
+    point.energy_residual = -2e-4;
+    g_assert_true(gb_store_point(store, &point, &err));
+    gb_store_destroy(store);
+
+    char *curve = content(directory, "curve.csv");
+    g_assert_nonnull(strstr(curve,
+                            "rattlers,residual,iterations,evaluations,seconds,time_ns,"
+                            "kinetic,work,elastic,dissipated,energy_residual\n"));
+    g_assert_nonnull(strstr(curve,
+                            "\nhold,3,0.30000000000000004,0.3333333333333333,,2.5,2.5,"
+                            "4,0.25,0,0.001,40,45,1.250,1.5,1e-18,4e-17,3e-17,,"
+                            "-0.0002\n"));
+    g_free(curve);
+    g_free(directory);
+}
+
 static void test_preset(void)
 {
     char *directory = in_base("run");
@@ -335,10 +367,15 @@ int main(int argc, char **argv)
         const char *path;
         void (*test)(void);
     } tests[] = {
-        {"/store/rows", test_rows},       {"/store/preset", test_preset},
-        {"/store/status", test_status},   {"/store/existing", test_existing},
-        {"/store/foreign", test_foreign}, {"/store/discard", test_discard},
-        {"/store/full", test_full},       {"/store/directory", test_default_directory},
+        {"/store/rows", test_rows},
+        {"/store/dynamic-rows", test_dynamic_rows},
+        {"/store/preset", test_preset},
+        {"/store/status", test_status},
+        {"/store/existing", test_existing},
+        {"/store/foreign", test_foreign},
+        {"/store/discard", test_discard},
+        {"/store/full", test_full},
+        {"/store/directory", test_default_directory},
     };
     g_test_init(&argc, &argv, NULL);
     for (size_t k = 0; k < G_N_ELEMENTS(tests); k++) {
