@@ -5,6 +5,17 @@
 #include "greenbody/model.h"
 #include "run/preset.h"
 
+/* Pressed from all sides, a cell keeps its shape: it is a square or a cube from the start. */
+static void check_dynamic(const struct gb_model *model)
+{
+    g_assert_cmpfloat_with_epsilon(model->edges[2], model->edges[0],
+                                   1e-6 * model->edges[0]);
+    g_assert_cmpfloat(model->slip.mu, ==, 0.5);
+    g_assert_cmpfloat(model->start_density, <, model->until_density);
+    g_assert_cmpfloat(model->dynamics.rate, >, 0.0);
+    g_assert_cmpfloat(model->dynamics.time_step, ==, 0.0);
+}
+
 /* Usage: test_presets FOLDER: every file in it must load, pass the checks, freeze into a
  * model and name its source in the first line. */
 static void test_preset(gconstpointer data)
@@ -20,6 +31,9 @@ static void test_preset(gconstpointer data)
         g_error("%s", err.text);
     }
     g_assert_cmpstr(gb_preset_params(preset)->title, !=, "");
+    if (model.kind == GB_KIND_DYNAMIC) {
+        check_dynamic(&model);
+    }
     g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
     g_assert_true(g_str_has_prefix(text, "# "));
     g_free(text);
