@@ -83,6 +83,7 @@ done
 exceptions() {
     cat <<'TABLE'
 publish:gb_command_ring_
+batch:gb_contacts_
 status:gb_error_
 main:main
 TABLE

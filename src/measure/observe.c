@@ -12,30 +12,32 @@ double gb_observe_density(const struct gb_world *world)
     return shape * (double)model->count / gb_cell_volume(gb_world_cell(world));
 }
 
-/* Adds f_i r_j of every pair of one list; stride doubles lie between the forces. */
-static void add_list(const struct gb_world *world, const struct gb_pair_list *list,
-                     const double *force, int64_t stride, double sum[3][3])
+/* Adds f_i r_j of pair k of a list. */
+static void add_pair(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
+                     int64_t k, const double force[3], double sum[3][3])
 {
-    const int64_t count = gb_world_model(world)->count;
-    for (int64_t i = 0; i < count; i++) {
-        for (int64_t k = list->start[i]; k < list->start[i + 1]; k++) {
-            double r[3];
-            gb_world_arm(world, list, i, k, r);
-            for (int a = 0; a < 3; a++) {
-                gb_vec_add(sum[a], force[k * stride + a], r);
-            }
-        }
+    double r[3];
+    gb_world_arm(world, list, i, k, r);
+    for (int a = 0; a < 3; a++) {
+        gb_vec_add(sum[a], force[a], r);
     }
 }
 
 void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
 {
-    const struct gb_pairs *pairs = gb_world_pairs(world);
-    const struct gb_wrench *wrench = gb_world_wrenches(world);
+    const struct gb_pair_list *near = &gb_world_pairs(world)->near;
+    const struct gb_pair_list *far = &gb_world_pairs(world)->far;
     memset(pressure, 0, 9 * sizeof(double));
-    add_list(world, &pairs->near, &wrench->force[0], sizeof *wrench / sizeof(double),
-             pressure);
-    add_list(world, &pairs->far, gb_world_pulls(world), 3, pressure);
+    for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
+        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
+            double force[3];
+            gb_world_force(world, k, force);
+            add_pair(world, near, i, k, force, pressure);
+        }
+        for (int64_t k = far->start[i]; k < far->start[i + 1]; k++) {
+            add_pair(world, far, i, k, gb_world_pulls(world) + 3 * k, pressure);
+        }
+    }
     const double volume = gb_cell_volume(gb_world_cell(world));
     for (int a = 0; a < 3; a++) {
         gb_vec_scale(pressure[a], 1.0 / volume);
@@ -46,13 +48,13 @@ void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
 static int contacts_of(const struct gb_world *world, int64_t i)
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
-    const struct gb_contact *contact = gb_world_contacts(world);
+    const double *deepest = gb_world_contacts(world)->deepest;
     int n = 0;
     for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-        n += contact[k].deepest >= 0.0;
+        n += deepest[k] >= 0.0;
     }
     for (int64_t in = pairs->in_start[i]; in < pairs->in_start[i + 1]; in++) {
-        n += contact[pairs->in_slot[in]].deepest >= 0.0;
+        n += deepest[pairs->in_slot[in]] >= 0.0;
     }
     return n;
 }
@@ -62,7 +64,7 @@ void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts 
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
-    const struct gb_contact *contact = gb_world_contacts(world);
+    const double *deepest = gb_world_contacts(world)->deepest;
     *counts = (struct gb_contact_counts){0};
     for (int b = 0; share && b < bins; b++) {
         share[b] = 0.0;
@@ -78,8 +80,8 @@ void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts 
         }
     }
     for (int64_t k = 0; k < pairs->pair_count; k++) {
-        counts->contacts += contact[k].deepest >= 0.0;
-        counts->bridged += contact[k].deepest > 0.0;
+        counts->contacts += deepest[k] >= 0.0;
+        counts->bridged += deepest[k] > 0.0;
     }
     counts->coordination = 2.0 * (double)counts->contacts / (double)count;
 }
@@ -88,22 +90,23 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
-    const struct gb_contact *contact = gb_world_contacts(world);
-    const struct gb_wrench *wrench = gb_world_wrenches(world);
+    const double *deepest = gb_world_contacts(world)->deepest;
     enum { BINS_MOST = 360 };
     double sum[BINS_MOST] = {0};
     int64_t hits[BINS_MOST] = {0};
     bins = bins < BINS_MOST ? bins : BINS_MOST;
     for (int64_t i = 0; i < count; i++) {
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-            if (contact[k].deepest >= 0.0) {
+            if (deepest[k] >= 0.0) {
                 double r[3];
                 gb_world_arm(world, pairs, i, k, r);
                 const double length = gb_vec_length(r);
                 const double angle = acos(fmin(1.0, fabs(r[2]) / length));
                 const int b = (int)(angle / (0.5 * M_PI) * bins);
                 const int bin = b < bins ? b : bins - 1;
-                sum[bin] += gb_vec_dot(wrench[k].force, r) / length;
+                double force[3];
+                gb_world_force(world, k, force);
+                sum[bin] += gb_vec_dot(force, r) / length;
                 hits[bin]++;
             }
         }

@@ -14,13 +14,13 @@
  * with it every bit, does not depend on the number of threads. */
 enum { BLOCK = 128 };
 
-/* Touching pairs in list order, with their whole histories (rebuilds) or their cores (copies):
- * one of the two arrays is used. */
+/* Touching pairs in list order with their histories: whole for rebuilds, without the arms for
+ * copies. */
 struct ledger {
     int64_t count, capacity;
+    int planes;     /* values a line holds: all planes of the contacts, or those kept */
     int32_t (*pair)[2];
-    struct gb_contact *whole;
-    struct gb_contact_core *core;
+    double *value;  /* capacity x planes */
 };
 
 /* Sums over one block of particles. */
@@ -36,9 +36,11 @@ struct gb_world {
     double *position, *turn, *force, *torque; /* count x 3 */
     struct gb_pairs pairs;
     double shift[27][3];          /* of the periodic images, as of the last evaluation */
-    int64_t near_room, far_room;  /* pairs the arrays below can hold */
-    struct gb_contact *contact;   /* one per near pair */
-    struct gb_wrench *wrench;
+    struct gb_batch_kernel kernel;
+    struct gb_contacts contacts;  /* one per near pair */
+    double *wrench;               /* rows per near pair: force on i, torque on j */
+    int row;                      /* doubles in a row: 6, in 2D 3 (x, z, about y) */
+    int64_t far_room;
     double *pull;                 /* three per far pair: force on the first particle */
     struct ledger ledger;
     struct block *block;
@@ -88,6 +90,8 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
     world->model = model;
     world->count = model->count;
     world->threads = thread_count(model);
+    world->kernel = gb_batch_pick(model, 0);
+    world->row = model->dimension == 3 ? 6 : 3;
     gb_cell_init(&world->cell, model->dimension, model->edges);
     world->position = gb_alloc_array(3 * n, sizeof(double), err);
     world->turn = gb_alloc_array(3 * n, sizeof(double), err);
@@ -107,8 +111,7 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
 static void ledger_finish(struct ledger *ledger)
 {
     gb_alloc_free(ledger->pair);
-    gb_alloc_free(ledger->whole);
-    gb_alloc_free(ledger->core);
+    gb_alloc_free(ledger->value);
     *ledger = (struct ledger){0};
 }
 
@@ -122,7 +125,7 @@ void gb_world_destroy(struct gb_world *world)
     gb_alloc_free(world->force);
     gb_alloc_free(world->torque);
     gb_alloc_free(world->block);
-    gb_alloc_free(world->contact);
+    gb_contacts_finish(&world->contacts);
     gb_alloc_free(world->wrench);
     gb_alloc_free(world->pull);
     ledger_finish(&world->ledger);
@@ -130,26 +133,32 @@ void gb_world_destroy(struct gb_world *world)
     gb_alloc_free(world);
 }
 
-static bool ledger_reserve(struct ledger *ledger, int64_t need, bool whole,
+static bool ledger_reserve(struct ledger *ledger, int64_t need, int planes,
                            struct gb_error *err)
 {
-    if (need <= ledger->capacity) {
+    if (need <= ledger->capacity && planes == ledger->planes) {
         return true;
     }
     ledger_finish(ledger);
     const size_t room = (size_t)(need + need / 16 + 16);
     ledger->pair = gb_alloc_array(room, sizeof *ledger->pair, err);
-    if (whole) {
-        ledger->whole = gb_alloc_array(room, sizeof *ledger->whole, err);
-    } else {
-        ledger->core = gb_alloc_array(room, sizeof *ledger->core, err);
-    }
-    if (!ledger->pair || !(ledger->whole || ledger->core)) {
+    ledger->value = gb_alloc_array(room * (size_t)planes, sizeof *ledger->value, err);
+    if (!ledger->pair || !ledger->value) {
         ledger_finish(ledger);
         return false;
     }
+    ledger->planes = planes;
     ledger->capacity = (int64_t)room;
     return true;
+}
+
+static int64_t count_touching(const struct gb_world *world)
+{
+    int64_t touching = 0;
+    for (int64_t k = 0; world->listed && k < world->pairs.near.pair_count; k++) {
+        touching += world->contacts.deepest[k] >= 0.0;
+    }
+    return touching;
 }
 
 /* Writes down every touching pair, in the order of the list. */
@@ -157,25 +166,21 @@ static bool ledger_write(struct ledger *ledger, const struct gb_world *world, bo
                          struct gb_error *err)
 {
     const struct gb_pair_list *near = &world->pairs.near;
-    int64_t touching = 0;
-    for (int64_t k = 0; world->listed && k < near->pair_count; k++) {
-        touching += world->contact[k].deepest >= 0.0;
-    }
-    if (!ledger_reserve(ledger, touching, whole, err)) {
+    const struct gb_contacts *contacts = &world->contacts;
+    const int planes = world->listed ? whole ? contacts->planes : contacts->kept : 1;
+    if (!ledger_reserve(ledger, count_touching(world), planes, err)) {
         return false;
     }
     int64_t line = 0;
     for (int64_t i = 0; world->listed && i < world->count; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            if (world->contact[k].deepest < 0.0) {
+            if (contacts->deepest[k] < 0.0) {
                 continue;
             }
             ledger->pair[line][0] = (int32_t)i;
             ledger->pair[line][1] = near->other[k];
-            if (whole) {
-                ledger->whole[line] = world->contact[k];
-            } else {
-                ledger->core[line] = gb_contact_core(&world->contact[k]);
+            for (int p = 0; p < planes; p++) {
+                ledger->value[line * planes + p] = contacts->plane[p][k];
             }
             line++;
         }
@@ -200,13 +205,19 @@ static double arm_of(const struct gb_world *world, const struct gb_pair_list *li
 static void ledger_put(const struct ledger *ledger, int64_t line, struct gb_world *world,
                        int64_t i, int64_t k)
 {
-    if (ledger->whole) {
-        world->contact[k] = ledger->whole[line];
-        return;
+    struct gb_contacts *contacts = &world->contacts;
+    for (int p = 0; p < ledger->planes; p++) {
+        contacts->plane[p][k] = ledger->value[line * ledger->planes + p];
     }
-    double arm[3];
-    arm_of(world, &world->pairs.near, i, k, arm);
-    world->contact[k] = gb_contact_revive(world->model, &ledger->core[line], arm);
+    if (ledger->planes < contacts->planes) {
+        double arm[3];
+        arm_of(world, &world->pairs.near, i, k, arm);
+        contacts->arm[0][k] = arm[0];
+        contacts->arm[1][k] = arm[contacts->arm[2] ? 1 : 2];
+        if (contacts->arm[2]) {
+            contacts->arm[2][k] = arm[2];
+        }
+    }
 }
 
 /* Gives every pair of the new list its old history: both are sorted alike. */
@@ -226,7 +237,7 @@ static void ledger_read(const struct ledger *ledger, struct gb_world *world)
                 ledger->pair[line][1] == j) {
                 ledger_put(ledger, line++, world, i, k);
             } else {
-                gb_contact_clear(&world->contact[k]);
+                gb_contacts_clear(&world->contacts, k);
             }
         }
     }
@@ -235,17 +246,15 @@ static void ledger_read(const struct ledger *ledger, struct gb_world *world)
 static bool reserve_slots(struct gb_world *world, struct gb_error *err)
 {
     const int64_t near = world->pairs.near.capacity, far = world->pairs.far.capacity;
-    if (near > world->near_room) {
-        gb_alloc_free(world->contact);
+    if (near > world->contacts.room) {
+        gb_contacts_finish(&world->contacts);
         gb_alloc_free(world->wrench);
-        world->near_room = 0;
-        world->wrench = NULL;
-        world->contact = gb_alloc_array((size_t)near, sizeof *world->contact, err);
-        world->wrench = gb_alloc_array((size_t)near, sizeof *world->wrench, err);
-        if (!world->contact || !world->wrench) {
+        world->wrench = gb_alloc_array((size_t)near * (size_t)world->row,
+                                       sizeof *world->wrench, err);
+        if (!world->wrench ||
+            !gb_contacts_init(&world->contacts, world->model->dimension, near, err)) {
             return false;
         }
-        world->near_room = near;
     }
     if (far > world->far_room) {
         gb_alloc_free(world->pull);
@@ -305,31 +314,6 @@ static void gap_force(const struct gb_model *model, const double r[3], double sq
     }
 }
 
-/* Near pair k of particle i. */
-static void sweep_near(struct gb_world *world, int64_t i, int64_t k, double cutoff2,
-                       double force[3], double torque[3], struct gb_tally *tally)
-{
-    const struct gb_pair_list *near = &world->pairs.near;
-    struct gb_wrench *wrench = &world->wrench[k];
-    struct gb_contact *contact = &world->contact[k];
-    double r[3];
-    const double squared = arm_of(world, near, i, k, r);
-    if (squared < 1.0) {
-        gb_contact_advance(world->model, contact, r, sqrt(squared), world->turn + 3 * i,
-                           world->turn + 3 * (int64_t)near->other[k], wrench, torque,
-                           tally);
-    } else {
-        if (contact->deepest >= 0.0) {
-            gb_contact_clear(contact);
-        }
-        *wrench = (struct gb_wrench){0};
-        if (squared < cutoff2) {
-            gap_force(world->model, r, squared, wrench->force);
-        }
-    }
-    gb_vec_add(force, 1.0, wrench->force);
-}
-
 static void sweep_far(struct gb_world *world, int64_t i, int64_t k, double cutoff2,
                       double force[3])
 {
@@ -343,20 +327,138 @@ static void sweep_far(struct gb_world *world, int64_t i, int64_t k, double cutof
     }
 }
 
-/* The own pairs of particle i, summed in list order. */
-static void sweep_particle(struct gb_world *world, int64_t i, struct gb_tally *tally)
+/* Loads a batch: arms and turns of pairs [slot, slot + n); *i is the first particle. */
+static void fill_batch(const struct gb_world *world, struct gb_batch *batch, int64_t slot,
+                       int64_t i)
 {
-    const struct gb_pairs *pairs = &world->pairs;
+    const struct gb_pair_list *near = &world->pairs.near;
+    for (int k = 0; k < batch->n; k++) {
+        while (slot + k >= near->start[i + 1]) {
+            i++;
+        }
+        const int64_t j = near->other[slot + k];
+        const double *ti = world->turn + 3 * i, *tj = world->turn + 3 * j;
+        double r[3];
+        arm_of(world, near, i, slot + k, r);
+        for (int c = 0; c < 3; c++) {
+            batch->r[c][k] = r[c];
+            batch->turn_sum[c][k] = ti[c] + tj[c];
+            batch->turn_difference[c][k] = ti[c] - tj[c];
+        }
+    }
+}
+
+static void fill_batch_2d(const struct gb_world *world, struct gb_batch *batch,
+                          int64_t slot, int64_t i)
+{
+    const struct gb_pair_list *near = &world->pairs.near;
+    for (int k = 0; k < batch->n; k++) {
+        while (slot + k >= near->start[i + 1]) {
+            i++;
+        }
+        const int64_t j = near->other[slot + k];
+        const double *xi = world->position + 3 * i, *xj = world->position + 3 * j;
+        const double *shift = world->shift[near->image[slot + k]];
+        const double ti = world->turn[3 * i + 1], tj = world->turn[3 * j + 1];
+        batch->r[0][k] = xi[0] - xj[0] + shift[0];
+        batch->r[1][k] = xi[2] - xj[2] + shift[2];
+        batch->turn_sum[0][k] = ti + tj;
+        batch->turn_difference[0][k] = ti - tj;
+    }
+}
+
+/* Unloads a batch: adds to the first particles, leaves rows for the second ones. */
+static void spill_batch(struct gb_world *world, const struct gb_batch *batch, int64_t slot,
+                        int64_t i)
+{
+    const int64_t *start = world->pairs.near.start;
+    for (int k = 0; k < batch->n; k++) {
+        while (slot + k >= start[i + 1]) {
+            i++;
+        }
+        double *row = world->wrench + 6 * (slot + k);
+        for (int c = 0; c < 3; c++) {
+            row[c] = batch->force[c][k];
+            row[3 + c] = batch->torque_j[c][k];
+            world->force[3 * i + c] += batch->force[c][k];
+            world->torque[3 * i + c] += batch->torque_i[c][k];
+        }
+    }
+}
+
+static void spill_batch_2d(struct gb_world *world, const struct gb_batch *batch,
+                           int64_t slot, int64_t i)
+{
+    const int64_t *start = world->pairs.near.start;
+    for (int k = 0; k < batch->n; k++) {
+        while (slot + k >= start[i + 1]) {
+            i++;
+        }
+        double *row = world->wrench + 3 * (slot + k);
+        row[0] = batch->force[0][k];
+        row[1] = batch->force[1][k];
+        row[2] = batch->torque_j[0][k];
+        world->force[3 * i] += row[0];
+        world->force[3 * i + 2] += row[1];
+        world->torque[3 * i + 1] += batch->torque_i[0][k];
+    }
+}
+
+static void tally_batch(struct gb_tally *tally, const struct gb_batch *batch,
+                        const double *deepest)
+{
+    double sum[4] = {0}, most = tally->deepest, slides = 0.0;
+    for (int k = 0; k < batch->n; k++) {
+        tally->contacts += deepest[k] >= 0.0;
+        sum[k % 4] += batch->normal[k];
+        slides += batch->sliding[k];
+        most = batch->overlap[k] > most ? batch->overlap[k] : most;
+    }
+    tally->normal_sum += (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    tally->sliding += (int64_t)slides;
+    tally->deepest = most;
+}
+
+/* The near pairs of particles [begin, end), batch by batch. */
+static void sweep_near(struct gb_world *world, int64_t begin, int64_t end, double cutoff2,
+                       struct gb_tally *tally)
+{
+    const int64_t *start = world->pairs.near.start;
+    const bool planar = world->model->dimension == 2;
+    struct gb_batch batch;
+    batch.cutoff2 = cutoff2;
+    batch.damp = 0.0;
+    int64_t i = begin;
+    for (int64_t slot = start[begin]; slot < start[end]; slot += batch.n) {
+        const int64_t left = start[end] - slot;
+        batch.n = left < GB_BATCH ? (int)left : GB_BATCH;
+        while (slot >= start[i + 1]) {
+            i++;
+        }
+        (planar ? fill_batch_2d : fill_batch)(world, &batch, slot, i);
+        gb_batch_advance(&world->kernel, world->model, &batch, &world->contacts, slot);
+        (planar ? spill_batch_2d : spill_batch)(world, &batch, slot, i);
+        tally_batch(tally, &batch, world->contacts.deepest + slot);
+    }
+}
+
+static void sweep_block(struct gb_world *world, int64_t b)
+{
     const double cutoff = world->model->terms.attraction ? world->model->numerics.cutoff : 0.0;
-    double force[3] = {0}, torque[3] = {0};
-    for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
-        sweep_near(world, i, k, cutoff * cutoff, force, torque, tally);
+    const struct gb_pair_list *far = &world->pairs.far;
+    const int64_t begin = b * BLOCK;
+    const int64_t end = begin + BLOCK < world->count ? begin + BLOCK : world->count;
+    struct gb_tally tally = {0};
+    const size_t bytes = 3 * (size_t)(end - begin) * sizeof(double);
+    memset(world->force + 3 * begin, 0, bytes);
+    memset(world->torque + 3 * begin, 0, bytes);
+    sweep_near(world, begin, end, cutoff * cutoff, &tally);
+    for (int64_t i = begin; i < end; i++) {
+        for (int64_t k = far->start[i]; k < far->start[i + 1]; k++) {
+            sweep_far(world, i, k, cutoff * cutoff, world->force + 3 * i);
+        }
     }
-    for (int64_t k = pairs->far.start[i]; k < pairs->far.start[i + 1]; k++) {
-        sweep_far(world, i, k, cutoff * cutoff, force);
-    }
-    memcpy(world->force + 3 * i, force, sizeof force);
-    memcpy(world->torque + 3 * i, torque, sizeof torque);
+    world->block[b].tally = tally;
 }
 
 /* Adds what the pairs of others do to particle j, in slot order. */
@@ -365,23 +467,19 @@ static void collect_particle(struct gb_world *world, int64_t j)
     const struct gb_pair_list *near = &world->pairs.near, *far = &world->pairs.far;
     double *force = world->force + 3 * j, *torque = world->torque + 3 * j;
     for (int64_t in = near->in_start[j]; in < near->in_start[j + 1]; in++) {
-        const struct gb_wrench *wrench = &world->wrench[near->in_slot[in]];
-        gb_vec_add(force, -1.0, wrench->force);
-        gb_vec_add(torque, 1.0, wrench->torque_j);
+        const double *row = world->wrench + (int64_t)world->row * near->in_slot[in];
+        if (world->row == 6) {
+            gb_vec_add(force, -1.0, row);
+            gb_vec_add(torque, 1.0, row + 3);
+        } else {
+            force[0] -= row[0];
+            force[2] -= row[1];
+            torque[1] += row[2];
+        }
     }
     for (int64_t in = far->in_start[j]; in < far->in_start[j + 1]; in++) {
         gb_vec_add(force, -1.0, world->pull + 3 * (int64_t)far->in_slot[in]);
     }
-}
-
-static void sweep_block(struct gb_world *world, int64_t b)
-{
-    struct gb_tally tally = {0};
-    const int64_t end = (b + 1) * BLOCK < world->count ? (b + 1) * BLOCK : world->count;
-    for (int64_t i = b * BLOCK; i < end; i++) {
-        sweep_particle(world, i, &tally);
-    }
-    world->block[b].tally = tally;
 }
 
 static void collect_block(struct gb_world *world, int64_t b)
@@ -519,14 +617,17 @@ const struct gb_pairs *gb_world_pairs(const struct gb_world *world)
     return &world->pairs;
 }
 
-const struct gb_contact *gb_world_contacts(const struct gb_world *world)
+const struct gb_contacts *gb_world_contacts(const struct gb_world *world)
 {
-    return world->contact;
+    return &world->contacts;
 }
 
-const struct gb_wrench *gb_world_wrenches(const struct gb_world *world)
+void gb_world_force(const struct gb_world *world, int64_t k, double force[3])
 {
-    return world->wrench;
+    const double *row = world->wrench + (int64_t)world->row * k;
+    force[0] = row[0];
+    force[1] = world->row == 6 ? row[1] : 0.0;
+    force[2] = world->row == 6 ? row[2] : row[1];
 }
 
 const double *gb_world_pulls(const struct gb_world *world)
@@ -607,8 +708,8 @@ uint64_t gb_world_hash(const struct gb_world *world)
     hash = hash_bytes(hash, world->position,
                       3 * (size_t)world->count * sizeof *world->position);
     for (int64_t k = 0; world->listed && k < world->pairs.near.pair_count; k++) {
-        if (world->contact[k].deepest >= 0.0) {
-            hash = hash_bytes(hash, &world->contact[k], sizeof world->contact[k]);
+        for (int p = 0; p < world->contacts.planes && world->contacts.deepest[k] >= 0.0; p++) {
+            hash = hash_bytes(hash, &world->contacts.plane[p][k], sizeof(double));
         }
     }
     return hash;

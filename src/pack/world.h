@@ -7,8 +7,16 @@
 #include "greenbody/model.h"
 #include "greenbody/status.h"
 #include "pack/cell.h"
-#include "pack/contact.h"
+#include "pack/batch.h"
 #include "pack/pairs.h"
+
+/* What a sweep counts beside the forces, summed in a fixed order. */
+struct gb_tally {
+    int64_t contacts;  /* pairs with r < d */
+    int64_t sliding;   /* of these: shear spring at its cap */
+    double normal_sum; /* sum of |f_n| over contacts */
+    double deepest;    /* largest overlap */
+};
 
 /* Owner of a packing: cell, particles, contacts and their history.  Mutable, one thread only;
  * the force sweep inside uses model->numerics.threads threads and gives the same bits for any
@@ -48,12 +56,12 @@ const double *gb_world_position(const struct gb_world *world);
  * the contacts or f_a(d), whichever is larger (without adhesion: a small floor). */
 double gb_world_residual(const struct gb_world *world);
 
-/* The neighbour list, for measures: records and wrenches belong to the pairs of `near`, pulls
- * (force on the first particle) to those of `far`. */
+/* The neighbour list and what belongs to its pairs, for measures: histories and forces of the
+ * `near` ones, pulls (three doubles, force on the first particle) of the `far` ones. */
 const struct gb_pairs *gb_world_pairs(const struct gb_world *world);
-const struct gb_contact *gb_world_contacts(const struct gb_world *world);
-const struct gb_wrench *gb_world_wrenches(const struct gb_world *world);
-const double *gb_world_pulls(const struct gb_world *world); /* far pairs x 3 */
+const struct gb_contacts *gb_world_contacts(const struct gb_world *world);
+void gb_world_force(const struct gb_world *world, int64_t k, double force[3]);
+const double *gb_world_pulls(const struct gb_world *world);
 /* x_i - x_other of pair k of a list, as of the last evaluation. */
 void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
                   int64_t k, double r[3]);

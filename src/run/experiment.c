@@ -296,21 +296,21 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
 static void copy_pairs(const struct gb_world *world, struct gb_state *state)
 {
     const struct gb_pair_list *near = &gb_world_pairs(world)->near;
-    const struct gb_contact *contact = gb_world_contacts(world);
-    const struct gb_wrench *wrench = gb_world_wrenches(world);
+    const double *deepest = gb_world_contacts(world)->deepest;
     int64_t line = 0;
     for (int64_t i = 0; i < state->count; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            if (contact[k].deepest < 0.0) {
+            if (deepest[k] < 0.0) {
                 continue;
             }
             double r[3];
             gb_world_arm(world, near, i, k, r);
             state->pair[2 * line] = (int32_t)i;
             state->pair[2 * line + 1] = near->other[k];
-            memcpy(state->pair_force + 3 * line, wrench[k].force, sizeof wrench[k].force);
-            state->pair_normal[line] = gb_vec_dot(wrench[k].force, r) / gb_vec_length(r);
-            state->pair_bridged[line++] = contact[k].deepest > 0.0;
+            double *force = state->pair_force + 3 * line;
+            gb_world_force(world, k, force);
+            state->pair_normal[line] = gb_vec_dot(force, r) / gb_vec_length(r);
+            state->pair_bridged[line++] = deepest[k] > 0.0;
         }
     }
 }

@@ -29,16 +29,15 @@ static void start(struct gb_relax *relax, struct gb_world *world)
     *state = (struct steepest){0.0, INFINITY, 1.0};
 }
 
-static double contact_stiffness(const struct gb_model *model, const struct gb_contact *c,
-                                double h)
+static double contact_stiffness(const struct gb_model *model, double deepest, double h)
 {
-    const double normal =
-        c->deepest > 0.0 ? c->line_slope : gb_law_rod_stiffness(&model->rod, h);
+    const double from = deepest > 0.0 ? deepest : h;
+    const double normal = gb_law_rod_stiffness(&model->rod, from);
     if (!model->terms.friction) {
         return normal;
     }
-    const double a = c->deepest > 0.0 ? gb_law_bridge_radius(&model->bridge, c->deepest, h)
-                                      : 0.5 * sqrt(fmax(h, 0.0));
+    const double a = deepest > 0.0 ? gb_law_bridge_radius(&model->bridge, deepest, h)
+                                   : 0.5 * sqrt(fmax(h, 0.0));
     const double shear = model->slip.motion * gb_law_slip_shear_stiffness(&model->slip, a);
     return fmax(normal, shear * (1.0 + 0.25 / inertia));
 }
@@ -48,17 +47,18 @@ static double stiffest_particle(const struct gb_world *world, double *sum)
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
-    const struct gb_contact *contact = gb_world_contacts(world);
+    const double *deepest = gb_world_contacts(world)->deepest;
     double most = 0.0;
     for (int64_t i = 0; i < count; i++) {
         sum[i] = 0.0;
     }
     for (int64_t i = 0; i < count; i++) {
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-            if (contact[k].deepest >= 0.0) {
-                const double h = 1.0 - gb_vec_length(contact[k].arm);
-                const double stiffness =
-                    contact_stiffness(gb_world_model(world), &contact[k], h);
+            if (deepest[k] >= 0.0) {
+                double r[3];
+                gb_world_arm(world, pairs, i, k, r);
+                const double stiffness = contact_stiffness(gb_world_model(world), deepest[k],
+                                                           1.0 - gb_vec_length(r));
                 sum[i] += stiffness;
                 sum[pairs->other[k]] += stiffness;
             }

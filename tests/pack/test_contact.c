@@ -1,34 +1,59 @@
 #include <glib.h>
 #include <math.h>
+#include <stdio.h>
 
 #include "base/vec.h"
 #include "common/scene.h"
 
-/* Two particles, moved by hand. */
+/* Two particles, moved by hand: a batch of one. */
+struct history {
+    double deepest, shear[3], roll[3], pivot;
+};
+
 struct pair {
     struct gb_model model;
-    struct gb_contact contact;
+    struct gb_batch_kernel kernel;
+    struct gb_contacts contacts;
+    struct gb_batch batch;
+    struct history contact;
     double r[3], turn_i[3], turn_j[3];
-    struct gb_wrench wrench;
-    double torque_i[3];
-    struct gb_tally tally;
+    double force[3], torque_i[3], torque_j[3];
+    int sliding;
 };
 
 static void start(struct pair *pair, const struct gb_params *params, double h)
 {
-    *pair = (struct pair){.model = scene_model(params)};
-    gb_contact_clear(&pair->contact);
+    struct gb_error err = {0};
+    gb_contacts_finish(&pair->contacts);
+    memset(pair, 0, sizeof *pair);
+    pair->model = scene_model(params);
+    pair->kernel = gb_batch_pick(&pair->model, 0);
+    g_assert_true(gb_contacts_init(&pair->contacts, 3, 1, &err));
+    gb_contacts_clear(&pair->contacts, 0);
+    pair->batch.n = 1;
+    pair->batch.cutoff2 = 1.44;
     pair->r[2] = 1.0 - h;
 }
 
 static void advance(struct pair *pair)
 {
-    memset(pair->torque_i, 0, sizeof pair->torque_i);
-    gb_contact_advance(&pair->model, &pair->contact, pair->r, gb_vec_length(pair->r),
-                       pair->turn_i, pair->turn_j, &pair->wrench, pair->torque_i,
-                       &pair->tally);
-    memset(pair->turn_i, 0, sizeof pair->turn_i);
-    memset(pair->turn_j, 0, sizeof pair->turn_j);
+    for (int c = 0; c < 3; c++) {
+        pair->batch.r[c][0] = pair->r[c];
+        pair->batch.turn_sum[c][0] = pair->turn_i[c] + pair->turn_j[c];
+        pair->batch.turn_difference[c][0] = pair->turn_i[c] - pair->turn_j[c];
+        pair->turn_i[c] = pair->turn_j[c] = 0.0;
+    }
+    gb_batch_advance(&pair->kernel, &pair->model, &pair->batch, &pair->contacts, 0);
+    for (int c = 0; c < 3; c++) {
+        pair->force[c] = pair->batch.force[c][0];
+        pair->torque_i[c] = pair->batch.torque_i[c][0];
+        pair->torque_j[c] = pair->batch.torque_j[c][0];
+        pair->contact.shear[c] = pair->contacts.shear[c][0];
+        pair->contact.roll[c] = pair->contacts.roll[c][0];
+    }
+    pair->contact.deepest = pair->contacts.deepest[0];
+    pair->contact.pivot = pair->contacts.pivot[0];
+    pair->sliding += pair->batch.sliding[0] > 0.0;
 }
 
 static void assert_near(double a, double b, double scale)
@@ -41,7 +66,7 @@ static void test_half_motion(void)
 {
     const struct gb_params params =
         scene_params("contact.bridge_length=1 d", "contact.mu=1", NULL);
-    struct pair pair;
+    struct pair pair = {0};
     start(&pair, &params, 0.02);
     advance(&pair);
     pair.r[0] = 1e-6;
@@ -50,21 +75,22 @@ static void test_half_motion(void)
     const double stiffness = gb_law_slip_shear_stiffness(&pair.model.slip, a);
     const double normal = gb_law_rod_force(&pair.model.rod, 0.02) - pair.model.adhesion;
     /* the axis has turned by 1e-6 / r: the normal force tilts with it */
-    assert_near(pair.wrench.force[0], -stiffness * 0.5e-6 + normal * 1e-6 / 0.98, 1e-7);
+    assert_near(pair.force[0], -stiffness * 0.5e-6 + normal * 1e-6 / 0.98, 1e-7);
+    gb_contacts_finish(&pair.contacts);
 }
 
 /* A pair that turns as one body keeps its forces: springs turn with it. */
 static void test_rigid_rotation(void)
 {
     const struct gb_params params = scene_params(NULL);
-    struct pair pair;
+    struct pair pair = {0};
     start(&pair, &params, 0.02);
     advance(&pair);
     pair.r[0] = 1e-5; /* load the shear spring, */
     pair.turn_i[2] = 1e-5; /* the pivot */
     pair.turn_j[0] = 1e-5; /* and, with shear, the roll */
     advance(&pair);
-    const double load = gb_vec_length(pair.wrench.force);
+    const double load = gb_vec_length(pair.force);
     const double before_shear = gb_vec_length(pair.contact.shear);
     const double before_roll = gb_vec_length(pair.contact.roll);
     const double before_pivot = pair.contact.pivot;
@@ -81,14 +107,15 @@ static void test_rigid_rotation(void)
     g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.contact.shear) / before_shear, 1.0, 2e-2);
     g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.contact.roll) / before_roll, 1.0, 1e-6);
     g_assert_cmpfloat_with_epsilon(pair.contact.pivot / before_pivot, 1.0, 1e-6);
-    g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.wrench.force) / load, 1.0, 1e-4);
+    g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.force) / load, 1.0, 1e-4);
+    gb_contacts_finish(&pair.contacts);
 }
 
 /* Forces and torques on the pair balance whatever the springs do. */
 static void test_balance(void)
 {
     const struct gb_params params = scene_params(NULL);
-    struct pair pair;
+    struct pair pair = {0};
     start(&pair, &params, 0.02);
     GRand *random = g_rand_new_with_seed(7);
     for (int i = 0; i < 500; i++) {
@@ -103,12 +130,13 @@ static void test_balance(void)
         advance(&pair);
         /* angular momentum about the centre of j: r x f_i + t_i + t_j = 0 */
         double moment[3];
-        gb_vec_cross(pair.r, pair.wrench.force, moment);
+        gb_vec_cross(pair.r, pair.force, moment);
         for (int k = 0; k < 3; k++) {
-            assert_near(moment[k] + pair.torque_i[k] + pair.wrench.torque_j[k], 0.0, 1e-3);
+            assert_near(moment[k] + pair.torque_i[k] + pair.torque_j[k], 0.0, 1e-3);
         }
     }
     g_rand_free(random);
+    gb_contacts_finish(&pair.contacts);
 }
 
 /* Without a bridge the shear force stops at mu f_e and a closed cycle dissipates. */
@@ -116,7 +144,7 @@ static void test_coulomb(void)
 {
     const struct gb_params params =
         scene_params("contact.bridge_length=1 d", "contact.mu=0.1", NULL);
-    struct pair pair;
+    struct pair pair = {0};
     start(&pair, &params, 0.02);
     advance(&pair);
     const double cap = 0.1 * gb_law_rod_force(&pair.model.rod, 0.02);
@@ -127,12 +155,13 @@ static void test_coulomb(void)
         /* both turn so that the contact slides while the axis stays */
         pair.turn_i[1] = pair.turn_j[1] = -move / 0.98;
         advance(&pair);
-        g_assert_cmpfloat(fabs(pair.wrench.force[0]), <=, cap * (1.0 + 1e-12));
-        work -= pair.wrench.force[0] * move;
+        g_assert_cmpfloat(fabs(pair.force[0]), <=, cap * (1.0 + 1e-12));
+        work -= pair.force[0] * move;
     }
-    g_assert_cmpfloat(fabs(pair.wrench.force[0]), >, 0.999 * cap);
+    g_assert_cmpfloat(fabs(pair.force[0]), >, 0.999 * cap);
     g_assert_cmpfloat(work, >, 0.5 * cap * 4000 * dx);
-    g_assert_cmpint(pair.tally.sliding, >, 1000);
+    g_assert_cmpint(pair.sliding, >, 1000);
+    gb_contacts_finish(&pair.contacts);
 }
 
 /* A bridge sheared to pi a_ch^2 sigma_b shrinks to the present overlap (deep contact) or is
@@ -140,7 +169,7 @@ static void test_coulomb(void)
 static void test_bridge_failure(void)
 {
     const struct gb_params params = scene_params(NULL);
-    struct pair pair;
+    struct pair pair = {0};
     start(&pair, &params, 0.03);
     advance(&pair);
     pair.r[2] = 1.0 - 0.026; /* opened a little: h_min stays at 0.03 */
@@ -153,7 +182,7 @@ static void test_bridge_failure(void)
     g_assert_cmpfloat_with_epsilon(pair.contact.deepest, 0.026, 1e-12);
     const double a = 0.5 * sqrt(0.026);
     const double cap = gb_law_slip_bridge_shear_cap(&pair.model.slip, a);
-    g_assert_cmpfloat_with_epsilon(fabs(pair.wrench.force[0]) / cap, 1.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(fabs(pair.force[0]) / cap, 1.0, 1e-9);
 
     start(&pair, &params, 0.010);
     advance(&pair);
@@ -166,14 +195,15 @@ static void test_bridge_failure(void)
     }
     g_assert_cmpfloat(pair.contact.deepest, ==, 0.0);
     const double coulomb = 0.1 * gb_law_rod_force(&pair.model.rod, 0.006);
-    g_assert_cmpfloat_with_epsilon(fabs(pair.wrench.force[0]) / coulomb, 1.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(fabs(pair.force[0]) / coulomb, 1.0, 1e-9);
+    gb_contacts_finish(&pair.contacts);
 }
 
 /* Reaching the rolling cap a_ch f_e / 3 breaks nothing. */
 static void test_rolling_cap(void)
 {
     const struct gb_params params = scene_params(NULL);
-    struct pair pair;
+    struct pair pair = {0};
     start(&pair, &params, 0.03);
     advance(&pair);
     for (int i = 0; i < 500; i++) {
@@ -185,7 +215,8 @@ static void test_rolling_cap(void)
     const double a = 0.5 * sqrt(0.03);
     const double cap = a * gb_law_rod_force(&pair.model.rod, 0.03) / 3.0;
     g_assert_cmpfloat_with_epsilon(fabs(pair.torque_i[0]) / cap, 1.0, 1e-9);
-    g_assert_cmpfloat_with_epsilon(fabs(pair.wrench.torque_j[0]) / cap, 1.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(fabs(pair.torque_j[0]) / cap, 1.0, 1e-9);
+    gb_contacts_finish(&pair.contacts);
 }
 
 /* full doubles what the springs see, current takes the printed radius. */
@@ -193,7 +224,7 @@ static void test_switches(void)
 {
     const struct gb_params params = scene_params(
         "contact.relative_motion=full", "contact.bridge_radius=current", NULL);
-    struct pair pair;
+    struct pair pair = {0};
     start(&pair, &params, 0.03);
     advance(&pair);
     pair.turn_i[2] = 1e-6;
@@ -201,6 +232,142 @@ static void test_switches(void)
     const double a = 0.5 * sqrt(0.03 + 0.008);
     assert_near(pair.torque_i[2],
                 -gb_law_slip_pivot_stiffness(&pair.model.slip, a) * 1e-6, 1e-9);
+    gb_contacts_finish(&pair.contacts);
+}
+
+/* The laws as the batch computes them, against the laws as they are published: every overlap,
+ * with and without a bridge, and across a gap. */
+static void test_laws(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    struct pair pair = {0};
+    for (int i = -399; i <= 480; i++) {
+        const double h = i <= 0 ? i * 5e-4 : i * 1e-3;
+        start(&pair, &params, h);
+        advance(&pair);
+        const double expected = gb_law_rod_force(&pair.model.rod, h) -
+                                gb_law_dispersion_force(&pair.model.dispersion, 1.0 - h);
+        g_assert_cmpfloat_with_epsilon(pair.force[2] / expected, 1.0, 1e-11);
+        if (h > 0.008) {
+            pair.r[2] += 0.006; /* along the line of the bridge */
+            advance(&pair);
+            const double line = gb_law_bridge_force(&pair.model.rod, h, h - 0.006) -
+                                pair.model.adhesion;
+            g_assert_cmpfloat_with_epsilon((pair.force[2] - line) / pair.model.adhesion, 0.0,
+                                           1e-10);
+        }
+    }
+    gb_contacts_finish(&pair.contacts);
+}
+
+/* Random motions of many contacts give the same bits for every vector width, with every
+ * combination of terms, and a batch gives what its pairs give one by one. */
+static void random_batch(GRand *random, struct gb_batch *batch)
+{
+    batch->n = 101;
+    batch->cutoff2 = 1.44;
+    batch->damp = 0.2;
+    for (int k = 0; k < batch->n; k++) {
+        double r[3], length = 0.0;
+        for (int c = 0; c < 3; c++) {
+            r[c] = g_rand_double_range(random, -1.0, 1.0);
+            batch->turn_sum[c][k] = g_rand_double_range(random, -1e-2, 1e-2);
+            batch->turn_difference[c][k] = g_rand_double_range(random, -1e-2, 1e-2);
+        }
+        length = gb_vec_length(r);
+        for (int c = 0; c < 3; c++) {
+            batch->r[c][k] = r[c] / length * g_rand_double_range(random, 0.93, 1.01);
+        }
+    }
+}
+
+static uint64_t walk(const struct gb_params *params, int width, int dimension)
+{
+    struct gb_model model = scene_model(params);
+    struct gb_contacts contacts;
+    struct gb_error err = {0};
+    model.dimension = dimension;
+    const struct gb_batch_kernel kernel = gb_batch_pick(&model, width);
+    g_assert_true(gb_contacts_init(&contacts, dimension, 128, &err));
+    for (int64_t k = 0; k < 128; k++) {
+        gb_contacts_clear(&contacts, k);
+    }
+    GRand *random = g_rand_new_with_seed(5);
+    static struct gb_batch batch;
+    GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
+    for (int i = 0; i < 50; i++) {
+        random_batch(random, &batch);
+        gb_batch_advance(&kernel, &model, &batch, &contacts, 3);
+        g_checksum_update(sum, (const guchar *)batch.force[0],
+                          (gssize)((size_t)batch.n * sizeof(double)));
+        g_checksum_update(sum, (const guchar *)batch.torque_i[0],
+                          (gssize)((size_t)batch.n * sizeof(double)));
+        for (int p = 0; p < contacts.planes; p++) {
+            g_checksum_update(sum, (const guchar *)contacts.plane[p], 128 * sizeof(double));
+        }
+    }
+    uint64_t hash = 0;
+    sscanf(g_checksum_get_string(sum), "%16" G_GINT64_MODIFIER "x", &hash);
+    g_checksum_free(sum);
+    g_rand_free(random);
+    gb_contacts_finish(&contacts);
+    return hash;
+}
+
+static void test_widths(void)
+{
+    const char *terms[][2] = {{"contact.mu=0.1", "contact.bridge_length=0.008 d"},
+                              {"contact.mu=0.1", "contact.bridge_length=1 d"},
+                              {"contact.mu=0", "contact.bridge_length=1 d"}};
+    for (int t = 0; t < 3; t++) {
+        const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
+        for (int dimension = 2; dimension <= 3; dimension++) {
+            const uint64_t narrow = walk(&params, 128, dimension);
+            g_assert_cmpuint(walk(&params, 256, dimension), ==, narrow);
+            g_assert_cmpuint(walk(&params, 512, dimension), ==, narrow);
+        }
+    }
+}
+
+/* A planar pair does in 2D what it does in 3D. */
+static void test_planar(void)
+{
+    const struct gb_params params = scene_params(NULL);
+    struct gb_model solid = scene_model(&params), flat = solid;
+    static struct gb_batch a, b;
+    struct gb_contacts ca, cb;
+    struct gb_error err = {0};
+    flat.dimension = 2;
+    const struct gb_batch_kernel ka = gb_batch_pick(&solid, 0), kb = gb_batch_pick(&flat, 0);
+    g_assert_true(gb_contacts_init(&ca, 3, 1, &err) && gb_contacts_init(&cb, 2, 1, &err));
+    gb_contacts_clear(&ca, 0);
+    gb_contacts_clear(&cb, 0);
+    GRand *random = g_rand_new_with_seed(11);
+    a.n = b.n = 1;
+    a.cutoff2 = b.cutoff2 = 1.44;
+    double x = 0.4, z = 0.89;
+    for (int i = 0; i < 3000; i++) {
+        x += g_rand_double_range(random, -2e-4, 2e-4);
+        z += g_rand_double_range(random, -2e-4, 2e-4);
+        const double scale = 0.975 / hypot(x, z);
+        x *= i % 100 == 0 ? scale : 1.0;
+        z *= i % 100 == 0 ? scale : 1.0;
+        a.r[0][0] = b.r[0][0] = x;
+        a.r[2][0] = b.r[1][0] = z;
+        a.turn_sum[1][0] = b.turn_sum[0][0] = g_rand_double_range(random, -1e-3, 1e-3);
+        a.turn_difference[1][0] = b.turn_difference[0][0] =
+            g_rand_double_range(random, -1e-3, 1e-3);
+        gb_batch_advance(&ka, &solid, &a, &ca, 0);
+        gb_batch_advance(&kb, &flat, &b, &cb, 0);
+        g_assert_cmpfloat_with_epsilon(a.force[0][0], b.force[0][0], 1e-9);
+        g_assert_cmpfloat_with_epsilon(a.force[2][0], b.force[1][0], 1e-9);
+        g_assert_cmpfloat_with_epsilon(a.torque_i[1][0], b.torque_i[0][0], 1e-9);
+        g_assert_cmpfloat_with_epsilon(a.torque_j[1][0], b.torque_j[0][0], 1e-9);
+        g_assert_cmpfloat(a.force[1][0], ==, 0.0);
+    }
+    g_rand_free(random);
+    gb_contacts_finish(&ca);
+    gb_contacts_finish(&cb);
 }
 
 int main(int argc, char **argv)
@@ -213,5 +380,8 @@ int main(int argc, char **argv)
     g_test_add_func("/contact/bridge-failure", test_bridge_failure);
     g_test_add_func("/contact/rolling-cap", test_rolling_cap);
     g_test_add_func("/contact/switches", test_switches);
+    g_test_add_func("/contact/laws", test_laws);
+    g_test_add_func("/contact/widths", test_widths);
+    g_test_add_func("/contact/planar", test_planar);
     return g_test_run();
 }

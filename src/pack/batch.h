@@ -1,0 +1,73 @@
+#ifndef GB_PACK_BATCH_H
+#define GB_PACK_BATCH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/model.h"
+#include "greenbody/status.h"
+
+/* Contact histories of the near pairs, structure of arrays, so that a batch of them runs
+ * through the laws in vector registers.  In 2D (x-z plane) vectors in the plane have two
+ * components (0: x, 1: z), springs and turns one. */
+struct gb_contacts {
+    int64_t room;
+    int planes;       /* arrays in use ... */
+    int kept;         /* ... of which the first ones are the history; the arms follow from the
+                       * positions in a copy made right after an evaluation */
+    double *plane[11];
+    double *deepest;  /* h_min; 0: touching without a bridge; < 0: not touching */
+    double *shear[3]; /* delta, in the tangent plane; 2D: along (n_z, -n_x) */
+    double *roll[3];  /* theta_r, likewise; 2D: about y */
+    double *pivot;    /* theta_p, about the normal; 3D only */
+    double *arm[3];   /* r_ij at the last evaluation */
+};
+
+bool gb_contacts_init(struct gb_contacts *contacts, int dimension, int64_t room,
+                      struct gb_error *err);
+void gb_contacts_finish(struct gb_contacts *contacts);
+/* Marks a pair as not touching. */
+void gb_contacts_clear(struct gb_contacts *contacts, int64_t slot);
+
+enum { GB_BATCH = 128 };
+
+/* A batch of pairs on its way through the laws. */
+struct gb_batch {
+    int n;
+    double cutoff2; /* squared reach of the attraction */
+    double damp;    /* viscous time A over time step; used by viscous scenes only */
+    /* in: r_ij, sum and difference of the turns of i and j since the last evaluation */
+    _Alignas(64) double r[3][GB_BATCH];
+    double turn_sum[3][GB_BATCH], turn_difference[3][GB_BATCH];
+    /* out: force on i (the opposite acts on j), torques on i and on j */
+    double force[3][GB_BATCH], torque_i[3][GB_BATCH], torque_j[3][GB_BATCH];
+    double normal[GB_BATCH];     /* |f_n| of contacts, 0 elsewhere */
+    double overlap[GB_BATCH];    /* h */
+    double sliding[GB_BATCH];    /* 1: shear spring at its cap */
+    double dissipated[GB_BATCH]; /* energy lost in this evaluation; viscous scenes only */
+    /* between the two halves */
+    double unit[3][GB_BATCH], distance[GB_BATCH], moment[GB_BATCH], fails[GB_BATCH];
+    double rate[8][GB_BATCH];    /* increments of the motions the springs see */
+};
+
+/* Advances contacts [slot, slot + batch->n) and fills the outputs.
+ *
+ * The increment of relative motion is r minus the stored arm, so the affine motion of the cell
+ * counts.  Stored vectors are turned into the current tangent plane keeping their length before
+ * the increment is added.  Source: P1 (1)-(12); viscous partners P2 (3). */
+struct gb_batch_kernel {
+    void (*stretch)(const struct gb_model *model, struct gb_batch *batch,
+                    struct gb_contacts *contacts, int64_t slot);
+    void (*load)(const struct gb_model *model, struct gb_batch *batch,
+                 struct gb_contacts *contacts, int64_t slot);
+};
+
+/* The variant for this scene and this processor; no variant pays for terms it leaves out.
+ * widest: 0 picks by processor, 128, 256 or 512 limits the vectors (tests). */
+struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest);
+
+/* Both halves, with what happens rarely done between them. */
+void gb_batch_advance(const struct gb_batch_kernel *kernel, const struct gb_model *model,
+                      struct gb_batch *batch, struct gb_contacts *contacts, int64_t slot);
+
+#endif
