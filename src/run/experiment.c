@@ -85,6 +85,12 @@ bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *pa
         return false;
     }
     experiment->params = *params;
+    if (params->kind == GB_KIND_DYNAMIC) {
+        gb_experiment_destroy(experiment);
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "scene.kind = dynamic: this version runs quasistatic scenes "
+                            "only");
+    }
     if (!gb_params_check(params, err) || !gb_model_init(&experiment->model, params, err) ||
         !gb_relax_create(&experiment->relax, &experiment->model, err) ||
         !grow_world(experiment, cancelled, data, err) ||
@@ -146,6 +152,12 @@ static void measure(const struct gb_experiment *experiment, struct gb_point *poi
         .residual = experiment->relax->residual,
         .iterations = experiment->spent_iterations + experiment->relax->iterations,
         .evaluations = experiment->spent_evaluations + experiment->relax->evaluations,
+        .time_s = NAN, /* as all that follow: of dynamic runs */
+        .kinetic = NAN,
+        .work = NAN,
+        .elastic = NAN,
+        .dissipated = NAN,
+        .energy_residual = NAN,
     };
 }
 
