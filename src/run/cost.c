@@ -1,0 +1,132 @@
+#include "run/cost.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include <glib.h>
+
+#include "base/units.h"
+#include "pack/world.h"
+#include "run/experiment.h"
+
+/* The largest step that still gives P2's curve at its own 0.04 T, nearly: what auto is
+ * likely to choose, in T. */
+static const double step_of_auto = 0.4;
+
+/* Particle-steps per second and core: discs or spheres with friction and bridges. */
+static const double rate_of_core = 1e7;
+
+/* Length of a row of curve.csv with the columns of a dynamic run. */
+static const double row_bytes = 250.0;
+
+/* Longer than this is nothing to begin by mistake. */
+static const double unasked_most_s = 3600.0;
+
+static bool check(const struct gb_params *params, double rate, struct gb_error *err)
+{
+    if (params->kind != GB_KIND_DYNAMIC) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "scene.kind = quasistatic: the cost can be foretold with "
+                            "scene.kind = dynamic only");
+    }
+    if (!(rate > 0.0 && isfinite(rate))) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%g particle-steps per second: accepted above 0", rate);
+    }
+    return gb_params_check(params, err);
+}
+
+/* A stage has no more points than steps, and its last state is one. */
+static double points_of(double intervals, double steps)
+{
+    return steps > 0.0 ? fmin(ceil(intervals), steps) : 0.0;
+}
+
+bool gb_cost_estimate(const struct gb_params *params, double particle_steps_per_s,
+                      struct gb_cost *out, struct gb_error *err)
+{
+    if (!check(params, particle_steps_per_s, err)) {
+        return false;
+    }
+    const double given = gb_params_time_step_s(params);
+    const double step =
+        isnan(given) ? step_of_auto * gb_params_unit_time_s(params) : given;
+    /* d rho/dt = v rho */
+    const double growth =
+        log(params->until_density / gb_params_structure_density(params));
+    struct gb_cost cost = {
+        .time_step_s = step,
+        .step_assumed = isnan(given),
+        .relax_steps = ceil(params->relax_s / step),
+        .compress_steps = ceil(growth / params->rate_per_s / step),
+        .hold_steps = ceil(params->hold_s / step),
+        .particle_steps_per_s = particle_steps_per_s,
+    };
+    cost.steps = cost.relax_steps + cost.compress_steps + cost.hold_steps;
+    cost.particle_steps = cost.steps * (double)params->count;
+    cost.seconds = cost.particle_steps / particle_steps_per_s;
+    cost.points = 1.0 +
+                  points_of(params->relax_s / params->record_time_s, cost.relax_steps) +
+                  points_of(growth / log1p(params->record_density), cost.compress_steps) +
+                  points_of(params->hold_s / params->record_time_s, cost.hold_steps);
+    cost.curve_bytes = row_bytes * cost.points;
+    *out = cost;
+    return true;
+}
+
+double gb_cost_rate_assumed(const struct gb_params *params)
+{
+    const double cores = (double)g_get_num_processors();
+    return rate_of_core *
+           (params->threads > 0 ? fmin((double)params->threads, cores) : cores);
+}
+
+double gb_cost_rate_measured(const struct gb_experiment *experiment,
+                             int64_t evaluations_before, double seconds)
+{
+    const int64_t evaluations =
+        gb_world_evaluations(gb_experiment_world(experiment)) - evaluations_before;
+    const int64_t count = gb_experiment_params(experiment)->count;
+    return seconds > 0.0 ? (double)evaluations * (double)count / seconds : 0.0;
+}
+
+/* "9 s", "12 min", "8 h 52 min", "41 days". */
+static char *write_duration(double seconds, char *buffer, size_t size)
+{
+    const double minutes = ceil(seconds / 60.0), hours = floor(minutes / 60.0);
+    if (seconds < 60.0) {
+        snprintf(buffer, size, "%.0f s", ceil(seconds));
+    } else if (minutes < 60.0) {
+        snprintf(buffer, size, "%.0f min", minutes);
+    } else if (hours < 72.0) {
+        snprintf(buffer, size, "%.0f h %02.0f min", hours, minutes - 60.0 * hours);
+    } else {
+        snprintf(buffer, size, "%.0f days", round(hours / 24.0));
+    }
+    return buffer;
+}
+
+char *gb_cost_line(const struct gb_cost *cost, char *buffer, size_t size)
+{
+    char step[48], duration[48];
+    gb_units_format_short(cost->time_step_s, GB_DIM_TIME, 4, step, sizeof step);
+    snprintf(buffer, size,
+             "foretold: %.3g steps of %s%s (relax %.3g, compress %.3g, hold %.3g), %.3g "
+             "particle-steps, %s at %.3gM/s; %.0f points, %.2g MB of curve.csv",
+             cost->steps, step, cost->step_assumed ? " (assumed)" : "", cost->relax_steps,
+             cost->compress_steps, cost->hold_steps, cost->particle_steps,
+             write_duration(cost->seconds, duration, sizeof duration),
+             cost->particle_steps_per_s / 1e6, cost->points, cost->curve_bytes / 1e6);
+    return buffer;
+}
+
+bool gb_cost_unasked(const struct gb_cost *cost, struct gb_error *err)
+{
+    char duration[48];
+    return cost->seconds <= unasked_most_s ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "the run will take about %s: %.3g particle-steps at %.3gM/s; "
+                        "accepted with --yes",
+                        write_duration(cost->seconds, duration, sizeof duration),
+                        cost->particle_steps, cost->particle_steps_per_s / 1e6);
+}

@@ -1,0 +1,45 @@
+#ifndef GB_RUN_COST_H
+#define GB_RUN_COST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "greenbody/params.h"
+#include "greenbody/status.h"
+
+struct gb_experiment;
+
+/* What a dynamic run will take: the slowest rate of P2 is ten thousand times the work of
+ * the fastest, so that it is told before it is begun.  Counts are doubles: nothing bounds
+ * them. */
+struct gb_cost {
+    double time_step_s;
+    bool step_assumed;                              /* auto: not known before the run */
+    double relax_steps, compress_steps, hold_steps; /* of the stages */
+    double steps;
+    double particle_steps;
+    double particle_steps_per_s; /* as given */
+    double seconds;
+    double points, curve_bytes; /* rows of curve.csv */
+};
+
+/* Errors: GB_ERR_INPUT for other kinds than dynamic or a rate that is not positive. */
+bool gb_cost_estimate(const struct gb_params *params, double particle_steps_per_s,
+                      struct gb_cost *out, struct gb_error *err);
+
+/* Particle-steps per second before anything is measured. */
+double gb_cost_rate_assumed(const struct gb_params *params);
+
+/* Particle-steps per second of a running experiment, one evaluation a step: of those
+ * since there were evaluations_before, in seconds.  0 while nothing was evaluated. */
+double gb_cost_rate_measured(const struct gb_experiment *experiment,
+                             int64_t evaluations_before, double seconds);
+
+/* One line for people.  Returns buffer. */
+char *gb_cost_line(const struct gb_cost *cost, char *buffer, size_t size);
+
+/* May it be run unasked?  Else GB_ERR_INPUT naming the cost and the option --yes. */
+bool gb_cost_unasked(const struct gb_cost *cost, struct gb_error *err);
+
+#endif
