@@ -9,6 +9,8 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "cli/warmup.h"
+#include "run/cost.h"
 #include "run/experiment.h"
 #include "run/pace.h"
 #include "run/preset.h"
@@ -19,16 +21,19 @@
 static const double status_every_s = 1.5;
 /* A packing that takes longer than this is announced before it is known to succeed. */
 static const double patience_s = 2.0;
+/* How long a dynamic run is watched before its cost is foretold. */
+static const double warmup_s = 0.3;
 
 enum { EVENT_MAX = 640 };
 
 struct run {
     char *directory;
-    bool force;
+    bool force, yes;
     struct gb_preset *preset;
     struct gb_model model;
     struct gb_store *store;
     struct gb_experiment *experiment;
+    struct gb_warmup warmup; /* of a dynamic run */
     struct gb_pace pace;
     struct gb_progress progress;
     struct gb_snapshot shot;
@@ -154,6 +159,20 @@ static bool keep_events(struct run *run, struct gb_error *err)
     return true;
 }
 
+/* What the warm-up recorded while there was no directory. */
+static bool keep_warmup(struct run *run, struct gb_error *err)
+{
+    const GArray *points = run->warmup.points;
+    for (guint i = 0; points != NULL && i < points->len; i++) {
+        run->points++;
+        if (!gb_store_point(run->store, &g_array_index(points, struct gb_point, i),
+                            err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool keep_point(struct run *run, struct gb_error *err)
 {
     struct gb_point point = *gb_experiment_point(run->experiment);
@@ -198,15 +217,38 @@ static bool report(struct run *run, struct gb_error *err)
     return true;
 }
 
+/* Refuses what would take unexpectedly long, before there is a directory: a rate of
+ * loading costs nothing to type. */
+static bool foretell(struct run *run, char *line, size_t size, struct gb_error *err)
+{
+    const struct gb_params *params = params_of(run);
+    struct gb_cost cost;
+    line[0] = '\0';
+    if (params->kind != GB_KIND_DYNAMIC) {
+        return true;
+    }
+    gb_warmup_run(&run->warmup, run->experiment, warmup_s, run->packed, &caught,
+                  &run->stopped);
+    const double rate = run->warmup.particle_steps_per_s;
+    if (!gb_cost_estimate(params, rate > 0.0 ? rate : gb_cost_rate_assumed(params), &cost,
+                          err)) {
+        return false;
+    }
+    gb_cost_line(&cost, line, size);
+    return run->yes || gb_warmup_ended(&run->warmup) || gb_cost_unasked(&cost, err);
+}
+
 static bool pack(struct run *run, struct gb_error *err)
 {
+    char foretold[320];
     run->started = clock_s();
     if (!gb_experiment_create(&run->experiment, params_of(run), packing_cancelled, run,
                               err)) {
         return false;
     }
     run->packed = elapsed(run);
-    if (!gb_store_create(&run->store, run->directory, params_of(run), run->force, err)) {
+    if (!foretell(run, foretold, sizeof foretold, err) ||
+        !gb_store_create(&run->store, run->directory, params_of(run), run->force, err)) {
         return false;
     }
     if (!run->announced) {
@@ -216,6 +258,9 @@ static bool pack(struct run *run, struct gb_error *err)
                     "  packing built in %.1f s, %.1f MB in arrays; "
                     "writing to %s",
                     run->packed, (double)gb_alloc_bytes() / 1e6, run->directory);
+    if (foretold[0] != '\0') {
+        gb_progress_say(&run->progress, "  %s", foretold);
+    }
     gb_pace_init(&run->pace);
     observe(run, GB_RUN_RUNNING);
     run->status_at = elapsed(run);
@@ -224,6 +269,9 @@ static bool pack(struct run *run, struct gb_error *err)
 
 static enum gb_advance advance(struct run *run, int64_t evaluations)
 {
+    if (gb_warmup_ended(&run->warmup)) {
+        return run->warmup.how;
+    }
     const double from = elapsed(run);
     const enum gb_advance how =
         gb_experiment_advance(run->experiment, evaluations, &run->stopped);
@@ -236,6 +284,9 @@ static enum gb_advance advance(struct run *run, int64_t evaluations)
 static bool press(struct run *run, enum gb_run_state *state, struct gb_error *err)
 {
     *state = GB_RUN_STOPPED;
+    if (!keep_warmup(run, err)) {
+        return false;
+    }
     while (caught == 0) {
         const enum gb_advance how = advance(run, gb_pace_slice(&run->pace));
         if (!keep_events(run, err) ||
@@ -328,21 +379,26 @@ int gb_cmd_run(int argc, char **argv)
     char **words = NULL;
     gboolean force = FALSE;
     gboolean quiet = FALSE;
+    gboolean yes = FALSE;
     int status = 0;
     const GOptionEntry entries[] = {
         GB_OPTIONS_SET(&sets),
         {"out", 'o', 0, G_OPTION_ARG_FILENAME, &run.directory,
          "directory of the results (default: runs/PRESET-1, -2, ...)", "DIR"},
         {"force", 'f', 0, G_OPTION_ARG_NONE, &force, "replace an old run in DIR", NULL},
+        {"yes", 'y', 0, G_OPTION_ARG_NONE, &yes,
+         "begin a dynamic run also when it is foretold to take more than an hour", NULL},
         {"quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "tell only what went wrong", NULL},
         {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         run.force = force;
+        run.yes = yes;
         gb_progress_init(&run.progress, quiet);
         install_handlers();
         status = perform(&run, words, sets);
     }
     gb_store_destroy(run.store);
+    gb_warmup_finish(&run.warmup);
     gb_experiment_destroy(run.experiment);
     gb_preset_destroy(run.preset);
     g_free(run.directory);
