@@ -9,8 +9,8 @@
 #include "pack/world.h"
 #include "run/experiment.h"
 
-/* The largest step that still gives P2's curve at its own 0.04 T, nearly: what auto is
- * likely to choose, in T. */
+/* What auto is taken to choose, in T: ten times P2's own step.  An assumption, since only
+ * the run itself finds its step. */
 static const double step_of_auto = 0.4;
 
 /* Particle-steps per second and core: discs or spheres with friction and bridges. */
