@@ -20,7 +20,7 @@ struct terms {
 
 enum { PLANES_3D = 11, PLANES_2D = 5 };
 
-static void name_planes(struct gb_contacts *contacts, int vector, int spring)
+static void name_planes(struct gb_contacts *contacts, int vector, int spring, bool viscous)
 {
     double **plane = contacts->plane;
     contacts->deepest = *plane++;
@@ -32,24 +32,34 @@ static void name_planes(struct gb_contacts *contacts, int vector, int spring)
     for (int k = 0; k < vector; k++) {
         contacts->arm[k] = *plane++;
     }
+    if (viscous) {
+        contacts->last_normal = *plane++;
+        contacts->last_shear = *plane++;
+        contacts->last_roll = *plane++;
+        contacts->last_pivot = vector == 3 ? *plane++ : NULL;
+    }
 }
 
-bool gb_contacts_init(struct gb_contacts *contacts, int dimension, int64_t room,
-                      struct gb_error *err)
+bool gb_contacts_init(struct gb_contacts *contacts, int dimension, bool viscous,
+                      int64_t room, struct gb_error *err)
 {
-    const int planes = dimension == 3 ? PLANES_3D : PLANES_2D;
+    const bool solid = dimension == 3;
+    const int kept = solid ? PLANES_3D : PLANES_2D, last = viscous ? (solid ? 4 : 3) : 0;
     const int64_t stride = (room + 7) / 8 * 8;
-    *contacts = (struct gb_contacts){
-        .room = room, .planes = planes, .kept = dimension == 3 ? PLANES_3D - 3 : PLANES_2D - 2};
-    double *slab = gb_alloc_array((size_t)planes * (size_t)stride, sizeof *slab, err);
+    /* what is kept of a viscous scene is all: its copies go back into the middle of a motion */
+    *contacts = (struct gb_contacts){.room = room,
+                                     .planes = kept + last,
+                                     .kept = viscous ? kept + last : kept - (solid ? 3 : 2)};
+    double *slab =
+        gb_alloc_array((size_t)contacts->planes * (size_t)stride, sizeof *slab, err);
     if (!slab) {
         *contacts = (struct gb_contacts){0};
         return false;
     }
-    for (int p = 0; p < planes; p++) {
+    for (int p = 0; p < contacts->planes; p++) {
         contacts->plane[p] = slab + p * stride;
     }
-    name_planes(contacts, dimension == 3 ? 3 : 2, dimension == 3 ? 3 : 1);
+    name_planes(contacts, solid ? 3 : 2, solid ? 3 : 1, viscous);
     return true;
 }
 
@@ -245,9 +255,8 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t,
             }
         }
         if (t.viscous) {
-            const double along =
-                (rx - ax[k]) * nx + (ry - ay[k]) * ny + (rz - az[k]) * nz;
-            b->rate[7][k] = -lasts * along;
+            const double arm2 = ax[k] * ax[k] + ay[k] * ay[k] + az[k] * az[k];
+            b->rate[7][k] = mask(arm2 > 0.0) * (sqrt(arm2) - r);
         }
         deepest[k] = now;
         ax[k] = rx;
@@ -287,7 +296,12 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
     double *restrict sz = c->shear[2] + slot;
     double *restrict qx = c->roll[0] + slot, *restrict qy = c->roll[1] + slot;
     double *restrict qz = c->roll[2] + slot;
+    double *restrict last_normal = t.viscous ? c->last_normal + slot : NULL;
+    double *restrict last_shear = t.viscous ? c->last_shear + slot : NULL;
+    double *restrict last_roll = t.viscous ? c->last_roll + slot : NULL;
+    double *restrict last_pivot = t.viscous ? c->last_pivot + slot : NULL;
     const struct gb_law_slip slip = model->slip;
+    const double inverse_motion = 1.0 / slip.motion;
     const double damp = b->damp, cutoff2 = b->cutoff2;
     const double printed = mask(model->bridge.radius_current);
     const double length = model->bridge.length;
@@ -298,9 +312,12 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
         const bool held = t.bridges & (state > 0.0);
         const double live = mask(state >= 0.0);
         const struct normal f = normal_force(model, cutoff2, state, h, r);
-        double fn = f.total;
+        double fn = f.total, taken = 0.0;
         if (t.viscous) {
-            fn += damp * f.slope * b->rate[7][k];
+            const double lag = damp * f.slope * b->rate[7][k];
+            taken = (0.5 * (last_normal[k] + fn) + lag) * b->rate[7][k];
+            last_normal[k] = fn;
+            fn += lag;
         }
         double fx = fn * nx, fy = fn * ny, fz = fn * nz;
         double tx = 0.0, ty = 0.0, tz = 0.0, jx = 0.0, jy = 0.0, jz = 0.0;
@@ -315,6 +332,7 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
             const double turn_cap =
                 held ? twisting : smaller(slip.mu_pivot * b->moment[k], twisting);
             double vx = sx[k], vy = sy[k], vz = sz[k], p = pivot[k];
+            const double ox = vx, oy = vy, oz = vz, op = p;
             const double v2 = vx * vx + vy * vy + vz * vz;
             const double shear2 = ks * ks * v2, turn2 = kp * kp * p * p;
             const bool cut = shear2 > cap * cap, turned = turn2 > turn_cap * turn_cap;
@@ -330,11 +348,24 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
             pivot[k] = p;
             slides = mask(cut);
             if (t.viscous) {
-                const double lag = damp * mask(!cut);
-                vx += lag * b->rate[0][k];
-                vy += lag * b->rate[1][k];
-                vz += lag * b->rate[2][k];
-                p += damp * mask(!turned) * b->rate[3][k];
+                /* work over the step: the springs as they were, turned along, and as they are */
+                const double ux = b->rate[0][k], uy = b->rate[1][k], uz = b->rate[2][k];
+                const double up = b->rate[3][k];
+                const double was = last_shear[k], turned_was = last_pivot[k];
+                const double lag = damp * mask(!cut), turn_lag = damp * mask(!turned);
+                const double fore = (ox - ux) * ux + (oy - uy) * uy + (oz - uz) * uz;
+                const double aft = vx * ux + vy * uy + vz * uz;
+                const double u2 = ux * ux + uy * uy + uz * uz;
+                taken += inverse_motion *
+                         (0.5 * (was * fore + ks * aft) + lag * ks * u2 +
+                          0.5 * (turned_was * (op - up) + kp * p) * up +
+                          turn_lag * kp * up * up);
+                last_shear[k] = ks;
+                last_pivot[k] = kp;
+                vx += lag * ux;
+                vy += lag * uy;
+                vz += lag * uz;
+                p += turn_lag * up;
             }
             fx -= ks * vx;
             fy -= ks * vy;
@@ -344,6 +375,7 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
                 const double kr = slip.roll * a2 * a;
                 const double roll_cap = a * larger(f.elastic, 0.0) / 3.0;
                 double px = qx[k], py = qy[k], pz = qz[k];
+                const double qox = px, qoy = py, qoz = pz;
                 const double p2 = px * px + py * py + pz * pz;
                 const double roll2 = kr * kr * p2;
                 const bool rolls = roll2 > roll_cap * roll_cap;
@@ -355,10 +387,18 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
                 qy[k] = py;
                 qz[k] = pz;
                 if (t.viscous) {
+                    const double gx = b->rate[4][k], gy = b->rate[5][k], gz = b->rate[6][k];
                     const double lag = damp * mask(!rolls & held);
-                    px += lag * b->rate[4][k];
-                    py += lag * b->rate[5][k];
-                    pz += lag * b->rate[6][k];
+                    const double fore =
+                        (qox - gx) * gx + (qoy - gy) * gy + (qoz - gz) * gz;
+                    const double aft = px * gx + py * gy + pz * gz;
+                    taken += inverse_motion *
+                             (0.5 * (last_roll[k] * fore + kr * aft) +
+                              lag * kr * (gx * gx + gy * gy + gz * gz));
+                    last_roll[k] = mask(held) * kr;
+                    px += lag * gx;
+                    py += lag * gy;
+                    pz += lag * gz;
                 }
                 mx -= kr * px;
                 my -= kr * py;
@@ -385,6 +425,9 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
         b->torque_j[0][k] = jx;
         b->torque_j[1][k] = jy;
         b->torque_j[2][k] = jz;
+        if (t.viscous) {
+            b->absorbed[k] = taken;
+        }
         b->normal[k] = live * fabs(f.elastic - model->adhesion);
         b->sliding[k] = slides;
     }
@@ -440,8 +483,8 @@ INLINE void stretch_2d(const struct gb_model *model, struct terms t,
             }
         }
         if (t.viscous) {
-            const double along = (rx - ax[k]) * nx + (rz - az[k]) * nz;
-            b->rate[7][k] = -lasts * along;
+            const double arm2 = ax[k] * ax[k] + az[k] * az[k];
+            b->rate[7][k] = mask(arm2 > 0.0) * (sqrt(arm2) - r);
         }
         deepest[k] = now;
         ax[k] = rx;
@@ -456,7 +499,11 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
 {
     const double *restrict deepest = c->deepest + slot;
     double *restrict shear = c->shear[0] + slot, *restrict roll = c->roll[0] + slot;
+    double *restrict last_normal = t.viscous ? c->last_normal + slot : NULL;
+    double *restrict last_shear = t.viscous ? c->last_shear + slot : NULL;
+    double *restrict last_roll = t.viscous ? c->last_roll + slot : NULL;
     const struct gb_law_slip slip = model->slip;
+    const double inverse_motion = 1.0 / slip.motion;
     const double damp = b->damp, cutoff2 = b->cutoff2;
     const double printed = mask(model->bridge.radius_current);
     const double length = model->bridge.length;
@@ -468,8 +515,12 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
         const double live = mask(state >= 0.0);
         const struct normal f = normal_force(model, cutoff2, state, h, r);
         double fn = f.total, tangent = 0.0, both = 0.0, opposed = 0.0, slides = 0.0;
+        double taken = 0.0;
         if (t.viscous) {
-            fn += damp * f.slope * b->rate[7][k];
+            const double lag = damp * f.slope * b->rate[7][k];
+            taken = (0.5 * (last_normal[k] + fn) + lag) * b->rate[7][k];
+            last_normal[k] = fn;
+            fn += lag;
         }
         if (t.friction) {
             const double a2 = live * 0.25 * radius_square(t, printed, length, state, h);
@@ -477,13 +528,18 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
             const double strength = M_PI * a2 * slip.strength;
             const double cap = held ? strength : smaller(slip.mu * f.elastic, strength);
             double v = shear[k];
+            const double trial = v;
             const double shear2 = ks * ks * v * v;
             const bool cut = shear2 > cap * cap;
             v *= cut_to(cap, shear2, cut);
             shear[k] = v;
             slides = mask(cut);
             if (t.viscous) {
-                v += damp * mask(!cut) * b->rate[0][k];
+                const double u = b->rate[0][k], lag = damp * mask(!cut);
+                taken += inverse_motion * u *
+                         (0.5 * (last_shear[k] * (trial - u) + ks * v) + lag * ks * u);
+                last_shear[k] = ks;
+                v += lag * u;
             }
             tangent = -ks * v;
             both = 0.5 * r * ks * v;
@@ -491,12 +547,17 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
                 const double kr = slip.roll * a2 * a;
                 const double roll_cap = a * larger(f.elastic, 0.0) / 3.0;
                 double p = mask(held) * roll[k];
+                const double before = p;
                 const double roll2 = kr * kr * p * p;
                 const bool rolls = roll2 > roll_cap * roll_cap;
                 p *= cut_to(roll_cap, roll2, rolls);
                 roll[k] = p;
                 if (t.viscous) {
-                    p += damp * mask(!rolls & held) * b->rate[1][k];
+                    const double g = b->rate[1][k], lag = damp * mask(!rolls & held);
+                    taken += inverse_motion * g *
+                             (0.5 * (last_roll[k] * (before - g) + kr * p) + lag * kr * g);
+                    last_roll[k] = mask(held) * kr;
+                    p += lag * g;
                 }
                 opposed = -kr * p;
             }
@@ -505,6 +566,9 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
         b->force[1][k] = fn * nz - tangent * nx;
         b->torque_i[0][k] = both + opposed;
         b->torque_j[0][k] = both - opposed;
+        if (t.viscous) {
+            b->absorbed[k] = taken;
+        }
         b->normal[k] = live * fabs(f.elastic - model->adhesion);
         b->sliding[k] = slides;
     }
@@ -595,7 +659,7 @@ static const struct gb_batch_kernel *table_for(int widest)
 struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest)
 {
     const int terms = model->terms.bridges ? 2 : model->terms.friction ? 1 : 0;
-    const int viscous = 0;
+    const int viscous = model->kind == GB_KIND_DYNAMIC;
     const int planar = model->dimension == 2;
     return table_for(widest)[6 * planar + 3 * viscous + terms];
 }

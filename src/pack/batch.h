@@ -15,16 +15,19 @@ struct gb_contacts {
     int planes;       /* arrays in use ... */
     int kept;         /* ... of which the first ones are the history; the arms follow from the
                        * positions in a copy made right after an evaluation */
-    double *plane[11];
+    double *plane[15];
     double *deepest;  /* h_min; 0: touching without a bridge; < 0: not touching */
     double *shear[3]; /* delta, in the tangent plane; 2D: along (n_z, -n_x) */
     double *roll[3];  /* theta_r, likewise; 2D: about y */
     double *pivot;    /* theta_p, about the normal; 3D only */
     double *arm[3];   /* r_ij at the last evaluation */
+    /* Viscous scenes: normal force without its viscous part and stiffnesses of shear, roll and
+     * pivot at the last evaluation, for the work that contacts take up. */
+    double *last_normal, *last_shear, *last_roll, *last_pivot;
 };
 
-bool gb_contacts_init(struct gb_contacts *contacts, int dimension, int64_t room,
-                      struct gb_error *err);
+bool gb_contacts_init(struct gb_contacts *contacts, int dimension, bool viscous,
+                      int64_t room, struct gb_error *err);
 void gb_contacts_finish(struct gb_contacts *contacts);
 /* Marks a pair as not touching. */
 void gb_contacts_clear(struct gb_contacts *contacts, int64_t slot);
@@ -44,10 +47,10 @@ struct gb_batch {
     double normal[GB_BATCH];     /* |f_n| of contacts, 0 elsewhere */
     double overlap[GB_BATCH];    /* h */
     double sliding[GB_BATCH];    /* 1: shear spring at its cap */
-    double dissipated[GB_BATCH]; /* energy lost in this evaluation; viscous scenes only */
+    double absorbed[GB_BATCH];   /* work the contact took up in this step; viscous scenes */
     /* between the two halves */
     double unit[3][GB_BATCH], distance[GB_BATCH], moment[GB_BATCH], fails[GB_BATCH];
-    double rate[8][GB_BATCH];    /* increments of the motions the springs see */
+    double rate[8][GB_BATCH];    /* increments of the motions the springs see; 7: of h */
 };
 
 /* Advances contacts [slot, slot + batch->n) and fills the outputs.

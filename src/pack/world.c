@@ -39,6 +39,7 @@ struct gb_world {
     struct gb_batch_kernel kernel;
     struct gb_contacts contacts;  /* one per near pair */
     double *wrench;               /* rows per near pair: force on i, torque on j */
+    double damp;                  /* viscous time over time step */
     int row;                      /* doubles in a row: 6, in 2D 3 (x, z, about y) */
     int64_t far_room;
     double *pull;                 /* three per far pair: force on the first particle */
@@ -252,7 +253,8 @@ static bool reserve_slots(struct gb_world *world, struct gb_error *err)
         world->wrench = gb_alloc_array((size_t)near * (size_t)world->row,
                                        sizeof *world->wrench, err);
         if (!world->wrench ||
-            !gb_contacts_init(&world->contacts, world->model->dimension, near, err)) {
+            !gb_contacts_init(&world->contacts, world->model->dimension,
+                              world->model->kind == GB_KIND_DYNAMIC, near, err)) {
             return false;
         }
     }
@@ -315,7 +317,7 @@ static void gap_force(const struct gb_model *model, const double r[3], double sq
 }
 
 static void sweep_far(struct gb_world *world, int64_t i, int64_t k, double cutoff2,
-                      double force[3])
+                      double force[3], struct gb_tally *tally)
 {
     double r[3];
     double *pull = world->pull + 3 * k;
@@ -324,6 +326,9 @@ static void sweep_far(struct gb_world *world, int64_t i, int64_t k, double cutof
     if (squared < cutoff2) {
         gap_force(world->model, r, squared, pull);
         gb_vec_add(force, 1.0, pull);
+        for (int c = 0; c < 3; c++) {
+            tally->virial[c] += pull[c] * r[c];
+        }
     }
 }
 
@@ -404,6 +409,24 @@ static void spill_batch_2d(struct gb_world *world, const struct gb_batch *batch,
     }
 }
 
+/* Motion: the work contacts took up, and sum of f_i r_i of each axis (components of the batch:
+ * x, y, z, or x, z in 2D). */
+static void tally_motion(struct gb_tally *tally, const struct gb_batch *batch, bool planar)
+{
+    double taken[4] = {0}, virial[3][4] = {{0}};
+    for (int k = 0; k < batch->n; k++) {
+        taken[k % 4] += batch->absorbed[k];
+        for (int c = 0; c < (planar ? 2 : 3); c++) {
+            virial[c][k % 4] += batch->force[c][k] * batch->r[c][k];
+        }
+    }
+    tally->absorbed += (taken[0] + taken[1]) + (taken[2] + taken[3]);
+    for (int c = 0; c < (planar ? 2 : 3); c++) {
+        tally->virial[planar ? 2 * c : c] +=
+            (virial[c][0] + virial[c][1]) + (virial[c][2] + virial[c][3]);
+    }
+}
+
 static void tally_batch(struct gb_tally *tally, const struct gb_batch *batch,
                         const double *deepest)
 {
@@ -425,9 +448,10 @@ static void sweep_near(struct gb_world *world, int64_t begin, int64_t end, doubl
 {
     const int64_t *start = world->pairs.near.start;
     const bool planar = world->model->dimension == 2;
+    const bool moving = world->model->kind == GB_KIND_DYNAMIC;
     struct gb_batch batch;
     batch.cutoff2 = cutoff2;
-    batch.damp = 0.0;
+    batch.damp = world->damp;
     int64_t i = begin;
     for (int64_t slot = start[begin]; slot < start[end]; slot += batch.n) {
         const int64_t left = start[end] - slot;
@@ -439,6 +463,9 @@ static void sweep_near(struct gb_world *world, int64_t begin, int64_t end, doubl
         gb_batch_advance(&world->kernel, world->model, &batch, &world->contacts, slot);
         (planar ? spill_batch_2d : spill_batch)(world, &batch, slot, i);
         tally_batch(tally, &batch, world->contacts.deepest + slot);
+        if (moving) {
+            tally_motion(tally, &batch, planar);
+        }
     }
 }
 
@@ -455,7 +482,7 @@ static void sweep_block(struct gb_world *world, int64_t b)
     sweep_near(world, begin, end, cutoff * cutoff, &tally);
     for (int64_t i = begin; i < end; i++) {
         for (int64_t k = far->start[i]; k < far->start[i + 1]; k++) {
-            sweep_far(world, i, k, cutoff * cutoff, world->force + 3 * i);
+            sweep_far(world, i, k, cutoff * cutoff, world->force + 3 * i, &tally);
         }
     }
     world->block[b].tally = tally;
@@ -500,6 +527,10 @@ static void add_tally(struct gb_tally *sum, const struct gb_tally *part)
     sum->contacts += part->contacts;
     sum->sliding += part->sliding;
     sum->normal_sum += part->normal_sum;
+    sum->absorbed += part->absorbed;
+    for (int c = 0; c < 3; c++) {
+        sum->virial[c] += part->virial[c];
+    }
     sum->deepest = fmax(sum->deepest, part->deepest);
 }
 
@@ -561,6 +592,11 @@ bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
     world->torque_rms = sqrt(sum.torque2 / (double)world->count);
     world->evaluations++;
     return check_sweep(world, err);
+}
+
+void gb_world_set_step(struct gb_world *world, double time_step)
+{
+    world->damp = world->model->dynamics.viscous / time_step;
 }
 
 void gb_world_strain(struct gb_world *world, const double factor[3])

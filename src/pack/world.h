@@ -16,6 +16,9 @@ struct gb_tally {
     int64_t sliding;   /* of these: shear spring at its cap */
     double normal_sum; /* sum of |f_n| over contacts */
     double deepest;    /* largest overlap */
+    /* dynamic scenes: */
+    double absorbed;   /* work the near pairs took up since the last evaluation */
+    double virial[3];  /* sum of f_k r_k over pairs, axis by axis */
 };
 
 /* Owner of a packing: cell, particles, contacts and their history.  Mutable, one thread only;
@@ -42,6 +45,9 @@ void gb_world_destroy(struct gb_world *world); /* NULL is fine */
  * motion since the last evaluation.  Errors: GB_ERR_GUARD with the particle named when a force
  * is not finite or centres are about to cross; the history is then spoilt: restore a copy. */
 bool gb_world_evaluate(struct gb_world *world, struct gb_error *err);
+
+/* Dynamic scenes: the time that lies between evaluations, for the viscous forces. */
+void gb_world_set_step(struct gb_world *world, double time_step);
 
 /* Scales the cell and all positions affinely, axis by axis. */
 void gb_world_strain(struct gb_world *world, const double factor[3]);

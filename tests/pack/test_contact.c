@@ -28,7 +28,7 @@ static void start(struct pair *pair, const struct gb_params *params, double h)
     memset(pair, 0, sizeof *pair);
     pair->model = scene_model(params);
     pair->kernel = gb_batch_pick(&pair->model, 0);
-    g_assert_true(gb_contacts_init(&pair->contacts, 3, 1, &err));
+    g_assert_true(gb_contacts_init(&pair->contacts, 3, false, 1, &err));
     gb_contacts_clear(&pair->contacts, 0);
     pair->batch.n = 1;
     pair->batch.cutoff2 = 1.44;
@@ -281,14 +281,15 @@ static void random_batch(GRand *random, struct gb_batch *batch)
     }
 }
 
-static uint64_t walk(const struct gb_params *params, int width, int dimension)
+static uint64_t walk(const struct gb_params *params, int width, int dimension, bool viscous)
 {
     struct gb_model model = scene_model(params);
     struct gb_contacts contacts;
     struct gb_error err = {0};
     model.dimension = dimension;
+    model.kind = viscous ? GB_KIND_DYNAMIC : GB_KIND_QUASISTATIC;
     const struct gb_batch_kernel kernel = gb_batch_pick(&model, width);
-    g_assert_true(gb_contacts_init(&contacts, dimension, 128, &err));
+    g_assert_true(gb_contacts_init(&contacts, dimension, viscous, 128, &err));
     for (int64_t k = 0; k < 128; k++) {
         gb_contacts_clear(&contacts, k);
     }
@@ -321,10 +322,11 @@ static void test_widths(void)
                               {"contact.mu=0", "contact.bridge_length=1 d"}};
     for (int t = 0; t < 3; t++) {
         const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
-        for (int dimension = 2; dimension <= 3; dimension++) {
-            const uint64_t narrow = walk(&params, 128, dimension);
-            g_assert_cmpuint(walk(&params, 256, dimension), ==, narrow);
-            g_assert_cmpuint(walk(&params, 512, dimension), ==, narrow);
+        for (int v = 0; v < 4; v++) {
+            const int dimension = 2 + v % 2;
+            const uint64_t narrow = walk(&params, 128, dimension, v > 1);
+            g_assert_cmpuint(walk(&params, 256, dimension, v > 1), ==, narrow);
+            g_assert_cmpuint(walk(&params, 512, dimension, v > 1), ==, narrow);
         }
     }
 }
@@ -337,14 +339,16 @@ static void test_planar(void)
     static struct gb_batch a, b;
     struct gb_contacts ca, cb;
     struct gb_error err = {0};
+    solid.kind = flat.kind = GB_KIND_DYNAMIC;
     flat.dimension = 2;
     const struct gb_batch_kernel ka = gb_batch_pick(&solid, 0), kb = gb_batch_pick(&flat, 0);
-    g_assert_true(gb_contacts_init(&ca, 3, 1, &err) && gb_contacts_init(&cb, 2, 1, &err));
+    g_assert_true(gb_contacts_init(&ca, 3, true, 1, &err) && gb_contacts_init(&cb, 2, true, 1, &err));
     gb_contacts_clear(&ca, 0);
     gb_contacts_clear(&cb, 0);
     GRand *random = g_rand_new_with_seed(11);
     a.n = b.n = 1;
     a.cutoff2 = b.cutoff2 = 1.44;
+    a.damp = b.damp = 0.2;
     double x = 0.4, z = 0.89;
     for (int i = 0; i < 3000; i++) {
         x += g_rand_double_range(random, -2e-4, 2e-4);
@@ -364,6 +368,7 @@ static void test_planar(void)
         g_assert_cmpfloat_with_epsilon(a.torque_i[1][0], b.torque_i[0][0], 1e-9);
         g_assert_cmpfloat_with_epsilon(a.torque_j[1][0], b.torque_j[0][0], 1e-9);
         g_assert_cmpfloat(a.force[1][0], ==, 0.0);
+        g_assert_cmpfloat_with_epsilon(a.absorbed[0], b.absorbed[0], 1e-11);
     }
     g_rand_free(random);
     gb_contacts_finish(&ca);
