@@ -1,0 +1,212 @@
+#include "run/runset.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "run/preset.h"
+
+/* Keys that make no other experiment: what is drawn by lot, and what changes no result.
+ */
+static const char *const bookkeeping[] = {"structure.seed", "scene.title",
+                                          "numerics.threads", "output.", NULL};
+
+enum { VALUE_MAX = 2048 };
+
+static bool is_listed(const struct gb_field *field, const char *const *list)
+{
+    for (size_t i = 0; list[i] != NULL; i++) {
+        const size_t length = strlen(field->group);
+        if (strncmp(list[i], field->group, length) == 0 && list[i][length] == '.' &&
+            (list[i][length + 1] == '\0' ||
+             strcmp(list[i] + length + 1, field->key) == 0)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* As a preset would write them: equal texts are equal values. */
+static bool is_equal(const struct gb_field *field, const struct gb_params *a,
+                     const struct gb_params *b)
+{
+    char first[VALUE_MAX], second[VALUE_MAX];
+    return strcmp(gb_params_format(a, field, first, sizeof first),
+                  gb_params_format(b, field, second, sizeof second)) == 0;
+}
+
+static const struct gb_field *difference(const struct gb_params *a,
+                                         const struct gb_params *b,
+                                         const char *const *accepted)
+{
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (!is_listed(&fields[i], bookkeeping) && !is_listed(&fields[i], accepted) &&
+            !is_equal(&fields[i], a, b)) {
+            return &fields[i];
+        }
+    }
+    return NULL;
+}
+
+static bool read_run(struct gb_runset_run *run, const char *directory,
+                     struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    char *preset_path = g_build_filename(directory, "preset.ini", NULL);
+    char *curve_path = g_build_filename(directory, "curve.csv", NULL);
+    struct gb_error why = {0};
+    bool good = false;
+    run->directory = g_strdup(directory);
+    if (!g_file_test(preset_path, G_FILE_TEST_IS_REGULAR)) {
+        gb_error_set(err, GB_ERR_INPUT, "%.300s: no run directory, it has no preset.ini",
+                     directory);
+    } else if (gb_preset_load(&preset, preset_path, err)) {
+        run->params = *gb_preset_params(preset);
+        good = gb_params_check(&run->params, &why) ||
+               gb_error_set(err, why.code, "%s: %s", preset_path, why.text);
+    }
+    good = good && gb_table_read(&run->table, curve_path, "branch", err);
+    gb_preset_destroy(preset);
+    g_free(curve_path);
+    g_free(preset_path);
+    return good;
+}
+
+/* Joins the run to the group of an earlier one, or founds the next. */
+static bool join(struct gb_runset *set, size_t index, struct gb_error *err)
+{
+    static const char *const none[] = {NULL};
+    struct gb_runset_run *run = &set->run[index];
+    run->group = set->groups;
+    for (size_t i = 0; i < index; i++) {
+        const struct gb_runset_run *other = &set->run[i];
+        if (difference(&run->params, &other->params, none) != NULL) {
+            continue;
+        }
+        if (run->params.seed == other->params.seed) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "%.200s: same preset and seed as %.200s; a mean takes "
+                                "each seed once",
+                                run->directory, other->directory);
+        }
+        run->group = other->group;
+    }
+    set->groups += run->group == set->groups;
+    return true;
+}
+
+bool gb_runset_read(struct gb_runset *set, char *const *directories, size_t count,
+                    struct gb_error *err)
+{
+    *set = (struct gb_runset){0};
+    set->run = gb_alloc_array(count, sizeof *set->run, err);
+    if (set->run == NULL) {
+        return false;
+    }
+    for (size_t i = 0; i < count; i++) {
+        set->count = i + 1;
+        if (!read_run(&set->run[i], directories[i], err) || !join(set, i, err)) {
+            gb_runset_finish(set);
+            return false;
+        }
+    }
+    return true;
+}
+
+void gb_runset_finish(struct gb_runset *set)
+{
+    for (size_t i = 0; i < set->count; i++) {
+        g_free(set->run[i].directory);
+        gb_table_destroy(set->run[i].table);
+    }
+    gb_alloc_free(set->run);
+    *set = (struct gb_runset){0};
+}
+
+const struct gb_runset_run *gb_runset_first(const struct gb_runset *set, size_t group)
+{
+    size_t i = 0;
+    while (set->run[i].group != group) {
+        i++;
+    }
+    return &set->run[i];
+}
+
+size_t gb_runset_members(const struct gb_runset *set, size_t group)
+{
+    size_t members = 0;
+    for (size_t i = 0; i < set->count; i++) {
+        members += set->run[i].group == group;
+    }
+    return members;
+}
+
+static bool differs_somewhere(const struct gb_runset *set, const struct gb_field *field)
+{
+    for (size_t i = 1; i < set->count; i++) {
+        if (!is_equal(field, &set->run[0].params, &set->run[i].params)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+char *gb_runset_label(const struct gb_runset *set, size_t group)
+{
+    const struct gb_params *params = &gb_runset_first(set, group)->params;
+    GString *label = g_string_new(NULL);
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (!is_listed(&fields[i], bookkeeping) && differs_somewhere(set, &fields[i])) {
+            char value[VALUE_MAX];
+            g_string_append_printf(
+                label, "%s%s.%s = %s", label->len ? ", " : "", fields[i].group,
+                fields[i].key, gb_params_format(params, &fields[i], value, sizeof value));
+        }
+    }
+    return g_string_free(label, FALSE);
+}
+
+const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,
+                                            size_t b, const char *const *accepted)
+{
+    return difference(&gb_runset_first(set, a)->params, &gb_runset_first(set, b)->params,
+                      accepted);
+}
+
+bool gb_runset_points(const struct gb_runset_run *run, const char *branch, const char *x,
+                      const char *y, double **xs, double **ys, size_t *count,
+                      struct gb_error *err)
+{
+    const size_t rows = gb_table_rows(run->table);
+    const double *from_x = gb_table_column(run->table, x, err);
+    const double *from_y = from_x ? gb_table_column(run->table, y, err) : NULL;
+    if (from_y == NULL || !gb_table_column(run->table, "branch", err)) {
+        return false;
+    }
+    *count = 0;
+    *xs = gb_alloc_array(rows, sizeof **xs, err);
+    *ys = gb_alloc_array(rows, sizeof **ys, err);
+    const bool made = *xs != NULL && *ys != NULL;
+    for (size_t i = 0; made && i < rows; i++) {
+        const bool here = !branch || strcmp(gb_table_word(run->table, i), branch) == 0;
+        if (here && !isnan(from_x[i])) {
+            (*xs)[*count] = from_x[i];
+            (*ys)[(*count)++] = from_y[i];
+        }
+    }
+    if (made && *count > 0) {
+        return true;
+    }
+    gb_alloc_free(*xs);
+    gb_alloc_free(*ys);
+    *xs = NULL;
+    *ys = NULL;
+    return made && gb_error_set(err, GB_ERR_INPUT, "%s: no point of branch %s",
+                                gb_table_path(run->table), branch ? branch : "any");
+}

@@ -1,0 +1,51 @@
+#ifndef GB_RUN_RUNSET_H
+#define GB_RUN_RUNSET_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "greenbody/params.h"
+#include "run/table.h"
+
+/* Finished runs read back from their directories.  Runs whose presets are equal but for
+ * seed, title, threads and [output] are one group: replicas of one experiment. */
+struct gb_runset_run {
+    char *directory;
+    struct gb_params params;
+    struct gb_table *table; /* curve.csv */
+    size_t group;
+};
+
+struct gb_runset {
+    struct gb_runset_run *run; /* in the order given */
+    size_t count;
+    size_t groups; /* numbered by their first run */
+};
+
+/* Reads preset.ini and curve.csv of each directory.  Errors are one line:
+ * GB_ERR_INPUT for anything in the files, and for two runs of one group with the same
+ * seed: they are one run, and would make its error too small. */
+bool gb_runset_read(struct gb_runset *set, char *const *directories, size_t count,
+                    struct gb_error *err);
+void gb_runset_finish(struct gb_runset *set); /* zeroed is fine */
+
+/* First run of a group, and how many it has. */
+const struct gb_runset_run *gb_runset_first(const struct gb_runset *set, size_t group);
+size_t gb_runset_members(const struct gb_runset *set, size_t group);
+
+/* What tells a group from the others: "contact.mu = 0.2, loading.rate = 68 1/us"; "" for
+ * a single group.  Caller g_frees. */
+char *gb_runset_label(const struct gb_runset *set, size_t group);
+
+/* The first key in which two groups differ, other than those of `accepted`, a
+ * NULL-terminated list of "group.key" and "group."; NULL when there is none. */
+const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,
+                                            size_t b, const char *const *accepted);
+
+/* Points (x, y) of one branch of a run (NULL: of all) where x is there; arrays to be
+ * given to gb_alloc_free. Errors: GB_ERR_INPUT for a missing column or no such points. */
+bool gb_runset_points(const struct gb_runset_run *run, const char *branch, const char *x,
+                      const char *y, double **xs, double **ys, size_t *count,
+                      struct gb_error *err);
+
+#endif
