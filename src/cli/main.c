@@ -29,6 +29,9 @@ static const struct command commands[] = {
 #ifdef GB_HAVE_CMD_SNAPSHOT
     {"snapshot", "picture of a packing", gb_cmd_snapshot},
 #endif
+#ifdef GB_HAVE_CMD_PLOT
+    {"plot", "data of figures over one or more runs", gb_cmd_plot},
+#endif
 #ifdef GB_HAVE_CMD_BENCH
     {"bench", "the speed figures", gb_cmd_bench},
 #endif

@@ -1,0 +1,356 @@
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include <glib.h>
+#include <glib/gstdio.h>
+
+/* `greenbody plot` on run directories with known curves. */
+
+static const char *program;
+static char *folder;
+
+static const char header[] = "# made up\nbranch,step,density,p_MPa,time_ns\n";
+
+/* P2 Table 1, v1. */
+static double relaxation(double t)
+{
+    return 2603.9 + 441.1 * exp(-t / 0.0719) + 35.3 * exp(-t / 4.9304);
+}
+
+/* p_stat and k_v of (9); each seed is off by its number. */
+static double pressure(double rho, double rate, int seed)
+{
+    return 5000.0 * pow(rho - 0.5, 2.0) + 21.5 * pow(rate, 0.25) * pow(rho - 0.5, 3.0) +
+           seed;
+}
+
+static void write_in(const char *name, const char *file, const char *text)
+{
+    char *path = g_build_filename(folder, name, NULL);
+    g_mkdir_with_parents(path, 0700);
+    char *full = g_build_filename(path, file, NULL);
+    g_assert_true(g_file_set_contents(full, text, -1, NULL));
+    g_free(full);
+    g_free(path);
+}
+
+static void write_preset(const char *name, double rate, int seed, const char *more)
+{
+    char *text = g_strdup_printf(
+        "[scene]\ntitle = %s\nkind = dynamic\ndimension = 2\n[particles]\ncount = 1000\n"
+        "[structure]\nseed = %d\n[loading]\ngeometry = isotropic\n"
+        "until = density = 0.95\nrate = %g 1/us\n%s",
+        name, seed, rate * 1e-6, more);
+    write_in(name, "preset.ini", text);
+    g_free(text);
+}
+
+static void write_run(const char *name, double rate, int seed)
+{
+    GString *curve = g_string_new(header);
+    for (int i = 0; i <= 90; i++) {
+        const double rho = 0.5 + 0.005 * i;
+        g_string_append_printf(curve, "load,%d,%.17g,%.17g,%.17g\n", i, rho,
+                               pressure(rho, rate, seed), 10.0 + 0.01 * i);
+    }
+    for (int i = 1; i <= 900; i++) {
+        const double t = 30.0 * pow(i / 900.0, 3.0);
+        g_string_append_printf(curve, "hold,%d,0.95,%.17g,%.17g\n", 90 + i,
+                               relaxation(t) + 1e-3 * sin(1e4 * i), 10.9 + t);
+    }
+    write_preset(name, rate, seed, "");
+    write_in(name, "curve.csv", curve->str);
+    g_string_free(curve, TRUE);
+}
+
+struct result {
+    int status;
+    char *out, *err;
+};
+
+/* Words may name runs; the program is called in their folder. */
+static struct result call(const char *words)
+{
+    struct result result = {0};
+    char **arguments = NULL;
+    char *line = g_strconcat("greenbody plot ", words, NULL);
+    g_assert_true(g_shell_parse_argv(line, NULL, &arguments, NULL));
+    g_free(arguments[0]);
+    arguments[0] = g_strdup(program);
+    int wait = 0;
+    g_assert_true(g_spawn_sync(folder, arguments, NULL, G_SPAWN_STDIN_FROM_DEV_NULL, NULL,
+                               NULL, &result.out, &result.err, &wait, NULL));
+    result.status = WIFEXITED(wait) ? WEXITSTATUS(wait) : -1;
+    g_strfreev(arguments);
+    g_free(line);
+    return result;
+}
+
+static void finish(struct result *result)
+{
+    g_free(result->out);
+    g_free(result->err);
+}
+
+/* The cell of a column in a row of data (from 0); NaN when empty. */
+static double cell(const char *csv, const char *column, int row)
+{
+    char **lines = g_strsplit(csv, "\n", -1);
+    int head = 0;
+    while (lines[head][0] == '#') {
+        head++;
+    }
+    char **names = g_strsplit(lines[head], ",", -1);
+    guint k = 0;
+    while (names[k] != NULL && strcmp(names[k], column) != 0) {
+        k++;
+    }
+    if (names[k] == NULL) {
+        g_error("no column %s in: %s", column, lines[head]);
+    }
+    char **cells = g_strsplit(lines[head + 1 + row], ",", -1);
+    g_assert_cmpuint(g_strv_length(cells), ==, g_strv_length(names));
+    const double value = cells[k][0] ? g_ascii_strtod(cells[k], NULL) : (double)NAN;
+    g_strfreev(cells);
+    g_strfreev(names);
+    g_strfreev(lines);
+    return value;
+}
+
+static struct result fine(const char *words)
+{
+    struct result result = call(words);
+    g_test_message("%s: %d %s", words, result.status, result.err);
+    g_assert_cmpint(result.status, ==, 0);
+    g_assert_cmpstr(result.err, ==, "");
+    return result;
+}
+
+static void near_to(double got, double want, double margin)
+{
+    g_assert_cmpfloat(fabs(got - want), <=, margin);
+}
+
+static void test_time(void)
+{
+    struct result result = fine("a1 a2 --figure time");
+    near_to(cell(result.out, "time_ns", 0), 10.0, 1e-9);
+    near_to(cell(result.out, "run_1_MPa", 0), 1.0, 1e-9);
+    near_to(cell(result.out, "run_2_MPa", 0), 2.0, 1e-9);
+    near_to(cell(result.out, "mean_1_MPa", 0), 1.5, 1e-9);
+    near_to(cell(result.out, "se_1_MPa", 0), 0.5, 1e-9);
+    finish(&result);
+}
+
+static void test_densification(void)
+{
+    struct result result = fine("a1 b1 a2 --figure densification");
+    g_assert_nonnull(strstr(result.out, "# group 1: 2 runs, loading.rate = "));
+    const int row = 80; /* 0.9 */
+    near_to(cell(result.out, "density", row), 0.9, 1e-9);
+    near_to(cell(result.out, "mean_1_MPa", row), pressure(0.9, 6.8e8, 0) + 1.5, 1e-6);
+    near_to(cell(result.out, "se_1_MPa", row), 0.5, 1e-6);
+    near_to(cell(result.out, "mean_2_MPa", row), pressure(0.9, 6.8e7, 1), 1e-6);
+    g_assert_true(isnan(cell(result.out, "se_2_MPa", row)));
+    near_to(cell(result.out, "asymptote_1_MPa", row), 691.66423634, 1e-5);
+    g_assert_true(isnan(cell(result.out, "asymptote_1_MPa", 0)));
+    g_assert_null(strstr(result.out, "asymptote_2"));
+    finish(&result);
+}
+
+static void test_difference(void)
+{
+    const char *const words[] = {"a1 a2 b1 b2 --figure difference --reference b2",
+                                 "a1 a2 b1 --figure difference --reference ./b2/"};
+    for (size_t i = 0; i < G_N_ELEMENTS(words); i++) {
+        struct result result = fine(words[i]);
+        const double want = pressure(0.9, 6.8e8, 0) - pressure(0.9, 6.8e7, 0);
+        near_to(cell(result.out, "difference_1_MPa", 80), want, 1e-6);
+        near_to(cell(result.out, "se_1_MPa", 80), 0.5 * sqrt(2.0), 1e-6);
+        g_assert_null(strstr(result.out, "difference_2"));
+        finish(&result);
+    }
+}
+
+static void test_rate(void)
+{
+    struct result result =
+        fine("a1 a2 b1 b2 c1 c2 d1 d2 --figure rate --density 0.8,0.9,0.99");
+    near_to(cell(result.out, "density", 0), 0.8, 0.0);
+    near_to(cell(result.out, "rate_per_s", 0), 6.8e8, 1.0);
+    near_to(cell(result.out, "p_MPa", 0), pressure(0.8, 6.8e8, 0) + 1.5, 1e-3);
+    near_to(cell(result.out, "se_MPa", 0), 0.5, 1e-6);
+    near_to(cell(result.out, "runs", 0), 2.0, 0.0);
+    near_to(cell(result.out, "fit_MPa", 0), cell(result.out, "p_MPa", 0), 1e-2);
+    g_assert_nonnull(strstr(result.out, "n = 0.25 ("));
+    g_assert_nonnull(strstr(result.out, "k_v = 21.5 ("));
+    g_assert_nonnull(strstr(result.out, "free exponent of the rate: 0.25 ("));
+    g_assert_null(strstr(result.out, "0.99"));
+    finish(&result);
+    result = fine("a1 b1 --figure rate");
+    g_assert_nonnull(strstr(result.out, "no power law: 2 different rates"));
+    finish(&result);
+}
+
+static void test_relaxation(void)
+{
+    struct result result = fine("a1 a2 b1 --figure relaxation");
+    for (int row = 0; row < 2; row++) {
+        near_to(cell(result.out, "group", row), row + 1, 0.0);
+        near_to(cell(result.out, "runs", row), 2 - row, 0.0);
+        near_to(cell(result.out, "exponentials", row), 2.0, 0.0);
+        near_to(cell(result.out, "p0_MPa", row), 2603.9, 0.01);
+        near_to(cell(result.out, "p1_MPa", row), 441.1, 0.01);
+        near_to(cell(result.out, "tau1_ns", row), 0.0719, 1e-5);
+        near_to(cell(result.out, "p2_MPa", row), 35.3, 0.01);
+        near_to(cell(result.out, "tau2_ns", row), 4.9304, 1e-3);
+        g_assert_cmpfloat(cell(result.out, "tau2_low_ns", row), <, 4.9304 + 1e-3);
+        g_assert_cmpfloat(cell(result.out, "tau2_high_ns", row), >, 4.9304 - 1e-3);
+    }
+    finish(&result);
+}
+
+static void test_output(void)
+{
+    struct result result = fine("a1 --figure time -o x.csv");
+    g_assert_cmpstr(result.out, ==, "");
+    finish(&result);
+    result = call("a1 --figure time -o x.csv");
+    g_assert_cmpint(result.status, ==, 2);
+    g_assert_nonnull(strstr(result.err, "x.csv: exists; --force replaces it"));
+    finish(&result);
+    result = fine("a1 --figure densification -o x.csv --force");
+    finish(&result);
+    char *text = NULL;
+    char *path = g_build_filename(folder, "x.csv", NULL);
+    g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
+    g_assert_nonnull(strstr(text, "\ndensity,mean_1_MPa,se_1_MPa,asymptote_1_MPa\n"));
+    g_free(text);
+    g_free(path);
+}
+
+/* Words, and a part of the one line on stderr; exit status 2. */
+static const char *const refused[][2] = {
+    {"", "--figure : accepted time, densification, difference, rate, relaxation"},
+    {"a1", "--figure : accepted time"},
+    {"a1 --figure pie", "--figure pie: accepted time"},
+    {"--figure time", "1 to 1000 run directories"},
+    {"a1 --figure time --bogus", "Unknown option --bogus"},
+    {"a1 --figure time -o x.png", "a name ending in .csv"},
+    {"a1 --figure time -o .csv/x.csv", ".csv/x.csv"},
+    {"a1 b1 --figure difference", "needs --reference DIR"},
+    {"a1 --figure time --reference a1", "--reference is for the figure difference"},
+    {"a1 --figure time --density 0.9", "--density is for the figure rate"},
+    {"a1 --figure rate --density x", "--density x: accepted"},
+    {"a1 --figure rate --density 0.9,", "accepted"},
+    {"a1 --figure rate --density 5", "between 0 and 2"},
+    {"a1 --figure rate --density 0.99", "no run reaches density 0.99"},
+    {"a1 a2 --figure difference --reference a1", "two groups"},
+    {"nowhere --figure time", "nowhere: no run directory"},
+    {"a1 a1 --figure time", "a1: same preset and seed as a1"},
+    {"nopreset --figure time", "no run directory"},
+    {"nocurve --figure time", "nocurve/curve.csv: No such file"},
+    {"nocolumn --figure time", "no column time_ns; there are branch, density, p_MPa"},
+    {"nocolumn --figure relaxation", "no column time_ns"},
+    {"nobranch --figure time", "no column branch"},
+    {"norows --figure densification", "norows/curve.csv: no point of branch load"},
+    {"nohold --figure relaxation", "no point of branch hold"},
+    {"short --figure relaxation", "short: relaxation: 2 points of a relaxation"},
+    {"falls --figure densification", "density falls from 0.6 to 0.5"},
+    {"broken --figure time", "broken/curve.csv:2: p_MPa = 'x'"},
+    {"badpreset --figure time", "badpreset/preset.ini:"},
+    {"still --figure rate", "scene.kind is not dynamic"},
+    {"still --figure relaxation", "scene.kind is not dynamic"},
+    {"a1 other --figure rate", "a1 and other differ in contact.mu"},
+};
+
+static void write_broken(void)
+{
+    write_in("nopreset", "curve.csv", header);
+    write_preset("nocurve", 1e8, 1, "");
+    write_preset("nocolumn", 1e8, 1, "");
+    write_in("nocolumn", "curve.csv", "branch,density,p_MPa\nload,0.5,1\nhold,0.5,1\n");
+    write_preset("nobranch", 1e8, 1, "");
+    write_in("nobranch", "curve.csv", "density,p_MPa,time_ns\n0.5,1,1\n");
+    write_preset("norows", 1e8, 1, "");
+    write_in("norows", "curve.csv", header);
+    write_preset("nohold", 1e8, 1, "");
+    write_in("nohold", "curve.csv", "branch,density,p_MPa,time_ns\nload,0.5,1,1\n");
+    write_preset("short", 1e8, 1, "");
+    write_in("short", "curve.csv",
+             "branch,density,p_MPa,time_ns\nload,0.5,1,1\nhold,0.5,1,2\nhold,0.5,1,3\n");
+    write_preset("falls", 1e8, 1, "");
+    write_in("falls", "curve.csv",
+             "branch,density,p_MPa,time_ns\nload,0.6,1,1\nload,0.5,1,2\n");
+    write_preset("broken", 1e8, 1, "");
+    write_in("broken", "curve.csv", "branch,density,p_MPa,time_ns\nload,0.6,x,1\n");
+    write_in("badpreset", "preset.ini", "[contact]\nmu = fish\n");
+    write_in("badpreset", "curve.csv", header);
+    write_in("still", "preset.ini", "[scene]\ntitle = still\n");
+    write_in("still", "curve.csv", "branch,density,p_MPa,time_ns\nload,0.6,1,1\n");
+    write_preset("other", 1e8, 1, "[contact]\nmu = 0.3\n");
+    write_in("other", "curve.csv", "branch,density,p_MPa,time_ns\nload,0.6,1,1\n");
+}
+
+static void test_refused(void)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(refused); i++) {
+        struct result result = call(refused[i][0]);
+        g_test_message("%s: %d %s", refused[i][0], result.status, result.err);
+        g_assert_cmpint(result.status, ==, 2 + (strstr(refused[i][0], ".csv/") != NULL));
+        g_assert_cmpstr(result.out, ==, "");
+        g_assert_true(g_str_has_prefix(result.err, "greenbody: "));
+        g_assert_nonnull(strstr(result.err, refused[i][1]));
+        const char *newline = strchr(result.err, '\n');
+        g_assert_true(newline && newline[1] == '\0'); /* one line */
+        finish(&result);
+    }
+}
+
+static void remove_tree(const char *path)
+{
+    GDir *dir = g_dir_open(path, 0, NULL);
+    for (const char *name = dir ? g_dir_read_name(dir) : NULL; name;
+         name = g_dir_read_name(dir)) {
+        char *inner = g_build_filename(path, name, NULL);
+        remove_tree(inner);
+        g_free(inner);
+    }
+    if (dir) {
+        g_dir_close(dir);
+    }
+    g_remove(path);
+}
+
+/* Usage: test_plot_data PROGRAM */
+int main(int argc, char **argv)
+{
+    static const struct {
+        const char *name;
+        double rate;
+        int seed;
+    } runs[] = {{"a1", 6.8e8, 1}, {"a2", 6.8e8, 2}, {"b1", 6.8e7, 1}, {"b2", 6.8e7, 2},
+                {"c1", 6.8e6, 1}, {"c2", 6.8e6, 2}, {"d1", 6.8e5, 1}, {"d2", 6.8e5, 2}};
+    g_test_init(&argc, &argv, NULL);
+    g_assert_cmpint(argc, ==, 2);
+    program = argv[1];
+    folder = g_dir_make_tmp("plot-XXXXXX", NULL);
+    g_setenv("LC_ALL", "C.UTF-8", TRUE);
+    for (size_t i = 0; i < G_N_ELEMENTS(runs); i++) {
+        write_run(runs[i].name, runs[i].rate, runs[i].seed);
+    }
+    write_broken();
+    g_test_add_func("/plot/time", test_time);
+    g_test_add_func("/plot/densification", test_densification);
+    g_test_add_func("/plot/difference", test_difference);
+    g_test_add_func("/plot/rate", test_rate);
+    g_test_add_func("/plot/relaxation", test_relaxation);
+    g_test_add_func("/plot/output", test_output);
+    g_test_add_func("/plot/refused", test_refused);
+    const int status = g_test_run();
+    remove_tree(folder);
+    g_free(folder);
+    return status;
+}
