@@ -44,6 +44,69 @@ void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
     }
 }
 
+/* Elastic energy of a contact along its normal: below h_min the area under the line counts. */
+static double normal_energy(const struct gb_model *model, double deepest, double h)
+{
+    const double from = deepest > 0.0 ? deepest : h, back = from - h;
+    return gb_law_rod_energy(&model->rod, from) -
+           gb_law_rod_force(&model->rod, from) * back +
+           0.5 * gb_law_rod_stiffness(&model->rod, from) * back * back;
+}
+
+/* Energy in the springs; their loads act over the whole relative motion. */
+static double spring_energy(const struct gb_model *model, const struct gb_contacts *contacts,
+                            int64_t k, double h)
+{
+    const struct gb_law_slip *slip = &model->slip;
+    const double deepest = contacts->deepest[k];
+    const double a = deepest > 0.0 ? gb_law_bridge_radius(&model->bridge, deepest, h)
+                                   : 0.5 * sqrt(h > 0.0 ? h : 0.0);
+    double shear2 = 0.0, roll2 = 0.0;
+    for (int c = 0; c < 3 && contacts->shear[c]; c++) {
+        shear2 += contacts->shear[c][k] * contacts->shear[c][k];
+        roll2 += contacts->roll[c][k] * contacts->roll[c][k];
+    }
+    const double pivot = contacts->pivot ? contacts->pivot[k] : 0.0;
+    return 0.5 / slip->motion *
+           (gb_law_slip_shear_stiffness(slip, a) * shear2 +
+            gb_law_slip_roll_stiffness(slip, a) * roll2 +
+            gb_law_slip_pivot_stiffness(slip, a) * pivot * pivot);
+}
+
+double gb_observe_elastic(const struct gb_world *world)
+{
+    const struct gb_model *model = gb_world_model(world);
+    const struct gb_pairs *pairs = gb_world_pairs(world);
+    const struct gb_contacts *contacts = gb_world_contacts(world);
+    const double cutoff = model->terms.attraction ? model->numerics.cutoff : 0.0;
+    const double base =
+        cutoff > 0.0 ? gb_law_dispersion_energy(&model->dispersion, cutoff) : 0.0;
+    double sum = 0.0;
+    for (int64_t i = 0; i < model->count; i++) {
+        for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
+            double r[3];
+            gb_world_arm(world, &pairs->near, i, k, r);
+            const double length = gb_vec_length(r);
+            if (contacts->deepest[k] >= 0.0) {
+                sum += normal_energy(model, contacts->deepest[k], 1.0 - length) +
+                       spring_energy(model, contacts, k, 1.0 - length);
+            }
+            if (length < cutoff) {
+                sum += gb_law_dispersion_energy(&model->dispersion, length) - base;
+            }
+        }
+        for (int64_t k = pairs->far.start[i]; k < pairs->far.start[i + 1]; k++) {
+            double r[3];
+            gb_world_arm(world, &pairs->far, i, k, r);
+            const double length = gb_vec_length(r);
+            if (length < cutoff) {
+                sum += gb_law_dispersion_energy(&model->dispersion, length) - base;
+            }
+        }
+    }
+    return sum;
+}
+
 /* Contacts of particle i, from both lists. */
 static int contacts_of(const struct gb_world *world, int64_t i)
 {

@@ -14,6 +14,10 @@ double gb_observe_density(const struct gb_world *world);
  * second to it: minus the stress tensor of P1 (16).  E. */
 void gb_observe_pressure(const struct gb_world *world, double pressure[3][3]);
 
+/* Energy that contacts and attraction would give back along their present branches: rod law or
+ * line of the bridge, springs, dispersion (0 beyond the cutoff).  E d^3. */
+double gb_observe_elastic(const struct gb_world *world);
+
 struct gb_contact_counts {
     int64_t contacts;     /* pairs with r < d */
     int64_t bridged;

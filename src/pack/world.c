@@ -43,6 +43,7 @@ struct gb_world {
     int row;                      /* doubles in a row: 6, in 2D 3 (x, z, about y) */
     int64_t far_room;
     double *pull;                 /* three per far pair: force on the first particle */
+    double (*far_last)[2];        /* dynamic scenes: distance and pull at the last evaluation */
     struct ledger ledger;
     struct block *block;
     int threads;
@@ -129,6 +130,7 @@ void gb_world_destroy(struct gb_world *world)
     gb_contacts_finish(&world->contacts);
     gb_alloc_free(world->wrench);
     gb_alloc_free(world->pull);
+    gb_alloc_free(world->far_last);
     ledger_finish(&world->ledger);
     gb_pairs_finish(&world->pairs);
     gb_alloc_free(world);
@@ -259,10 +261,16 @@ static bool reserve_slots(struct gb_world *world, struct gb_error *err)
         }
     }
     if (far > world->far_room) {
+        const bool moving = world->model->kind == GB_KIND_DYNAMIC;
         gb_alloc_free(world->pull);
+        gb_alloc_free(world->far_last);
         world->far_room = 0;
+        world->far_last = NULL;
         world->pull = gb_alloc_array(3 * (size_t)far, sizeof *world->pull, err);
-        if (!world->pull) {
+        if (moving) {
+            world->far_last = gb_alloc_array((size_t)far, sizeof *world->far_last, err);
+        }
+        if (!world->pull || (moving && !world->far_last)) {
             return false;
         }
         world->far_room = far;
@@ -285,6 +293,10 @@ static bool rebuild(struct gb_world *world, const struct ledger *ledger,
     }
     gb_pairs_shifts(&world->cell, world->shift);
     ledger_read(ledger, world);
+    if (world->far_last) {
+        memset(world->far_last, 0,
+               (size_t)world->pairs.far.pair_count * sizeof *world->far_last);
+    }
     world->listed = true;
     world->rebuilds++;
     return true;
@@ -329,6 +341,12 @@ static void sweep_far(struct gb_world *world, int64_t i, int64_t k, double cutof
         for (int c = 0; c < 3; c++) {
             tally->virial[c] += pull[c] * r[c];
         }
+    }
+    if (world->far_last) {
+        double *last = world->far_last[k];
+        const double now[2] = {sqrt(squared), gb_vec_length(pull)};
+        tally->absorbed += last[0] > 0.0 ? 0.5 * (last[1] + now[1]) * (now[0] - last[0]) : 0.0;
+        memcpy(last, now, sizeof now);
     }
 }
 

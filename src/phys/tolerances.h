@@ -40,6 +40,21 @@
 /* Unloading ends when the pressure is below this share of where it began. */
 #define GB_UNLOADED_SHARE 1e-3
 
+/* Dynamic scenes.  Error of the end pressure when omega * step = 1; the square of omega * step
+ * scales it (P2's scene at v1: 2 % at half the critical step). */
+#define GB_STEP_ERROR_UNIT 0.02
+
+/* Share of the critical step that is taken where the guard has to choose.  Friction caps hide
+ * instabilities closer to 1. */
+#define GB_STEP_CRITICAL_SHARE 0.5
+
+/* Share of sliding contacts above which the time step is taken to be unstable: 0.02 to 0.1 is
+ * usual, 0.8 is what a step of 1 T gives while the kinetic energy looks innocent. */
+#define GB_SLIDING_MOST 0.4
+
+/* Halvings of the time step after which a dynamic run stops. */
+#define GB_STEP_HALVINGS_MOST 6
+
 /* Length of a cell edge over the reach of the neighbour list: below 2 a pair would meet two
  * images of the same particle. */
 #define GB_EDGE_OVER_REACH 2.0

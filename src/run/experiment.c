@@ -11,6 +11,7 @@
 #include "pack/world.h"
 #include "solve/guard.h"
 #include "solve/load.h"
+#include "solve/motion.h"
 #include "solve/relax.h"
 
 enum { EVENTS = 32, EVENT_TEXT = 640 };
@@ -22,6 +23,8 @@ struct gb_experiment {
     struct gb_world_copy *good;   /* before the strain step under way */
     struct gb_world_copy *branch; /* where the unloading branch began */
     struct gb_relax *relax;
+    struct gb_motion *motion;     /* dynamic scenes only, instead of relax and load */
+    double elastic_start;         /* elastic energy when the motion began */
     struct gb_load load;
     struct gb_guard guard;
     double factor[3];             /* strain step under way, or to be taken next */
@@ -85,12 +88,6 @@ bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *pa
         return false;
     }
     experiment->params = *params;
-    if (params->kind == GB_KIND_DYNAMIC) {
-        gb_experiment_destroy(experiment);
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "scene.kind = dynamic: this version runs quasistatic scenes "
-                            "only");
-    }
     if (!gb_params_check(params, err) || !gb_model_init(&experiment->model, params, err) ||
         !gb_relax_create(&experiment->relax, &experiment->model, err) ||
         !grow_world(experiment, cancelled, data, err) ||
@@ -100,6 +97,13 @@ bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *pa
     }
     gb_load_init(&experiment->load, &experiment->model);
     gb_relax_start(experiment->relax, experiment->world);
+    if (params->kind == GB_KIND_DYNAMIC) {
+        experiment->elastic_start = gb_observe_elastic(experiment->world);
+        if (!gb_motion_create(&experiment->motion, experiment->world, err)) {
+            gb_experiment_destroy(experiment);
+            return false;
+        }
+    }
     *out = experiment;
     return true;
 }
@@ -113,6 +117,7 @@ void gb_experiment_destroy(struct gb_experiment *experiment)
     gb_world_copy_destroy(experiment->good);
     gb_world_copy_destroy(experiment->branch);
     gb_relax_destroy(experiment->relax);
+    gb_motion_destroy(experiment->motion);
     gb_alloc_free(experiment);
 }
 
@@ -231,6 +236,30 @@ static enum gb_advance stop(struct gb_experiment *experiment)
     return GB_ADVANCE_STOPPED;
 }
 
+/* What a dynamic run knows beside the state: stage, time, energies in J. */
+static void measure_motion(const struct gb_experiment *experiment, struct gb_point *point)
+{
+    static const int branch[] = {GB_BRANCH_RELAX, GB_BRANCH_LOAD, GB_BRANCH_HOLD,
+                                 GB_BRANCH_HOLD};
+    const struct gb_model *model = &experiment->model;
+    const struct gb_motion_report report = gb_motion_report(experiment->motion);
+    const double joule = model->newton_per_force * model->metre_per_length;
+    const double stored =
+        gb_observe_elastic(experiment->world) - experiment->elastic_start;
+    const double lost = report.work - report.kinetic - report.absorbed;
+    point->branch = branch[report.stage];
+    point->branch_from_pa = 0.0;
+    point->residual = gb_world_residual(experiment->world);
+    point->iterations = report.steps;
+    point->evaluations = report.steps;
+    point->time_s = report.time * model->dynamics.second_per_time;
+    point->kinetic = report.kinetic * joule;
+    point->work = report.work * joule;
+    point->elastic = stored * joule;
+    point->dissipated = (report.absorbed - stored) * joule;
+    point->energy_residual = report.work != 0.0 ? lost / fabs(report.work) : (double)NAN;
+}
+
 static enum gb_advance record(struct gb_experiment *experiment, struct gb_error *err)
 {
     measure(experiment, &experiment->point);
@@ -244,6 +273,32 @@ static enum gb_advance record(struct gb_experiment *experiment, struct gb_error 
     return GB_ADVANCE_POINT;
 }
 
+static enum gb_advance advance_motion(struct gb_experiment *experiment, int64_t max_steps,
+                                      struct gb_error *err)
+{
+    char text[EVENT_TEXT];
+    const enum gb_motion_outcome outcome = gb_motion_advance(
+        experiment->motion, experiment->world, max_steps, text, sizeof text, err);
+    add_event(experiment, text);
+    switch (outcome) {
+    case GB_MOTION_MORE:
+        return GB_ADVANCE_MORE;
+    case GB_MOTION_POINT:
+        measure(experiment, &experiment->point);
+        measure_motion(experiment, &experiment->point);
+        experiment->step++;
+        return GB_ADVANCE_POINT;
+    case GB_MOTION_DONE:
+        experiment->over = true;
+        return GB_ADVANCE_DONE;
+    case GB_MOTION_STOPPED:
+        break;
+    }
+    add_event(experiment, err->text);
+    experiment->over = experiment->stopped = true;
+    return GB_ADVANCE_STOPPED;
+}
+
 enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
                                       int64_t max_evaluations, struct gb_error *err)
 {
@@ -252,6 +307,9 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
     }
     struct gb_error local;
     struct gb_error *why = err ? err : &local;
+    if (experiment->motion) {
+        return advance_motion(experiment, max_evaluations, why);
+    }
     if (experiment->strain_due) {
         strain(experiment);
     }
@@ -298,6 +356,11 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
     snapshot->evaluations = gb_world_evaluations(experiment->world);
     snapshot->live_residual = experiment->relax->residual;
     const double pressure = experiment->point.p_pa / experiment->model.pascal_per_stress;
+    if (experiment->motion) {
+        snapshot->live_residual = gb_world_residual(experiment->world);
+        snapshot->progress = gb_motion_report(experiment->motion).progress;
+        return;
+    }
     snapshot->progress = experiment->over && !experiment->stopped
                              ? 1.0
                              : gb_load_progress(&experiment->load, pressure,

@@ -1,0 +1,44 @@
+#ifndef GB_SOLVE_MOTION_H
+#define GB_SOLVE_MOTION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+#include "pack/world.h"
+
+/* High-speed pressing of P2: relax in a fixed cell, compress at a rate to a density, hold.  Steps
+ * of gb_verlet between recorded points; a guard that watches the share of sliding contacts and
+ * the critical step.  It owns no world. */
+struct gb_motion;
+
+enum gb_motion_stage { GB_MOTION_RELAX, GB_MOTION_LOAD, GB_MOTION_HOLD, GB_MOTION_OVER };
+
+enum gb_motion_outcome {
+    GB_MOTION_MORE,  /* the slice is used up */
+    GB_MOTION_POINT, /* time to record: forces, places and velocities belong together */
+    GB_MOTION_DONE,  /* the last stage has ended */
+    GB_MOTION_STOPPED /* err says why; the world is back at the last recorded point */
+};
+
+/* The world must have been evaluated. */
+bool gb_motion_create(struct gb_motion **out, struct gb_world *world, struct gb_error *err);
+void gb_motion_destroy(struct gb_motion *motion); /* NULL is fine */
+
+/* At most max_steps time steps.  text (size bytes) receives one line when a guard acted. */
+enum gb_motion_outcome gb_motion_advance(struct gb_motion *motion, struct gb_world *world,
+                                         int64_t max_steps, char *text, size_t size,
+                                         struct gb_error *err);
+
+/* What goes into a recorded point, reduced units. */
+struct gb_motion_report {
+    enum gb_motion_stage stage; /* the one that has just been recorded */
+    double time;                /* since the start */
+    int64_t steps;              /* since the last point */
+    double kinetic, work, absorbed;
+    double time_step;           /* last used */
+    double progress;            /* 0..1, by time */
+};
+struct gb_motion_report gb_motion_report(const struct gb_motion *motion);
+
+#endif
