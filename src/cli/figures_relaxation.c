@@ -176,8 +176,8 @@ bool gb_figures_relaxation(struct gb_series *series, const struct gb_runset *set
                        "p(t) = p0 + p1 exp(-t/tau1) + p2 exp(-t/tau2), P2 (4), fitted to "
                        "the mean of the runs; t from the end of compression");
         gb_series_note(series,
-                       "intervals are at 95 %% and hold for independent errors of "
-                       "the points");
+                       "intervals are at 95 %%, for as many points as the correlation of "
+                       "the residuals leaves independent");
         relaxation_columns(series, set, fits);
     }
     g_free(fits);

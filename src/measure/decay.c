@@ -16,6 +16,9 @@ static const double rounding = 1e-9;
 /* Time constants below this multiple of the least spacing leave no trace in the data. */
 static const double tau_shortest = 0.01;
 
+/* Autocorrelation that counts as none. */
+static const double died_away = 0.05;
+
 static int compare_doubles(const void *a, const void *b)
 {
     const double x = *(const double *)a;
@@ -143,6 +146,28 @@ static int jacobian(const gsl_vector *x, void *data, gsl_matrix *j)
     return GSL_SUCCESS;
 }
 
+/* Integral of the autocorrelation of n residuals less their mean: how many of them count
+ * as one.  Summed until it has died away; white noise gives 1. */
+static double correlation(const double *f, size_t n, double mean)
+{
+    double square = 0.0;
+    double stretch = 1.0;
+    for (size_t i = 0; i < n; i++) {
+        square += (f[i] - mean) * (f[i] - mean);
+    }
+    for (size_t lag = 1; lag < n / 4 && square > 0.0; lag++) {
+        double product = 0.0;
+        for (size_t i = lag; i < n; i++) {
+            product += (f[i] - mean) * (f[i - lag] - mean);
+        }
+        if (product < died_away * square) {
+            break;
+        }
+        stretch += 2.0 * product / square;
+    }
+    return stretch;
+}
+
 static void take_result(struct gb_decay *found, gsl_multifit_nlinear_workspace *work,
                         gsl_matrix *covariance)
 {
@@ -151,6 +176,7 @@ static void take_result(struct gb_decay *found, gsl_multifit_nlinear_workspace *
     for (size_t i = 0; i < f->size; i++) {
         found->squares += gsl_vector_get(f, i) * gsl_vector_get(f, i);
     }
+    found->stretch = correlation(f->data, f->size, 0.0);
     gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(work), 0.0, covariance);
     for (size_t a = 0; a < covariance->size1; a++) {
         found->x[a] = gsl_vector_get(gsl_multifit_nlinear_position(work), a);
@@ -220,6 +246,7 @@ void gb_decay_constant(struct gb_decay *found, const struct gb_decay_points *poi
         found->squares += pow(points->p[i] - found->x[0], 2.0);
     }
     found->covariance[0][0] = 1.0 / n;
+    found->stretch = correlation(points->p, points->count, found->x[0]);
 }
 
 static void swap_values(double *a, double *b)

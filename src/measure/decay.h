@@ -34,6 +34,7 @@ struct gb_decay {
     double x[GB_DECAY_PARAMETERS];
     double covariance[GB_DECAY_PARAMETERS][GB_DECAY_PARAMETERS]; /* of unit variance */
     double squares;
+    double stretch; /* points per independent point, 1 for independent residuals */
 };
 
 void gb_decay_constant(struct gb_decay *found, const struct gb_decay_points *points);

@@ -17,18 +17,34 @@ static int degrees_of(const struct gb_decay *found, const struct gb_decay_points
     return (int)points->count - 1 - 2 * found->terms;
 }
 
-static double variance_of(const struct gb_decay *found,
-                          const struct gb_decay_points *points)
+/* Of the points about the fit. */
+static double scatter_of(const struct gb_decay *found,
+                         const struct gb_decay_points *points)
 {
-    return found->squares / degrees_of(found, points);
+    return sqrt(found->squares / degrees_of(found, points));
+}
+
+/* Points of a simulation follow one another: only one in `stretch` tells something new.
+ */
+static double independent_degrees(const struct gb_decay *found,
+                                  const struct gb_decay_points *points)
+{
+    const double independent = (double)points->count / found->stretch;
+    return fmax(independent - 1.0 - 2.0 * found->terms, 1.0);
+}
+
+static double error_of(const struct gb_decay *found, const struct gb_decay_points *points,
+                       int k)
+{
+    return scatter_of(found, points) * sqrt(found->stretch * found->covariance[k][k]);
 }
 
 /* Half the 95 % interval of parameter k. */
 static double half_width(const struct gb_decay *found,
                          const struct gb_decay_points *points, int k)
 {
-    return gsl_cdf_tdist_Pinv(interval_level, degrees_of(found, points)) *
-           sqrt(found->covariance[k][k] * variance_of(found, points));
+    return gsl_cdf_tdist_Pinv(interval_level, independent_degrees(found, points)) *
+           error_of(found, points, k);
 }
 
 /* Every amplitude differs from zero and every time constant has two bounds. */
@@ -50,7 +66,7 @@ static double f_ratio(const struct gb_decay *poor, const struct gb_decay *rich,
                       const struct gb_decay_points *points)
 {
     return 0.5 * (poor->squares - rich->squares) /
-           ((rich->squares + points->floor) / degrees_of(rich, points));
+           ((rich->squares + points->floor) / degrees_of(rich, points)) / rich->stretch;
 }
 
 static struct gb_fit_value value_of(const struct gb_decay *found,
@@ -58,7 +74,7 @@ static struct gb_fit_value value_of(const struct gb_decay *found,
                                     double unit, double shift)
 {
     const double half = half_width(found, points, k);
-    const double error = sqrt(found->covariance[k][k] * variance_of(found, points));
+    const double error = error_of(found, points, k);
     return (struct gb_fit_value){.value = shift + unit * found->x[k],
                                  .error = unit * error,
                                  .low = shift + unit * (found->x[k] - half),
@@ -83,7 +99,8 @@ static void report(struct gb_fit_decay *fit, const struct gb_decay *found,
                                              (double)NAN};
     fit->terms = found->terms;
     fit->degrees = degrees_of(found, points);
-    fit->scatter = points->p_unit * sqrt(variance_of(found, points));
+    fit->stretch = found->stretch;
+    fit->scatter = points->p_unit * scatter_of(found, points);
     fit->p0 = value_of(found, points, 0, points->p_unit, points->p_shift);
     for (int k = 0; k < GB_FIT_TERMS; k++) {
         const bool there = k < found->terms;
@@ -93,37 +110,75 @@ static void report(struct gb_fit_decay *fit, const struct gb_decay *found,
     }
 }
 
-/* Adds exponentials as long as the data ask for them. */
+/* What speaks against the last exponential of rich; GB_FIT_FULL when nothing does. */
+static enum gb_fit_reason objection(const struct gb_decay *poor,
+                                    const struct gb_decay *rich,
+                                    const struct gb_decay_points *points, double *f,
+                                    double *f_most)
+{
+    *f = f_ratio(poor, rich, points);
+    *f_most = gsl_cdf_fdist_Pinv(f_level, 2.0, independent_degrees(rich, points));
+    if (!(*f > *f_most)) {
+        return GB_FIT_INSIGNIFICANT;
+    }
+    if (!rich->settled) {
+        return GB_FIT_UNSETTLED;
+    }
+    return is_certain(rich, points) ? GB_FIT_FULL : GB_FIT_UNCERTAIN;
+}
+
+/* The fits with 0, 1 and 2 exponentials.  What a poor one misses looks like correlation
+ * of the points, so the least correlation found is that of all. */
+static bool fit_all(struct gb_decay found[GB_FIT_TERMS + 1],
+                    const struct gb_decay_points *points, struct gb_error *err)
+{
+    gb_decay_constant(&found[0], points);
+    double stretch = found[0].stretch;
+    for (int terms = 1; terms <= GB_FIT_TERMS; terms++) {
+        if (!gb_decay_terms(&found[terms], terms, points, err)) {
+            return false;
+        }
+        stretch = fmin(stretch, found[terms].settled ? found[terms].stretch : stretch);
+    }
+    for (int terms = 0; terms <= GB_FIT_TERMS; terms++) {
+        found[terms].stretch = stretch;
+    }
+    return true;
+}
+
+/* Takes exponentials away as long as the data do not ask for them. */
 static bool choose(struct gb_fit_decay *fit, const struct gb_decay_points *points,
                    struct gb_error *err)
 {
-    struct gb_decay best, next;
-    gb_decay_constant(&best, points);
-    fit->reason = GB_FIT_FULL;
-    for (int terms = 1; terms <= GB_FIT_TERMS && fit->reason == GB_FIT_FULL; terms++) {
-        if (!gb_decay_terms(&next, terms, points, err)) {
-            return false;
-        }
-        fit->f = f_ratio(&best, &next, points);
-        fit->f_most = gsl_cdf_fdist_Pinv(f_level, 2.0, degrees_of(&next, points));
-        if (!(fit->f > fit->f_most)) {
-            fit->reason = GB_FIT_INSIGNIFICANT;
-        } else if (!next.settled) {
-            fit->reason = GB_FIT_UNSETTLED;
-        } else if (!is_certain(&next, points)) {
-            fit->reason = GB_FIT_UNCERTAIN;
-        } else {
-            best = next;
-        }
+    struct gb_decay found[GB_FIT_TERMS + 1];
+    if (!fit_all(found, points, err)) {
+        return false;
     }
-    if (best.terms == 0 && fit->reason == GB_FIT_UNSETTLED) {
+    int terms = GB_FIT_TERMS;
+    fit->reason = GB_FIT_FULL;
+    while (terms > 0) {
+        double f = 0.0;
+        double f_most = 0.0;
+        const enum gb_fit_reason against =
+            objection(&found[terms - 1], &found[terms], points, &f, &f_most);
+        if (against != GB_FIT_FULL || terms == GB_FIT_TERMS) {
+            fit->f = f;
+            fit->f_most = f_most;
+        }
+        if (against == GB_FIT_FULL) {
+            break;
+        }
+        fit->reason = (int)against;
+        terms--;
+    }
+    if (terms == 0 && fit->reason == GB_FIT_UNSETTLED) {
         return gb_error_set(err, GB_ERR_NOT_CONVERGED,
                             "the fit of an exponential did not settle in %d iterations: "
                             "the points show no time constant between their spacing and "
                             "their span",
                             GB_DECAY_ITERATIONS);
     }
-    report(fit, &best, points);
+    report(fit, &found[terms], points);
     return true;
 }
 

@@ -31,16 +31,18 @@ struct gb_fit_decay {
     struct gb_fit_value tau[GB_FIT_TERMS];
     double scatter;   /* standard deviation of the points about the fit */
     int degrees;      /* of freedom */
+    double stretch;   /* points per independent point, from the residuals */
     double f, f_most; /* F of the next exponential and its bound; of the last one when
                        * terms is 2 */
 };
 
 /* Least squares fit of count points (t, p), at least GB_FIT_DECAY_POINTS of them at
- * different times; t counts from the end of compression.  Intervals from the covariance
- * with the residual variance and Student's t, those of tau in its logarithm; they hold
- * for independent errors of the points.
- * Errors: GB_ERR_INPUT (too few points, not finite), GB_ERR_MEMORY, GB_ERR_NOT_CONVERGED
- * (not even one exponential settles, though a constant does not do). */
+ * different times; t counts from the end of compression and should ascend.  Intervals
+ * from the covariance with the residual variance and Student's t, those of tau in its
+ * logarithm, for as many points as the autocorrelation of the residuals leaves
+ * independent. Errors: GB_ERR_INPUT (too few points, not finite), GB_ERR_MEMORY,
+ * GB_ERR_NOT_CONVERGED (not even one exponential settles, though a constant does not do).
+ */
 bool gb_fit_decay(struct gb_fit_decay *fit, const double *t, const double *p,
                   size_t count, struct gb_error *err);
 

@@ -96,6 +96,39 @@ static void test_coverage(void)
     gsl_rng_free(random);
 }
 
+/* Points that remember the ones before, as in a simulation.  Taken as independent they
+ * would make intervals a third as wide as they are. */
+static void test_correlated(void)
+{
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    int covered[5] = {0};
+    for (int trial = 0; trial < TRIALS; trial++) {
+        double t[POINTS], p[POINTS];
+        double noise = 0.0;
+        struct gb_fit_decay fit;
+        struct gb_error err = {0};
+        gsl_rng_set(random, (unsigned long)trial + 1);
+        for (int i = 0; i < POINTS; i++) {
+            noise = 0.8 * noise + gsl_ran_gaussian(random, 0.6);
+            t[i] = time_at(i);
+            p[i] = two(table, t[i]) + noise;
+        }
+        g_assert_true(gb_fit_decay(&fit, t, p, POINTS, &err));
+        g_assert_cmpint(fit.terms, ==, 2);
+        g_assert_cmpfloat(fit.stretch, >, 3.0);
+        covered[0] += covers(&fit.p0, table[0]);
+        for (int k = 0; k < 2; k++) {
+            covered[1 + 2 * k] += covers(&fit.amplitude[k], table[1 + 2 * k]);
+            covered[2 + 2 * k] += covers(&fit.tau[k], table[2 + 2 * k]);
+        }
+    }
+    for (int k = 0; k < 5; k++) {
+        g_test_message("parameter %d: %.3f", k, (double)covered[k] / TRIALS);
+        g_assert_cmpfloat((double)covered[k] / TRIALS, >=, 0.85);
+    }
+    gsl_rng_free(random);
+}
+
 /* How often `terms` exponentials are found. */
 static double share_with(const double q[5], double noise, int terms)
 {
@@ -302,6 +335,7 @@ int main(int argc, char **argv)
     gsl_set_error_handler_off();
     g_test_add_func("/fit/exact", test_exact);
     g_test_add_func("/fit/coverage", test_coverage);
+    g_test_add_func("/fit/correlated", test_correlated);
     g_test_add_func("/fit/vanishing", test_vanishing);
     g_test_add_func("/fit/input", test_decay_input);
     g_test_add_func("/fit/odd-shapes", test_odd_shapes);
