@@ -574,6 +574,55 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
     }
 }
 
+INLINE double lane_sum(const double lane[GB_LANES])
+{
+    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
+           ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+}
+
+/* Adds the products of two arrays (times 1 where b is NULL) over whole groups of lanes. */
+INLINE double lane_total(const double *a, const double *b, int n)
+{
+    double lane[GB_LANES] = {0};
+    for (int k = 0; k < n; k += GB_LANES) {
+        for (int l = 0; l < GB_LANES; l++) {
+            lane[l] += b ? a[k + l] * b[k + l] : a[k + l];
+        }
+    }
+    return lane_sum(lane);
+}
+
+INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepest,
+                        struct gb_tally *tally)
+{
+    const int axes = t.planar ? 2 : 3;
+    const int whole = (b->n + GB_LANES - 1) / GB_LANES * GB_LANES;
+    for (int k = b->n; k < whole; k++) { /* lanes without a pair count nothing */
+        b->normal[k] = b->sliding[k] = b->absorbed[k] = 0.0;
+        for (int c = 0; c < axes; c++) {
+            b->force[c][k] = b->r[c][k] = 0.0;
+        }
+    }
+    int64_t contacts = 0;
+    double most = tally->deepest;
+    for (int k = 0; k < b->n; k++) {
+        contacts += deepest[k] >= 0.0;
+        most = larger(b->overlap[k], most);
+    }
+    tally->contacts += contacts;
+    tally->deepest = most;
+    tally->normal_sum += lane_total(b->normal, NULL, whole);
+    if (t.friction) {
+        tally->sliding += (int64_t)lane_total(b->sliding, NULL, whole);
+    }
+    if (t.viscous) {
+        tally->absorbed += lane_total(b->absorbed, NULL, whole);
+        for (int c = 0; c < axes; c++) {
+            tally->virial[t.planar ? 2 * c : c] += lane_total(b->force[c], b->r[c], whole);
+        }
+    }
+}
+
 /* Variants: planar or not, {normal only, friction, friction and bridges}, viscous or not. */
 #define VARIANT(name, attribute, planar_, friction_, bridges_, viscous_)                  \
     attribute static void name##_stretch(const struct gb_model *model,                   \
@@ -597,6 +646,12 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
         } else {                                                                         \
             load_3d(model, t, batch, contacts, slot);                                    \
         }                                                                                \
+    }                                                                                    \
+    attribute static void name##_tally(struct gb_batch *batch, const double *deepest,    \
+                                       struct gb_tally *tally)                           \
+    {                                                                                    \
+        const struct terms t = {planar_, friction_, bridges_, viscous_};                 \
+        tally_batch(t, batch, deepest, tally);                                           \
     }
 
 #define VARIANTS(width, attribute)                                                        \
@@ -613,7 +668,7 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
     VARIANT(width##_2d_friction_viscous, attribute, true, true, false, true)             \
     VARIANT(width##_2d_bridges_viscous, attribute, true, true, true, true)
 
-#define ROW(name) {name##_stretch, name##_load}
+#define ROW(name) {name##_stretch, name##_load, name##_tally}
 #define TABLE(width)                                                                      \
     {                                                                                    \
         ROW(width##_3d_normal), ROW(width##_3d_friction), ROW(width##_3d_bridges),       \

@@ -32,7 +32,18 @@ void gb_contacts_finish(struct gb_contacts *contacts);
 /* Marks a pair as not touching. */
 void gb_contacts_clear(struct gb_contacts *contacts, int64_t slot);
 
-enum { GB_BATCH = 128 };
+/* What a sweep counts beside the forces, summed in a fixed order. */
+struct gb_tally {
+    int64_t contacts;  /* pairs with r < d */
+    int64_t sliding;   /* of these: shear spring at its cap */
+    double normal_sum; /* sum of |f_n| over contacts */
+    double deepest;    /* largest overlap */
+    /* dynamic scenes: */
+    double absorbed;   /* work the pairs took up since the last evaluation */
+    double virial[3];  /* sum of f_k r_k over pairs, axis by axis (x, y, z) */
+};
+
+enum { GB_BATCH = 128, GB_LANES = 8 };
 
 /* A batch of pairs on its way through the laws. */
 struct gb_batch {
@@ -63,6 +74,8 @@ struct gb_batch_kernel {
                     struct gb_contacts *contacts, int64_t slot);
     void (*load)(const struct gb_model *model, struct gb_batch *batch,
                  struct gb_contacts *contacts, int64_t slot);
+    /* Adds a batch to a tally: lane by lane, then the lanes, whatever the vector width. */
+    void (*tally)(struct gb_batch *batch, const double *deepest, struct gb_tally *tally);
 };
 
 /* The variant for this scene and this processor; no variant pays for terms it leaves out.

@@ -427,46 +427,12 @@ static void spill_batch_2d(struct gb_world *world, const struct gb_batch *batch,
     }
 }
 
-/* Motion: the work contacts took up, and sum of f_i r_i of each axis (components of the batch:
- * x, y, z, or x, z in 2D). */
-static void tally_motion(struct gb_tally *tally, const struct gb_batch *batch, bool planar)
-{
-    double taken[4] = {0}, virial[3][4] = {{0}};
-    for (int k = 0; k < batch->n; k++) {
-        taken[k % 4] += batch->absorbed[k];
-        for (int c = 0; c < (planar ? 2 : 3); c++) {
-            virial[c][k % 4] += batch->force[c][k] * batch->r[c][k];
-        }
-    }
-    tally->absorbed += (taken[0] + taken[1]) + (taken[2] + taken[3]);
-    for (int c = 0; c < (planar ? 2 : 3); c++) {
-        tally->virial[planar ? 2 * c : c] +=
-            (virial[c][0] + virial[c][1]) + (virial[c][2] + virial[c][3]);
-    }
-}
-
-static void tally_batch(struct gb_tally *tally, const struct gb_batch *batch,
-                        const double *deepest)
-{
-    double sum[4] = {0}, most = tally->deepest, slides = 0.0;
-    for (int k = 0; k < batch->n; k++) {
-        tally->contacts += deepest[k] >= 0.0;
-        sum[k % 4] += batch->normal[k];
-        slides += batch->sliding[k];
-        most = batch->overlap[k] > most ? batch->overlap[k] : most;
-    }
-    tally->normal_sum += (sum[0] + sum[1]) + (sum[2] + sum[3]);
-    tally->sliding += (int64_t)slides;
-    tally->deepest = most;
-}
-
 /* The near pairs of particles [begin, end), batch by batch. */
 static void sweep_near(struct gb_world *world, int64_t begin, int64_t end, double cutoff2,
                        struct gb_tally *tally)
 {
     const int64_t *start = world->pairs.near.start;
     const bool planar = world->model->dimension == 2;
-    const bool moving = world->model->kind == GB_KIND_DYNAMIC;
     struct gb_batch batch;
     batch.cutoff2 = cutoff2;
     batch.damp = world->damp;
@@ -480,10 +446,7 @@ static void sweep_near(struct gb_world *world, int64_t begin, int64_t end, doubl
         (planar ? fill_batch_2d : fill_batch)(world, &batch, slot, i);
         gb_batch_advance(&world->kernel, world->model, &batch, &world->contacts, slot);
         (planar ? spill_batch_2d : spill_batch)(world, &batch, slot, i);
-        tally_batch(tally, &batch, world->contacts.deepest + slot);
-        if (moving) {
-            tally_motion(tally, &batch, planar);
-        }
+        world->kernel.tally(&batch, world->contacts.deepest + slot, tally);
     }
 }
 

@@ -10,17 +10,6 @@
 #include "pack/batch.h"
 #include "pack/pairs.h"
 
-/* What a sweep counts beside the forces, summed in a fixed order. */
-struct gb_tally {
-    int64_t contacts;  /* pairs with r < d */
-    int64_t sliding;   /* of these: shear spring at its cap */
-    double normal_sum; /* sum of |f_n| over contacts */
-    double deepest;    /* largest overlap */
-    /* dynamic scenes: */
-    double absorbed;   /* work the near pairs took up since the last evaluation */
-    double virial[3];  /* sum of f_k r_k over pairs, axis by axis */
-};
-
 /* Owner of a packing: cell, particles, contacts and their history.  Mutable, one thread only;
  * the force sweep inside uses model->numerics.threads threads and gives the same bits for any
  * number of them.  Reduced units. */
