@@ -15,6 +15,7 @@ struct gb_motion {
     double time, stage_end;
     double limit;      /* longest step the guard allows, halved when it trips */
     int halvings;
+    bool told;         /* that damping bounds the step */
     /* the way to the next point */
     int64_t left, planned;
     double step;
@@ -83,25 +84,46 @@ static double critical_step(const struct gb_motion *motion, double frequency)
     return 2.0 / frequency * (sqrt(1.0 + xi * xi) - xi);
 }
 
-/* Longest step allowed now.  auto: the error of velocity Verlet goes with (omega step)^2; the
- * factor was measured at v1, where a step of 1/omega errs by 2 % in the end pressure. */
+/* A given step that has become too long, and what is taken from now on instead. */
+static double bound_given(struct gb_motion *motion, double critical, char *text, size_t size)
+{
+    const double step = fmin(motion->model->dynamics.time_step, motion->limit);
+    if (step <= critical) {
+        return step;
+    }
+    motion->limit = GB_STEP_CRITICAL_SHARE * critical;
+    snprintf(text, size, "guard: time step %.3g T above the critical %.3g T: %.3g T is taken",
+             step, critical, motion->limit);
+    return motion->limit;
+}
+
+/* auto: the error of velocity Verlet goes with (omega step)^2; the factor was measured at v1,
+ * where a step of 1/omega errs by 2 % in the end pressure.  Strong damping bounds it more. */
+static double pick_step(struct gb_motion *motion, double frequency, double critical,
+                        char *text, size_t size)
+{
+    const double share = sqrt(motion->model->dynamics.step_error / GB_STEP_ERROR_UNIT);
+    const double accurate = share / fmax(frequency, 1e-3);
+    const double stable = GB_STEP_CRITICAL_SHARE * critical;
+    if (stable < 0.5 * accurate && !motion->told) {
+        motion->told = true;
+        snprintf(text, size,
+                 "guard: contact.viscosity bounds the time step to %.3g T (accuracy alone: "
+                 "%.3g T)",
+                 stable, accurate);
+    }
+    return fmin(fmin(accurate, stable), motion->limit);
+}
+
+/* Longest step allowed now. */
 static double allowed_step(struct gb_motion *motion, const struct gb_world *world, char *text,
                            size_t size)
 {
-    const struct gb_dynamics *dynamics = &motion->model->dynamics;
     const double frequency = gb_verlet_frequency(world, motion->scratch);
     const double critical = frequency > 0.0 ? critical_step(motion, frequency) : INFINITY;
-    double step = dynamics->time_step;
-    if (step <= 0.0) {
-        const double share = sqrt(dynamics->step_error / GB_STEP_ERROR_UNIT);
-        step = fmin(share / fmax(frequency, 1e-3), GB_STEP_CRITICAL_SHARE * critical);
-    } else if (step > critical) {
-        snprintf(text, size,
-                 "guard: time step %.3g T above the critical %.3g T: %.3g T is taken", step,
-                 critical, GB_STEP_CRITICAL_SHARE * critical);
-        step = GB_STEP_CRITICAL_SHARE * critical;
-    }
-    return fmin(step, motion->limit);
+    return motion->model->dynamics.time_step > 0.0
+               ? bound_given(motion, critical, text, size)
+               : pick_step(motion, frequency, critical, text, size);
 }
 
 static void enter(struct gb_motion *motion, enum gb_motion_stage stage)
