@@ -13,8 +13,13 @@
  * the run itself finds its step. */
 static const double step_of_auto = 0.4;
 
-/* Particle-steps per second and core: discs or spheres with friction and bridges. */
-static const double rate_of_core = 1e7;
+/* Particle-steps per second and core, discs or spheres with friction and bridges: at the
+ * low end of what was measured, so that it is asked once too often and not once too
+ * seldom. */
+static const double rate_of_core = 8e6;
+
+/* Particles that keep one thread busy: a smaller scene is swept by fewer threads. */
+static const double particles_of_thread = 2000.0;
 
 /* Length of a row of curve.csv with the columns of a dynamic run. */
 static const double row_bytes = 250.0;
@@ -77,8 +82,9 @@ bool gb_cost_estimate(const struct gb_params *params, double particle_steps_per_
 double gb_cost_rate_assumed(const struct gb_params *params)
 {
     const double cores = (double)g_get_num_processors();
+    const double useful = fmax(floor((double)params->count / particles_of_thread), 1.0);
     return rate_of_core *
-           (params->threads > 0 ? fmin((double)params->threads, cores) : cores);
+           fmin(params->threads > 0 ? (double)params->threads : useful, cores);
 }
 
 double gb_cost_rate_measured(const struct gb_experiment *experiment,
@@ -90,8 +96,7 @@ double gb_cost_rate_measured(const struct gb_experiment *experiment,
     return seconds > 0.0 ? (double)evaluations * (double)count / seconds : 0.0;
 }
 
-/* "9 s", "12 min", "8 h 52 min", "41 days". */
-static char *write_duration(double seconds, char *buffer, size_t size)
+char *gb_cost_duration(double seconds, char *buffer, size_t size)
 {
     const double minutes = ceil(seconds / 60.0), hours = floor(minutes / 60.0);
     if (seconds < 60.0) {
@@ -115,7 +120,7 @@ char *gb_cost_line(const struct gb_cost *cost, char *buffer, size_t size)
              "particle-steps, %s at %.3gM/s; %.0f points, %.2g MB of curve.csv",
              cost->steps, step, cost->step_assumed ? " (assumed)" : "", cost->relax_steps,
              cost->compress_steps, cost->hold_steps, cost->particle_steps,
-             write_duration(cost->seconds, duration, sizeof duration),
+             gb_cost_duration(cost->seconds, duration, sizeof duration),
              cost->particle_steps_per_s / 1e6, cost->points, cost->curve_bytes / 1e6);
     return buffer;
 }
@@ -127,6 +132,6 @@ bool gb_cost_unasked(const struct gb_cost *cost, struct gb_error *err)
            gb_error_set(err, GB_ERR_INPUT,
                         "the run will take about %s: %.3g particle-steps at %.3gM/s; "
                         "accepted with --yes",
-                        write_duration(cost->seconds, duration, sizeof duration),
+                        gb_cost_duration(cost->seconds, duration, sizeof duration),
                         cost->particle_steps, cost->particle_steps_per_s / 1e6);
 }

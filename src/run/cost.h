@@ -36,6 +36,9 @@ double gb_cost_rate_assumed(const struct gb_params *params);
 double gb_cost_rate_measured(const struct gb_experiment *experiment,
                              int64_t evaluations_before, double seconds);
 
+/* "9 s", "12 min", "8 h 52 min", "41 days".  Returns buffer. */
+char *gb_cost_duration(double seconds, char *buffer, size_t size);
+
 /* One line for people.  Returns buffer. */
 char *gb_cost_line(const struct gb_cost *cost, char *buffer, size_t size);
 

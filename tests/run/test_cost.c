@@ -116,7 +116,9 @@ static void test_measured(void)
     g_assert_cmpfloat(gb_cost_rate_measured(experiment, before, 0.5), ==, expected);
     g_assert_cmpfloat(gb_cost_rate_measured(experiment, before, 0.0), ==, 0.0);
     gb_experiment_destroy(experiment);
-    g_assert_cmpfloat(gb_cost_rate_assumed(&params), ==, 1e7);
+    g_assert_cmpfloat(gb_cost_rate_assumed(&params), ==, 8e6);
+    params.threads = -1; /* auto: too few particles for a second thread */
+    g_assert_cmpfloat(gb_cost_rate_assumed(&params), ==, 8e6);
 }
 
 int main(int argc, char **argv)
