@@ -31,6 +31,7 @@ struct gb_snapshot {
     double progress;              /* 0..1, of the loading programme */
     double seconds, seconds_left; /* seconds_left < 0: unknown */
     double live_residual;         /* of the relaxation under way */
+    double time_step_s;           /* of a dynamic run, last used; else 0 */
     int64_t events;               /* how many events so far */
     char event[GB_SNAPSHOT_EVENT]; /* the last one */
     struct gb_error error;        /* why it failed or stopped */

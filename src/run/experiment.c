@@ -358,7 +358,10 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
     const double pressure = experiment->point.p_pa / experiment->model.pascal_per_stress;
     if (experiment->motion) {
         snapshot->live_residual = gb_world_residual(experiment->world);
-        snapshot->progress = gb_motion_report(experiment->motion).progress;
+        const struct gb_motion_report report = gb_motion_report(experiment->motion);
+        snapshot->progress = report.progress;
+        snapshot->time_step_s =
+            report.time_step * experiment->model.dynamics.second_per_time;
         return;
     }
     snapshot->progress = experiment->over && !experiment->stopped
