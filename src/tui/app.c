@@ -177,6 +177,7 @@ static bool act_everywhere(struct gb_app *app, enum gb_action action)
     case GB_ACTION_VIEW_CURVE:
     case GB_ACTION_VIEW_HISTOGRAM:
     case GB_ACTION_VIEW_ROSE:
+    case GB_ACTION_VIEW_TIME:
     case GB_ACTION_LOG:
     case GB_ACTION_EARLIER:
     case GB_ACTION_GLYPHS:

@@ -31,6 +31,7 @@ static const struct gb_key table[] = {
     {{'1'}, "1", NULL, "pressure against density", GB_ACTION_VIEW_CURVE},
     {{'2'}, "2", NULL, "contacts per particle", GB_ACTION_VIEW_HISTOGRAM},
     {{'3'}, "3", NULL, "contact force against direction", GB_ACTION_VIEW_ROSE},
+    {{'4'}, "4", NULL, "pressure against time, or against step", GB_ACTION_VIEW_TIME},
     {{'L'}, "L", "log", "logarithmic or linear pressure", GB_ACTION_LOG},
     {{'m'}, "m", NULL, "show or hide earlier runs", GB_ACTION_EARLIER},
     {{'b'}, "b", NULL, "draw with braille, blocks or ASCII", GB_ACTION_GLYPHS},

@@ -24,6 +24,25 @@ void gb_panel_plot_finish(struct gb_panel_plot *panel)
     gb_alloc_free(panel->y);
 }
 
+const char *gb_panel_plot_stage(int branch)
+{
+    return branch == GB_BRANCH_RELAX  ? "relax"
+           : branch == GB_BRANCH_HOLD ? "hold"
+                                      : "compress";
+}
+
+static bool dynamic(const struct gb_session *session)
+{
+    return session->runner != NULL &&
+           gb_runner_params(session->runner)->kind == GB_KIND_DYNAMIC;
+}
+
+/* The views along which a cursor runs. */
+static bool of_points(const struct gb_panel_plot *panel)
+{
+    return panel->view == GB_VIEW_CURVE || panel->view == GB_VIEW_TIME;
+}
+
 static void write_title(const struct gb_panel_plot *panel,
                         const struct gb_session *session, char *title, size_t size)
 {
@@ -31,9 +50,12 @@ static void write_title(const struct gb_panel_plot *panel,
         [GB_VIEW_CURVE] = "1 Pressure against density",
         [GB_VIEW_HISTOGRAM] = "2 Particles by their number of contacts",
         [GB_VIEW_ROSE] = "3 Mean normal force by direction",
+        [GB_VIEW_TIME] = "4 Pressure against time",
     };
-    snprintf(title, size, "%s%s%s", names[panel->view],
-             panel->view == GB_VIEW_CURVE && panel->log ? " (log)" : "",
+    const bool steps = panel->view == GB_VIEW_TIME && !dynamic(session);
+    snprintf(title, size, "%s%s%s",
+             steps ? "4 Pressure against step" : names[panel->view],
+             of_points(panel) && panel->log ? " (log)" : "",
              session->frozen ? ", view frozen" : "");
 }
 
@@ -50,6 +72,7 @@ void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *pain
     }
     switch (panel->view) {
     case GB_VIEW_CURVE:
+    case GB_VIEW_TIME:
         gb_view_curve_draw(panel, session);
         break;
     case GB_VIEW_HISTOGRAM:
@@ -66,7 +89,7 @@ void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *pain
 static bool move(struct gb_panel_plot *panel, const struct gb_session *session,
                  long long by)
 {
-    if (session->points == 0 || panel->view != GB_VIEW_CURVE) {
+    if (session->points == 0 || !of_points(panel)) {
         return true;
     }
     const long long last = (long long)session->points - 1;
@@ -125,8 +148,23 @@ bool gb_panel_plot_act(struct gb_panel_plot *panel, const struct gb_session *ses
     case GB_ACTION_VIEW_ROSE:
         panel->view = GB_VIEW_ROSE;
         return true;
+    case GB_ACTION_VIEW_TIME:
+        panel->view = GB_VIEW_TIME;
+        return true;
     default:
         return false;
+    }
+}
+
+/* "compress, 10.5 ns", "unload:100MPa". */
+static void write_place(const struct gb_session *session, const struct gb_point *point,
+                        char *text, size_t size)
+{
+    if (dynamic(session)) {
+        snprintf(text, size, "%s, %.5g ns", gb_panel_plot_stage(point->branch),
+                 gb_session_elapsed(GB_KIND_DYNAMIC, point));
+    } else {
+        gb_curve_branch_name(point, text, size);
     }
 }
 
@@ -137,21 +175,21 @@ void gb_panel_plot_explain(const struct gb_panel_plot *panel,
     if (!panel->cursor_on || panel->cursor >= session->points) {
         snprintf(message->text, sizeof message->text,
                  "Left and Right move a cursor along the points; L log or linear; 1 "
-                 "curve, 2 contacts, 3 directions");
+                 "curve, 2 contacts, 3 directions, 4 time");
         return;
     }
     const struct gb_point *point =
         gb_curve_at(gb_runner_curve(session->runner), panel->cursor);
-    char branch[48];
+    char place[64];
     char p[32];
     char px[32];
     char pz[32];
+    write_place(session, point, place, sizeof place);
     message->style = GB_STYLE_PLAIN;
     snprintf(message->text, sizeof message->text,
              "point %zu of %zu (%s)  density %.5f  p %s  px %s  pz %s  contacts %.3f  "
              "bridged %.1f %%",
-             panel->cursor + 1, session->points,
-             gb_curve_branch_name(point, branch, sizeof branch), point->density,
+             panel->cursor + 1, session->points, place, point->density,
              gb_units_format_short(point->p_pa, GB_DIM_PRESSURE, 5, p, sizeof p),
              gb_units_format_short(point->px_pa, GB_DIM_PRESSURE, 5, px, sizeof px),
              gb_units_format_short(point->pz_pa, GB_DIM_PRESSURE, 5, pz, sizeof pz),

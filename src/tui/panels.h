@@ -38,7 +38,7 @@ void gb_panel_params_explain(const struct gb_panel_params *panel,
                              struct gb_session *session, struct gb_message *message);
 
 /* [plot] */
-enum gb_view { GB_VIEW_CURVE, GB_VIEW_HISTOGRAM, GB_VIEW_ROSE };
+enum gb_view { GB_VIEW_CURVE, GB_VIEW_HISTOGRAM, GB_VIEW_ROSE, GB_VIEW_TIME };
 
 struct gb_panel_plot {
     enum gb_view view;
@@ -57,6 +57,8 @@ void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *pain
                         const struct gb_session *session, bool focus);
 bool gb_panel_plot_act(struct gb_panel_plot *panel, const struct gb_session *session,
                        enum gb_action action);
+/* "relax", "compress" or "hold": the branch of a point of a dynamic run. */
+const char *gb_panel_plot_stage(int branch);
 /* The point under the cursor, or what the view shows. */
 void gb_panel_plot_explain(const struct gb_panel_plot *panel,
                            const struct gb_session *session, struct gb_message *message);

@@ -19,6 +19,7 @@ static void drop_earlier(struct gb_earlier *earlier)
 {
     gb_alloc_free(earlier->density);
     gb_alloc_free(earlier->pressure_pa);
+    gb_alloc_free(earlier->elapsed);
     memset(earlier, 0, sizeof *earlier);
 }
 
@@ -59,6 +60,11 @@ const char *gb_session_line(const struct gb_session *session, int index)
     return session->log[at % GB_SESSION_LOG];
 }
 
+double gb_session_elapsed(int kind, const struct gb_point *point)
+{
+    return kind == GB_KIND_DYNAMIC ? 1e9 * point->time_s : (double)point->step;
+}
+
 /* The branches of a curve one after the other, NaN between them. */
 static void copy_branches(struct gb_earlier *earlier, const struct gb_curve *curve,
                           size_t count)
@@ -69,10 +75,12 @@ static void copy_branches(struct gb_earlier *earlier, const struct gb_curve *cur
         const struct gb_point *point = gb_curve_at(curve, i);
         if (i > 0 && point->branch != branch && (point->branch > 0 || branch > 0)) {
             earlier->density[n] = NAN;
+            earlier->elapsed[n] = NAN;
             earlier->pressure_pa[n++] = NAN;
         }
         branch = point->branch;
         earlier->density[n] = point->density;
+        earlier->elapsed[n] = gb_session_elapsed(earlier->params.kind, point);
         earlier->pressure_pa[n++] = point->p_pa;
     }
     earlier->count = n;
@@ -99,7 +107,9 @@ static void keep_run(struct gb_session *session)
     earlier->letter = (char)('a' + (session->runs - 1) % 26);
     earlier->density = gb_alloc_array(2 * count, sizeof(double), NULL);
     earlier->pressure_pa = gb_alloc_array(2 * count, sizeof(double), NULL);
-    if (earlier->density == NULL || earlier->pressure_pa == NULL) {
+    earlier->elapsed = gb_alloc_array(2 * count, sizeof(double), NULL);
+    if (earlier->density == NULL || earlier->pressure_pa == NULL ||
+        earlier->elapsed == NULL) {
         drop_earlier(earlier);
         return;
     }

@@ -16,6 +16,7 @@ struct gb_earlier {
     char difference[GB_SESSION_DIFFERENCE]; /* its own values where the new run differs */
     size_t count;
     double *density, *pressure_pa; /* NaN between branches */
+    double *elapsed;               /* gb_session_elapsed of the points */
 };
 
 struct gb_session {
@@ -30,7 +31,7 @@ struct gb_session {
     bool waiting; /* a command was sent, its effect not yet seen */
     struct gb_earlier earlier[GB_SESSION_EARLIER];
     int earlier_count;
-    int runs; /* started so far */
+    int runs;                    /* started so far */
     int64_t events_seen;
     char log[GB_SESSION_LOG][GB_SNAPSHOT_EVENT + 16];
     int64_t log_count; /* all lines ever; the last GB_SESSION_LOG are kept */
@@ -62,6 +63,10 @@ bool gb_session_busy(const struct gb_session *session);
 /* Whether the edited value is not the one the run uses. */
 bool gb_session_differs(struct gb_session *session, const struct gb_field *field);
 int gb_session_changes(struct gb_session *session);
+
+/* Where a point of a run of that kind lies in time: ns simulated of a dynamic run, the
+ * number of the recorded step of a quasi-static one. */
+double gb_session_elapsed(int kind, const struct gb_point *point);
 
 /* Adds a line to the events, stamped with the run's time. */
 void gb_session_note(struct gb_session *session, const char *format, ...)

@@ -11,9 +11,17 @@
  * contacts, which say nothing. */
 static const double decades_most = 1e5;
 
-enum { MARK_LOAD = 1, MARK_UNLOAD = 2, UNLOAD_SPACING = 7 };
+enum {
+    MARK_LOAD = 1,
+    MARK_UNLOAD = 2,
+    MARK_RELAX = 3,
+    MARK_HOLD = 4,
+    UNLOAD_SPACING = 7
+};
 
-enum { ENTRIES = 1 + GB_UNLOAD_MAX + GB_SESSION_EARLIER };
+enum { INK_RELAX = GB_PLOT_INK_SERIES + 2, INK_HOLD = GB_PLOT_INK_SERIES + 4 };
+
+enum { STAGES = 3, ENTRIES = STAGES + GB_UNLOAD_MAX + GB_SESSION_EARLIER };
 
 struct legend {
     struct gb_plot_entry entry[ENTRIES];
@@ -55,18 +63,44 @@ static const struct gb_curve *curve_of(const struct gb_session *session)
     return session->runner == NULL ? NULL : gb_runner_curve(session->runner);
 }
 
+/* Of the run under way; without one, of what is edited. */
+static int kind_of(const struct gb_session *session)
+{
+    return session->runner != NULL ? gb_runner_params(session->runner)->kind
+                                   : gb_preset_params(session->preset)->kind;
+}
+
+static double x_of(const struct gb_panel_plot *panel, const struct gb_session *session,
+                   const struct gb_point *point)
+{
+    return panel->view == GB_VIEW_TIME ? gb_session_elapsed(kind_of(session), point)
+                                       : point->density;
+}
+
+/* NULL: nanoseconds and steps share no axis. */
+static const double *earlier_x(const struct gb_panel_plot *panel,
+                               const struct gb_session *session,
+                               const struct gb_earlier *earlier)
+{
+    if (panel->view != GB_VIEW_TIME) {
+        return earlier->density;
+    }
+    return earlier->params.kind == kind_of(session) ? earlier->elapsed : NULL;
+}
+
 static struct ends find_ends(const struct gb_panel_plot *panel,
                              const struct gb_session *session)
 {
     struct ends ends = {{HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}, HUGE_VAL};
     for (size_t i = 0; i < session->points; i++) {
         const struct gb_point *point = gb_curve_at(curve_of(session), i);
-        extend(&ends, point->density, point->p_pa);
+        extend(&ends, x_of(panel, session, point), point->p_pa);
     }
     for (int k = 0; !panel->hide_earlier && k < session->earlier_count; k++) {
         const struct gb_earlier *earlier = &session->earlier[k];
-        for (size_t i = 0; i < earlier->count; i++) {
-            extend(&ends, earlier->density[i], earlier->pressure_pa[i]);
+        const double *x = earlier_x(panel, session, earlier);
+        for (size_t i = 0; x != NULL && i < earlier->count; i++) {
+            extend(&ends, x[i], earlier->pressure_pa[i]);
         }
     }
     if (panel->log && ends.y[1] > 0.0) {
@@ -102,13 +136,17 @@ static void draw_earlier(struct gb_panel_plot *panel, const struct gb_session *s
 {
     for (int k = 0; k < session->earlier_count; k++) {
         const struct gb_earlier *earlier = &session->earlier[k];
+        const double *x = earlier_x(panel, session, earlier);
+        if (x == NULL) {
+            continue;
+        }
         if (!reserve(panel, earlier->count)) {
             return;
         }
         for (size_t i = 0; i < earlier->count; i++) {
             panel->y[i] = earlier->pressure_pa[i] / unit_pa;
         }
-        const struct gb_plot_series series = {.x = earlier->density,
+        const struct gb_plot_series series = {.x = x,
                                               .y = panel->y,
                                               .count = earlier->count,
                                               .ink = GB_PLOT_INK_DIM,
@@ -118,50 +156,73 @@ static void draw_earlier(struct gb_panel_plot *panel, const struct gb_session *s
     }
 }
 
-/* Points of a branch; an unloading one begins at the loading point it left. */
+/* Points of a branch.  It begins at the point it left: a stage at the last one of the
+ * stage before, an unloading branch at the one on the loading branch.  Against time there
+ * is a gap where other branches were in between. */
 static size_t gather(struct gb_panel_plot *panel, const struct gb_session *session,
                      int branch, double unit_pa, double *from_pa)
 {
     size_t n = 0;
-    const struct gb_point *before = NULL;
+    const struct gb_point *root = NULL;
+    bool gap = false;
     for (size_t i = 0; i < session->points; i++) {
         const struct gb_point *point = gb_curve_at(curve_of(session), i);
-        const bool mine = branch == 0 ? point->branch <= 0 : point->branch == branch;
-        if (mine && n == 0 && branch > 0 && before != NULL) {
-            panel->x[n] = before->density;
-            panel->y[n++] = before->p_pa / unit_pa;
+        const bool mine = point->branch == branch;
+        if (mine && n == 0 && root != NULL) {
+            panel->x[n] = x_of(panel, session, root);
+            panel->y[n++] = root->p_pa / unit_pa;
+        } else if (mine && gap && panel->view == GB_VIEW_TIME) {
+            panel->x[n] = NAN;
+            panel->y[n++] = NAN;
         }
         if (mine) {
-            panel->x[n] = point->density;
+            panel->x[n] = x_of(panel, session, point);
             panel->y[n++] = point->p_pa / unit_pa;
             *from_pa = point->branch_from_pa;
         }
-        before = point->branch <= 0 ? point : before;
+        gap = !mine;
+        root = point->branch <= 0 ? point : root;
     }
     return n;
+}
+
+/* What tells a branch from the others: name, colour, marker. */
+static struct gb_plot_series look_of(int branch, int kind, double from_pa, char *name,
+                                     size_t size)
+{
+    if (branch > 0) {
+        char pressure[32];
+        gb_units_format_short(from_pa, GB_DIM_PRESSURE, 3, pressure, sizeof pressure);
+        snprintf(name, size, "unload from %s", pressure);
+        return (struct gb_plot_series){.ink = GB_PLOT_INK_SERIES + 1 + (branch - 1) % 5,
+                                       .marker = MARK_UNLOAD + (branch - 1) % 7,
+                                       .spacing = UNLOAD_SPACING};
+    }
+    g_strlcpy(name, kind == GB_KIND_DYNAMIC ? gb_panel_plot_stage(branch) : "load", size);
+    switch (branch) {
+    case GB_BRANCH_RELAX:
+        return (struct gb_plot_series){.ink = INK_RELAX, .marker = MARK_RELAX};
+    case GB_BRANCH_HOLD:
+        return (struct gb_plot_series){.ink = INK_HOLD, .marker = MARK_HOLD};
+    default:
+        return (struct gb_plot_series){.ink = GB_PLOT_INK_SERIES, .marker = MARK_LOAD};
+    }
 }
 
 static void draw_branch(struct gb_panel_plot *panel, const struct gb_session *session,
                         int branch, double unit_pa, struct legend *legend)
 {
     double from_pa = 0.0;
+    char name[64];
     const size_t count = gather(panel, session, branch, unit_pa, &from_pa);
     if (count == 0) {
         return;
     }
-    char name[64] = "load";
-    if (branch > 0) {
-        char pressure[32];
-        gb_units_format_short(from_pa, GB_DIM_PRESSURE, 3, pressure, sizeof pressure);
-        snprintf(name, sizeof name, "unload from %s", pressure);
-    }
-    const struct gb_plot_series series = {
-        .x = panel->x,
-        .y = panel->y,
-        .count = count,
-        .ink = GB_PLOT_INK_SERIES + (branch > 0 ? 1 + (branch - 1) % 5 : 0),
-        .marker = branch > 0 ? MARK_UNLOAD + (branch - 1) % 7 : MARK_LOAD,
-        .spacing = branch > 0 ? UNLOAD_SPACING : 0};
+    struct gb_plot_series series =
+        look_of(branch, kind_of(session), from_pa, name, sizeof name);
+    series.x = panel->x;
+    series.y = panel->y;
+    series.count = count;
     gb_plot_line(&panel->plot, &series);
     add_entry(legend, &series, name);
 }
@@ -176,10 +237,23 @@ static int last_branch(const struct gb_session *session)
     return last;
 }
 
+/* The unloading branches below, the loading one on top; the stages so that the legend,
+ * which names the last first, has them in the order of time. */
+static void draw_branches(struct gb_panel_plot *panel, const struct gb_session *session,
+                          double unit_pa, struct legend *legend)
+{
+    for (int branch = last_branch(session); branch > 0; branch--) {
+        draw_branch(panel, session, branch, unit_pa, legend);
+    }
+    draw_branch(panel, session, GB_BRANCH_HOLD, unit_pa, legend);
+    draw_branch(panel, session, GB_BRANCH_LOAD, unit_pa, legend);
+    draw_branch(panel, session, GB_BRANCH_RELAX, unit_pa, legend);
+}
+
 /* What stands in the empty field before there is a point. */
 static void draw_waiting(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const char *text = session->runner == NULL ? "no run: r starts one"
+    const char *text = session->runner == NULL ? "not started: r starts it"
                        : session->now.state == GB_RUN_PACKING
                            ? "building the initial structure ..."
                            : "waiting for the first point ...";
@@ -198,28 +272,34 @@ static void reverse(struct legend *legend)
     }
 }
 
+static const char *x_label(const struct gb_panel_plot *panel,
+                           const struct gb_session *session)
+{
+    return panel->view != GB_VIEW_TIME           ? "density"
+           : kind_of(session) == GB_KIND_DYNAMIC ? "t, ns"
+                                                 : "step";
+}
+
 void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
     const struct ends ends = find_ends(panel, session);
     const double unit_pa = ends.y[1] >= 9.9e9 ? 1e9 : 1e6;
     const double y_ends[2] = {ends.y[0] / unit_pa, ends.y[1] / unit_pa};
-    gb_plot_axes(&panel->plot, ends.x, y_ends, panel->log, "density",
+    gb_plot_axes(&panel->plot, ends.x, y_ends, panel->log, x_label(panel, session),
                  unit_pa > 1e6 ? "p, GPa" : "p, MPa");
     struct legend legend = {.count = 0};
     if (!panel->hide_earlier) {
         draw_earlier(panel, session, unit_pa, &legend);
     }
-    if (session->points == 0 || !reserve(panel, session->points + 1)) {
+    if (session->points == 0 || !reserve(panel, 2 * session->points + 1)) {
         draw_waiting(panel, session);
         return;
     }
-    for (int branch = last_branch(session); branch >= 0; branch--) {
-        draw_branch(panel, session, branch, unit_pa, &legend);
-    }
+    draw_branches(panel, session, unit_pa, &legend);
     reverse(&legend); /* drawn last means on top: named first */
     gb_plot_legend(&panel->plot, legend.entry, legend.count);
     if (panel->cursor_on && panel->cursor < session->points) {
         const struct gb_point *point = gb_curve_at(curve_of(session), panel->cursor);
-        gb_plot_cursor(&panel->plot, point->density, point->p_pa / unit_pa);
+        gb_plot_cursor(&panel->plot, x_of(panel, session, point), point->p_pa / unit_pa);
     }
 }

@@ -3,8 +3,8 @@
 
 #include "tui/panels.h"
 
-/* Pressure against density: earlier runs, unloading branches, the loading branch on top.
- */
+/* Pressure against density, or against time: earlier runs, unloading branches, the
+ * loading branch on top; of dynamic runs the three stages. */
 void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
 /* Shares of particles by their number of contacts. */
