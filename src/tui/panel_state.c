@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "tui/panels.h"
 
 /* One quantity: a name for narrow columns, one for wide ones, and how it is written. */
@@ -89,6 +90,66 @@ static void pz(const struct gb_snapshot *now, char *text, size_t size)
     write_pressure(now, now->now.pz_pa, text, size);
 }
 
+static void simulated(const struct gb_snapshot *now, char *text, size_t size)
+{
+    const double ns = 1e9 * now->now.time_s;
+    write_number(text, size, ns < 99.995 ? "%.2f ns" : "%.0f ns", ns);
+}
+
+static void stage(const struct gb_snapshot *now, char *text, size_t size)
+{
+    snprintf(text, size, "%s", gb_panel_plot_stage(now->now.branch));
+}
+
+/* "31.2 aJ", "214 fJ": three digits, the prefix below one joule. */
+static void write_energy(char *text, size_t size, double value)
+{
+    static const char *const prefix[] = {"", "m", "u", "n", "p", "f", "a"};
+    size_t k = 0;
+    while (fabs(value) < 0.9995 && k < 6) {
+        value *= 1e3;
+        k++;
+    }
+    const int decimals = fabs(value) >= 99.95 ? 0 : fabs(value) >= 9.995 ? 1 : 2;
+    if (!isfinite(value)) {
+        snprintf(text, size, "-");
+    } else {
+        snprintf(text, size, "%.*f %sJ", decimals, value, prefix[k]);
+    }
+}
+
+static void kinetic(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_energy(text, size, now->now.kinetic);
+}
+
+static void work(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_energy(text, size, now->now.work);
+}
+
+static void elastic(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_energy(text, size, now->now.elastic);
+}
+
+static void dissipated(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_energy(text, size, now->now.dissipated);
+}
+
+static void energy_error(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_number(text, size, "%.2g %%", 100.0 * now->now.energy_residual);
+}
+
+static void time_step(const struct gb_snapshot *now, char *text, size_t size)
+{
+    if (now->time_step_s > 0.0) {
+        gb_units_format_short(now->time_step_s, GB_DIM_TIME, 3, text, size);
+    }
+}
+
 static void residual(const struct gb_snapshot *now, char *text, size_t size)
 {
     write_number(text, size, "%.0e", now->live_residual);
@@ -110,7 +171,7 @@ static void work_time(const struct gb_snapshot *now, char *text, size_t size)
 }
 
 /* In the order of columns when all have a place. */
-static const struct item items[] = {
+static const struct item still_items[] = {
     {"density", "density", density},
     {"contacts", "contacts a particle", contacts},
     {"bridged", "bridged contacts", bridged},
@@ -125,10 +186,70 @@ static const struct item items[] = {
     {"time", "time of work", work_time},
 };
 
-enum { ITEMS = sizeof items / sizeof items[0] };
+enum { STILL_ITEMS = sizeof still_items / sizeof still_items[0] };
 
 /* The most telling first, for panes that have no place for all. */
-static const int by_weight[ITEMS] = {0, 4, 8, 1, 7, 10, 2, 3, 5, 6, 9, 11};
+static const int still_weight[STILL_ITEMS] = {0, 4, 8, 1, 7, 10, 2, 3, 5, 6, 9, 11};
+
+/* Nothing relaxes in a dynamic run: what would be its residual tells how far the forces
+ * are from balance. */
+static const struct item moving_items[] = {
+    {"stage", "stage", stage},
+    {"t", "simulated time", simulated},
+    {"density", "density", density},
+    {"p", "pressure p", p},
+    {"px", "  along x", px},
+    {"py", "  along y", py},
+    {"pz", "  along z", pz},
+    {"work", "work done", work},
+    {"kin", "kinetic energy", kinetic},
+    {"elast", "elastic energy", elastic},
+    {"diss", "dissipated", dissipated},
+    {"error", "energy error of work", energy_error},
+    {"contacts", "contacts a particle", contacts},
+    {"bridged", "bridged contacts", bridged},
+    {"rattlers", "rattlers", rattlers},
+    {"unbal", "unbalanced", residual},
+    {"step", "time step", time_step},
+    {"rate", "steps a second", rate},
+};
+
+enum { MOVING_ITEMS = sizeof moving_items / sizeof moving_items[0] };
+
+static const int moving_weight[MOVING_ITEMS] = {2,  3,  1,  0,  7,  8, 9, 10, 11,
+                                                15, 12, 16, 17, 13, 4, 6, 14, 5};
+
+/* The items that apply to a run, in order of columns and of weight. */
+struct choice {
+    const struct item *item[MOVING_ITEMS], *by_weight[MOVING_ITEMS];
+    int count;
+};
+
+static bool applies(const struct item *item, const struct gb_params *params)
+{
+    return item->write != py || params->dimension == 3;
+}
+
+static struct choice choose(const struct gb_session *session)
+{
+    const struct gb_params *params = session->runner != NULL
+                                         ? gb_runner_params(session->runner)
+                                         : gb_preset_params(session->preset);
+    const bool moving = params->kind == GB_KIND_DYNAMIC;
+    const struct item *all = moving ? moving_items : still_items;
+    const int *weight = moving ? moving_weight : still_weight;
+    struct choice choice = {.count = 0};
+    int weighed = 0;
+    for (int i = 0; i < (moving ? (int)MOVING_ITEMS : (int)STILL_ITEMS); i++) {
+        if (applies(&all[i], params)) {
+            choice.item[choice.count++] = &all[i];
+        }
+        if (applies(&all[weight[i]], params)) {
+            choice.by_weight[weighed++] = &all[weight[i]];
+        }
+    }
+    return choice;
+}
 
 const char *gb_panel_state_word(int state, enum gb_style *style)
 {
@@ -166,24 +287,27 @@ static void draw_progress(const struct gb_paint *paint, const struct gb_session 
 {
     char left[48];
     enum gb_style style = GB_STYLE_DIM;
-    const char *word = "no run";
+    const char *word = "not started";
     const struct gb_snapshot *now = &session->now;
     if (session->runner != NULL) {
         word = gb_panel_state_word(now->state, &style);
     }
     write_left(now, left, sizeof left);
-    const double percent = floor(100.0 * now->progress);
+    /* the last step of a dynamic run ends a little before or behind its time */
+    const bool done = session->runner != NULL && now->state == GB_RUN_DONE;
+    const double share = done ? 1.0 : now->progress;
+    const double percent = floor(100.0 * share);
     const int inner = paint->rect.cols - 2;
     const int end = gb_paint_text(paint, 1, 1, style, word) + 1;
     const int tail = 6 + (left[0] != '\0' ? 1 + (int)strlen(left) : 0);
     if (own_row) {
-        gb_paint_bar(paint, 2, 1, inner, now->progress);
+        gb_paint_bar(paint, 2, 1, inner, share);
         gb_paint_format(paint, 1, 1 + inner - tail, GB_STYLE_PLAIN, "%4.0f %% %s",
                         percent, left);
         return;
     }
     const int bar = inner + 1 - end - tail;
-    gb_paint_bar(paint, 1, end, bar > 4 ? bar : 0, now->progress);
+    gb_paint_bar(paint, 1, end, bar > 4 ? bar : 0, share);
     gb_paint_format(paint, 1, end + (bar > 4 ? bar : 0), GB_STYLE_PLAIN, "%4.0f %% %s",
                     percent, left);
 }
@@ -192,7 +316,8 @@ static void draw_item(const struct gb_paint *paint, int row, int col, int cols,
                       const struct item *item, const struct gb_snapshot *now)
 {
     char text[48] = "-";
-    if (now->now_valid || item->write == work_time || item->write == residual) {
+    if (now->now_valid || item->write == work_time ||
+        (item->write == residual && now->evaluations > 0)) {
         item->write(now, text, sizeof text);
     }
     const char *name = cols >= 26 ? item->name : item->brief;
@@ -201,25 +326,26 @@ static void draw_item(const struct gb_paint *paint, int row, int col, int cols,
 }
 
 static void draw_items(const struct gb_paint *paint, int first, int rows,
-                       const struct gb_snapshot *now)
+                       const struct gb_snapshot *now, const struct choice *choice)
 {
+    const int count = choice->count;
     const int inner = paint->rect.cols - 2;
     int columns = inner >= 47 ? 3 : inner >= 34 ? 2 : 1;
-    if (rows >= ITEMS) {
+    if (rows >= count) {
         columns = 1;
-    } else if (2 * rows >= ITEMS && columns > 2) {
+    } else if (2 * rows >= count && columns > 2) {
         columns = 2;
     }
     const int gap = columns > 1 ? 2 : 0;
     int width = (inner - gap * (columns - 1)) / columns;
     width = width > 34 ? 34 : width;
-    const bool all = rows * columns >= ITEMS;
-    const int each = all ? (ITEMS + columns - 1) / columns : rows;
-    for (int i = 0; i < ITEMS && i < each * columns; i++) {
+    const bool all = rows * columns >= count;
+    const int each = all ? (count + columns - 1) / columns : rows;
+    for (int i = 0; i < count && i < each * columns; i++) {
         const int column = all ? i / each : i % columns;
         const int row = all ? i % each : i / columns;
         draw_item(paint, first + row, 1 + column * (width + gap), width,
-                  &items[all ? i : by_weight[i]], now);
+                  all ? choice->item[i] : choice->by_weight[i], now);
     }
 }
 
@@ -228,12 +354,13 @@ void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *
 {
     gb_paint_title(paint, "State", focus);
     const struct gb_snapshot *now = &session->now;
-    const bool roomy = paint->rect.rows >= ITEMS + 5;
+    const struct choice choice = choose(session);
+    const bool roomy = paint->rect.rows >= choice.count + 5;
     draw_progress(paint, session, roomy);
     int row = roomy ? 4 : 2;
-    draw_items(paint, row, paint->rect.rows - row, now);
+    draw_items(paint, row, paint->rect.rows - row, now, &choice);
     if (roomy && now->error.text[0] != '\0') {
-        row += ITEMS + 1;
+        row += choice.count + 1;
         gb_paint_wrap(paint, row, paint->rect.rows - row, GB_STYLE_WARN, now->error.text);
     }
 }
