@@ -36,7 +36,7 @@ static void tell(struct gb_app *app, enum gb_style style, const char *text)
     app->screen.message.style = style;
 }
 
-static void start_run(struct gb_app *app)
+static void begin_run(struct gb_app *app)
 {
     struct gb_error err = {0};
     if (gb_session_start(&app->screen.session, &err)) {
@@ -46,6 +46,23 @@ static void start_run(struct gb_app *app)
         tell(app, GB_STYLE_BAD, err.text);
         gb_session_note(&app->screen.session, "not started: %s", err.text);
     }
+}
+
+/* What would take hours is not begun by a single key. */
+static void start_run(struct gb_app *app)
+{
+    char question[400];
+    if (gb_session_costly(&app->screen.session, question, sizeof question)) {
+        gb_dialog_show(&app->screen.dialog, GB_DIALOG_COSTLY, question);
+    } else {
+        begin_run(app);
+    }
+}
+
+static void decline_run(struct gb_app *app)
+{
+    gb_session_note(&app->screen.session, "not started: declined");
+    tell(app, GB_STYLE_WARN, "not started: change the parameters, r asks again");
 }
 
 static void leave(struct gb_app *app, int status)
@@ -113,6 +130,10 @@ static void answer(struct gb_app *app)
         break;
     case GB_DIALOG_QUIT:
         leave(app, 0);
+        break;
+    case GB_DIALOG_COSTLY:
+        gb_dialog_close(&app->screen.dialog);
+        begin_run(app);
         break;
     case GB_DIALOG_HELP:
     case GB_DIALOG_NONE:
@@ -211,8 +232,11 @@ static void type(struct gb_app *app, const struct gb_term_event *event)
     struct gb_screen *screen = &app->screen;
     const bool small = screen->layout.kind == GB_LAYOUT_TOO_SMALL;
     if (screen->dialog.kind != GB_DIALOG_NONE && !small) {
+        const bool costly = screen->dialog.kind == GB_DIALOG_COSTLY;
         if (gb_dialog_type(&screen->dialog, event)) {
             answer(app);
+        } else if (costly && screen->dialog.kind == GB_DIALOG_NONE) {
+            decline_run(app);
         }
         return;
     }

@@ -15,6 +15,10 @@ void gb_dialog_show(struct gb_dialog *dialog, enum gb_dialog_kind kind, const ch
     if (kind == GB_DIALOG_OPEN) {
         dialog->names = gb_preset_list();
     }
+    if (kind == GB_DIALOG_COSTLY) {
+        g_strlcpy(dialog->note, text != NULL ? text : "", sizeof dialog->note);
+        return;
+    }
     gb_prompt_set(&dialog->prompt, text != NULL ? text : "");
 }
 
@@ -126,16 +130,36 @@ static void draw_save(const struct gb_dialog *dialog, const struct gb_paint *scr
     draw_note(dialog, &paint, 3, 3);
 }
 
+/* The two answers of a question, in one row. */
+static void draw_answers(const struct gb_paint *paint, int row, const char *yes,
+                         const char *no)
+{
+    gb_paint_text(paint, row, 1, GB_STYLE_BOLD, "y");
+    const int col = gb_paint_text(paint, row, 3, GB_STYLE_PLAIN, yes) + 4;
+    gb_paint_text(paint, row, col, GB_STYLE_BOLD, "n");
+    gb_paint_text(paint, row, col + 2, GB_STYLE_PLAIN, no);
+}
+
+/* As high as the question needs. */
+static void draw_costly(const struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    struct gb_paint probe = *screen;
+    probe.rect.cols = MIN(ASK_COLS, screen->rect.cols - 2) - 4;
+    const int rows = gb_paint_wrapped(&probe, screen->rect.rows - 5, dialog->note);
+    const struct gb_paint frame =
+        box(screen, rows + 4, ASK_COLS, "A long run: start it?");
+    const struct gb_paint paint = inside(&frame);
+    gb_paint_wrap(&paint, 0, paint.rect.rows - 2, GB_STYLE_PLAIN, dialog->note);
+    draw_answers(&paint, paint.rect.rows - 1, "starts it", "leaves it");
+}
+
 static void draw_quit(const struct gb_paint *screen)
 {
     const struct gb_paint frame = box(screen, 6, ASK_COLS, "Quit?");
     const struct gb_paint paint = inside(&frame);
     gb_paint_wrap(&paint, 0, 2, GB_STYLE_PLAIN,
                   "A run is live; what it has found so far is not stored.");
-    gb_paint_text(&paint, 3, 1, GB_STYLE_BOLD, "y");
-    gb_paint_text(&paint, 3, 3, GB_STYLE_PLAIN, "ends it and quits");
-    gb_paint_text(&paint, 3, 24, GB_STYLE_BOLD, "n");
-    gb_paint_text(&paint, 3, 26, GB_STYLE_PLAIN, "goes back");
+    draw_answers(&paint, 3, "ends it and quits", "goes back");
 }
 
 void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen)
@@ -154,6 +178,9 @@ void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen)
         break;
     case GB_DIALOG_QUIT:
         draw_quit(screen);
+        break;
+    case GB_DIALOG_COSTLY:
+        draw_costly(dialog, screen);
         break;
     }
 }
@@ -200,7 +227,7 @@ bool gb_dialog_type(struct gb_dialog *dialog, const struct gb_term_event *event)
         return false;
     }
     const enum gb_action action = gb_keys_action(event->code);
-    if (dialog->kind == GB_DIALOG_QUIT) {
+    if (dialog->kind == GB_DIALOG_QUIT || dialog->kind == GB_DIALOG_COSTLY) {
         const bool yes = event->code == 'y' || event->code == 'Y';
         if (!yes && (event->code == 'n' || event->code == 'N' ||
                      action == GB_ACTION_BACK || action == GB_ACTION_QUIT)) {

@@ -6,32 +6,33 @@
 #include "tui/prompt.h"
 
 /* What lies over the panes: help, the list of presets, the name to save under, the
- * question before quitting.  One at a time. */
+ * questions before quitting and before a run that takes long.  One at a time. */
 enum gb_dialog_kind {
     GB_DIALOG_NONE,
     GB_DIALOG_HELP,
     GB_DIALOG_OPEN,
     GB_DIALOG_SAVE,
-    GB_DIALOG_QUIT
+    GB_DIALOG_QUIT,
+    GB_DIALOG_COSTLY
 };
 
 struct gb_dialog {
     enum gb_dialog_kind kind;
     int top, focus, page;
     char **names;   /* presets to open; owned */
-    char note[400]; /* why the last answer was not taken */
+    char note[400]; /* why the last answer was not taken; the question of a costly run */
     bool warned;    /* the note was a warning: the same answer again is taken */
     struct gb_prompt prompt;
 };
 
-/* text: what a prompt begins with; NULL is fine. */
+/* text: what a prompt begins with, or the question of a costly run; NULL is fine. */
 void gb_dialog_show(struct gb_dialog *dialog, enum gb_dialog_kind kind, const char *text);
 void gb_dialog_close(struct gb_dialog *dialog);
 
 void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);
 
 /* Takes an event; true when the answer is given and waits in gb_dialog_answer.  Esc
- * closes the dialog. */
+ * closes the dialog, n a question. */
 bool gb_dialog_type(struct gb_dialog *dialog, const struct gb_term_event *event);
 
 /* The preset chosen, the name typed; "" for yes. */

@@ -16,7 +16,7 @@ static void draw_header(struct gb_screen *screen)
     const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.header);
     const struct gb_session *session = &screen->session;
     enum gb_style style = GB_STYLE_DIM;
-    const char *word = "no run";
+    const char *word = "not started";
     if (session->runner != NULL) {
         word = gb_panel_state_word(session->engine, &style);
     }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "tui/costly.h"
 
 void gb_session_init(struct gb_session *session, struct gb_preset *preset)
 {
@@ -147,6 +148,12 @@ static void describe(struct gb_earlier *earlier, const struct gb_params *now)
     g_string_free(text, TRUE);
 }
 
+bool gb_session_costly(struct gb_session *session, char *text, size_t size)
+{
+    return gb_costly_question(gb_session_params(session), session->particle_steps_per_s,
+                              text, size);
+}
+
 bool gb_session_start(struct gb_session *session, struct gb_error *err)
 {
     const struct gb_params *params = gb_session_params(session);
@@ -206,6 +213,15 @@ static void show(struct gb_session *session, const struct gb_snapshot *snapshot)
     take_events(session);
 }
 
+/* What the next run is foretold by. */
+static void take_rate(struct gb_session *session, const struct gb_snapshot *snapshot)
+{
+    if (gb_runner_params(session->runner)->kind == GB_KIND_DYNAMIC &&
+        snapshot->particle_evaluations_per_s > 0.0) {
+        session->particle_steps_per_s = snapshot->particle_evaluations_per_s;
+    }
+}
+
 bool gb_session_refresh(struct gb_session *session)
 {
     if (session->runner == NULL) {
@@ -213,6 +229,7 @@ bool gb_session_refresh(struct gb_session *session)
     }
     bool changed = false;
     const struct gb_snapshot *snapshot = gb_runner_snapshot(session->runner, &changed);
+    take_rate(session, snapshot);
     const bool other_state = snapshot->state != session->engine;
     if (other_state) {
         session->engine = snapshot->state;

@@ -32,6 +32,7 @@ struct gb_session {
     struct gb_earlier earlier[GB_SESSION_EARLIER];
     int earlier_count;
     int runs;                    /* started so far */
+    double particle_steps_per_s; /* of the last dynamic run; 0: none yet */
     int64_t events_seen;
     char log[GB_SESSION_LOG][GB_SNAPSHOT_EVENT + 16];
     int64_t log_count; /* all lines ever; the last GB_SESSION_LOG are kept */
@@ -41,6 +42,10 @@ void gb_session_init(struct gb_session *session, struct gb_preset *preset);
 void gb_session_finish(struct gb_session *session);
 
 struct gb_params *gb_session_params(struct gb_session *session);
+
+/* Would the edited parameters take longer than is begun unasked?  Then the question is in
+ * text. */
+bool gb_session_costly(struct gb_session *session, char *text, size_t size);
 
 /* Starts a run with the edited parameters; the one before it joins the earlier runs.  On
  * error the old run goes on. */

@@ -178,6 +178,8 @@ keys 2
 shows "2 shows contacts" '2 Particles by their number'
 keys 3
 shows "3 shows directions" '3 Mean normal force'
+keys 4
+shows "4 shows the steps of a quasi-static run" '4 Pressure against step'
 keys 1 '?'
 shows "? lists the keys" 'Keys (Up and Down'
 keys Escape
@@ -235,6 +237,47 @@ shows "q asks again" 'Quit?'
 keys y
 shows "y quits" 'status=0'
 is "the terminal is back after y" terminal_is_back
+
+# --- a run that takes long is asked about; stages of a dynamic run
+start p2-v5
+shows "a long run is asked about" 'A long run: start it?'
+is "with its time" has 'This run will take about'
+is "with what makes it cheaper" has 'loading.rate'
+is "and is not started" has 'not started'
+keys n
+hides "n leaves it" 'A long run: start it?'
+shows "what follows is said" 'r asks again'
+is "its parameters stay" has 'P2 2D, rate v5'
+is "still not started" has 'not started: declined'
+keys r
+shows "r asks again" 'A long run: start it?'
+keys Escape
+hides "Esc leaves it, too" 'A long run: start it?'
+keys g
+is "focus reaches the rate" go_to rate
+keys Enter C-u '6.8e8 1/s' Enter
+shows "a cheaper rate is typed" '^ rate  *680 1/us'
+is "focus reaches the first stage" go_to relax
+keys Enter C-u '1 ns' Enter
+keys r
+shows "the cheaper run starts" 'run 1 started'
+is "it is not asked about" has_not 'A long run'
+shows "the stage is told" 'stage  *[a-z]'
+shows "energies have a unit" 'work  *[0-9.]* [a-z]*J'
+keys 4
+shows "4 shows pressure against time" '4 Pressure against time'
+shows "in nanoseconds" 't, ns'
+shows "compression is named" '● compress'
+shows "holding is named" '◇ hold'
+term resize-window -x 60 -y 20
+shows "60 x 20 has one pane of it" '^── Parameters'
+keys Tab
+shows "60 x 20 shows the stage" 'stage  *[a-z]'
+term resize-window -x 80 -y 24
+keys q
+shows "q asks while it holds" 'Quit?'
+keys y
+shows "and quits" 'status=0'
 
 # --- other ways out
 start default particles.count=6000
