@@ -21,21 +21,11 @@ struct command {
 
 /* Every command that this build has; help, dispatch and messages follow from it. */
 static const struct command commands[] = {
-#ifdef GB_HAVE_CMD_RUN
     {"run", "one run without a screen, results in a directory", gb_cmd_run},
-#endif
-#ifdef GB_HAVE_CMD_PACK
     {"pack", "the initial structure alone", gb_cmd_pack},
-#endif
-#ifdef GB_HAVE_CMD_SNAPSHOT
     {"snapshot", "picture of a packing", gb_cmd_snapshot},
-#endif
-#ifdef GB_HAVE_CMD_PLOT
     {"plot", "data of figures over one or more runs", gb_cmd_plot},
-#endif
-#ifdef GB_HAVE_CMD_BENCH
     {"bench", "the speed figures", gb_cmd_bench},
-#endif
     {"law", "values of a contact law as CSV", gb_cmd_law},
     {"params", "every preset key: unit, range, default, meaning, source", gb_cmd_params},
 };
@@ -115,7 +105,6 @@ static int open_scene(int argc, char **argv)
     if (argc > 1 && argv[1][0] != '-' && !may_open(argv[1])) {
         return unknown(argv[1]);
     }
-#ifdef GB_HAVE_CMD_RUN
     if (!isatty(STDOUT_FILENO)) {
         static char name[] = "run";
         static char preset[] = "default";
@@ -123,14 +112,9 @@ static int open_scene(int argc, char **argv)
         return argc > 1 ? gb_cmd_run(argc, argv)
                         : gb_cmd_run(2, (char *[]){name, preset, NULL});
     }
-#endif
-#ifdef GB_HAVE_CMD_WORKBENCH
     static char program[] = "greenbody";
     argv[0] = program;
     return gb_cmd_workbench(argc, argv);
-#else
-    return unknown(argc > 1 ? argv[1] : "no command");
-#endif
 }
 
 static int dispatch(int argc, char **argv)

@@ -1,0 +1,29 @@
+#ifndef GB_PACK_LEDGER_H
+#define GB_PACK_LEDGER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+
+struct gb_world;
+
+/* Touching pairs in list order with their histories: whole for rebuilds, without the arms for
+ * copies. */
+struct gb_ledger {
+    int64_t count, capacity;
+    int planes;     /* values a line holds: all planes of the contacts, or those kept */
+    int32_t (*pair)[2];
+    double *value;  /* capacity x planes */
+};
+
+void gb_ledger_finish(struct gb_ledger *ledger);
+
+/* Writes down every touching pair of the world, in the order of its list. */
+bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, bool whole,
+                     struct gb_error *err);
+
+/* Gives every pair of the world's new list its old history, or none. */
+void gb_ledger_read(const struct gb_ledger *ledger, struct gb_world *world);
+
+#endif
