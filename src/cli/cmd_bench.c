@@ -9,12 +9,14 @@
 
 static const struct gb_options_page page = {
     .usage = "[PRESET] [group.key=value]...",
-    .summary = "Times the engine on this machine: the initial structure, and one force\n"
-               "evaluation with its move (forces, torques, history, relaxer) on one core and\n"
-               "on all of them, at a coordination number of a pressed packing; and the planar\n"
-               "dynamic scene of P2 at density 0.9.",
-    .description = "Without a preset: 8000 particles of 9.7 nm with bridges (P1, set II).\n"
-                   "The times are medians of 15 batches of 24 evaluations.",
+    .summary =
+        "Times the engine on this machine: the initial structure, and one force\n"
+        "evaluation with its move (forces, torques, history, relaxer) on one core and\n"
+        "on all of them, at a coordination number of a pressed packing; and the planar\n"
+        "dynamic scene of P2 at density 0.9.",
+    .description =
+        "Without a preset: 8000 particles of 9.7 nm with bridges (P1, set II).\n"
+        "The times are medians of 15 batches of 24 evaluations.",
 };
 
 struct line {

@@ -13,8 +13,8 @@ double gb_observe_density(const struct gb_world *world)
 }
 
 /* Adds f_i r_j of pair k of a list. */
-static void add_pair(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
-                     int64_t k, const double force[3], double sum[3][3])
+static void add_pair(const struct gb_world *world, const struct gb_pair_list *list,
+                     int64_t i, int64_t k, const double force[3], double sum[3][3])
 {
     double r[3];
     gb_world_arm(world, list, i, k, r);
@@ -44,7 +44,8 @@ void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
     }
 }
 
-/* Elastic energy of a contact along its normal: below h_min the area under the line counts. */
+/* Elastic energy of a contact along its normal: below h_min the area under the line
+ * counts. */
 static double normal_energy(const struct gb_model *model, double deepest, double h)
 {
     const double from = deepest > 0.0 ? deepest : h, back = from - h;
@@ -54,8 +55,8 @@ static double normal_energy(const struct gb_model *model, double deepest, double
 }
 
 /* Energy in the springs; their loads act over the whole relative motion. */
-static double spring_energy(const struct gb_model *model, const struct gb_contacts *contacts,
-                            int64_t k, double h)
+static double spring_energy(const struct gb_model *model,
+                            const struct gb_contacts *contacts, int64_t k, double h)
 {
     const struct gb_law_slip *slip = &model->slip;
     const double deepest = contacts->deepest[k];

@@ -32,8 +32,8 @@ INLINE void stretch_2d(const struct gb_model *model, struct terms t,
         b->distance[k] = r;
         b->overlap[k] = h;
         if (t.friction) {
-            const double u = m * ((rx - ax[k]) * nz - (rz - az[k]) * nx -
-                                  0.5 * r * b->turn_sum[0][k]);
+            const double u =
+                m * ((rx - ax[k]) * nz - (rz - az[k]) * nx - 0.5 * r * b->turn_sum[0][k]);
             const double v = lasts * (shear[k] + u);
             shear[k] = v;
             if (t.viscous) {
@@ -124,8 +124,9 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
                 roll[k] = p;
                 if (t.viscous) {
                     const double g = b->rate[1][k], lag = damp * mask(!rolls & held);
-                    taken += inverse_motion * g *
-                             (0.5 * (last_roll[k] * (before - g) + kr * p) + lag * kr * g);
+                    taken +=
+                        inverse_motion * g *
+                        (0.5 * (last_roll[k] * (before - g) + kr * p) + lag * kr * g);
                     last_roll[k] = mask(held) * kr;
                     p += lag * g;
                 }

@@ -93,7 +93,8 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t,
                 const double a2 = 0.25 * radius_square(t, printed, length, now, h);
                 const double a = sqrt(larger(a2, 0.0));
                 const double shear = k_shear * a, shear_cap = M_PI * a2 * sigma;
-                const double turn = k_pivot * a2 * a, turn_cap = 0.5 * M_PI * a2 * a * sigma;
+                const double turn = k_pivot * a2 * a,
+                             turn_cap = 0.5 * M_PI * a2 * a * sigma;
                 const double shear2 = shear * shear * (vx * vx + vy * vy + vz * vz);
                 const double turn2 = turn * turn * twist * twist;
                 b->fails[k] = mask((now > 0.0) & ((shear2 > shear_cap * shear_cap) |
@@ -174,7 +175,8 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
             pivot[k] = p;
             slides = mask(cut);
             if (t.viscous) {
-                /* work over the step: the springs as they were, turned along, and as they are */
+                /* work over the step: the springs as they were, turned along, and as they
+                 * are */
                 const double ux = b->rate[0][k], uy = b->rate[1][k], uz = b->rate[2][k];
                 const double up = b->rate[3][k];
                 const double was = last_shear[k], turned_was = last_pivot[k];
@@ -182,10 +184,9 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
                 const double fore = (ox - ux) * ux + (oy - uy) * uy + (oz - uz) * uz;
                 const double aft = vx * ux + vy * uy + vz * uz;
                 const double u2 = ux * ux + uy * uy + uz * uz;
-                taken += inverse_motion *
-                         (0.5 * (was * fore + ks * aft) + lag * ks * u2 +
-                          0.5 * (turned_was * (op - up) + kp * p) * up +
-                          turn_lag * kp * up * up);
+                taken += inverse_motion * (0.5 * (was * fore + ks * aft) + lag * ks * u2 +
+                                           0.5 * (turned_was * (op - up) + kp * p) * up +
+                                           turn_lag * kp * up * up);
                 last_shear[k] = ks;
                 last_pivot[k] = kp;
                 vx += lag * ux;
@@ -213,14 +214,14 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
                 qy[k] = py;
                 qz[k] = pz;
                 if (t.viscous) {
-                    const double gx = b->rate[4][k], gy = b->rate[5][k], gz = b->rate[6][k];
+                    const double gx = b->rate[4][k], gy = b->rate[5][k],
+                                 gz = b->rate[6][k];
                     const double lag = damp * mask(!rolls & held);
                     const double fore =
                         (qox - gx) * gx + (qoy - gy) * gy + (qoz - gz) * gz;
                     const double aft = px * gx + py * gy + pz * gz;
-                    taken += inverse_motion *
-                             (0.5 * (last_roll[k] * fore + kr * aft) +
-                              lag * kr * (gx * gx + gy * gy + gz * gz));
+                    taken += inverse_motion * (0.5 * (last_roll[k] * fore + kr * aft) +
+                                               lag * kr * (gx * gx + gy * gy + gz * gz));
                     last_roll[k] = mask(held) * kr;
                     px += lag * gx;
                     py += lag * gy;

@@ -5,13 +5,14 @@
 
 #include "pack/batch.h"
 
-/* How these loops are written: conditions choose between values that are there already and
- * masks (1 or 0) multiply, so that no lane needs a branch; a hidden one (&&, or an expensive
- * branch of ?:) would send the whole loop back to one contact at a time.
+/* How these loops are written: conditions choose between values that are there already
+ * and masks (1 or 0) multiply, so that no lane needs a branch; a hidden one (&&, or an
+ * expensive branch of ?:) would send the whole loop back to one contact at a time.
  *
  * One source, compiled once per useful combination of terms and per vector width: every
- * `const bool` below is a constant where the function is inlined.  Nothing but the order of
- * lanes differs between the widths (contraction is off), so they give the same bits. */
+ * `const bool` below is a constant where the function is inlined.  Nothing but the order
+ * of lanes differs between the widths (contraction is off), so they give the same bits.
+ */
 #define INLINE static inline __attribute__((always_inline))
 
 struct terms {
@@ -72,8 +73,8 @@ INLINE double deepest_after(double length, double before, double h)
     return before <= 0.0 ? fresh : bridged;
 }
 
-/* Squared overlap whose root is twice the spring radius.  printed: 1 where a_ch follows the
- * printed form at the current r, 0 where it belongs to r_min. */
+/* Squared overlap whose root is twice the spring radius.  printed: 1 where a_ch follows
+ * the printed form at the current r, 0 where it belongs to r_min. */
 INLINE double radius_square(struct terms t, double printed, double length, double deepest,
                             double h)
 {
@@ -98,7 +99,8 @@ INLINE double mask(bool condition)
     return condition ? 1.0 : 0.0;
 }
 
-/* f_n along the normal: elastic line or rod law minus adhesion, or the pull across a gap. */
+/* f_n along the normal: elastic line or rod law minus adhesion, or the pull across a gap.
+ */
 struct normal {
     double elastic, slope, total;
 };

@@ -39,7 +39,7 @@ static int64_t count_touching(const struct gb_world *world)
 }
 
 bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, bool whole,
-                         struct gb_error *err)
+                     struct gb_error *err)
 {
     const struct gb_pair_list *near = &world->pairs.near;
     const struct gb_contacts *contacts = &world->contacts;
@@ -66,8 +66,8 @@ bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, boo
 }
 
 /* Puts line `line` of the ledger into near pair k of particle i. */
-static void ledger_put(const struct gb_ledger *ledger, int64_t line, struct gb_world *world,
-                       int64_t i, int64_t k)
+static void ledger_put(const struct gb_ledger *ledger, int64_t line,
+                       struct gb_world *world, int64_t i, int64_t k)
 {
     struct gb_contacts *contacts = &world->contacts;
     for (int p = 0; p < ledger->planes; p++) {

@@ -6,8 +6,8 @@
 #include "base/alloc.h"
 #include "phys/tolerances.h"
 
-/* Neighbours one particle may have within the reach: a dense packing has about a dozen.  Also
- * the slack of the lists. */
+/* Neighbours one particle may have within the reach: a dense packing has about a dozen.
+ * Also the slack of the lists. */
 enum { CROWD = 256 };
 
 struct grid {
@@ -98,7 +98,8 @@ static void grid_shape(struct grid *grid, double reach, int64_t count)
     const int most = (int)fmax(1.0, ceil(cbrt((double)count)) * 2.0);
     for (int k = 0; k < 3; k++) {
         const double edge = grid->cell->edge[k];
-        grid->n[k] = grid->cell->periodic[k] ? clamp((int)(edge / reach), 1, most * 8) : 1;
+        grid->n[k] =
+            grid->cell->periodic[k] ? clamp((int)(edge / reach), 1, most * 8) : 1;
         grid->inverse[k] = grid->n[k] / edge;
         /* with one or two cells along an axis, -1 and +1 are the same cell */
         grid->span_low[k] = grid->n[k] > 2 ? -1 : 0;
@@ -130,8 +131,8 @@ static bool grid_fill(struct gb_pairs *pairs, struct grid *grid, struct gb_error
 }
 
 /* Nearest image of x_i - x_j; returns its index and the squared distance. */
-static uint8_t nearest_image(const struct gb_cell *cell, const double *xi, const double *xj,
-                             double *squared)
+static uint8_t nearest_image(const struct gb_cell *cell, const double *xi,
+                             const double *xj, double *squared)
 {
     int image = 0, weight = 1;
     double sum = 0.0;
@@ -184,8 +185,7 @@ static int scan_cell(const struct grid *grid, int64_t i, int c, struct bounds bo
         const uint8_t image = nearest_image(grid->cell, grid->position + 3 * i,
                                             grid->position + 3 * (int64_t)j, &squared);
         if (squared < bounds.far) {
-            insert_sorted(list, n++,
-                          (struct neighbour){j, image, squared < bounds.near});
+            insert_sorted(list, n++, (struct neighbour){j, image, squared < bounds.near});
         }
     }
     return n;
@@ -197,8 +197,8 @@ static int scan_particle(const struct grid *grid, int64_t i, struct bounds bound
 {
     int home[3], n = 0;
     for (int k = 0; k < 3; k++) {
-        home[k] = clamp((int)(grid->position[3 * i + k] * grid->inverse[k]), 0,
-                        grid->n[k] - 1);
+        home[k] =
+            clamp((int)(grid->position[3 * i + k] * grid->inverse[k]), 0, grid->n[k] - 1);
     }
     for (int w = grid->span_low[2]; w <= grid->span_high[2]; w++) {
         const int cw = (home[2] + w + grid->n[2]) % grid->n[2];
@@ -250,8 +250,8 @@ static void append(struct gb_pair_list *list, struct neighbour found)
 }
 
 /* Fills both lists, particle by particle. */
-static bool fill_pairs(struct gb_pairs *pairs, const struct grid *grid, struct bounds bounds,
-                       struct gb_error *err)
+static bool fill_pairs(struct gb_pairs *pairs, const struct grid *grid,
+                       struct bounds bounds, struct gb_error *err)
 {
     struct neighbour found[CROWD + 1];
     struct gb_pair_list *near = &pairs->near, *far = &pairs->far;
@@ -305,10 +305,11 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
 {
     const double reach = cutoff + skin;
     if (gb_cell_shortest(cell) < GB_EDGE_OVER_REACH * reach) {
-        return gb_error_set(err, GB_ERR_GUARD,
-                            "the cell has shrunk to %.3g d, less than twice the neighbour "
-                            "reach %.3g d: take more particles or another structure.base",
-                            gb_cell_shortest(cell), reach);
+        return gb_error_set(
+            err, GB_ERR_GUARD,
+            "the cell has shrunk to %.3g d, less than twice the neighbour "
+            "reach %.3g d: take more particles or another structure.base",
+            gb_cell_shortest(cell), reach);
     }
     struct grid grid = {.cell = cell, .position = position};
     grid_shape(&grid, reach, pairs->count);
@@ -338,9 +339,11 @@ double gb_pairs_travel(const struct gb_pairs *pairs, const double *position)
     return isfinite(total) ? sqrt(most) : (double)NAN; /* comparisons pass NaN by */
 }
 
-bool gb_pairs_fresh(const struct gb_pairs *pairs, double travel, double cutoff, double skin)
+bool gb_pairs_fresh(const struct gb_pairs *pairs, double travel, double cutoff,
+                    double skin)
 {
-    /* Two particles at the cutoff now were at most cutoff (1 + strain) + 2 travel apart. */
+    /* Two particles at the cutoff now were at most cutoff (1 + strain) + 2 travel apart.
+     */
     return 2.0 * travel < skin - cutoff * pairs->strain;
 }
 

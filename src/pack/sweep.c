@@ -38,7 +38,8 @@ static void sweep_far(struct gb_world *world, int64_t i, int64_t k, double cutof
     if (world->far_last) {
         double *last = world->far_last[k];
         const double now[2] = {sqrt(squared), gb_vec_length(pull)};
-        tally->absorbed += last[0] > 0.0 ? 0.5 * (last[1] + now[1]) * (now[0] - last[0]) : 0.0;
+        tally->absorbed +=
+            last[0] > 0.0 ? 0.5 * (last[1] + now[1]) * (now[0] - last[0]) : 0.0;
         memcpy(last, now, sizeof now);
     }
 }
@@ -84,8 +85,8 @@ static void fill_batch_2d(const struct gb_world *world, struct gb_batch *batch,
 }
 
 /* Unloads a batch: adds to the first particles, leaves rows for the second ones. */
-static void spill_batch(struct gb_world *world, const struct gb_batch *batch, int64_t slot,
-                        int64_t i)
+static void spill_batch(struct gb_world *world, const struct gb_batch *batch,
+                        int64_t slot, int64_t i)
 {
     const int64_t *start = world->pairs.near.start;
     for (int k = 0; k < batch->n; k++) {
@@ -145,10 +146,12 @@ static void sweep_near(struct gb_world *world, int64_t begin, int64_t end, doubl
 
 static void sweep_block(struct gb_world *world, int64_t b)
 {
-    const double cutoff = world->model->terms.attraction ? world->model->numerics.cutoff : 0.0;
+    const double cutoff =
+        world->model->terms.attraction ? world->model->numerics.cutoff : 0.0;
     const struct gb_pair_list *far = &world->pairs.far;
     const int64_t begin = b * GB_SWEEP_BLOCK;
-    const int64_t end = begin + GB_SWEEP_BLOCK < world->count ? begin + GB_SWEEP_BLOCK : world->count;
+    const int64_t end =
+        begin + GB_SWEEP_BLOCK < world->count ? begin + GB_SWEEP_BLOCK : world->count;
     struct gb_tally tally = {0};
     const size_t bytes = 3 * (size_t)(end - begin) * sizeof(double);
     memset(world->force + 3 * begin, 0, bytes);
@@ -186,7 +189,8 @@ static void collect_particle(struct gb_world *world, int64_t j)
 static void collect_block(struct gb_world *world, int64_t b)
 {
     double force2 = 0.0, torque2 = 0.0;
-    const int64_t end = (b + 1) * GB_SWEEP_BLOCK < world->count ? (b + 1) * GB_SWEEP_BLOCK : world->count;
+    const int64_t end =
+        (b + 1) * GB_SWEEP_BLOCK < world->count ? (b + 1) * GB_SWEEP_BLOCK : world->count;
     for (int64_t j = b * GB_SWEEP_BLOCK; j < end; j++) {
         collect_particle(world, j);
         force2 += gb_vec_dot(world->force + 3 * j, world->force + 3 * j);

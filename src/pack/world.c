@@ -52,7 +52,8 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
     world->turn = gb_alloc_array(3 * n, sizeof(double), err);
     world->force = gb_alloc_array(3 * n, sizeof(double), err);
     world->torque = gb_alloc_array(3 * n, sizeof(double), err);
-    world->block = gb_alloc_array((size_t)gb_sweep_blocks(world->count), sizeof *world->block, err);
+    world->block =
+        gb_alloc_array((size_t)gb_sweep_blocks(world->count), sizeof *world->block, err);
     if (!world->position || !world->turn || !world->force || !world->torque ||
         !world->block || !gb_pairs_init(&world->pairs, world->count, err)) {
         gb_world_destroy(world);
@@ -88,8 +89,8 @@ static bool reserve_slots(struct gb_world *world, struct gb_error *err)
     if (near > world->contacts.room) {
         gb_contacts_finish(&world->contacts);
         gb_alloc_free(world->wrench);
-        world->wrench = gb_alloc_array((size_t)near * (size_t)world->row,
-                                       sizeof *world->wrench, err);
+        world->wrench =
+            gb_alloc_array((size_t)near * (size_t)world->row, sizeof *world->wrench, err);
         if (!world->wrench ||
             !gb_contacts_init(&world->contacts, world->model->dimension,
                               world->model->kind == GB_KIND_DYNAMIC, near, err)) {
@@ -143,7 +144,8 @@ static bool ensure_list(struct gb_world *world, struct gb_error *err)
     const struct gb_numerics *numerics = &world->model->numerics;
     const double travel = gb_pairs_travel(&world->pairs, world->position);
     if (!isfinite(travel)) {
-        return gb_error_set(err, GB_ERR_GUARD, "a particle's place is not a finite number");
+        return gb_error_set(err, GB_ERR_GUARD,
+                            "a particle's place is not a finite number");
     }
     if (world->listed &&
         gb_pairs_fresh(&world->pairs, travel, numerics->cutoff, numerics->skin)) {
@@ -157,7 +159,8 @@ static int64_t first_bad_particle(const struct gb_world *world)
 {
     for (int64_t i = 0; i < world->count; i++) {
         for (int k = 0; k < 3; k++) {
-            if (!isfinite(world->force[3 * i + k]) || !isfinite(world->torque[3 * i + k])) {
+            if (!isfinite(world->force[3 * i + k]) ||
+                !isfinite(world->torque[3 * i + k])) {
                 return i;
             }
         }
@@ -173,10 +176,11 @@ static bool check_sweep(const struct gb_world *world, struct gb_error *err)
                             (long long)first_bad_particle(world));
     }
     if (world->tally.deepest > GB_OVERLAP_MOST) {
-        return gb_error_set(err, GB_ERR_GUARD,
-                            "two particles overlap by %.3g d: the strain step is too large "
-                            "or the pressure beyond the contact laws",
-                            world->tally.deepest);
+        return gb_error_set(
+            err, GB_ERR_GUARD,
+            "two particles overlap by %.3g d: the strain step is too large "
+            "or the pressure beyond the contact laws",
+            world->tally.deepest);
     }
     return true;
 }
@@ -269,8 +273,8 @@ const double *gb_world_pulls(const struct gb_world *world)
     return world->pull;
 }
 
-void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
-                  int64_t k, double r[3])
+void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list,
+                  int64_t i, int64_t k, double r[3])
 {
     gb_world_arm_of(world, list, i, k, r);
 }
@@ -342,7 +346,8 @@ uint64_t gb_world_hash(const struct gb_world *world)
     hash = hash_bytes(hash, world->position,
                       3 * (size_t)world->count * sizeof *world->position);
     for (int64_t k = 0; world->listed && k < world->pairs.near.pair_count; k++) {
-        for (int p = 0; p < world->contacts.planes && world->contacts.deepest[k] >= 0.0; p++) {
+        for (int p = 0; p < world->contacts.planes && world->contacts.deepest[k] >= 0.0;
+             p++) {
             hash = hash_bytes(hash, &world->contacts.plane[p][k], sizeof(double));
         }
     }

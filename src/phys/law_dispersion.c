@@ -36,8 +36,8 @@ double gb_law_dispersion_energy(const struct gb_law_dispersion *law, double r)
     if (law->strength == 0.0) {
         return 0.0;
     }
-    /* With u = s^2 the integrand is u^-2 (u-1)^-2 / 2; its antiderivative below vanishes at
-     * infinity. */
+    /* With u = s^2 the integrand is u^-2 (u-1)^-2 / 2; its antiderivative below vanishes
+     * at infinity. */
     const double s = (r < 1.0 ? 1.0 : r) + law->shift;
     const double u = s * s;
     const double tail = 1.0 / u + 1.0 / (u - 1.0) + 2.0 * log1p(-1.0 / u);

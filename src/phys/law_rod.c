@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-/* Below this overlap the logarithms are summed as power series: h + ln(1 - h) loses digits
- * to cancellation as h -> 0, and the series vectorises.  The first term left out is below
- * 2^-53 of the sum at the border. */
+/* Below this overlap the logarithms are summed as power series: h + ln(1 - h) loses
+ * digits to cancellation as h -> 0, and the series vectorises.  The first term left out
+ * is below 2^-53 of the sum at the border. */
 static const double series_border = 0.0625;
 
 enum { SERIES_TERMS = 14 };

@@ -68,11 +68,11 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
     const bool named = params->relaxer[0] && strcmp(params->relaxer, "auto") != 0;
     snprintf(numerics->relaxer, sizeof numerics->relaxer, "%s",
              named ? params->relaxer : "fire");
-    numerics->tolerance = isfinite(params->tolerance)
-                              ? params->tolerance
-                              : by_fidelity(params->fidelity, GB_TOLERANCE_FAST,
-                                            GB_TOLERANCE_BALANCED,
-                                            GB_TOLERANCE_REFERENCE);
+    numerics->tolerance =
+        isfinite(params->tolerance)
+            ? params->tolerance
+            : by_fidelity(params->fidelity, GB_TOLERANCE_FAST, GB_TOLERANCE_BALANCED,
+                          GB_TOLERANCE_REFERENCE);
     const double share = by_fidelity(params->fidelity, GB_CUTOFF_SHARE_FAST,
                                      GB_CUTOFF_SHARE_BALANCED, GB_CUTOFF_SHARE_REFERENCE);
     const double given = params->cutoff.relative
@@ -84,7 +84,8 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
     if (!model->terms.attraction && !(isfinite(given) && given > 0.0)) {
         numerics->cutoff = 1.0;
     }
-    numerics->cutoff = fmax(numerics->cutoff, model->terms.attraction ? GB_CUTOFF_LEAST : 1.0);
+    numerics->cutoff =
+        fmax(numerics->cutoff, model->terms.attraction ? GB_CUTOFF_LEAST : 1.0);
     numerics->skin = GB_SKIN;
     numerics->threads = params->threads > 0 ? (int)params->threads : 0;
     numerics->max_evaluations =
@@ -122,8 +123,7 @@ static void freeze_programme(struct gb_model *model, const struct gb_params *par
     model->until_pressure = isfinite(params->until_pressure_pa)
                                 ? params->until_pressure_pa / params->young_pa
                                 : INFINITY;
-    model->until_density =
-        isfinite(params->until_density) ? params->until_density : 1.0;
+    model->until_density = isfinite(params->until_density) ? params->until_density : 1.0;
     model->unload_count = params->unload_count;
     for (int i = 0; i < params->unload_count; i++) {
         model->unload_from[i] = params->unload_from_pa[i] / params->young_pa;
@@ -139,7 +139,8 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .dimension = params->dimension,
         .count = params->count,
         .seed = params->seed,
-        .r_meso = params->r_meso.relative ? params->r_meso.value : params->r_meso.value / d,
+        .r_meso =
+            params->r_meso.relative ? params->r_meso.value : params->r_meso.value / d,
         .pascal_per_stress = params->young_pa,
         .metre_per_length = d,
         .newton_per_force = params->young_pa * d * d,
@@ -153,49 +154,54 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
     freeze_programme(model, params);
     model->h_eq = equilibrium_overlap(&model->rod, model->adhesion);
     if (!isfinite(model->h_eq)) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "contact.alpha = %g, particles.diameter = %g nm: the adhesion "
-                            "%.3g E d^2 presses pairs deeper than %g d; accepted: a larger "
-                            "alpha or diameter, or a smaller material.epsilon",
-                            params->alpha, 1e9 * d, model->adhesion, GB_OVERLAP_MOST);
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "contact.alpha = %g, particles.diameter = %g nm: the adhesion "
+            "%.3g E d^2 presses pairs deeper than %g d; accepted: a larger "
+            "alpha or diameter, or a smaller material.epsilon",
+            params->alpha, 1e9 * d, model->adhesion, GB_OVERLAP_MOST);
     }
     pick_numerics(model, params);
     const double reach = model->numerics.cutoff + model->numerics.skin;
     for (int k = 0; k < 3; k++) {
         const bool periodic = params->dimension == 3 || k != 1;
         if (periodic && model->edges[k] < GB_EDGE_OVER_REACH * reach) {
-            return gb_error_set(err, GB_ERR_INPUT,
-                                "particles.count = %lld, structure.base: the cell is %.3g d "
-                                "wide along %c, less than twice the neighbour reach %.3g d; "
-                                "accepted: more particles, or another base",
-                                (long long)params->count, model->edges[k], "xyz"[k], reach);
+            return gb_error_set(
+                err, GB_ERR_INPUT,
+                "particles.count = %lld, structure.base: the cell is %.3g d "
+                "wide along %c, less than twice the neighbour reach %.3g d; "
+                "accepted: more particles, or another base",
+                (long long)params->count, model->edges[k], "xyz"[k], reach);
         }
     }
     return true;
 }
 
-const char *gb_model_note(const struct gb_model *model, int index, char *buffer, size_t size)
+const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
+                          size_t size)
 {
     const struct gb_numerics *numerics = &model->numerics;
     const struct gb_terms *terms = &model->terms;
     switch (index) {
     case 0:
         snprintf(buffer, size, "bridges: %s",
-                 terms->bridges ? "carried"
-                                : "left out (contact.bridge_length is a diameter or more)");
+                 terms->bridges
+                     ? "carried"
+                     : "left out (contact.bridge_length is a diameter or more)");
         return buffer;
     case 1:
         snprintf(buffer, size, "friction, pivoting and their history: %s",
                  terms->friction ? "carried" : "left out (mu = 0, no bridges)");
         return buffer;
     case 2:
-        snprintf(buffer, size,
-                 terms->attraction
-                     ? "attraction: carried to %.3f d, where it is %.1e of its contact value"
-                     : "attraction: left out (material.epsilon = 0)",
-                 numerics->cutoff,
-                 gb_law_dispersion_force(&model->dispersion, numerics->cutoff) /
-                     model->adhesion);
+        snprintf(
+            buffer, size,
+            terms->attraction
+                ? "attraction: carried to %.3f d, where it is %.1e of its contact value"
+                : "attraction: left out (material.epsilon = 0)",
+            numerics->cutoff,
+            gb_law_dispersion_force(&model->dispersion, numerics->cutoff) /
+                model->adhesion);
         return buffer;
     case 3:
         if (model->kind == GB_KIND_DYNAMIC) {

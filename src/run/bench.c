@@ -14,8 +14,8 @@
 #include "run/experiment.h"
 #include "solve/relax.h"
 
-/* Batches timed, and evaluations in each: the median of the batches is what counts, because
- * other work on the machine comes and goes. */
+/* Batches timed, and evaluations in each: the median of the batches is what counts,
+ * because other work on the machine comes and goes. */
 enum { BATCHES = 15, BATCH = 24 };
 
 /* Strain steps on the way to the wanted coordination number, and where to give up. */
@@ -54,7 +54,8 @@ static bool press(struct gb_world *world, struct gb_relax *relax, double coordin
                   struct gb_error *err)
 {
     for (int step = 0; step < PRESS_MOST; step++) {
-        if (gb_relax_advance(relax, world, relax->max_evaluations, err) == GB_RELAX_FAILED) {
+        if (gb_relax_advance(relax, world, relax->max_evaluations, err) ==
+            GB_RELAX_FAILED) {
             return false;
         }
         struct gb_contact_counts counts;
@@ -67,8 +68,8 @@ static bool press(struct gb_world *world, struct gb_relax *relax, double coordin
     return gb_error_set(err, GB_ERR_GUARD, "coordination %g: not reached", coordination);
 }
 
-/* Median time of one evaluation with its move.  The tolerance is out of reach, so that every
- * batch has its full length. */
+/* Median time of one evaluation with its move.  The tolerance is out of reach, so that
+ * every batch has its full length. */
 static bool time_batches(struct gb_world *world, struct gb_relax *relax, double *median,
                          struct gb_error *err)
 {
@@ -89,8 +90,8 @@ static bool time_batches(struct gb_world *world, struct gb_relax *relax, double 
 
 /* The same batches on another number of threads, from the same state. */
 static bool time_on(const struct gb_model *model, int threads,
-                    const struct gb_world_copy *copy, const double *position, double *median,
-                    uint64_t *hash, struct gb_error *err)
+                    const struct gb_world_copy *copy, const double *position,
+                    double *median, uint64_t *hash, struct gb_error *err)
 {
     struct gb_model threaded = *model;
     threaded.numerics.threads = threads;
@@ -113,15 +114,16 @@ static bool measure(struct gb_bench *bench, const struct gb_model *model,
     struct gb_world_copy *copy = NULL;
     struct gb_contact_counts counts;
     uint64_t one = 0, all = 0;
-    bool done = press(world, relax, coordination, err) && gb_world_save(world, &copy, err);
+    bool done =
+        press(world, relax, coordination, err) && gb_world_save(world, &copy, err);
     if (done) {
         gb_observe_contacts(world, &counts, NULL, 0, NULL);
         bench->coordination = counts.coordination;
         bench->density = gb_observe_density(world);
         bench->bytes_per_particle = (double)gb_alloc_bytes() / (double)model->count;
         bench->cores = (int)g_get_num_processors();
-        done = time_on(model, 1, copy, gb_world_position(world), &bench->evaluation_s, &one,
-                       err) &&
+        done = time_on(model, 1, copy, gb_world_position(world), &bench->evaluation_s,
+                       &one, err) &&
                time_on(model, bench->cores, copy, gb_world_position(world),
                        &bench->evaluation_all_s, &all, err);
         bench->same_bits = one == all;
@@ -137,11 +139,10 @@ bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
     struct gb_world *world = NULL;
     struct gb_relax *relax = NULL;
     *bench = (struct gb_bench){0};
-    const bool done = gb_model_init(&model, params, err) &&
-                      grow(&world, &model, &bench->grow_s, err) &&
-                      gb_relax_create(&relax, &model, err) &&
-                      (gb_relax_start(relax, world), true) &&
-                      measure(bench, &model, world, relax, coordination, err);
+    const bool done =
+        gb_model_init(&model, params, err) && grow(&world, &model, &bench->grow_s, err) &&
+        gb_relax_create(&relax, &model, err) && (gb_relax_start(relax, world), true) &&
+        measure(bench, &model, world, relax, coordination, err);
     gb_relax_destroy(relax);
     gb_world_destroy(world);
     return done;
@@ -150,11 +151,11 @@ bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
 static bool planar_params(struct gb_params *params, struct gb_error *err)
 {
     static const char *const assignment[] = {
-        "scene.kind=dynamic",        "scene.dimension=2",
-        "particles.count=1000",      "contact.mu=0.5",
+        "scene.kind=dynamic",         "scene.dimension=2",
+        "particles.count=1000",       "contact.mu=0.5",
         "loading.geometry=isotropic", "loading.until=density = 0.91",
-        "loading.relax=0.5 ns",      "loading.hold=0 ns",
-        "loading.rate=6.8e8 1/s",    "numerics.time_step=0.04 T",
+        "loading.relax=0.5 ns",       "loading.hold=0 ns",
+        "loading.rate=6.8e8 1/s",     "numerics.time_step=0.04 T",
         "numerics.threads=1",
     };
     gb_params_init(params);

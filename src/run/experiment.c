@@ -23,14 +23,14 @@ struct gb_experiment {
     struct gb_world_copy *good;   /* before the strain step under way */
     struct gb_world_copy *branch; /* where the unloading branch began */
     struct gb_relax *relax;
-    struct gb_motion *motion;     /* dynamic scenes only, instead of relax and load */
-    double elastic_start;         /* elastic energy when the motion began */
+    struct gb_motion *motion; /* dynamic scenes only, instead of relax and load */
+    double elastic_start;     /* elastic energy when the motion began */
     struct gb_load load;
     struct gb_guard guard;
-    double factor[3];             /* strain step under way, or to be taken next */
-    bool strain_due;              /* it waits for the next slice, so that between slices after
-                                   * a point forces, places and histories belong together */
-    int64_t step;                 /* strain steps recorded */
+    double factor[3]; /* strain step under way, or to be taken next */
+    bool strain_due;  /* it waits for the next slice, so that between slices after
+                       * a point forces, places and histories belong together */
+    int64_t step;     /* strain steps recorded */
     int64_t spent_iterations, spent_evaluations; /* by attempts that were taken back */
     bool have_good;
     bool over, stopped;
@@ -88,7 +88,8 @@ bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *pa
         return false;
     }
     experiment->params = *params;
-    if (!gb_params_check(params, err) || !gb_model_init(&experiment->model, params, err) ||
+    if (!gb_params_check(params, err) ||
+        !gb_model_init(&experiment->model, params, err) ||
         !gb_relax_create(&experiment->relax, &experiment->model, err) ||
         !grow_world(experiment, cancelled, data, err) ||
         !gb_world_evaluate(experiment->world, err)) {
@@ -141,9 +142,8 @@ static void measure(const struct gb_experiment *experiment, struct gb_point *poi
     const int branch = experiment->load.branch;
     *point = (struct gb_point){
         .branch = branch,
-        .branch_from_pa = branch > 0
-                              ? experiment->params.unload_from_pa[branch - 1]
-                              : 0.0,
+        .branch_from_pa =
+            branch > 0 ? experiment->params.unload_from_pa[branch - 1] : 0.0,
         .step = experiment->step,
         .density = gb_observe_density(experiment->world),
         .px_pa = pressure[0] * pascal,
@@ -151,8 +151,8 @@ static void measure(const struct gb_experiment *experiment, struct gb_point *poi
         .pz_pa = pressure[2] * pascal,
         .p_pa = gb_load_pressure(&experiment->load, pressure) * pascal,
         .coordination = counts.coordination,
-        .bridged = counts.contacts > 0 ? (double)counts.bridged / (double)counts.contacts
-                                       : 0.0,
+        .bridged =
+            counts.contacts > 0 ? (double)counts.bridged / (double)counts.contacts : 0.0,
         .rattlers = (double)counts.rattlers / (double)experiment->model.count,
         .residual = experiment->relax->residual,
         .iterations = experiment->spent_iterations + experiment->relax->iterations,
@@ -193,8 +193,8 @@ static bool obey(struct gb_experiment *experiment, struct gb_error *err)
         switch (gb_load_next(&experiment->load, pressure, density, experiment->factor)) {
         case GB_LOAD_RESTORE:
             add_event(experiment, "unloaded; loading goes on from the saved state");
-            /* the evaluation brings the forces of the restored state, so that the programme
-             * sees its pressure */
+            /* the evaluation brings the forces of the restored state, so that the
+             * programme sees its pressure */
             if (!gb_world_restore(experiment->world, experiment->branch, err) ||
                 !gb_world_evaluate(experiment->world, err)) {
                 return false;
@@ -319,8 +319,8 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
         return GB_ADVANCE_MORE;
     }
     char text[EVENT_TEXT];
-    switch (gb_guard_judge(&experiment->guard, outcome, experiment->relax, text, sizeof text,
-                           why)) {
+    switch (gb_guard_judge(&experiment->guard, outcome, experiment->relax, text,
+                           sizeof text, why)) {
     case GB_GUARD_ACCEPT:
         add_event(experiment, text);
         return record(experiment, why);
@@ -364,11 +364,11 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
             report.time_step * experiment->model.dynamics.second_per_time;
         return;
     }
-    snapshot->progress = experiment->over && !experiment->stopped
-                             ? 1.0
-                             : gb_load_progress(&experiment->load, pressure,
-                                                experiment->point.density,
-                                                experiment->model.start_density);
+    snapshot->progress =
+        experiment->over && !experiment->stopped
+            ? 1.0
+            : gb_load_progress(&experiment->load, pressure, experiment->point.density,
+                               experiment->model.start_density);
 }
 
 static void copy_pairs(const struct gb_world *world, struct gb_state *state)
@@ -408,7 +408,8 @@ bool gb_experiment_state(const struct gb_experiment *experiment, struct gb_state
     memcpy(state->cell, gb_world_cell(world)->edge, sizeof state->cell);
     gb_observe_contacts(world, &counts, NULL, 0, state->contacts);
     for (int64_t i = 0; i < model->count; i++) {
-        memcpy(state->position + 3 * i, gb_world_position(world) + 3 * i, 3 * sizeof(double));
+        memcpy(state->position + 3 * i, gb_world_position(world) + 3 * i,
+               3 * sizeof(double));
         gb_cell_wrap(gb_world_cell(world), state->position + 3 * i);
         state->radius[i] = 0.5;
     }

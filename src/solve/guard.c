@@ -7,16 +7,18 @@
 /* Halvings in a row after which the step is hopeless. */
 enum { HALVINGS_MOST = 6 };
 
-/* The relaxer ran out of evaluations: mostly two states of a breaking bridge that take turns,
- * with a small residual left.  A large one means that there is no equilibrium to be found. */
+/* The relaxer ran out of evaluations: mostly two states of a breaking bridge that take
+ * turns, with a small residual left.  A large one means that there is no equilibrium to
+ * be found. */
 static enum gb_guard_action judge_exhausted(struct gb_guard *guard,
                                             const struct gb_relax *relax, char *text,
                                             size_t size, struct gb_error *err)
 {
     if (relax->residual > GB_RESIDUAL_STOP * relax->tolerance) {
-        gb_error_set(err, GB_ERR_NOT_CONVERGED,
-                     "no equilibrium after %lld evaluations: residual %.2e, tolerance %.2e",
-                     (long long)relax->evaluations, relax->residual, relax->tolerance);
+        gb_error_set(
+            err, GB_ERR_NOT_CONVERGED,
+            "no equilibrium after %lld evaluations: residual %.2e, tolerance %.2e",
+            (long long)relax->evaluations, relax->residual, relax->tolerance);
         return GB_GUARD_STOP;
     }
     guard->unrelaxed = true;

@@ -21,7 +21,8 @@ void gb_load_init(struct gb_load *load, const struct gb_model *model)
         load->unload_from[i] = model->unload_from[i];
     }
     load->compressed[2] = true;
-    load->compressed[1] = model->dimension == 3 && model->geometry != GB_GEOMETRY_UNIAXIAL;
+    load->compressed[1] =
+        model->dimension == 3 && model->geometry != GB_GEOMETRY_UNIAXIAL;
     load->compressed[0] = model->geometry == GB_GEOMETRY_ISOTROPIC;
     for (int k = 0; k < 3; k++) {
         load->axes += load->compressed[k];
@@ -54,8 +55,8 @@ static enum gb_load_order compress(const struct gb_load *load, double density,
     return GB_LOAD_STRAIN;
 }
 
-/* The way back: the inverse of a compression step; the last one only as far as the pressure of
- * the step before foretells zero. */
+/* The way back: the inverse of a compression step; the last one only as far as the
+ * pressure of the step before foretells zero. */
 static double expansion(struct gb_load *load, double pressure)
 {
     const double full = 1.0 / (1.0 - load->step);
@@ -90,7 +91,8 @@ enum gb_load_order gb_load_next(struct gb_load *load, const double pressure[3],
         return GB_LOAD_STRAIN;
     }
     load->branch = 0;
-    if (load->next_unload < load->unload_count && p >= load->unload_from[load->next_unload]) {
+    if (load->next_unload < load->unload_count &&
+        p >= load->unload_from[load->next_unload]) {
         load->branch = ++load->next_unload;
         load->top_pressure = p;
         load->expansions = 0;

@@ -13,9 +13,9 @@ struct gb_motion {
     struct gb_verlet verlet;
     enum gb_motion_stage stage, recorded;
     double time, stage_end;
-    double limit;      /* longest step the guard allows, halved when it trips */
+    double limit; /* longest step the guard allows, halved when it trips */
     int halvings;
-    bool told;         /* that damping bounds the step */
+    bool told; /* that damping bounds the step */
     /* the way to the next point */
     int64_t left, planned;
     double step;
@@ -27,7 +27,7 @@ struct gb_motion {
     double good_time, good_work, good_absorbed;
     enum gb_motion_stage good_stage;
     double *scratch;
-    double density;    /* of the world, by the programme */
+    double density; /* of the world, by the programme */
     double good_density;
 };
 
@@ -38,7 +38,8 @@ static double start_density(const struct gb_world *world)
     return shape * (double)model->count / gb_cell_volume(gb_world_cell(world));
 }
 
-bool gb_motion_create(struct gb_motion **out, struct gb_world *world, struct gb_error *err)
+bool gb_motion_create(struct gb_motion **out, struct gb_world *world,
+                      struct gb_error *err)
 {
     const struct gb_model *model = gb_world_model(world);
     const size_t n = 3 * (size_t)model->count;
@@ -76,8 +77,8 @@ void gb_motion_destroy(struct gb_motion *motion)
     gb_alloc_free(motion);
 }
 
-/* Longest step before blow-up: 2/omega without damping, less with it (P3 (28); the viscous force
- * of a mode is xi = A omega / 2 of critical). */
+/* Longest step before blow-up: 2/omega without damping, less with it (P3 (28); the
+ * viscous force of a mode is xi = A omega / 2 of critical). */
 static double critical_step(const struct gb_motion *motion, double frequency)
 {
     const double xi = 0.5 * motion->model->dynamics.viscous * frequency;
@@ -85,20 +86,23 @@ static double critical_step(const struct gb_motion *motion, double frequency)
 }
 
 /* A given step that has become too long, and what is taken from now on instead. */
-static double bound_given(struct gb_motion *motion, double critical, char *text, size_t size)
+static double bound_given(struct gb_motion *motion, double critical, char *text,
+                          size_t size)
 {
     const double step = fmin(motion->model->dynamics.time_step, motion->limit);
     if (step <= critical) {
         return step;
     }
     motion->limit = GB_STEP_CRITICAL_SHARE * critical;
-    snprintf(text, size, "guard: time step %.3g T above the critical %.3g T: %.3g T is taken",
-             step, critical, motion->limit);
+    snprintf(text, size,
+             "guard: time step %.3g T above the critical %.3g T: %.3g T is taken", step,
+             critical, motion->limit);
     return motion->limit;
 }
 
-/* auto: the error of velocity Verlet goes with (omega step)^2; the factor was measured at v1,
- * where a step of 1/omega errs by 2 % in the end pressure.  Strong damping bounds it more. */
+/* auto: the error of velocity Verlet goes with (omega step)^2; the factor was measured at
+ * v1, where a step of 1/omega errs by 2 % in the end pressure.  Strong damping bounds it
+ * more. */
 static double pick_step(struct gb_motion *motion, double frequency, double critical,
                         char *text, size_t size)
 {
@@ -107,17 +111,18 @@ static double pick_step(struct gb_motion *motion, double frequency, double criti
     const double stable = GB_STEP_CRITICAL_SHARE * critical;
     if (stable < 0.5 * accurate && !motion->told) {
         motion->told = true;
-        snprintf(text, size,
-                 "guard: contact.viscosity bounds the time step to %.3g T (accuracy alone: "
-                 "%.3g T)",
-                 stable, accurate);
+        snprintf(
+            text, size,
+            "guard: contact.viscosity bounds the time step to %.3g T (accuracy alone: "
+            "%.3g T)",
+            stable, accurate);
     }
     return fmin(fmin(accurate, stable), motion->limit);
 }
 
 /* Longest step allowed now. */
-static double allowed_step(struct gb_motion *motion, const struct gb_world *world, char *text,
-                           size_t size)
+static double allowed_step(struct gb_motion *motion, const struct gb_world *world,
+                           char *text, size_t size)
 {
     const double frequency = gb_verlet_frequency(world, motion->scratch);
     const double critical = frequency > 0.0 ? critical_step(motion, frequency) : INFINITY;
@@ -192,7 +197,8 @@ static bool keep(struct gb_motion *motion, const struct gb_world *world,
 }
 
 /* Back to the last recorded point. */
-static bool go_back(struct gb_motion *motion, struct gb_world *world, struct gb_error *err)
+static bool go_back(struct gb_motion *motion, struct gb_world *world,
+                    struct gb_error *err)
 {
     const size_t bytes = 3 * (size_t)motion->model->count * sizeof(double);
     memcpy(motion->verlet.velocity, motion->good_velocity, bytes);

@@ -4,7 +4,8 @@
 
 #include "base/alloc.h"
 
-static const struct gb_relaxer *const table[] = {&gb_relax_fire, &gb_relax_steepest, NULL};
+static const struct gb_relaxer *const table[] = {&gb_relax_fire, &gb_relax_steepest,
+                                                 NULL};
 
 const struct gb_relaxer *const *gb_relax_table(void)
 {
@@ -28,8 +29,8 @@ static bool unknown_relaxer(const char *name, struct gb_error *err)
         strncat(names, i ? ", " : "", sizeof names - strlen(names) - 1);
         strncat(names, table[i]->name, sizeof names - strlen(names) - 1);
     }
-    return gb_error_set(err, GB_ERR_INPUT, "numerics.relaxer = %s: accepted %s, auto", name,
-                        names);
+    return gb_error_set(err, GB_ERR_INPUT, "numerics.relaxer = %s: accepted %s, auto",
+                        name, names);
 }
 
 bool gb_relax_create(struct gb_relax **out, const struct gb_model *model,

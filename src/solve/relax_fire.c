@@ -2,23 +2,24 @@
  * (2006), with the half step back and the semi-implicit Euler of Guenole et al., Comput.
  * Mater. Sci. 175, 109584 (2020).
  *
- * Rotations ride along as lengths: angle * sqrt(inertia), so that all six motions of a particle
- * have unit mass. */
+ * Rotations ride along as lengths: angle * sqrt(inertia), so that all six motions of a
+ * particle have unit mass. */
 #include <math.h>
 #include <string.h>
 
 #include "base/vec.h"
 #include "solve/relax.h"
 
-/* Longest step, in sqrt(m / (E d)).  The stiffest contacts of a dense packing (stiffness 0.2,
- * coordination 7) bound it near 1.4; larger steps are cut by the uphill rule and gain nothing. */
+/* Longest step, in sqrt(m / (E d)).  The stiffest contacts of a dense packing (stiffness
+ * 0.2, coordination 7) bound it near 1.4; larger steps are cut by the uphill rule and
+ * gain nothing. */
 static const double step_most = 1.3;
 static const double step_first = 0.6;
 static const double grow = 1.1, shrink = 0.5;
 static const double mixing_first = 0.2, mixing_decay = 0.98;
 enum { DELAY = 8 };
-/* Rotational inertia in m d^2.  A sphere has 0.1; 0.4 brings the rotational frequencies down to
- * the translational ones. */
+/* Rotational inertia in m d^2.  A sphere has 0.1; 0.4 brings the rotational frequencies
+ * down to the translational ones. */
 static const double inertia = 0.4;
 /* No particle moves farther than this in one step (d): overlaps are a few per cent. */
 static const double move_most = 0.01;
@@ -58,7 +59,8 @@ static struct sums sum_up(const struct gb_relax *relax, const struct gb_bodies *
                          t.force2 + r.force2 / inertia};
 }
 
-static void step_back(const struct gb_relax *relax, const struct gb_bodies *b, double half)
+static void step_back(const struct gb_relax *relax, const struct gb_bodies *b,
+                      double half)
 {
     const double *v = relax->vector[0], *w = relax->vector[1];
     for (int64_t i = 0; i < 3 * b->count; i++) {
@@ -105,12 +107,13 @@ static void move(struct gb_relax *relax, struct gb_world *world)
     const struct sums sums = sum_up(relax, &b);
     adapt(relax, &b, sums.power);
     const double step = fire->step;
-    /* mixing needs the speed after the kick; the speed before differs by one step only and
-     * saves a pass over the arrays */
+    /* mixing needs the speed after the kick; the speed before differs by one step only
+     * and saves a pass over the arrays */
     const bool rolling = fire->downhill > 0;
     const double keep = rolling ? 1.0 - fire->mixing : 1.0;
-    const double steer =
-        rolling && sums.force2 > 0.0 ? fire->mixing * sqrt(sums.speed2 / sums.force2) : 0.0;
+    const double steer = rolling && sums.force2 > 0.0
+                             ? fire->mixing * sqrt(sums.speed2 / sums.force2)
+                             : 0.0;
     const double kick = step + steer;
     for (int64_t i = 0; i < 3 * b.count; i++) {
         v[i] = keep * v[i] + kick * b.force[i];

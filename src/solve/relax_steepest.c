@@ -1,10 +1,11 @@
 /* The reference relaxer: displacements proportional to the forces, P1 eq. (15).
  *
- * "The value of k is set in such a way that the displacement of the particle under the maximum
- * force is equal to (d - r_eq)/2; the particle is not moved farther than the position where the
- * minimum of the absolute value of the force is reached."  The second rule is the stiffness of
- * the most strongly held particle: k <= 1/K.  Rotations follow the torques with the mobility of
- * the same k over the rotational inertia that makes them as soft as translations. */
+ * "The value of k is set in such a way that the displacement of the particle under the
+ * maximum force is equal to (d - r_eq)/2; the particle is not moved farther than the
+ * position where the minimum of the absolute value of the force is reached."  The second
+ * rule is the stiffness of the most strongly held particle: k <= 1/K.  Rotations follow
+ * the torques with the mobility of the same k over the rotational inertia that makes them
+ * as soft as translations. */
 #include <math.h>
 
 #include "base/vec.h"
@@ -38,7 +39,8 @@ static double contact_stiffness(const struct gb_model *model, double deepest, do
     }
     const double a = deepest > 0.0 ? gb_law_bridge_radius(&model->bridge, deepest, h)
                                    : 0.5 * sqrt(fmax(h, 0.0));
-    const double shear = model->slip.motion * gb_law_slip_shear_stiffness(&model->slip, a);
+    const double shear =
+        model->slip.motion * gb_law_slip_shear_stiffness(&model->slip, a);
     return fmax(normal, shear * (1.0 + 0.25 / inertia));
 }
 
@@ -57,8 +59,8 @@ static double stiffest_particle(const struct gb_world *world, double *sum)
             if (deepest[k] >= 0.0) {
                 double r[3];
                 gb_world_arm(world, pairs, i, k, r);
-                const double stiffness = contact_stiffness(gb_world_model(world), deepest[k],
-                                                           1.0 - gb_vec_length(r));
+                const double stiffness = contact_stiffness(
+                    gb_world_model(world), deepest[k], 1.0 - gb_vec_length(r));
                 sum[i] += stiffness;
                 sum[pairs->other[k]] += stiffness;
             }

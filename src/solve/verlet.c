@@ -106,8 +106,7 @@ double gb_verlet_frequency(const struct gb_world *world, double *scratch)
     const struct gb_pair_list *near = &gb_world_pairs(world)->near;
     const double *deepest = gb_world_contacts(world)->deepest;
     /* mass-weighted: two masses, and two inertias on levers of half a diameter */
-    const double shear_share =
-        model->slip.motion * (2.0 + 0.5 / model->dynamics.inertia);
+    const double shear_share = model->slip.motion * (2.0 + 0.5 / model->dynamics.inertia);
     for (int64_t i = 0; i < model->count; i++) {
         scratch[i] = 0.0;
     }
@@ -120,8 +119,8 @@ double gb_verlet_frequency(const struct gb_world *world, double *scratch)
             gb_world_arm(world, near, i, k, r);
             const double h = 1.0 - gb_vec_length(r);
             const double from = deepest[k] > 0.0 ? deepest[k] : h;
-            const double a =
-                deepest[k] > 0.0 ? gb_law_bridge_radius(&model->bridge, from, h)
+            const double a = deepest[k] > 0.0
+                                 ? gb_law_bridge_radius(&model->bridge, from, h)
                                  : 0.5 * sqrt(fmax(h, 0.0));
             const double normal = 2.0 * gb_law_rod_stiffness(&model->rod, from);
             const double shear =

@@ -86,7 +86,7 @@ static void test_rigid_rotation(void)
     struct pair pair = {0};
     start(&pair, &params, 0.02);
     advance(&pair);
-    pair.r[0] = 1e-5; /* load the shear spring, */
+    pair.r[0] = 1e-5;      /* load the shear spring, */
     pair.turn_i[2] = 1e-5; /* the pivot */
     pair.turn_j[0] = 1e-5; /* and, with shear, the roll */
     advance(&pair);
@@ -104,8 +104,10 @@ static void test_rigid_rotation(void)
         advance(&pair);
     }
     /* the increment of a finite rotation is exact to second order in the angle */
-    g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.contact.shear) / before_shear, 1.0, 2e-2);
-    g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.contact.roll) / before_roll, 1.0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.contact.shear) / before_shear, 1.0,
+                                   2e-2);
+    g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.contact.roll) / before_roll, 1.0,
+                                   1e-6);
     g_assert_cmpfloat_with_epsilon(pair.contact.pivot / before_pivot, 1.0, 1e-6);
     g_assert_cmpfloat_with_epsilon(gb_vec_length(pair.force) / load, 1.0, 1e-4);
     gb_contacts_finish(&pair.contacts);
@@ -164,8 +166,8 @@ static void test_coulomb(void)
     gb_contacts_finish(&pair.contacts);
 }
 
-/* A bridge sheared to pi a_ch^2 sigma_b shrinks to the present overlap (deep contact) or is
- * gone (shallow one). */
+/* A bridge sheared to pi a_ch^2 sigma_b shrinks to the present overlap (deep contact) or
+ * is gone (shallow one). */
 static void test_bridge_failure(void)
 {
     const struct gb_params params = scene_params(NULL);
@@ -222,8 +224,8 @@ static void test_rolling_cap(void)
 /* full doubles what the springs see, current takes the printed radius. */
 static void test_switches(void)
 {
-    const struct gb_params params = scene_params(
-        "contact.relative_motion=full", "contact.bridge_radius=current", NULL);
+    const struct gb_params params = scene_params("contact.relative_motion=full",
+                                                 "contact.bridge_radius=current", NULL);
     struct pair pair = {0};
     start(&pair, &params, 0.03);
     advance(&pair);
@@ -235,8 +237,8 @@ static void test_switches(void)
     gb_contacts_finish(&pair.contacts);
 }
 
-/* The laws as the batch computes them, against the laws as they are published: every overlap,
- * with and without a bridge, and across a gap. */
+/* The laws as the batch computes them, against the laws as they are published: every
+ * overlap, with and without a bridge, and across a gap. */
 static void test_laws(void)
 {
     const struct gb_params params = scene_params(NULL);
@@ -251,10 +253,10 @@ static void test_laws(void)
         if (h > 0.008) {
             pair.r[2] += 0.006; /* along the line of the bridge */
             advance(&pair);
-            const double line = gb_law_bridge_force(&pair.model.rod, h, h - 0.006) -
-                                pair.model.adhesion;
-            g_assert_cmpfloat_with_epsilon((pair.force[2] - line) / pair.model.adhesion, 0.0,
-                                           1e-10);
+            const double line =
+                gb_law_bridge_force(&pair.model.rod, h, h - 0.006) - pair.model.adhesion;
+            g_assert_cmpfloat_with_epsilon((pair.force[2] - line) / pair.model.adhesion,
+                                           0.0, 1e-10);
         }
     }
     gb_contacts_finish(&pair.contacts);
@@ -281,7 +283,8 @@ static void random_batch(GRand *random, struct gb_batch *batch)
     }
 }
 
-static uint64_t walk(const struct gb_params *params, int width, int dimension, bool viscous)
+static uint64_t walk(const struct gb_params *params, int width, int dimension,
+                     bool viscous)
 {
     struct gb_model model = scene_model(params);
     struct gb_contacts contacts;
@@ -304,7 +307,8 @@ static uint64_t walk(const struct gb_params *params, int width, int dimension, b
         g_checksum_update(sum, (const guchar *)batch.torque_i[0],
                           (gssize)((size_t)batch.n * sizeof(double)));
         for (int p = 0; p < contacts.planes; p++) {
-            g_checksum_update(sum, (const guchar *)contacts.plane[p], 128 * sizeof(double));
+            g_checksum_update(sum, (const guchar *)contacts.plane[p],
+                              128 * sizeof(double));
         }
     }
     uint64_t hash = 0;
@@ -341,8 +345,10 @@ static void test_planar(void)
     struct gb_error err = {0};
     solid.kind = flat.kind = GB_KIND_DYNAMIC;
     flat.dimension = 2;
-    const struct gb_batch_kernel ka = gb_batch_pick(&solid, 0), kb = gb_batch_pick(&flat, 0);
-    g_assert_true(gb_contacts_init(&ca, 3, true, 1, &err) && gb_contacts_init(&cb, 2, true, 1, &err));
+    const struct gb_batch_kernel ka = gb_batch_pick(&solid, 0),
+                                 kb = gb_batch_pick(&flat, 0);
+    g_assert_true(gb_contacts_init(&ca, 3, true, 1, &err) &&
+                  gb_contacts_init(&cb, 2, true, 1, &err));
     gb_contacts_clear(&ca, 0);
     gb_contacts_clear(&cb, 0);
     GRand *random = g_rand_new_with_seed(11);

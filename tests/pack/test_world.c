@@ -48,8 +48,8 @@ static int64_t brute_pairs(const struct gb_world *world, double reach)
     return found;
 }
 
-/* The list holds just the pairs that a scan of all finds, in order, in 3D and 2D, also in cells
- * barely wider than twice the reach. */
+/* The list holds just the pairs that a scan of all finds, in order, in 3D and 2D, also in
+ * cells barely wider than twice the reach. */
 static void test_pairs(void)
 {
     const char *scene[][2] = {{"particles.count=150", "structure.seed=3"},
@@ -102,8 +102,8 @@ static void test_momentum(void)
     gb_world_destroy(world);
 }
 
-/* Potential energy of a frictionless, unbridged packing, with the attraction cut off where the
- * sweep cuts it. */
+/* Potential energy of a frictionless, unbridged packing, with the attraction cut off
+ * where the sweep cuts it. */
 static double energy(const struct gb_world *world)
 {
     const struct gb_model *model = gb_world_model(world);
@@ -116,16 +116,18 @@ static double energy(const struct gb_world *world)
             gb_cell_nearest(gb_world_cell(world), r);
             const double distance = gb_vec_length(r);
             if (distance < model->numerics.cutoff) {
-                sum += gb_law_rod_energy(&model->rod, 1.0 - distance) +
-                       gb_law_dispersion_energy(&model->dispersion, distance) -
-                       gb_law_dispersion_energy(&model->dispersion, model->numerics.cutoff);
+                sum +=
+                    gb_law_rod_energy(&model->rod, 1.0 - distance) +
+                    gb_law_dispersion_energy(&model->dispersion, distance) -
+                    gb_law_dispersion_energy(&model->dispersion, model->numerics.cutoff);
             }
         }
     }
     return sum;
 }
 
-/* Forces are minus the gradient of the energy, the pressure minus its derivative by volume. */
+/* Forces are minus the gradient of the energy, the pressure minus its derivative by
+ * volume. */
 static void test_gradient(void)
 {
     const struct gb_params params = scene_params(
@@ -143,8 +145,8 @@ static void test_gradient(void)
             b.position[3 * i + k] = keep - step;
             const double down = energy(world);
             b.position[3 * i + k] = keep;
-            g_assert_cmpfloat_with_epsilon(b.force[3 * i + k], -(up - down) / (2.0 * step),
-                                           1e-8);
+            g_assert_cmpfloat_with_epsilon(b.force[3 * i + k],
+                                           -(up - down) / (2.0 * step), 1e-8);
         }
     }
     double pressure[3][3];
@@ -159,7 +161,8 @@ static void test_gradient(void)
     gb_world_destroy(world);
 }
 
-/* The skin decides when lists are rebuilt, never what comes out: histories are carried over. */
+/* The skin decides when lists are rebuilt, never what comes out: histories are carried
+ * over. */
 static void test_skin(void)
 {
     const struct gb_params params = scene_params(NULL);
@@ -178,7 +181,8 @@ static void test_skin(void)
     g_assert_cmpint(rebuilds[1], >, rebuilds[2]);
     for (int s = 1; s < 3; s++) {
         for (int k = 0; k < 3; k++) {
-            g_assert_cmpfloat_with_epsilon(pressure[s][k][k] / pressure[0][k][k], 1.0, 1e-6);
+            g_assert_cmpfloat_with_epsilon(pressure[s][k][k] / pressure[0][k][k], 1.0,
+                                           1e-6);
         }
     }
 }
@@ -306,8 +310,7 @@ static void test_lattice(void)
     scene_evaluate(world);
     double pressure[3][3];
     gb_observe_pressure(world, pressure);
-    const double expected =
-        (gb_law_rod_force(&model.rod, h) - model.adhesion) / (r * r);
+    const double expected = (gb_law_rod_force(&model.rod, h) - model.adhesion) / (r * r);
     double rose[9];
     struct gb_contact_counts counts;
     gb_observe_contacts(world, &counts, NULL, 0, NULL);

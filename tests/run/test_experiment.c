@@ -59,7 +59,8 @@ static const struct gb_point *at(const struct trace *trace, guint i)
     return &g_array_index(trace->points, struct gb_point, i);
 }
 
-/* Loading goes up, unloading comes back to zero and gives most of the way to loading again. */
+/* Loading goes up, unloading comes back to zero and gives most of the way to loading
+ * again. */
 static void test_programme(void)
 {
     const struct gb_params params =
@@ -102,9 +103,9 @@ static void test_repeat(void)
     const int64_t slice[] = {100000, 3, 17, 1000};
     uint64_t hash[4];
     for (int i = 0; i < 4; i++) {
-        const struct gb_params params =
-            scene_params(threads[i], "particles.count=400", "loading.until=density = 0.27",
-                         "numerics.tolerance=1e-2", "loading.step=0.5 %", NULL);
+        const struct gb_params params = scene_params(
+            threads[i], "particles.count=400", "loading.until=density = 0.27",
+            "numerics.tolerance=1e-2", "loading.step=0.5 %", NULL);
         struct trace trace = run(&params, slice[i]);
         g_assert_cmpint(trace.end, ==, GB_ADVANCE_DONE);
         hash[i] = trace.hash;
@@ -170,7 +171,8 @@ static void test_cancel(void)
     const struct gb_params params = scene_params("particles.count=20000", NULL);
     struct gb_experiment *experiment = NULL;
     struct gb_error err = {0};
-    g_assert_false(gb_experiment_create(&experiment, &params, cancel_at_once, NULL, &err));
+    g_assert_false(
+        gb_experiment_create(&experiment, &params, cancel_at_once, NULL, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
 }
 

@@ -1,5 +1,5 @@
-/* The published numbers of P1 (suite slow): means over four cells of 1000 particles with their
- * standard error, printed as a table and held against the accepted ranges. */
+/* The published numbers of P1 (suite slow): means over four cells of 1000 particles with
+ * their standard error, printed as a table and held against the accepted ranges. */
 #include <glib.h>
 #include <gsl/gsl_statistics.h>
 #include <math.h>
@@ -62,8 +62,8 @@ static double lateral(const struct gb_point *p)
     return p->px_pa / p->pz_pa;
 }
 
-/* Value where the pressure of a branch first crosses p: upwards when loading, down to zero when
- * unloading; linear between the two points. */
+/* Value where the pressure of a branch first crosses p: upwards when loading, down to
+ * zero when unloading; linear between the two points. */
 static double cross(const struct curve *curve, int branch, double p, reader read)
 {
     const struct gb_point *before = NULL;
@@ -106,11 +106,13 @@ static void drop_cells(struct curve cells[CELLS])
 }
 
 /* Prints mean and standard error beside the paper and fails outside target +- accept. */
-static void judge(const char *name, const double value[CELLS], double target, double accept)
+static void judge(const char *name, const double value[CELLS], double target,
+                  double accept)
 {
     const double mean = gsl_stats_mean(value, 1, CELLS);
     const double error = gsl_stats_sd(value, 1, CELLS) / sqrt(CELLS);
-    g_test_message("%-46s %8.4f +- %.4f  target %g +- %g", name, mean, error, target, accept);
+    g_test_message("%-46s %8.4f +- %.4f  target %g +- %g", name, mean, error, target,
+                   accept);
     if (!(fabs(mean - target) <= accept)) {
         g_test_message("%s: outside", name);
         g_test_fail();
@@ -188,8 +190,8 @@ static void test_set2(void)
 static void test_no_bridges(void)
 {
     static const char *const fine[] = {"particles.diameter=9.7 nm", "contact.mu=0.4",
-                                       "contact.bridge_length=1 d", "loading.until=120 MPa",
-                                       NULL};
+                                       "contact.bridge_length=1 d",
+                                       "loading.until=120 MPa", NULL};
     static const char *const coarse[] = {"particles.diameter=38 nm", "contact.mu=0.4",
                                          "contact.bridge_length=1 d",
                                          "loading.until=120 MPa", NULL};
@@ -247,9 +249,10 @@ static void test_set1(void)
     judge("set I: px/pz at 100 MPa, isotropic", ratio[2], 1.0, 0.1);
     const double along = mean_rose(cells[0], 0, 5) / mean_rose(cells[0], 13, 18);
     const double flat = mean_rose(cells[2], 0, 5) / mean_rose(cells[2], 13, 18);
-    g_test_message("mean f_n at 500 MPa, within 25 over beyond 65 degrees of z: uniaxial %.2f, "
-                   "isotropic %.2f",
-                   along, flat);
+    g_test_message(
+        "mean f_n at 500 MPa, within 25 over beyond 65 degrees of z: uniaxial %.2f, "
+        "isotropic %.2f",
+        along, flat);
     g_assert_cmpfloat(along, >, 1.4);
     g_assert_cmpfloat_with_epsilon(flat, 1.0, 0.12);
     for (int g = 0; g < 3; g++) {
@@ -282,10 +285,11 @@ static void test_relaxers(void)
                 steps += 1.0;
             }
         }
-        g_test_message("%s: %.0f evaluations per strain step, density at 20 MPa %.4f +- %.4f",
-                       m == 0 ? "fire" : "steepest", evaluations / steps,
-                       gsl_stats_mean(m == 0 ? x : y, 1, CELLS),
-                       gsl_stats_sd(m == 0 ? x : y, 1, CELLS) / sqrt(CELLS));
+        g_test_message(
+            "%s: %.0f evaluations per strain step, density at 20 MPa %.4f +- %.4f",
+            m == 0 ? "fire" : "steepest", evaluations / steps,
+            gsl_stats_mean(m == 0 ? x : y, 1, CELLS),
+            gsl_stats_sd(m == 0 ? x : y, 1, CELLS) / sqrt(CELLS));
     }
     drop_cells(a);
     drop_cells(b);

@@ -49,7 +49,8 @@ static void step(struct duo *duo, double length)
 
 static struct gb_params dynamic_params(const char *a, const char *b, const char *c)
 {
-    return scene_params("scene.kind=dynamic", "loading.until=density = 0.6", a, b, c, NULL);
+    return scene_params("scene.kind=dynamic", "loading.until=density = 0.6", a, b, c,
+                        NULL);
 }
 
 /* h'' = -2 (f_e + A f_e' h') of two unit masses, P2 (1), (3). */
@@ -58,13 +59,14 @@ static int collision(double time, const double y[], double dydt[], void *data)
     (void)time;
     const struct gb_model *model = data;
     dydt[0] = y[1];
-    dydt[1] = -2.0 * (gb_law_rod_force(&model->rod, y[0]) +
-                      model->dynamics.viscous * gb_law_rod_stiffness(&model->rod, y[0]) *
-                          y[1]);
+    dydt[1] =
+        -2.0 * (gb_law_rod_force(&model->rod, y[0]) +
+                model->dynamics.viscous * gb_law_rod_stiffness(&model->rod, y[0]) * y[1]);
     return 0;
 }
 
-/* Speed after over speed before, by an eighth-order method with step control, until h = 0. */
+/* Speed after over speed before, by an eighth-order method with step control, until h =
+ * 0. */
 static double exact_restitution(const struct gb_model *model, double speed)
 {
     gsl_odeiv2_system system = {collision, NULL, 2, (void *)(uintptr_t)model};
@@ -115,18 +117,20 @@ static void test_restitution(void)
         }
         const double out = duo.verlet.velocity[3] - duo.verlet.velocity[0];
         const double exact = exact_restitution(&duo.model, speed);
-        g_test_message("speed %g: restitution %.8f, exact %.8f", speed, out / speed, exact);
+        g_test_message("speed %g: restitution %.8f, exact %.8f", speed, out / speed,
+                       exact);
         g_assert_cmpfloat(exact, <, 1.0 - 1e-4);
         g_assert_cmpfloat_with_epsilon(out / speed, exact, 1e-6);
         part(&duo);
     }
 }
 
-/* An oblique blow with friction, bridge and attraction keeps linear and angular momentum. */
+/* An oblique blow with friction, bridge and attraction keeps linear and angular momentum.
+ */
 static void test_momentum(void)
 {
-    const struct gb_params params =
-        dynamic_params("contact.mu=0.5", "contact.bridge_length=0.008 d", "structure.seed=1");
+    const struct gb_params params = dynamic_params(
+        "contact.mu=0.5", "contact.bridge_length=0.008 d", "structure.seed=1");
     struct duo duo;
     const double apart[3] = {0.9, 0.3, 0.5};
     meet(&duo, &params, apart);
@@ -211,7 +215,8 @@ static struct gb_params planar(const char *time_step, const char *more)
 
 static void test_energy(void)
 {
-    const struct gb_params params = planar("numerics.time_step=0.04 T", "structure.seed=2");
+    const struct gb_params params =
+        planar("numerics.time_step=0.04 T", "structure.seed=2");
     const struct outcome out = press(&params, 1000);
     g_assert_cmpint(out.end, ==, GB_MOTION_DONE);
     g_assert_cmpfloat_with_epsilon(out.density, 0.95, 1e-9);
@@ -225,21 +230,23 @@ static void test_energy(void)
 static void test_repeat(void)
 {
     const struct gb_params one = planar("numerics.time_step=0.3 T", "numerics.threads=1");
-    const struct gb_params three = planar("numerics.time_step=0.3 T", "numerics.threads=3");
+    const struct gb_params three =
+        planar("numerics.time_step=0.3 T", "numerics.threads=3");
     const struct outcome a = press(&one, 1), b = press(&one, 17), c = press(&three, 1000);
     g_assert_cmpuint(a.hash, ==, b.hash);
     g_assert_cmpuint(a.hash, ==, c.hash);
 }
 
-/* Half a T passes unguarded; a step above the critical one is cut and told, and the run ends as
- * it should; auto needs no guard. */
+/* Half a T passes unguarded; a step above the critical one is cut and told, and the run
+ * ends as it should; auto needs no guard. */
 static void test_guards(void)
 {
     const struct gb_params half = planar("numerics.time_step=0.5 T", "structure.seed=2");
     const struct gb_params whole =
         planar("numerics.time_step=1 T", "contact.relative_motion=full");
     const struct gb_params wild = planar("numerics.time_step=3 T", "structure.seed=2");
-    const struct gb_params automatic = planar("numerics.time_step=auto", "structure.seed=2");
+    const struct gb_params automatic =
+        planar("numerics.time_step=auto", "structure.seed=2");
     struct outcome out = press(&half, 1000);
     g_assert_cmpint(out.end, ==, GB_MOTION_DONE);
     g_assert_cmpint(out.guards, ==, 0);
@@ -257,7 +264,8 @@ static void test_guards(void)
 }
 
 /* The estimate of the highest frequency against the pair whose modes are known: shear and
- * rotation together, omega^2 = k_t/2 (2 + 1/(2 J)); and what happens on both sides of 2/omega. */
+ * rotation together, omega^2 = k_t/2 (2 + 1/(2 J)); and what happens on both sides of
+ * 2/omega. */
 static double drift_after(double share, double *frequency)
 {
     const struct gb_params params =

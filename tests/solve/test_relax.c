@@ -107,8 +107,9 @@ static void test_guard(void)
     struct gb_error err = {0};
     struct gb_relax relax = {.tolerance = 1e-3, .residual = 2e-3, .evaluations = 100};
     char text[400];
-    g_assert_cmpint(gb_guard_judge(&guard, GB_RELAX_DONE, &relax, text, sizeof text, &err),
-                    ==, GB_GUARD_ACCEPT);
+    g_assert_cmpint(
+        gb_guard_judge(&guard, GB_RELAX_DONE, &relax, text, sizeof text, &err), ==,
+        GB_GUARD_ACCEPT);
     g_assert_cmpstr(text, ==, "");
     g_assert_cmpint(
         gb_guard_judge(&guard, GB_RELAX_EXHAUSTED, &relax, text, sizeof text, &err), ==,
@@ -132,8 +133,9 @@ static void test_guard(void)
     g_assert_cmpint(retries, <, 20);
     gb_error_set(&err, GB_ERR_MEMORY, "made up");
     guard.halvings = 0;
-    g_assert_cmpint(gb_guard_judge(&guard, GB_RELAX_FAILED, &relax, text, sizeof text, &err),
-                    ==, GB_GUARD_STOP);
+    g_assert_cmpint(
+        gb_guard_judge(&guard, GB_RELAX_FAILED, &relax, text, sizeof text, &err), ==,
+        GB_GUARD_STOP);
 }
 
 int main(int argc, char **argv)
