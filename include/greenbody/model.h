@@ -10,7 +10,8 @@
 #include "phys/law_rod.h"
 #include "phys/law_slip.h"
 
-/* Which terms the force sweep of this scene carries.  A scene pays only for what it uses. */
+/* Which terms the force sweep of this scene carries.  A scene pays only for what it uses.
+ */
 struct gb_terms {
     bool attraction;
     bool bridges;
@@ -20,9 +21,9 @@ struct gb_terms {
 /* Numbers under [numerics] after fidelity has filled what the preset left open. */
 struct gb_numerics {
     char relaxer[24];
-    double tolerance;        /* rms residual over force scale at which a step is relaxed */
-    double cutoff;           /* d; attraction is dropped beyond */
-    double skin;             /* d; margin of the neighbour list */
+    double tolerance; /* rms residual over force scale at which a step is relaxed */
+    double cutoff;    /* d; attraction is dropped beyond */
+    double skin;      /* d; margin of the neighbour list */
     int threads;
     int64_t max_evaluations; /* per strain step */
 };
@@ -41,14 +42,14 @@ struct gb_dynamics {
     double inertia;         /* J, m d^2 */
 };
 
-/* Frozen from gb_params: reduced units (length d, stress E, mass m), all derived constants.
- * Const during a run. */
+/* Frozen from gb_params: reduced units (length d, stress E, mass m), all derived
+ * constants. Const during a run. */
 struct gb_model {
     int kind; /* enum gb_kind */
     int dimension;
     int64_t count;
     uint64_t seed;
-    double edges[3];      /* initial cell, d */
+    double edges[3]; /* initial cell, d */
     double start_density;
     double r_meso;
     struct gb_terms terms;
@@ -56,28 +57,28 @@ struct gb_model {
     struct gb_law_bridge bridge;
     struct gb_law_dispersion dispersion;
     struct gb_law_slip slip;
-    double h_eq;          /* equilibrium overlap of an unbridged pair, d; 0 without attraction */
-    double adhesion;      /* f_a(d), E d^2 */
-    double force_floor;   /* least force scale of the stopping rule, E d^2 */
+    double h_eq; /* equilibrium overlap of an unbridged pair, d; 0 without attraction */
+    double adhesion;    /* f_a(d), E d^2 */
+    double force_floor; /* least force scale of the stopping rule, E d^2 */
     struct gb_numerics numerics;
-    int geometry;         /* enum gb_geometry */
+    int geometry; /* enum gb_geometry */
     double strain_step;
     double until_pressure; /* E; infinity when a density ends the run */
     double until_density;  /* 1 when a pressure ends the run */
     double unload_from[GB_UNLOAD_MAX];
     int unload_count;
     struct gb_dynamics dynamics; /* zero unless kind is GB_KIND_DYNAMIC */
-    double pascal_per_stress; /* E in Pa */
-    double metre_per_length;  /* d in m */
-    double newton_per_force;  /* E d^2 in N */
+    double pascal_per_stress;    /* E in Pa */
+    double metre_per_length;     /* d in m */
+    double newton_per_force;     /* E d^2 in N */
 };
 
 /* Freezes checked params.  Errors: GB_ERR_INPUT naming the key. */
 bool gb_model_init(struct gb_model *model, const struct gb_params *params,
                    struct gb_error *err);
 
-/* What the scene leaves out and what fidelity picked, line `index` (0, 1, ...); NULL after
- * the last.  The text lives in buffer. */
+/* What the scene leaves out and what fidelity picked, line `index` (0, 1, ...); NULL
+ * after the last.  The text lives in buffer. */
 const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
                           size_t size);
 

@@ -54,12 +54,12 @@ struct gb_params {
     double mu_pivot; /* NaN in memory: follows mu ("auto" in files) */
     struct gb_relative bridge_length;
     struct gb_relative shear_strength; /* NaN: auto, by whether there are bridges */
-    int bridge_radius;   /* enum gb_bridge_radius */
-    int relative_motion; /* enum gb_relative_motion */
-    double viscosity_pa_s; /* dynamic scenes */
+    int bridge_radius;                 /* enum gb_bridge_radius */
+    int relative_motion;               /* enum gb_relative_motion */
+    double viscosity_pa_s;             /* dynamic scenes */
     /* [structure] */
     double structure_density; /* NaN: auto, gb_params_structure_density */
-    struct gb_relative base; /* relative with value 0: auto, P1's aspect ratio */
+    struct gb_relative base;  /* relative with value 0: auto, P1's aspect ratio */
     struct gb_relative r_meso;
     uint64_t seed;
     /* [loading] */
@@ -73,13 +73,14 @@ struct gb_params {
     double relax_s, hold_s;
     double record_density; /* relative growth of density between recorded points */
     double record_time_s;  /* between recorded points of relax and hold */
-    /* [numerics]: NaN or negative means "auto", picked by fidelity when the model is made */
-    int fidelity; /* enum gb_fidelity */
+    /* [numerics]: NaN or negative means "auto", picked by fidelity when the model is made
+     */
+    int fidelity;     /* enum gb_fidelity */
     char relaxer[24]; /* name in the relaxer table, or "auto" */
     double tolerance;
     struct gb_relative cutoff;
     int64_t threads;
-    int64_t max_evaluations; /* per strain step */
+    int64_t max_evaluations;      /* per strain step */
     struct gb_relative time_step; /* dynamic scenes; NaN: auto */
     double step_error;            /* what auto may err by */
     /* [output] */
@@ -99,21 +100,21 @@ enum gb_field_type {
 };
 
 struct gb_field {
-    const char *group;     /* "contact" */
-    const char *key;       /* "mu" */
+    const char *group; /* "contact" */
+    const char *key;   /* "mu" */
     enum gb_field_type type;
     size_t offset;
-    size_t size;           /* of the member, for text */
-    int dimension;         /* enum gb_dimension of base/units.h */
-    const char *relative;  /* "d", "E" or "T" for GB_FIELD_RELATIVE */
-    double min, max;       /* inclusive, in SI (for relative fields: of the multiple) */
-    bool auto_allowed;     /* "auto" is a value */
-    double automatic;      /* what "auto" is in memory */
+    size_t size;          /* of the member, for text */
+    int dimension;        /* enum gb_dimension of base/units.h */
+    const char *relative; /* "d", "E" or "T" for GB_FIELD_RELATIVE */
+    double min, max;      /* inclusive, in SI (for relative fields: of the multiple) */
+    bool auto_allowed;    /* "auto" is a value */
+    double automatic;     /* what "auto" is in memory */
     const char *const *choices; /* NULL-terminated, for GB_FIELD_CHOICE (numbers stand for
                                  * themselves, names for their index) and closed texts */
-    const char *fallback;  /* default as typed in a preset */
-    const char *meaning;   /* one sentence */
-    const char *source;    /* paper and equation, or "numerical" */
+    const char *fallback;       /* default as typed in a preset */
+    const char *meaning;        /* one sentence */
+    const char *source;         /* paper and equation, or "numerical" */
 };
 
 /* The field table and its length. */
@@ -125,8 +126,8 @@ const struct gb_field *gb_params_find(const char *group, const char *key);
 /* Every field at its fallback. */
 void gb_params_init(struct gb_params *params);
 
-/* Reads text into one field.  On error params is untouched and err says what was given and
- * what is accepted (the caller adds file, line and key). */
+/* Reads text into one field.  On error params is untouched and err says what was given
+ * and what is accepted (the caller adds file, line and key). */
 bool gb_params_set(struct gb_params *params, const struct gb_field *field,
                    const char *text, struct gb_error *err);
 
@@ -141,8 +142,8 @@ char *gb_params_accepted(const struct gb_field *field, char *buffer, size_t size
 bool gb_params_assign(struct gb_params *params, const char *assignment,
                       struct gb_error *err);
 
-/* Checks what no single field can know: cell against cutoff, unload against until, dimension
- * against geometry, finite numbers.  Errors name the keys. */
+/* Checks what no single field can know: cell against cutoff, unload against until,
+ * dimension against geometry, finite numbers.  Errors name the keys. */
 bool gb_params_check(const struct gb_params *params, struct gb_error *err);
 
 /* Resolved lengths and pressures, SI. */
@@ -151,15 +152,15 @@ double gb_params_shear_strength_pa(const struct gb_params *params);
 /* Density of the initial structure; auto is 0.24 in 3D and 0.5 in 2D (P1, P2). */
 double gb_params_structure_density(const struct gb_params *params);
 
-/* The reduced unit of time T = sqrt(m/(E d)) = sqrt(pi rho_m d^2/(6 E)), 0.74 ps for alumina
- * of 10 nm.  Source: P2 section 2. */
+/* The reduced unit of time T = sqrt(m/(E d)) = sqrt(pi rho_m d^2/(6 E)), 0.74 ps for
+ * alumina of 10 nm.  Source: P2 section 2. */
 double gb_params_unit_time_s(const struct gb_params *params);
 /* Time step of dynamic scenes; NaN: auto. */
 double gb_params_time_step_s(const struct gb_params *params);
 
-/* Edges of the initial cell in particle diameters (x, y, z); y is 1 in 2D, where the scene
- * lies in the x-z plane.  base = auto: in 3D the aspect ratio of P1's cells (18 x 18 x 53.87
- * for 8000 particles), in 2D a square. */
+/* Edges of the initial cell in particle diameters (x, y, z); y is 1 in 2D, where the
+ * scene lies in the x-z plane.  base = auto: in 3D the aspect ratio of P1's cells (18 x
+ * 18 x 53.87 for 8000 particles), in 2D a square. */
 void gb_params_cell(const struct gb_params *params, double edges[3]);
 
 #endif

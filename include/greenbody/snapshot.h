@@ -18,23 +18,26 @@ enum gb_run_state {
 
 enum { GB_SNAPSHOT_HISTOGRAM = 16, GB_SNAPSHOT_ROSE = 18, GB_SNAPSHOT_EVENT = 160 };
 
-/* Plain data for the screen, copied whole through a triple buffer: no pointer, no lock. */
+/* Plain data for the screen, copied whole through a triple buffer: no pointer, no lock.
+ */
 struct gb_snapshot {
-    int state;          /* enum gb_run_state */
+    int state;           /* enum gb_run_state */
     struct gb_point now; /* the last relaxed state (also between recorded points) */
     bool now_valid;
-    double histogram[GB_SNAPSHOT_HISTOGRAM]; /* share of particles with 0, 1, ... contacts */
-    double rose[GB_SNAPSHOT_ROSE]; /* mean f_n (E d^2) in 5 degree bins of angle to z; NaN: empty */
-    int64_t evaluations;          /* of the whole run */
+    double
+        histogram[GB_SNAPSHOT_HISTOGRAM]; /* share of particles with 0, 1, ... contacts */
+    double rose[GB_SNAPSHOT_ROSE]; /* mean f_n (E d^2) in 5 degree bins of angle to z;
+                                      NaN: empty */
+    int64_t evaluations;           /* of the whole run */
     double evaluations_per_s;
     double particle_evaluations_per_s;
-    double progress;              /* 0..1, of the loading programme */
-    double seconds, seconds_left; /* seconds_left < 0: unknown */
-    double live_residual;         /* of the relaxation under way */
-    double time_step_s;           /* of a dynamic run, last used; else 0 */
-    int64_t events;               /* how many events so far */
+    double progress;               /* 0..1, of the loading programme */
+    double seconds, seconds_left;  /* seconds_left < 0: unknown */
+    double live_residual;          /* of the relaxation under way */
+    double time_step_s;            /* of a dynamic run, last used; else 0 */
+    int64_t events;                /* how many events so far */
     char event[GB_SNAPSHOT_EVENT]; /* the last one */
-    struct gb_error error;        /* why it failed or stopped */
+    struct gb_error error;         /* why it failed or stopped */
 };
 
 #endif

@@ -7,10 +7,10 @@
  * fills a gb_error.  "Not converged", "cancelled" and "failed" are different codes. */
 enum gb_status {
     GB_OK = 0,
-    GB_ERR_INPUT,         /* bad usage, preset, file content: exit status 2 */
-    GB_ERR_MACHINE,       /* disk full, no permission, unreadable file: exit status 3 */
-    GB_ERR_MEMORY,        /* out of memory: exit status 3 */
-    GB_ERR_GUARD,         /* a physical or numerical guard stopped the run: exit status 1 */
+    GB_ERR_INPUT,   /* bad usage, preset, file content: exit status 2 */
+    GB_ERR_MACHINE, /* disk full, no permission, unreadable file: exit status 3 */
+    GB_ERR_MEMORY,  /* out of memory: exit status 3 */
+    GB_ERR_GUARD,   /* a physical or numerical guard stopped the run: exit status 1 */
     GB_ERR_NOT_CONVERGED, /* relaxation ran out of evaluations: exit status 1 */
     GB_ERR_CANCELLED,     /* asked to stop: exit status 130 or 143 */
 };
@@ -25,7 +25,8 @@ struct gb_error {
 bool gb_error_set(struct gb_error *err, enum gb_status code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Process exit status that belongs to a code: 0, 1, 2, 3 (see enum), 130 for cancelled. */
+/* Process exit status that belongs to a code: 0, 1, 2, 3 (see enum), 130 for cancelled.
+ */
 int gb_status_exit_code(enum gb_status code);
 
 #endif

@@ -13,8 +13,8 @@ void *gb_alloc_array(size_t count, size_t size, struct gb_error *err);
 /* Frees what gb_alloc_array gave; NULL is fine. */
 void gb_alloc_free(void *memory);
 
-/* Test hook: the k-th allocation from now on fails (k = 1 is the next one); 0 switches the
- * hook off.  Thread-safe. */
+/* Test hook: the k-th allocation from now on fails (k = 1 is the next one); 0 switches
+ * the hook off.  Thread-safe. */
 void gb_alloc_fail_after(long k);
 
 /* Bytes now held by gb_alloc_array, for reports of memory per particle. */

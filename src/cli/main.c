@@ -136,9 +136,10 @@ static int dispatch(int argc, char **argv)
     return open_scene(argc, argv);
 }
 
-/* Threads of the sweep that wait for each other shall not spin for long: beside other work on the
- * same cores, a spinning one keeps the one it waits for from running, and a sweep on all cores
- * took ten times as long as on one.  The runtime reads this before main, hence the second start. */
+/* Threads of the sweep that wait for each other shall not spin for long: beside other
+ * work on the same cores, a spinning one keeps the one it waits for from running, and a
+ * sweep on all cores took ten times as long as on one.  The runtime reads this before
+ * main, hence the second start. */
 static void start_patient(char **argv)
 {
     if (!getenv("GOMP_SPINCOUNT") && !getenv("OMP_WAIT_POLICY") &&

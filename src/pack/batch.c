@@ -9,7 +9,8 @@
 
 enum { PLANES_3D = 11, PLANES_2D = 5 };
 
-static void name_planes(struct gb_contacts *contacts, int vector, int spring, bool viscous)
+static void name_planes(struct gb_contacts *contacts, int vector, int spring,
+                        bool viscous)
 {
     double **plane = contacts->plane;
     contacts->deepest = *plane++;
@@ -35,10 +36,12 @@ bool gb_contacts_init(struct gb_contacts *contacts, int dimension, bool viscous,
     const bool solid = dimension == 3;
     const int kept = solid ? PLANES_3D : PLANES_2D, last = viscous ? (solid ? 4 : 3) : 0;
     const int64_t stride = (room + 7) / 8 * 8;
-    /* what is kept of a viscous scene is all: its copies go back into the middle of a motion */
-    *contacts = (struct gb_contacts){.room = room,
-                                     .planes = kept + last,
-                                     .kept = viscous ? kept + last : kept - (solid ? 3 : 2)};
+    /* what is kept of a viscous scene is all: its copies go back into the middle of a
+     * motion */
+    *contacts =
+        (struct gb_contacts){.room = room,
+                             .planes = kept + last,
+                             .kept = viscous ? kept + last : kept - (solid ? 3 : 2)};
     double *slab =
         gb_alloc_array((size_t)contacts->planes * (size_t)stride, sizeof *slab, err);
     if (!slab) {
@@ -72,7 +75,8 @@ INLINE double lane_sum(const double lane[GB_LANES])
            ((lane[4] + lane[5]) + (lane[6] + lane[7]));
 }
 
-/* Adds the products of two arrays (times 1 where b is NULL) over whole groups of lanes. */
+/* Adds the products of two arrays (times 1 where b is NULL) over whole groups of lanes.
+ */
 INLINE double lane_total(const double *a, const double *b, int n)
 {
     double lane[GB_LANES] = {0};
@@ -110,13 +114,15 @@ INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepes
     if (t.viscous) {
         tally->absorbed += lane_total(b->absorbed, NULL, whole);
         for (int c = 0; c < axes; c++) {
-            tally->virial[t.planar ? 2 * c : c] += lane_total(b->force[c], b->r[c], whole);
+            tally->virial[t.planar ? 2 * c : c] +=
+                lane_total(b->force[c], b->r[c], whole);
         }
     }
 }
 
-/* Variants: planar or not, {normal only, friction, friction and bridges}, viscous or not. */
-#define VARIANT(name, attribute, planar_, friction_, bridges_, viscous_)                  \
+/* Variants: planar or not, {normal only, friction, friction and bridges}, viscous or not.
+ */
+#define VARIANT(name, attribute, planar_, friction_, bridges_, viscous_)                 \
     attribute static void name##_stretch(const struct gb_model *model,                   \
                                          struct gb_batch *batch,                         \
                                          struct gb_contacts *contacts, int64_t slot)     \
@@ -146,7 +152,7 @@ INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepes
         tally_batch(t, batch, deepest, tally);                                           \
     }
 
-#define VARIANTS(width, attribute)                                                        \
+#define VARIANTS(width, attribute)                                                       \
     VARIANT(width##_3d_normal, attribute, false, false, false, false)                    \
     VARIANT(width##_3d_friction, attribute, false, true, false, false)                   \
     VARIANT(width##_3d_bridges, attribute, false, true, true, false)                     \
@@ -160,8 +166,11 @@ INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepes
     VARIANT(width##_2d_friction_viscous, attribute, true, true, false, true)             \
     VARIANT(width##_2d_bridges_viscous, attribute, true, true, true, true)
 
-#define ROW(name) {name##_stretch, name##_load, name##_tally}
-#define TABLE(width)                                                                      \
+#define ROW(name)                                                                        \
+    {                                                                                    \
+        name##_stretch, name##_load, name##_tally                                        \
+    }
+#define TABLE(width)                                                                     \
     {                                                                                    \
         ROW(width##_3d_normal), ROW(width##_3d_friction), ROW(width##_3d_bridges),       \
             ROW(width##_3d_normal_viscous), ROW(width##_3d_friction_viscous),            \
@@ -211,8 +220,8 @@ struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest)
     return table_for(widest)[6 * planar + 3 * viscous + terms];
 }
 
-/* First moment of the contact pressure, M(a) of (9), for the pivoting cap of contacts without a
- * bridge.  Few contacts need it in scenes with bridges. */
+/* First moment of the contact pressure, M(a) of (9), for the pivoting cap of contacts
+ * without a bridge.  Few contacts need it in scenes with bridges. */
 static void fill_moments(const struct gb_model *model, struct gb_batch *batch,
                          const double *deepest)
 {
@@ -223,14 +232,15 @@ static void fill_moments(const struct gb_model *model, struct gb_batch *batch,
     }
 }
 
-/* A bridge whose shear or pivoting cap is reached shrinks to the present overlap, or is gone;
- * P1 below (5) and (11). */
+/* A bridge whose shear or pivoting cap is reached shrinks to the present overlap, or is
+ * gone; P1 below (5) and (11). */
 static void fail_bridges(const struct gb_model *model, struct gb_batch *batch,
                          double *deepest)
 {
     for (int k = 0; k < batch->n; k++) {
         if (batch->fails[k] != 0.0) {
-            deepest[k] = batch->overlap[k] > model->bridge.length ? batch->overlap[k] : 0.0;
+            deepest[k] =
+                batch->overlap[k] > model->bridge.length ? batch->overlap[k] : 0.0;
         }
     }
 }

@@ -12,17 +12,17 @@
  * components (0: x, 1: z), springs and turns one. */
 struct gb_contacts {
     int64_t room;
-    int planes;       /* arrays in use ... */
-    int kept;         /* ... of which the first ones are the history; the arms follow from the
-                       * positions in a copy made right after an evaluation */
+    int planes; /* arrays in use ... */
+    int kept;   /* ... of which the first ones are the history; the arms follow from the
+                 * positions in a copy made right after an evaluation */
     double *plane[15];
     double *deepest;  /* h_min; 0: touching without a bridge; < 0: not touching */
     double *shear[3]; /* delta, in the tangent plane; 2D: along (n_z, -n_x) */
     double *roll[3];  /* theta_r, likewise; 2D: about y */
     double *pivot;    /* theta_p, about the normal; 3D only */
     double *arm[3];   /* r_ij at the last evaluation */
-    /* Viscous scenes: normal force without its viscous part and stiffnesses of shear, roll and
-     * pivot at the last evaluation, for the work that contacts take up. */
+    /* Viscous scenes: normal force without its viscous part and stiffnesses of shear,
+     * roll and pivot at the last evaluation, for the work that contacts take up. */
     double *last_normal, *last_shear, *last_roll, *last_pivot;
 };
 
@@ -39,8 +39,8 @@ struct gb_tally {
     double normal_sum; /* sum of |f_n| over contacts */
     double deepest;    /* largest overlap */
     /* dynamic scenes: */
-    double absorbed;   /* work the pairs took up since the last evaluation */
-    double virial[3];  /* sum of f_k r_k over pairs, axis by axis (x, y, z) */
+    double absorbed;  /* work the pairs took up since the last evaluation */
+    double virial[3]; /* sum of f_k r_k over pairs, axis by axis (x, y, z) */
 };
 
 enum { GB_BATCH = 128, GB_LANES = 8 };
@@ -55,26 +55,27 @@ struct gb_batch {
     double turn_sum[3][GB_BATCH], turn_difference[3][GB_BATCH];
     /* out: force on i (the opposite acts on j), torques on i and on j */
     double force[3][GB_BATCH], torque_i[3][GB_BATCH], torque_j[3][GB_BATCH];
-    double normal[GB_BATCH];     /* |f_n| of contacts, 0 elsewhere */
-    double overlap[GB_BATCH];    /* h */
-    double sliding[GB_BATCH];    /* 1: shear spring at its cap */
-    double absorbed[GB_BATCH];   /* work the contact took up in this step; viscous scenes */
+    double normal[GB_BATCH];   /* |f_n| of contacts, 0 elsewhere */
+    double overlap[GB_BATCH];  /* h */
+    double sliding[GB_BATCH];  /* 1: shear spring at its cap */
+    double absorbed[GB_BATCH]; /* work the contact took up in this step; viscous scenes */
     /* between the two halves */
     double unit[3][GB_BATCH], distance[GB_BATCH], moment[GB_BATCH], fails[GB_BATCH];
-    double rate[8][GB_BATCH];    /* increments of the motions the springs see; 7: of h */
+    double rate[8][GB_BATCH]; /* increments of the motions the springs see; 7: of h */
 };
 
 /* Advances contacts [slot, slot + batch->n) and fills the outputs.
  *
- * The increment of relative motion is r minus the stored arm, so the affine motion of the cell
- * counts.  Stored vectors are turned into the current tangent plane keeping their length before
- * the increment is added.  Source: P1 (1)-(12); viscous partners P2 (3). */
+ * The increment of relative motion is r minus the stored arm, so the affine motion of the
+ * cell counts.  Stored vectors are turned into the current tangent plane keeping their
+ * length before the increment is added.  Source: P1 (1)-(12); viscous partners P2 (3). */
 struct gb_batch_kernel {
     void (*stretch)(const struct gb_model *model, struct gb_batch *batch,
                     struct gb_contacts *contacts, int64_t slot);
     void (*load)(const struct gb_model *model, struct gb_batch *batch,
                  struct gb_contacts *contacts, int64_t slot);
-    /* Adds a batch to a tally: lane by lane, then the lanes, whatever the vector width. */
+    /* Adds a batch to a tally: lane by lane, then the lanes, whatever the vector width.
+     */
     void (*tally)(struct gb_batch *batch, const double *deepest, struct gb_tally *tally);
 };
 

@@ -3,8 +3,8 @@
 
 #include <stdbool.h>
 
-/* Periodic box in reduced units.  In 2D the scene lies in the x-z plane: axis 1 has edge 1
- * and is not periodic. */
+/* Periodic box in reduced units.  In 2D the scene lies in the x-z plane: axis 1 has edge
+ * 1 and is not periodic. */
 struct gb_cell {
     double edge[3];
     bool periodic[3];

@@ -8,7 +8,8 @@
 #include "greenbody/status.h"
 #include "pack/cell.h"
 
-/* Chain-growth initial structure of P1, section III, in 3D and 2D: periodic, connected. */
+/* Chain-growth initial structure of P1, section III, in 3D and 2D: periodic, connected.
+ */
 struct gb_grow {
     int dimension;
     int64_t count;

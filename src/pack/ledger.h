@@ -8,13 +8,13 @@
 
 struct gb_world;
 
-/* Touching pairs in list order with their histories: whole for rebuilds, without the arms for
- * copies. */
+/* Touching pairs in list order with their histories: whole for rebuilds, without the arms
+ * for copies. */
 struct gb_ledger {
     int64_t count, capacity;
-    int planes;     /* values a line holds: all planes of the contacts, or those kept */
+    int planes; /* values a line holds: all planes of the contacts, or those kept */
     int32_t (*pair)[2];
-    double *value;  /* capacity x planes */
+    double *value; /* capacity x planes */
 };
 
 void gb_ledger_finish(struct gb_ledger *ledger);

@@ -11,30 +11,31 @@
  * [start[i], start[i+1]), sorted by other within i; and its transpose. */
 struct gb_pair_list {
     int64_t pair_count;
-    int64_t capacity;   /* pairs the arrays can hold */
-    int64_t *start;     /* particles + 1 */
+    int64_t capacity; /* pairs the arrays can hold */
+    int64_t *start;   /* particles + 1 */
     int32_t *other;
-    uint8_t *image;     /* which periodic image of other is meant; see gb_pairs_shifts */
-    int64_t *in_start;  /* particles + 1: pairs in which j is the second particle ... */
-    int32_t *in_slot;   /* ... as indices k, ascending */
+    uint8_t *image;    /* which periodic image of other is meant; see gb_pairs_shifts */
+    int64_t *in_start; /* particles + 1: pairs in which j is the second particle ... */
+    int32_t *in_slot;  /* ... as indices k, ascending */
 };
 
-/* Verlet list.  Only pairs that can touch before the next build (nearer than 1 + skin) are in
- * `near` and carry a contact record; `far` ones can only attract across a gap. */
+/* Verlet list.  Only pairs that can touch before the next build (nearer than 1 + skin)
+ * are in `near` and carry a contact record; `far` ones can only attract across a gap. */
 struct gb_pairs {
     int64_t count; /* particles */
     struct gb_pair_list near, far;
     int32_t *head, *next; /* scratch of the grid */
     int64_t head_capacity;
-    double *built_at;     /* count x 3: positions at the last build, strained since */
-    double strain;        /* largest affine strain since the last build */
+    double *built_at; /* count x 3: positions at the last build, strained since */
+    double strain;    /* largest affine strain since the last build */
 };
 
 bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, struct gb_error *err);
 void gb_pairs_finish(struct gb_pairs *pairs);
 
-/* Builds both lists for positions inside the cell, out to cutoff + skin.  Errors: GB_ERR_MEMORY, GB_ERR_GUARD when
- * the cell has become too small for the reach or particles crowd. */
+/* Builds both lists for positions inside the cell, out to cutoff + skin.  Errors:
+ * GB_ERR_MEMORY, GB_ERR_GUARD when the cell has become too small for the reach or
+ * particles crowd. */
 bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
                     const double *position, double cutoff, double skin,
                     struct gb_error *err);
@@ -43,9 +44,10 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
  * position is not finite. */
 double gb_pairs_travel(const struct gb_pairs *pairs, const double *position);
 
-/* False when, after that travel, a pair may be missing or in the wrong list: motion and strain
- * since the build have used up the skin. */
-bool gb_pairs_fresh(const struct gb_pairs *pairs, double travel, double cutoff, double skin);
+/* False when, after that travel, a pair may be missing or in the wrong list: motion and
+ * strain since the build have used up the skin. */
+bool gb_pairs_fresh(const struct gb_pairs *pairs, double travel, double cutoff,
+                    double skin);
 
 /* Scales the remembered positions with the cell. */
 void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3]);

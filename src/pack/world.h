@@ -6,33 +6,35 @@
 
 #include "greenbody/model.h"
 #include "greenbody/status.h"
-#include "pack/cell.h"
 #include "pack/batch.h"
+#include "pack/cell.h"
 #include "pack/pairs.h"
 
-/* Owner of a packing: cell, particles, contacts and their history.  Mutable, one thread only;
- * the force sweep inside uses model->numerics.threads threads and gives the same bits for any
- * number of them.  Reduced units. */
+/* Owner of a packing: cell, particles, contacts and their history.  Mutable, one thread
+ * only; the force sweep inside uses model->numerics.threads threads and gives the same
+ * bits for any number of them.  Reduced units. */
 struct gb_world;
 
-/* What relaxers and integrators move.  Arrays of count x 3, valid as long as the world. */
+/* What relaxers and integrators move.  Arrays of count x 3, valid as long as the world.
+ */
 struct gb_bodies {
     int64_t count;
     double *position;
-    double *turn;         /* rotation since the last evaluation; consumed by it */
-    const double *force;  /* of the last evaluation */
+    double *turn;        /* rotation since the last evaluation; consumed by it */
+    const double *force; /* of the last evaluation */
     const double *torque;
 };
 
-/* World with the initial positions (count x 3, inside the cell); no history yet.  The model
- * must outlive it. */
+/* World with the initial positions (count x 3, inside the cell); no history yet.  The
+ * model must outlive it. */
 bool gb_world_create(struct gb_world **out, const struct gb_model *model,
                      const double *position, struct gb_error *err);
 void gb_world_destroy(struct gb_world *world); /* NULL is fine */
 
-/* Forces and torques at the present positions; advances the history of every contact by the
- * motion since the last evaluation.  Errors: GB_ERR_GUARD with the particle named when a force
- * is not finite or centres are about to cross; the history is then spoilt: restore a copy. */
+/* Forces and torques at the present positions; advances the history of every contact by
+ * the motion since the last evaluation.  Errors: GB_ERR_GUARD with the particle named
+ * when a force is not finite or centres are about to cross; the history is then spoilt:
+ * restore a copy. */
 bool gb_world_evaluate(struct gb_world *world, struct gb_error *err);
 
 /* Dynamic scenes: the time that lies between evaluations, for the viscous forces. */
@@ -47,24 +49,26 @@ const struct gb_model *gb_world_model(const struct gb_world *world);
 const struct gb_tally *gb_world_tally(const struct gb_world *world);
 const double *gb_world_position(const struct gb_world *world);
 
-/* rms force (and torque over d, whichever is larger) over the force scale: the mean |f_n| of
- * the contacts or f_a(d), whichever is larger (without adhesion: a small floor). */
+/* rms force (and torque over d, whichever is larger) over the force scale: the mean |f_n|
+ * of the contacts or f_a(d), whichever is larger (without adhesion: a small floor). */
 double gb_world_residual(const struct gb_world *world);
 
-/* The neighbour list and what belongs to its pairs, for measures: histories and forces of the
- * `near` ones, pulls (three doubles, force on the first particle) of the `far` ones. */
+/* The neighbour list and what belongs to its pairs, for measures: histories and forces of
+ * the `near` ones, pulls (three doubles, force on the first particle) of the `far` ones.
+ */
 const struct gb_pairs *gb_world_pairs(const struct gb_world *world);
 const struct gb_contacts *gb_world_contacts(const struct gb_world *world);
 void gb_world_force(const struct gb_world *world, int64_t k, double force[3]);
 const double *gb_world_pulls(const struct gb_world *world);
 /* x_i - x_other of pair k of a list, as of the last evaluation. */
-void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
-                  int64_t k, double r[3]);
+void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list,
+                  int64_t i, int64_t k, double r[3]);
 
 int64_t gb_world_evaluations(const struct gb_world *world);
 int64_t gb_world_rebuilds(const struct gb_world *world);
 
-/* A copy of the state that matters (cell, positions, contact histories), to go back to. */
+/* A copy of the state that matters (cell, positions, contact histories), to go back to.
+ */
 struct gb_world_copy;
 bool gb_world_save(const struct gb_world *world, struct gb_world_copy **copy,
                    struct gb_error *err); /* reuses *copy when not NULL */

@@ -5,11 +5,11 @@
 #include "pack/ledger.h"
 #include "pack/world.h"
 
-/* The inside of gb_world, for the files that work on it: world.c (owner), ledger.c (histories
- * across rebuilds), sweep.c (forces). */
+/* The inside of gb_world, for the files that work on it: world.c (owner), ledger.c
+ * (histories across rebuilds), sweep.c (forces). */
 
-/* Particles whose tallies are summed as one: a fixed block, so that the order of the sums, and
- * with it every bit, does not depend on the number of threads. */
+/* Particles whose tallies are summed as one: a fixed block, so that the order of the
+ * sums, and with it every bit, does not depend on the number of threads. */
 enum { GB_SWEEP_BLOCK = 128 };
 
 /* Sums over one block of particles. */
@@ -24,27 +24,28 @@ struct gb_world {
     int64_t count;
     double *position, *turn, *force, *torque; /* count x 3 */
     struct gb_pairs pairs;
-    double shift[27][3];          /* of the periodic images, as of the last evaluation */
+    double shift[27][3]; /* of the periodic images, as of the last evaluation */
     struct gb_batch_kernel kernel;
-    struct gb_contacts contacts;  /* one per near pair */
-    double *wrench;               /* rows per near pair: force on i, torque on j */
-    double damp;                  /* viscous time over time step */
-    int row;                      /* doubles in a row: 6, in 2D 3 (x, z, about y) */
+    struct gb_contacts contacts; /* one per near pair */
+    double *wrench;              /* rows per near pair: force on i, torque on j */
+    double damp;                 /* viscous time over time step */
+    int row;                     /* doubles in a row: 6, in 2D 3 (x, z, about y) */
     int64_t far_room;
-    double *pull;                 /* three per far pair: force on the first particle */
-    double (*far_last)[2];        /* dynamic scenes: distance and pull at the last evaluation */
+    double *pull;          /* three per far pair: force on the first particle */
+    double (*far_last)[2]; /* dynamic scenes: distance and pull at the last evaluation */
     struct gb_ledger ledger;
     struct gb_sweep_block *block;
     int threads;
     struct gb_tally tally;
     double force_rms, torque_rms;
-    bool listed;                  /* the pair list exists */
+    bool listed; /* the pair list exists */
     int64_t evaluations, rebuilds;
 };
 
 /* x_i - x_j of pair k of a list, nearest image; returns its square. */
-static inline double gb_world_arm_of(const struct gb_world *world, const struct gb_pair_list *list, int64_t i,
-                     int64_t k, double r[3])
+static inline double gb_world_arm_of(const struct gb_world *world,
+                                     const struct gb_pair_list *list, int64_t i,
+                                     int64_t k, double r[3])
 {
     const double *xi = world->position + 3 * i;
     const double *xj = world->position + 3 * (int64_t)list->other[k];

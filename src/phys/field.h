@@ -32,8 +32,8 @@ int gb_field_choice_value(const struct gb_field *field, int index);
 /* Valid UTF-8 without control characters. */
 bool gb_field_plain_text(const char *text);
 
-/* SI value of a relative member: its multiple of the diameter, of Young's modulus or of the
- * reduced time. */
+/* SI value of a relative member: its multiple of the diameter, of Young's modulus or of
+ * the reduced time. */
 double gb_field_absolute(const struct gb_field *field, const struct gb_params *params);
 
 #endif

@@ -9,16 +9,17 @@
 /* Solid bridge between two equal particles, P1 section II.A and eq. (2), Fig. 1.
  *
  * It forms when the overlap h exceeds `length` (drch); h_min = 1 - r_min is the deepest
- * overlap since then.  Loading beyond h_min obeys the rod law; below it the force follows the
- * tangent line at h_min.  When the contact opens by more than `length` behind h_min, h_min
- * follows (partial break); at h <= 0 the bridge is gone. */
+ * overlap since then.  Loading beyond h_min obeys the rod law; below it the force follows
+ * the tangent line at h_min.  When the contact opens by more than `length` behind h_min,
+ * h_min follows (partial break); at h <= 0 the bridge is gone. */
 struct gb_law_bridge {
     double length;       /* drch, d; 1 or more: no bridges */
     double strength;     /* sigma_b, E */
     bool radius_current; /* a_ch from the printed form at the current r, not from r_min */
 };
 
-/* h_min after a contact with deepest overlap h_min (0: no bridge) is moved to overlap h. */
+/* h_min after a contact with deepest overlap h_min (0: no bridge) is moved to overlap h.
+ */
 static inline double gb_law_bridge_deepest(const struct gb_law_bridge *law, double h_min,
                                            double h)
 {

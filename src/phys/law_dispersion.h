@@ -1,8 +1,8 @@
 #ifndef GB_PHYS_LAW_DISPERSION_H
 #define GB_PHYS_LAW_DISPERSION_H
 
-/* Dispersion attraction of two equal spheres (van der Waals-Hamaker, modified), P1 eq. (3).
- * Reduced units.  Constant f_a(1) for r < 1. */
+/* Dispersion attraction of two equal spheres (van der Waals-Hamaker, modified), P1 eq.
+ * (3). Reduced units.  Constant f_a(1) for r < 1. */
 struct gb_law_dispersion {
     double strength; /* (pi^2/3) (n d0^3)^2 eps / (E d^3) */
     double shift;    /* alpha d0 / d */

@@ -2,8 +2,8 @@
 #define GB_PHYS_LAW_ROD_H
 
 /* Elastic repulsion of two equal spheres, "rod model": Hertz law corrected for large
- * overlaps.  Reduced units: overlap h in diameters, force in E d^2, stiffness in E d, energy
- * in E d^3.  Source: P1 eqs. (1), (2) (slope as the derivative of (1)), (9). */
+ * overlaps.  Reduced units: overlap h in diameters, force in E d^2, stiffness in E d,
+ * energy in E d^3.  Source: P1 eqs. (1), (2) (slope as the derivative of (1)), (9). */
 struct gb_law_rod {
     double hertz; /* 1 / (3 (1 - nu^2)) */
     double rod;   /* (pi/4) M, M = (1-nu) / ((1-2nu)(1+nu)) */

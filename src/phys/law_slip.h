@@ -7,8 +7,8 @@
 #include "phys/law_rod.h"
 
 /* Shear (4), (5), pivoting (6)-(11) and rolling (12) of P1: three springs, one stick-slip
- * rule.  Every stiffness is per half of the relative motion (P1: displacement and angle of
- * the contact area).  Reduced units. */
+ * rule.  Every stiffness is per half of the relative motion (P1: displacement and angle
+ * of the contact area).  Reduced units. */
 struct gb_law_slip {
     double shear;    /* 4 / ((2-nu)(1+nu)); times a: stiffness */
     double pivot;    /* 8 / (3 (1+nu)); times a^3 */
@@ -38,7 +38,8 @@ static inline double gb_law_slip_roll_stiffness(const struct gb_law_slip *law, d
     return law->roll * a * a * a;
 }
 
-/* Caps of a bridge with radius a; also what sigma_b allows a plain contact of radius a. */
+/* Caps of a bridge with radius a; also what sigma_b allows a plain contact of radius a.
+ */
 static inline double gb_law_slip_bridge_shear_cap(const struct gb_law_slip *law, double a)
 {
     return M_PI * a * a * law->strength;

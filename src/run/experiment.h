@@ -17,13 +17,14 @@ struct gb_world;
 /* Freezes the parameters and builds the initial structure.  cancelled (may be NULL) is
  * polled with its data during the growth; true makes it fail with GB_ERR_CANCELLED. */
 bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *params,
-                          bool (*cancelled)(void *data), void *data, struct gb_error *err);
+                          bool (*cancelled)(void *data), void *data,
+                          struct gb_error *err);
 void gb_experiment_destroy(struct gb_experiment *experiment); /* NULL is fine */
 
 enum gb_advance {
-    GB_ADVANCE_MORE,  /* one slice done, no new point */
-    GB_ADVANCE_POINT, /* a point was recorded: gb_experiment_point */
-    GB_ADVANCE_DONE,  /* the programme has ended */
+    GB_ADVANCE_MORE,   /* one slice done, no new point */
+    GB_ADVANCE_POINT,  /* a point was recorded: gb_experiment_point */
+    GB_ADVANCE_DONE,   /* the programme has ended */
     GB_ADVANCE_STOPPED /* a guard stopped it (err); the last good state is kept */
 };
 
@@ -34,7 +35,8 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
 /* The last recorded point; its seconds field is the caller's to fill. */
 const struct gb_point *gb_experiment_point(const struct gb_experiment *experiment);
 
-/* Oldest event not yet taken (guards, unloading begins, ...), one line; false when none. */
+/* Oldest event not yet taken (guards, unloading begins, ...), one line; false when none.
+ */
 bool gb_experiment_event(struct gb_experiment *experiment, char *text, size_t size);
 
 /* Fills all of the snapshot that the experiment knows (not state, seconds, rates). */

@@ -24,7 +24,8 @@ void gb_publish_swap(struct gb_publish *publish);
 bool gb_publish_take(struct gb_publish *publish);
 const struct gb_snapshot *gb_publish_front(const struct gb_publish *publish);
 
-/* Screen to engine: a ring of commands, drained between slices.  One writer, one reader. */
+/* Screen to engine: a ring of commands, drained between slices.  One writer, one reader.
+ */
 enum gb_command_kind { GB_COMMAND_PAUSE, GB_COMMAND_RESUME, GB_COMMAND_STOP };
 
 struct gb_command {

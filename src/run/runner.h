@@ -31,9 +31,9 @@ const struct gb_snapshot *gb_runner_snapshot(struct gb_runner *runner, bool *cha
 /* The growing curve; readable from the screen's thread at any time. */
 const struct gb_curve *gb_runner_curve(const struct gb_runner *runner);
 
-/* Copies event `index` (0 is the first of the run); false when there is none, or when it is
- * so old that it was dropped (the last 256 are kept).  The snapshot carries only the last
- * one and can miss events that come together. */
+/* Copies event `index` (0 is the first of the run); false when there is none, or when it
+ * is so old that it was dropped (the last 256 are kept).  The snapshot carries only the
+ * last one and can miss events that come together. */
 bool gb_runner_event(struct gb_runner *runner, int64_t index, char *text, size_t size);
 
 /* The parameters as run. */

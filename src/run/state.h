@@ -12,18 +12,18 @@
 struct gb_state {
     int dimension;
     int64_t count;
-    double cell[3];     /* periodic edges, d; y is 1 in 2D */
-    double *position;   /* count x 3, inside the cell */
-    double *radius;     /* count */
-    int32_t *contacts;  /* count: coordination number of each particle */
-    int64_t pair_count; /* pairs with r < d */
-    int32_t *pair;      /* pair_count x 2 particle indices */
-    double *pair_force; /* pair_count x 3: whole force on the first, E d^2 */
+    double cell[3];      /* periodic edges, d; y is 1 in 2D */
+    double *position;    /* count x 3, inside the cell */
+    double *radius;      /* count */
+    int32_t *contacts;   /* count: coordination number of each particle */
+    int64_t pair_count;  /* pairs with r < d */
+    int32_t *pair;       /* pair_count x 2 particle indices */
+    double *pair_force;  /* pair_count x 3: whole force on the first, E d^2 */
     double *pair_normal; /* pair_count: f_n, positive when pressed */
     uint8_t *pair_bridged;
     struct gb_point point;
     double metre_per_length, pascal_per_stress;
-    char preset[256];  /* title of the preset */
+    char preset[256]; /* title of the preset */
     uint64_t seed;
     char version[32];
 };

@@ -9,8 +9,8 @@
 #include "greenbody/snapshot.h"
 #include "run/state.h"
 
-/* A run directory (interface.md): preset.ini, curve.csv, events.log, status.json, state.h5.
- * Every file is either appended line by line or replaced atomically. */
+/* A run directory (interface.md): preset.ini, curve.csv, events.log, status.json,
+ * state.h5. Every file is either appended line by line or replaced atomically. */
 struct gb_store;
 
 /* Makes the directory.  An existing run directory is refused (GB_ERR_INPUT) unless force,

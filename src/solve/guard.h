@@ -14,13 +14,13 @@ enum gb_guard_action {
 };
 
 struct gb_guard {
-    int halvings;    /* of the strain step, in a row */
-    bool unrelaxed;  /* the state accepted last had not met the tolerance */
+    int halvings;   /* of the strain step, in a row */
+    bool unrelaxed; /* the state accepted last had not met the tolerance */
 };
 
-/* Judges the outcome of a strain step.  text (size bytes) receives one line for events.log when
- * something happened, else "".  Errors: err keeps its text on RETRY (what happened) and is
- * completed on STOP. */
+/* Judges the outcome of a strain step.  text (size bytes) receives one line for
+ * events.log when something happened, else "".  Errors: err keeps its text on RETRY (what
+ * happened) and is completed on STOP. */
 enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcome outcome,
                                     const struct gb_relax *relax, char *text, size_t size,
                                     struct gb_error *err);

@@ -6,8 +6,9 @@
 
 #include "greenbody/model.h"
 
-/* The loading programme of P1 section IV as a state machine: told the pressure and density of
- * each relaxed state, it says what comes next.  It owns no world and saves nothing itself. */
+/* The loading programme of P1 section IV as a state machine: told the pressure and
+ * density of each relaxed state, it says what comes next.  It owns no world and saves
+ * nothing itself. */
 enum gb_load_order {
     GB_LOAD_STRAIN,  /* scale the cell by factor */
     GB_LOAD_UNLOAD,  /* save the state, then scale: an unloading branch begins */
@@ -16,14 +17,14 @@ enum gb_load_order {
 };
 
 struct gb_load {
-    bool compressed[3];    /* axes that obey the programme */
-    int axes;              /* how many */
-    double step;           /* strain step, share of the present edge */
-    double step_most;      /* the preset's; step is smaller for a while after a guard */
+    bool compressed[3]; /* axes that obey the programme */
+    int axes;           /* how many */
+    double step;        /* strain step, share of the present edge */
+    double step_most;   /* the preset's; step is smaller for a while after a guard */
     double until_pressure, until_density;
     double unload_from[GB_UNLOAD_MAX];
     int unload_count, next_unload;
-    int branch;            /* 0 loading, k the k-th unloading branch; -1 before the first state */
+    int branch; /* 0 loading, k the k-th unloading branch; -1 before the first state */
     double top_pressure;   /* where the branch under way began */
     double last_pressure;  /* of the state before, for the last fraction of a step */
     double last_expansion; /* relative growth of the edges in the last unloading step */
@@ -32,13 +33,14 @@ struct gb_load {
 
 void gb_load_init(struct gb_load *load, const struct gb_model *model);
 
-/* What follows a relaxed state with this stress (normal pressures in x, y, z; E) and density.
- * factor is filled for STRAIN and UNLOAD. */
+/* What follows a relaxed state with this stress (normal pressures in x, y, z; E) and
+ * density. factor is filled for STRAIN and UNLOAD. */
 enum gb_load_order gb_load_next(struct gb_load *load, const double pressure[3],
                                 double density, double factor[3]);
 
-/* Halves the strain step and asks for the same step again (after a guard has tripped and the
- * state before was restored); doubles it again once per relaxed step, up to the preset's. */
+/* Halves the strain step and asks for the same step again (after a guard has tripped and
+ * the state before was restored); doubles it again once per relaxed step, up to the
+ * preset's. */
 void gb_load_halve(struct gb_load *load, double factor[3]);
 void gb_load_recover(struct gb_load *load);
 

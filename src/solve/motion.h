@@ -7,25 +7,27 @@
 #include "greenbody/status.h"
 #include "pack/world.h"
 
-/* High-speed pressing of P2: relax in a fixed cell, compress at a rate to a density, hold.  Steps
- * of gb_verlet between recorded points; a guard that watches the share of sliding contacts and
- * the critical step.  It owns no world. */
+/* High-speed pressing of P2: relax in a fixed cell, compress at a rate to a density,
+ * hold.  Steps of gb_verlet between recorded points; a guard that watches the share of
+ * sliding contacts and the critical step.  It owns no world. */
 struct gb_motion;
 
 enum gb_motion_stage { GB_MOTION_RELAX, GB_MOTION_LOAD, GB_MOTION_HOLD, GB_MOTION_OVER };
 
 enum gb_motion_outcome {
-    GB_MOTION_MORE,  /* the slice is used up */
-    GB_MOTION_POINT, /* time to record: forces, places and velocities belong together */
-    GB_MOTION_DONE,  /* the last stage has ended */
+    GB_MOTION_MORE,   /* the slice is used up */
+    GB_MOTION_POINT,  /* time to record: forces, places and velocities belong together */
+    GB_MOTION_DONE,   /* the last stage has ended */
     GB_MOTION_STOPPED /* err says why; the world is back at the last recorded point */
 };
 
 /* The world must have been evaluated. */
-bool gb_motion_create(struct gb_motion **out, struct gb_world *world, struct gb_error *err);
+bool gb_motion_create(struct gb_motion **out, struct gb_world *world,
+                      struct gb_error *err);
 void gb_motion_destroy(struct gb_motion *motion); /* NULL is fine */
 
-/* At most max_steps time steps.  text (size bytes) receives one line when a guard acted. */
+/* At most max_steps time steps.  text (size bytes) receives one line when a guard acted.
+ */
 enum gb_motion_outcome gb_motion_advance(struct gb_motion *motion, struct gb_world *world,
                                          int64_t max_steps, char *text, size_t size,
                                          struct gb_error *err);
@@ -36,8 +38,8 @@ struct gb_motion_report {
     double time;                /* since the start */
     int64_t steps;              /* since the last point */
     double kinetic, work, absorbed;
-    double time_step;           /* last used */
-    double progress;            /* 0..1, by time */
+    double time_step; /* last used */
+    double progress;  /* 0..1, by time */
 };
 struct gb_motion_report gb_motion_report(const struct gb_motion *motion);
 

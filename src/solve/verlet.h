@@ -7,9 +7,9 @@
 #include "greenbody/status.h"
 #include "pack/world.h"
 
-/* Newton's equations for translation and rotation, P2 (1), by velocity Verlet.  Velocities are
- * those beside the affine motion of the cell.  Reduced units: m = 1, J = 0.1.  In 2D only x, z
- * and the rotation about y move. */
+/* Newton's equations for translation and rotation, P2 (1), by velocity Verlet. Velocities
+ * are those beside the affine motion of the cell.  Reduced units: m = 1, J = 0.1.  In 2D
+ * only x, z and the rotation about y move. */
 struct gb_verlet {
     int64_t count;
     bool planar;
@@ -23,17 +23,17 @@ bool gb_verlet_init(struct gb_verlet *verlet, const struct gb_model *model,
                     struct gb_error *err);
 void gb_verlet_finish(struct gb_verlet *verlet);
 
-/* One step of the given length; the cell and all positions are scaled by factor on the way
- * (1, 1, 1: a fixed cell).  The world must have been evaluated at the present positions.
- * Errors: as of gb_world_evaluate. */
+/* One step of the given length; the cell and all positions are scaled by factor on the
+ * way (1, 1, 1: a fixed cell).  The world must have been evaluated at the present
+ * positions. Errors: as of gb_world_evaluate. */
 bool gb_verlet_step(struct gb_verlet *verlet, struct gb_world *world, double time_step,
                     const double factor[3], struct gb_error *err);
 
 double gb_verlet_kinetic(const struct gb_verlet *verlet);
 
-/* Highest frequency of the packing as it is, from the stiffness around each particle: the pair
- * mode in which shear and rotation go together is the stiffest, sqrt(3) times the normal one at
- * nu = 0.25.  A step above 2 over it blows up. */
+/* Highest frequency of the packing as it is, from the stiffness around each particle: the
+ * pair mode in which shear and rotation go together is the stiffest, sqrt(3) times the
+ * normal one at nu = 0.25.  A step above 2 over it blows up. */
 double gb_verlet_frequency(const struct gb_world *world, double *scratch);
 
 #endif

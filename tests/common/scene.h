@@ -10,7 +10,8 @@
 #include "pack/grow.h"
 #include "pack/world.h"
 
-/* Parameters of a small alumina packing, then assignments "group.key=value", NULL at the end. */
+/* Parameters of a small alumina packing, then assignments "group.key=value", NULL at the
+ * end. */
 static inline struct gb_params scene_params(const char *first, ...)
 {
     struct gb_params params;
