@@ -113,6 +113,8 @@ static void write_energy(char *text, size_t size, double value)
     const int decimals = fabs(value) >= 99.95 ? 0 : fabs(value) >= 9.995 ? 1 : 2;
     if (!isfinite(value)) {
         snprintf(text, size, "-");
+    } else if (fabs(value) < 0.005) {
+        snprintf(text, size, "0 J");
     } else {
         snprintf(text, size, "%.*f %sJ", decimals, value, prefix[k]);
     }

@@ -156,6 +156,15 @@ static void draw_earlier(struct gb_panel_plot *panel, const struct gb_session *s
     }
 }
 
+/* A quasi-static run has no stages: its first, relaxed state is a part of loading. */
+static bool belongs(const struct gb_point *point, int branch, int kind)
+{
+    if (kind != GB_KIND_DYNAMIC && point->branch <= 0) {
+        return branch == GB_BRANCH_LOAD;
+    }
+    return point->branch == branch;
+}
+
 /* Points of a branch.  It begins at the point it left: a stage at the last one of the
  * stage before, an unloading branch at the one on the loading branch.  Against time there
  * is a gap where other branches were in between. */
@@ -167,7 +176,7 @@ static size_t gather(struct gb_panel_plot *panel, const struct gb_session *sessi
     bool gap = false;
     for (size_t i = 0; i < session->points; i++) {
         const struct gb_point *point = gb_curve_at(curve_of(session), i);
-        const bool mine = point->branch == branch;
+        const bool mine = belongs(point, branch, kind_of(session));
         if (mine && n == 0 && root != NULL) {
             panel->x[n] = x_of(panel, session, root);
             panel->y[n++] = root->p_pa / unit_pa;

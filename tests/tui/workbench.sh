@@ -180,6 +180,7 @@ keys 3
 shows "3 shows directions" '3 Mean normal force'
 keys 4
 shows "4 shows the steps of a quasi-static run" '4 Pressure against step'
+is "its loading is one line" [ "$(screen | grep -c -w load)" -eq 1 ]
 keys 1 '?'
 shows "? lists the keys" 'Keys (Up and Down'
 keys Escape
