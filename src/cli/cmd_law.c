@@ -18,6 +18,8 @@ struct request {
     char **at;
     char *range;
     char *path;
+    char *vary;
+    const char *column; /* value of the varied key, printed before each row; or NULL */
     bool dry; /* check only: nothing is printed before all of the request is understood */
 };
 
@@ -32,6 +34,13 @@ static bool check_value(const struct gb_lawtable_law *law, const struct gb_model
                         law->variable, value, law->low, law->high - room, law->name);
 }
 
+static void print_column(const struct request *request)
+{
+    if (request->column) {
+        printf("%s,", request->column);
+    }
+}
+
 /* One row; false when the reader has gone or the disk is full. */
 static bool print_row(struct request *request, double x, struct gb_error *err)
 {
@@ -42,6 +51,7 @@ static bool print_row(struct request *request, double x, struct gb_error *err)
         return true;
     }
     request->input.x = x;
+    print_column(request);
     request->law->print(&request->input);
     return !ferror(stdout) || gb_options_output_failed(err);
 }
@@ -152,9 +162,10 @@ static bool print_range(struct request *request, struct gb_error *err)
 }
 
 /* Follows the history of one contact through the corners. */
-static bool follow(const struct gb_model *model, const double *corners, int count,
+static bool follow(const struct request *request, const double *corners, int count,
                    struct gb_error *err)
 {
+    const struct gb_model *model = request->input.model;
     double h_min = 0.0;
     for (int leg = 0; leg < count; leg++) {
         const double to = corners[leg];
@@ -164,6 +175,7 @@ static bool follow(const struct gb_model *model, const double *corners, int coun
             const double h = i == steps ? to : from + (to - from) * i / steps;
             h_min = model->terms.bridges ? gb_law_bridge_deepest(&model->bridge, h_min, h)
                                          : 0.0;
+            print_column(request);
             gb_lawtable_print_contact(model, h, h_min);
             if (ferror(stdout)) {
                 return gb_options_output_failed(err);
@@ -184,7 +196,7 @@ static bool print_path(const struct request *request, struct gb_error *err)
                                 request->path);
         }
     }
-    good = good && (request->dry || follow(request->input.model, corners, count, err));
+    good = good && (request->dry || follow(request, corners, count, err));
     g_free(corners);
     return good;
 }
@@ -213,6 +225,7 @@ static bool print_rows(struct request *request, struct gb_error *err)
 {
     if (!request->law->variable) {
         if (!request->dry) {
+            print_column(request);
             request->law->print(&request->input);
         }
         return true;
@@ -222,15 +235,67 @@ static bool print_rows(struct request *request, struct gb_error *err)
                             : print_points(request, err);
 }
 
-static bool print_law(struct request *request, struct gb_error *err)
+/* Checks or prints the rows of one scene. */
+static bool scene_rows(struct request *request, const struct gb_params *params, bool dry,
+                       struct gb_error *err)
 {
-    request->dry = true;
-    if (!check_request(request, err) || !print_rows(request, err)) {
+    struct gb_model model;
+    request->input.model = &model;
+    request->input.h_min = NAN;
+    request->dry = dry;
+    return gb_params_check(params, err) && gb_model_init(&model, params, err) &&
+           check_request(request, err) && print_rows(request, err);
+}
+
+/* The rows of every value of --vary group.key=A,B,..., one block after the other. */
+static bool varied_rows(struct request *request, const struct gb_params *params,
+                        const char *key, char **values, bool dry, struct gb_error *err)
+{
+    for (int i = 0; values[i]; i++) {
+        struct gb_params scene = *params;
+        char *assignment = g_strdup_printf("%s=%s", key, g_strstrip(values[i]));
+        request->column = values[i];
+        const bool good = gb_params_assign(&scene, assignment, err) &&
+                          scene_rows(request, &scene, dry, err);
+        g_free(assignment);
+        if (!good) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool print_varied(struct request *request, const struct gb_params *params,
+                         struct gb_error *err)
+{
+    char **pair = g_strsplit(request->vary, "=", 2);
+    char **values = g_strsplit(pair[0] && pair[1] ? pair[1] : "", ",", 64);
+    bool good = values[0] && values[0][0];
+    if (!good) {
+        gb_error_set(err, GB_ERR_INPUT, "--vary %.80s: accepted group.key=A,B,...",
+                     request->vary);
+    }
+    good = good && varied_rows(request, params, pair[0], values, true, err);
+    if (good) {
+        printf("%s,%s\n", pair[0], request->law->header);
+        good = varied_rows(request, params, pair[0], values, false, err);
+    }
+    g_strfreev(values);
+    g_strfreev(pair);
+    return good;
+}
+
+static bool print_law(struct request *request, const struct gb_params *params,
+                      struct gb_error *err)
+{
+    if (request->vary) {
+        return print_varied(request, params, err);
+    }
+    if (!scene_rows(request, params, true, err)) {
         return false;
     }
     puts(request->law->header);
-    request->dry = false;
-    return print_rows(request, err);
+    return scene_rows(request, params, false, err);
 }
 
 static bool find_law(const char *name, const struct gb_lawtable_law **out,
@@ -283,11 +348,7 @@ static bool run(struct request *request, const char *lattice, char **words, char
     if (!gb_options_scene(&preset, words + 1, sets, false, err)) {
         return false;
     }
-    struct gb_model model;
-    request->input.model = &model;
-    request->input.h_min = NAN;
-    const bool good =
-        gb_model_init(&model, gb_preset_params(preset), err) && print_law(request, err);
+    const bool good = print_law(request, gb_preset_params(preset), err);
     gb_preset_destroy(preset);
     return good;
 }
@@ -316,9 +377,9 @@ static const struct gb_options_page page = {
         "\n"
         "Figure 1 of P1 (contact of 16 nm particles: A-B-C-D, then to C' and open):\n"
         "  greenbody law normal p1-set2-16nm --path=-0.02,0.0081,-0.01,0.02,-0.01\n"
-        "Figure 2 of P1 (strength of bridges; the other lines with 0.01 d and 0.015 d):\n"
-        "  greenbody law bridge-strength contact.bridge_length=0.005d --range "
-        "h=0:0.05:101",
+        "Figure 2 of P1 (strength of bridges of three lengths):\n"
+        "  greenbody law bridge-strength --range h=0:0.05:101 \\\n"
+        "    --vary \"contact.bridge_length=0.005 d,0.01 d,0.015 d\"",
 };
 
 int gb_cmd_law(int argc, char **argv)
@@ -333,6 +394,8 @@ int gb_cmd_law(int argc, char **argv)
          "h=0:0.1:101"},
         {"path", 0, 0, G_OPTION_ARG_STRING, &request.path, "overlaps to visit",
          "0,0.02,-0.01"},
+        {"vary", 0, 0, G_OPTION_ARG_STRING, &request.vary,
+         "values of a key, one after the other, in a first column", "group.key=A,B,..."},
         {"lattice", 0, 0, G_OPTION_ARG_STRING, &lattice, "sc, fcc, bcc or diamond",
          "NAME"},
         GB_OPTIONS_SET(&sets),
@@ -348,6 +411,7 @@ int gb_cmd_law(int argc, char **argv)
     g_strfreev(request.at);
     g_free(request.range);
     g_free(request.path);
+    g_free(request.vary);
     g_free(lattice);
     g_strfreev(sets);
     g_strfreev(words);

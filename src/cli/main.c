@@ -142,17 +142,19 @@ static int dispatch(int argc, char **argv)
  * main, hence the second start. */
 static void start_patient(char **argv)
 {
+#ifdef _OPENMP
     if (!getenv("GOMP_SPINCOUNT") && !getenv("OMP_WAIT_POLICY") &&
         setenv("GOMP_SPINCOUNT", "3000", 0) == 0) {
         execv("/proc/self/exe", argv);
     }
+#else
+    (void)argv;
+#endif
 }
 
 int main(int argc, char **argv)
 {
-#ifdef _OPENMP
     start_patient(argv);
-#endif
     /* Text as the user's locale says, numbers always with a point. */
     setlocale(LC_ALL, "");
     setlocale(LC_NUMERIC, "C");

@@ -122,6 +122,8 @@ static const char *const fine[][2] = {
     {"law equilibrium", "h_eq,force_max,force_max_nN\n"},
     {"law bridge-strength --at h=0", "h,strength_GPa\n0,"},
     {"law lattice --lattice bcc --at h=0.02", "h,density,pressure_GPa\n"},
+    {"law bridge-strength --at h=0 --vary contact.bridge_length=0.005d,0.01d",
+     "contact.bridge_length,h,strength_GPa\n0.005d,0,7.2678313435"},
     {"law rod --range h=0.1:0.1:1", "\n0.1"},
 };
 
