@@ -1,40 +1,18 @@
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
-#include <sys/wait.h>
 
 #include <glib.h>
+
+#include "common/program.h"
 
 /* The real program as a user calls it: exit status, one line on stderr, numbers. */
 
 static const char *program;
 
-struct result {
-    int status;
-    char *out, *err;
-};
-
 static struct result call(const char *words)
 {
-    struct result result = {0};
-    char **arguments = NULL;
-    char *line = g_strconcat("greenbody ", words, NULL);
-    g_assert_true(g_shell_parse_argv(line, NULL, &arguments, NULL));
-    g_free(arguments[0]);
-    arguments[0] = g_strdup(program);
-    int wait = 0;
-    g_assert_true(g_spawn_sync(NULL, arguments, NULL, G_SPAWN_STDIN_FROM_DEV_NULL, NULL,
-                               NULL, &result.out, &result.err, &wait, NULL));
-    result.status = WIFEXITED(wait) ? WEXITSTATUS(wait) : -1;
-    g_strfreev(arguments);
-    g_free(line);
-    return result;
-}
-
-static void finish(struct result *result)
-{
-    g_free(result->out);
-    g_free(result->err);
+    return program_call(program, NULL, words);
 }
 
 /* Words, and a part of the one line on stderr; exit status 2. */
@@ -102,7 +80,7 @@ static void test_refused(void)
         g_assert_nonnull(strstr(result.err, refused[i][1]));
         const char *newline = strchr(result.err, '\n');
         g_assert_true(newline && newline[1] == '\0'); /* one line */
-        finish(&result);
+        program_finish(&result);
     }
 }
 
@@ -135,7 +113,7 @@ static void test_fine(void)
         g_assert_cmpint(result.status, ==, 0);
         g_assert_cmpstr(result.err, ==, "");
         g_assert_nonnull(strstr(result.out, fine[i][1]));
-        finish(&result);
+        program_finish(&result);
     }
 }
 
@@ -177,7 +155,7 @@ static void test_values(void)
                                        1e-10 * fabs(values[i].value));
         g_strfreev(cells);
         g_strfreev(lines);
-        finish(&result);
+        program_finish(&result);
     }
 }
 
@@ -208,7 +186,7 @@ static void test_path(void)
     g_assert_cmpint(jumps, ==, 2);
     g_assert_cmpint(smooth, >, 600); /* the rest is partial breaking, and jumps */
     g_strfreev(lines);
-    finish(&result);
+    program_finish(&result);
 }
 
 /* A full disk is the machine's fault; a reader that goes away is nobody's. */
@@ -236,7 +214,7 @@ static void test_output(void)
         g_assert_cmpint(WEXITSTATUS(wait), ==, rows[i].status);
         g_assert_nonnull(strstr(result.err, rows[i].said));
         g_assert_true(rows[i].status != 0 || result.err[0] == '\0');
-        finish(&result);
+        program_finish(&result);
     }
 }
 

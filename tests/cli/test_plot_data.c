@@ -1,10 +1,11 @@
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
-#include <sys/wait.h>
 
 #include <glib.h>
 #include <glib/gstdio.h>
+
+#include "common/program.h"
 
 /* `greenbody plot` on run directories with known curves. */
 
@@ -65,33 +66,13 @@ static void write_run(const char *name, double rate, int seed)
     g_string_free(curve, TRUE);
 }
 
-struct result {
-    int status;
-    char *out, *err;
-};
-
 /* Words may name runs; the program is called in their folder. */
 static struct result call(const char *words)
 {
-    struct result result = {0};
-    char **arguments = NULL;
-    char *line = g_strconcat("greenbody plot ", words, NULL);
-    g_assert_true(g_shell_parse_argv(line, NULL, &arguments, NULL));
-    g_free(arguments[0]);
-    arguments[0] = g_strdup(program);
-    int wait = 0;
-    g_assert_true(g_spawn_sync(folder, arguments, NULL, G_SPAWN_STDIN_FROM_DEV_NULL, NULL,
-                               NULL, &result.out, &result.err, &wait, NULL));
-    result.status = WIFEXITED(wait) ? WEXITSTATUS(wait) : -1;
-    g_strfreev(arguments);
+    char *line = g_strconcat("plot ", words, NULL);
+    const struct result result = program_call(program, folder, line);
     g_free(line);
     return result;
-}
-
-static void finish(struct result *result)
-{
-    g_free(result->out);
-    g_free(result->err);
 }
 
 /* The cell of a column in a row of data (from 0); NaN when empty. */
@@ -141,7 +122,7 @@ static void test_time(void)
     near_to(cell(result.out, "run_2_MPa", 0), 2.0, 1e-9);
     near_to(cell(result.out, "mean_1_MPa", 0), 1.5, 1e-9);
     near_to(cell(result.out, "se_1_MPa", 0), 0.5, 1e-9);
-    finish(&result);
+    program_finish(&result);
 }
 
 static void test_densification(void)
@@ -157,7 +138,7 @@ static void test_densification(void)
     near_to(cell(result.out, "asymptote_1_MPa", row), 691.66423634, 1e-5);
     g_assert_true(isnan(cell(result.out, "asymptote_1_MPa", 0)));
     g_assert_null(strstr(result.out, "asymptote_2"));
-    finish(&result);
+    program_finish(&result);
 }
 
 static void test_difference(void)
@@ -170,7 +151,7 @@ static void test_difference(void)
         near_to(cell(result.out, "difference_1_MPa", 80), want, 1e-6);
         near_to(cell(result.out, "se_1_MPa", 80), 0.5 * sqrt(2.0), 1e-6);
         g_assert_null(strstr(result.out, "difference_2"));
-        finish(&result);
+        program_finish(&result);
     }
 }
 
@@ -188,10 +169,10 @@ static void test_rate(void)
     g_assert_nonnull(strstr(result.out, "k_v = 21.5 ("));
     g_assert_nonnull(strstr(result.out, "free exponent of the rate: 0.25 ("));
     g_assert_null(strstr(result.out, "0.99"));
-    finish(&result);
+    program_finish(&result);
     result = fine("a1 b1 --figure rate");
     g_assert_nonnull(strstr(result.out, "no power law: 2 different rates"));
-    finish(&result);
+    program_finish(&result);
 }
 
 static void test_relaxation(void)
@@ -209,20 +190,20 @@ static void test_relaxation(void)
         g_assert_cmpfloat(cell(result.out, "tau2_low_ns", row), <, 4.9304 + 1e-3);
         g_assert_cmpfloat(cell(result.out, "tau2_high_ns", row), >, 4.9304 - 1e-3);
     }
-    finish(&result);
+    program_finish(&result);
 }
 
 static void test_output(void)
 {
     struct result result = fine("a1 --figure time -o x.csv");
     g_assert_cmpstr(result.out, ==, "");
-    finish(&result);
+    program_finish(&result);
     result = call("a1 --figure time -o x.csv");
     g_assert_cmpint(result.status, ==, 2);
     g_assert_nonnull(strstr(result.err, "x.csv: exists; --force replaces it"));
-    finish(&result);
+    program_finish(&result);
     result = fine("a1 --figure densification -o x.csv --force");
-    finish(&result);
+    program_finish(&result);
     char *text = NULL;
     char *path = g_build_filename(folder, "x.csv", NULL);
     g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
@@ -305,7 +286,7 @@ static void test_refused(void)
         g_assert_nonnull(strstr(result.err, refused[i][1]));
         const char *newline = strchr(result.err, '\n');
         g_assert_true(newline && newline[1] == '\0'); /* one line */
-        finish(&result);
+        program_finish(&result);
     }
 }
 
