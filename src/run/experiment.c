@@ -80,6 +80,26 @@ static bool grow_world(struct gb_experiment *experiment, bool (*cancelled)(void 
     return done;
 }
 
+/* Before the packing is grown, so that an unknown relaxer is told at once.  Dynamic
+ * scenes have none. */
+static bool create_relaxer(struct gb_experiment *experiment, struct gb_error *err)
+{
+    return experiment->params.kind == GB_KIND_DYNAMIC ||
+           gb_relax_create(&experiment->relax, &experiment->model, err);
+}
+
+/* The first relaxation, or the motion. */
+static bool begin(struct gb_experiment *experiment, struct gb_error *err)
+{
+    gb_load_init(&experiment->load, &experiment->model);
+    if (experiment->relax) {
+        gb_relax_start(experiment->relax, experiment->world);
+        return true;
+    }
+    experiment->elastic_start = gb_observe_elastic(experiment->world);
+    return gb_motion_create(&experiment->motion, experiment->world, err);
+}
+
 bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *params,
                           bool (*cancelled)(void *data), void *data, struct gb_error *err)
 {
@@ -90,20 +110,11 @@ bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *pa
     experiment->params = *params;
     if (!gb_params_check(params, err) ||
         !gb_model_init(&experiment->model, params, err) ||
-        !gb_relax_create(&experiment->relax, &experiment->model, err) ||
+        !create_relaxer(experiment, err) ||
         !grow_world(experiment, cancelled, data, err) ||
-        !gb_world_evaluate(experiment->world, err)) {
+        !gb_world_evaluate(experiment->world, err) || !begin(experiment, err)) {
         gb_experiment_destroy(experiment);
         return false;
-    }
-    gb_load_init(&experiment->load, &experiment->model);
-    gb_relax_start(experiment->relax, experiment->world);
-    if (params->kind == GB_KIND_DYNAMIC) {
-        experiment->elastic_start = gb_observe_elastic(experiment->world);
-        if (!gb_motion_create(&experiment->motion, experiment->world, err)) {
-            gb_experiment_destroy(experiment);
-            return false;
-        }
     }
     *out = experiment;
     return true;
@@ -154,9 +165,7 @@ static void measure(const struct gb_experiment *experiment, struct gb_point *poi
         .bridged =
             counts.contacts > 0 ? (double)counts.bridged / (double)counts.contacts : 0.0,
         .rattlers = (double)counts.rattlers / (double)experiment->model.count,
-        .residual = experiment->relax->residual,
-        .iterations = experiment->spent_iterations + experiment->relax->iterations,
-        .evaluations = experiment->spent_evaluations + experiment->relax->evaluations,
+        .residual = gb_world_residual(experiment->world),
         .time_s = NAN, /* as all that follow: of dynamic runs */
         .kinetic = NAN,
         .work = NAN,
@@ -249,7 +258,6 @@ static void measure_motion(const struct gb_experiment *experiment, struct gb_poi
     const double lost = report.work - report.kinetic - report.absorbed;
     point->branch = branch[report.stage];
     point->branch_from_pa = 0.0;
-    point->residual = gb_world_residual(experiment->world);
     point->iterations = report.steps;
     point->evaluations = report.steps;
     point->time_s = report.time * model->dynamics.second_per_time;
@@ -263,6 +271,10 @@ static void measure_motion(const struct gb_experiment *experiment, struct gb_poi
 static enum gb_advance record(struct gb_experiment *experiment, struct gb_error *err)
 {
     measure(experiment, &experiment->point);
+    experiment->point.iterations =
+        experiment->spent_iterations + experiment->relax->iterations;
+    experiment->point.evaluations =
+        experiment->spent_evaluations + experiment->relax->evaluations;
     experiment->spent_iterations = experiment->spent_evaluations = 0;
     experiment->step++;
     gb_load_recover(&experiment->load);
@@ -354,10 +366,9 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
                         GB_SNAPSHOT_HISTOGRAM, NULL);
     gb_observe_rose(experiment->world, GB_SNAPSHOT_ROSE, snapshot->rose);
     snapshot->evaluations = gb_world_evaluations(experiment->world);
-    snapshot->live_residual = experiment->relax->residual;
+    snapshot->live_residual = gb_world_residual(experiment->world);
     const double pressure = experiment->point.p_pa / experiment->model.pascal_per_stress;
     if (experiment->motion) {
-        snapshot->live_residual = gb_world_residual(experiment->world);
         const struct gb_motion_report report = gb_motion_report(experiment->motion);
         snapshot->progress = report.progress;
         snapshot->time_step_s =

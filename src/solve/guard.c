@@ -10,8 +10,7 @@ enum { HALVINGS_MOST = 6 };
 /* The relaxer ran out of evaluations: mostly two states of a breaking bridge that take
  * turns, with a small residual left.  A large one means that there is no equilibrium to
  * be found. */
-static enum gb_guard_action judge_exhausted(struct gb_guard *guard,
-                                            const struct gb_relax *relax, char *text,
+static enum gb_guard_action judge_exhausted(const struct gb_relax *relax, char *text,
                                             size_t size, struct gb_error *err)
 {
     if (relax->residual > GB_RESIDUAL_STOP * relax->tolerance) {
@@ -21,7 +20,6 @@ static enum gb_guard_action judge_exhausted(struct gb_guard *guard,
             (long long)relax->evaluations, relax->residual, relax->tolerance);
         return GB_GUARD_STOP;
     }
-    guard->unrelaxed = true;
     snprintf(text, size,
              "not fully relaxed: residual %.2e after %lld evaluations, tolerance %.2e",
              relax->residual, (long long)relax->evaluations, relax->tolerance);
@@ -33,10 +31,9 @@ enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcom
                                     struct gb_error *err)
 {
     text[0] = '\0';
-    guard->unrelaxed = false;
     if (outcome == GB_RELAX_EXHAUSTED) {
         guard->halvings = 0;
-        return judge_exhausted(guard, relax, text, size, err);
+        return judge_exhausted(relax, text, size, err);
     }
     if (outcome != GB_RELAX_FAILED) {
         guard->halvings = 0;

@@ -14,8 +14,7 @@ enum gb_guard_action {
 };
 
 struct gb_guard {
-    int halvings;   /* of the strain step, in a row */
-    bool unrelaxed; /* the state accepted last had not met the tolerance */
+    int halvings; /* of the strain step, in a row */
 };
 
 /* Judges the outcome of a strain step.  text (size bytes) receives one line for

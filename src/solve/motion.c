@@ -100,9 +100,8 @@ static double bound_given(struct gb_motion *motion, double critical, char *text,
     return motion->limit;
 }
 
-/* auto: the error of velocity Verlet goes with (omega step)^2; the factor was measured at
- * v1, where a step of 1/omega errs by 2 % in the end pressure.  Strong damping bounds it
- * more. */
+/* auto: the error of velocity Verlet goes with (omega step)^2, GB_STEP_ERROR_UNIT says
+ * how much.  Strong damping bounds the step more. */
 static double pick_step(struct gb_motion *motion, double frequency, double critical,
                         char *text, size_t size)
 {

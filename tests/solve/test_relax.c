@@ -43,6 +43,18 @@ static void test_all(void)
     }
 }
 
+/* A packing out of equilibrium, and a relaxation of it that is about to begin. */
+static struct gb_world *squeezed(const struct gb_model *model, struct gb_relax **relax)
+{
+    static const double factor[3] = {1.0, 1.0, 0.99};
+    struct gb_error err = {0};
+    struct gb_world *world = scene_world(model);
+    g_assert_true(gb_relax_create(relax, model, &err));
+    gb_world_strain(world, factor);
+    gb_relax_start(*relax, world);
+    return world;
+}
+
 /* A slice never runs over, and slices of any length give the same bits. */
 static void test_slices(void)
 {
@@ -50,13 +62,9 @@ static void test_slices(void)
     const struct gb_model model = scene_model(&params);
     uint64_t hash[2];
     for (int s = 0; s < 2; s++) {
-        struct gb_world *world = scene_world(&model);
         struct gb_relax *relax = NULL;
         struct gb_error err = {0};
-        g_assert_true(gb_relax_create(&relax, &model, &err));
-        const double factor[3] = {1.0, 1.0, 0.99};
-        gb_world_strain(world, factor);
-        gb_relax_start(relax, world);
+        struct gb_world *world = squeezed(&model, &relax);
         int64_t last = 0;
         while (gb_relax_advance(relax, world, s == 0 ? 1 : 7, &err) == GB_RELAX_MORE) {
             g_assert_cmpint(relax->evaluations - last, ==, s == 0 ? 1 : 7);
@@ -74,13 +82,9 @@ static void test_exhausted(void)
     const struct gb_params params =
         scene_params("numerics.tolerance=1e-9", "numerics.max_evaluations=20", NULL);
     const struct gb_model model = scene_model(&params);
-    struct gb_world *world = scene_world(&model);
     struct gb_relax *relax = NULL;
     struct gb_error err = {0};
-    g_assert_true(gb_relax_create(&relax, &model, &err));
-    const double factor[3] = {1.0, 1.0, 0.99};
-    gb_world_strain(world, factor);
-    gb_relax_start(relax, world);
+    struct gb_world *world = squeezed(&model, &relax);
     g_assert_cmpint(gb_relax_advance(relax, world, 1000, &err), ==, GB_RELAX_EXHAUSTED);
     g_assert_cmpint(relax->evaluations, ==, 20);
     gb_relax_destroy(relax);
