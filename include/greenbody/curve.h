@@ -32,6 +32,12 @@ struct gb_point {
     double time_s;                             /* simulated */
     double kinetic, work, elastic, dissipated; /* J */
     double energy_residual; /* what the energies fail to add up by, over the work */
+    /* Dies only, else NaN (with time_s); pz and p are what the punch carries. */
+    double central;          /* density of a ball in the middle */
+    double height_m;         /* of the powder */
+    double height_change;    /* over the height before pressing; negative */
+    double wanted_pa;        /* pressure of the programme */
+    double floor_over_punch; /* forces; far from 1: not quasi-static */
 };
 
 /* Append-only list of points.  One writer; any number of readers may read every point

@@ -22,6 +22,7 @@ struct gb_terms {
 struct gb_numerics {
     char relaxer[24];
     double tolerance; /* rms residual over force scale at which a step is relaxed */
+    int parts;        /* equal ones in which a strain step is taken */
     double cutoff;    /* d; attraction is dropped beyond */
     double skin;      /* d; margin of the neighbour list */
     int threads;
@@ -40,6 +41,30 @@ struct gb_dynamics {
     double record_time;     /* reduced time between recorded points of relax and hold */
     double second_per_time; /* T in s */
     double inertia;         /* J, m d^2 */
+};
+
+/* A die and what is done in it, reduced units (the time is that of dynamic scenes,
+ * lengths in d). Source: P3 section 5. */
+struct gb_die_scene {
+    double radius;       /* of the cylinder */
+    double height;       /* where the funnel begins */
+    double outlet;       /* radius of the funnel's opening */
+    double angle;        /* of the funnel's wall to the axis, rad */
+    double loose;        /* density of the powder placed in the funnel */
+    double fill_gravity; /* while pouring */
+    double gravity;      /* at rest and in pressing */
+    double ease;         /* time from one to the other */
+    double flatten;      /* way of the punch down from its first contact */
+    double pressing;     /* time of the ramp */
+    double pressure;     /* at its end */
+    bool quadratic;      /* p = p_max (t/T)^2 instead of p_max t/T */
+    double record;       /* pressure between recorded points */
+    double punch_mass;   /* in masses of the bed */
+    double safety;       /* of the time step */
+    double time_step;    /* 0: by the critical one */
+    double inertia_scale;
+    double central; /* radius of the sphere that measures the central density */
+    double second_per_time;
 };
 
 /* Frozen from gb_params: reduced units (length d, stress E, mass m), all derived
@@ -68,6 +93,7 @@ struct gb_model {
     double unload_from[GB_UNLOAD_MAX];
     int unload_count;
     struct gb_dynamics dynamics; /* zero unless kind is GB_KIND_DYNAMIC */
+    struct gb_die_scene die;     /* zero unless kind is GB_KIND_DIE */
     double pascal_per_stress;    /* E in Pa */
     double metre_per_length;     /* d in m */
     double newton_per_force;     /* E d^2 in N */

@@ -12,15 +12,31 @@
  * One row per field in the field table (phys/params.c): preset files, --set, the editor,
  * `greenbody params` and the run directory follow from it. */
 
-enum gb_kind { GB_KIND_QUASISTATIC, GB_KIND_DYNAMIC };
-enum gb_distribution { GB_DISTRIBUTION_MONO };
-enum gb_normal { GB_NORMAL_ROD };
+enum gb_kind { GB_KIND_QUASISTATIC, GB_KIND_DYNAMIC, GB_KIND_DIE };
+enum gb_distribution {
+    GB_DISTRIBUTION_MONO,
+    GB_DISTRIBUTION_LOGNORMAL,
+    GB_DISTRIBUTION_TABLE
+};
+enum gb_normal { GB_NORMAL_ROD, GB_NORMAL_HERTZ, GB_NORMAL_STORAKERS };
+enum gb_storakers { GB_STORAKERS_CAPPED, GB_STORAKERS_PRINTED };
 enum gb_bridge_radius { GB_BRIDGE_RADIUS_DEEPEST, GB_BRIDGE_RADIUS_CURRENT };
 enum gb_relative_motion { GB_MOTION_HALF, GB_MOTION_FULL };
-enum gb_geometry { GB_GEOMETRY_UNIAXIAL, GB_GEOMETRY_BIAXIAL, GB_GEOMETRY_ISOTROPIC };
+enum gb_geometry {
+    GB_GEOMETRY_UNIAXIAL,
+    GB_GEOMETRY_BIAXIAL,
+    GB_GEOMETRY_ISOTROPIC,
+    GB_GEOMETRY_DIE
+};
+enum gb_ramp { GB_RAMP_AUTO, GB_RAMP_LINEAR, GB_RAMP_QUADRATIC };
 enum gb_fidelity { GB_FIDELITY_FAST, GB_FIDELITY_BALANCED, GB_FIDELITY_REFERENCE };
+enum gb_on_hangup { GB_ON_HANGUP_DETACH, GB_ON_HANGUP_STOP };
 
-enum { GB_UNLOAD_MAX = 16 };
+enum { GB_UNLOAD_MAX = 16, GB_SIZES_MAX = 128 };
+
+/* Room for any value as gb_params_format writes it: a full table of sizes is the longest.
+ */
+enum { GB_PARAMS_VALUE_MAX = 8192 };
 
 /* A quantity given either in SI or as a multiple of the particle diameter ("0.008 d"), of
  * Young's modulus ("0.018 E") or of the reduced time ("0.04 T").  Kept as typed, so that
@@ -28,6 +44,16 @@ enum { GB_UNLOAD_MAX = 16 };
 struct gb_relative {
     double value; /* SI, or the multiple */
     bool relative;
+};
+
+/* Sizes of a powder and the share of each, diameters ascending. */
+struct gb_sizetable {
+    int count;      /* 0: no table */
+    bool by_volume; /* shares are of the volume, not of the number */
+    struct gb_sizetable_row {
+        double diameter_m;
+        double share; /* the shares sum to 1 within GB_SHARES_SLACK */
+    } row[GB_SIZES_MAX];
 };
 
 struct gb_params {
@@ -43,25 +69,52 @@ struct gb_params {
     double d0_m;
     double n_d0_cubed;
     double epsilon_j;
+    double yield_pa;
+    double hardening;   /* exponent m */
+    double hollomon_pa; /* NaN: auto, gb_params_hollomon_pa */
+    double young_j_pa;  /* this and the next three: the second body of a pair; */
+    double poisson_j;   /* NaN: as the first */
+    double density_j_kg_m3;
+    double yield_j_pa;
     /* [particles] */
     int64_t count;
     double diameter_m;
-    int distribution; /* enum gb_distribution */
+    int distribution;          /* enum gb_distribution */
+    double median_m;           /* of lognormal; NaN: auto, the diameter */
+    double sigma;              /* of lognormal: deviation of ln d */
+    double least_m, largest_m; /* where lognormal is cut; NaN: not cut */
+    struct gb_sizetable sizes; /* of table */
     /* [contact] */
     int normal; /* enum gb_normal */
     double alpha;
     double mu;
+    double mu_wall;  /* of the walls of a die */
     double mu_pivot; /* NaN in memory: follows mu ("auto" in files) */
     struct gb_relative bridge_length;
     struct gb_relative shear_strength; /* NaN: auto, by whether there are bridges */
     int bridge_radius;                 /* enum gb_bridge_radius */
     int relative_motion;               /* enum gb_relative_motion */
     double viscosity_pa_s;             /* dynamic scenes */
+    double damping;                    /* xi, share of the critical damping */
+    double shear_ratio;                /* k_t/k_n of plastic contacts */
+    int storakers;                     /* enum gb_storakers */
+    double radius_i_m, radius_j_m;     /* of a pair; NaN: d/2, infinite: a wall */
     /* [structure] */
     double structure_density; /* NaN: auto, gb_params_structure_density */
     struct gb_relative base;  /* relative with value 0: auto, P1's aspect ratio */
     struct gb_relative r_meso;
     uint64_t seed;
+    /* [die] */
+    double die_diameter_m;
+    double die_height_m;  /* of the funnel's outlet over the floor; NaN: auto */
+    double die_outlet_m;  /* diameter of the outlet; NaN: auto */
+    double die_angle_deg; /* of the funnel's wall to the axis */
+    double fill_gravity;  /* in g = 9.80665 m/s2, while pouring ... */
+    double rest_gravity;  /* ... and from then on */
+    double ease_s;        /* time from one to the other */
+    double flatten_m;
+    double punch_mass; /* in masses of the powder */
+    double central_m;  /* diameter of the sphere of the central density */
     /* [loading] */
     int geometry; /* enum gb_geometry */
     double strain_step;
@@ -69,22 +122,30 @@ struct gb_params {
     double until_density;     /* NaN when the run stops at a pressure */
     double unload_from_pa[GB_UNLOAD_MAX];
     int unload_count;
+    char changes[256]; /* of a run under way: phys/changes.h */
     double rate_per_s; /* (1/rho) d rho/dt; this and the next four: dynamic scenes */
     double relax_s, hold_s;
-    double record_density; /* relative growth of density between recorded points */
-    double record_time_s;  /* between recorded points of relax and hold */
+    double record_density;     /* relative growth of density between recorded points */
+    double record_time_s;      /* between recorded points of relax and hold */
+    int ramp;                  /* enum gb_ramp; this and the next two: dies */
+    double pressing_s;         /* NaN: auto */
+    double record_pressure_pa; /* between recorded points */
     /* [numerics]: NaN or negative means "auto", picked by fidelity when the model is made
      */
     int fidelity;     /* enum gb_fidelity */
     char relaxer[24]; /* name in the relaxer table, or "auto" */
     double tolerance;
+    double strain_part; /* largest strain relaxed at once */
     struct gb_relative cutoff;
     int64_t threads;
     int64_t max_evaluations;      /* per strain step */
     struct gb_relative time_step; /* dynamic scenes; NaN: auto */
     double step_error;            /* what auto may err by */
+    double safety;                /* of the automatic step of a die; NaN: auto */
+    double inertia_scale;         /* of the rotation of particles in a die */
     /* [output] */
     double checkpoint_every_s;
+    int on_hangup; /* enum gb_on_hangup */
 };
 
 /* How a field is read and written. */
@@ -96,7 +157,8 @@ enum gb_field_type {
     GB_FIELD_CHOICE,   /* int, one of choices */
     GB_FIELD_TEXT,     /* char[] */
     GB_FIELD_UNTIL,    /* pressure, or "density = x": until_pressure_pa / until_density */
-    GB_FIELD_PRESSURES /* list separated by ';' */
+    GB_FIELD_PRESSURES, /* list separated by ';' */
+    GB_FIELD_SIZES      /* struct gb_sizetable: a CSV file, or the table in one line */
 };
 
 struct gb_field {
@@ -108,6 +170,7 @@ struct gb_field {
     int dimension;        /* enum gb_dimension of base/units.h */
     const char *relative; /* "d", "E" or "T" for GB_FIELD_RELATIVE */
     double min, max;      /* inclusive, in SI (for relative fields: of the multiple) */
+    const char *infinite; /* word that stands for an infinite number, or NULL */
     bool auto_allowed;    /* "auto" is a value */
     double automatic;     /* what "auto" is in memory */
     const char *const *choices; /* NULL-terminated, for GB_FIELD_CHOICE (numbers stand for
@@ -146,9 +209,18 @@ bool gb_params_assign(struct gb_params *params, const char *assignment,
  * dimension against geometry, finite numbers.  Errors name the keys. */
 bool gb_params_check(const struct gb_params *params, struct gb_error *err);
 
+/* The part of it that looks at each field alone, for what is no scene: values of a law.
+ */
+bool gb_params_check_fields(const struct gb_params *params, struct gb_error *err);
+
 /* Resolved lengths and pressures, SI. */
 double gb_params_bridge_length_m(const struct gb_params *params);
 double gb_params_shear_strength_pa(const struct gb_params *params);
+/* Median diameter of the log-normal law. */
+double gb_params_median_m(const struct gb_params *params);
+/* sigma_0 of Hollomon's law; auto passes through the yield point.  Source: P3 section 4.
+ */
+double gb_params_hollomon_pa(const struct gb_params *params);
 /* Density of the initial structure; auto is 0.24 in 3D and 0.5 in 2D (P1, P2). */
 double gb_params_structure_density(const struct gb_params *params);
 

@@ -40,4 +40,22 @@ struct gb_snapshot {
     struct gb_error error;         /* why it failed or stopped */
 };
 
+enum { GB_PICTURE_POINTS = 4096, GB_PICTURE_RDF = 160 };
+
+/* The packing as the screen can draw it: plain data through a triple buffer of its own,
+ * taken less often than the snapshot.  Reduced lengths. */
+struct gb_picture {
+    bool valid;
+    int dimension;
+    double density;
+    double edge[3]; /* of the whole cell */
+    double
+        window[3]; /* the part that is shown; its front is y = 0 */
+    int count;
+    float place[GB_PICTURE_POINTS][3];
+    float radius[GB_PICTURE_POINTS];
+    double rdf_reach;           /* g(r) ends there; 0: it is missing */
+    double rdf[GB_PICTURE_RDF]; /* bin k: [k, k+1) rdf_reach / GB_PICTURE_RDF */
+};
+
 #endif

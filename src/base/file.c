@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <glib.h>
 #include <glib/gstdio.h>
+#include <stdatomic.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,6 +14,24 @@ static const char *reason(const GError *error)
 {
     const char *colon = strrchr(error->message, ':');
     return colon != NULL && colon[1] == ' ' ? colon + 2 : error->message;
+}
+
+/* The only mutable state of this file: the test hook. */
+static _Atomic long fail_countdown;
+
+void gb_file_fail_after(long k)
+{
+    atomic_store(&fail_countdown, k);
+}
+
+bool gb_file_may_write(void)
+{
+    const bool fails =
+        atomic_load(&fail_countdown) > 0 && atomic_fetch_sub(&fail_countdown, 1) == 1;
+    if (fails) {
+        errno = ENOSPC;
+    }
+    return !fails;
 }
 
 bool gb_file_check_target(const char *path, struct gb_error *err)
@@ -41,6 +60,10 @@ bool gb_file_replace(const char *path, const void *data, size_t size,
 {
     if (!gb_file_check_target(path, err)) {
         return false;
+    }
+    if (!gb_file_may_write()) {
+        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
+                            g_strerror(errno));
     }
     GError *error = NULL;
     const GFileSetContentsFlags flags =

@@ -19,4 +19,12 @@ bool gb_file_replace(const char *path, const void *data, size_t size,
  * regular file, and its folder exists and can be written. */
 bool gb_file_check_target(const char *path, struct gb_error *err);
 
+/* Every write of the program asks this first: false with errno ENOSPC when the hook below
+ * says so. */
+bool gb_file_may_write(void);
+
+/* Test hook: the k-th write from now on fails as on a full disk (k = 1 is the next one);
+ * 0 switches the hook off.  Thread-safe. */
+void gb_file_fail_after(long k);
+
 #endif

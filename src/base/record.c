@@ -1,0 +1,246 @@
+#include "base/record.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+void gb_record_finish(struct gb_record *record)
+{
+    for (int k = 0; k < GB_RECORD_ITEMS; k++) {
+        gb_alloc_free(record->item[k].data);
+    }
+    memset(record, 0, sizeof *record);
+}
+
+void gb_record_clear(struct gb_record *record)
+{
+    record->loading = false;
+    record->count = 0;
+}
+
+size_t gb_record_type_size(enum gb_record_type type)
+{
+    switch (type) {
+    case GB_RECORD_INT32:
+        return sizeof(int32_t);
+    case GB_RECORD_BOOL:
+        return sizeof(bool);
+    default:
+        return sizeof(double);
+    }
+}
+
+size_t gb_record_bytes(const struct gb_record_item *item)
+{
+    return (size_t)item->rows * (size_t)item->columns * gb_record_type_size(item->type);
+}
+
+const struct gb_record_item *gb_record_find(const struct gb_record *record,
+                                            const char *name)
+{
+    for (int k = 0; k < record->count; k++) {
+        if (strcmp(record->item[k].name, name) == 0) {
+            return &record->item[k];
+        }
+    }
+    return NULL;
+}
+
+struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
+                                     enum gb_record_type type, int64_t rows, int columns,
+                                     const char *unit, struct gb_error *err)
+{
+    if (record->count == GB_RECORD_ITEMS || strlen(name) >= GB_RECORD_NAME) {
+        gb_error_set(err, GB_ERR_INPUT, "%s: a checkpoint has at most %d arrays", name,
+                     GB_RECORD_ITEMS);
+        return NULL;
+    }
+    struct gb_record_item *item = &record->item[record->count];
+    snprintf(item->name, sizeof item->name, "%s", name);
+    snprintf(item->unit, sizeof item->unit, "%s", unit);
+    item->type = type;
+    item->rows = rows;
+    item->columns = columns;
+    const size_t bytes = gb_record_bytes(item);
+    if (!item->data || bytes > item->room) {
+        gb_alloc_free(item->data);
+        item->room = bytes + bytes / 16; /* contacts become more and more */
+        item->data = gb_alloc_array(item->room + 1, 1, err);
+        if (!item->data) {
+            item->room = 0;
+            return NULL;
+        }
+    }
+    record->count++;
+    return item;
+}
+
+static bool check_shape(const struct gb_record_item *item, const char *name,
+                        enum gb_record_type type, int columns, struct gb_error *err)
+{
+    if (!item) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: is missing", name);
+    }
+    return (item->type == type && item->columns == columns) ||
+           gb_error_set(err, GB_ERR_INPUT, "%s: has another shape or number type", name);
+}
+
+bool gb_record_rows(const struct gb_record *record, const char *name,
+                    enum gb_record_type type, int columns, int64_t *rows,
+                    struct gb_error *err)
+{
+    const struct gb_record_item *item = gb_record_find(record, name);
+    if (!check_shape(item, name, type, columns, err)) {
+        return false;
+    }
+    *rows = item->rows;
+    return true;
+}
+
+/* Any other byte in a bool is undefined behaviour. */
+static bool check_bools(const struct gb_record_item *item)
+{
+    const unsigned char *byte = item->data;
+    for (size_t k = 0; item->type == GB_RECORD_BOOL && k < gb_record_bytes(item); k++) {
+        if (byte[k] > 1) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool load(const struct gb_record *record, const char *name,
+                 enum gb_record_type type, int64_t rows, int columns, void *data,
+                 struct gb_error *err)
+{
+    const struct gb_record_item *item = gb_record_find(record, name);
+    if (!check_shape(item, name, type, columns, err)) {
+        return false;
+    }
+    if (item->rows != rows) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: has %lld rows instead of %lld", name,
+                            (long long)item->rows, (long long)rows);
+    }
+    if (!check_bools(item)) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: is neither 0 nor 1", name);
+    }
+    if (rows > 0) {
+        memcpy(data, item->data, gb_record_bytes(item));
+    }
+    return true;
+}
+
+bool gb_record_array(struct gb_record *record, const char *name, enum gb_record_type type,
+                     int64_t rows, int columns, const char *unit, void *data,
+                     struct gb_error *err)
+{
+    if (record->loading) {
+        return load(record, name, type, rows, columns, data, err);
+    }
+    struct gb_record_item *item =
+        gb_record_add(record, name, type, rows, columns, unit, err);
+    if (!item) {
+        return false;
+    }
+    if (rows > 0) {
+        memcpy(item->data, data, gb_record_bytes(item));
+    }
+    return true;
+}
+
+bool gb_record_members(struct gb_record *record, const struct gb_record_member *table,
+                       size_t count, void *object, struct gb_error *err)
+{
+    for (size_t k = 0; k < count; k++) {
+        const struct gb_record_member *row = &table[k];
+        if (!gb_record_array(record, row->name, row->type, 1, row->columns, row->unit,
+                             (char *)object + row->offset, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void gb_record_drop(struct gb_record *record, const char *prefix)
+{
+    int kept = 0;
+    for (int k = 0; k < record->count; k++) {
+        if (strncmp(record->item[k].name, prefix, strlen(prefix)) == 0) {
+            continue;
+        }
+        const struct gb_record_item item = record->item[kept]; /* its memory stays */
+        record->item[kept++] = record->item[k];
+        record->item[k] = item;
+    }
+    record->count = kept;
+}
+
+static int64_t first_other_row(const struct gb_record_item *a,
+                               const struct gb_record_item *b)
+{
+    const size_t bytes = (size_t)a->columns * gb_record_type_size(a->type);
+    const char *one = a->data, *other = b->data;
+    const int64_t rows = a->rows < b->rows ? a->rows : b->rows;
+    for (int64_t i = 0; i < rows; i++) {
+        if (memcmp(one + (size_t)i * bytes, other + (size_t)i * bytes, bytes) != 0) {
+            return i;
+        }
+    }
+    return a->rows == b->rows ? -1 : rows;
+}
+
+const char *gb_record_difference(const struct gb_record *a, const struct gb_record *b,
+                                 int64_t *row)
+{
+    const struct gb_record *longer = a->count >= b->count ? a : b;
+    *row = 0;
+    for (int k = 0; k < longer->count; k++) {
+        const char *name = longer->item[k].name;
+        const struct gb_record_item *one = gb_record_find(a, name);
+        const struct gb_record_item *other = gb_record_find(b, name);
+        if (!one || !other || one->type != other->type ||
+            one->columns != other->columns) {
+            return name;
+        }
+        const int64_t at = first_other_row(one, other);
+        if (at >= 0) {
+            *row = at;
+            return name;
+        }
+    }
+    return NULL;
+}
+
+/* FNV-1a by words of eight bytes: byte by byte it would take as long as writing. */
+static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
+{
+    const uint64_t prime = 1099511628211u;
+    const char *byte = data;
+    size_t i = 0;
+    for (; i + 8 <= size; i += 8) {
+        uint64_t word;
+        memcpy(&word, byte + i, sizeof word);
+        hash = (hash ^ word) * prime;
+        hash ^= hash >> 32;
+    }
+    for (; i < size; i++) {
+        hash = (hash ^ (unsigned char)byte[i]) * prime;
+    }
+    return hash;
+}
+
+uint64_t gb_record_hash(const struct gb_record *record)
+{
+    uint64_t sum = 0;
+    for (int k = 0; k < record->count; k++) {
+        const struct gb_record_item *item = &record->item[k];
+        const int64_t shape[3] = {(int64_t)item->type, item->rows, item->columns};
+        uint64_t hash = 14695981039346656037u;
+        hash = hash_bytes(hash, item->name, strlen(item->name));
+        hash = hash_bytes(hash, shape, sizeof shape);
+        hash = hash_bytes(hash, item->data, gb_record_bytes(item));
+        sum += hash;
+    }
+    return sum;
+}

@@ -1,0 +1,93 @@
+#ifndef GB_BASE_RECORD_H
+#define GB_BASE_RECORD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+
+/* Named arrays of plain numbers: what a checkpoint is made of.
+ *
+ * Every part of the engine lists what it needs to go on in one function, which saves or
+ * loads, whichever way the record goes; so the two can't fall apart.  A record is memory
+ * only: files are another matter, and filling it costs no more than the copying. */
+enum gb_record_type {
+    GB_RECORD_DOUBLE,
+    GB_RECORD_INT32, /* int and enum too */
+    GB_RECORD_INT64,
+    GB_RECORD_BOOL /* one byte, 0 or 1 */
+};
+
+enum { GB_RECORD_ITEMS = 160, GB_RECORD_NAME = 48, GB_RECORD_UNIT = 24 };
+
+struct gb_record_item {
+    char name[GB_RECORD_NAME]; /* "world/position" */
+    char unit[GB_RECORD_UNIT];
+    enum gb_record_type type;
+    int columns;
+    int64_t rows;
+    void *data;  /* rows x columns */
+    size_t room; /* bytes of data; kept from one filling to the next */
+};
+
+struct gb_record {
+    bool loading; /* which way gb_record_array and gb_record_members go */
+    int count;
+    struct gb_record_item item[GB_RECORD_ITEMS];
+};
+
+/* A zeroed record is empty. */
+void gb_record_finish(struct gb_record *record);
+/* Empties the record for saving; its memory is used again. */
+void gb_record_clear(struct gb_record *record);
+
+size_t gb_record_type_size(enum gb_record_type type);
+/* Bytes of an item. */
+size_t gb_record_bytes(const struct gb_record_item *item);
+
+/* NULL when there is none. */
+const struct gb_record_item *gb_record_find(const struct gb_record *record,
+                                            const char *name);
+
+/* Adds an item of that shape, its content unset; NULL and err without memory or room. */
+struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
+                                     enum gb_record_type type, int64_t rows, int columns,
+                                     const char *unit, struct gb_error *err);
+
+/* Copies data into the record, or out of it.  Loading, an item that is missing or of
+ * another shape is GB_ERR_INPUT. */
+bool gb_record_array(struct gb_record *record, const char *name, enum gb_record_type type,
+                     int64_t rows, int columns, const char *unit, void *data,
+                     struct gb_error *err);
+
+/* Rows of an array that is about to be loaded; its type and columns are checked. */
+bool gb_record_rows(const struct gb_record *record, const char *name,
+                    enum gb_record_type type, int columns, int64_t *rows,
+                    struct gb_error *err);
+
+/* A member of a struct: `columns` numbers at offset. */
+struct gb_record_member {
+    const char *name;
+    enum gb_record_type type;
+    int columns;
+    size_t offset;
+    const char *unit;
+};
+
+/* All members of the table, out of object or into it. */
+bool gb_record_members(struct gb_record *record, const struct gb_record_member *table,
+                       size_t count, void *object, struct gb_error *err);
+
+/* Takes out all items whose names begin so. */
+void gb_record_drop(struct gb_record *record, const char *prefix);
+
+/* Name of the first item in which the two differ, and its first row that does; NULL when
+ * they are equal to the last bit. */
+const char *gb_record_difference(const struct gb_record *a, const struct gb_record *b,
+                                 int64_t *row);
+
+/* 64-bit hash over names, shapes and content, whatever the order of the items. */
+uint64_t gb_record_hash(const struct gb_record *record);
+
+#endif

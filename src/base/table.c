@@ -1,0 +1,315 @@
+#include "base/table.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "base/units.h"
+
+/* Written by editors of other systems in front of UTF-8. */
+static const char byte_order_mark[] = "\xef\xbb\xbf";
+
+static const char blanks[] = " \t\r";
+
+struct gb_table {
+    char *path;
+    char *text; /* the file, cut into lines and cells in place */
+    size_t length;
+    size_t columns, rows;
+    char *name[GB_TABLE_COLUMNS_MAX]; /* into text */
+    size_t words;                     /* column of words; columns: none */
+    double *value;                    /* columns x rows */
+    char **word;                      /* rows, into text; NULL without words */
+    int *line;                        /* rows */
+};
+
+/* Place in the file. */
+struct cursor {
+    char *next, *end;
+    int line;
+};
+
+static bool read_all(int file, char *text, size_t size, size_t *length)
+{
+    while (*length < size) {
+        const ssize_t got = read(file, text + *length, size - *length);
+        if (got == 0) {
+            return true;
+        }
+        if (got > 0) {
+            *length += (size_t)got;
+        } else if (errno != EINTR) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Not blocking, so that a fifo is refused instead of waited for. */
+static bool load(struct gb_table *table, struct gb_error *err)
+{
+    struct stat info = {0};
+    const int file = open(table->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0) {
+        const bool absent = errno == ENOENT || errno == ENOTDIR;
+        return gb_error_set(err, absent ? GB_ERR_INPUT : GB_ERR_MACHINE, "%s: %s",
+                            table->path, g_strerror(errno));
+    }
+    bool good = false;
+    if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode)) {
+        gb_error_set(err, GB_ERR_INPUT, "%s: is not a regular file", table->path);
+    } else if (info.st_size > GB_TABLE_BYTES_MAX) {
+        gb_error_set(err, GB_ERR_INPUT, "%s: larger than a table may be, %d bytes",
+                     table->path, GB_TABLE_BYTES_MAX);
+    } else {
+        const size_t size = (size_t)info.st_size;
+        table->text = gb_alloc_array(size + 1, 1, err);
+        good = table->text != NULL;
+        if (good && !read_all(file, table->text, size, &table->length)) {
+            good = gb_error_set(err, GB_ERR_MACHINE, "%s: %s", table->path,
+                                g_strerror(errno));
+        }
+    }
+    close(file);
+    return good;
+}
+
+/* The next line that is neither empty nor a comment, cut off in place; NULL at the end.
+ */
+static char *next_line(struct cursor *at)
+{
+    while (at->next < at->end) {
+        char *line = at->next;
+        char *stop = memchr(line, '\n', (size_t)(at->end - line));
+        stop = stop ? stop : at->end;
+        *stop = '\0'; /* there is a byte behind the end */
+        at->next = stop + 1;
+        at->line++;
+        if (line[0] != '#' && line[strspn(line, blanks)] != '\0') {
+            return line;
+        }
+    }
+    return NULL;
+}
+
+/* The next cell without blanks around it, cut off in place; NULL behind the last. */
+static char *next_cell(char **rest)
+{
+    if (*rest == NULL) {
+        return NULL;
+    }
+    char *cell = *rest + strspn(*rest, blanks);
+    char *comma = strchr(cell, ',');
+    char *end = comma ? comma : cell + strlen(cell);
+    *rest = comma ? comma + 1 : NULL;
+    while (end > cell && strchr(blanks, end[-1])) {
+        end--;
+    }
+    *end = '\0';
+    return cell;
+}
+
+static size_t find(const struct gb_table *table, const char *name)
+{
+    size_t k = 0;
+    while (k < table->columns && strcmp(table->name[k], name) != 0) {
+        k++;
+    }
+    return k;
+}
+
+static bool read_header(struct gb_table *table, struct cursor *at, struct gb_error *err)
+{
+    char *rest = next_line(at);
+    if (rest == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: no header row of column names",
+                            table->path);
+    }
+    for (char *cell = next_cell(&rest); cell; cell = next_cell(&rest)) {
+        if (table->columns == GB_TABLE_COLUMNS_MAX) {
+            return gb_error_set(err, GB_ERR_INPUT, "%s:%d: more than %d columns",
+                                table->path, at->line, GB_TABLE_COLUMNS_MAX);
+        }
+        if (*cell == '\0' || strchr(cell, '"') || find(table, cell) < table->columns) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "%s:%d: column %zu is named '%.40s'; accepted different "
+                                "names without quotes",
+                                table->path, at->line, table->columns + 1, cell);
+        }
+        table->name[table->columns++] = cell;
+    }
+    return true;
+}
+
+/* Rows at most, for the arrays. */
+static size_t count_lines(const struct cursor *at)
+{
+    size_t lines = 0;
+    for (const char *c = at->next; c < at->end; lines++) {
+        const char *stop = memchr(c, '\n', (size_t)(at->end - c));
+        c = stop ? stop + 1 : at->end;
+    }
+    return lines;
+}
+
+static bool read_cell(const struct gb_table *table, const struct cursor *at,
+                      size_t column, const char *cell, double *value,
+                      struct gb_error *err)
+{
+    const char *end = cell;
+    *value = NAN;
+    if (*cell == '\0' || column == table->words) {
+        return true;
+    }
+    if (gb_units_number(cell, &end, value) && *end == '\0' && isfinite(*value)) {
+        return true;
+    }
+    return gb_error_set(err, GB_ERR_INPUT,
+                        "%s:%d: %.40s = '%.40s'; accepted a number or nothing",
+                        table->path, at->line, table->name[column], cell);
+}
+
+static bool read_row(struct gb_table *table, const struct cursor *at, char *rest,
+                     size_t room, struct gb_error *err)
+{
+    size_t column = 0;
+    for (char *cell = next_cell(&rest); cell; cell = next_cell(&rest)) {
+        if (column < table->columns) {
+            double *value = &table->value[column * room + table->rows];
+            if (!read_cell(table, at, column, cell, value, err)) {
+                return false;
+            }
+            if (column == table->words) {
+                table->word[table->rows] = cell;
+            }
+        }
+        column++;
+    }
+    if (column != table->columns) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s:%d: %zu cells, but %zu columns",
+                            table->path, at->line, column, table->columns);
+    }
+    table->line[table->rows++] = at->line;
+    return true;
+}
+
+/* Columns were apart by room; now by the number of rows. */
+static void close_gaps(struct gb_table *table, size_t room)
+{
+    for (size_t k = 1; k < table->columns && room > table->rows; k++) {
+        memmove(&table->value[k * table->rows], &table->value[k * room],
+                table->rows * sizeof *table->value);
+    }
+}
+
+static bool parse(struct gb_table *table, const char *words, struct gb_error *err)
+{
+    struct cursor at = {table->text, table->text + table->length, 0};
+    const void *nul = memchr(table->text, '\0', table->length);
+    if (nul != NULL) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: holds NUL bytes; accepted text",
+                            table->path);
+    }
+    if (g_str_has_prefix(table->text, byte_order_mark)) {
+        at.next += strlen(byte_order_mark);
+    }
+    if (!read_header(table, &at, err)) {
+        return false;
+    }
+    const size_t room = count_lines(&at);
+    table->words = words ? find(table, words) : table->columns;
+    if (room > GB_TABLE_CELLS_MAX / table->columns) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: more than %d cells", table->path,
+                            GB_TABLE_CELLS_MAX);
+    }
+    table->value = gb_alloc_array(table->columns * room, sizeof *table->value, err);
+    table->word = gb_alloc_array(room, sizeof *table->word, err);
+    table->line = gb_alloc_array(room, sizeof *table->line, err);
+    if (table->value == NULL || table->word == NULL || table->line == NULL) {
+        return false;
+    }
+    for (char *line = next_line(&at); line; line = next_line(&at)) {
+        if (!read_row(table, &at, line, room, err)) {
+            return false;
+        }
+    }
+    close_gaps(table, room);
+    return true;
+}
+
+bool gb_table_read(struct gb_table **out, const char *path, const char *words,
+                   struct gb_error *err)
+{
+    struct gb_table *table = gb_alloc_array(1, sizeof *table, err);
+    if (table == NULL) {
+        return false;
+    }
+    table->path = g_strdup(path);
+    if (!load(table, err) || !parse(table, words, err)) {
+        gb_table_destroy(table);
+        return false;
+    }
+    *out = table;
+    return true;
+}
+
+void gb_table_destroy(struct gb_table *table)
+{
+    if (table == NULL) {
+        return;
+    }
+    g_free(table->path);
+    gb_alloc_free(table->text);
+    gb_alloc_free(table->value);
+    gb_alloc_free(table->word);
+    gb_alloc_free(table->line);
+    gb_alloc_free(table);
+}
+
+const char *gb_table_path(const struct gb_table *table)
+{
+    return table->path;
+}
+
+size_t gb_table_rows(const struct gb_table *table)
+{
+    return table->rows;
+}
+
+const char *gb_table_name(const struct gb_table *table, size_t column)
+{
+    return column < table->columns ? table->name[column] : NULL;
+}
+
+int gb_table_line(const struct gb_table *table, size_t row)
+{
+    return table->line[row];
+}
+
+const double *gb_table_column(const struct gb_table *table, const char *name,
+                              struct gb_error *err)
+{
+    const size_t k = find(table, name);
+    if (k < table->columns) {
+        return table->value + k * table->rows;
+    }
+    GString *known = g_string_new(NULL);
+    for (size_t i = 0; i < table->columns && known->len < 300; i++) {
+        g_string_append_printf(known, "%s%.40s", i > 0 ? ", " : "", table->name[i]);
+    }
+    gb_error_set(err, GB_ERR_INPUT, "%s: no column %s; there are %s", table->path, name,
+                 known->str);
+    g_string_free(known, TRUE);
+    return NULL;
+}
+
+const char *gb_table_word(const struct gb_table *table, size_t row)
+{
+    return table->words < table->columns ? table->word[row] : "";
+}

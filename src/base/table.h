@@ -1,0 +1,47 @@
+#ifndef GB_BASE_TABLE_H
+#define GB_BASE_TABLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "greenbody/status.h"
+
+/* A table of numbers as curve.csv has it: '#' comment lines, one header row of names,
+ * rows of as many cells separated by commas; an empty cell is NaN.  One column may hold
+ * words. */
+struct gb_table;
+
+enum {
+    GB_TABLE_BYTES_MAX = 1 << 28,
+    GB_TABLE_COLUMNS_MAX = 256,
+    GB_TABLE_CELLS_MAX = 1 << 25
+};
+
+/* Reads a regular file.
+ *
+ * words   name of the column that holds words; NULL: there is none
+ * Errors are one line "path:line: what was read, what is accepted": GB_ERR_INPUT for
+ * anything in the file, GB_ERR_MACHINE when it cannot be read, GB_ERR_MEMORY.  nan, inf,
+ * quotes, NUL bytes and rows of another length are refused. */
+bool gb_table_read(struct gb_table **out, const char *path, const char *words,
+                   struct gb_error *err);
+void gb_table_destroy(struct gb_table *table); /* NULL is fine */
+
+const char *gb_table_path(const struct gb_table *table);
+size_t gb_table_rows(const struct gb_table *table);
+
+/* Name of a column; NULL behind the last. */
+const char *gb_table_name(const struct gb_table *table, size_t column);
+
+/* Line of the file that a row stands in, from 1. */
+int gb_table_line(const struct gb_table *table, size_t row);
+
+/* The numbers of a column, as long as the table lives; NULL and err (NULL is fine) naming
+ * the columns when there is no such. */
+const double *gb_table_column(const struct gb_table *table, const char *name,
+                              struct gb_error *err);
+
+/* The word of a row; "" when the column of words is missing. */
+const char *gb_table_word(const struct gb_table *table, size_t row);
+
+#endif

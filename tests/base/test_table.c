@@ -1,0 +1,125 @@
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include <glib.h>
+#include <glib/gstdio.h>
+
+#include "base/table.h"
+
+static char *path;
+
+static void write_text(const char *text, gssize length)
+{
+    g_assert_true(g_file_set_contents(path, text, length, NULL));
+}
+
+static void test_good(void)
+{
+    struct gb_table *table = NULL;
+    struct gb_error err = {0};
+    write_text("\xef\xbb\xbf# by hand\n#\nbranch, density ,p_MPa\r\nload,0.5,1e1\r\n"
+               "\n# between\nunload:100MPa, -.25 ,\nload,+1,2.5",
+               -1);
+    g_assert_true(gb_table_read(&table, path, "branch", &err));
+    g_assert_cmpuint(gb_table_rows(table), ==, 3);
+    const double *density = gb_table_column(table, "density", &err);
+    const double *p = gb_table_column(table, "p_MPa", &err);
+    g_assert_true(density[0] == 0.5 && density[1] == -0.25 && density[2] == 1.0);
+    g_assert_true(p[0] == 10.0 && isnan(p[1]) && p[2] == 2.5);
+    g_assert_cmpstr(gb_table_word(table, 1), ==, "unload:100MPa");
+    g_assert_null(gb_table_column(table, "time_ns", &err));
+    g_assert_nonnull(strstr(err.text, "no column time_ns; there are branch, density"));
+    gb_table_destroy(table);
+
+    write_text("a\n", -1);
+    g_assert_true(gb_table_read(&table, path, NULL, &err));
+    g_assert_cmpuint(gb_table_rows(table), ==, 0);
+    g_assert_nonnull(gb_table_column(table, "a", NULL));
+    gb_table_destroy(table);
+    gb_table_destroy(NULL);
+}
+
+static const char *const refused[][2] = {
+    {"", "no header row"},
+    {"# only\n\n", "no header row"},
+    {"a,b\n1\n", ":2: 1 cells, but 2 columns"},
+    {"a,b\n1,2,3\n", ":2: 3 cells, but 2 columns"},
+    {"a,b\n1,2\n# x\n1,nan\n", ":4: b = 'nan'; accepted a number"},
+    {"a,b\n1,inf\n", "b = 'inf'"},
+    {"a,b\n1,0x10\n", "b = '0x10'"},
+    {"a,b\n1,1e999\n", "b = '1e999'"},
+    {"a,b\n1,2 3\n", "b = '2 3'"},
+    {"a,b\n1,\"2\"\n", "b = '\"2\"'"},
+    {"a,b\n1,\x1b[2J\n", "b = '?[2J'"},
+    {"a,b\n1,\xff\xfe\n", "b = '?\?'"},
+    {"a,a\n", ":1: column 2 is named 'a'"},
+    {"a,,b\n", ":1: column 2 is named ''"},
+    {"a,\"b\"\n", "without quotes"},
+};
+
+static void expect_refused(const char *said)
+{
+    struct gb_table *table = NULL;
+    struct gb_error err = {0};
+    g_assert_false(gb_table_read(&table, path, "branch", &err));
+    g_test_message("%s", err.text);
+    g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+    g_assert_nonnull(strstr(err.text, said));
+    g_assert_null(table);
+}
+
+static void test_hostile(void)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(refused); i++) {
+        write_text(refused[i][0], -1);
+        expect_refused(refused[i][1]);
+    }
+    write_text("a\n1\0002\n", 6);
+    expect_refused("NUL bytes");
+    GString *wide = g_string_new("x0");
+    for (int i = 1; i < 300; i++) {
+        g_string_append_printf(wide, ",x%d", i);
+    }
+    write_text(wide->str, (gssize)wide->len);
+    expect_refused("more than 256 columns");
+    /* many short lines under many columns ask for more memory than the file has */
+    g_string_truncate(wide, 0);
+    for (int i = 0; i < 200; i++) {
+        g_string_append_printf(wide, "%sx%d", i > 0 ? "," : "", i);
+    }
+    for (int i = 0; i < 200000; i++) {
+        g_string_append_c(wide, '\n');
+    }
+    write_text(wide->str, (gssize)wide->len);
+    expect_refused("more than 33554432 cells");
+    g_string_free(wide, TRUE);
+}
+
+static void test_no_file(void)
+{
+    g_remove(path);
+    expect_refused("No such file");
+    g_assert_cmpint(mkfifo(path, 0600), ==, 0);
+    expect_refused("not a regular file");
+    g_remove(path);
+    g_assert_cmpint(g_mkdir(path, 0700), ==, 0);
+    expect_refused("not a regular file");
+    g_rmdir(path);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    char *folder = g_dir_make_tmp("table-XXXXXX", NULL);
+    path = g_build_filename(folder, "curve.csv", NULL);
+    g_test_add_func("/table/good", test_good);
+    g_test_add_func("/table/hostile", test_hostile);
+    g_test_add_func("/table/no-file", test_no_file);
+    const int status = g_test_run();
+    g_remove(path);
+    g_rmdir(folder);
+    g_free(path);
+    g_free(folder);
+    return status;
+}
