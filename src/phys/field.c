@@ -8,6 +8,7 @@
 #include <glib.h>
 
 #include "base/units.h"
+#include "phys/sizetable.h"
 
 static const void *member_const(const struct gb_params *params,
                                 const struct gb_field *field)
@@ -30,6 +31,9 @@ static bool is_automatic(const struct gb_field *field, double value)
 
 bool gb_field_in_range(const struct gb_field *field, double value)
 {
+    if (value == INFINITY) {
+        return field->infinite != NULL;
+    }
     return isfinite(value) && value >= field->min && value <= field->max;
 }
 
@@ -109,7 +113,8 @@ char *gb_field_accepted(const struct gb_field *field, char *buffer, size_t size)
     case GB_FIELD_INTEGER:
     case GB_FIELD_RELATIVE:
         write_range(field, range, sizeof range);
-        snprintf(buffer, size, "%s%s%s", field->auto_allowed ? "auto, or " : "",
+        snprintf(buffer, size, "%s%s%s%s%s", field->auto_allowed ? "auto, or " : "",
+                 field->infinite ? field->infinite : "", field->infinite ? ", or " : "",
                  field->type == GB_FIELD_INTEGER && !field->auto_allowed ? "whole number "
                                                                          : "",
                  range);
@@ -136,6 +141,12 @@ char *gb_field_accepted(const struct gb_field *field, char *buffer, size_t size)
         write_range(field, range, sizeof range);
         snprintf(buffer, size, "up to %d different pressures separated by ';', %s",
                  GB_UNLOAD_MAX, range);
+        break;
+    case GB_FIELD_SIZES:
+        write_range(field, range, sizeof range);
+        snprintf(buffer, size,
+                 "a CSV file, or number: 1 um 0.4; 2 um 0.6 (or volume:); up to %d, %s",
+                 GB_SIZES_MAX, range);
         break;
     }
     return buffer;
@@ -227,7 +238,11 @@ char *gb_field_write(const struct gb_field *field, const struct gb_params *param
     }
     switch (field->type) {
     case GB_FIELD_NUMBER:
-        gb_units_format(number, unit_of(field), buffer, size);
+        if (isinf(number) && field->infinite) {
+            g_strlcpy(buffer, field->infinite, size);
+        } else {
+            gb_units_format(number, unit_of(field), buffer, size);
+        }
         break;
     case GB_FIELD_RELATIVE:
         write_relative(field, value, buffer, size);
@@ -249,6 +264,9 @@ char *gb_field_write(const struct gb_field *field, const struct gb_params *param
         break;
     case GB_FIELD_PRESSURES:
         write_pressures(params, buffer, size);
+        break;
+    case GB_FIELD_SIZES:
+        gb_sizetable_write(value, buffer, size);
         break;
     }
     return buffer;
@@ -288,6 +306,14 @@ static bool valid_pressures(const struct gb_field *field, const struct gb_params
     return true;
 }
 
+bool gb_field_sizes_in_range(const struct gb_field *field,
+                             const struct gb_sizetable *table)
+{
+    return table->count == 0 ||
+           (gb_field_in_range(field, table->row[0].diameter_m) &&
+            gb_field_in_range(field, table->row[table->count - 1].diameter_m));
+}
+
 bool gb_field_valid(const struct gb_field *field, const struct gb_params *params)
 {
     const void *value = member_const(params, field);
@@ -315,6 +341,9 @@ bool gb_field_valid(const struct gb_field *field, const struct gb_params *params
         return valid_until(field, params);
     case GB_FIELD_PRESSURES:
         return valid_pressures(field, params);
+    case GB_FIELD_SIZES:
+        return gb_sizetable_check(value, NULL, NULL) &&
+               gb_field_sizes_in_range(field, value);
     }
     return false;
 }

@@ -24,6 +24,9 @@ bool gb_field_valid(const struct gb_field *field, const struct gb_params *params
 
 /* A finite number within the row's range. */
 bool gb_field_in_range(const struct gb_field *field, double value);
+/* Least and largest size of a checked table within the row's range. */
+bool gb_field_sizes_in_range(const struct gb_field *field,
+                             const struct gb_sizetable *table);
 /* Index of the choice with this name, or -1. */
 int gb_field_find_choice(const struct gb_field *field, const char *text);
 /* How a choice is stored: names that are numbers ("3", "2") as that number, others as

@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "phys/field.h"
+#include "phys/sizetable.h"
 
 static void *member(struct gb_params *params, const struct gb_field *field)
 {
@@ -30,6 +31,10 @@ static bool read_number(const struct gb_field *field, const char *text, double *
                         struct gb_error *err)
 {
     double value = 0.0;
+    if (field->infinite && strcmp(text, field->infinite) == 0) {
+        *out = INFINITY;
+        return true;
+    }
     if (!gb_units_parse(text, (enum gb_dimension)field->dimension, &value, NULL)) {
         return refuse(field, text, true, err);
     }
@@ -185,6 +190,22 @@ static bool read_pressures(const struct gb_field *field, const char *text,
     return good;
 }
 
+static bool read_sizes(const struct gb_field *field, const char *text,
+                       struct gb_sizetable *out, struct gb_error *err)
+{
+    struct gb_sizetable table;
+    struct gb_error why = {0};
+    if (!gb_sizetable_read(&table, text, &why)) {
+        return gb_error_set(err, why.code, "%s.%s: %s", field->group, field->key,
+                            why.text);
+    }
+    if (!gb_field_sizes_in_range(field, &table)) {
+        return refuse(field, text, false, err);
+    }
+    *out = table;
+    return true;
+}
+
 /* Stores what "auto" is in memory. */
 static void set_automatic(const struct gb_field *field, void *out)
 {
@@ -222,6 +243,8 @@ static bool read_trimmed(const struct gb_field *field, struct gb_params *params,
         return read_until(field, text, params, err);
     case GB_FIELD_PRESSURES:
         return read_pressures(field, text, params, err);
+    case GB_FIELD_SIZES:
+        return read_sizes(field, text, out, err);
     }
     return false;
 }

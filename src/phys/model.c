@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "phys/die_scene.h"
 #include "phys/dynamics.h"
 #include "phys/tolerances.h"
 
@@ -62,17 +63,38 @@ static double by_fidelity(int fidelity, double fast, double balanced, double ref
     }
 }
 
+/* Tolerance and parts of a strain step: what is best for one relaxer is not for another.
+ */
+static void pick_relaxation(struct gb_numerics *numerics, const struct gb_params *params)
+{
+    const bool predict = strcmp(numerics->relaxer, "predict") == 0;
+    const bool reference = params->fidelity == GB_FIDELITY_REFERENCE;
+    const double tolerance =
+        reference ? GB_TOLERANCE_REFERENCE
+        : predict ? GB_PREDICT_TOLERANCE
+                  : by_fidelity(params->fidelity, GB_TOLERANCE_FAST,
+                                GB_TOLERANCE_BALANCED, GB_TOLERANCE_REFERENCE);
+    const double part = reference ? GB_PART_REFERENCE
+                        : predict ? GB_PREDICT_PART
+                                  : params->strain_step;
+    numerics->tolerance = isfinite(params->tolerance) ? params->tolerance : tolerance;
+    const double most = isfinite(params->strain_part) ? params->strain_part : part;
+    numerics->parts = (int)fmax(1.0, ceil(params->strain_step / most - 1e-9));
+}
+
+/* predict costs less and errs more with the strain. */
+static const char *automatic_relaxer(const struct gb_params *params)
+{
+    return params->fidelity == GB_FIDELITY_FAST ? "predict" : "fire";
+}
+
 static void pick_numerics(struct gb_model *model, const struct gb_params *params)
 {
     struct gb_numerics *numerics = &model->numerics;
     const bool named = params->relaxer[0] && strcmp(params->relaxer, "auto") != 0;
     snprintf(numerics->relaxer, sizeof numerics->relaxer, "%s",
-             named ? params->relaxer : "fire");
-    numerics->tolerance =
-        isfinite(params->tolerance)
-            ? params->tolerance
-            : by_fidelity(params->fidelity, GB_TOLERANCE_FAST, GB_TOLERANCE_BALANCED,
-                          GB_TOLERANCE_REFERENCE);
+             named ? params->relaxer : automatic_relaxer(params));
+    pick_relaxation(numerics, params);
     const double share = by_fidelity(params->fidelity, GB_CUTOFF_SHARE_FAST,
                                      GB_CUTOFF_SHARE_BALANCED, GB_CUTOFF_SHARE_REFERENCE);
     const double given = params->cutoff.relative
@@ -145,12 +167,16 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .metre_per_length = d,
         .newton_per_force = params->young_pa * d * d,
         .dynamics = gb_dynamics_of(params),
+        .die = gb_die_scene_of(params),
     };
+    freeze_laws(model, params);
+    if (params->kind == GB_KIND_DIE) { /* no cell, and laws of its own beside these */
+        return true;
+    }
     gb_params_cell(params, model->edges);
     const double shape = params->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
     model->start_density = (double)params->count * shape /
                            (model->edges[0] * model->edges[1] * model->edges[2]);
-    freeze_laws(model, params);
     freeze_programme(model, params);
     model->h_eq = equilibrium_overlap(&model->rod, model->adhesion);
     if (!isfinite(model->h_eq)) {
@@ -182,6 +208,9 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
 {
     const struct gb_numerics *numerics = &model->numerics;
     const struct gb_terms *terms = &model->terms;
+    if (model->kind == GB_KIND_DIE) {
+        return gb_die_scene_note(model, index, buffer, size);
+    }
     switch (index) {
     case 0:
         snprintf(buffer, size, "bridges: %s",
@@ -207,11 +236,12 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
         if (model->kind == GB_KIND_DYNAMIC) {
             return gb_dynamics_note(model, 0, buffer, size);
         }
-        snprintf(buffer, size,
-                 "relaxer %s, tolerance %g of the mean contact force, at most %lld "
-                 "evaluations per strain step",
-                 numerics->relaxer, numerics->tolerance,
-                 (long long)numerics->max_evaluations);
+        snprintf(
+            buffer, size,
+            "relaxer %s, strain steps in %d part%s, tolerance %g of the mean contact "
+            "force, at most %lld evaluations per part",
+            numerics->relaxer, numerics->parts, numerics->parts == 1 ? "" : "s",
+            numerics->tolerance, (long long)numerics->max_evaluations);
         return buffer;
     case 4:
         if (model->dimension == 2) {

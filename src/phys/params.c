@@ -7,18 +7,26 @@
 #include <glib.h>
 
 #include "base/units.h"
+#include "phys/changes.h"
+#include "phys/die_scene.h"
 #include "phys/dynamics.h"
 #include "phys/field.h"
+#include "phys/law_storakers.h"
+#include "phys/sizetable.h"
 
-static const char *const kinds[] = {"quasistatic", "dynamic", NULL};
+static const char *const kinds[] = {"quasistatic", "dynamic", "die", NULL};
 static const char *const dimensions[] = {"3", "2", NULL};
-static const char *const distributions[] = {"mono", NULL};
-static const char *const normals[] = {"rod", NULL};
+static const char *const distributions[] = {"mono", "lognormal", "table", NULL};
+static const char *const normals[] = {"rod", "hertz", "storakers", NULL};
+static const char *const storakers[] = {"capped", "printed", NULL};
 static const char *const radii[] = {"deepest", "current", NULL};
 static const char *const motions[] = {"half", "full", NULL};
-static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", NULL};
+static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", "die",
+                                         NULL};
+static const char *const ramps[] = {"auto", "linear", "quadratic", NULL};
+static const char *const hangups[] = {"detach", "stop", NULL};
 static const char *const fidelities[] = {"fast", "balanced", "reference", NULL};
-static const char *const relaxers[] = {"auto", "fire", "steepest", NULL};
+static const char *const relaxers[] = {"auto", "predict", "fire", "steepest", NULL};
 
 /* Member of gb_params, as offset and size. */
 #define AT(member) \
@@ -33,8 +41,8 @@ static const struct gb_field fields[] = {
      .meaning = "name of the scene in figures and run directories", .source = "user"},
     {"scene", "kind", GB_FIELD_CHOICE, AT(kind), .choices = kinds,
      .fallback = "quasistatic",
-     .meaning = "relaxed to equilibrium after every strain step, or Newton's equations",
-     .source = "P1 III, P2 (1)"},
+     .meaning = "relaxed after every strain step; Newton's equations; powder in a die",
+     .source = "P1 III, P2 (1), P3 5"},
     {"scene", "dimension", GB_FIELD_CHOICE, AT(dimension), .choices = dimensions,
      .fallback = "3", .meaning = "spheres in space, or discs in the x-z plane",
      .source = "P1, P2"},
@@ -63,6 +71,32 @@ static const struct gb_field fields[] = {
      RANGE(0.0, 1e5 * GB_BOLTZMANN_J_K), .fallback = "1224 kB",
      .meaning = "energy of the dispersion law; 0 switches attraction off",
      .source = "P1 (3)"},
+    {"material", "yield", GB_FIELD_NUMBER, AT(yield_pa), .dimension = GB_DIM_PRESSURE,
+     RANGE(1e3, 1e12), .fallback = "800 MPa",
+     .meaning = "yield stress sigma_Y of pressed metal", .source = "P3 Table 2"},
+    {"material", "hardening", GB_FIELD_NUMBER, AT(hardening), RANGE(0.0, 0.5),
+     .fallback = "0", .meaning = "exponent m of Hollomon's sigma = sigma_0 eps^m",
+     .source = "P3 (15)"},
+    {"material", "hollomon", GB_FIELD_NUMBER, AT(hollomon_pa),
+     .dimension = GB_DIM_PRESSURE, RANGE(1e3, 1e13), AUTO(NAN), .fallback = "auto",
+     .meaning = "strength coefficient sigma_0; auto is yield (young/yield)^hardening",
+     .source = "P3 (15), 4"},
+    {"material", "young_j", GB_FIELD_NUMBER, AT(young_j_pa),
+     .dimension = GB_DIM_PRESSURE, RANGE(1e3, 1e13), AUTO(NAN), .fallback = "auto",
+     .meaning = "Young's modulus of the second body of a pair; auto is young",
+     .source = "P3 (3)"},
+    {"material", "poisson_j", GB_FIELD_NUMBER, AT(poisson_j), RANGE(0.0, 0.49),
+     AUTO(NAN), .fallback = "auto",
+     .meaning = "Poisson's ratio of the second body of a pair; auto is poisson",
+     .source = "P3 (3)"},
+    {"material", "density_j", GB_FIELD_NUMBER, AT(density_j_kg_m3),
+     .dimension = GB_DIM_MASS_DENSITY, RANGE(1.0, 1e5), AUTO(NAN), .fallback = "auto",
+     .meaning = "mass density of the second body of a pair; auto is density",
+     .source = "P3 (8)"},
+    {"material", "yield_j", GB_FIELD_NUMBER, AT(yield_j_pa),
+     .dimension = GB_DIM_PRESSURE, RANGE(1e3, 1e12), AUTO(NAN), .fallback = "auto",
+     .meaning = "yield stress of the second body of a pair; auto is yield",
+     .source = "P3 (18)"},
 
     {"particles", "count", GB_FIELD_INTEGER, AT(count), RANGE(10.0, 1e7),
      .fallback = "8000", .meaning = "number of particles in the periodic cell",
@@ -71,16 +105,42 @@ static const struct gb_field fields[] = {
      RANGE(1e-9, 1e-3), .fallback = "10 nm", .meaning = "particle diameter d",
      .source = "P1 V"},
     {"particles", "distribution", GB_FIELD_CHOICE, AT(distribution),
-     .choices = distributions, .fallback = "mono", .meaning = "all particles of one size",
-     .source = "P1 III"},
+     .choices = distributions, .fallback = "mono",
+     .meaning = "one size, a log-normal law by number, or a table of sizes",
+     .source = "P1 III, P1 (17), P3 5"},
+    {"particles", "median", GB_FIELD_NUMBER, AT(median_m), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-9, 1e-3), AUTO(NAN), .fallback = "auto",
+     .meaning = "median of a log-normal law, exp(m) in P1; auto is particles.diameter",
+     .source = "P1 (17)"},
+    {"particles", "sigma", GB_FIELD_NUMBER, AT(sigma), RANGE(1e-3, 1.0),
+     .fallback = "0.5", .meaning = "standard deviation of ln d in a log-normal law",
+     .source = "P1 (17)"},
+    {"particles", "least", GB_FIELD_NUMBER, AT(least_m), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-9, 1e-3), AUTO(NAN), .fallback = "auto",
+     .meaning = "diameter below which a log-normal law is cut; auto: not cut",
+     .source = "P3 5"},
+    {"particles", "largest", GB_FIELD_NUMBER, AT(largest_m), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-9, 1e-3), AUTO(NAN), .fallback = "auto",
+     .meaning = "diameter above which a log-normal law is cut; auto: not cut",
+     .source = "P3 5"},
+    {"particles", "table", GB_FIELD_SIZES, AT(sizes), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-9, 1e-3), .fallback = "",
+     .meaning = "diameters and their shares for distribution = table; kept as one line",
+     .source = "P3 5"},
 
     {"contact", "normal", GB_FIELD_CHOICE, AT(normal), .choices = normals,
-     .fallback = "rod", .meaning = "law of the elastic normal force", .source = "P1 (1)"},
+     .fallback = "rod",
+     .meaning = "law of the normal force: rod model, or Hertz or Storakers in a die",
+     .source = "P1 (1); P3 (2), (16)"},
     {"contact", "alpha", GB_FIELD_NUMBER, AT(alpha), RANGE(0.05, 10.0),
      .fallback = "0.24",
      .meaning = "least gap in the dispersion law, in d0", .source = "P1 (3), V"},
     {"contact", "mu", GB_FIELD_NUMBER, AT(mu), RANGE(0.0, 2.0), .fallback = "0.1",
      .meaning = "friction coefficient in shear", .source = "P1 (5), V"},
+    {"contact", "mu_wall", GB_FIELD_NUMBER, AT(mu_wall), RANGE(0.0, 2.0),
+     .fallback = "0.02",
+     .meaning = "friction coefficient of the walls of a die, in filling and pressing",
+     .source = "P3 5"},
     {"contact", "mu_pivot", GB_FIELD_NUMBER, AT(mu_pivot), RANGE(0.0, 2.0), AUTO(NAN),
      .fallback = "auto", .meaning = "friction coefficient in pivoting; auto is mu",
      .source = "P1 (8)"},
@@ -106,6 +166,25 @@ static const struct gb_field fields[] = {
      .dimension = GB_DIM_VISCOSITY, RANGE(0.0, 1e3), .fallback = "1 mPa s",
      .meaning = "shear viscosity eta of the solid in dynamic scenes; 0: no viscous forces",
      .source = "P2 (3)"},
+    {"contact", "damping", GB_FIELD_NUMBER, AT(damping), RANGE(0.0, 10.0),
+     .fallback = "0.9",
+     .meaning = "normal damping xi of hertz and storakers, as a share of the critical",
+     .source = "P3 (7), 5"},
+    {"contact", "shear_ratio", GB_FIELD_NUMBER, AT(shear_ratio), RANGE(0.01, 100.0),
+     .fallback = "1", .meaning = "tangential over normal stiffness with storakers",
+     .source = "P3 (21)"},
+    {"contact", "storakers", GB_FIELD_CHOICE, AT(storakers), .choices = storakers,
+     .fallback = "capped",
+     .meaning = "capped by Hertz' force, or as printed, which can give energy away",
+     .source = "P3 (16), 4"},
+    {"contact", "radius_i", GB_FIELD_NUMBER, AT(radius_i_m), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-10, 1e-2), .infinite = "wall", AUTO(NAN), .fallback = "auto",
+     .meaning = "radius of the first body of a pair; auto is half the diameter",
+     .source = "P3 (4)"},
+    {"contact", "radius_j", GB_FIELD_NUMBER, AT(radius_j_m), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-10, 1e-2), .infinite = "wall", AUTO(NAN), .fallback = "auto",
+     .meaning = "radius of the second body of a pair; auto is half the diameter",
+     .source = "P3 (4)"},
 
     {"structure", "density", GB_FIELD_NUMBER, AT(structure_density), RANGE(0.01, 0.74),
      AUTO(NAN), .fallback = "auto",
@@ -124,8 +203,46 @@ static const struct gb_field fields[] = {
      .meaning = "seed of the random numbers: same seed, same structure",
      .source = "numerical"},
 
+    {"die", "diameter", GB_FIELD_NUMBER, AT(die_diameter_m), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-9, 1.0), .fallback = "58 um", .meaning = "diameter of the cylinder",
+     .source = "P3 5"},
+    {"die", "height", GB_FIELD_NUMBER, AT(die_height_m), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-9, 10.0), AUTO(NAN), .fallback = "auto",
+     .meaning = "height of the funnel over the floor; auto: room for a loose filling",
+     .source = "numerical"},
+    {"die", "outlet", GB_FIELD_NUMBER, AT(die_outlet_m), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-9, 1.0), AUTO(NAN), .fallback = "auto",
+     .meaning = "diameter of the funnel's outlet; auto: 3/4 of the die",
+     .source = "numerical"},
+    {"die", "angle", GB_FIELD_NUMBER, AT(die_angle_deg), RANGE(5.0, 80.0),
+     .fallback = "35", .meaning = "angle between the funnel's wall and its axis, degrees",
+     .source = "numerical"},
+    {"die", "fill_gravity", GB_FIELD_NUMBER, AT(fill_gravity), RANGE(1.0, 1e8),
+     .fallback = "200000",
+     .meaning = "gravity while powder is poured, in g; real g takes days",
+     .source = "numerical"},
+    {"die", "gravity", GB_FIELD_NUMBER, AT(rest_gravity), RANGE(1e-3, 1e8),
+     .fallback = "200", .meaning = "gravity of the powder at rest and pressed, in g",
+     .source = "numerical"},
+    {"die", "ease", GB_FIELD_NUMBER, AT(ease_s), .dimension = GB_DIM_TIME,
+     RANGE(1e-9, 1.0), .fallback = "20 us",
+     .meaning = "time in which gravity goes down from filling to rest",
+     .source = "numerical"},
+    {"die", "flatten", GB_FIELD_NUMBER, AT(flatten_m), .dimension = GB_DIM_LENGTH,
+     RANGE(0.0, 1.0), .fallback = "3 um",
+     .meaning = "way of the punch down from its first contact, before it is lifted",
+     .source = "P3 5"},
+    {"die", "punch_mass", GB_FIELD_NUMBER, AT(punch_mass), RANGE(1e-3, 100.0),
+     .fallback = "0.1",
+     .meaning = "mass of the punch in masses of the powder; above 1 it lags behind",
+     .source = "numerical"},
+    {"die", "central", GB_FIELD_NUMBER, AT(central_m), .dimension = GB_DIM_LENGTH,
+     RANGE(1e-9, 1.0), .fallback = "54 um",
+     .meaning = "diameter of the sphere in the middle that measures the central density",
+     .source = "P3 5"},
+
     {"loading", "geometry", GB_FIELD_CHOICE, AT(geometry), .choices = geometries,
-     .fallback = "uniaxial", .meaning = "axes compressed: z, or y and z, or all",
+     .fallback = "uniaxial", .meaning = "axes compressed: z, or y and z, or all; or a die",
      .source = "P1 III, VI"},
     {"loading", "step", GB_FIELD_NUMBER, AT(strain_step), .dimension = GB_DIM_FRACTION,
      RANGE(1e-6, 0.02), .fallback = "0.1 %",
@@ -139,6 +256,10 @@ static const struct gb_field fields[] = {
      .dimension = GB_DIM_PRESSURE,
      RANGE(1e3, 1e12), .fallback = "",
      .meaning = "pressures from which branches of unloading start", .source = "P1 V, VI"},
+    {"loading", "changes", GB_FIELD_TEXT, AT(changes), .fallback = "",
+     .meaning = "what changes behind which recorded step, as 120 contact.mu=0.3; "
+                "200 loading.geometry=isotropic",
+     .source = "user"},
     {"loading", "rate", GB_FIELD_NUMBER, AT(rate_per_s), .dimension = GB_DIM_RATE,
      RANGE(1.0, 1e12), .fallback = "680 1/us",
      .meaning = "densification rate (1/rho) d rho/dt of dynamic scenes",
@@ -157,6 +278,17 @@ static const struct gb_field fields[] = {
      .dimension = GB_DIM_TIME, RANGE(1e-15, 1.0), .fallback = "20 ps",
      .meaning = "time between recorded points of relax and hold in a dynamic scene",
      .source = "numerical"},
+    {"loading", "ramp", GB_FIELD_CHOICE, AT(ramp), .choices = ramps, .fallback = "auto",
+     .meaning = "pressure of a punch against time: t or t^2; auto: quadratic when fast",
+     .source = "P3 5; numerical"},
+    {"loading", "time", GB_FIELD_NUMBER, AT(pressing_s), .dimension = GB_DIM_TIME,
+     RANGE(1e-9, 1.0), AUTO(NAN), .fallback = "auto",
+     .meaning = "time in which a punch reaches its pressure; auto: 100 us, fast 20 us",
+     .source = "P3 5; numerical"},
+    {"loading", "record_pressure", GB_FIELD_NUMBER, AT(record_pressure_pa),
+     .dimension = GB_DIM_PRESSURE, RANGE(1.0, 1e12), .fallback = "500 kPa",
+     .meaning = "growth of pressure between recorded points of a die",
+     .source = "numerical"},
 
     {"numerics", "fidelity", GB_FIELD_CHOICE, AT(fidelity), .choices = fidelities,
      .fallback = "balanced", .meaning = "picks every number of this group left at auto",
@@ -168,6 +300,10 @@ static const struct gb_field fields[] = {
      AUTO(NAN),
      .fallback = "auto",
      .meaning = "rms residual force over the force scale at which a step is relaxed",
+     .source = "numerical"},
+    {"numerics", "strain_part", GB_FIELD_NUMBER, AT(strain_part),
+     .dimension = GB_DIM_FRACTION, RANGE(1e-6, 0.02), AUTO(NAN), .fallback = "auto",
+     .meaning = "largest strain relaxed at once: a strain step is taken in equal parts",
      .source = "numerical"},
     {"numerics", "cutoff", GB_FIELD_RELATIVE, AT(cutoff), .dimension = GB_DIM_LENGTH,
      .relative = "d",
@@ -189,11 +325,23 @@ static const struct gb_field fields[] = {
      .dimension = GB_DIM_FRACTION, RANGE(1e-8, 0.5), .fallback = "0.1 %",
      .meaning = "error in end pressure and energy that an automatic time step may make",
      .source = "numerical"},
+    {"numerics", "safety", GB_FIELD_NUMBER, AT(safety), RANGE(1e-4, 10.0), AUTO(NAN),
+     .fallback = "auto",
+     .meaning = "share of the critical time step taken in a die; auto: 0.5, reference 0.1",
+     .source = "P3 (26)"},
+    {"numerics", "inertia_scale", GB_FIELD_NUMBER, AT(inertia_scale), RANGE(1.0, 1e4),
+     .fallback = "10",
+     .meaning = "factor on the rotational inertia of particles in a die",
+     .source = "P3 3.4"},
 
     {"output", "checkpoint_every", GB_FIELD_NUMBER, AT(checkpoint_every_s),
      .dimension = GB_DIM_TIME,
      RANGE(0.1, 604800.0), .fallback = "60 s",
      .meaning = "time between checkpoints of a run", .source = "numerical"},
+    {"output", "on_hangup", GB_FIELD_CHOICE, AT(on_hangup), .choices = hangups,
+     .fallback = "detach",
+     .meaning = "when the terminal goes away: the run goes on, or stops with a checkpoint",
+     .source = "numerical"},
 };
 
 const struct gb_field *gb_params_fields(size_t *count)
@@ -310,6 +458,19 @@ double gb_params_shear_strength_pa(const struct gb_params *params)
     return gb_field_absolute(gb_params_find("contact", "shear_strength"), params);
 }
 
+double gb_params_median_m(const struct gb_params *params)
+{
+    return isnan(params->median_m) ? params->diameter_m : params->median_m;
+}
+
+double gb_params_hollomon_pa(const struct gb_params *params)
+{
+    return isnan(params->hollomon_pa)
+               ? gb_law_storakers_hollomon(params->yield_pa, params->young_pa,
+                                           params->hardening)
+               : params->hollomon_pa;
+}
+
 double gb_params_structure_density(const struct gb_params *params)
 {
     if (!isnan(params->structure_density)) {
@@ -354,7 +515,7 @@ void gb_params_cell(const struct gb_params *params, double edges[3])
 }
 
 /* A program may have filled the struct itself: every value against its own row. */
-static bool check_fields(const struct gb_params *params, struct gb_error *err)
+bool gb_params_check_fields(const struct gb_params *params, struct gb_error *err)
 {
     for (size_t i = 0; i < G_N_ELEMENTS(fields); i++) {
         if (!gb_field_valid(&fields[i], params)) {
@@ -423,8 +584,27 @@ static bool check_programme(const struct gb_params *params, struct gb_error *err
     return true;
 }
 
+/* Spheres and walls of a die press on each other by Hertz and Storakers; the periodic
+ * cells of P1 and P2 carry the rod model. */
+static bool check_normal(const struct gb_params *params, struct gb_error *err)
+{
+    if (params->kind != GB_KIND_DIE && params->normal != GB_NORMAL_ROD) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "contact.normal = %s: accepted rod with scene.kind = %s",
+                            normals[params->normal], kinds[params->kind]);
+    }
+    return true;
+}
+
 bool gb_params_check(const struct gb_params *params, struct gb_error *err)
 {
-    return check_fields(params, err) && check_cell(params, err) &&
-           check_programme(params, err) && gb_dynamics_check(params, err);
+    if (!gb_params_check_fields(params, err) || !gb_sizetable_check_params(params, err)) {
+        return false;
+    }
+    if (params->kind == GB_KIND_DIE) {
+        return gb_die_scene_check(params, err) && gb_changes_check(params, err);
+    }
+    return check_normal(params, err) && check_cell(params, err) &&
+           check_programme(params, err) && gb_dynamics_check(params, err) &&
+           gb_changes_check(params, err);
 }

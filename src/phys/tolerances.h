@@ -23,6 +23,19 @@
 #define GB_TOLERANCE_BALANCED  1e-2
 #define GB_TOLERANCE_REFERENCE 2e-3
 
+/* The same for predict, and the largest strain that it relaxes at once: starting near the
+ * answer it is as good at a looser tolerance, and errs more with the strain, by 0.006 in
+ * density at 100 MPa for each 1e-3 where fire errs by 0.0015 to 0.003.  One cell of 1000
+ * to 1 GPa takes 13000 evaluations with these numbers, fire at fidelity = fast 19000 and
+ * at balanced 31000 (assets/charts/default.csv).  At 5e-2 pressures of a few MPa are
+ * noise. */
+#define GB_PREDICT_TOLERANCE 2e-2
+#define GB_PREDICT_PART      5e-4
+
+/* Largest strain relaxed at once at fidelity = reference, by any relaxer.  The error in
+ * density at 100 MPa grows by 0.0015 for each 1e-3. */
+#define GB_PART_REFERENCE 2e-4
+
 /* The force scale of the stopping rule never falls below f_e at this overlap (d): without
  * adhesion a loose packing carries no force at all, and a share of nothing cannot be
  * reached. At 1e-4 the floor is worth about 0.1 MPa in alumina. */
@@ -34,6 +47,19 @@
 
 /* A step recorded unrelaxed with a residual above this many tolerances stops the run. */
 #define GB_RESIDUAL_STOP 30.0
+
+/* Evaluations without the residual falling by this share after which a relaxation goes
+ * round, mostly between two states of a breaking bridge or of a pair at the cutoff: it is
+ * restarted once and then given up.  Fewer cut the reference relaxer short. */
+#define GB_STALL_EVALUATIONS 5000
+#define GB_STALL_SHARE       0.01
+
+/* Way (d) beside the affine motion in one strain step beyond which a particle may have
+ * passed contacts by: the step is halved, twice at most; what is left then is a jump of
+ * the packing itself.  At 0.1 % none of 928 steps of a cell of 1000 has one beyond 0.2,
+ * at 1 % two of 94.  Smaller values halve steps that are as they should be. */
+#define GB_DEPARTURE_MOST     0.2
+#define GB_DEPARTURE_HALVINGS 2
 
 /* Overlap (d) beyond which the contact laws have lost their meaning: h -> 1 is singular,
  * and two centres about to cross mean that a strain step was too large. */
@@ -52,14 +78,60 @@
  * hide instabilities closer to 1. */
 #define GB_STEP_CRITICAL_SHARE 0.5
 
-/* Share of sliding contacts above which the time step is taken to be unstable.  P2's
- * scene at v1 has 0.03 in the loose state and up to 0.24 near density 0.9, the same at
- * 0.04 T and at 0.5 T; 0.8 is reported for unstable steps while the kinetic energy looks
- * innocent. */
+/* Share of sliding contacts above which the time step is doubted and halved.  P2's scene
+ * at v1 has 0.03 in the loose state and up to 0.24 near density 0.9 (0.35 with
+ * relative_motion = full), the same at 0.04 T and at 0.5 T; unstable steps reach 0.7 to 1
+ * within 200 steps while the kinetic energy looks innocent. */
 #define GB_SLIDING_MOST 0.4
+/* If half the step keeps this much of the share, friction is the cause (small mu without
+ * bridges: 0.41 at any step), not the step. */
+#define GB_SLIDING_SAME 0.8
 
 /* Halvings of the time step after which a dynamic run stops. */
 #define GB_STEP_HALVINGS_MOST 6
+
+/* How far the shares of a table of sizes may be from summing to 1; they are then scaled.
+ * Smaller: tables written with three or four digits are refused.  Larger: a forgotten
+ * row passes. */
+#define GB_SHARES_SLACK 2e-3
+
+/* Pairs per sphere, on average, beyond which a search for neighbours is given up.  Dense
+ * packings have 5 to 10 with a usual skin; spheres that all lie on one spot would fill
+ * the memory. */
+#define GB_SIFT_CROWD 100
+
+/* Die scenes.  Share of the critical time step by fidelity.  0.9 gives the curve of 0.1
+ * within 0.001, 1.8 blows up. */
+#define GB_SAFETY_BALANCED  0.5
+#define GB_SAFETY_REFERENCE 0.1
+
+/* Powder is at rest when its mean kinetic energy is below a fall by this (d)
+ * and ... */
+#define GB_REST_FALL 1e-4
+/* ... the rms resultant force is below this share of the mean contact force ... */
+#define GB_REST_UNBALANCED 0.02
+/* ... at so many looks in a row.  Looser: particles still fall while the height is taken.
+ */
+#define GB_REST_LOOKS 4
+
+/* The same two while pouring, when all that matters is that nothing falls any more. */
+#define GB_POURED_FALL       0.1
+#define GB_POURED_UNBALANCED 0.2
+
+/* Force on the floor over force on the punch: further from 1 than this, inertia carries
+ * a part of the pressure and the point is not quasi-static. */
+#define GB_FLOOR_OVER_PUNCH_SLACK 0.05
+
+/* While gravity is eased a gas slows the powder down in the first share of the time of
+ * easing, and from then on in the second one.  Without it a bed of smooth spheres turns
+ * about the die's axis for ever: those at the wall roll, and nothing holds the others.
+ * Stronger: loose particles take long to fall. */
+#define GB_EASE_DRAG 0.1
+#define GB_REST_DRAG 1.0
+
+/* A particle pushed by the flattening punch could rise by a quarter of this (d).  Larger:
+ * faster, and particles are thrown up. */
+#define GB_FLATTEN_RISE 0.2
 
 /* Length of a cell edge over the reach of the neighbour list: below 2 a pair would meet
  * two images of the same particle. */

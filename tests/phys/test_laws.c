@@ -4,18 +4,11 @@
 
 #include <glib.h>
 
+#include "common/exact.h"
 #include "greenbody/model.h"
 
 /* The table has 13 significant digits. */
 static const double tolerance = 1e-10;
-
-static void assert_close(double got, double want, double relative)
-{
-    if (!(fabs(got - want) <= relative * fabs(want))) {
-        g_test_message("got %.17g, want %.17g", got, want);
-        g_test_fail();
-    }
-}
 
 static void make_model(struct gb_model *model, double diameter, double alpha,
                        double length)
@@ -31,16 +24,6 @@ static void make_model(struct gb_model *model, double diameter, double alpha,
     g_assert_true(good);
 }
 
-/* Value behind "name=" in the text; fallback when there is none. */
-static double find(const char *text, const char *name, double fallback)
-{
-    const char *at = strstr(text, name);
-    while (at && at != text && at[-1] != ' ') {
-        at = strstr(at + 1, name);
-    }
-    return at ? g_ascii_strtod(at + strlen(name), NULL) : fallback;
-}
-
 static double lattice_pressure(const struct gb_model *model, bool fcc, double h)
 {
     const double r = 1.0 - h;
@@ -51,11 +34,13 @@ static double lattice_pressure(const struct gb_model *model, bool fcc, double h)
     return bonds * force * r / (3.0 * volume) * model->pascal_per_stress * 1e-9;
 }
 
-/* What the laws give for a row of the table; NaN for an unknown law. */
-static double evaluate(const char *law, const struct gb_model *model, const char *words,
-                       const char *input)
+static double evaluate(const char *law, const char *words, const char *input)
 {
-    const double h = find(input, "h=", 0.0), r = find(input, "r=", 1.0);
+    struct gb_model scene;
+    make_model(&scene, exact_number(words, "d=", 1e-8),
+               exact_number(words, "alpha=", 0.24), exact_number(words, "drch=", 0.008));
+    const struct gb_model *model = &scene;
+    const double h = exact_number(input, "h=", 0.0), r = exact_number(input, "r=", 1.0);
     const double a = 0.5 * sqrt(h);
     const struct gb_law_rod *rod = &model->rod;
     if (strcmp(law, "rod_force") == 0) {
@@ -78,7 +63,8 @@ static double evaluate(const char *law, const struct gb_model *model, const char
     } else if (strcmp(law, "equilibrium_overlap") == 0) {
         return model->h_eq;
     } else if (strcmp(law, "bridge_line_end_fn") == 0) {
-        return gb_law_bridge_force(rod, find(words, "h_min=", 0.0), h) - model->adhesion;
+        return gb_law_bridge_force(rod, exact_number(words, "h_min=", 0.0), h) -
+               model->adhesion;
     } else if (strcmp(law, "lattice_pressure_sc") == 0) {
         return lattice_pressure(model, false, h);
     } else if (strcmp(law, "lattice_pressure_fcc") == 0) {
@@ -92,37 +78,8 @@ static double evaluate(const char *law, const struct gb_model *model, const char
 
 static void test_exact_values(void)
 {
-    char *text = NULL;
-    g_assert_true(
-        g_file_get_contents(GB_TEST_DIR "/exact_values_p1.csv", &text, NULL, NULL));
-    char **lines = g_strsplit(text, "\n", -1);
-    int rows = 0;
-    for (int i = 0; lines[i]; i++) {
-        char **cells = g_strsplit(lines[i], ",", -1);
-        if (lines[i][0] != '#' && g_strv_length(cells) == 5 &&
-            strcmp(cells[0], "law") != 0) {
-            struct gb_model model;
-            make_model(&model, find(cells[1], "d=", 1e-8), find(cells[1], "alpha=", 0.24),
-                       find(cells[1], "drch=", 0.008));
-            g_test_message("%s", lines[i]);
-            assert_close(evaluate(cells[0], &model, cells[1], cells[2]),
-                         g_ascii_strtod(cells[3], NULL), tolerance);
-            rows++;
-        }
-        g_strfreev(cells);
-    }
-    g_strfreev(lines);
-    g_free(text);
-    g_assert_cmpint(rows, ==, 93);
-}
-
-/* Central difference, fourth order. */
-static double slope(double (*f)(const void *, double), const void *law, double x,
-                    double step)
-{
-    return (8.0 * (f(law, x + step) - f(law, x - step)) -
-            (f(law, x + 2.0 * step) - f(law, x - 2.0 * step))) /
-           (12.0 * step);
+    g_assert_cmpint(exact_rows(GB_TEST_DIR "/exact_values_p1.csv", tolerance, evaluate),
+                    ==, 93);
 }
 
 static double rod_energy(const void *law, double h)
@@ -153,10 +110,10 @@ static void test_force_is_slope_of_energy(void)
         gb_law_rod_init(&rod, poissons[k]);
         for (double h = 1e-4; h < 0.9; h *= 1.37) {
             const double step = 1e-3 * fmin(h, 1.0 - h);
-            assert_close(slope(rod_energy, &rod, h, step), gb_law_rod_force(&rod, h),
-                         1e-9);
-            assert_close(slope(rod_force, &rod, h, step), gb_law_rod_stiffness(&rod, h),
-                         1e-9);
+            assert_close(exact_slope(rod_energy, &rod, h, step),
+                         gb_law_rod_force(&rod, h), 1e-9);
+            assert_close(exact_slope(rod_force, &rod, h, step),
+                         gb_law_rod_stiffness(&rod, h), 1e-9);
         }
     }
     struct gb_model model;
@@ -164,9 +121,9 @@ static void test_force_is_slope_of_energy(void)
     const struct gb_law_dispersion *law = &model.dispersion;
     for (double gap = 1e-3; gap < 1.0; gap *= 1.5) {
         const double r = 1.0 + gap, step = 1e-3 * (r + law->shift - 1.0);
-        assert_close(slope(dispersion_energy, law, r, step),
+        assert_close(exact_slope(dispersion_energy, law, r, step),
                      gb_law_dispersion_force(law, r), 1e-6);
-        assert_close(slope(dispersion_force, law, r, step),
+        assert_close(exact_slope(dispersion_force, law, r, step),
                      gb_law_dispersion_slope(law, r), 1e-8);
     }
     assert_close(gb_law_dispersion_energy(law, 0.9),

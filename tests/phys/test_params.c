@@ -50,7 +50,8 @@ static void test_defaults(void)
     g_assert_cmpfloat(gb_params_structure_density(&p), ==, 0.24);
 }
 
-/* sigma_b left open: set II's with bridges, no limit without; a given one always counts. */
+/* sigma_b left open: set II's with bridges, no limit without; a given one always counts.
+ */
 static void test_shear_strength(void)
 {
     struct gb_params p;
@@ -61,6 +62,27 @@ static void test_shear_strength(void)
     g_assert_cmpfloat(gb_params_shear_strength_pa(&p), ==, 382e9);
     g_assert_true(gb_params_assign(&p, "contact.shear_strength=2 GPa", &err));
     g_assert_cmpfloat_with_epsilon(gb_params_shear_strength_pa(&p), 2e9, 1.0);
+}
+
+/* sigma_0 left open goes through the yield point; "wall" is an infinite radius. */
+static void test_pair(void)
+{
+    struct gb_params p;
+    gb_params_init(&p);
+    g_assert_true(gb_params_assign(&p, "material.young=180 GPa", NULL));
+    g_assert_cmpfloat(gb_params_hollomon_pa(&p), ==, 800e6);
+    g_assert_true(gb_params_assign(&p, "material.hardening=0.2", NULL));
+    g_assert_cmpfloat_with_epsilon(gb_params_hollomon_pa(&p), 2363e6, 0.5e6);
+    g_assert_true(gb_params_assign(&p, "material.hollomon=2 GPa", NULL));
+    g_assert_cmpfloat(gb_params_hollomon_pa(&p), ==, 2e9);
+    char text[64];
+    const struct gb_field *radius = gb_params_find("contact", "radius_j");
+    g_assert_true(isnan(p.radius_j_m));
+    g_assert_true(gb_params_assign(&p, "contact.radius_j = wall", NULL));
+    g_assert_true(isinf(p.radius_j_m));
+    g_assert_cmpstr(gb_params_format(&p, radius, text, sizeof text), ==, "wall");
+    g_assert_true(gb_params_set(&p, radius, "2um", NULL));
+    g_assert_cmpfloat(p.radius_j_m, ==, 2e-6);
 }
 
 static void test_assign(void)
@@ -103,11 +125,18 @@ static const char *const refused[][2] = {
     {"particles.count=9", "10 to 10000000"},
     {"particles.count=1000.5", "whole number"},
     {"particles.count=1e30", "whole number"},
-    {"particles.distribution=table", "accepted mono"},
-    {"scene.kind=die", "accepted quasistatic or dynamic"},
+    {"particles.distribution=sieve", "accepted mono or lognormal or table"},
+    {"scene.kind=pile", "accepted quasistatic or dynamic or die"},
     {"scene.dimension=4", "accepted 3 or 2"},
-    {"contact.normal=hertz", "accepted rod"},
-    {"loading.geometry=die", "accepted uniaxial or biaxial or isotropic"},
+    {"contact.normal=hook", "accepted rod or hertz or storakers"},
+    {"contact.storakers=rigid", "accepted capped or printed"},
+    {"contact.radius_j=inf", "accepted auto, or wall, or 0.1 nm to 10 mm; units nm"},
+    {"contact.radius_j=0 nm", "accepted auto, or wall, or 0.1 nm to 10 mm"},
+    {"material.young=wall", "accepted 1 kPa to 10000 GPa"},
+    {"material.hardening=1", "accepted 0 to 0.5"},
+    {"material.yield=800", "units Pa"},
+    {"material.poisson_j=0.5", "accepted auto, or 0 to 0.49"},
+    {"loading.geometry=cone", "accepted uniaxial or biaxial or isotropic or die"},
     {"loading.step=5 %", "0.0001 % to 2 %"},
     {"loading.until=density = 1.5", "density = 0.02 to 0.99"},
     {"loading.until=density", "density = 0.02 to 0.99"},
@@ -135,7 +164,7 @@ static const char *const refused[][2] = {
     {"numerics.time_step=0.04", "units s, ms"},
     {"numerics.time_step=-1 fs", "accepted auto, or"},
     {"numerics.step_error=0 %", "accepted 1e-6 % to 50 %"},
-    {"numerics.relaxer=magic", "accepted auto or fire or steepest"},
+    {"numerics.relaxer=magic", "accepted auto or predict or fire or steepest"},
     {"scene.title=a\tb", "text of at most"},
     {"scene.title=\xff", "text of at most"},
     {"contact.muu=1", "no such key; accepted normal, alpha, mu,"},
@@ -184,6 +213,11 @@ static const struct check checks[] = {
     {{"structure.base=180 nm"}, {NULL}},
     {{"structure.base=20 nm"}, {"structure.base", "3 d"}},
     {{"numerics.cutoff=3 d", "particles.count=200"}, {"particles.count", "6 d"}},
+    {{"contact.normal=hertz"},
+     {"contact.normal = hertz: accepted rod", "scene.kind = quasistatic"}},
+    {{"contact.normal=storakers", "scene.kind=dynamic", "loading.until=density=0.9"},
+     {"contact.normal = storakers: accepted rod", "scene.kind = dynamic"}},
+    {{"contact.radius_j=wall", "material.yield_j=1 GPa"}, {NULL}},
 };
 
 static void test_checks(void)
@@ -214,6 +248,9 @@ static void test_check_memory(void)
     g_assert_false(gb_params_check(&p, NULL));
     gb_params_init(&p);
     p.diameter_m = INFINITY;
+    g_assert_false(gb_params_check(&p, NULL));
+    gb_params_init(&p);
+    p.radius_i_m = -INFINITY;
     g_assert_false(gb_params_check(&p, NULL));
     gb_params_init(&p);
     p.geometry = 7;
@@ -259,6 +296,7 @@ int main(int argc, char **argv)
     g_test_add_func("/params/table", test_table);
     g_test_add_func("/params/defaults", test_defaults);
     g_test_add_func("/params/shear-strength", test_shear_strength);
+    g_test_add_func("/params/pair", test_pair);
     g_test_add_func("/params/assign", test_assign);
     g_test_add_func("/params/refused", test_refused);
     g_test_add_func("/params/checks", test_checks);
