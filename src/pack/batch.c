@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "pack/batch_2d.h"
 #include "pack/batch_3d.h"
+#include "pack/simd.h"
 
 enum { PLANES_3D = 11, PLANES_2D = 5 };
 
@@ -183,13 +184,8 @@ INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepes
 VARIANTS(w128, )
 static const struct gb_batch_kernel table128[] = TABLE(w128);
 #if defined(__x86_64__)
-#if defined(__clang__)
-#define TARGET_512 "avx512f,avx512dq,avx512vl,avx512bw"
-#else
-#define TARGET_512 "avx512f,avx512dq,avx512vl,avx512bw,prefer-vector-width=512"
-#endif
-VARIANTS(w256, __attribute__((target("avx2"))))
-VARIANTS(w512, __attribute__((target(TARGET_512))))
+VARIANTS(w256, GB_TARGET_256)
+VARIANTS(w512, GB_TARGET_512)
 static const struct gb_batch_kernel table256[] = TABLE(w256);
 static const struct gb_batch_kernel table512[] = TABLE(w512);
 #endif
@@ -197,19 +193,12 @@ static const struct gb_batch_kernel table512[] = TABLE(w512);
 static const struct gb_batch_kernel *table_for(int widest)
 {
 #if defined(__x86_64__)
-    const int most = widest > 0 ? widest : 512;
-    if (most >= 512 && __builtin_cpu_supports("avx512f") &&
-        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512bw")) {
-        return table512;
-    }
-    if (most >= 256 && __builtin_cpu_supports("avx2")) {
-        return table256;
-    }
+    const int width = gb_simd_width(widest);
+    return width == 512 ? table512 : width == 256 ? table256 : table128;
 #else
     (void)widest;
-#endif
     return table128;
+#endif
 }
 
 struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest)

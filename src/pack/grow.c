@@ -1,13 +1,13 @@
 #include "pack/grow.h"
 
 #include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "pack/grid.h"
+#include "pack/random.h"
 #include "pack/roll.h"
 
 /* P1 follows a ray through the nearest images of the cell.  Rays are also cut at this
@@ -44,20 +44,6 @@ struct growth {
     struct candidate *candidates;
     int64_t rays;
 };
-
-/* The generator's state comes from gb_alloc_array: gsl_rng_alloc would abort the program
- * when memory is out. */
-static bool rng_open(gsl_rng *rng, uint64_t seed, struct gb_error *err)
-{
-    rng->type = gsl_rng_mt19937;
-    rng->state = gb_alloc_array(1, rng->type->size, err);
-    if (!rng->state) {
-        return false;
-    }
-    /* mt19937 looks at 32 bits only; fold the others in. */
-    gsl_rng_set(rng, (unsigned long)((seed ^ (seed >> 32)) & 0xffffffffu));
-    return true;
-}
 
 static void random_direction(struct growth *growth, double direction[3])
 {
@@ -285,7 +271,7 @@ bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error
     if (!check(grow, &cell, err)) {
         return false;
     }
-    if (!rng_open(&growth.rng, grow->seed, err)) {
+    if (!gb_random_open(&growth.rng, grow->seed, err)) {
         return false;
     }
     growth.candidates = gb_alloc_array(CANDIDATES_MOST, sizeof(struct candidate), err);
@@ -305,6 +291,6 @@ bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error
 free_candidates:
     gb_alloc_free(growth.candidates);
 close_rng:
-    gb_alloc_free(growth.rng.state);
+    gb_random_close(&growth.rng);
     return done;
 }

@@ -10,8 +10,8 @@ void gb_ledger_finish(struct gb_ledger *ledger)
     *ledger = (struct gb_ledger){0};
 }
 
-static bool ledger_reserve(struct gb_ledger *ledger, int64_t need, int planes,
-                           struct gb_error *err)
+bool gb_ledger_reserve(struct gb_ledger *ledger, int64_t need, int planes,
+                       struct gb_error *err)
 {
     if (need <= ledger->capacity && planes == ledger->planes) {
         return true;
@@ -44,7 +44,7 @@ bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, boo
     const struct gb_pair_list *near = &world->pairs.near;
     const struct gb_contacts *contacts = &world->contacts;
     const int planes = world->listed ? whole ? contacts->planes : contacts->kept : 1;
-    if (!ledger_reserve(ledger, count_touching(world), planes, err)) {
+    if (!gb_ledger_reserve(ledger, count_touching(world), planes, err)) {
         return false;
     }
     int64_t line = 0;

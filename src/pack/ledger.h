@@ -19,6 +19,10 @@ struct gb_ledger {
 
 void gb_ledger_finish(struct gb_ledger *ledger);
 
+/* Room for so many lines of so many values; what was there is lost when it grows. */
+bool gb_ledger_reserve(struct gb_ledger *ledger, int64_t need, int planes,
+                       struct gb_error *err);
+
 /* Writes down every touching pair of the world, in the order of its list. */
 bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, bool whole,
                      struct gb_error *err);

@@ -320,6 +320,8 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
     transpose(&pairs->near, pairs->count);
     transpose(&pairs->far, pairs->count);
     memcpy(pairs->built_at, position, 3 * (size_t)pairs->count * sizeof *position);
+    memcpy(pairs->built_edge, cell->edge, sizeof pairs->built_edge);
+    pairs->stretch[0] = pairs->stretch[1] = pairs->stretch[2] = 1.0;
     pairs->strain = 0.0;
     return true;
 }
@@ -330,7 +332,8 @@ double gb_pairs_travel(const struct gb_pairs *pairs, const double *position)
     for (int64_t i = 0; i < pairs->count; i++) {
         double sum = 0.0;
         for (int k = 0; k < 3; k++) {
-            const double move = position[3 * i + k] - pairs->built_at[3 * i + k];
+            const double home = pairs->built_at[3 * i + k] * pairs->stretch[k];
+            const double move = position[3 * i + k] - home;
             sum += move * move;
         }
         most = sum > most ? sum : most;
@@ -352,11 +355,7 @@ void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3])
     double change = 0.0;
     for (int k = 0; k < 3; k++) {
         change = fmax(change, fabs(1.0 / factor[k] - 1.0));
+        pairs->stretch[k] *= factor[k];
     }
     pairs->strain = (1.0 + pairs->strain) * (1.0 + change) - 1.0;
-    for (int64_t i = 0; i < pairs->count; i++) {
-        for (int k = 0; k < 3; k++) {
-            pairs->built_at[3 * i + k] *= factor[k];
-        }
-    }
 }

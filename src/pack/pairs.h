@@ -26,8 +26,11 @@ struct gb_pairs {
     struct gb_pair_list near, far;
     int32_t *head, *next; /* scratch of the grid */
     int64_t head_capacity;
-    double *built_at; /* count x 3: positions at the last build, strained since */
-    double strain;    /* largest affine strain since the last build */
+    /* of the last build, from which the same lists can be built again: */
+    double *built_at; /* count x 3: positions */
+    double built_edge[3];
+    double stretch[3]; /* affine scaling of the cell since */
+    double strain;     /* largest affine strain since */
 };
 
 bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, struct gb_error *err);
@@ -49,7 +52,7 @@ double gb_pairs_travel(const struct gb_pairs *pairs, const double *position);
 bool gb_pairs_fresh(const struct gb_pairs *pairs, double travel, double cutoff,
                     double skin);
 
-/* Scales the remembered positions with the cell. */
+/* Takes note that the cell and all positions were scaled. */
 void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3]);
 
 /* shift[image] is to be added to x_i - x_other. */

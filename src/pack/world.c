@@ -11,13 +11,6 @@
 #include "pack/world_private.h"
 #include "phys/tolerances.h"
 
-struct gb_world_copy {
-    struct gb_cell cell;
-    int64_t count;
-    double *position;
-    struct gb_ledger ledger;
-};
-
 /* Particles per thread below which a second thread costs more than it brings. */
 enum { PARTICLES_PER_THREAD = 2000 };
 
@@ -79,11 +72,12 @@ void gb_world_destroy(struct gb_world *world)
     gb_alloc_free(world->pull);
     gb_alloc_free(world->far_last);
     gb_ledger_finish(&world->ledger);
+    gb_ledger_finish(&world->spare);
     gb_pairs_finish(&world->pairs);
     gb_alloc_free(world);
 }
 
-static bool reserve_slots(struct gb_world *world, struct gb_error *err)
+bool gb_world_reserve(struct gb_world *world, struct gb_error *err)
 {
     const int64_t near = world->pairs.near.capacity, far = world->pairs.far.capacity;
     if (near > world->contacts.room) {
@@ -125,7 +119,7 @@ static bool rebuild(struct gb_world *world, const struct gb_ledger *ledger,
     const struct gb_numerics *numerics = &world->model->numerics;
     if (!gb_pairs_build(&world->pairs, &world->cell, world->position, numerics->cutoff,
                         numerics->skin, err) ||
-        !reserve_slots(world, err)) {
+        !gb_world_reserve(world, err)) {
         return false;
     }
     gb_pairs_shifts(&world->cell, world->shift);
@@ -289,21 +283,32 @@ int64_t gb_world_rebuilds(const struct gb_world *world)
     return world->rebuilds;
 }
 
+bool gb_world_copy_ensure(const struct gb_world *world, struct gb_world_copy **copy,
+                          struct gb_error *err)
+{
+    if (*copy) {
+        return true;
+    }
+    struct gb_world_copy *fresh = gb_alloc_array(1, sizeof *fresh, err);
+    if (!fresh) {
+        return false;
+    }
+    fresh->position =
+        gb_alloc_array(3 * (size_t)world->count, sizeof *fresh->position, err);
+    if (!fresh->position) {
+        gb_alloc_free(fresh);
+        return false;
+    }
+    *copy = fresh;
+    return true;
+}
+
 bool gb_world_save(const struct gb_world *world, struct gb_world_copy **copy,
                    struct gb_error *err)
 {
     const size_t n = 3 * (size_t)world->count;
-    if (!*copy) {
-        struct gb_world_copy *fresh = gb_alloc_array(1, sizeof *fresh, err);
-        if (!fresh) {
-            return false;
-        }
-        fresh->position = gb_alloc_array(n, sizeof *fresh->position, err);
-        if (!fresh->position) {
-            gb_alloc_free(fresh);
-            return false;
-        }
-        *copy = fresh;
+    if (!gb_world_copy_ensure(world, copy, err)) {
+        return false;
     }
     (*copy)->cell = world->cell;
     (*copy)->count = world->count;

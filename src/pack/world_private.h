@@ -6,7 +6,7 @@
 #include "pack/world.h"
 
 /* The inside of gb_world, for the files that work on it: world.c (owner), ledger.c
- * (histories across rebuilds), sweep.c (forces). */
+ * (histories across rebuilds), sweep.c (forces), world_record.c (checkpoints). */
 
 /* Particles whose tallies are summed as one: a fixed block, so that the order of the
  * sums, and with it every bit, does not depend on the number of threads. */
@@ -34,6 +34,7 @@ struct gb_world {
     double *pull;          /* three per far pair: force on the first particle */
     double (*far_last)[2]; /* dynamic scenes: distance and pull at the last evaluation */
     struct gb_ledger ledger;
+    struct gb_ledger spare; /* of checkpoints, which keep less */
     struct gb_sweep_block *block;
     int threads;
     struct gb_tally tally;
@@ -41,6 +42,21 @@ struct gb_world {
     bool listed; /* the pair list exists */
     int64_t evaluations, rebuilds;
 };
+
+struct gb_world_copy {
+    struct gb_cell cell;
+    int64_t count;
+    double *position;
+    struct gb_ledger ledger;
+};
+
+/* A copy to be filled, made when *copy is NULL. */
+bool gb_world_copy_ensure(const struct gb_world *world, struct gb_world_copy **copy,
+                          struct gb_error *err);
+
+/* Room for the contacts and pulls of the lists as they are; what was there is lost when
+ * it grows. */
+bool gb_world_reserve(struct gb_world *world, struct gb_error *err);
 
 /* x_i - x_j of pair k of a list, nearest image; returns its square. */
 static inline double gb_world_arm_of(const struct gb_world *world,

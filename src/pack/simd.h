@@ -1,0 +1,34 @@
+#ifndef GB_PACK_SIMD_H
+#define GB_PACK_SIMD_H
+
+/* Loops compiled once per vector width of the processor family, chosen at run time. */
+#if defined(__x86_64__)
+#define GB_TARGET_256 __attribute__((target("avx2")))
+#if defined(__clang__)
+#define GB_TARGET_512 __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw")))
+#else
+#define GB_TARGET_512                                                                    \
+    __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,prefer-vector-width="      \
+                          "512")))
+#endif
+#endif
+
+/* Bits of the widest vectors that this processor and the caller (0: no limit) allow: 128,
+ * 256 or 512. */
+static inline int gb_simd_width(int widest)
+{
+#if defined(__x86_64__)
+    const int most = widest > 0 ? widest : 512;
+    if (most >= 512 && __builtin_cpu_supports("avx512f") &&
+        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512bw")) {
+        return 512;
+    }
+    return most >= 256 && __builtin_cpu_supports("avx2") ? 256 : 128;
+#else
+    (void)widest;
+    return 128;
+#endif
+}
+
+#endif
