@@ -20,6 +20,14 @@ static enum gb_guard_action judge_exhausted(const struct gb_relax *relax, char *
             (long long)relax->evaluations, relax->residual, relax->tolerance);
         return GB_GUARD_STOP;
     }
+    if (relax->stalled) {
+        snprintf(text, size,
+                 "guard: the relaxation goes round: residual %.2e, at best %.2e, after "
+                 "%lld evaluations and a restart, tolerance %.2e; accepted",
+                 relax->residual, relax->best, (long long)relax->evaluations,
+                 relax->tolerance);
+        return GB_GUARD_ACCEPT;
+    }
     snprintf(text, size,
              "not fully relaxed: residual %.2e after %lld evaluations, tolerance %.2e",
              relax->residual, (long long)relax->evaluations, relax->tolerance);
@@ -37,6 +45,13 @@ enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcom
     }
     if (outcome != GB_RELAX_FAILED) {
         guard->halvings = 0;
+        if (relax->restarts > 0) {
+            snprintf(
+                text, size,
+                "guard: the relaxation stalled and was restarted: relaxed after %lld "
+                "evaluations",
+                (long long)relax->evaluations);
+        }
         return GB_GUARD_ACCEPT;
     }
     if (err->code != GB_ERR_GUARD || guard->halvings >= HALVINGS_MOST) {
@@ -45,5 +60,31 @@ enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcom
     guard->halvings++;
     snprintf(text, size, "guard: %s; strain step halved (%d in a row)", err->text,
              guard->halvings);
+    return GB_GUARD_RETRY;
+}
+
+enum gb_guard_action gb_guard_departure(struct gb_guard *guard,
+                                        const struct gb_departure *departure, char *text,
+                                        size_t size)
+{
+    if (departure->farthest <= GB_DEPARTURE_MOST) {
+        guard->jumps = 0;
+        return GB_GUARD_ACCEPT;
+    }
+    if (guard->jumps >= GB_DEPARTURE_HALVINGS) {
+        guard->jumps = 0;
+        snprintf(
+            text, size,
+            "particle %lld jumps by %.2g d, also in a quarter of the strain step: the "
+            "packing, not the step; accepted",
+            (long long)departure->particle, departure->farthest);
+        return GB_GUARD_ACCEPT;
+    }
+    guard->jumps++;
+    snprintf(
+        text, size,
+        "guard: particle %lld goes %.2g d in one strain step and may pass contacts by; "
+        "strain step halved (%d in a row)",
+        (long long)departure->particle, departure->farthest, guard->jumps);
     return GB_GUARD_RETRY;
 }

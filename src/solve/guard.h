@@ -4,6 +4,7 @@
 #include <stdbool.h>
 
 #include "greenbody/status.h"
+#include "pack/departure.h"
 #include "solve/relax.h"
 
 /* What is done when a strain step fails, in one place. */
@@ -15,6 +16,7 @@ enum gb_guard_action {
 
 struct gb_guard {
     int halvings; /* of the strain step, in a row */
+    int jumps;    /* of these because of particles that went too far */
 };
 
 /* Judges the outcome of a strain step.  text (size bytes) receives one line for
@@ -23,5 +25,12 @@ struct gb_guard {
 enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcome outcome,
                                     const struct gb_relax *relax, char *text, size_t size,
                                     struct gb_error *err);
+
+/* Looks at a relaxed strain step: did a particle go so far that it may have passed
+ * contacts by?  RETRY while half the step may help; ACCEPT with a line when it does not:
+ * the packing itself jumps, across a gap or off a bridge. */
+enum gb_guard_action gb_guard_departure(struct gb_guard *guard,
+                                        const struct gb_departure *departure, char *text,
+                                        size_t size);
 
 #endif

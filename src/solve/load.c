@@ -29,6 +29,30 @@ void gb_load_init(struct gb_load *load, const struct gb_model *model)
     }
 }
 
+bool gb_load_record(struct gb_load *load, struct gb_record *record, struct gb_error *err)
+{
+#define AT(member) offsetof(struct gb_load, member)
+    static const struct gb_record_member members[] = {
+        {"load/step", GB_RECORD_DOUBLE, 1, AT(step), "1"},
+        {"load/next_unload", GB_RECORD_INT32, 1, AT(next_unload), "1"},
+        {"load/branch", GB_RECORD_INT32, 1, AT(branch), "1"},
+        {"load/top_pressure", GB_RECORD_DOUBLE, 1, AT(top_pressure), "E"},
+        {"load/last_pressure", GB_RECORD_DOUBLE, 1, AT(last_pressure), "E"},
+        {"load/last_expansion", GB_RECORD_DOUBLE, 1, AT(last_expansion), "1"},
+        {"load/expansions", GB_RECORD_INT32, 1, AT(expansions), "1"},
+    };
+#undef AT
+    if (!gb_record_members(record, members, sizeof members / sizeof members[0], load,
+                           err)) {
+        return false;
+    }
+    if (load->next_unload < 0 || load->next_unload > load->unload_count ||
+        load->branch < -1 || load->branch > load->next_unload) {
+        return gb_error_set(err, GB_ERR_INPUT, "load/branch: is out of range");
+    }
+    return true;
+}
+
 double gb_load_pressure(const struct gb_load *load, const double pressure[3])
 {
     double sum = 0.0;
@@ -72,10 +96,12 @@ static double expansion(struct gb_load *load, double pressure)
     return 1.0 + load->last_expansion;
 }
 
-static bool unloaded(const struct gb_load *load, double pressure)
+static bool unloaded(struct gb_load *load, double pressure)
 {
     const double grown = pow(1.0 / (1.0 - load->step), load->expansions);
-    return pressure <= GB_UNLOADED_SHARE * load->top_pressure || grown > expansion_most;
+    const bool done = pressure <= GB_UNLOADED_SHARE * load->top_pressure;
+    load->endless = !done && grown > expansion_most;
+    return done || load->endless;
 }
 
 enum gb_load_order gb_load_next(struct gb_load *load, const double pressure[3],

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/record.h"
 #include "greenbody/model.h"
 
 /* The loading programme of P1 section IV as a state machine: told the pressure and
@@ -29,9 +30,14 @@ struct gb_load {
     double last_pressure;  /* of the state before, for the last fraction of a step */
     double last_expansion; /* relative growth of the edges in the last unloading step */
     int expansions;        /* steps of the branch under way */
+    bool endless;          /* the last branch was given up with pressure left */
 };
 
 void gb_load_init(struct gb_load *load, const struct gb_model *model);
+
+/* What the programme remembers, out of a record or into it; loading, the programme was
+ * just begun with the same model.  Errors: GB_ERR_INPUT naming the member. */
+bool gb_load_record(struct gb_load *load, struct gb_record *record, struct gb_error *err);
 
 /* What follows a relaxed state with this stress (normal pressures in x, y, z; E) and
  * density. factor is filled for STRAIN and UNLOAD. */

@@ -1,6 +1,7 @@
 #include "solve/motion.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,6 +22,9 @@ struct gb_motion {
     double step;
     double factor[3];
     int64_t sliding, contacts; /* summed over the steps since the last point */
+    double sliding_most;       /* share of them above which the step is doubted */
+    double slid;               /* share that made the guard halve the step; 0: none */
+    double limit_before;       /* that halving */
     /* the last recorded point, to go back to */
     struct gb_world_copy *good;
     double *good_velocity, *good_spin;
@@ -49,6 +53,7 @@ bool gb_motion_create(struct gb_motion **out, struct gb_world *world,
     }
     motion->model = model;
     motion->limit = INFINITY;
+    motion->sliding_most = GB_SLIDING_MOST;
     motion->density = start_density(world);
     motion->stage = motion->recorded = GB_MOTION_RELAX;
     motion->stage_end = model->dynamics.relax;
@@ -229,10 +234,49 @@ static enum gb_motion_outcome trip(struct gb_motion *motion, struct gb_world *wo
     return GB_MOTION_MORE;
 }
 
-static bool slides(const struct gb_motion *motion)
+/* Share of the contacts that slid since the last point. */
+static double sliding_share(const struct gb_motion *motion)
 {
-    return motion->contacts > 0 &&
-           (double)motion->sliding > GB_SLIDING_MOST * (double)motion->contacts;
+    return motion->contacts > 0 ? (double)motion->sliding / (double)motion->contacts
+                                : 0.0;
+}
+
+/* Half the step changed nothing: it is friction that slides, and the step is given back.
+ */
+static void acquit(struct gb_motion *motion, double share, char *text, size_t size)
+{
+    motion->sliding_most = 0.5 * (1.0 + share);
+    motion->limit = motion->limit_before;
+    motion->slid = 0.0;
+    motion->halvings--;
+    snprintf(text, size,
+             "guard: %.0f %% of the contacts slide with half the time step as well; the "
+             "step is not the cause and is taken as before",
+             100.0 * share);
+}
+
+/* Friction caps hide an unstable step from the kinetic energy; the sliding contacts show
+ * it.  Many contacts may also slide for a good reason, which half the step tells. */
+static enum gb_motion_outcome judge_sliding(struct gb_motion *motion,
+                                            struct gb_world *world, char *text,
+                                            size_t size, struct gb_error *err)
+{
+    const double share = sliding_share(motion);
+    if (motion->slid > 0.0 && share > GB_SLIDING_SAME * motion->slid) {
+        acquit(motion, share, text, size);
+        return GB_MOTION_POINT;
+    }
+    if (share > motion->sliding_most) {
+        char why[96];
+        snprintf(why, sizeof why, "%.0f %% of the contacts slide", 100.0 * share);
+        if (motion->slid == 0.0) {
+            motion->limit_before = motion->limit;
+        }
+        motion->slid = share;
+        return trip(motion, world, why, text, size, err);
+    }
+    motion->slid = 0.0;
+    return GB_MOTION_POINT;
 }
 
 static enum gb_motion_outcome begin(struct gb_motion *motion, struct gb_world *world,
@@ -275,14 +319,8 @@ enum gb_motion_outcome gb_motion_advance(struct gb_motion *motion, struct gb_wor
     if (motion->left > 0) {
         return GB_MOTION_MORE;
     }
-    if (slides(motion)) {
-        char why[96];
-        snprintf(why, sizeof why, "%.0f %% of the contacts slide",
-                 100.0 * (double)motion->sliding / (double)motion->contacts);
-        return trip(motion, world, why, text, size, err);
-    }
     motion->recorded = motion->stage;
-    return GB_MOTION_POINT;
+    return judge_sliding(motion, world, text, size, err);
 }
 
 static double whole_time(const struct gb_motion *motion)
@@ -304,4 +342,44 @@ struct gb_motion_report gb_motion_report(const struct gb_motion *motion)
         .time_step = motion->step,
         .progress = fmin(1.0, motion->time / whole_time(motion)),
     };
+}
+
+/* At a recorded point the way to the next one and what to go back to are yet to be set.
+ */
+bool gb_motion_record(struct gb_motion *motion, struct gb_record *record,
+                      struct gb_error *err)
+{
+#define AT(member) offsetof(struct gb_motion, member)
+    static const struct gb_record_member members[] = {
+        {"motion/stage", GB_RECORD_INT32, 1, AT(stage), "1"},
+        {"motion/recorded", GB_RECORD_INT32, 1, AT(recorded), "1"},
+        {"motion/time", GB_RECORD_DOUBLE, 1, AT(time), "T"},
+        {"motion/stage_end", GB_RECORD_DOUBLE, 1, AT(stage_end), "T"},
+        {"motion/limit", GB_RECORD_DOUBLE, 1, AT(limit), "T"},
+        {"motion/halvings", GB_RECORD_INT32, 1, AT(halvings), "1"},
+        {"motion/sliding_most", GB_RECORD_DOUBLE, 1, AT(sliding_most), "1"},
+        {"motion/slid", GB_RECORD_DOUBLE, 1, AT(slid), "1"},
+        {"motion/limit_before", GB_RECORD_DOUBLE, 1, AT(limit_before), "T"},
+        {"motion/told", GB_RECORD_BOOL, 1, AT(told), "1"},
+        {"motion/planned", GB_RECORD_INT64, 1, AT(planned), "1"},
+        {"motion/step", GB_RECORD_DOUBLE, 1, AT(step), "T"},
+        {"motion/density", GB_RECORD_DOUBLE, 1, AT(density), "1"},
+        {"motion/work", GB_RECORD_DOUBLE, 1, AT(verlet.work), "E d^3"},
+        {"motion/absorbed", GB_RECORD_DOUBLE, 1, AT(verlet.absorbed), "E d^3"},
+    };
+#undef AT
+    const int64_t count = motion->model->count;
+    if (!gb_record_members(record, members, sizeof members / sizeof members[0], motion,
+                           err) ||
+        !gb_record_array(record, "motion/velocity", GB_RECORD_DOUBLE, count, 3, "d/T",
+                         motion->verlet.velocity, err) ||
+        !gb_record_array(record, "motion/spin", GB_RECORD_DOUBLE, count, 3, "1/T",
+                         motion->verlet.spin, err)) {
+        return false;
+    }
+    if ((int)motion->stage < GB_MOTION_RELAX || motion->stage > GB_MOTION_OVER ||
+        (int)motion->recorded < GB_MOTION_RELAX || motion->recorded > GB_MOTION_HOLD) {
+        return gb_error_set(err, GB_ERR_INPUT, "motion/stage: is out of range");
+    }
+    return true;
 }

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/record.h"
 #include "greenbody/status.h"
 #include "pack/world.h"
 
@@ -42,5 +43,10 @@ struct gb_motion_report {
     double progress;  /* 0..1, by time */
 };
 struct gb_motion_report gb_motion_report(const struct gb_motion *motion);
+
+/* The motion at a recorded point, out of a record or into it; loading, it was just
+ * created with the same world.  Errors: GB_ERR_INPUT naming the member. */
+bool gb_motion_record(struct gb_motion *motion, struct gb_record *record,
+                      struct gb_error *err);
 
 #endif

@@ -1,11 +1,13 @@
 #include "solve/relax.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "phys/tolerances.h"
 
-static const struct gb_relaxer *const table[] = {&gb_relax_fire, &gb_relax_steepest,
-                                                 NULL};
+static const struct gb_relaxer *const table[] = {&gb_relax_predict, &gb_relax_fire,
+                                                 &gb_relax_steepest, NULL};
 
 const struct gb_relaxer *const *gb_relax_table(void)
 {
@@ -77,7 +79,31 @@ void gb_relax_start(struct gb_relax *relax, struct gb_world *world)
 {
     relax->iterations = 0;
     relax->evaluations = 0;
+    relax->best = INFINITY;
+    relax->best_at = 0;
+    relax->restarts = 0;
+    relax->stalled = false;
     relax->method->start(relax, world);
+}
+
+/* Has the residual stopped to fall?  The first time the particles are brought to rest and
+ * the method begins again. */
+static bool stalls(struct gb_relax *relax, struct gb_world *world)
+{
+    if (relax->residual < (1.0 - GB_STALL_SHARE) * relax->best) {
+        relax->best = relax->residual;
+        relax->best_at = relax->evaluations;
+    }
+    if (relax->evaluations - relax->best_at < GB_STALL_EVALUATIONS) {
+        return false;
+    }
+    relax->stalled = relax->restarts > 0;
+    if (!relax->stalled) {
+        relax->restarts++;
+        relax->best_at = relax->evaluations;
+        relax->method->start(relax, world);
+    }
+    return relax->stalled;
 }
 
 enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *world,
@@ -97,9 +123,15 @@ enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *
         if (relax->residual <= relax->tolerance) {
             return GB_RELAX_DONE;
         }
-        if (relax->evaluations >= relax->max_evaluations) {
+        if (relax->evaluations >= relax->max_evaluations || stalls(relax, world)) {
             return GB_RELAX_EXHAUSTED;
         }
     }
     return GB_RELAX_MORE;
+}
+
+bool gb_relax_record(struct gb_relax *relax, int64_t count, struct gb_record *record,
+                     struct gb_error *err)
+{
+    return !relax->method->record || relax->method->record(relax, count, record, err);
 }

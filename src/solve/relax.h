@@ -14,6 +14,11 @@
  * f_a(d)) at or below the tolerance.  A method only moves the particles after each
  * evaluation. */
 struct gb_relax;
+struct gb_record;
+
+/* Rotational inertia of relaxers in m d^2.  A sphere has 0.1; 0.4 brings the rotational
+ * frequencies down to the translational ones. */
+#define GB_RELAX_INERTIA 0.4
 
 struct gb_relaxer {
     const char *name; /* as in numerics.relaxer */
@@ -22,6 +27,10 @@ struct gb_relaxer {
     int vectors;       /* ... and how many arrays of count x 3 doubles it needs */
     void (*start)(struct gb_relax *relax, struct gb_world *world);
     void (*move)(struct gb_relax *relax, struct gb_world *world);
+    /* What it remembers from one relaxation to the next, into a checkpoint or out of it;
+     * NULL: nothing that start does not set. */
+    bool (*record)(struct gb_relax *relax, int64_t count, struct gb_record *record,
+                   struct gb_error *err);
 };
 
 /* The table, NULL-terminated, and look-up by name (NULL when unknown). */
@@ -36,12 +45,16 @@ struct gb_relax {
     int64_t max_evaluations;         /* per relaxation */
     int64_t iterations, evaluations; /* of the relaxation under way */
     double residual;
+    double best; /* least residual since the last restart that was worth the name ... */
+    int64_t best_at; /* ... and the evaluation that brought it */
+    int restarts;
+    bool stalled; /* given up because the residual went round */
 };
 
 enum gb_relax_outcome {
     GB_RELAX_MORE,      /* the slice is used up */
     GB_RELAX_DONE,      /* residual at or below the tolerance */
-    GB_RELAX_EXHAUSTED, /* max_evaluations reached: not converged */
+    GB_RELAX_EXHAUSTED, /* max_evaluations reached, or stalled: not converged */
     GB_RELAX_FAILED     /* err says why */
 };
 
@@ -49,8 +62,8 @@ bool gb_relax_create(struct gb_relax **out, const struct gb_model *model,
                      struct gb_error *err);
 void gb_relax_destroy(struct gb_relax *relax); /* NULL is fine */
 
-/* Begins a relaxation: the particles are at rest, nothing is remembered but step sizes.
- */
+/* Begins a relaxation, after the cell was strained: the particles are at rest, but may be
+ * moved to where they are expected. */
 void gb_relax_start(struct gb_relax *relax, struct gb_world *world);
 
 /* At most max_evaluations force evaluations of it.  It always ends right after an
@@ -58,7 +71,17 @@ void gb_relax_start(struct gb_relax *relax, struct gb_world *world);
 enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *world,
                                        int64_t max_evaluations, struct gb_error *err);
 
+/* The memory of the method into a record, or out of it. */
+bool gb_relax_record(struct gb_relax *relax, int64_t count, struct gb_record *record,
+                     struct gb_error *err);
+
+/* One displacement of (15), k in 1/(E d), and the stiffness (E d) around the most
+ * strongly held particle; sum: scratch, one double a particle. */
+void gb_relax_steepest_step(struct gb_world *world, double k);
+double gb_relax_steepest_stiffest(const struct gb_world *world, double *sum);
+
 extern const struct gb_relaxer gb_relax_fire;
+extern const struct gb_relaxer gb_relax_predict;
 extern const struct gb_relaxer gb_relax_steepest;
 
 #endif

@@ -8,34 +8,33 @@
 #include <string.h>
 
 #include "base/vec.h"
-#include "solve/relax.h"
+#include "solve/relax_fire.h"
+
+static const double grow = 1.1;
 
 /* Longest step, in sqrt(m / (E d)).  The stiffest contacts of a dense packing (stiffness
  * 0.2, coordination 7) bound it near 1.4; larger steps are cut by the uphill rule and
  * gain nothing. */
-static const double step_most = 1.3;
-static const double step_first = 0.6;
-static const double grow = 1.1, shrink = 0.5;
-static const double mixing_first = 0.2, mixing_decay = 0.98;
-enum { DELAY = 8 };
-/* Rotational inertia in m d^2.  A sphere has 0.1; 0.4 brings the rotational frequencies
- * down to the translational ones. */
-static const double inertia = 0.4;
+const struct gb_relax_fire_tuning gb_relax_fire_plain = {
+    .step_first = 0.6,
+    .step_most = 1.3,
+    .shrink = 0.5,
+    .mixing_first = 0.2,
+    .mixing_decay = 0.98,
+    .delay = 8,
+};
+static const double inertia = GB_RELAX_INERTIA;
 /* No particle moves farther than this in one step (d): overlaps are a few per cent. */
 static const double move_most = 0.01;
 
-struct fire {
-    double step, mixing;
-    int downhill;
-};
-
-static void start(struct gb_relax *relax, struct gb_world *world)
+void gb_relax_fire_rest(struct gb_relax *relax, struct gb_relax_fire_state *fire,
+                        const struct gb_relax_fire_tuning *tuning,
+                        const struct gb_world *world)
 {
-    struct fire *fire = relax->state;
-    const size_t bytes = 3 * (size_t)gb_world_bodies(world).count * sizeof(double);
+    const size_t bytes = 3 * (size_t)gb_world_model(world)->count * sizeof(double);
     memset(relax->vector[0], 0, bytes);
     memset(relax->vector[1], 0, bytes);
-    *fire = (struct fire){step_first, mixing_first, 0};
+    *fire = (struct gb_relax_fire_state){tuning->step_first, tuning->mixing_first, 0};
 }
 
 struct sums {
@@ -69,22 +68,27 @@ static void step_back(const struct gb_relax *relax, const struct gb_bodies *b,
     }
 }
 
-static void adapt(struct gb_relax *relax, const struct gb_bodies *b, double power)
+static void adapt(struct gb_relax *relax, struct gb_relax_fire_state *fire,
+                  const struct gb_relax_fire_tuning *tuning, const struct gb_bodies *b,
+                  double power)
 {
-    struct fire *fire = relax->state;
     if (power > 0.0) {
-        if (++fire->downhill > DELAY) {
-            fire->step = fmin(fire->step * grow, step_most);
-            fire->mixing *= mixing_decay;
+        if (++fire->downhill > tuning->delay) {
+            fire->step = fmin(fire->step * grow, tuning->step_most);
+            fire->mixing *= tuning->mixing_decay;
         }
         return;
     }
     if (fire->downhill > 0) {
         step_back(relax, b, 0.5 * fire->step);
-        fire->step *= shrink;
+    }
+    /* also uphill right from a standstill: a step beyond sqrt(2)/omega would otherwise
+     * stay as it is and blow the packing up */
+    if (power < 0.0) {
+        fire->step *= tuning->shrink;
     }
     fire->downhill = 0;
-    fire->mixing = mixing_first;
+    fire->mixing = tuning->mixing_first;
     const size_t bytes = 3 * (size_t)b->count * sizeof(double);
     memset(relax->vector[0], 0, bytes);
     memset(relax->vector[1], 0, bytes);
@@ -99,13 +103,13 @@ static double speed_most(const double *v, int64_t count)
     return sqrt(most);
 }
 
-static void move(struct gb_relax *relax, struct gb_world *world)
+void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire,
+                        const struct gb_relax_fire_tuning *tuning, struct gb_world *world)
 {
-    const struct fire *fire = relax->state;
     const struct gb_bodies b = gb_world_bodies(world);
     double *v = relax->vector[0], *w = relax->vector[1];
     const struct sums sums = sum_up(relax, &b);
-    adapt(relax, &b, sums.power);
+    adapt(relax, fire, tuning, &b, sums.power);
     const double step = fire->step;
     /* mixing needs the speed after the kick; the speed before differs by one step only
      * and saves a pass over the arrays */
@@ -129,10 +133,20 @@ static void move(struct gb_relax *relax, struct gb_world *world)
     }
 }
 
+static void start(struct gb_relax *relax, struct gb_world *world)
+{
+    gb_relax_fire_rest(relax, relax->state, &gb_relax_fire_plain, world);
+}
+
+static void move(struct gb_relax *relax, struct gb_world *world)
+{
+    gb_relax_fire_move(relax, relax->state, &gb_relax_fire_plain, world);
+}
+
 const struct gb_relaxer gb_relax_fire = {
     .name = "fire",
     .doc = "fast inertial relaxation of translations and rotations",
-    .state_size = sizeof(struct fire),
+    .state_size = sizeof(struct gb_relax_fire_state),
     .vectors = 2,
     .start = start,
     .move = move,

@@ -11,7 +11,7 @@
 #include "base/vec.h"
 #include "solve/relax.h"
 
-static const double inertia = 0.4; /* m d^2, as in FIRE */
+static const double inertia = GB_RELAX_INERTIA;
 /* Displacement under the largest force when there is no adhesion and h_eq = 0 (d). */
 static const double move_least = 0.0025;
 /* Moves between two looks at the stiffness of the packing. */
@@ -44,8 +44,7 @@ static double contact_stiffness(const struct gb_model *model, double deepest, do
     return fmax(normal, shear * (1.0 + 0.25 / inertia));
 }
 
-/* Sum of the stiffnesses around the most strongly held particle. */
-static double stiffest_particle(const struct gb_world *world, double *sum)
+double gb_relax_steepest_stiffest(const struct gb_world *world, double *sum)
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
@@ -75,12 +74,22 @@ static double stiffest_particle(const struct gb_world *world, double *sum)
 static void look(struct gb_relax *relax, struct gb_world *world)
 {
     struct steepest *state = relax->state;
-    const double stiffness = stiffest_particle(world, relax->vector[0]);
+    const double stiffness = gb_relax_steepest_stiffest(world, relax->vector[0]);
     if (relax->residual > 1.5 * state->last) {
         state->safety *= 0.5;
     }
     state->last = relax->residual;
     state->k_most = stiffness > 0.0 ? state->safety / stiffness : INFINITY;
+}
+
+void gb_relax_steepest_step(struct gb_world *world, double k)
+{
+    const struct gb_bodies b = gb_world_bodies(world);
+    const double k_turn = k / inertia;
+    for (int64_t i = 0; i < 3 * b.count; i++) {
+        b.position[i] += k * b.force[i];
+        b.turn[i] += k_turn * b.torque[i];
+    }
 }
 
 static void move(struct gb_relax *relax, struct gb_world *world)
@@ -96,10 +105,8 @@ static void move(struct gb_relax *relax, struct gb_world *world)
     }
     const double reach = fmax(0.5 * gb_world_model(world)->h_eq, move_least);
     const double k = most > 0.0 ? fmin(reach / sqrt(most), state->k_most) : state->k_most;
-    const double k_turn = k / inertia;
-    for (int64_t i = 0; i < 3 * b.count && isfinite(k); i++) {
-        b.position[i] += k * b.force[i];
-        b.turn[i] += k_turn * b.torque[i];
+    if (isfinite(k)) {
+        gb_relax_steepest_step(world, k);
     }
 }
 

@@ -1,0 +1,45 @@
+#include "solve/punch.h"
+
+#include <math.h>
+
+void gb_punch_begin(struct gb_punch *punch, struct gb_leap *leap, struct gb_bed *bed,
+                    double height, double mass)
+{
+    bed->die.punch = true;
+    bed->die.punch_place = height;
+    bed->die.punch_speed = 0.0;
+    leap->punch_mass = mass * gb_bed_solid_volume(bed) / (M_PI / 6.0);
+    leap->load = 0.0;
+    gb_bed_forget_lists(bed);
+    punch->area = M_PI * bed->die.radius * bed->die.radius;
+    punch->time = 0.0;
+    gb_punch_clear(punch);
+}
+
+double gb_punch_wanted(const struct gb_punch *punch, double time)
+{
+    const double share = fmin(time / punch->length, 1.0);
+    return punch->pressure * (punch->quadratic ? share * share : share);
+}
+
+void gb_punch_follow(struct gb_punch *punch, struct gb_leap *leap,
+                     const struct gb_bed *bed)
+{
+    const struct gb_bed_tally *tally = &bed->tally;
+    const double volume = punch->area * bed->die.punch_place, step = leap->step;
+    punch->weight += step;
+    punch->carried += step * tally->punch / punch->area;
+    punch->wanted += step * leap->load / punch->area;
+    punch->floor += step * tally->floor / punch->area;
+    for (int k = 0; k < 2; k++) {
+        punch->side[k] += step * tally->side[k] / volume;
+    }
+    punch->time += step;
+    leap->load = gb_punch_wanted(punch, punch->time) * punch->area;
+}
+
+void gb_punch_clear(struct gb_punch *punch)
+{
+    punch->weight = punch->carried = punch->wanted = punch->floor = 0.0;
+    punch->side[0] = punch->side[1] = 0.0;
+}

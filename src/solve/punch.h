@@ -1,0 +1,37 @@
+#ifndef GB_SOLVE_PUNCH_H
+#define GB_SOLVE_PUNCH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "pack/bed.h"
+#include "solve/leap.h"
+
+/* A punch that carries a pressure: a body that the powder pushes up and the programme
+ * pushes down, M a = F - p(t) A.  Nothing is tuned: its mass only has to be small enough
+ * to follow the powder.  Between 0.1 and 1 mass of the bed gives the same curve; ten lag
+ * below 5 MPa. */
+struct gb_punch {
+    double area, length; /* of the die's section; time of the ramp */
+    double pressure;     /* at its end */
+    bool quadratic;      /* p = p_max (t/T)^2, else linear */
+    double time;         /* since the ramp began */
+    /* means since the last point, weighted by the steps */
+    double weight, carried, wanted, floor, side[2];
+};
+
+/* Puts the punch at rest on a height; mass in masses of the bed. */
+void gb_punch_begin(struct gb_punch *punch, struct gb_leap *leap, struct gb_bed *bed,
+                    double height, double mass);
+
+/* Pressure of the ramp after a time. */
+double gb_punch_wanted(const struct gb_punch *punch, double time);
+
+/* Books the step just taken and sets the load of the next one. */
+void gb_punch_follow(struct gb_punch *punch, struct gb_leap *leap,
+                     const struct gb_bed *bed);
+
+/* Means begin anew. */
+void gb_punch_clear(struct gb_punch *punch);
+
+#endif
