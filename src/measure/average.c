@@ -166,6 +166,14 @@ size_t gb_average_values(const double *values, size_t count, double *mean, doubl
     return strided(values, count, 1, mean, error);
 }
 
+double gb_average_jackknife(const double *without, size_t count)
+{
+    double mean = NAN;
+    double error = NAN;
+    const size_t used = gb_average_values(without, count, &mean, &error);
+    return used > 1 ? error * ((double)used - 1.0) : (double)NAN;
+}
+
 void gb_average_rows(const double *rows, size_t count, size_t size, bool all,
                      double *mean, double *error)
 {

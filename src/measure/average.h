@@ -28,7 +28,11 @@ bool gb_average_grid(const struct gb_average_curve *curves, size_t count, size_t
  * NaN with fewer than two.  Returns how many there were. */
 size_t gb_average_values(const double *values, size_t count, double *mean, double *error);
 
-/* The same at every place of a grid: row r of `rows` (count x size) is one curve.  At a
+/* Standard error by the jackknife: without[i] is a figure found from all runs but run i;
+ * those that are NaN are left out.  NaN with fewer than two. */
+double gb_average_jackknife(const double *without, size_t count);
+
+/* Mean and standard error at every place of a grid: row r of `rows` (count x size) is one curve.  At a
  * place where some curves have no value, only those that have one count, unless `all`:
  * then there is none.  NULL for error is fine. */
 void gb_average_rows(const double *rows, size_t count, size_t size, bool all,

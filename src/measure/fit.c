@@ -202,3 +202,34 @@ double gb_fit_decay_at(const struct gb_fit_decay *fit, double t)
     }
     return p;
 }
+
+double gb_fit_decay_fall(const struct gb_fit_decay *fit)
+{
+    double fall = 0.0;
+    for (int i = 0; i < fit->terms; i++) {
+        fall += fit->amplitude[i].value;
+    }
+    return fall > 0.0 ? fall : (double)NAN;
+}
+
+double gb_fit_decay_efold(const struct gb_fit_decay *fit)
+{
+    const double level = fit->p0.value + gb_fit_decay_fall(fit) / M_E;
+    if (!isfinite(level)) {
+        return NAN;
+    }
+    double low = 0.0;
+    double high = fit->tau[fit->terms - 1].value;
+    while (gb_fit_decay_at(fit, high) > level) { /* a rising term may hold p up */
+        high *= 2.0;
+    }
+    for (int i = 0; i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        if (gb_fit_decay_at(fit, middle) > level) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
+}

@@ -49,4 +49,10 @@ bool gb_fit_decay(struct gb_fit_decay *fit, const double *t, const double *p,
 /* The fitted p at time t. */
 double gb_fit_decay_at(const struct gb_fit_decay *fit, double t);
 
+/* How far p falls in all, and the time after which 1/e of that is left: what a relaxation
+ * of two stages and one of a single stage can be compared by.  NaN without exponentials
+ * or when p does not fall. */
+double gb_fit_decay_fall(const struct gb_fit_decay *fit);
+double gb_fit_decay_efold(const struct gb_fit_decay *fit);
+
 #endif

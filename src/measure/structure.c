@@ -82,6 +82,38 @@ bool gb_structure_rdf(const struct gb_cell *cell, int64_t count, const double *p
     return true;
 }
 
+/* Mean of g over [from, to), each bin by its volume. */
+static double mean_between(int dimension, double width, int bins, const double *g,
+                           double from, double to)
+{
+    double sum = 0.0, weight = 0.0;
+    for (int k = 0; k < bins; k++) {
+        const double r = (k + 0.5) * width;
+        if (r > from && r <= to) {
+            sum += g[k] * pow(r, dimension - 1);
+            weight += pow(r, dimension - 1);
+        }
+    }
+    return sum / weight;
+}
+
+double gb_structure_rdf_end(int dimension, double r_max, int bins, const double *g,
+                            double *ripple)
+{
+    const double width = r_max / bins;
+    double squares = 0.0;
+    for (int q = 0; q < 4; q++) {
+        const double from = r_max - 1.0 + 0.25 * q;
+        const double off =
+            mean_between(dimension, width, bins, g, from, from + 0.25) - 1.0;
+        squares += 0.25 * off * off;
+    }
+    if (ripple != NULL) {
+        *ripple = sqrt(squares);
+    }
+    return mean_between(dimension, width, bins, g, r_max - 1.0, r_max);
+}
+
 /* Union-find over particles.  Each node knows in which image of the cell, seen from
  * itself, its parent lies; a loop of contacts that comes back to another image of its
  * start shows that the cluster joins its own image. */

@@ -18,11 +18,17 @@
 bool gb_structure_rdf(const struct gb_cell *cell, int64_t count, const double *position,
                       double r_max, int bins, double *g, struct gb_error *err);
 
+/* Mean of such a g over the last diameter before r_max, each bin by its volume.  ripple
+ * (NULL is fine): how far the means over the quarters of that diameter are from 1, root
+ * mean square; 0 where the cell is wide enough for its density. */
+double gb_structure_rdf_end(int dimension, double r_max, int bins, const double *g,
+                            double *ripple);
+
 struct gb_connectivity {
-    int64_t clusters;     /* of particles closer than the reach */
-    int64_t largest;      /* particles in the largest */
-    bool percolates[3];   /* the largest spans axis k and meets its own image */
-    double coordination;  /* mean number of neighbours closer than the reach */
+    int64_t clusters;      /* of particles closer than the reach */
+    int64_t largest;       /* particles in the largest */
+    bool percolates[3];    /* the largest spans axis k and meets its own image */
+    double coordination;   /* mean number of neighbours closer than the reach */
     int64_t histogram[16]; /* particles with 0, 1, ..., 15 or more neighbours */
 };
 

@@ -95,6 +95,23 @@ static void test_crossing(void)
     g_assert_true(isnan(gb_average_crossing(&path, (double)NAN, NULL)));
 }
 
+/* The jackknife of a mean is its standard error. */
+static void test_jackknife(void)
+{
+    static const double values[] = {3.0, 7.0, 8.0, 1.0, 4.0};
+    enum { COUNT = G_N_ELEMENTS(values) };
+    double without[COUNT], mean, error, sum = 0.0;
+    gb_average_values(values, COUNT, &mean, &error);
+    for (int i = 0; i < COUNT; i++) {
+        sum += values[i];
+    }
+    for (int i = 0; i < COUNT; i++) {
+        without[i] = (sum - values[i]) / (COUNT - 1);
+    }
+    g_assert_cmpfloat_with_epsilon(gb_average_jackknife(without, COUNT), error, 1e-12);
+    g_assert_true(isnan(gb_average_jackknife(without, 1)));
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -102,5 +119,6 @@ int main(int argc, char **argv)
     g_test_add_func("/average/grid", test_grid);
     g_test_add_func("/average/mean", test_mean);
     g_test_add_func("/average/crossing", test_crossing);
+    g_test_add_func("/average/jackknife", test_jackknife);
     return g_test_run();
 }

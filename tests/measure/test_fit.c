@@ -329,6 +329,27 @@ static void test_power_input(void)
     g_assert_nonnull(strstr(err.text, "a density above 0.5"));
 }
 
+/* One exponential: fall and 1/e time are its own.  Two: what is left at that time. */
+static void test_efold(void)
+{
+    struct gb_fit_decay fit = {.terms = 1, .p0.value = 10.0};
+    fit.amplitude[0].value = 5.0;
+    fit.tau[0].value = 0.25;
+    g_assert_cmpfloat_with_epsilon(gb_fit_decay_fall(&fit), 5.0, 1e-15);
+    g_assert_cmpfloat_with_epsilon(gb_fit_decay_efold(&fit), 0.25, 1e-14);
+    fit.terms = 2;
+    fit.amplitude[1].value = 3.0;
+    fit.tau[1].value = 4.0;
+    const double left = gb_fit_decay_at(&fit, gb_fit_decay_efold(&fit)) - 10.0;
+    g_assert_cmpfloat_with_epsilon(left, 8.0 / M_E, 1e-12);
+    fit.terms = 0;
+    g_assert_true(isnan(gb_fit_decay_fall(&fit)));
+    g_assert_true(isnan(gb_fit_decay_efold(&fit)));
+    fit.terms = 1;
+    fit.amplitude[0].value = -5.0; /* rises */
+    g_assert_true(isnan(gb_fit_decay_efold(&fit)));
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -342,5 +363,6 @@ int main(int argc, char **argv)
     g_test_add_func("/power/exact", test_power_exact);
     g_test_add_func("/power/coverage", test_power_coverage);
     g_test_add_func("/power/input", test_power_input);
+    g_test_add_func("/fit/efold", test_efold);
     return g_test_run();
 }
