@@ -1,21 +1,34 @@
 #include "draw/caption.h"
 
 #include <math.h>
-#include <pango/pangocairo.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/units.h"
+#include "draw/figure_axis.h"
 #include "draw/palette.h"
+#include "draw/text.h"
 
 /* Below this many pixels of the shorter side words cannot be read. */
 static const int words_from = 240;
 
-static const char *const face = "DejaVu Sans, Sans";
+/* A quantity for people: the prefix micro as a Greek letter. */
+static void format_short(double value, enum gb_dimension dimension, int digits,
+                         char *text, size_t size)
+{
+    char plain[48];
+    gb_units_format_short(value, dimension, digits, plain, sizeof plain);
+    const char *micro = strstr(plain, " u");
+    if (micro != NULL) {
+        snprintf(text, size, "%.*s \xce\xbc%s", (int)(micro - plain), plain, micro + 2);
+    } else {
+        snprintf(text, size, "%s", plain);
+    }
+}
 
 struct pen {
+    struct gb_text text;
     cairo_t *cairo;
-    PangoLayout *text;
     double unit;
     uint8_t ink[3];
 };
@@ -52,7 +65,7 @@ double gb_caption_bar_length(double most, char *label, size_t size)
             break;
         }
     }
-    gb_units_format_short(length, GB_DIM_LENGTH, 3, label, size);
+    format_short(length, GB_DIM_LENGTH, 3, label, size);
     return length;
 }
 
@@ -62,53 +75,170 @@ static void set_ink(const struct pen *pen)
                          pen->ink[2] / 255.0);
 }
 
-/* One line at (x, y); align 0, 0.5, 1: x is its left end, middle, right end; y its
- * middle. Longer than room (> 0), it is cut with an ellipsis. */
-static double write_line(const struct pen *pen, const char *line, double x, double y,
-                         double align, double scale, double room)
+/* One line of plain text at (x, y); align 0, 0.5, 1: x is its left end, middle, right
+ * end; y its middle. Made smaller until it fits room (> 0). */
+static void write_line(const struct pen *pen, const char *line, double x, double y,
+                       double align, double scale, double room)
 {
-    int width = 0;
-    int height = 0;
-    PangoFontDescription *font = pango_font_description_from_string(face);
-    pango_font_description_set_absolute_size(font, scale * pen->unit * PANGO_SCALE);
-    pango_layout_set_font_description(pen->text, font);
-    pango_font_description_free(font);
-    pango_layout_set_text(pen->text, line, -1);
-    pango_layout_set_width(pen->text, room > 0.0 ? (int)(room * PANGO_SCALE) : -1);
-    pango_layout_set_ellipsize(pen->text, PANGO_ELLIPSIZE_END);
-    pango_layout_get_pixel_size(pen->text, &width, &height);
+    char *markup = g_markup_escape_text(line, -1);
+    double size = scale * pen->unit;
+    double wide = 0.0;
+    double high = 0.0;
+    gb_text_measure(&pen->text, markup, size, 0.0, &wide, &high);
+    if (room > 0.0 && wide > room) {
+        size *= room / wide;
+    }
     set_ink(pen);
-    cairo_move_to(pen->cairo, x - align * width, y - 0.5 * height);
-    pango_cairo_show_layout(pen->cairo, pen->text);
-    return width;
+    gb_text_write(&pen->text, markup, size, 0.0, (double[2]){x, y},
+                  (double[2]){align, 0.5}, 0);
+    g_free(markup);
 }
 
-/* Coordination numbers are whole: a cell of its own for each, 0 at the bottom. */
-static void draw_colour_bar(const struct pen *pen, const struct gb_frame *bar)
+static void write_upwards(const struct pen *pen, const char *line, double x, double y)
 {
-    const double step = bar->height / (GB_PALETTE_CONTACTS + 1);
-    for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
+    set_ink(pen);
+    gb_text_write(&pen->text, line, 0.95 * pen->unit, 0.0, (double[2]){x, y},
+                  (double[2]){0.5, 0.5}, 1);
+}
+
+static void frame_bar(const struct pen *pen, const struct gb_frame *bar,
+                      const char *title)
+{
+    set_ink(pen);
+    cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
+    cairo_rectangle(pen->cairo, bar->left, bar->top, bar->width, bar->height);
+    cairo_stroke(pen->cairo);
+    write_upwards(pen, title, bar->left - 0.95 * pen->unit, bar->top + 0.5 * bar->height);
+}
+
+/* Whole numbers: a cell of its own for each, 0 at the bottom. */
+static void draw_cells(const struct pen *pen, const struct gb_frame *bar,
+                       const struct gb_dress_scale *scale)
+{
+    const int last = (int)scale->high;
+    const double step = bar->height / (last + 1);
+    for (int k = 0; k <= last; k++) {
         uint8_t rgb[3];
-        char label[8];
+        char label[16];
         const double top = bar->top + bar->height - (k + 1) * step;
         gb_palette_contacts(k, rgb);
         cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
         cairo_rectangle(pen->cairo, bar->left, top, bar->width, step + 0.5);
         cairo_fill(pen->cairo);
-        snprintf(label, sizeof label, "%d", k);
+        snprintf(label, sizeof label, "%s%d",
+                 k == last && scale->above ? "\xe2\x89\xa5" : "", k);
         write_line(pen, label, bar->left + bar->width + 0.5 * pen->unit, top + 0.5 * step,
                    0.0, 0.85, 0.0);
     }
+}
+
+/* A point that says: there is more beyond this end. */
+static void draw_beyond(const struct pen *pen, const struct gb_frame *bar, bool above)
+{
+    const double base = above ? bar->top : bar->top + bar->height;
+    const double tip = base + (above ? -1.0 : 1.0) * 0.8 * pen->unit;
+    uint8_t rgb[3];
+    gb_palette_field(above ? 1.0 : 0.0, rgb);
+    cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+    cairo_move_to(pen->cairo, bar->left, base);
+    cairo_line_to(pen->cairo, bar->left + 0.5 * bar->width, tip);
+    cairo_line_to(pen->cairo, bar->left + bar->width, base);
+    cairo_close_path(pen->cairo);
+    cairo_fill_preserve(pen->cairo);
     set_ink(pen);
     cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
-    cairo_rectangle(pen->cairo, bar->left, bar->top, bar->width, bar->height);
     cairo_stroke(pen->cairo);
-    cairo_save(pen->cairo);
-    cairo_translate(pen->cairo, bar->left - 0.95 * pen->unit,
-                    bar->top + 0.5 * bar->height);
-    cairo_rotate(pen->cairo, -0.5 * G_PI);
-    write_line(pen, "coordination number", 0.0, 0.0, 0.5, 0.95, 0.0);
-    cairo_restore(pen->cairo);
+}
+
+static void draw_ticks(const struct pen *pen, const struct gb_frame *bar,
+                       const struct gb_dress_scale *scale)
+{
+    static const bool exact[2] = {true, true};
+    struct gb_figure_axis_scale axis;
+    gb_figure_axis_fit(&axis, false, scale->low, scale->high, 6, exact);
+    axis.from = bar->top + bar->height;
+    axis.to = bar->top;
+    set_ink(pen);
+    cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
+    for (int k = 0; k < axis.ticks; k++) {
+        const double y = gb_figure_axis_place(&axis, axis.tick[k]);
+        cairo_move_to(pen->cairo, bar->left + bar->width, y);
+        cairo_line_to(pen->cairo, bar->left + bar->width + 0.3 * pen->unit, y);
+        cairo_stroke(pen->cairo);
+        char plain[48]; /* a bar has no room for a power of ten */
+        snprintf(plain, sizeof plain, "%.4g", axis.tick[k]);
+        gb_text_write(&pen->text, axis.power == 0 ? axis.label[k] : plain,
+                      0.85 * pen->unit, 0.0,
+                      (double[2]){bar->left + bar->width + 0.5 * pen->unit, y},
+                      (double[2]){0.0, 0.5}, 0);
+    }
+}
+
+static void draw_gradient(const struct pen *pen, const struct gb_frame *bar,
+                          const struct gb_dress_scale *scale)
+{
+    const int steps = 256;
+    for (int k = 0; k < steps; k++) {
+        uint8_t rgb[3];
+        gb_palette_field((k + 0.5) / steps, rgb);
+        const double top = bar->top + bar->height * (1.0 - (k + 1.0) / steps);
+        cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+        cairo_rectangle(pen->cairo, bar->left, top, bar->width,
+                        bar->height / steps + 0.6);
+        cairo_fill(pen->cairo);
+    }
+    if (scale->below) {
+        draw_beyond(pen, bar, false);
+    }
+    if (scale->above) {
+        draw_beyond(pen, bar, true);
+    }
+    draw_ticks(pen, bar, scale);
+}
+
+static void draw_colour_bar(const struct pen *pen, const struct gb_frame *bar,
+                            const struct gb_dress_scale *scale)
+{
+    if (scale->title == NULL) {
+        return;
+    }
+    if (scale->whole) {
+        draw_cells(pen, bar, scale);
+    } else {
+        draw_gradient(pen, bar, scale);
+    }
+    frame_bar(pen, bar, scale->title);
+}
+
+/* Kinds of forces, and how thick is how much, in the upper right corner. */
+static void draw_swatches(const struct pen *pen, const struct gb_dress *dress,
+                          double right)
+{
+    const double unit = pen->unit;
+    double y = 1.5 * unit;
+    for (int k = 0; k < dress->swatches; k++) {
+        const uint8_t *rgb = dress->swatch[k].rgb;
+        double wide = 0.0;
+        double high = 0.0;
+        gb_text_measure(&pen->text, dress->swatch[k].name, 0.95 * unit, 0.0, &wide,
+                        &high);
+        write_line(pen, dress->swatch[k].name, right, y, 1.0, 0.95, 0.0);
+        cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+        cairo_set_line_width(pen->cairo, 0.45 * unit);
+        cairo_set_line_cap(pen->cairo, CAIRO_LINE_CAP_ROUND);
+        cairo_move_to(pen->cairo, right - wide - 2.2 * unit, y);
+        cairo_line_to(pen->cairo, right - wide - 0.8 * unit, y);
+        cairo_stroke(pen->cairo);
+        cairo_set_line_cap(pen->cairo, CAIRO_LINE_CAP_BUTT);
+        y += 1.45 * unit;
+    }
+    if (dress->swatches > 0) {
+        char force[48];
+        char line[80];
+        format_short(dress->thickest_n, GB_DIM_FORCE, 2, force, sizeof force);
+        snprintf(line, sizeof line, "thickest: %s", force);
+        write_line(pen, line, right, y, 1.0, 0.85, 0.0);
+    }
 }
 
 /* In perspective a length is true in one plane only: the middle of the box. */
@@ -134,21 +264,22 @@ static void point_text(const struct gb_state *state, char *text, size_t size)
     char pressure[48] = "";
     int length = snprintf(text, size, "density %.3f", state->point.density);
     if (isfinite(state->point.p_pa) && length > 0 && (size_t)length < size) {
-        gb_units_format_short(state->point.p_pa, GB_DIM_PRESSURE, 3, pressure,
-                              sizeof pressure);
+        format_short(state->point.p_pa, GB_DIM_PRESSURE, 3, pressure, sizeof pressure);
         snprintf(text + length, size - (size_t)length, "     pressure %s", pressure);
     }
 }
 
 static void draw_all(const struct pen *pen, const struct gb_image *image,
                      const struct gb_caption_layout *layout, const struct gb_scene *scene,
-                     const struct gb_state *state)
+                     const struct gb_dress *dress, const struct gb_state *state)
 {
     char text[160];
     const double unit = layout->unit;
     const double left = 1.4 * unit;
-    const double room = image->width - 2.0 * left;
-    draw_colour_bar(pen, &layout->bar);
+    const double room =
+        image->width - 2.0 * left - (dress->swatches > 0 ? 12.0 * unit : 0.0);
+    draw_colour_bar(pen, &layout->bar, &dress->scale);
+    draw_swatches(pen, dress, image->width - left);
     write_line(pen, state->preset, left, 1.5 * unit, 0.0, 1.05, room);
     point_text(state, text, sizeof text);
     write_line(pen, text, left, image->height - 2.9 * unit, 0.0, 1.0, room);
@@ -156,39 +287,87 @@ static void draw_all(const struct pen *pen, const struct gb_image *image,
                    fmin(9.0 * unit, 0.3 * image->width));
 }
 
-/* cairo wants blue first in memory; ours is red first. */
-static void swap_red_blue(struct gb_image *image)
+/* A pen on an image, until lift. */
+static bool put_down(struct pen *pen, struct gb_image *image, double unit,
+                     enum gb_ground ground, struct gb_error *err)
 {
-    const size_t count = (size_t)image->width * (size_t)image->height;
-    for (size_t i = 0; i < count; i++) {
-        uint8_t *pixel = &image->rgba[4 * i];
-        const uint8_t red = pixel[0];
-        pixel[0] = pixel[2];
-        pixel[2] = red;
-    }
+    gb_image_swap_red_blue(image);
+    cairo_surface_t *surface = cairo_image_surface_create_for_data(
+        image->rgba, CAIRO_FORMAT_ARGB32, image->width, image->height, 4 * image->width);
+    *pen = (struct pen){.cairo = cairo_create(surface), .unit = unit};
+    cairo_surface_destroy(surface);
+    gb_scene_ink(ground, pen->ink);
+    return gb_text_init(&pen->text, pen->cairo, err);
+}
+
+static bool lift(struct pen *pen, struct gb_image *image, bool good, struct gb_error *err)
+{
+    const cairo_status_t status = cairo_status(pen->cairo);
+    cairo_surface_flush(cairo_get_target(pen->cairo));
+    gb_text_finish(&pen->text);
+    cairo_destroy(pen->cairo);
+    gb_image_swap_red_blue(image);
+    return good && (status == CAIRO_STATUS_SUCCESS ||
+                    gb_error_set(err, GB_ERR_MACHINE, "the caption cannot be drawn: %s",
+                                 cairo_status_to_string(status)));
 }
 
 bool gb_caption_draw(struct gb_image *image, const struct gb_caption_layout *layout,
-                     const struct gb_scene *scene, const struct gb_state *state,
-                     struct gb_error *err)
+                     const struct gb_scene *scene, const struct gb_dress *dress,
+                     const struct gb_state *state, struct gb_error *err)
 {
+    struct pen pen;
     if (layout->bar.width <= 0.0) {
         return true;
     }
-    swap_red_blue(image);
-    cairo_surface_t *surface = cairo_image_surface_create_for_data(
-        image->rgba, CAIRO_FORMAT_ARGB32, image->width, image->height, 4 * image->width);
-    struct pen pen = {.cairo = cairo_create(surface), .unit = layout->unit};
-    pen.text = pango_cairo_create_layout(pen.cairo);
-    gb_scene_ink(scene->ground, pen.ink);
-    draw_all(&pen, image, layout, scene, state);
-    const cairo_status_t status = cairo_status(pen.cairo);
-    g_object_unref(pen.text);
-    cairo_destroy(pen.cairo);
-    cairo_surface_finish(surface);
-    cairo_surface_destroy(surface);
-    swap_red_blue(image);
-    return status == CAIRO_STATUS_SUCCESS ||
-           gb_error_set(err, GB_ERR_MACHINE, "the caption cannot be drawn: %s",
-                        cairo_status_to_string(status));
+    const bool good = put_down(&pen, image, layout->unit, scene->ground, err);
+    if (good) {
+        draw_all(&pen, image, layout, scene, dress, state);
+    }
+    return lift(&pen, image, good, err);
+}
+
+/* x, y, z where the axes of the rose end, before the body. */
+static void name_axes(const struct pen *pen, const struct gb_scene *scene, double reach)
+{
+    static const char *const names[3] = {"<i>x</i>", "<i>y</i>", "<i>z</i>"};
+    for (int k = 0; k < 3; k++) {
+        double point[3] = {reach, reach, reach};
+        double eye[3];
+        double pixel[2];
+        const double side = scene->view.away[k] > 0.3 ? -1.0 : 1.0;
+        point[k] += 1.08 * side * reach;
+        gb_view_eye(&scene->view, point, eye);
+        gb_view_pixel(&scene->view, eye, pixel);
+        set_ink(pen);
+        gb_text_write(&pen->text, names[k], 1.05 * pen->unit, 0.0, pixel,
+                      (double[2]){0.5, 0.5}, 0);
+    }
+}
+
+bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout *layout,
+                          const struct gb_scene *scene, double reach, double mean_n,
+                          struct gb_error *err)
+{
+    struct pen pen;
+    char force[48];
+    char line[96];
+    if (layout->bar.width <= 0.0) {
+        return true;
+    }
+    const struct gb_dress_scale scale = {.title = "force over the mean of all",
+                                         .high = reach};
+    const bool good = put_down(&pen, image, layout->unit, scene->ground, err);
+    if (good) {
+        const double unit = layout->unit;
+        const double room = image->width - 2.8 * unit;
+        draw_colour_bar(&pen, &layout->bar, &scale);
+        name_axes(&pen, scene, reach);
+        write_line(&pen, "mean normal force by direction", 1.4 * unit, 1.5 * unit, 0.0,
+                   1.05, room);
+        format_short(mean_n, GB_DIM_FORCE, 3, force, sizeof force);
+        snprintf(line, sizeof line, "mean of all: %s; rings: 1", force);
+        write_line(&pen, line, 1.4 * unit, image->height - 2.9 * unit, 0.0, 1.0, room);
+    }
+    return lift(&pen, image, good, err);
 }

@@ -24,7 +24,12 @@ void gb_caption_place(int width, int height, bool words,
 double gb_caption_bar_length(double most, char *label, size_t size);
 
 bool gb_caption_draw(struct gb_image *image, const struct gb_caption_layout *layout,
-                     const struct gb_scene *scene, const struct gb_state *state,
-                     struct gb_error *err);
+                     const struct gb_scene *scene, const struct gb_dress *dress,
+                     const struct gb_state *state, struct gb_error *err);
+
+/* Words around a rose of forces whose box has half the edge `reach`. */
+bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout *layout,
+                          const struct gb_scene *scene, double reach, double mean_n,
+                          struct gb_error *err);
 
 #endif

@@ -70,3 +70,14 @@ bool gb_image_parse_size(const char *text, int *width, int *height, struct gb_er
     *height = h;
     return true;
 }
+
+void gb_image_swap_red_blue(struct gb_image *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < count; i++) {
+        uint8_t *pixel = &image->rgba[4 * i];
+        const uint8_t red = pixel[0];
+        pixel[0] = pixel[2];
+        pixel[2] = red;
+    }
+}

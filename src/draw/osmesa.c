@@ -13,13 +13,15 @@
 
 enum {
     SAMPLES = 2,       /* a side, of one pixel */
-    TILE = 2048,       /* largest tile, pixels */
+    TILE = 1024,       /* largest tile, pixels: bounds the memory */
     SHADOW = 2048,     /* side of the shadow map */
     REACH_LIMIT = 192, /* samples; farthest look of the occlusion, and margin of a tile */
     CANVAS = 16,       /* OSMesa's own buffer, not drawn to */
     RIBBON = 6,        /* vertices of a box edge */
-    TEXTURES = 6,
-    PROGRAMS = 4
+    TEXTURES = 8,
+    PROGRAMS = 6,
+    BUFFERS = 7,
+    ARRAYS = 4
 };
 
 /* Diameters within which neighbours take light from a particle. */
@@ -27,9 +29,34 @@ static const float occlusion_reach = 3.0F;
 /* Width of box edges as a share of the shorter side of the image. */
 static const float edge_width = 0.0014F;
 
-enum program { PROGRAM_SPHERE, PROGRAM_EDGE, PROGRAM_SHADE, PROGRAM_RESOLVE };
-enum texture { TEXTURE_SEEN, TEXTURE_DEPTH, TEXTURE_SHADOW, TEXTURE_SPHERES,
-               TEXTURE_COLOURS, TEXTURE_SAMPLES };
+enum program {
+    PROGRAM_SPHERE,
+    PROGRAM_ROD,
+    PROGRAM_FACET,
+    PROGRAM_EDGE,
+    PROGRAM_SHADE,
+    PROGRAM_RESOLVE
+};
+enum texture {
+    TEXTURE_SEEN,
+    TEXTURE_DEPTH,
+    TEXTURE_SHADOW,
+    TEXTURE_SPHERES,
+    TEXTURE_COLOURS,
+    TEXTURE_SAMPLES,
+    TEXTURE_RODS,
+    TEXTURE_FACETS
+};
+enum buffer {
+    BUFFER_SPHERES,
+    BUFFER_COLOURS,
+    BUFFER_INDICES,
+    BUFFER_RIBBONS,
+    BUFFER_RODS,
+    BUFFER_ROD_INDICES,
+    BUFFER_FACETS
+};
+enum array { ARRAY_SPHERES, ARRAY_RIBBONS, ARRAY_RODS, ARRAY_FACETS };
 
 struct gb_osmesa {
     OSMesaContext context;
@@ -50,21 +77,23 @@ struct pass {
     const struct gb_scene *scene;
     const struct gb_image *image;
     GLuint texture[TEXTURES];
-    GLuint buffer[4]; /* spheres, colours, indices, ribbons */
-    GLuint frame[4];  /* seen, shadow, samples, pixels */
-    GLuint pixels, array[2];
+    GLuint buffer[BUFFERS];
+    GLuint frame[4]; /* seen, shadow, samples, pixels */
+    GLuint pixels, array[ARRAYS];
     uint32_t *index;
     struct lens eye, light;
-    int margin;            /* of a tile, samples */
+    int margin;              /* of a tile, samples */
     int x, y, width, height; /* tile, pixels */
     int most_width, most_height;
 };
 
-static bool compile(GLuint program, GLenum stage, const char *text, struct gb_error *err)
+static bool compile(GLuint program, GLenum stage, const char *text, const char *more,
+                    struct gb_error *err)
 {
+    const char *const both[2] = {text, more};
     GLint done = 0;
     const GLuint shader = glCreateShader(stage);
-    glShaderSource(shader, 1, &text, NULL);
+    glShaderSource(shader, 2, both, NULL);
     glCompileShader(shader);
     glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
     if (done == 0) {
@@ -82,8 +111,8 @@ static bool build(GLuint *program, const struct gb_shaders_text *text,
 {
     GLint done = 0;
     *program = glCreateProgram();
-    if (!compile(*program, GL_VERTEX_SHADER, text->vertex, err) ||
-        !compile(*program, GL_FRAGMENT_SHADER, text->fragment, err)) {
+    if (!compile(*program, GL_VERTEX_SHADER, text->vertex, "", err) ||
+        !compile(*program, GL_FRAGMENT_SHADER, text->fragment, text->more, err)) {
         return false;
     }
     glLinkProgram(*program);
@@ -100,11 +129,18 @@ static bool make_current(struct gb_osmesa *painter, struct gb_error *err)
 
 bool gb_osmesa_open(struct gb_osmesa **out, struct gb_error *err)
 {
-    static const int wanted[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE,
-                                 OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3,
-                                 OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+    static const int wanted[] = {OSMESA_FORMAT,
+                                 OSMESA_RGBA,
+                                 OSMESA_PROFILE,
+                                 OSMESA_CORE_PROFILE,
+                                 OSMESA_CONTEXT_MAJOR_VERSION,
+                                 3,
+                                 OSMESA_CONTEXT_MINOR_VERSION,
+                                 3,
+                                 0};
     static const struct gb_shaders_text *const text[PROGRAMS] = {
-        &gb_shaders_sphere, &gb_shaders_edge, &gb_shaders_shade, &gb_shaders_resolve};
+        &gb_shaders_sphere, &gb_shaders_rod,   &gb_shaders_facet,
+        &gb_shaders_edge,   &gb_shaders_shade, &gb_shaders_resolve};
     *out = NULL;
     struct gb_osmesa *painter = gb_alloc_array(1, sizeof *painter, err);
     if (painter == NULL) {
@@ -218,23 +254,46 @@ static void light_axes(const float light[3], float axis[3][3])
     }
 }
 
-/* Parallel light that sees all spheres. */
+/* Room in light coordinates that is to be lit. */
+struct room {
+    float axis[3][3], low[3], high[3];
+};
+
+static void widen(struct room *room, const float *point, float radius)
+{
+    for (int k = 0; k < 3; k++) {
+        const float x = dot(point, room->axis[k]);
+        room->low[k] = fminf(room->low[k], x - radius);
+        room->high[k] = fmaxf(room->high[k], x + radius);
+    }
+}
+
+/* Parallel light that sees all there is. */
 static void set_light_lens(struct pass *pass)
 {
     const struct gb_scene *scene = pass->scene;
     struct lens *lens = &pass->light;
-    float axis[3][3];
-    float low[3] = {INFINITY, INFINITY, INFINITY};
-    float high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    light_axes(scene->light, axis);
+    struct room room = {.low = {INFINITY, INFINITY, INFINITY},
+                        .high = {-INFINITY, -INFINITY, -INFINITY}};
+    light_axes(scene->light, room.axis);
     for (size_t i = 0; i < scene->count; i++) {
-        const float *ball = &scene->sphere[4 * i];
+        widen(&room, &scene->sphere[4 * i], scene->sphere[4 * i + 3]);
+    }
+    for (size_t i = 0; i < 2 * scene->rods; i++) {
+        widen(&room, &scene->rod[4 * i], scene->rod[8 * (i / 2) + 3]);
+    }
+    for (size_t i = 0; i < 3 * scene->facets; i++) {
+        widen(&room, &scene->facet[3 * i], 0.0F);
+    }
+    if (!(room.low[0] <= room.high[0])) {
         for (int k = 0; k < 3; k++) {
-            const float x = dot(ball, axis[k]);
-            low[k] = fminf(low[k], x - ball[3]);
-            high[k] = fmaxf(high[k], x + ball[3]);
+            room.low[k] = -1.0F;
+            room.high[k] = 1.0F;
         }
     }
+    const float(*axis)[3] = (const float(*)[3])room.axis;
+    const float *low = room.low;
+    const float *high = room.high;
     for (int k = 0; k < 3; k++) {
         for (int j = 0; j < 3; j++) {
             lens->turn[3 * j + k] = axis[k][j];
@@ -301,29 +360,50 @@ static void make_table(struct pass *pass, int which, enum texture unit, GLenum f
     glTexBuffer(GL_TEXTURE_BUFFER, format, pass->buffer[which]);
 }
 
-static void make_inputs(struct pass *pass)
+/* One number per instance. */
+static void bind_indices(const struct pass *pass, enum array array, enum buffer buffer)
 {
-    const struct gb_scene *scene = pass->scene;
-    glGenBuffers(4, pass->buffer);
-    glGenVertexArrays(2, pass->array);
-    make_table(pass, 0, TEXTURE_SPHERES, GL_RGBA32F, scene->sphere, 16 * scene->count);
-    make_table(pass, 1, TEXTURE_COLOURS, GL_RGBA8, scene->colour, 4 * scene->count);
-    glBindVertexArray(pass->array[0]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[2]);
+    glBindVertexArray(pass->array[array]);
+    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[buffer]);
     glVertexAttribIPointer(0, 1, GL_UNSIGNED_INT, 0, NULL);
     glVertexAttribDivisor(0, 1);
     glEnableVertexAttribArray(0);
-    glBindVertexArray(pass->array[1]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[3]);
+}
+
+/* One place per vertex. */
+static void bind_places(const struct pass *pass, enum array array, enum buffer buffer)
+{
+    glBindVertexArray(pass->array[array]);
+    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[buffer]);
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
     glEnableVertexAttribArray(0);
+}
+
+static void make_inputs(struct pass *pass)
+{
+    const struct gb_scene *scene = pass->scene;
+    const size_t parts = scene->count + scene->rods + scene->facets;
+    glGenBuffers(BUFFERS, pass->buffer);
+    glGenVertexArrays(ARRAYS, pass->array);
+    make_table(pass, BUFFER_SPHERES, TEXTURE_SPHERES, GL_RGBA32F, scene->sphere,
+               16 * (scene->count + 1));
+    make_table(pass, BUFFER_COLOURS, TEXTURE_COLOURS, GL_RGBA8, scene->colour,
+               4 * (parts + 1));
+    make_table(pass, BUFFER_RODS, TEXTURE_RODS, GL_RGBA32F, scene->rod,
+               32 * (scene->rods + 1));
+    make_table(pass, BUFFER_FACETS, TEXTURE_FACETS, GL_RGB32F, scene->facet,
+               36 * (scene->facets + 1));
+    bind_indices(pass, ARRAY_SPHERES, BUFFER_INDICES);
+    bind_indices(pass, ARRAY_RODS, BUFFER_ROD_INDICES);
+    bind_places(pass, ARRAY_RIBBONS, BUFFER_RIBBONS);
+    bind_places(pass, ARRAY_FACETS, BUFFER_FACETS);
 }
 
 static void free_pass(struct pass *pass)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glDeleteVertexArrays(2, pass->array);
-    glDeleteBuffers(4, pass->buffer);
+    glDeleteVertexArrays(ARRAYS, pass->array);
+    glDeleteBuffers(BUFFERS, pass->buffer);
     glDeleteRenderbuffers(1, &pass->pixels);
     glDeleteFramebuffers(4, pass->frame);
     glDeleteTextures(TEXTURES, pass->texture);
@@ -354,10 +434,72 @@ static void draw_spheres(struct pass *pass, const struct lens *lens, bool all, i
     glUseProgram(program);
     set_lens(program, lens, width, height);
     set_sampler(program, "spheres", TEXTURE_SPHERES);
-    glBindVertexArray(pass->array[0]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[2]);
+    glBindVertexArray(pass->array[ARRAY_SPHERES]);
+    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[BUFFER_INDICES]);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)count * 4, pass->index, GL_STREAM_DRAW);
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+}
+
+static void set_first(GLuint program, size_t first)
+{
+    glUniform1ui(glGetUniformLocation(program, "first"), (GLuint)first);
+}
+
+/* A rod may show where one of its ends, grown by its length, does. */
+static bool rod_in_target(const struct lens *lens, const float *rod, int width,
+                          int height)
+{
+    const float ball[4] = {
+        rod[0], rod[1], rod[2],
+        rod[3] + hypotf(hypotf(rod[4] - rod[0], rod[5] - rod[1]), rod[6] - rod[2])};
+    return in_target(lens, ball, width, height);
+}
+
+static void draw_rods(struct pass *pass, const struct lens *lens, bool all, int width,
+                      int height)
+{
+    const GLuint program = pass->painter->program[PROGRAM_ROD];
+    const struct gb_scene *scene = pass->scene;
+    GLsizei count = 0;
+    for (size_t i = 0; i < scene->rods; i++) {
+        if (all || rod_in_target(lens, &scene->rod[8 * i], width, height)) {
+            pass->index[count++] = (uint32_t)i;
+        }
+    }
+    glUseProgram(program);
+    set_lens(program, lens, width, height);
+    set_sampler(program, "rods", TEXTURE_RODS);
+    set_first(program, scene->count);
+    glBindVertexArray(pass->array[ARRAY_RODS]);
+    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[BUFFER_ROD_INDICES]);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)count * 4, pass->index, GL_STREAM_DRAW);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+}
+
+static void draw_facets(const struct pass *pass, const struct lens *lens, int width,
+                        int height)
+{
+    const GLuint program = pass->painter->program[PROGRAM_FACET];
+    glUseProgram(program);
+    set_lens(program, lens, width, height);
+    set_first(program, pass->scene->count + pass->scene->rods);
+    glBindVertexArray(pass->array[ARRAY_FACETS]);
+    glDrawArrays(GL_TRIANGLES, 0, 3 * (GLsizei)pass->scene->facets);
+}
+
+/* All but the edges of the box. */
+static void draw_parts(struct pass *pass, const struct lens *lens, bool all, int width,
+                       int height)
+{
+    if (pass->scene->count > 0) {
+        draw_spheres(pass, lens, all, width, height);
+    }
+    if (pass->scene->rods > 0) {
+        draw_rods(pass, lens, all, width, height);
+    }
+    if (pass->scene->facets > 0) {
+        draw_facets(pass, lens, width, height);
+    }
 }
 
 /* Two triangles along an edge, in samples of the tile. */
@@ -392,14 +534,14 @@ static void draw_edges(struct pass *pass, int width, int height)
     const int side = pass->image->width < pass->image->height ? pass->image->width
                                                               : pass->image->height;
     const float thick = SAMPLES * fmaxf(edge_width * (float)side, 0.8F);
-    float vertices[12][3 * RIBBON];
+    float vertices[GB_SCENE_EDGES][3 * RIBBON];
     for (int k = 0; k < pass->scene->edge_count; k++) {
         ribbon(&pass->eye, pass->scene->edge[k], thick, vertices[k]);
     }
     glUseProgram(program);
     set_lens(program, &pass->eye, width, height);
-    glBindVertexArray(pass->array[1]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[3]);
+    glBindVertexArray(pass->array[ARRAY_RIBBONS]);
+    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[BUFFER_RIBBONS]);
     glBufferData(GL_ARRAY_BUFFER, sizeof vertices, vertices, GL_STREAM_DRAW);
     glDrawArrays(GL_TRIANGLES, 0, RIBBON * pass->scene->edge_count);
 }
@@ -411,7 +553,7 @@ static void draw_shadow(struct pass *pass)
     glViewport(0, 0, SHADOW, SHADOW);
     glEnable(GL_DEPTH_TEST);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_spheres(pass, &pass->light, true, SHADOW, SHADOW);
+    draw_parts(pass, &pass->light, true, SHADOW, SHADOW);
 }
 
 static void draw_seen(struct pass *pass, int width, int height)
@@ -422,7 +564,7 @@ static void draw_seen(struct pass *pass, int width, int height)
     glEnable(GL_DEPTH_TEST);
     glClearBufferuiv(GL_COLOR, 0, nobody);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_spheres(pass, &pass->eye, false, width, height);
+    draw_parts(pass, &pass->eye, false, width, height);
     draw_edges(pass, width, height);
 }
 
@@ -448,6 +590,7 @@ static void set_shade(const struct pass *pass, GLuint program, const float groun
     set_float(program, "reach_limit", (float)pass->margin);
     set_float(program, "cue", scene->depth_cue);
     set_float(program, "shadow_share", scene->shadow_share);
+    set_float(program, "detail", scene->diameter);
     glUniformMatrix3fv(glGetUniformLocation(program, "light_turn"), 1, GL_FALSE,
                        pass->light.turn);
     set_vector(program, "light_shift", pass->light.shift);
@@ -474,9 +617,20 @@ static void draw_shade(struct pass *pass, int width, int height)
     set_sampler(program, "depths", TEXTURE_DEPTH);
     set_sampler(program, "shadows", TEXTURE_SHADOW);
     set_sampler(program, "spheres", TEXTURE_SPHERES);
+    set_sampler(program, "rods", TEXTURE_RODS);
+    set_sampler(program, "facets", TEXTURE_FACETS);
     set_sampler(program, "colours", TEXTURE_COLOURS);
+    const size_t first_facet = pass->scene->count + pass->scene->rods;
+    glUniform1ui(glGetUniformLocation(program, "first_rod"), (GLuint)pass->scene->count);
+    glUniform1ui(glGetUniformLocation(program, "first_facet"), (GLuint)first_facet);
     set_shade(pass, program, ground);
+    /* the margin is there to be looked at by the occlusion, not to be shaded */
+    const int inset = pass->margin - SAMPLES;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(MAX(inset, 0), MAX(inset, 0), width - 2 * MAX(inset, 0),
+              height - 2 * MAX(inset, 0));
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 static void draw_pixels(struct pass *pass)
@@ -535,14 +689,18 @@ bool gb_osmesa_paint(struct gb_osmesa *painter, const struct gb_scene *scene,
                      struct gb_image *image, struct gb_error *err)
 {
     struct pass pass = {.painter = painter, .scene = scene, .image = image};
-    if (scene->count > (size_t)painter->most_spheres) {
-        return gb_error_set(err, GB_ERR_INPUT, "a picture of %zu particles: at most %d",
-                            scene->count, painter->most_spheres);
+    const size_t parts = scene->count + 2 * scene->rods + 3 * scene->facets;
+    if (parts > (size_t)painter->most_spheres) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "a picture of %zu particles and %zu forces: at most %d of "
+                            "both",
+                            scene->count, scene->rods / 2, painter->most_spheres);
     }
     if (!make_current(painter, err)) {
         return false;
     }
-    pass.index = gb_alloc_array(scene->count, sizeof *pass.index, err);
+    pass.index =
+        gb_alloc_array(MAX(scene->count, scene->rods) + 1, sizeof *pass.index, err);
     if (pass.index == NULL) {
         return false;
     }

@@ -31,3 +31,9 @@ void gb_palette_contacts(int contacts, uint8_t rgb[3])
     gb_palette_scale(
         contacts_start + (1.0 - contacts_start) * fmin(fmax(share, 0.0), 1.0), rgb);
 }
+
+void gb_palette_field(double x, uint8_t rgb[3])
+{
+    gb_palette_scale(contacts_start + (1.0 - contacts_start) * fmin(fmax(x, 0.0), 1.0),
+                     rgb);
+}

@@ -14,4 +14,7 @@ void gb_palette_scale(double x, uint8_t rgb[3]);
 /* Colour of a coordination number; below 0 counts as 0. */
 void gb_palette_contacts(int contacts, uint8_t rgb[3]);
 
+/* The part of the scale that pictures use, for fields; x is cut to [0, 1]. */
+void gb_palette_field(double x, uint8_t rgb[3]);
+
 #endif

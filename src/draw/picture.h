@@ -15,6 +15,8 @@ struct gb_picture {
     struct gb_look look;
     enum gb_ground ground;
     bool words; /* title, colour bar, scale bar, density and pressure */
+    struct gb_dress_request dress;
+    const char *preset; /* whole text of the preset, for the file; NULL: unknown */
 };
 
 /* 1600 x 1200 on white from above the side, with words. */
@@ -25,8 +27,13 @@ void gb_picture_init(struct gb_picture *picture);
 bool gb_picture_paint(struct gb_image **out, const struct gb_picture *picture,
                       const struct gb_state *state, struct gb_error *err);
 
-/* Paints and writes, with version, title, seed, density and pressure as text chunks. */
+/* Paints and writes, with version, title, seed, point and preset as text chunks. */
 bool gb_picture_write(const struct gb_picture *picture, const struct gb_state *state,
                       const char *path, struct gb_error *err);
+
+/* Writes an image of a picture's looks, with the same chunks. */
+bool gb_picture_save(const struct gb_image *image, const struct gb_picture *picture,
+                     const struct gb_state *state, const char *path,
+                     struct gb_error *err);
 
 #endif

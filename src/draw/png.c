@@ -1,5 +1,6 @@
 #include "draw/png.h"
 
+#include <errno.h>
 #include <glib.h>
 #include <png.h>
 #include <setjmp.h>
@@ -133,4 +134,61 @@ bool gb_png_write(const struct gb_image *image, bool opaque,
     free(memory);
     gb_alloc_free(writer.row);
     return done;
+}
+
+static bool no_chunk(const char *path, const char *key, struct gb_error *err)
+{
+    return gb_error_set(err, GB_ERR_INPUT,
+                        "%.300s: has no text chunk %s; accepted a PNG written by "
+                        "greenbody from a run",
+                        path, key);
+}
+
+/* What must outlive the longjmp of libpng. */
+struct reader {
+    png_structp png;
+    png_infop info;
+    FILE *file;
+    char *value;
+};
+
+static bool find_text(struct reader *reader, const char *key)
+{
+    png_textp text = NULL;
+    int count = 0;
+    if (setjmp(png_jmpbuf(reader->png)) != 0) {
+        return false;
+    }
+    png_init_io(reader->png, reader->file);
+    png_read_info(reader->png, reader->info);
+    png_get_text(reader->png, reader->info, &text, &count);
+    for (int k = 0; k < count && reader->value == NULL; k++) {
+        if (strcmp(text[k].key, key) == 0) {
+            reader->value = g_strdup(text[k].text);
+        }
+    }
+    return reader->value != NULL;
+}
+
+bool gb_png_read_text(const char *path, const char *key, char **value,
+                      struct gb_error *err)
+{
+    struct writer silent = {.png = NULL}; /* for on_error */
+    struct reader reader = {.file = fopen(path, "rb")};
+    *value = NULL;
+    if (reader.file == NULL) {
+        const bool absent = errno == ENOENT || errno == ENOTDIR;
+        return gb_error_set(err, absent ? GB_ERR_INPUT : GB_ERR_MACHINE, "%.300s: %s",
+                            path, g_strerror(errno));
+    }
+    reader.png =
+        png_create_read_struct(PNG_LIBPNG_VER_STRING, &silent, on_error, on_warning);
+    reader.info = reader.png != NULL ? png_create_info_struct(reader.png) : NULL;
+    const bool good = reader.info != NULL && find_text(&reader, key);
+    if (reader.png != NULL) {
+        png_destroy_read_struct(&reader.png, &reader.info, NULL);
+    }
+    fclose(reader.file);
+    *value = reader.value;
+    return good || no_chunk(path, key, err);
 }

@@ -17,4 +17,9 @@ bool gb_png_write(const struct gb_image *image, bool opaque,
                   const struct gb_png_text *texts, int text_count, const char *path,
                   struct gb_error *err);
 
+/* The value of the text chunk `key` of a PNG file (g_free).  Errors: GB_ERR_INPUT when
+ * the file is no PNG or has no such chunk, GB_ERR_MACHINE when it cannot be read. */
+bool gb_png_read_text(const char *path, const char *key, char **value,
+                      struct gb_error *err);
+
 #endif

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "draw/palette.h"
 
 /* Share of the ground mixed into the farthest particles: enough to tell near from far,
  * too little to be read as another coordination number. */
@@ -21,18 +20,56 @@ static double largest_radius(const struct gb_state *state)
     return largest;
 }
 
-static void set_spheres(struct gb_scene *scene, const struct gb_state *state)
+static void set_point(const struct gb_view *view, const double point[3], float out[3])
 {
+    double eye[3];
+    gb_view_eye(view, point, eye);
+    for (int k = 0; k < 3; k++) {
+        out[k] = (float)eye[k];
+    }
+}
+
+/* Those that are not hidden move up; count becomes their number. */
+static void set_spheres(struct gb_scene *scene, const struct gb_state *state,
+                        const struct gb_dress *dress)
+{
+    size_t shown = 0;
     for (size_t i = 0; i < scene->count; i++) {
-        double eye[3];
-        uint8_t *colour = &scene->colour[4 * i];
-        gb_view_eye(&scene->view, &state->position[3 * i], eye);
-        for (int k = 0; k < 3; k++) {
-            scene->sphere[4 * i + (size_t)k] = (float)eye[k];
+        if (dress->hidden[i] != 0) {
+            continue;
         }
-        scene->sphere[4 * i + 3] = (float)state->radius[i];
-        gb_palette_contacts(state->contacts[i], colour);
+        set_point(&scene->view, &state->position[3 * i], &scene->sphere[4 * shown]);
+        scene->sphere[4 * shown + 3] = dress->shrink * (float)state->radius[i];
+        memcpy(&scene->colour[4 * shown], &dress->colour[3 * i], 3);
+        scene->colour[4 * shown + 3] = 255;
+        shown++;
+    }
+    scene->count = shown;
+}
+
+static void set_rods(struct gb_scene *scene, const struct gb_dress *dress)
+{
+    for (size_t i = 0; i < dress->rods; i++) {
+        const float *from = &dress->rod[7 * i];
+        uint8_t *colour = &scene->colour[4 * (scene->count + i)];
+        for (size_t end = 0; end < 2; end++) {
+            const double point[3] = {from[3 * end], from[3 * end + 1], from[3 * end + 2]};
+            set_point(&scene->view, point, &scene->rod[8 * i + 4 * end]);
+        }
+        scene->rod[8 * i + 3] = from[6];
+        memcpy(colour, &dress->rod_colour[3 * i], 3);
         colour[3] = 255;
+    }
+}
+
+static void add_edge(struct gb_scene *scene, const double from[3], const double to[3])
+{
+    float *edge = scene->edge[scene->edge_count++];
+    double eye[2][3];
+    gb_view_eye(&scene->view, from, eye[0]);
+    gb_view_eye(&scene->view, to, eye[1]);
+    for (int k = 0; k < 6; k++) {
+        edge[k] = (float)eye[k / 3][k % 3];
     }
 }
 
@@ -46,67 +83,120 @@ static void set_edges(struct gb_scene *scene, const struct gb_state *state)
             if (other == corner || planar) {
                 continue;
             }
-            float *edge = scene->edge[scene->edge_count++];
-            for (int end = 0; end < 2; end++) {
-                const int at = end == 0 ? corner : other;
-                double point[3];
-                double eye[3];
-                for (int k = 0; k < 3; k++) {
-                    point[k] = (at >> k & 1) != 0 ? state->cell[k] : 0.0;
-                }
-                gb_view_eye(&scene->view, point, eye);
-                for (int k = 0; k < 3; k++) {
-                    edge[3 * end + k] = (float)eye[k];
-                }
+            double end[2][3];
+            for (int k = 0; k < 3; k++) {
+                end[0][k] = (corner >> k & 1) != 0 ? state->cell[k] : 0.0;
+                end[1][k] = (other >> k & 1) != 0 ? state->cell[k] : 0.0;
             }
+            add_edge(scene, end[0], end[1]);
         }
     }
 }
 
-static void set_camera(struct gb_scene *scene, const struct gb_state *state,
-                       const struct gb_look *look, const struct gb_frame *frame)
+/* The rims of the die on its floor and under its punch, and four lines up its wall. */
+static void set_die(struct gb_scene *scene, const struct gb_state *state)
 {
-    const bool planar = state->dimension == 2;
-    const struct gb_look along_y = {-90.0, 0.0, true};
-    double cell[3];
-    memcpy(cell, state->cell, sizeof cell);
-    if (planar) {
-        cell[1] = 0.0; /* discs lie in the plane y = 0 */
+    double ring[2][GB_SCENE_RING][3];
+    for (int k = 0; k < GB_SCENE_RING; k++) {
+        const double angle = 2.0 * M_PI * k / GB_SCENE_RING;
+        for (int top = 0; top < 2; top++) {
+            ring[top][k][0] = 0.5 * state->cell[0] + state->die_radius * cos(angle);
+            ring[top][k][1] = 0.5 * state->cell[1] + state->die_radius * sin(angle);
+            ring[top][k][2] = top * state->cell[2];
+        }
     }
-    gb_view_init(&scene->view, planar ? &along_y : look, cell, largest_radius(state),
-                 frame);
+    for (int k = 0; k < GB_SCENE_RING; k++) {
+        const int next = (k + 1) % GB_SCENE_RING;
+        add_edge(scene, ring[0][k], ring[0][next]);
+        add_edge(scene, ring[1][k], ring[1][next]);
+        if (k % (GB_SCENE_RING / 4) == 0) {
+            add_edge(scene, ring[0][k], ring[1][k]);
+        }
+    }
 }
 
-bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
-                     const struct gb_look *look, const struct gb_frame *frame,
-                     enum gb_ground ground, struct gb_error *err)
+bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
+                    const size_t parts[3], const struct gb_look *look,
+                    const struct gb_frame *frame, enum gb_ground ground,
+                    struct gb_error *err)
 {
     *out = NULL;
     struct gb_scene *scene = gb_alloc_array(1, sizeof *scene, err);
     if (scene == NULL) {
         return false;
     }
-    scene->count = (size_t)state->count;
-    scene->sphere = gb_alloc_array(scene->count, 4 * sizeof *scene->sphere, err);
-    scene->colour = gb_alloc_array(scene->count, 4, err);
-    if (scene->sphere == NULL || scene->colour == NULL) {
+    scene->count = parts[0];
+    scene->rods = parts[1];
+    scene->facets = parts[2];
+    scene->sphere = gb_alloc_array(parts[0] + 1, 4 * sizeof *scene->sphere, err);
+    scene->rod = gb_alloc_array(parts[1] + 1, 8 * sizeof *scene->rod, err);
+    scene->facet = gb_alloc_array(parts[2] + 1, 9 * sizeof *scene->facet, err);
+    scene->colour = gb_alloc_array(parts[0] + parts[1] + parts[2] + 1, 4, err);
+    if (scene->sphere == NULL || scene->rod == NULL || scene->facet == NULL ||
+        scene->colour == NULL) {
         gb_scene_destroy(scene);
         return false;
     }
-    set_camera(scene, state, look, frame);
-    set_spheres(scene, state);
-    set_edges(scene, state);
+    gb_view_init(&scene->view, look, cell, margin, frame);
     /* over the viewer's left shoulder */
     scene->light[0] = -0.45F;
     scene->light[1] = 0.70F;
     scene->light[2] = -0.55F;
     scene->diameter = 1.0F;
     scene->ground = ground;
-    const bool solid = state->dimension == 3;
-    scene->depth_cue = solid && ground != GB_GROUND_TRANSPARENT ? depth_cue : 0.0F;
-    scene->shadow_share = solid ? shadow_share : 0.0F;
+    scene->depth_cue = ground != GB_GROUND_TRANSPARENT ? depth_cue : 0.0F;
+    scene->shadow_share = shadow_share;
     *out = scene;
     return true;
+}
+
+/* Discs lie in the plane y = 0 and are seen along y. */
+static bool begin(struct gb_scene **out, const struct gb_state *state, size_t rods,
+                  const struct gb_look *look, const struct gb_frame *frame,
+                  enum gb_ground ground, struct gb_error *err)
+{
+    const bool planar = state->dimension == 2;
+    const struct gb_look along_y = {-90.0, 0.0, true};
+    const size_t parts[3] = {(size_t)state->count, rods, 0};
+    double cell[3];
+    memcpy(cell, state->cell, sizeof cell);
+    cell[1] = planar ? 0.0 : cell[1];
+    if (!gb_scene_begin(out, cell, largest_radius(state), parts, planar ? &along_y : look,
+                        frame, ground, err)) {
+        return false;
+    }
+    if (planar) {
+        (*out)->depth_cue = 0.0F;
+        (*out)->shadow_share = 0.0F;
+    }
+    return true;
+}
+
+bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
+                     const struct gb_dress *dress, const struct gb_look *look,
+                     const struct gb_frame *frame, enum gb_ground ground,
+                     struct gb_error *err)
+{
+    struct gb_dress *usual = NULL;
+    struct gb_dress_request request;
+    gb_dress_init(&request);
+    *out = NULL;
+    if (dress == NULL && !gb_dress_create(&usual, state, &request, err)) {
+        return false;
+    }
+    const struct gb_dress *worn = dress != NULL ? dress : usual;
+    const bool good = begin(out, state, worn->rods, look, frame, ground, err);
+    if (good) {
+        set_spheres(*out, state, worn);
+        set_rods(*out, worn);
+        if (state->die_radius > 0.0) {
+            set_die(*out, state);
+        } else {
+            set_edges(*out, state);
+        }
+    }
+    gb_dress_destroy(usual);
+    return good;
 }
 
 void gb_scene_destroy(struct gb_scene *scene)
@@ -115,6 +205,8 @@ void gb_scene_destroy(struct gb_scene *scene)
         return;
     }
     gb_alloc_free(scene->sphere);
+    gb_alloc_free(scene->rod);
+    gb_alloc_free(scene->facet);
     gb_alloc_free(scene->colour);
     gb_alloc_free(scene);
 }

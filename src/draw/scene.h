@@ -5,32 +5,49 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "draw/dress.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
 #include "run/state.h"
 
 enum gb_ground { GB_GROUND_WHITE, GB_GROUND_DARK, GB_GROUND_TRANSPARENT };
 
+/* A box has 12 edges; the outline of a die is two rings of chords and some lines. */
+enum { GB_SCENE_RING = 48, GB_SCENE_EDGES = 2 * GB_SCENE_RING + 4 };
+
 /* What there is to see, in eye coordinates; no GL, no files. */
 struct gb_scene {
     struct gb_view view;
     size_t count;
-    float *sphere;   /* count x 4: x, y, depth, radius */
-    uint8_t *colour; /* count x 4: sRGB and 255 */
+    float *sphere; /* count x 4: x, y, depth, radius */
+    size_t rods;
+    float *rod; /* rods x 8: one end and radius, other end and 0 */
+    size_t facets;
+    float *facet;    /* facets x 9: the corners of a closed surface's triangles */
+    uint8_t *colour; /* of spheres, rods, facets x 4: sRGB and 255 */
     int edge_count;
-    float edge[12][6]; /* both ends of the box edges */
-    float diameter;    /* 1 d, the length of the shading */
-    float light[3];    /* towards the key light, eye coordinates */
+    float edge[GB_SCENE_EDGES][6]; /* both ends of the edges of box or die */
+    float diameter;                /* 1 d, the length of the shading */
+    float light[3];                /* towards the key light, eye coordinates */
     enum gb_ground ground;
     float depth_cue;    /* share of the ground's colour at the far end */
     float shadow_share; /* 0: no shadows */
 };
 
-/* Spheres coloured by coordination number in their periodic box, seen so that the box
- * fills the frame.  2D packings are always seen along y without perspective. */
+/* What a dress shows of a packing in its periodic box or in its die, seen so that the box
+ * fills the frame.  2D packings are always seen along y without perspective.  dress NULL:
+ * all particles by coordination number. */
 bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
-                     const struct gb_look *look, const struct gb_frame *frame,
-                     enum gb_ground ground, struct gb_error *err);
+                     const struct gb_dress *dress, const struct gb_look *look,
+                     const struct gb_frame *frame, enum gb_ground ground,
+                     struct gb_error *err);
+
+/* An empty scene of a box of these edges: arrays for so many parts, the camera and the
+ * light set. */
+bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
+                    const size_t parts[3], const struct gb_look *look,
+                    const struct gb_frame *frame, enum gb_ground ground,
+                    struct gb_error *err);
 void gb_scene_destroy(struct gb_scene *scene); /* NULL is fine */
 
 /* sRGB of the ground, and of text and lines upon it. */

@@ -7,8 +7,7 @@
 /* A ray meets a sphere.  Measured from the point of the ray nearest to the centre: the
  * plain quadratic loses all digits when the viewer is many diameters away. */
 static const char sphere_vertex[] =
-    "#version 330 core\n" LENS
-    "uniform samplerBuffer spheres;\n"
+    "#version 330 core\n" LENS "uniform samplerBuffer spheres;\n"
     "uniform vec2 size;\n"
     "uniform mat3 turn;\n"
     "uniform vec3 shift;\n"
@@ -34,8 +33,7 @@ static const char sphere_vertex[] =
     "}\n";
 
 static const char sphere_fragment[] =
-    "#version 330 core\n" LENS
-    "flat in vec4 ball;\n"
+    "#version 330 core\n" LENS "flat in vec4 ball;\n"
     "flat in uint id;\n"
     "out uint seen;\n"
     "void main()\n"
@@ -55,6 +53,122 @@ static const char sphere_fragment[] =
     "    seen = id;\n"
     "}\n";
 
+/* A rod is what a sphere leaves that moves from one end to the other.  As with spheres
+ * all is measured from the point of the ray nearest to the first end. */
+static const char rod_vertex[] =
+    "#version 330 core\n" LENS "uniform samplerBuffer rods;\n"
+    "uniform vec2 size;\n"
+    "uniform mat3 turn;\n"
+    "uniform vec3 shift;\n"
+    "uniform uint first;\n"
+    "layout(location = 0) in uint index;\n"
+    "flat out vec4 near_end;\n"
+    "flat out vec3 far_end;\n"
+    "flat out uint id;\n"
+    "void grow(vec3 ball, float r, inout vec2 low, inout vec2 high)\n"
+    "{\n"
+    "    vec2 a = ball.xy - r;\n"
+    "    vec2 b = ball.xy + r;\n"
+    "    if (lens.w == 0.0) {\n"
+    "        float d = ball.z * ball.z - r * r;\n"
+    "        vec2 s = r * sqrt(ball.xy * ball.xy + d);\n"
+    "        a = (ball.xy * ball.z - s) / d;\n"
+    "        b = (ball.xy * ball.z + s) / d;\n"
+    "    }\n"
+    "    low = min(low, a);\n"
+    "    high = max(high, b);\n"
+    "}\n"
+    "void main()\n"
+    "{\n"
+    "    vec4 a = texelFetch(rods, 2 * int(index));\n"
+    "    vec4 b = texelFetch(rods, 2 * int(index) + 1);\n"
+    "    near_end = vec4(turn * a.xyz + shift, a.w);\n"
+    "    far_end = turn * b.xyz + shift;\n"
+    "    id = first + index;\n"
+    "    vec2 low = vec2(1e30);\n"
+    "    vec2 high = vec2(-1e30);\n"
+    "    grow(near_end.xyz, a.w, low, high);\n"
+    "    grow(far_end, a.w, low, high);\n"
+    "    vec2 at = mix(low, high, vec2(gl_VertexID & 1, gl_VertexID >> 1));\n"
+    "    vec2 pixel = lens.xy + lens.z * vec2(at.x, -at.y);\n"
+    "    gl_Position = vec4(2.0 * pixel / size - 1.0, 0.0, 1.0);\n"
+    "}\n";
+
+static const char rod_fragment[] =
+    "#version 330 core\n" LENS "flat in vec4 near_end;\n"
+    "flat in vec3 far_end;\n"
+    "flat in uint id;\n"
+    "out uint seen;\n"
+    "float cap(vec3 from, vec3 ray, float r)\n"
+    "{\n"
+    "    float a = dot(ray, ray);\n"
+    "    float t = dot(from, ray) / a;\n"
+    "    vec3 miss = from - t * ray;\n"
+    "    float h = r * r - dot(miss, miss);\n"
+    "    return h < 0.0 ? 1e30 : t - sqrt(h / a);\n"
+    "}\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 s = (gl_FragCoord.xy - lens.xy) / vec2(lens.z, -lens.z);\n"
+    "    bool flat_view = lens.w != 0.0;\n"
+    "    vec3 ray = flat_view ? vec3(0.0, 0.0, 1.0) : vec3(s, 1.0);\n"
+    "    vec3 from = flat_view ? vec3(s, 0.0) : vec3(0.0);\n"
+    "    float start = dot(near_end.xyz - from, ray) / dot(ray, ray);\n"
+    "    vec3 m = from + start * ray - near_end.xyz;\n"
+    "    vec3 along = far_end - near_end.xyz;\n"
+    "    float size = length(along);\n"
+    "    vec3 u = along / max(size, 1e-6);\n"
+    "    vec3 mp = m - dot(m, u) * u;\n"
+    "    vec3 dp = ray - dot(ray, u) * u;\n"
+    "    float a = dot(dp, dp);\n"
+    "    float b = dot(mp, dp);\n"
+    "    float h = b * b - a * (dot(mp, mp) - near_end.w * near_end.w);\n"
+    "    float t = 1e30;\n"
+    "    if (h >= 0.0 && a > 1e-12) {\n"
+    "        float side = (-b - sqrt(h)) / a;\n"
+    "        float place = dot(m + side * ray, u);\n"
+    "        if (place >= 0.0 && place <= size) {\n"
+    "            t = side;\n"
+    "        }\n"
+    "    }\n"
+    "    t = min(t, cap(-m, ray, near_end.w));\n"
+    "    t = min(t, cap(along - m, ray, near_end.w));\n"
+    "    if (t > 1e29) {\n"
+    "        discard;\n"
+    "    }\n"
+    "    gl_FragDepth = (start + t - range.x) / (range.y - range.x);\n"
+    "    seen = id;\n"
+    "}\n";
+
+/* Triangles of a surface. */
+static const char facet_vertex[] =
+    "#version 330 core\n" LENS "uniform vec2 size;\n"
+    "uniform mat3 turn;\n"
+    "uniform vec3 shift;\n"
+    "uniform uint first;\n"
+    "layout(location = 0) in vec3 place;\n"
+    "out float depth;\n"
+    "flat out uint id;\n"
+    "void main()\n"
+    "{\n"
+    "    vec3 at = turn * place + shift;\n"
+    "    float w = lens.w == 0.0 ? at.z : 1.0;\n"
+    "    vec2 pixel = lens.xy + lens.z * vec2(at.x, -at.y) / w;\n"
+    "    depth = at.z;\n"
+    "    id = first + uint(gl_VertexID / 3);\n"
+    "    gl_Position = vec4((2.0 * pixel / size - 1.0) * w, 0.0, w);\n"
+    "}\n";
+
+static const char facet_fragment[] =
+    "#version 330 core\n" LENS "in float depth;\n"
+    "flat in uint id;\n"
+    "out uint seen;\n"
+    "void main()\n"
+    "{\n"
+    "    gl_FragDepth = clamp((depth - range.x) / (range.y - range.x), 0.0, 1.0);\n"
+    "    seen = id;\n"
+    "}\n";
+
 /* Ribbons made on the processor: place in samples, and depth (its inverse in perspective,
  * which is what changes evenly along a straight line of the picture). */
 static const char edge_vertex[] =
@@ -69,8 +183,7 @@ static const char edge_vertex[] =
     "}\n";
 
 static const char edge_fragment[] =
-    "#version 330 core\n" LENS
-    "in float along;\n"
+    "#version 330 core\n" LENS "in float along;\n"
     "out uint seen;\n"
     "void main()\n"
     "{\n"
@@ -97,7 +210,11 @@ static const char shade_fragment[] =
     "uniform sampler2D depths;\n"
     "uniform sampler2D shadows;\n"
     "uniform samplerBuffer spheres;\n"
+    "uniform samplerBuffer rods;\n"
+    "uniform samplerBuffer facets;\n"
     "uniform samplerBuffer colours;\n"
+    "uniform uint first_rod;\n"
+    "uniform uint first_facet;\n"
     "uniform vec2 size;\n"
     "uniform vec3 ground;\n"
     "uniform vec3 ink;\n"
@@ -111,6 +228,7 @@ static const char shade_fragment[] =
     "uniform vec4 light_lens;\n"
     "uniform vec2 light_range;\n"
     "uniform float shadow_share;\n"
+    "uniform float detail;\n"
     "out vec4 colour;\n"
     "const int taps = 16;\n"
     "const int shadow_taps = 6;\n"
@@ -119,6 +237,25 @@ static const char shade_fragment[] =
     "    vec2 s = (pixel - lens.xy) / vec2(lens.z, -lens.z);\n"
     "    float w = range.x + depth * (range.y - range.x);\n"
     "    return lens.w == 0.0 ? vec3(s * w, w) : vec3(s, w);\n"
+    "}\n"
+    "vec3 outwards(vec3 p, uint id)\n"
+    "{\n"
+    "    if (id < first_rod) {\n"
+    "        return normalize(p - texelFetch(spheres, int(id)).xyz);\n"
+    "    }\n"
+    "    if (id < first_facet) {\n"
+    "        int k = 2 * int(id - first_rod);\n"
+    "        vec3 a = texelFetch(rods, k).xyz;\n"
+    "        vec3 u = texelFetch(rods, k + 1).xyz - a;\n"
+    "        float share = clamp(dot(p - a, u) / max(dot(u, u), 1e-12), 0.0, 1.0);\n"
+    "        return normalize(p - a - share * u);\n"
+    "    }\n"
+    "    int k = 3 * int(id - first_facet);\n"
+    "    vec3 a = texelFetch(facets, k).xyz;\n"
+    "    vec3 n = cross(texelFetch(facets, k + 1).xyz - a,\n"
+    "                   texelFetch(facets, k + 2).xyz - a);\n"
+    "    vec3 view = lens.w == 0.0 ? p : vec3(0.0, 0.0, 1.0);\n"
+    "    return normalize(dot(n, view) > 0.0 ? -n : n);\n"
     "}\n"
     "float open_sky(vec3 p, vec3 n, float turn)\n"
     "{\n"
@@ -141,20 +278,22 @@ static const char shade_fragment[] =
     "}\n"
     "float lit(vec3 p, vec3 n, float turn)\n"
     "{\n"
-    "    vec3 q = light_turn * (p + 0.04 * n) + light_shift;\n"
+    "    vec3 q = light_turn * (p + 0.04 * detail * n) + light_shift;\n"
     "    vec2 centre = light_lens.xy + light_lens.z * vec2(q.x, -q.y);\n"
     "    float depth = (q.z - light_range.x) / (light_range.y - light_range.x);\n"
-    "    float bias = 0.02 / (light_range.y - light_range.x);\n"
+    "    float bias = 0.02 * detail / (light_range.y - light_range.x);\n"
     "    float open = 0.0;\n"
     "    for (int k = 0; k < shadow_taps; k++) {\n"
     "        float angle = 2.39996 * (float(k) + turn);\n"
-    "        float r = 0.11 * light_lens.z * sqrt((float(k) + turn) / "
+    "        float r = 0.11 * detail * light_lens.z * sqrt((float(k) + turn) / "
     "float(shadow_taps));\n"
     "        ivec2 at = ivec2(centre + r * vec2(cos(angle), sin(angle)));\n"
     "        open += texelFetch(shadows, at, 0).r + bias >= depth ? 1.0 : 0.0;\n"
     "    }\n"
     "    return open / float(shadow_taps);\n"
-    "}\n"
+    "}\n";
+
+static const char shade_main[] =
     "void main()\n"
     "{\n"
     "    uint id = texelFetch(seen, ivec2(gl_FragCoord.xy), 0).r;\n"
@@ -167,9 +306,8 @@ static const char shade_fragment[] =
     "        colour = vec4(mix(ink, ground, 1.3 * fade), 1.0);\n"
     "        return;\n"
     "    }\n"
-    "    vec4 ball = texelFetch(spheres, int(id));\n"
     "    vec3 p = place(gl_FragCoord.xy, depth);\n"
-    "    vec3 n = normalize(p - ball.xyz);\n"
+    "    vec3 n = outwards(p, id);\n"
     "    vec3 albedo = pow(texelFetch(colours, int(id)).rgb, vec3(2.2));\n"
     "    vec2 sub = mod(floor(gl_FragCoord.xy), 2.0);\n"
     "    float turn = 0.25 * (sub.x + 2.0 * sub.y) + 0.125;\n"
@@ -211,7 +349,10 @@ static const char resolve_fragment[] =
     "    colour = vec4(rgb, sum.a);\n"
     "}\n";
 
-const struct gb_shaders_text gb_shaders_sphere = {sphere_vertex, sphere_fragment};
-const struct gb_shaders_text gb_shaders_edge = {edge_vertex, edge_fragment};
-const struct gb_shaders_text gb_shaders_shade = {WHOLE_SCREEN, shade_fragment};
-const struct gb_shaders_text gb_shaders_resolve = {WHOLE_SCREEN, resolve_fragment};
+const struct gb_shaders_text gb_shaders_sphere = {sphere_vertex, sphere_fragment, ""};
+const struct gb_shaders_text gb_shaders_rod = {rod_vertex, rod_fragment, ""};
+const struct gb_shaders_text gb_shaders_facet = {facet_vertex, facet_fragment, ""};
+const struct gb_shaders_text gb_shaders_edge = {edge_vertex, edge_fragment, ""};
+const struct gb_shaders_text gb_shaders_shade = {WHOLE_SCREEN, shade_fragment,
+                                                 shade_main};
+const struct gb_shaders_text gb_shaders_resolve = {WHOLE_SCREEN, resolve_fragment, ""};

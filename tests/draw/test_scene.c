@@ -146,7 +146,8 @@ static void test_scene(void)
     struct gb_error err = {0};
     struct gb_state *state = packing(3);
     const struct gb_look look = {-58.0, 20.0, false};
-    g_assert_true(gb_scene_create(&scene, state, &look, &frame, GB_GROUND_WHITE, &err));
+    g_assert_true(
+        gb_scene_create(&scene, state, NULL, &look, &frame, GB_GROUND_WHITE, &err));
     g_assert_cmpuint(scene->count, ==, 3);
     g_assert_cmpint(scene->edge_count, ==, 12);
     for (int k = 0; k < 3; k++) {
@@ -165,6 +166,26 @@ static void test_scene(void)
     gb_state_destroy(state);
 }
 
+/* A die: rims of floor and punch, all of its lines on the wall. */
+static void test_die(void)
+{
+    struct gb_scene *scene = NULL;
+    struct gb_error err = {0};
+    struct gb_state *state = packing(3);
+    const struct gb_look look = {0.0, 90.0, true}; /* from above */
+    state->cell[1] = state->cell[0];
+    state->die_radius = 2.0;
+    g_assert_true(
+        gb_scene_create(&scene, state, NULL, &look, &frame, GB_GROUND_WHITE, &err));
+    g_assert_cmpint(scene->edge_count, ==, GB_SCENE_EDGES);
+    for (int k = 0; k < scene->edge_count; k++) {
+        g_assert_cmpfloat_with_epsilon(hypot(scene->edge[k][0], scene->edge[k][1]), 2.0,
+                                       1e-5);
+    }
+    gb_scene_destroy(scene);
+    gb_state_destroy(state);
+}
+
 /* 2D: four edges, all at one depth, no perspective whatever was asked for. */
 static void test_planar(void)
 {
@@ -172,7 +193,8 @@ static void test_planar(void)
     struct gb_error err = {0};
     struct gb_state *state = packing(2);
     const struct gb_look look = {-58.0, 20.0, false};
-    g_assert_true(gb_scene_create(&scene, state, &look, &frame, GB_GROUND_WHITE, &err));
+    g_assert_true(
+        gb_scene_create(&scene, state, NULL, &look, &frame, GB_GROUND_WHITE, &err));
     g_assert_true(scene->view.orthographic);
     g_assert_cmpint(scene->edge_count, ==, 4);
     for (size_t k = 0; k < 3; k++) {
@@ -191,6 +213,7 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/scene/sizes", test_sizes);
     g_test_add_func("/draw/scene/palette", test_palette);
     g_test_add_func("/draw/scene/scene", test_scene);
+    g_test_add_func("/draw/scene/die", test_die);
     g_test_add_func("/draw/scene/planar", test_planar);
     return g_test_run();
 }

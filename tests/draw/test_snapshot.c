@@ -76,7 +76,7 @@ static const uint8_t *particle(const struct gb_image *image,
     struct gb_error err = {0};
     double pixel[2];
     gb_caption_place(image->width, image->height, picture->words, &layout);
-    g_assert_true(gb_scene_create(&scene, state, &picture->look, &layout.scene,
+    g_assert_true(gb_scene_create(&scene, state, NULL, &picture->look, &layout.scene,
                                   picture->ground, &err));
     const float *ball = &scene->sphere[4 * index];
     gb_view_pixel(&scene->view, (const double[3]){ball[0], ball[1], ball[2]}, pixel);
@@ -142,7 +142,7 @@ static void test_silhouette(void)
     picture.ground = GB_GROUND_TRANSPARENT;
     struct gb_image *image = paint(&picture, state);
     gb_caption_place(SIDE, SIDE, false, &layout);
-    g_assert_true(gb_scene_create(&scene, state, &picture.look, &layout.scene,
+    g_assert_true(gb_scene_create(&scene, state, NULL, &picture.look, &layout.scene,
                                   GB_GROUND_TRANSPARENT, NULL));
     const double scale = gb_view_scale(&scene->view);
     for (int y = 0; y < SIDE; y++) {
@@ -257,6 +257,41 @@ static void test_odd_sizes(void)
     gb_state_destroy(state);
 }
 
+/* Two particles one behind the other, pressed: seen from the side the rod between them
+ * has its colour; seen along it the nearer particle hides it. */
+static void test_forces(void)
+{
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    struct gb_picture picture = front();
+    g_assert_true(gb_state_create(&state, 2, 1, &err));
+    state->dimension = 3;
+    for (int k = 0; k < 3; k++) {
+        state->cell[k] = 6.0;
+        state->position[k] = state->position[3 + k] = 3.0;
+    }
+    state->position[1] = 2.6;
+    state->position[4] = 3.4;
+    state->radius[0] = state->radius[1] = 0.5;
+    state->contacts[0] = state->contacts[1] = 12;
+    state->pair[1] = 1;
+    state->pair_normal[0] = 1.0;
+    state->metre_per_length = 1e-8;
+    state->pascal_per_stress = 1e9;
+    picture.dress.show = GB_DRESS_BOTH;
+    g_assert_true(gb_view_parse("side,flat", &picture.look, NULL));
+    struct gb_image *image = paint(&picture, state);
+    const uint8_t *middle = at(image, 0.5 * SIDE, 0.5 * SIDE);
+    g_assert_cmpint(middle[2], >, middle[0] + 40); /* blue: pressed */
+    gb_image_destroy(image);
+    g_assert_true(gb_view_parse("front,flat", &picture.look, NULL));
+    image = paint(&picture, state);
+    middle = at(image, 0.5 * SIDE, 0.5 * SIDE);
+    g_assert_cmpint(middle[0], >, middle[2] + 40); /* yellow: 12 contacts */
+    gb_image_destroy(image);
+    gb_state_destroy(state);
+}
+
 static void assert_text(png_const_textp text, int count, const char *key,
                         const char *value)
 {
@@ -276,7 +311,14 @@ static void test_file(void)
     struct gb_state *state = packing(3);
     struct gb_picture picture = front();
     struct gb_error err = {0};
+    picture.preset = "[scene]\ntitle = Al₂O₃\n";
     g_assert_true(gb_picture_write(&picture, state, path, &err));
+    char *preset = NULL;
+    g_assert_true(gb_png_read_text(path, "Preset", &preset, &err));
+    g_assert_cmpstr(preset, ==, picture.preset);
+    g_free(preset);
+    g_assert_false(gb_png_read_text(path, "Nothing", &preset, &err));
+    g_assert_nonnull(strstr(err.text, "no text chunk Nothing"));
 
     FILE *file = fopen(path, "rb");
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
@@ -291,6 +333,7 @@ static void test_file(void)
     assert_text(text, count, "Software", "greenbody " GB_VERSION);
     assert_text(text, count, "Title", "Al₂O₃ test");
     assert_text(text, count, "Seed", "42");
+    assert_text(text, count, "Point", "load, step 0");
     assert_text(text, count, "Density", "0.5123");
     assert_text(text, count, "Pressure", "100 MPa");
     png_destroy_read_struct(&png, &info, NULL);
@@ -319,6 +362,7 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/snapshot/scale-bar", test_scale_bar);
     g_test_add_func("/draw/snapshot/planar", test_planar);
     g_test_add_func("/draw/snapshot/odd-sizes", test_odd_sizes);
+    g_test_add_func("/draw/snapshot/forces", test_forces);
     g_test_add_func("/draw/snapshot/file", test_file);
     return g_test_run();
 }

@@ -1,0 +1,168 @@
+#include "draw/rose.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "draw/palette.h"
+#include "pack/cell.h"
+
+/* Meridians and parallels of the body, pieces of a ring. */
+enum { AROUND = 160, DOWN = 80, RING = 72 };
+
+static const double ring_radius = 0.008;
+static const double axis_radius = 0.012;
+
+bool gb_rose_of_state(struct gb_rose *rose, const struct gb_state *state,
+                      struct gb_error *err)
+{
+    const size_t count = (size_t)state->pair_count;
+    struct gb_cell cell;
+    double *axis = gb_alloc_array(count + 1, 3 * sizeof *axis, err);
+    if (axis == NULL) {
+        return false;
+    }
+    gb_cell_init(&cell, state->dimension, state->cell);
+    for (size_t k = 0; k < count; k++) {
+        const double *a = &state->position[3 * state->pair[2 * k]];
+        const double *b = &state->position[3 * state->pair[2 * k + 1]];
+        for (int j = 0; j < 3; j++) {
+            axis[3 * k + (size_t)j] = a[j] - b[j];
+        }
+        gb_cell_nearest(&cell, &axis[3 * k]);
+    }
+    const bool good =
+        gb_rose_fit(rose, state->dimension, axis, state->pair_normal, count, err);
+    gb_alloc_free(axis);
+    return good;
+}
+
+static void direction(int around, int down, double out[3])
+{
+    const double a = 2.0 * M_PI * around / AROUND;
+    const double b = M_PI * down / DOWN;
+    out[0] = sin(b) * cos(a);
+    out[1] = sin(b) * sin(a);
+    out[2] = cos(b);
+}
+
+static double radius_at(const struct gb_rose *rose, const double towards[3])
+{
+    return fmax(gb_rose_at(rose, towards) / rose->mean, 0.0);
+}
+
+double gb_rose_reach(const struct gb_rose *rose)
+{
+    double most = 1.0;
+    for (int down = 0; down <= DOWN; down++) {
+        for (int around = 0; around < AROUND; around++) {
+            double towards[3];
+            direction(around, down, towards);
+            most = fmax(most, radius_at(rose, towards));
+        }
+    }
+    return ceil(5.0 * most + 0.25) / 5.0;
+}
+
+/* Corner of the surface in the eye's coordinates; its radius is added to *sum. */
+static void corner(const struct gb_scene *scene, const struct gb_rose *rose, double reach,
+                   int around, int down, float *out, double *sum)
+{
+    double towards[3];
+    double point[3];
+    double eye[3];
+    direction(around, down, towards);
+    const double radius = radius_at(rose, towards);
+    for (int k = 0; k < 3; k++) {
+        point[k] = reach + radius * towards[k];
+    }
+    gb_view_eye(&scene->view, point, eye);
+    for (int k = 0; k < 3; k++) {
+        out[k] = (float)eye[k];
+    }
+    *sum += radius;
+}
+
+static void set_surface(struct gb_scene *scene, const struct gb_rose *rose, double reach)
+{
+    static const int corners[2][3][2] = {{{0, 0}, {0, 1}, {1, 1}},
+                                         {{0, 0}, {1, 1}, {1, 0}}};
+    uint8_t *colour = scene->colour + 4 * (scene->count + scene->rods);
+    float *facet = scene->facet;
+    for (int down = 0; down < DOWN; down++) {
+        for (int around = 0; around < AROUND; around++) {
+            for (int half = 0; half < 2; half++) {
+                double sum = 0.0;
+                for (int k = 0; k < 3; k++) {
+                    corner(scene, rose, reach, around + corners[half][k][0],
+                           down + corners[half][k][1], facet + 3 * k, &sum);
+                }
+                gb_palette_field(sum / 3.0 / reach, colour);
+                colour[3] = 255;
+                facet += 9;
+                colour += 4;
+            }
+        }
+    }
+}
+
+static void set_rod(struct gb_scene *scene, size_t index, const double from[3],
+                    const double to[3], double reach, double radius)
+{
+    const double *ends[2] = {from, to};
+    uint8_t *colour = &scene->colour[4 * (scene->count + index)];
+    for (size_t end = 0; end < 2; end++) {
+        double point[3];
+        double eye[3];
+        for (int k = 0; k < 3; k++) {
+            point[k] = reach + ends[end][k];
+        }
+        gb_view_eye(&scene->view, point, eye);
+        for (size_t k = 0; k < 3; k++) {
+            scene->rod[8 * index + 4 * end + k] = (float)eye[k];
+        }
+    }
+    scene->rod[8 * index + 3] = (float)radius;
+    gb_scene_ink(scene->ground, colour);
+    colour[3] = 255;
+}
+
+/* Three axes through the middle, and three rings of radius 1. */
+static void set_frame(struct gb_scene *scene, double reach)
+{
+    size_t index = 0;
+    for (int k = 0; k < 3; k++) {
+        double from[3] = {0.0, 0.0, 0.0};
+        double to[3] = {0.0, 0.0, 0.0};
+        from[k] = -reach;
+        to[k] = reach;
+        set_rod(scene, index++, from, to, reach, axis_radius);
+    }
+    for (int k = 0; k < 3; k++) {
+        for (int piece = 0; piece < RING; piece++) {
+            double ends[2][3] = {{0.0}};
+            for (int end = 0; end < 2; end++) {
+                const double a = 2.0 * M_PI * (piece + end) / RING;
+                ends[end][(k + 1) % 3] = cos(a);
+                ends[end][(k + 2) % 3] = sin(a);
+            }
+            set_rod(scene, index++, ends[0], ends[1], reach, ring_radius);
+        }
+    }
+}
+
+bool gb_rose_scene(struct gb_scene **out, const struct gb_rose *rose, double reach,
+                   const struct gb_look *look, const struct gb_frame *frame,
+                   enum gb_ground ground, struct gb_error *err)
+{
+    const size_t parts[3] = {0, 3 + 3 * RING, 2 * (size_t)AROUND * DOWN};
+    const double cell[3] = {2.0 * reach, 2.0 * reach, 2.0 * reach};
+    if (!gb_scene_begin(out, cell, 0.0, parts, look, frame, ground, err)) {
+        return false;
+    }
+    set_frame(*out, reach);
+    set_surface(*out, rose, reach);
+    (*out)->diameter = 0.15F; /* occlusion and shadows at the scale of the body's forms */
+    (*out)->depth_cue = 0.0F;
+    return true;
+}

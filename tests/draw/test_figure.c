@@ -1,0 +1,305 @@
+/* Figures: axes as numbers, and ink at known places of the page. */
+#include "draw/figure.h"
+
+#include <glib.h>
+#include <glib/gstdio.h>
+#include <math.h>
+#include <string.h>
+
+#include "draw/figure_marks.h"
+
+enum { WIDE = 800, HIGH = 600, POINTS = 50 };
+
+static const bool loose[2] = {false, false};
+
+static void test_linear_axis(void)
+{
+    struct gb_figure_axis_scale scale;
+    gb_figure_axis_fit(&scale, false, -0.013, 0.0498, 6, loose);
+    g_assert_cmpfloat(scale.low, <=, -0.013);
+    g_assert_cmpfloat(scale.high, >=, 0.0498);
+    g_assert_cmpint(scale.ticks, >=, 4);
+    for (int k = 0; k < scale.ticks; k++) {
+        g_assert_cmpfloat(scale.tick[k], >=, scale.low - 1e-12);
+        g_assert_cmpfloat(scale.tick[k], <=, scale.high + 1e-12);
+    }
+    /* the sign is a minus, not a hyphen */
+    g_assert_cmpstr(scale.label[0], ==,
+                    "\xe2\x88\x92"
+                    "0.01");
+    g_assert_cmpstr(scale.label[1], ==, "0.00");
+}
+
+static void test_powers(void)
+{
+    struct gb_figure_axis_scale scale;
+    gb_figure_axis_fit(&scale, false, 0.0, 3.2e7, 6, loose);
+    g_assert_cmpint(scale.power, ==, 6);
+    g_assert_cmpstr(scale.label[1], ==, "5");
+    gb_figure_axis_fit(&scale, false, 0.0, 4e-8, 6, loose);
+    g_assert_cmpint(scale.power, ==, -9);
+    g_assert_cmpstr(scale.label[scale.ticks - 1], ==, "40");
+}
+
+static void test_log_axis(void)
+{
+    struct gb_figure_axis_scale scale;
+    gb_figure_axis_fit(&scale, true, 1.3e-9, 2e4, 8, loose);
+    bool superscript = false;
+    for (int k = 0; k < scale.ticks; k++) {
+        superscript = superscript || strcmp(scale.label[k], "10<sup>\xe2\x88\x92"
+                                                            "6</sup>") == 0;
+    }
+    g_assert_true(superscript);
+    gb_figure_axis_fit(&scale, true, 1.0, 1000.0, 8, loose);
+    scale.from = 0.0;
+    scale.to = 300.0;
+    g_assert_cmpfloat_with_epsilon(gb_figure_axis_place(&scale, 10.0), 100.0, 1e-9);
+}
+
+/* Whatever comes, an axis has finite ends in order and few enough ticks. */
+static void test_odd_axes(void)
+{
+    static const double odd[][2] = {{NAN, NAN},
+                                    {1.0, 1.0},
+                                    {0.0, 0.0},
+                                    {5.0, -5.0},
+                                    {INFINITY, -INFINITY},
+                                    {1e-300, 1e300},
+                                    {-1e300, 1e300},
+                                    {1e16, 1e16 + 4.0}};
+    for (size_t k = 0; k < G_N_ELEMENTS(odd); k++) {
+        for (int log = 0; log < 2; log++) {
+            struct gb_figure_axis_scale scale;
+            gb_figure_axis_fit(&scale, log != 0, odd[k][0], odd[k][1], 6, loose);
+            g_assert_true(isfinite(scale.low) && isfinite(scale.high));
+            g_assert_cmpfloat(scale.low, <, scale.high);
+            g_assert_cmpint(scale.ticks, <=, GB_FIGURE_AXIS_TICKS);
+            g_assert_true(log == 0 || scale.low > 0.0);
+        }
+    }
+}
+
+struct sheet {
+    double x[POINTS], y[2][POINTS], error[POINTS];
+    struct gb_figure_curve curve[3];
+    struct gb_figure figure;
+};
+
+/* A straight line with a band, a flat one, and three points. */
+static void make(struct sheet *sheet)
+{
+    *sheet = (struct sheet){0};
+    for (int k = 0; k < POINTS; k++) {
+        sheet->x[k] = k / (POINTS - 1.0);
+        sheet->y[0][k] = 100.0 * sheet->x[k];
+        sheet->y[1][k] = 20.0;
+        sheet->error[k] = 6.0;
+    }
+    sheet->curve[0] = (struct gb_figure_curve){.label = "steep",
+                                               .count = POINTS,
+                                               .x = sheet->x,
+                                               .y = sheet->y[0],
+                                               .error = sheet->error};
+    sheet->curve[1] = (struct gb_figure_curve){
+        .label = "flat", .style = 1, .count = POINTS, .x = sheet->x, .y = sheet->y[1]};
+    sheet->curve[2] = (struct gb_figure_curve){.label = "measured",
+                                               .kind = GB_FIGURE_POINTS,
+                                               .style = 2,
+                                               .count = 3,
+                                               .x = sheet->x + 30,
+                                               .y = sheet->y[0] + 5};
+    sheet->figure = (struct gb_figure){.title = "Title",
+                                       .caption = "Caption",
+                                       .x = {"density", false, NAN, NAN},
+                                       .y = {"pressure (MPa)", false, NAN, NAN},
+                                       .curve = sheet->curve,
+                                       .count = 3};
+}
+
+static struct gb_image *paint(const struct gb_figure *figure,
+                              struct gb_figure_layout *layout)
+{
+    struct gb_image *image = NULL;
+    struct gb_error err = {0};
+    const bool done = gb_figure_paint(&image, figure, WIDE, HIGH, layout, &err);
+    g_assert_cmpstr(err.text, ==, "");
+    g_assert_true(done);
+    return image;
+}
+
+static const uint8_t *pixel(const struct gb_image *image,
+                            const struct gb_figure_layout *layout, double x, double y)
+{
+    const int px = (int)floor(gb_figure_axis_place(&layout->x, x));
+    const int py = (int)floor(gb_figure_axis_place(&layout->y, y));
+    return &image->rgba[4 * (py * image->width + px)];
+}
+
+static double distance_to(const uint8_t *rgba, int style)
+{
+    double rgb[3];
+    double sum = 0.0;
+    gb_figure_marks_colour(style, rgb);
+    for (int k = 0; k < 3; k++) {
+        sum += fabs(rgba[k] / 255.0 - rgb[k]);
+    }
+    return sum;
+}
+
+static void test_ink(void)
+{
+    struct sheet sheet;
+    struct gb_figure_layout layout;
+    make(&sheet);
+    struct gb_image *image = paint(&sheet.figure, &layout);
+    /* the line where it is, its band pale beside it, nothing beyond */
+    g_assert_cmpfloat(distance_to(pixel(image, &layout, 0.5, 50.0), 0), <, 0.3);
+    const uint8_t *band = pixel(image, &layout, 0.5, 54.0);
+    g_assert_cmpint(band[0], <, 235);
+    g_assert_cmpint(band[2], >, band[0]);
+    g_assert_cmpint(pixel(image, &layout, 0.5, 70.0)[0], ==, 255);
+    /* a point is a filled mark on top */
+    g_assert_cmpfloat(distance_to(pixel(image, &layout, sheet.x[31], sheet.y[0][6]), 2),
+                      <, 0.05);
+    gb_image_destroy(image);
+}
+
+/* No ink of a curve under the legend: painted alone, curves leave its place white. */
+static void test_legend(void)
+{
+    struct sheet sheet;
+    struct gb_figure_layout with;
+    struct gb_figure_layout without;
+    make(&sheet);
+    gb_image_destroy(paint(&sheet.figure, &with));
+    g_assert_cmpfloat(with.legend[2], >, 0.0);
+    g_assert_cmpfloat(with.legend[2], <=, with.frame[2]);
+    for (int k = 0; k < 3; k++) {
+        sheet.curve[k].label = NULL;
+    }
+    struct gb_image *image = paint(&sheet.figure, &without);
+    g_assert_cmpfloat(without.legend[2], ==, 0.0);
+    for (int y = (int)with.legend[1]; y < (int)with.legend[3]; y++) {
+        for (int x = (int)with.legend[0]; x < (int)with.legend[2]; x++) {
+            const uint8_t *at = &image->rgba[4 * (y * WIDE + x)];
+            g_assert_cmpint(at[0] + at[1] + at[2], ==, 765);
+        }
+    }
+    gb_image_destroy(image);
+}
+
+/* A frame full of points: the legend stands beside it. */
+static void test_full(void)
+{
+    static double x[2500];
+    static double y[2500];
+    struct sheet sheet;
+    struct gb_figure_layout layout;
+    make(&sheet);
+    for (int k = 0; k < 2500; k++) {
+        x[k] = k % 50;
+        y[k] = k / 50;
+    }
+    sheet.curve[0] = (struct gb_figure_curve){
+        .label = "everywhere", .kind = GB_FIGURE_POINTS, .count = 2500, .x = x, .y = y};
+    sheet.figure.count = 1;
+    gb_image_destroy(paint(&sheet.figure, &layout));
+    g_assert_cmpfloat(layout.legend[0], >=, layout.frame[2]);
+    g_assert_cmpfloat(layout.legend[2], <=, WIDE);
+}
+
+static void test_nothing(void)
+{
+    struct sheet sheet;
+    struct gb_figure_layout layout;
+    make(&sheet);
+    sheet.figure.count = 0;
+    gb_image_destroy(paint(&sheet.figure, &layout));
+    make(&sheet);
+    for (int k = 0; k < POINTS; k++) {
+        sheet.y[0][k] = NAN;
+        sheet.y[1][k] = -1.0;
+    }
+    sheet.figure.y.log = true;
+    gb_image_destroy(paint(&sheet.figure, &layout));
+}
+
+static gsize size_of(const char *path, char **text)
+{
+    gsize size = 0;
+    g_assert_true(g_file_get_contents(path, text, &size, NULL));
+    return size;
+}
+
+/* Twice the same bytes, of the kind the ending says. */
+static void test_files(void)
+{
+    static const struct {
+        const char *name, *start;
+    } kinds[] = {{"x.png", "\x89PNG"}, {"x.svg", "<?xml"}, {"x.pdf", "%PDF"}};
+    char *folder = g_dir_make_tmp("greenbody-figure-XXXXXX", NULL);
+    struct sheet sheet;
+    struct gb_error err = {0};
+    make(&sheet);
+    for (size_t k = 0; k < G_N_ELEMENTS(kinds); k++) {
+        char *path = g_build_filename(folder, kinds[k].name, NULL);
+        char *text[2];
+        gsize size[2];
+        for (int i = 0; i < 2; i++) {
+            g_assert_true(
+                gb_figure_write(&sheet.figure, WIDE, HIGH, NULL, 0, path, &err));
+            size[i] = size_of(path, &text[i]);
+            g_remove(path);
+        }
+        g_assert_true(g_str_has_prefix(text[0], kinds[k].start));
+        /* cairo counts the surfaces of a process in its SVG */
+        const bool counts = strcmp(kinds[k].name, "x.svg") == 0;
+        g_assert_true(counts ||
+                      (size[0] == size[1] && memcmp(text[0], text[1], size[0]) == 0));
+        g_free(text[0]);
+        g_free(text[1]);
+        g_free(path);
+    }
+    char *lost = g_build_filename(folder, "no", "x.pdf", NULL);
+    g_assert_false(gb_figure_write(&sheet.figure, WIDE, HIGH, NULL, 0, lost, &err));
+    g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);
+    g_assert_nonnull(strstr(err.text, lost));
+    g_rmdir(folder);
+    g_free(lost);
+    g_free(folder);
+}
+
+/* In grey all styles that have one dash differ in lightness from paper, and no two share
+ * colour and dash. */
+static void test_styles(void)
+{
+    for (int a = 0; a < GB_FIGURE_STYLES; a++) {
+        double one[3];
+        gb_figure_marks_colour(a, one);
+        g_assert_cmpfloat(0.299 * one[0] + 0.587 * one[1] + 0.114 * one[2], <, 0.75);
+        for (int b = 0; b < a; b++) {
+            double two[3];
+            gb_figure_marks_colour(b, two);
+            g_assert_cmpfloat(fabs(one[0] - two[0]) + fabs(one[1] - two[1]) +
+                                  fabs(one[2] - two[2]),
+                              >, 0.3);
+        }
+    }
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/draw/figure/linear-axis", test_linear_axis);
+    g_test_add_func("/draw/figure/powers", test_powers);
+    g_test_add_func("/draw/figure/log-axis", test_log_axis);
+    g_test_add_func("/draw/figure/odd-axes", test_odd_axes);
+    g_test_add_func("/draw/figure/ink", test_ink);
+    g_test_add_func("/draw/figure/legend", test_legend);
+    g_test_add_func("/draw/figure/full", test_full);
+    g_test_add_func("/draw/figure/nothing", test_nothing);
+    g_test_add_func("/draw/figure/files", test_files);
+    g_test_add_func("/draw/figure/styles", test_styles);
+    return g_test_run();
+}
