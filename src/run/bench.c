@@ -2,6 +2,7 @@
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
+#include <math.h>
 #include <string.h>
 
 #include <glib.h>
@@ -11,6 +12,7 @@
 #include "measure/observe.h"
 #include "pack/grow.h"
 #include "pack/world.h"
+#include "phys/die_scene.h"
 #include "run/experiment.h"
 #include "solve/relax.h"
 
@@ -140,9 +142,86 @@ bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
     struct gb_relax *relax = NULL;
     *bench = (struct gb_bench){0};
     const bool done =
+        gb_die_scene_absent(params, "the benchmark of one preset", err) &&
         gb_model_init(&model, params, err) && grow(&world, &model, &bench->grow_s, err) &&
         gb_relax_create(&relax, &model, err) && (gb_relax_start(relax, world), true) &&
         measure(bench, &model, world, relax, coordination, err);
+    gb_relax_destroy(relax);
+    gb_world_destroy(world);
+    return done;
+}
+
+/* What a packing is timed without; a friction law without friction has no bridges. */
+struct variant {
+    const char *name;
+    bool bridges, friction, attraction;
+};
+
+static const struct variant variants[GB_BENCH_TERMS] = {
+    {"all terms", true, true, true},
+    {"without bridges", false, true, true},
+    {"without friction and bridges", false, false, true},
+    {"without attraction", true, true, false},
+    {"elastic spheres only", false, false, false},
+};
+
+static bool leave_out(struct gb_params *params, const struct variant *variant,
+                      struct gb_error *err)
+{
+    return (variant->bridges ||
+            gb_params_assign(params, "contact.bridge_length=1 d", err)) &&
+           (variant->friction || (gb_params_assign(params, "contact.mu=0", err) &&
+                                  gb_params_assign(params, "contact.mu_pivot=0", err))) &&
+           (variant->attraction ||
+            gb_params_assign(params, "material.epsilon=0 kB", err));
+}
+
+/* The packing as pressed, under another law. */
+static bool time_variant(const struct gb_world *pressed, const struct gb_params *params,
+                         const struct variant *variant, double *median,
+                         struct gb_error *err)
+{
+    struct gb_params changed = *params;
+    struct gb_model model;
+    struct gb_world *world = NULL;
+    struct gb_relax *relax = NULL;
+    changed.threads = 1;
+    if (!leave_out(&changed, variant, err) || !gb_model_init(&model, &changed, err)) {
+        return false;
+    }
+    const struct gb_terms *carried = &gb_world_model(pressed)->terms;
+    if ((!variant->bridges && !carried->bridges) ||
+        (!variant->friction && !carried->friction) ||
+        (!variant->attraction && !carried->attraction)) {
+        *median = NAN;
+        return true;
+    }
+    memcpy(model.edges, gb_world_cell(pressed)->edge, sizeof model.edges);
+    const bool done = gb_world_create(&world, &model, gb_world_position(pressed), err) &&
+                      gb_relax_create(&relax, &model, err) &&
+                      time_batches(world, relax, median, err);
+    gb_relax_destroy(relax);
+    gb_world_destroy(world);
+    return done;
+}
+
+bool gb_bench_terms(struct gb_bench_term term[GB_BENCH_TERMS],
+                    const struct gb_params *params, double coordination,
+                    struct gb_error *err)
+{
+    struct gb_model model;
+    struct gb_world *world = NULL;
+    struct gb_relax *relax = NULL;
+    double grown = 0.0;
+    bool done = gb_die_scene_absent(params, "the benchmark of one preset", err) &&
+                gb_model_init(&model, params, err) && grow(&world, &model, &grown, err) &&
+                gb_relax_create(&relax, &model, err) &&
+                (gb_relax_start(relax, world), true) &&
+                press(world, relax, coordination, err);
+    for (int i = 0; i < GB_BENCH_TERMS && done; i++) {
+        term[i].name = variants[i].name;
+        done = time_variant(world, params, &variants[i], &term[i].evaluation_s, err);
+    }
     gb_relax_destroy(relax);
     gb_world_destroy(world);
     return done;

@@ -26,6 +26,22 @@ struct gb_bench {
 bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
                   double coordination, struct gb_error *err);
 
+/* What each term of the sweep costs: the same pressed packing timed with fewer of them.
+ */
+enum { GB_BENCH_TERMS = 5 };
+struct gb_bench_term {
+    const char *name;    /* "all terms", "without bridges", ... */
+    double evaluation_s; /* median, one core; NaN where the scene has no such term */
+};
+
+/* Presses the packing of params to the coordination number and times it on one core as it
+ * is, and without bridges, friction, attraction and all of them.  Errors as of the
+ * engine.
+ */
+bool gb_bench_terms(struct gb_bench_term term[GB_BENCH_TERMS],
+                    const struct gb_params *params, double coordination,
+                    struct gb_error *err);
+
 /* Particle-steps per second of P2's planar scene (1000 discs, set II with mu = 0.5) on
  * one core, between densities 0.89 and 0.91 at the paper's step of 0.04 T and the rate
  * v1. */

@@ -6,7 +6,6 @@
 #include <glib.h>
 
 #include "base/units.h"
-#include "pack/world.h"
 #include "run/experiment.h"
 
 /* What auto is taken to choose, in T: ten times P2's own step.  An assumption, since only
@@ -91,7 +90,7 @@ double gb_cost_rate_measured(const struct gb_experiment *experiment,
                              int64_t evaluations_before, double seconds)
 {
     const int64_t evaluations =
-        gb_world_evaluations(gb_experiment_world(experiment)) - evaluations_before;
+        gb_experiment_evaluations(experiment) - evaluations_before;
     const int64_t count = gb_experiment_params(experiment)->count;
     return seconds > 0.0 ? (double)evaluations * (double)count / seconds : 0.0;
 }

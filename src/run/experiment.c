@@ -1,5 +1,6 @@
 #include "run/experiment.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,49 +8,25 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "measure/observe.h"
+#include "pack/departure.h"
 #include "pack/grow.h"
-#include "pack/world.h"
-#include "solve/guard.h"
-#include "solve/load.h"
-#include "solve/motion.h"
-#include "solve/relax.h"
-
-enum { EVENTS = 32, EVENT_TEXT = 640 };
-
-struct gb_experiment {
-    struct gb_params params;
-    struct gb_model model;
-    struct gb_world *world;
-    struct gb_world_copy *good;   /* before the strain step under way */
-    struct gb_world_copy *branch; /* where the unloading branch began */
-    struct gb_relax *relax;
-    struct gb_motion *motion; /* dynamic scenes only, instead of relax and load */
-    double elastic_start;     /* elastic energy when the motion began */
-    struct gb_load load;
-    struct gb_guard guard;
-    double factor[3]; /* strain step under way, or to be taken next */
-    bool strain_due;  /* it waits for the next slice, so that between slices after
-                       * a point forces, places and histories belong together */
-    int64_t step;     /* strain steps recorded */
-    int64_t spent_iterations, spent_evaluations; /* by attempts that were taken back */
-    bool have_good;
-    bool over, stopped;
-    struct gb_point point;
-    char event[EVENTS][EVENT_TEXT];
-    int events_first, events_count;
-};
+#include "phys/changes.h"
+#include "run/change.h"
+#include "run/checkpoint.h"
+#include "run/experiment_private.h"
 
 static void add_event(struct gb_experiment *experiment, const char *text)
 {
     if (text[0] == '\0') {
         return;
     }
-    if (experiment->events_count == EVENTS) { /* the oldest gives way */
-        experiment->events_first = (experiment->events_first + 1) % EVENTS;
+    if (experiment->events_count == GB_EXPERIMENT_EVENTS) { /* the oldest gives way */
+        experiment->events_first = (experiment->events_first + 1) % GB_EXPERIMENT_EVENTS;
         experiment->events_count--;
     }
-    const int at = (experiment->events_first + experiment->events_count++) % EVENTS;
-    snprintf(experiment->event[at], EVENT_TEXT, "%s", text);
+    const int at =
+        (experiment->events_first + experiment->events_count++) % GB_EXPERIMENT_EVENTS;
+    snprintf(experiment->event[at], GB_EXPERIMENT_TEXT, "%s", text);
 }
 
 bool gb_experiment_event(struct gb_experiment *experiment, char *text, size_t size)
@@ -58,7 +35,7 @@ bool gb_experiment_event(struct gb_experiment *experiment, char *text, size_t si
         return false;
     }
     snprintf(text, size, "%s", experiment->event[experiment->events_first]);
-    experiment->events_first = (experiment->events_first + 1) % EVENTS;
+    experiment->events_first = (experiment->events_first + 1) % GB_EXPERIMENT_EVENTS;
     experiment->events_count--;
     return true;
 }
@@ -84,13 +61,16 @@ static bool grow_world(struct gb_experiment *experiment, bool (*cancelled)(void 
  * scenes have none. */
 static bool create_relaxer(struct gb_experiment *experiment, struct gb_error *err)
 {
-    return experiment->params.kind == GB_KIND_DYNAMIC ||
+    return experiment->params.kind != GB_KIND_QUASISTATIC ||
            gb_relax_create(&experiment->relax, &experiment->model, err);
 }
 
 /* The first relaxation, or the motion. */
 static bool begin(struct gb_experiment *experiment, struct gb_error *err)
 {
+    if (experiment->die) {
+        return true;
+    }
     gb_load_init(&experiment->load, &experiment->model);
     if (experiment->relax) {
         gb_relax_start(experiment->relax, experiment->world);
@@ -98,6 +78,29 @@ static bool begin(struct gb_experiment *experiment, struct gb_error *err)
     }
     experiment->elastic_start = gb_observe_elastic(experiment->world);
     return gb_motion_create(&experiment->motion, experiment->world, err);
+}
+
+/* The model of the parameters that hold behind a recorded step. */
+static bool freeze(struct gb_experiment *experiment, int64_t step, struct gb_error *err)
+{
+    struct gb_params effective;
+    gb_changes_effective(&experiment->params, step, &effective);
+    return gb_model_init(&experiment->model, &effective, err);
+}
+
+static bool build(struct gb_experiment *experiment, bool (*cancelled)(void *data),
+                  void *data, struct gb_error *err)
+{
+    return create_relaxer(experiment, err) &&
+           grow_world(experiment, cancelled, data, err) &&
+           gb_world_evaluate(experiment->world, err) && begin(experiment, err);
+}
+
+static bool fill_die(struct gb_experiment *experiment, bool (*cancelled)(void *data),
+                     void *data, struct gb_error *err)
+{
+    return gb_die_run_create(&experiment->die, &experiment->params, &experiment->model,
+                             cancelled, data, err);
 }
 
 bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *params,
@@ -108,11 +111,30 @@ bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *pa
         return false;
     }
     experiment->params = *params;
+    if (!gb_params_check(params, err) || !freeze(experiment, -1, err) ||
+        !(params->kind == GB_KIND_DIE ? fill_die(experiment, cancelled, data, err)
+                                      : build(experiment, cancelled, data, err))) {
+        gb_experiment_destroy(experiment);
+        return false;
+    }
+    *out = experiment;
+    return true;
+}
+
+bool gb_experiment_resume(struct gb_experiment **out, const struct gb_params *params,
+                          struct gb_record *record, struct gb_error *err)
+{
+    struct gb_experiment *experiment = gb_alloc_array(1, sizeof *experiment, err);
+    if (!experiment) {
+        return false;
+    }
+    experiment->params = *params;
     if (!gb_params_check(params, err) ||
-        !gb_model_init(&experiment->model, params, err) ||
+        !freeze(experiment, gb_checkpoint_step(record) - 1, err) ||
         !create_relaxer(experiment, err) ||
-        !grow_world(experiment, cancelled, data, err) ||
-        !gb_world_evaluate(experiment->world, err) || !begin(experiment, err)) {
+        !gb_checkpoint_load_world(experiment, record, err) || !begin(experiment, err) ||
+        !gb_checkpoint_load(experiment, record, err) ||
+        !gb_change_order(experiment, err)) {
         gb_experiment_destroy(experiment);
         return false;
     }
@@ -130,6 +152,8 @@ void gb_experiment_destroy(struct gb_experiment *experiment)
     gb_world_copy_destroy(experiment->branch);
     gb_relax_destroy(experiment->relax);
     gb_motion_destroy(experiment->motion);
+    gb_experiment_destroy(experiment->husk);
+    gb_die_run_destroy(experiment->die);
     gb_alloc_free(experiment);
 }
 
@@ -172,23 +196,62 @@ static void measure(const struct gb_experiment *experiment, struct gb_point *poi
         .elastic = NAN,
         .dissipated = NAN,
         .energy_residual = NAN,
+        .central = NAN, /* and these of dies */
+        .height_m = NAN,
+        .height_change = NAN,
+        .wanted_pa = NAN,
+        .floor_over_punch = NAN,
     };
 }
 
+/* The next part of the strain step. */
 static void strain(struct gb_experiment *experiment)
 {
-    gb_world_strain(experiment->world, experiment->factor);
+    const int parts = experiment->model.numerics.parts;
+    double factor[3];
+    for (int k = 0; k < 3; k++) {
+        factor[k] =
+            parts > 1 ? pow(experiment->factor[k], 1.0 / parts) : experiment->factor[k];
+    }
+    experiment->part = experiment->strain_due ? 1 : experiment->part + 1;
+    gb_world_strain(experiment->world, factor);
     gb_relax_start(experiment->relax, experiment->world);
     experiment->strain_due = false;
 }
 
+/* A part was relaxed and another one is due; what it took counts for the step. */
+static bool go_on(struct gb_experiment *experiment)
+{
+    if (experiment->part == 0 || experiment->part >= experiment->model.numerics.parts) {
+        return false;
+    }
+    experiment->spent_iterations += experiment->relax->iterations;
+    experiment->spent_evaluations += experiment->relax->evaluations;
+    strain(experiment);
+    return true;
+}
+
 static void unload_event(struct gb_experiment *experiment)
 {
-    char text[EVENT_TEXT];
+    char text[GB_EXPERIMENT_TEXT];
     const int branch = experiment->load.branch;
     snprintf(text, sizeof text, "unloading from %.6g MPa (asked for %.6g MPa)",
              1e-6 * experiment->point.p_pa,
              1e-6 * experiment->params.unload_from_pa[branch - 1]);
+    add_event(experiment, text);
+}
+
+static void restore_event(struct gb_experiment *experiment)
+{
+    char text[GB_EXPERIMENT_TEXT];
+    if (!experiment->load.endless) {
+        add_event(experiment, "unloaded; loading goes on from the saved state");
+        return;
+    }
+    snprintf(text, sizeof text,
+             "guard: the cell has grown by half and still carries %.3g MPa; unloading is "
+             "given up, loading goes on from the saved state",
+             1e-6 * experiment->point.p_pa);
     add_event(experiment, text);
 }
 
@@ -201,13 +264,14 @@ static bool obey(struct gb_experiment *experiment, struct gb_error *err)
         const double density = gb_observe_density(experiment->world);
         switch (gb_load_next(&experiment->load, pressure, density, experiment->factor)) {
         case GB_LOAD_RESTORE:
-            add_event(experiment, "unloaded; loading goes on from the saved state");
+            restore_event(experiment);
             /* the evaluation brings the forces of the restored state, so that the
              * programme sees its pressure */
             if (!gb_world_restore(experiment->world, experiment->branch, err) ||
                 !gb_world_evaluate(experiment->world, err)) {
                 return false;
             }
+            measure(experiment, &experiment->shown);
             continue;
         case GB_LOAD_END:
             experiment->over = true;
@@ -268,6 +332,23 @@ static void measure_motion(const struct gb_experiment *experiment, struct gb_poi
     point->energy_residual = report.work != 0.0 ? lost / fabs(report.work) : (double)NAN;
 }
 
+/* What the parameters change behind this point, told as an event. */
+static bool change(struct gb_experiment *experiment, struct gb_error *err)
+{
+    char text[GB_EXPERIMENT_TEXT];
+    if (experiment->over || !gb_changes_due(&experiment->params, experiment->step - 1)) {
+        return true;
+    }
+    if (!gb_change_apply(experiment, err)) {
+        return false;
+    }
+    snprintf(text, sizeof text, "changes behind step %" PRId64 ", density %.4f: %s",
+             experiment->point.step, experiment->point.density,
+             experiment->params.changes);
+    add_event(experiment, text);
+    return true;
+}
+
 static enum gb_advance record(struct gb_experiment *experiment, struct gb_error *err)
 {
     measure(experiment, &experiment->point);
@@ -276,9 +357,10 @@ static enum gb_advance record(struct gb_experiment *experiment, struct gb_error 
     experiment->point.evaluations =
         experiment->spent_evaluations + experiment->relax->evaluations;
     experiment->spent_iterations = experiment->spent_evaluations = 0;
+    experiment->shown = experiment->point;
     experiment->step++;
     gb_load_recover(&experiment->load);
-    if (!obey(experiment, err)) {
+    if (!obey(experiment, err) || !change(experiment, err)) {
         experiment->over = experiment->stopped = true;
         return GB_ADVANCE_STOPPED;
     }
@@ -288,7 +370,7 @@ static enum gb_advance record(struct gb_experiment *experiment, struct gb_error 
 static enum gb_advance advance_motion(struct gb_experiment *experiment, int64_t max_steps,
                                       struct gb_error *err)
 {
-    char text[EVENT_TEXT];
+    char text[GB_EXPERIMENT_TEXT];
     const enum gb_motion_outcome outcome = gb_motion_advance(
         experiment->motion, experiment->world, max_steps, text, sizeof text, err);
     add_event(experiment, text);
@@ -298,6 +380,7 @@ static enum gb_advance advance_motion(struct gb_experiment *experiment, int64_t 
     case GB_MOTION_POINT:
         measure(experiment, &experiment->point);
         measure_motion(experiment, &experiment->point);
+        experiment->shown = experiment->point;
         experiment->step++;
         return GB_ADVANCE_POINT;
     case GB_MOTION_DONE:
@@ -311,6 +394,54 @@ static enum gb_advance advance_motion(struct gb_experiment *experiment, int64_t 
     return GB_ADVANCE_STOPPED;
 }
 
+static enum gb_advance record_die(struct gb_experiment *experiment)
+{
+    char text[GB_EXPERIMENT_TEXT];
+    gb_die_run_measure(experiment->die, &experiment->point);
+    experiment->point.step = experiment->step++;
+    experiment->shown = experiment->point;
+    gb_die_run_judge(experiment->die, &experiment->point, text, sizeof text);
+    add_event(experiment, text);
+    return GB_ADVANCE_POINT;
+}
+
+static enum gb_advance advance_die(struct gb_experiment *experiment, int64_t max_steps,
+                                   struct gb_error *err)
+{
+    char text[GB_EXPERIMENT_TEXT];
+    const enum gb_programme_outcome outcome =
+        gb_programme_advance(experiment->die->programme, experiment->die->bed, max_steps,
+                             text, sizeof text, err);
+    add_event(experiment, text);
+    switch (outcome) {
+    case GB_PROGRAMME_MORE:
+        return GB_ADVANCE_MORE;
+    case GB_PROGRAMME_POINT:
+        return record_die(experiment);
+    case GB_PROGRAMME_DONE:
+        experiment->over = true;
+        return GB_ADVANCE_DONE;
+    case GB_PROGRAMME_STOPPED:
+        break;
+    }
+    add_event(experiment, err->text);
+    experiment->over = experiment->stopped = true;
+    return GB_ADVANCE_STOPPED;
+}
+
+/* The first relaxation has nothing to be compared with. */
+static enum gb_guard_action judge_departure(struct gb_experiment *experiment, char *text,
+                                            size_t size)
+{
+    text[0] = '\0';
+    if (!experiment->have_good) {
+        return GB_GUARD_ACCEPT;
+    }
+    const struct gb_departure departure =
+        gb_departure_since(experiment->world, experiment->good);
+    return gb_guard_departure(&experiment->guard, &departure, text, size);
+}
+
 enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
                                       int64_t max_evaluations, struct gb_error *err)
 {
@@ -322,6 +453,9 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
     if (experiment->motion) {
         return advance_motion(experiment, max_evaluations, why);
     }
+    if (experiment->die) {
+        return advance_die(experiment, max_evaluations, why);
+    }
     if (experiment->strain_due) {
         strain(experiment);
     }
@@ -330,9 +464,17 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
     if (outcome == GB_RELAX_MORE) {
         return GB_ADVANCE_MORE;
     }
-    char text[EVENT_TEXT];
-    switch (gb_guard_judge(&experiment->guard, outcome, experiment->relax, text,
-                           sizeof text, why)) {
+    char text[GB_EXPERIMENT_TEXT];
+    enum gb_guard_action action = gb_guard_judge(
+        &experiment->guard, outcome, experiment->relax, text, sizeof text, why);
+    if (action == GB_GUARD_ACCEPT) {
+        add_event(experiment, text);
+        if (go_on(experiment)) {
+            return GB_ADVANCE_MORE;
+        }
+        action = judge_departure(experiment, text, sizeof text);
+    }
+    switch (action) {
     case GB_GUARD_ACCEPT:
         add_event(experiment, text);
         return record(experiment, why);
@@ -362,6 +504,10 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
     struct gb_contact_counts counts;
     snapshot->now = experiment->point;
     snapshot->now_valid = experiment->step > 0;
+    if (experiment->die) {
+        gb_die_run_observe(experiment->die, snapshot);
+        return;
+    }
     gb_observe_contacts(experiment->world, &counts, snapshot->histogram,
                         GB_SNAPSHOT_HISTOGRAM, NULL);
     gb_observe_rose(experiment->world, GB_SNAPSHOT_ROSE, snapshot->rose);
@@ -404,8 +550,8 @@ static void copy_pairs(const struct gb_world *world, struct gb_state *state)
     }
 }
 
-bool gb_experiment_state(const struct gb_experiment *experiment, struct gb_state **out,
-                         struct gb_error *err)
+static bool world_state(const struct gb_experiment *experiment, struct gb_state **out,
+                        struct gb_error *err)
 {
     const struct gb_world *world = experiment->world;
     const struct gb_model *model = &experiment->model;
@@ -426,12 +572,31 @@ bool gb_experiment_state(const struct gb_experiment *experiment, struct gb_state
     }
     copy_pairs(world, state);
     measure(experiment, &state->point);
+    return true;
+}
+
+bool gb_experiment_state(const struct gb_experiment *experiment, struct gb_state **out,
+                         struct gb_error *err)
+{
+    const struct gb_model *model = &experiment->model;
+    if (!(experiment->die ? gb_die_run_state(experiment->die, out, err)
+                          : world_state(experiment, out, err))) {
+        return false;
+    }
+    struct gb_state *state = *out;
+    state->point.step = experiment->step;
     state->metre_per_length = model->metre_per_length;
     state->pascal_per_stress = model->pascal_per_stress;
     state->seed = model->seed;
     snprintf(state->preset, sizeof state->preset, "%s", experiment->params.title);
     snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
     return true;
+}
+
+int64_t gb_experiment_evaluations(const struct gb_experiment *experiment)
+{
+    return experiment->die ? experiment->die->bed->evaluations
+                           : gb_world_evaluations(experiment->world);
 }
 
 const struct gb_model *gb_experiment_model(const struct gb_experiment *experiment)

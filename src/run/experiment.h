@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/record.h"
 #include "greenbody/curve.h"
 #include "greenbody/model.h"
 #include "greenbody/params.h"
@@ -19,6 +20,10 @@ struct gb_world;
 bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *params,
                           bool (*cancelled)(void *data), void *data,
                           struct gb_error *err);
+/* Goes on from a checkpoint (run/checkpoint.h) of a run with the same parameters, as if
+ * it had never stopped.  Errors: GB_ERR_INPUT naming what in the record does not fit. */
+bool gb_experiment_resume(struct gb_experiment **out, const struct gb_params *params,
+                          struct gb_record *record, struct gb_error *err);
 void gb_experiment_destroy(struct gb_experiment *experiment); /* NULL is fine */
 
 enum gb_advance {
@@ -49,6 +54,9 @@ bool gb_experiment_state(const struct gb_experiment *experiment, struct gb_state
 
 const struct gb_model *gb_experiment_model(const struct gb_experiment *experiment);
 const struct gb_params *gb_experiment_params(const struct gb_experiment *experiment);
+/* NULL for dies. */
 const struct gb_world *gb_experiment_world(const struct gb_experiment *experiment);
+/* Of the forces, since the start. */
+int64_t gb_experiment_evaluations(const struct gb_experiment *experiment);
 
 #endif

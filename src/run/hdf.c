@@ -9,26 +9,13 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "run/hdf_memory.h"
+#include "run/hdf_private.h"
 
 enum { TEXT_MAX = 4096 }; /* longest text attribute that is read */
 
 /* Deflate cannot pack tighter than this: data that claims more is not there, and asking
  * for its memory would let a small file take all of it. */
 static const double packing_limit = 1032.0;
-
-struct gb_hdf {
-    hid_t file;
-    char *path;
-    struct gb_hdf_memory memory; /* of a file under construction */
-};
-
-/* HDF5 prints its error stack by itself; ours is the only voice.  The setting belongs to
- * the calling thread, so every entry makes it again. */
-static void hush(void)
-{
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-}
 
 static hid_t memory_type(enum gb_hdf_type type)
 {
@@ -86,7 +73,7 @@ static struct gb_hdf *wrap(const char *path, struct gb_error *err)
 
 bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err)
 {
-    hush();
+    gb_hdf_hush();
     *out = gb_file_check_target(path, err) ? wrap(path, err) : NULL;
     if (*out == NULL) {
         return false;
@@ -103,7 +90,7 @@ bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err)
 
 bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err)
 {
-    hush();
+    gb_hdf_hush();
     const bool flushed = H5Fflush(file->file, H5F_SCOPE_GLOBAL) >= 0;
     const bool closed = H5Fclose(file->file) >= 0;
     file->file = H5I_INVALID_HID;
@@ -130,7 +117,7 @@ bool gb_hdf_open(struct gb_hdf **out, const char *path, struct gb_error *err)
         return gb_error_set(err, GB_ERR_MACHINE, "%s: %s", path, g_strerror(errno));
     }
     fclose(probe);
-    hush();
+    gb_hdf_hush();
     *out = wrap(path, err);
     if (*out == NULL) {
         return false;
@@ -155,7 +142,7 @@ void gb_hdf_destroy(struct gb_hdf *file)
     if (file == NULL) {
         return;
     }
-    hush();
+    gb_hdf_hush();
     if (file->file >= 0) {
         H5Fclose(file->file);
     }
@@ -185,14 +172,16 @@ static bool put_text_on(hid_t object, const char *name, const char *text)
 bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
                       const void *data, struct gb_error *err)
 {
-    hush();
+    gb_hdf_hush();
     const hsize_t shape[2] = {(hsize_t)array->rows, (hsize_t)array->columns};
     const int rank = array->columns > 1 ? 2 : 1;
     const hid_t space = H5Screate_simple(rank, shape, NULL);
     const hid_t create = H5Pcreate(H5P_DATASET_CREATE);
+    const hid_t link = H5Pcreate(H5P_LINK_CREATE);
     H5Pset_obj_track_times(create, false);
+    H5Pset_create_intermediate_group(link, 1);
     const hid_t set = H5Dcreate2(file->file, array->name, file_type(array->type), space,
-                                 H5P_DEFAULT, create, H5P_DEFAULT);
+                                 link, create, H5P_DEFAULT);
     bool done = set >= 0 && put_text_on(set, "unit", array->unit);
     if (done && array->rows > 0) {
         done = H5Dwrite(set, memory_type(array->type), H5S_ALL, H5S_ALL, H5P_DEFAULT,
@@ -201,6 +190,7 @@ bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
     if (set >= 0) {
         done = H5Dclose(set) >= 0 && done;
     }
+    H5Pclose(link);
     H5Pclose(create);
     H5Sclose(space);
     return done || unwritten(file, array->name, err);
@@ -293,7 +283,7 @@ static hid_t open_set(struct gb_hdf *file, const struct gb_hdf_array *array,
 bool gb_hdf_rows(struct gb_hdf *file, const struct gb_hdf_array *array, int64_t *rows,
                  struct gb_error *err)
 {
-    hush();
+    gb_hdf_hush();
     const hid_t set = open_set(file, array, rows, err);
     if (set < 0) {
         return false;
@@ -305,7 +295,7 @@ bool gb_hdf_rows(struct gb_hdf *file, const struct gb_hdf_array *array, int64_t 
 bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, void *data,
                       struct gb_error *err)
 {
-    hush();
+    gb_hdf_hush();
     int64_t rows = 0;
     const hid_t set = open_set(file, array, &rows, err);
     if (set < 0) {
@@ -326,12 +316,12 @@ bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, voi
 bool gb_hdf_put_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
                         int count, const void *data, struct gb_error *err)
 {
-    hush();
+    gb_hdf_hush();
     const hsize_t shape = (hsize_t)count;
     const hid_t space =
         count > 1 ? H5Screate_simple(1, &shape, NULL) : H5Screate(H5S_SCALAR);
-    const hid_t attribute = H5Acreate2(file->file, name, file_type(type), space,
-                                       H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t attribute =
+        H5Acreate2(file->file, name, file_type(type), space, H5P_DEFAULT, H5P_DEFAULT);
     const bool done = attribute >= 0 && H5Awrite(attribute, memory_type(type), data) >= 0;
     if (attribute >= 0) {
         H5Aclose(attribute);
@@ -365,7 +355,7 @@ static void close_attribute(const hid_t id[3])
 bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
                         int count, void *data, struct gb_error *err)
 {
-    hush();
+    gb_hdf_hush();
     hid_t id[3];
     const char *fault = NULL;
     if (!open_attribute(file, name, id)) {
@@ -384,7 +374,7 @@ bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type 
 bool gb_hdf_put_text(struct gb_hdf *file, const char *name, const char *text,
                      struct gb_error *err)
 {
-    hush();
+    gb_hdf_hush();
     return put_text_on(file->file, name, text) || unwritten(file, name, err);
 }
 
@@ -410,7 +400,7 @@ static void clean_text(char *text)
 bool gb_hdf_get_text(struct gb_hdf *file, const char *name, char *text, size_t size,
                      struct gb_error *err)
 {
-    hush();
+    gb_hdf_hush();
     hid_t id[3];
     char buffer[TEXT_MAX + 1] = "";
     const char *fault = NULL;

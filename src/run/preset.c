@@ -9,10 +9,11 @@
 
 #include <glib.h>
 
+#include "phys/sizetable.h"
 #include "run/keylines.h"
 
 /* A preset is a page of text; more is a mistake or an attack. */
-enum { PRESET_BYTES_MAX = 1 << 20, PRESET_VALUE_MAX = 1024 };
+enum { PRESET_BYTES_MAX = 1 << 20 };
 
 /* Written by editors of other systems in front of UTF-8. */
 static const char byte_order_mark[] = "\xef\xbb\xbf";
@@ -90,6 +91,23 @@ static bool is_known_group(const char *group)
     return false;
 }
 
+/* A value as read from a preset at path: the name of a table of sizes is relative to the
+ * folder of its preset. */
+static bool set_value(struct gb_params *params, const struct gb_field *field,
+                      const char *value, const char *path, struct gb_error *err)
+{
+    if (field->type != GB_FIELD_SIZES || !gb_sizetable_names_file(value) ||
+        g_path_is_absolute(value)) {
+        return gb_params_set(params, field, value, err);
+    }
+    char *folder = g_path_get_dirname(path);
+    char *file = g_build_filename(folder, value, NULL);
+    const bool good = gb_params_set(params, field, file, err);
+    g_free(file);
+    g_free(folder);
+    return good;
+}
+
 /* One key of the file into params. */
 static bool apply_line(struct gb_preset *preset, GKeyFile *file,
                        const struct gb_keyline *line, struct gb_error *err)
@@ -105,7 +123,7 @@ static bool apply_line(struct gb_preset *preset, GKeyFile *file,
         gb_error_set(&why, GB_ERR_INPUT, "%.40s.%.40s: not a name for a key", line->group,
                      line->key);
     } else if (field) {
-        good = gb_params_set(&preset->params, field, value, &why);
+        good = set_value(&preset->params, field, value, preset->path, &why);
     } else { /* assign knows how to say which keys there are */
         char *text = g_strconcat(line->group, ".", line->key, "=", value, NULL);
         good = gb_params_assign(&preset->params, text, &why);
@@ -220,16 +238,17 @@ const char *gb_preset_path(const struct gb_preset *preset)
     return preset->path;
 }
 
-/* Does the text of the file still say what params hold?  Compared in written form, so
- * that "0.1nm" and "0.10 nm" stay as typed. */
+/* Does the text of the file, read at path, still say what params hold?  Compared in
+ * written form, so that "0.1nm" and "0.10 nm" stay as typed; the name of a table of sizes
+ * stays only where the table lies beside the preset. */
 static bool says_same(const struct gb_preset *preset, const struct gb_keyline *line,
-                      const struct gb_field *field, const char *now)
+                      const struct gb_field *field, const char *path, const char *now)
 {
     char *typed =
         g_strndup(preset->text->str + line->value, line->value_end - line->value);
     struct gb_params then = preset->params;
-    char written[PRESET_VALUE_MAX] = "";
-    const bool good = gb_params_set(&then, field, typed, NULL);
+    char written[GB_PARAMS_VALUE_MAX] = "";
+    const bool good = set_value(&then, field, typed, path, NULL);
     g_free(typed);
     return good &&
            strcmp(gb_params_format(&then, field, written, sizeof written), now) == 0;
@@ -238,7 +257,7 @@ static bool says_same(const struct gb_preset *preset, const struct gb_keyline *l
 static bool is_fallback(const struct gb_field *field, const char *now)
 {
     struct gb_params initial;
-    char written[PRESET_VALUE_MAX];
+    char written[GB_PARAMS_VALUE_MAX];
     gb_params_init(&initial);
     return strcmp(gb_params_format(&initial, field, written, sizeof written), now) == 0;
 }
@@ -269,13 +288,13 @@ static void insert_key(struct gb_preset *preset, const struct gb_field *field,
 }
 
 static bool update_field(struct gb_preset *preset, const struct gb_field *field,
-                         bool complete, struct gb_error *err)
+                         const char *path, bool complete, struct gb_error *err)
 {
-    char now[PRESET_VALUE_MAX];
+    char now[GB_PARAMS_VALUE_MAX];
     gb_params_format(&preset->params, field, now, sizeof now);
     const struct gb_keyline *line =
         gb_keylines_find(&preset->lines, field->group, field->key);
-    if (line ? says_same(preset, line, field, now)
+    if (line ? says_same(preset, line, field, path, now)
              : !complete && is_fallback(field, now)) {
         return true;
     }
@@ -289,7 +308,8 @@ static bool update_field(struct gb_preset *preset, const struct gb_field *field,
     return index_again(preset, err);
 }
 
-static bool update_text(struct gb_preset *preset, bool complete, struct gb_error *err)
+static bool update_text(struct gb_preset *preset, const char *path, bool complete,
+                        struct gb_error *err)
 {
     if (preset->text->len == 0 && *preset->path == '\0') {
         g_string_append(preset->text, "# greenbody " GB_VERSION "\n");
@@ -297,7 +317,7 @@ static bool update_text(struct gb_preset *preset, bool complete, struct gb_error
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
-        if (!update_field(preset, &fields[i], complete, err)) {
+        if (!update_field(preset, &fields[i], path, complete, err)) {
             return false;
         }
     }
@@ -326,7 +346,8 @@ bool gb_preset_save(struct gb_preset *preset, const char *path, bool complete,
 {
     /* The text kept in memory changes only when it stands on disk. */
     GString *before = g_string_new_len(preset->text->str, (gssize)preset->text->len);
-    if (!update_text(preset, complete, err) || !write_text(preset->text, path, err)) {
+    if (!update_text(preset, path, complete, err) ||
+        !write_text(preset->text, path, err)) {
         g_string_free(preset->text, TRUE);
         preset->text = before;
         index_again(preset, NULL);

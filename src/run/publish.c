@@ -6,43 +6,58 @@
 static const unsigned fresh = 4;
 static const unsigned index_mask = 3;
 
-void gb_publish_init(struct gb_publish *publish)
+void gb_publish_turn_init(struct gb_publish_turn *turn)
 {
-    memset(publish->slot, 0, sizeof publish->slot);
-    publish->back = 0;
-    atomic_init(&publish->middle, 1);
-    publish->front = 2;
-}
-
-struct gb_snapshot *gb_publish_back(struct gb_publish *publish)
-{
-    return &publish->slot[publish->back];
+    turn->back = 0;
+    atomic_init(&turn->middle, 1);
+    turn->front = 2;
 }
 
 /* Release: the slot's content goes out with its index.  Acquire: the slot that comes back
  * is no longer read by the other side. */
+void gb_publish_turn_swap(struct gb_publish_turn *turn)
+{
+    const unsigned old =
+        atomic_exchange_explicit(&turn->middle, turn->back | fresh, memory_order_acq_rel);
+    turn->back = old & index_mask;
+}
+
+bool gb_publish_turn_take(struct gb_publish_turn *turn)
+{
+    /* Only the reader clears the bit, so it cannot vanish between the two steps. */
+    if (!(atomic_load_explicit(&turn->middle, memory_order_relaxed) & fresh)) {
+        return false;
+    }
+    const unsigned old =
+        atomic_exchange_explicit(&turn->middle, turn->front, memory_order_acq_rel);
+    turn->front = old & index_mask;
+    return true;
+}
+
+void gb_publish_init(struct gb_publish *publish)
+{
+    memset(publish->slot, 0, sizeof publish->slot);
+    gb_publish_turn_init(&publish->turn);
+}
+
+struct gb_snapshot *gb_publish_back(struct gb_publish *publish)
+{
+    return &publish->slot[publish->turn.back];
+}
+
 void gb_publish_swap(struct gb_publish *publish)
 {
-    const unsigned old = atomic_exchange_explicit(&publish->middle, publish->back | fresh,
-                                                  memory_order_acq_rel);
-    publish->back = old & index_mask;
+    gb_publish_turn_swap(&publish->turn);
 }
 
 bool gb_publish_take(struct gb_publish *publish)
 {
-    /* Only the reader clears the bit, so it cannot vanish between the two steps. */
-    if (!(atomic_load_explicit(&publish->middle, memory_order_relaxed) & fresh)) {
-        return false;
-    }
-    const unsigned old =
-        atomic_exchange_explicit(&publish->middle, publish->front, memory_order_acq_rel);
-    publish->front = old & index_mask;
-    return true;
+    return gb_publish_turn_take(&publish->turn);
 }
 
 const struct gb_snapshot *gb_publish_front(const struct gb_publish *publish)
 {
-    return &publish->slot[publish->front];
+    return &publish->slot[publish->turn.front];
 }
 
 void gb_command_ring_init(struct gb_command_ring *ring)

@@ -10,10 +10,14 @@
  *
  * Triple buffer: the engine writes its private slot and swaps it in; the reader takes the
  * newest.  Neither ever waits.  One writer, one reader. */
-struct gb_publish {
-    struct gb_snapshot slot[3];
+struct gb_publish_turn {
     _Atomic unsigned middle; /* index of the shared slot, bit 2: fresh */
     unsigned back, front;    /* writer's and reader's own */
+};
+
+struct gb_publish {
+    struct gb_snapshot slot[3];
+    struct gb_publish_turn turn;
 };
 
 void gb_publish_init(struct gb_publish *publish);
@@ -24,9 +28,23 @@ void gb_publish_swap(struct gb_publish *publish);
 bool gb_publish_take(struct gb_publish *publish);
 const struct gb_snapshot *gb_publish_front(const struct gb_publish *publish);
 
+/* The same for any other three slots: which one is whose.  swap: the engine's is filled;
+ * take: true when the reader has got a new one. */
+void gb_publish_turn_init(struct gb_publish_turn *turn);
+void gb_publish_turn_swap(struct gb_publish_turn *turn);
+bool gb_publish_turn_take(struct gb_publish_turn *turn);
+
 /* Screen to engine: a ring of commands, drained between slices.  One writer, one reader.
  */
-enum gb_command_kind { GB_COMMAND_PAUSE, GB_COMMAND_RESUME, GB_COMMAND_STOP };
+enum gb_command_kind {
+    GB_COMMAND_PAUSE,
+    GB_COMMAND_RESUME,
+    GB_COMMAND_STOP,
+    GB_COMMAND_WATCH,  /* take pictures of the packing from now on */
+    GB_COMMAND_FORK,  /* hand over the state at the next point of the loading */
+    GB_COMMAND_YIELD,  /* stand aside for another engine: no event, no change of state */
+    GB_COMMAND_TAKE_UP /* ... and go on */
+};
 
 struct gb_command {
     enum gb_command_kind kind;

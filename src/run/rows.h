@@ -16,6 +16,11 @@ struct gb_rows {
 /* Makes the file, which must not exist.  gb_rows_close is due in any case. */
 bool gb_rows_open(struct gb_rows *rows, const char *directory, const char *name,
                   struct gb_error *err);
+/* Opens a file that was written before and cuts it to its first `length` bytes, which
+ * must be whole lines.  Errors: GB_ERR_INPUT when it is shorter or cut in a line;
+ * GB_ERR_MACHINE. */
+bool gb_rows_reopen(struct gb_rows *rows, const char *directory, const char *name,
+                    off_t length, struct gb_error *err);
 void gb_rows_close(struct gb_rows *rows);
 
 /* Appends text, or leaves the file as it was: a full disk must not leave half a row. */

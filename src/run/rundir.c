@@ -11,9 +11,9 @@
 #include <glib/gstdio.h>
 
 /* Files of a run by name; everything else in a directory is somebody's and stays. */
-static const char *const known_files[] = {"preset.ini",  "curve.csv",     "events.log",
-                                          "status.json", "state.h5",      "packing.csv",
-                                          "g.csv",       "structure.json"};
+static const char *const known_files[] = {
+    "preset.ini",  "curve.csv", "events.log",     "status.json",    "state.h5",
+    "packing.csv", "g.csv",     "structure.json", "state-before.h5"};
 static const char snapshot_folder[] = "snapshots";
 
 /* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed.
@@ -291,6 +291,37 @@ bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
     return true;
 
 fail:
+    gb_rundir_finish(dir);
+    return false;
+}
+
+bool gb_rundir_busy(const char *path)
+{
+    const int lock = lock_directory(path);
+    const bool busy = lock < 0 && errno == EWOULDBLOCK;
+    if (lock >= 0) {
+        close(lock);
+    }
+    return busy;
+}
+
+bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *err)
+{
+    char *preset = g_build_filename(path, "preset.ini", NULL);
+    const bool is_run = has_type(preset, S_IFREG);
+    g_free(preset);
+    if (!is_run) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: no run directory, it has no preset.ini", path);
+    }
+    *dir = (struct gb_rundir){.path = g_strdup(path), .lock = lock_directory(path)};
+    if (dir->lock >= 0) {
+        return true;
+    }
+    (void)(errno == EWOULDBLOCK
+               ? busy_error(path, err)
+               : gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be opened: %s", path,
+                              g_strerror(errno)));
     gb_rundir_finish(dir);
     return false;
 }

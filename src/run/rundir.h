@@ -26,6 +26,14 @@ bool gb_rundir_check(const char *path, bool force, struct gb_error *err);
 bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
                     struct gb_error *err);
 
+/* Locks the directory of a run that was begun before.  Errors: GB_ERR_INPUT when it is no
+ * such directory or another process writes there; GB_ERR_MACHINE.  A lock is the
+ * process's own: one that was killed has left none. */
+bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *err);
+
+/* Is a process writing there now? */
+bool gb_rundir_busy(const char *path);
+
 /* Ends the lock and frees; the directory stays. */
 void gb_rundir_finish(struct gb_rundir *dir);
 

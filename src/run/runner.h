@@ -19,6 +19,33 @@ struct gb_runner;
  * parameter is told at once (GB_ERR_INPUT); later failures are in the snapshot. */
 bool gb_runner_create(struct gb_runner **out, const struct gb_params *params,
                       struct gb_error *err);
+/* A run that goes on from the state of another with changes: "mu=0.3; ..." as
+ * gb_changes_add takes them.  They join its loading.changes, so that its parameters alone
+ * repeat it.  Its curve begins with the other's points up to that state.  directory keeps
+ * it (gb_runner_create_in); NULL: it is not kept.  Errors as above; GB_ERR_INPUT when the
+ * state is not there. */
+bool gb_runner_create_fork(struct gb_runner **out, const char *changes,
+                           struct gb_runner *parent, const char *directory,
+                           struct gb_error *err);
+/* Whether the state asked for by GB_COMMAND_FORK is there; *step (may be NULL) is that of
+ * its point.  It comes with the next recorded point of the loading branch, and not at all
+ * when the run ends before. */
+bool gb_runner_forked(struct gb_runner *runner, int64_t *step);
+/* The same, kept in a directory of its own, which must not hold a run yet.  A directory
+ * that cannot be made, or a disk that fails, is an event of the run and does not end it.
+ */
+bool gb_runner_create_in(struct gb_runner **out, const struct gb_params *params,
+                         const char *directory, struct gb_error *err);
+/* Goes on with the run in a directory, from its last checkpoint.  An engine that works
+ * there is asked to stop and waited for. */
+bool gb_runner_resume(struct gb_runner **out, const char *directory,
+                      struct gb_error *err);
+/* Shows a run that another process computes, and writes nothing: no command but the end
+ * has an effect.  Pictures of the packing are not taken. */
+bool gb_runner_follow(struct gb_runner **out, const char *directory,
+                      struct gb_error *err);
+/* Where it is kept, or what is followed; NULL: nowhere. */
+const char *gb_runner_directory(const struct gb_runner *runner);
 /* Asks the engine to stop, waits for it (at most one slice), frees all.  NULL is fine. */
 void gb_runner_destroy(struct gb_runner *runner);
 
@@ -27,6 +54,11 @@ bool gb_runner_send(struct gb_runner *runner, enum gb_command_kind kind);
 
 /* Newest snapshot; *changed (may be NULL) tells whether it is new since the last call. */
 const struct gb_snapshot *gb_runner_snapshot(struct gb_runner *runner, bool *changed);
+
+/* Newest picture of the packing, one that is not valid before the first.  They are taken
+ * once GB_COMMAND_WATCH was sent: a few a second and one at each end or pause, for a few
+ * percent of the engine's time. */
+const struct gb_picture *gb_runner_picture(struct gb_runner *runner, bool *changed);
 
 /* The growing curve; readable from the screen's thread at any time. */
 const struct gb_curve *gb_runner_curve(const struct gb_runner *runner);

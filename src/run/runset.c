@@ -7,13 +7,12 @@
 
 #include "base/alloc.h"
 #include "run/preset.h"
+#include "run/solo.h"
 
 /* Keys that make no other experiment: what is drawn by lot, and what changes no result.
  */
 static const char *const bookkeeping[] = {"structure.seed", "scene.title",
                                           "numerics.threads", "output.", NULL};
-
-enum { VALUE_MAX = 2048 };
 
 static bool is_listed(const struct gb_field *field, const char *const *list)
 {
@@ -28,11 +27,16 @@ static bool is_listed(const struct gb_field *field, const char *const *list)
     return false;
 }
 
+bool gb_runset_bookkeeping(const struct gb_field *field)
+{
+    return is_listed(field, bookkeeping);
+}
+
 /* As a preset would write them: equal texts are equal values. */
 static bool is_equal(const struct gb_field *field, const struct gb_params *a,
                      const struct gb_params *b)
 {
-    char first[VALUE_MAX], second[VALUE_MAX];
+    char first[GB_PARAMS_VALUE_MAX], second[GB_PARAMS_VALUE_MAX];
     return strcmp(gb_params_format(a, field, first, sizeof first),
                   gb_params_format(b, field, second, sizeof second)) == 0;
 }
@@ -44,12 +48,18 @@ static const struct gb_field *difference(const struct gb_params *a,
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
-        if (!is_listed(&fields[i], bookkeeping) && !is_listed(&fields[i], accepted) &&
+        if (!gb_runset_bookkeeping(&fields[i]) && !is_listed(&fields[i], accepted) &&
             !is_equal(&fields[i], a, b)) {
             return &fields[i];
         }
     }
     return NULL;
+}
+
+bool gb_runset_same(const struct gb_params *a, const struct gb_params *b)
+{
+    static const char *const none[] = {NULL};
+    return difference(a, b, none) == NULL;
 }
 
 static bool read_run(struct gb_runset_run *run, const char *directory,
@@ -69,7 +79,11 @@ static bool read_run(struct gb_runset_run *run, const char *directory,
         good = gb_params_check(&run->params, &why) ||
                gb_error_set(err, why.code, "%s: %s", preset_path, why.text);
     }
-    good = good && gb_table_read(&run->table, curve_path, "branch", err);
+    char *packing = g_build_filename(directory, "packing.csv", NULL);
+    const bool is_packing = g_file_test(packing, G_FILE_TEST_EXISTS) &&
+                            !g_file_test(curve_path, G_FILE_TEST_EXISTS);
+    g_free(packing);
+    good = good && (is_packing || gb_table_read(&run->table, curve_path, "branch", err));
     gb_preset_destroy(preset);
     g_free(curve_path);
     g_free(preset_path);
@@ -79,12 +93,11 @@ static bool read_run(struct gb_runset_run *run, const char *directory,
 /* Joins the run to the group of an earlier one, or founds the next. */
 static bool join(struct gb_runset *set, size_t index, struct gb_error *err)
 {
-    static const char *const none[] = {NULL};
     struct gb_runset_run *run = &set->run[index];
     run->group = set->groups;
     for (size_t i = 0; i < index; i++) {
         const struct gb_runset_run *other = &set->run[i];
-        if (difference(&run->params, &other->params, none) != NULL) {
+        if (!gb_runset_same(&run->params, &other->params)) {
             continue;
         }
         if (run->params.seed == other->params.seed) {
@@ -97,6 +110,46 @@ static bool join(struct gb_runset *set, size_t index, struct gb_error *err)
     }
     set->groups += run->group == set->groups;
     return true;
+}
+
+static bool has_file(const char *directory, const char *name)
+{
+    char *path = g_build_filename(directory, name, NULL);
+    const bool there = g_file_test(path, G_FILE_TEST_IS_REGULAR);
+    g_free(path);
+    return there;
+}
+
+static gint compare_paths(gconstpointer a, gconstpointer b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+void gb_runset_expand(GPtrArray *list, const char *directory)
+{
+    GDir *dir = has_file(directory, "preset.ini") ? NULL : g_dir_open(directory, 0, NULL);
+    GPtrArray *found = g_ptr_array_new();
+    const char *name;
+    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+        char *path = g_build_filename(directory, name, NULL);
+        char *status = g_build_filename(path, "status.json", NULL);
+        if (has_file(path, "preset.ini") && gb_solo_says_done(status)) {
+            g_ptr_array_add(found, g_steal_pointer(&path));
+        }
+        g_free(status);
+        g_free(path);
+    }
+    g_ptr_array_sort(found, compare_paths);
+    for (guint i = 0; i < found->len; i++) {
+        g_ptr_array_add(list, g_ptr_array_index(found, i));
+    }
+    if (found->len == 0) {
+        g_ptr_array_add(list, g_strdup(directory));
+    }
+    g_ptr_array_unref(found);
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
 }
 
 bool gb_runset_read(struct gb_runset *set, char *const *directories, size_t count,
@@ -162,8 +215,8 @@ char *gb_runset_label(const struct gb_runset *set, size_t group)
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
-        if (!is_listed(&fields[i], bookkeeping) && differs_somewhere(set, &fields[i])) {
-            char value[VALUE_MAX];
+        if (!gb_runset_bookkeeping(&fields[i]) && differs_somewhere(set, &fields[i])) {
+            char value[GB_PARAMS_VALUE_MAX];
             g_string_append_printf(
                 label, "%s%s.%s = %s", label->len ? ", " : "", fields[i].group,
                 fields[i].key, gb_params_format(params, &fields[i], value, sizeof value));
@@ -183,6 +236,11 @@ bool gb_runset_points(const struct gb_runset_run *run, const char *branch, const
                       const char *y, double **xs, double **ys, size_t *count,
                       struct gb_error *err)
 {
+    if (run->table == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%.300s: a packing has no curve.csv; accepted runs",
+                            run->directory);
+    }
     const size_t rows = gb_table_rows(run->table);
     const double *from_x = gb_table_column(run->table, x, err);
     const double *from_y = from_x ? gb_table_column(run->table, y, err) : NULL;

@@ -4,15 +4,17 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include <glib.h>
+
+#include "base/table.h"
 #include "greenbody/params.h"
-#include "run/table.h"
 
 /* Finished runs read back from their directories.  Runs whose presets are equal but for
  * seed, title, threads and [output] are one group: replicas of one experiment. */
 struct gb_runset_run {
     char *directory;
     struct gb_params params;
-    struct gb_table *table; /* curve.csv */
+    struct gb_table *table; /* curve.csv; NULL for what `pack` made */
     size_t group;
 };
 
@@ -22,12 +24,23 @@ struct gb_runset {
     size_t groups; /* numbered by their first run */
 };
 
+/* Adds (g_strdup) a run directory to a list, or, for a directory of many runs, those of
+ * its runs that were done, by name.  A word that is neither is added as it is: reading it
+ * tells what is wrong. */
+void gb_runset_expand(GPtrArray *list, const char *directory);
+
 /* Reads preset.ini and curve.csv of each directory.  Errors are one line:
  * GB_ERR_INPUT for anything in the files, and for two runs of one group with the same
  * seed: they are one run, and would make its error too small. */
 bool gb_runset_read(struct gb_runset *set, char *const *directories, size_t count,
                     struct gb_error *err);
 void gb_runset_finish(struct gb_runset *set); /* zeroed is fine */
+
+/* Are these one experiment: equal but for seed, title, threads and [output]? */
+bool gb_runset_same(const struct gb_params *a, const struct gb_params *b);
+
+/* Does the key make no other experiment? */
+bool gb_runset_bookkeeping(const struct gb_field *field);
 
 /* First run of a group, and how many it has. */
 const struct gb_runset_run *gb_runset_first(const struct gb_runset *set, size_t group);

@@ -6,10 +6,12 @@
 
 #include "base/alloc.h"
 #include "run/hdf.h"
+#include "run/hdf_record.h"
 #include "run/state_check.h"
 
-/* Raised when a reader of the old layout would misunderstand the new one. */
-static const int32_t layout_number = 1;
+/* Raised when a reader of the old layout would misunderstand the new one.  1: without
+ * checkpoints; 2: without dies; the packing is as in 3. */
+static const int32_t layout_number = 3, layout_oldest = 1;
 
 /* Beyond this a file is nonsense rather than large. */
 static const int64_t count_max = 200000000;
@@ -47,6 +49,7 @@ struct number_row {
 
 static const struct number_row numbers[] = {
     {"cell_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, cell)},
+    {"die_radius_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_radius)},
     {"metre_per_length", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, metre_per_length)},
     {"pascal_per_stress", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, pascal_per_stress)},
     {"seed", GB_HDF_UINT64, 1, offsetof(struct gb_state, seed)},
@@ -187,7 +190,8 @@ static bool write_numbers(const struct gb_state *state, struct gb_hdf *file,
     return true;
 }
 
-bool gb_state_write(const struct gb_state *state, const char *path, struct gb_error *err)
+bool gb_state_write(const struct gb_state *state, const struct gb_record *record,
+                    const char *path, struct gb_error *err)
 {
     struct gb_hdf *file = NULL;
     if (!gb_hdf_create(&file, path, err)) {
@@ -198,26 +202,36 @@ bool gb_state_write(const struct gb_state *state, const char *path, struct gb_er
         const struct gb_hdf_array shape = shape_of(&arrays[k], state);
         done = gb_hdf_put_array(file, &shape, array_data(state, &arrays[k]), err);
     }
-    done = done && gb_hdf_store(file, err);
+    done = done && (record == NULL || gb_hdf_record_put(file, record, err)) &&
+           gb_hdf_store(file, err);
     gb_hdf_destroy(file);
     return done;
 }
 
-static bool read_layout(struct gb_hdf *file, const char *path, struct gb_error *err)
+static bool read_layout(struct gb_hdf *file, const char *path, int32_t *number,
+                        struct gb_error *err)
 {
     int32_t layout = 0;
     if (!gb_hdf_get_numbers(file, "layout", GB_HDF_INT32, 1, &layout, err)) {
         return false;
     }
-    if (layout != layout_number) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "%s: layout: %d is not known to this version, which reads %d",
-                            path, layout, layout_number);
+    *number = layout;
+    if (layout < layout_oldest || layout > layout_number) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "%s: layout: %d is not known to this version, which reads %d to %d", path,
+            layout, layout_oldest, layout_number);
     }
     return true;
 }
 
-static bool read_numbers(struct gb_state *state, struct gb_hdf *file,
+/* Layout 3 knows dies. */
+static bool exists_in(int32_t layout, const struct number_row *row)
+{
+    return layout >= 3 || row->offset != offsetof(struct gb_state, die_radius);
+}
+
+static bool read_numbers(struct gb_state *state, struct gb_hdf *file, int32_t layout,
                          struct gb_error *err)
 {
     int32_t dimension = 0;
@@ -232,7 +246,8 @@ static bool read_numbers(struct gb_state *state, struct gb_hdf *file,
     state->point.branch = branch;
     for (int k = 0; k < NUMBER_COUNT; k++) {
         const struct number_row *row = &numbers[k];
-        if (!gb_hdf_get_numbers(file, row->name, row->type, row->count,
+        if (exists_in(layout, row) &&
+            !gb_hdf_get_numbers(file, row->name, row->type, row->count,
                                 (char *)state + row->offset, err)) {
             return false;
         }
@@ -274,9 +289,8 @@ static bool read_sizes(struct gb_hdf *file, const char *path, int64_t *count,
 {
     int64_t size[2] = {-1, -1};
     for (int k = 0; k < ARRAY_COUNT; k++) {
-        const struct gb_hdf_array shape = {.name = arrays[k].name,
-                                           .type = arrays[k].type,
-                                           .columns = arrays[k].columns};
+        const struct gb_hdf_array shape = {
+            .name = arrays[k].name, .type = arrays[k].type, .columns = arrays[k].columns};
         int64_t *known = &size[arrays[k].per_pair];
         int64_t rows = 0;
         if (!gb_hdf_rows(file, &shape, &rows, err)) {
@@ -304,10 +318,11 @@ bool gb_state_read(struct gb_state **out, const char *path, struct gb_error *err
     if (!gb_hdf_open(&file, path, err)) {
         return false;
     }
-    bool done = read_layout(file, path, err) &&
+    int32_t layout = 0;
+    bool done = read_layout(file, path, &layout, err) &&
                 read_sizes(file, path, &count, &pair_count, err) &&
                 gb_state_create(&state, count, pair_count, err) &&
-                read_numbers(state, file, err);
+                read_numbers(state, file, layout, err);
     for (int k = 0; k < ARRAY_COUNT && done; k++) {
         const struct gb_hdf_array shape = shape_of(&arrays[k], state);
         done = gb_hdf_get_array(file, &shape, *array_member(state, &arrays[k]), err);

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/record.h"
 #include "greenbody/curve.h"
 #include "greenbody/status.h"
 
@@ -13,6 +14,7 @@ struct gb_state {
     int dimension;
     int64_t count;
     double cell[3];      /* periodic edges, d; y is 1 in 2D */
+    double die_radius;   /* d; 0: a periodic cell, else the cell is the box of a die */
     double *position;    /* count x 3, inside the cell */
     double *radius;      /* count */
     int32_t *contacts;   /* count: coordination number of each particle */
@@ -33,8 +35,10 @@ bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
                      struct gb_error *err);
 void gb_state_destroy(struct gb_state *state); /* NULL is fine */
 
-/* HDF5 file, written to a temporary name, synced and renamed.  Units are attributes. */
-bool gb_state_write(const struct gb_state *state, const char *path, struct gb_error *err);
+/* HDF5 file, written to a temporary name, synced and renamed.  Units are attributes.
+ * record (may be NULL) goes into it as the group /checkpoint: see run/hdf_record.h. */
+bool gb_state_write(const struct gb_state *state, const struct gb_record *record,
+                    const char *path, struct gb_error *err);
 /* Errors: GB_ERR_MACHINE (cannot be opened), GB_ERR_INPUT (not a state, sizes that do not
  * fit, indices or numbers out of range), naming path and dataset. */
 bool gb_state_read(struct gb_state **out, const char *path, struct gb_error *err);

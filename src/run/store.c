@@ -1,5 +1,6 @@
 #include "run/store.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 #include <glib.h>
 #include <json-glib/json-glib.h>
 
+#include "base/file.h"
 #include "run/preset.h"
 #include "run/rows.h"
 #include "run/rundir.h"
@@ -15,8 +17,8 @@
 struct gb_store {
     struct gb_rundir dir;
     struct gb_rows curve, events;
-    char *status_path, *state_path;
-    bool dynamic; /* the curve has the columns of a dynamic run */
+    char *status_path, *state_path, *before_path;
+    int kind; /* enum gb_kind: what columns the curve has */
     int64_t points;
 };
 
@@ -54,6 +56,7 @@ static const char *compressed_axes(const struct gb_params *params)
 {
     switch (params->geometry) {
     case GB_GEOMETRY_UNIAXIAL:
+    case GB_GEOMETRY_DIE:
         return "z";
     case GB_GEOMETRY_BIAXIAL:
         return "y and z";
@@ -78,6 +81,15 @@ static bool write_curve_head(struct gb_rows *curve, const struct gb_params *para
         "# p_MPa: mean pressure over the compressed axes (%s), positive "
         "in compression\n",
         compressed_axes(params));
+    if (params->kind == GB_KIND_DIE) {
+        g_string_append(
+            head, "# die: p and pz are what the powder carries under the punch, px and "
+                  "py the mean on the side wall; density is that of the whole specimen, "
+                  "central_density that of a ball in its middle; height_change is "
+                  "relative to the height before pressing; time_ns is simulated time, "
+                  "wanted_MPa the pressure of the programme, floor_over_punch a ratio of "
+                  "forces: not quasi-static outside 0.95 to 1.05\n");
+    }
     if (params->kind == GB_KIND_DYNAMIC) {
         g_string_append(
             head, "# dynamic: time_ns is simulated time; kinetic, work (done by the "
@@ -86,10 +98,13 @@ static bool write_curve_head(struct gb_rows *curve, const struct gb_params *para
     }
     g_string_append(head, "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,"
                           "bridged,rattlers,residual,iterations,evaluations,seconds");
-    g_string_append(head, params->kind == GB_KIND_DYNAMIC
-                              ? ",time_ns,kinetic,work,elastic,dissipated,"
-                                "energy_residual\n"
-                              : "\n");
+    static const char *const more[] = {
+        [GB_KIND_QUASISTATIC] = "",
+        [GB_KIND_DYNAMIC] = ",time_ns,kinetic,work,elastic,dissipated,energy_residual",
+        [GB_KIND_DIE] = (",time_ns,central_density,height_um,height_change,wanted_MPa,"
+                         "floor_over_punch"),
+    };
+    g_string_append_printf(head, "%s\n", more[params->kind]);
     const bool ok = gb_rows_append(curve, head->str, err);
     g_string_free(head, TRUE);
     return ok;
@@ -99,6 +114,10 @@ static bool write_curve_head(struct gb_rows *curve, const struct gb_params *para
 static bool replace_file(const char *path, const char *text, size_t length,
                          struct gb_error *err)
 {
+    if (!gb_file_may_write()) {
+        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
+                            g_strerror(errno));
+    }
     GError *failure = NULL;
     if (g_file_set_contents_full(path, text, (gssize)length,
                                  G_FILE_SET_CONTENTS_CONSISTENT, 0666, &failure)) {
@@ -126,18 +145,24 @@ static bool write_preset(const char *directory, const struct gb_params *params,
     return ok;
 }
 
+static void name_files(struct gb_store *store, const char *directory)
+{
+    store->status_path = g_build_filename(directory, "status.json", NULL);
+    store->state_path = g_build_filename(directory, "state.h5", NULL);
+    store->before_path = g_build_filename(directory, "state-before.h5", NULL);
+}
+
 bool gb_store_create(struct gb_store **out, const char *directory,
                      const struct gb_params *params, bool force, struct gb_error *err)
 {
     struct gb_store *store = g_new0(struct gb_store, 1);
     store->curve.fd = store->events.fd = -1;
-    store->dynamic = params->kind == GB_KIND_DYNAMIC;
+    store->kind = params->kind;
     if (!gb_rundir_make(&store->dir, directory, force, err)) {
         g_free(store);
         return false;
     }
-    store->status_path = g_build_filename(directory, "status.json", NULL);
-    store->state_path = g_build_filename(directory, "state.h5", NULL);
+    name_files(store, directory);
     if (!write_preset(directory, params, err) ||
         !gb_rows_open(&store->curve, directory, "curve.csv", err) ||
         !gb_rows_open(&store->events, directory, "events.log", err) ||
@@ -155,6 +180,7 @@ static void free_store(struct gb_store *store)
     gb_rows_close(&store->events);
     g_free(store->status_path);
     g_free(store->state_path);
+    g_free(store->before_path);
     g_free(store);
 }
 
@@ -164,6 +190,57 @@ void gb_store_destroy(struct gb_store *store)
         gb_rundir_finish(&store->dir);
         free_store(store);
     }
+}
+
+struct gb_store_place gb_store_place(const struct gb_store *store)
+{
+    return (struct gb_store_place){store->points, store->curve.length,
+                                   store->events.length};
+}
+
+/* As after gb_store_create: what was recorded before belongs to no checkpoint. */
+static bool begin_rows(struct gb_store *store, const struct gb_params *params,
+                       struct gb_error *err)
+{
+    static const char *const names[] = {"curve.csv", "events.log"};
+    struct gb_rows *rows[] = {&store->curve, &store->events};
+    for (size_t k = 0; k < G_N_ELEMENTS(rows); k++) {
+        char *path = g_build_filename(store->dir.path, names[k], NULL);
+        (void)unlink(path);
+        g_free(path);
+        if (!gb_rows_open(rows[k], store->dir.path, names[k], err)) {
+            return false;
+        }
+    }
+    return write_curve_head(&store->curve, params, err);
+}
+
+bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
+                     const struct gb_params *params, const struct gb_store_place *place,
+                     struct gb_error *err)
+{
+    struct gb_store *store = g_new0(struct gb_store, 1);
+    store->curve.fd = store->events.fd = -1;
+    store->kind = params->kind;
+    store->dir = *dir;
+    *dir = (struct gb_rundir){.lock = -1};
+    name_files(store, store->dir.path);
+    bool done;
+    if (place == NULL) {
+        done = begin_rows(store, params, err);
+    } else {
+        store->points = place->points;
+        done = gb_rows_reopen(&store->curve, store->dir.path, "curve.csv",
+                              (off_t)place->curve_bytes, err) &&
+               gb_rows_reopen(&store->events, store->dir.path, "events.log",
+                              (off_t)place->events_bytes, err);
+    }
+    if (!done) {
+        gb_store_destroy(store);
+        return false;
+    }
+    *out = store;
+    return true;
 }
 
 void gb_store_discard(struct gb_store *store)
@@ -179,6 +256,16 @@ static void append_dynamics(GString *row, const struct gb_point *point)
     const double values[] = {1e9 * point->time_s, point->kinetic,
                              point->work,         point->elastic,
                              point->dissipated,   point->energy_residual};
+    for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
+        append_number(row, values[k]);
+    }
+}
+
+static void append_die(GString *row, const struct gb_point *point)
+{
+    const double values[] = {1e9 * point->time_s,     point->central,
+                             1e6 * point->height_m,   point->height_change,
+                             1e-6 * point->wanted_pa, point->floor_over_punch};
     for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
         append_number(row, values[k]);
     }
@@ -200,8 +287,10 @@ bool gb_store_point(struct gb_store *store, const struct gb_point *point,
     g_string_append_printf(
         row, ",%" PRId64 ",%" PRId64 ",%s", point->iterations, point->evaluations,
         g_ascii_formatd(seconds, sizeof seconds, "%.3f", point->seconds));
-    if (store->dynamic) {
+    if (store->kind == GB_KIND_DYNAMIC) {
         append_dynamics(row, point);
+    } else if (store->kind == GB_KIND_DIE) {
+        append_die(row, point);
     }
     g_string_append_c(row, '\n');
     const bool ok = gb_rows_append(&store->curve, row->str, err);
@@ -221,13 +310,25 @@ bool gb_store_event(struct gb_store *store, int64_t step, const char *text,
     return ok;
 }
 
+static const char *const state_words[] = {
+    [GB_RUN_PACKING] = "packing", [GB_RUN_RUNNING] = "running",
+    [GB_RUN_PAUSED] = "paused",   [GB_RUN_DONE] = "done",
+    [GB_RUN_STOPPED] = "stopped", [GB_RUN_FAILED] = "failed"};
+
 static const char *state_word(int state)
 {
-    static const char *const words[] = {
-        [GB_RUN_PACKING] = "packing", [GB_RUN_RUNNING] = "running",
-        [GB_RUN_PAUSED] = "paused",   [GB_RUN_DONE] = "done",
-        [GB_RUN_STOPPED] = "stopped", [GB_RUN_FAILED] = "failed"};
-    return state >= 0 && state < (int)G_N_ELEMENTS(words) ? words[state] : "unknown";
+    return state >= 0 && state < (int)G_N_ELEMENTS(state_words) ? state_words[state]
+                                                                : "unknown";
+}
+
+int gb_store_state_of(const char *word)
+{
+    for (size_t k = 0; k < G_N_ELEMENTS(state_words); k++) {
+        if (strcmp(state_words[k], word) == 0) {
+            return (int)k;
+        }
+    }
+    return GB_RUN_STOPPED;
 }
 
 /* json-glib writes 1e-08 as "1e-08.0", which no reader accepts.  The next double has more
@@ -264,6 +365,21 @@ static void add_text(JsonBuilder *json, const char *name, const char *text)
     g_free(valid);
 }
 
+static void add_array(JsonBuilder *json, const char *name, const double *values,
+                      int count)
+{
+    json_builder_set_member_name(json, name);
+    json_builder_begin_array(json);
+    for (int k = 0; k < count; k++) {
+        if (isfinite(values[k])) {
+            json_builder_add_double_value(json, writable(values[k]));
+        } else {
+            json_builder_add_null_value(json);
+        }
+    }
+    json_builder_end_array(json);
+}
+
 static void add_progress(JsonBuilder *json, const struct gb_store *store,
                          const struct gb_snapshot *shot)
 {
@@ -282,6 +398,10 @@ static void add_progress(JsonBuilder *json, const struct gb_store *store,
     add_double(json, "seconds", shot->seconds, true);
     add_double(json, "seconds_left", shot->seconds_left, shot->seconds_left >= 0.0);
     add_integer(json, "events", shot->events);
+    add_double(json, "residual", shot->live_residual, true);
+    add_double(json, "time_step_s", shot->time_step_s, true);
+    add_array(json, "histogram", shot->histogram, GB_SNAPSHOT_HISTOGRAM);
+    add_array(json, "rose", shot->rose, GB_SNAPSHOT_ROSE);
 }
 
 bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
@@ -292,6 +412,7 @@ bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
     add_text(json, "program", "greenbody " GB_VERSION);
     add_text(json, "state", state_word(snapshot->state));
     add_integer(json, "pid", (int64_t)getpid());
+    add_text(json, "host", g_get_host_name());
     add_progress(json, store, snapshot);
     add_text(json, "event", snapshot->event);
     add_text(json, "error", snapshot->error.code == GB_OK ? "" : snapshot->error.text);
@@ -307,10 +428,24 @@ bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
     return ok;
 }
 
-bool gb_store_state(struct gb_store *store, const struct gb_state *state,
-                    struct gb_error *err)
+/* A second name for the state that is about to be replaced.  Without one (a file system
+ * that has no links) verify repeats the run from its beginning. */
+static void keep_before(const struct gb_store *store)
 {
-    return gb_state_write(state, store->state_path, err);
+    if (g_file_test(store->state_path, G_FILE_TEST_IS_REGULAR)) {
+        (void)unlink(store->before_path);
+        (void)!link(store->state_path, store->before_path);
+    }
+}
+
+bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
+                    const struct gb_record *record, struct gb_error *err)
+{
+    if (!gb_rows_sync(&store->curve, err) || !gb_rows_sync(&store->events, err)) {
+        return false;
+    }
+    keep_before(store);
+    return gb_state_write(state, record, store->state_path, err);
 }
 
 bool gb_store_sync(struct gb_store *store, struct gb_error *err)
@@ -323,7 +458,7 @@ const char *gb_store_directory(const struct gb_store *store)
     return store->dir.path;
 }
 
-char *gb_store_default_directory(const char *preset_path)
+char *gb_store_new_directory(const char *folder, const char *preset_path)
 {
     char *base = g_path_get_basename(preset_path);
     if (preset_path[0] == '\0' || !g_ascii_isalnum(base[0])) {
@@ -335,8 +470,13 @@ char *gb_store_default_directory(const char *preset_path)
     char *path = NULL;
     for (int k = 1; path == NULL || g_file_test(path, G_FILE_TEST_EXISTS); k++) {
         g_free(path);
-        path = g_strdup_printf("runs/%s-%d", base, k);
+        path = g_strdup_printf("%s/%s-%d", folder, base, k);
     }
     g_free(base);
     return path;
+}
+
+char *gb_store_default_directory(const char *preset_path)
+{
+    return gb_store_new_directory("runs", preset_path);
 }

@@ -7,6 +7,7 @@
 #include "greenbody/curve.h"
 #include "greenbody/params.h"
 #include "greenbody/snapshot.h"
+#include "run/rundir.h"
 #include "run/state.h"
 
 /* A run directory (interface.md): preset.ini, curve.csv, events.log, status.json,
@@ -18,6 +19,19 @@ struct gb_store;
  * touched.  Writes preset.ini. */
 bool gb_store_create(struct gb_store **out, const char *directory,
                      const struct gb_params *params, bool force, struct gb_error *err);
+
+/* What of the files belongs to a checkpoint: rows and events up to there. */
+struct gb_store_place {
+    int64_t points, curve_bytes, events_bytes;
+};
+struct gb_store_place gb_store_place(const struct gb_store *store);
+
+/* The store of a run that is to go on in dir, which is locked and belongs to the store
+ * from now on, also on error.  Cuts curve.csv and events.log to the place; NULL: begins
+ * them anew.  Errors: GB_ERR_INPUT for files that do not reach the place. */
+bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
+                     const struct gb_params *params, const struct gb_store_place *place,
+                     struct gb_error *err);
 void gb_store_destroy(struct gb_store *store); /* NULL is fine */
 /* Destroys and removes the files and directories that were made: for a run that could not
  * begin.  NULL is fine. */
@@ -31,11 +45,19 @@ bool gb_store_event(struct gb_store *store, int64_t step, const char *text,
 /* Rewrites status.json. */
 bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
                      struct gb_error *err);
-bool gb_store_state(struct gb_store *store, const struct gb_state *state,
-                    struct gb_error *err);
+/* Replaces state.h5; the one before becomes state-before.h5, from which
+ * `greenbody verify` repeats the way to it.  Rows and events are on the disk first.  May
+ * be called from another thread than the rest, one call at a time. */
+bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
+                    const struct gb_record *record, struct gb_error *err);
 /* Flushes and syncs; call before the last status. */
 bool gb_store_sync(struct gb_store *store, struct gb_error *err);
 
+/* enum gb_run_state of a word in status.json; stopped for others. */
+int gb_store_state_of(const char *word);
+
+/* A name in folder that is free, made of the preset's. Caller g_frees. */
+char *gb_store_new_directory(const char *folder, const char *preset_path);
 /* A free directory name for a run without --out: "runs/<preset>-<k>". Caller g_frees. */
 char *gb_store_default_directory(const char *preset_path);
 

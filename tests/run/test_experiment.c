@@ -160,6 +160,58 @@ static void test_stop(void)
     drop(&trace);
 }
 
+/* Parts of a strain step change the way, not what is recorded: the same densities, one
+ * point a step, all evaluations counted. */
+static void test_parts(void)
+{
+    struct trace trace[2];
+    for (int i = 0; i < 2; i++) {
+        const struct gb_params params = scene_params(
+            "loading.step=0.4 %", "loading.until=density = 0.3",
+            "loading.unload_from=", "numerics.tolerance=2e-2",
+            i == 0 ? "numerics.strain_part=0.4 %" : "numerics.strain_part=0.15 %", NULL);
+        trace[i] = run(&params, 1000);
+        g_assert_cmpint(trace[i].end, ==, GB_ADVANCE_DONE);
+        g_assert_cmpuint(trace[i].points->len, >, 50);
+    }
+    int64_t evaluations[2] = {0};
+    int compared = 0;
+    for (guint k = 0; k < trace[0].points->len && k < trace[1].points->len; k++) {
+        const struct gb_point *whole = at(&trace[0], k), *parted = at(&trace[1], k);
+        g_assert_cmpfloat_with_epsilon(whole->density, parted->density, 1e-12);
+        evaluations[0] += whole->evaluations;
+        evaluations[1] += parted->evaluations;
+        compared++;
+    }
+    g_assert_cmpint(compared, >, 50);
+    g_assert_cmpint(evaluations[1], >, evaluations[0]);
+    drop(&trace[0]);
+    drop(&trace[1]);
+}
+
+/* Strain steps so long that particles pass contacts by: told, halved, and the run goes
+ * on. Not every packing has such a step. */
+static void test_departures(void)
+{
+    int tripped = 0;
+    for (int seed = 1; seed <= 4; seed++) {
+        char text[32];
+        g_snprintf(text, sizeof text, "structure.seed=%d", seed);
+        const struct gb_params params =
+            scene_params("particles.count=300", "contact.bridge_length=1 d",
+                         "loading.step=2 %", "loading.until=20 MPa",
+                         "numerics.tolerance=1e-5", "numerics.relaxer=fire", text, NULL);
+        struct trace trace = run(&params, 1000);
+        g_assert_cmpint(trace.end, ==, GB_ADVANCE_DONE);
+        if (strstr(trace.events->str, "may pass contacts by; strain step halved")) {
+            tripped++;
+        }
+        drop(&trace);
+    }
+    g_test_message("%d of 4 packings", tripped);
+    g_assert_cmpint(tripped, >, 0);
+}
+
 static bool cancel_at_once(void *data)
 {
     (void)data;
@@ -242,6 +294,8 @@ int main(int argc, char **argv)
     g_test_add_func("/experiment/repeat", test_repeat);
     g_test_add_func("/experiment/scenes", test_scenes);
     g_test_add_func("/experiment/stop", test_stop);
+    g_test_add_func("/experiment/parts", test_parts);
+    g_test_add_func("/experiment/departures", test_departures);
     g_test_add_func("/experiment/cancel", test_cancel);
     g_test_add_func("/experiment/memory", test_memory);
     g_test_add_func("/experiment/state", test_state);

@@ -169,7 +169,9 @@ static const struct {
     {"[particles]\ndiameter = 10 MPa\n",
      0,
      {":2: particles.diameter = 10 MPa", "units nm"}},
-    {"[scene]\nkind = die\n", 0, {":2: scene.kind = die: accepted quasistatic or dynamic"}},
+    {"[scene]\nkind = pile\n",
+     0,
+     {":2: scene.kind = pile: accepted quasistatic or dynamic or die"}},
     {"[contact]\nmu = 0.1\nal\0pha = 1\n", 28, {":3:", "NUL"}},
     {"[contact]\nmu = \xff\xfe\n", 0, {":2:", "UTF-8"}},
     {"\xff\xfe[\0c\0]\0", 8, {":1:", "NUL"}},
@@ -334,6 +336,46 @@ static void test_lookup(void)
     g_free(own);
 }
 
+/* A table of sizes lies beside its preset; a copy of the preset elsewhere carries the
+ * table itself, so that a run directory is whole. */
+static void test_sizes(void)
+{
+    static const char csv[] = "diameter_um,share_number\n1,0.25\n2,0.75\n";
+    static const char text[] = "[particles]\ntable = sizes.csv\n";
+    char *table = in_folder("sizes.csv"), *path = write_text(text);
+    char *beside = in_folder("b.ini"), *inner = in_folder("run");
+    char *elsewhere = g_build_filename(inner, "preset.ini", NULL);
+    g_assert_true(g_file_set_contents(table, csv, -1, NULL));
+    g_assert_cmpint(g_mkdir(inner, 0777), ==, 0);
+    struct gb_preset *preset = load(path);
+    g_assert_cmpint(gb_preset_params(preset)->sizes.count, ==, 2);
+    g_assert_true(gb_preset_save(preset, beside, false, NULL));
+    char *saved = read_text(beside);
+    g_assert_cmpstr(saved, ==, text);
+    g_free(saved);
+    g_assert_true(gb_preset_save(preset, elsewhere, false, NULL));
+    saved = read_text(elsewhere);
+    g_assert_cmpstr(saved, ==, "[particles]\ntable = number: 1 um 0.25; 2 um 0.75\n");
+    g_free(saved);
+    gb_preset_destroy(preset);
+    g_assert_cmpint(g_remove(table), ==, 0);
+    preset = load(elsewhere);
+    g_assert_cmpfloat(gb_preset_params(preset)->sizes.row[1].share, ==, 0.75);
+    gb_preset_destroy(preset);
+    struct gb_error err = {0};
+    g_assert_false(gb_preset_load(&preset, path, &err));
+    g_test_message("%s", err.text);
+    g_assert_nonnull(strstr(err.text, "a.ini:2: particles.table: "));
+    g_assert_nonnull(strstr(err.text, "sizes.csv: "));
+    g_assert_cmpint(g_remove(elsewhere), ==, 0);
+    g_assert_cmpint(g_rmdir(inner), ==, 0);
+    g_free(elsewhere);
+    g_free(inner);
+    g_free(beside);
+    g_free(path);
+    g_free(table);
+}
+
 int main(int argc, char **argv)
 {
     folder = g_dir_make_tmp("greenbody-XXXXXX", NULL);
@@ -351,6 +393,7 @@ int main(int argc, char **argv)
     g_test_add_func("/preset/random", test_random);
     g_test_add_func("/preset/list", test_list);
     g_test_add_func("/preset/lookup", test_lookup);
+    g_test_add_func("/preset/sizes", test_sizes);
     const int status = g_test_run();
     static const char *const files[] = {
         "a.ini", "b.ini", "complete.ini", "greenbody/presets", "greenbody", ""};

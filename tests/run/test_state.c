@@ -64,7 +64,7 @@ static bool write_state(const char *path, int64_t count, int64_t pair_count)
 {
     struct gb_error err = {0};
     struct gb_state *state = made_up(count, pair_count);
-    const bool done = gb_state_write(state, path, &err);
+    const bool done = gb_state_write(state, NULL, path, &err);
     gb_state_destroy(state);
     return done;
 }
@@ -126,7 +126,7 @@ static void test_round_trip(void)
         struct gb_error err = {0};
         struct gb_state *back = NULL;
         struct gb_state *state = made_up(sizes[k][0], sizes[k][1]);
-        g_assert_true(gb_state_write(state, path, &err));
+        g_assert_true(gb_state_write(state, NULL, path, &err));
         const bool read = gb_state_read(&back, path, &err);
         g_assert_cmpstr(err.text, ==, "");
         g_assert_true(read);
@@ -190,7 +190,7 @@ static void test_flipped(void)
     gsize size = 0;
     struct gb_state *whole = made_up(50, 60);
     struct gb_error err = {0};
-    g_assert_true(gb_state_write(whole, path, &err));
+    g_assert_true(gb_state_write(whole, NULL, path, &err));
     g_assert_true(g_file_get_contents(path, &text, &size, NULL));
     for (gsize at = 0; at < size; at += 7) {
         struct gb_state *back = NULL;
@@ -318,7 +318,7 @@ static void test_wrong_values(void)
         case 16: s->point.branch = GB_BRANCH_HOLD - 1; break;
         default: s->pair_bridged[3] = 2; break;
         }
-        g_assert_true(gb_state_write(s, path, &err));
+        g_assert_true(gb_state_write(s, NULL, path, &err));
         assert_refused(path, GB_ERR_INPUT, says[k]);
         gb_state_destroy(s);
     }
@@ -332,7 +332,7 @@ static void test_hostile_text(void)
     struct gb_state *back = NULL;
     struct gb_state *state = made_up(3, 2);
     g_strlcpy(state->preset, "a\033[2Jb\xc2\x9b" "c\xff\xfe", sizeof state->preset);
-    g_assert_true(gb_state_write(state, path, &err));
+    g_assert_true(gb_state_write(state, NULL, path, &err));
     g_assert_true(gb_state_read(&back, path, &err));
     g_assert_cmpstr(back->preset, ==, "a?[2Jb??c");
     gb_state_destroy(back);
@@ -378,7 +378,7 @@ static void test_bad_target(void)
     const char *targets[] = {below, nowhere, "/dev/full", "/proc/state.h5", ""};
     for (size_t k = 0; k < G_N_ELEMENTS(targets); k++) {
         struct gb_state *state = made_up(3, 2);
-        g_assert_false(gb_state_write(state, targets[k], &err));
+        g_assert_false(gb_state_write(state, NULL, targets[k], &err));
         g_assert_true(err.code == GB_ERR_MACHINE || err.code == GB_ERR_INPUT);
         gb_state_destroy(state);
     }
@@ -407,7 +407,7 @@ static void test_full_disk(void)
         g_assert_cmpint(setrlimit(RLIMIT_FSIZE, &tight), ==, 0);
         struct gb_error err = {0};
         struct gb_state *state = made_up(60, 70);
-        const bool done = gb_state_write(state, path, &err);
+        const bool done = gb_state_write(state, NULL, path, &err);
         setrlimit(RLIMIT_FSIZE, &whole);
         g_assert_false(done);
         g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);
@@ -431,7 +431,7 @@ static void test_no_memory(void)
         struct gb_error err = {0};
         struct gb_state *back = NULL;
         gb_alloc_fail_after(k);
-        done = gb_state_read(&back, path, &err) && gb_state_write(back, path, &err);
+        done = gb_state_read(&back, path, &err) && gb_state_write(back, NULL, path, &err);
         gb_alloc_fail_after(0);
         g_assert_true(done || err.code == GB_ERR_MEMORY);
         gb_state_destroy(back);

@@ -1,0 +1,140 @@
+#include "run/checkpoint.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "base/alloc.h"
+#include "pack/world_record.h"
+#include "run/experiment_private.h"
+
+#define AT(member) offsetof(struct gb_experiment, member)
+
+#define POINT(name)                                                                      \
+    {#name "/branch", GB_RECORD_INT32, 1, AT(name.branch), "1"},                         \
+        {#name "/branch_from", GB_RECORD_DOUBLE, 1, AT(name.branch_from_pa), "Pa"},      \
+        {#name "/step", GB_RECORD_INT64, 1, AT(name.step), "1"},                         \
+        {#name "/density", GB_RECORD_DOUBLE, 1, AT(name.density), "1"},                  \
+        {#name "/px", GB_RECORD_DOUBLE, 1, AT(name.px_pa), "Pa"},                        \
+        {#name "/py", GB_RECORD_DOUBLE, 1, AT(name.py_pa), "Pa"},                        \
+        {#name "/pz", GB_RECORD_DOUBLE, 1, AT(name.pz_pa), "Pa"},                        \
+        {#name "/p", GB_RECORD_DOUBLE, 1, AT(name.p_pa), "Pa"},                          \
+        {#name "/coordination", GB_RECORD_DOUBLE, 1, AT(name.coordination), "1"},        \
+        {#name "/bridged", GB_RECORD_DOUBLE, 1, AT(name.bridged), "1"},                  \
+        {#name "/rattlers", GB_RECORD_DOUBLE, 1, AT(name.rattlers), "1"},                \
+        {#name "/residual", GB_RECORD_DOUBLE, 1, AT(name.residual), "1"},                \
+        {#name "/iterations", GB_RECORD_INT64, 1, AT(name.iterations), "1"},             \
+        {#name "/evaluations", GB_RECORD_INT64, 1, AT(name.evaluations), "1"},           \
+        {#name "/time", GB_RECORD_DOUBLE, 1, AT(name.time_s), "s"},                      \
+        {#name "/kinetic", GB_RECORD_DOUBLE, 1, AT(name.kinetic), "J"},                  \
+        {#name "/work", GB_RECORD_DOUBLE, 1, AT(name.work), "J"},                        \
+        {#name "/elastic", GB_RECORD_DOUBLE, 1, AT(name.elastic), "J"},                  \
+        {#name "/dissipated", GB_RECORD_DOUBLE, 1, AT(name.dissipated), "J"},            \
+        {#name "/central", GB_RECORD_DOUBLE, 1, AT(name.central), "1"},                  \
+        {#name "/height", GB_RECORD_DOUBLE, 1, AT(name.height_m), "m"},                  \
+        {#name "/height_change", GB_RECORD_DOUBLE, 1, AT(name.height_change), "1"},      \
+        {#name "/wanted", GB_RECORD_DOUBLE, 1, AT(name.wanted_pa), "Pa"},                \
+        {#name "/floor_over_punch", GB_RECORD_DOUBLE, 1, AT(name.floor_over_punch),      \
+         "1"},                                                                           \
+    {                                                                                    \
+#name "/energy_residual", GB_RECORD_DOUBLE, 1, AT(name.energy_residual), "1"     \
+    }
+
+static const struct gb_record_member members[] = {
+    {"run/step", GB_RECORD_INT64, 1, AT(step), "1"},
+    {"run/factor", GB_RECORD_DOUBLE, 3, AT(factor), "1"},
+    {"run/strain_due", GB_RECORD_BOOL, 1, AT(strain_due), "1"},
+    {"run/over", GB_RECORD_BOOL, 1, AT(over), "1"},
+    {"run/elastic_start", GB_RECORD_DOUBLE, 1, AT(elastic_start), "E d^3"},
+    POINT(point),
+    POINT(shown),
+};
+
+#undef AT
+#undef POINT
+
+enum { MEMBERS = sizeof members / sizeof members[0] };
+
+bool gb_checkpoint_known(const struct gb_params *params)
+{
+    return params->kind == GB_KIND_QUASISTATIC || params->kind == GB_KIND_DYNAMIC ||
+           params->kind == GB_KIND_DIE;
+}
+
+/* The parts beside the world, by kind of scene; the same list both ways. */
+static bool exchange(struct gb_experiment *experiment, struct gb_record *record,
+                     struct gb_error *err)
+{
+    if (!gb_record_members(record, members, MEMBERS, experiment, err)) {
+        return false;
+    }
+    if (experiment->die) {
+        return gb_die_run_record(experiment->die, record, err);
+    }
+    if (experiment->motion) {
+        return gb_motion_record(experiment->motion, record, err);
+    }
+    return gb_load_record(&experiment->load, record, err) &&
+           gb_relax_record(experiment->relax, experiment->model.count, record, err) &&
+           (experiment->load.branch <= 0 ||
+            gb_world_record_copy(experiment->world, &experiment->branch, record, err));
+}
+
+bool gb_checkpoint_take(struct gb_experiment *experiment, struct gb_record *record,
+                        struct gb_error *err)
+{
+    gb_record_clear(record);
+    if (!gb_checkpoint_known(&experiment->params)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "scene.kind: scenes of this kind have no checkpoints yet");
+    }
+    return exchange(experiment, record, err) &&
+           (experiment->die || gb_world_record(experiment->world, record, err));
+}
+
+bool gb_checkpoint_load_world(struct gb_experiment *experiment, struct gb_record *record,
+                              struct gb_error *err)
+{
+    const struct gb_model *model = &experiment->model;
+    if (!gb_checkpoint_known(&experiment->params)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "scene.kind: scenes of this kind can't be resumed yet");
+    }
+    record->loading = true;
+    if (experiment->params.kind == GB_KIND_DIE) {
+        return gb_die_run_bare(&experiment->die, &experiment->params, model, err);
+    }
+    double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
+    const bool done = position &&
+                      gb_record_array(record, "world/position", GB_RECORD_DOUBLE,
+                                      model->count, 3, "d", position, err) &&
+                      gb_world_create(&experiment->world, model, position, err) &&
+                      gb_world_record(experiment->world, record, err);
+    gb_alloc_free(position);
+    return done;
+}
+
+bool gb_checkpoint_load(struct gb_experiment *experiment, struct gb_record *record,
+                        struct gb_error *err)
+{
+    record->loading = true;
+    if (!exchange(experiment, record, err)) {
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        const double factor = experiment->factor[k];
+        if (experiment->strain_due && !(factor > 0.1 && factor < 10.0)) {
+            return gb_error_set(err, GB_ERR_INPUT, "run/factor: is out of range");
+        }
+    }
+    experiment->have_good = experiment->motion == NULL && experiment->strain_due &&
+                            gb_world_save(experiment->world, &experiment->good, err);
+    return experiment->have_good || !experiment->strain_due;
+}
+
+int64_t gb_checkpoint_step(const struct gb_record *record)
+{
+    const struct gb_record_item *item = gb_record_find(record, "run/step");
+    return item && item->type == GB_RECORD_INT64 && item->rows == 1 && item->columns == 1
+               ? *(const int64_t *)item->data
+               : -1;
+}

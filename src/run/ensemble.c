@@ -1,0 +1,164 @@
+#include "run/ensemble.h"
+
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "run/rundir.h"
+#include "run/solo.h"
+
+/* Longest time between two looks at watch->cancelled. */
+static const double patience_s = 0.2;
+
+bool gb_ensemble_init(struct gb_ensemble *ensemble, size_t points, size_t replicas,
+                      struct gb_error *err)
+{
+    *ensemble = (struct gb_ensemble){.points = points, .replicas = replicas};
+    if (points == 0 || replicas == 0 || points > GB_ENSEMBLE_MOST / replicas) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%zu points with %zu replicas: accepted 1 to %d runs", points,
+                            replicas, GB_ENSEMBLE_MOST);
+    }
+    ensemble->run = gb_alloc_array(points * replicas, sizeof *ensemble->run, err);
+    for (size_t i = 0; ensemble->run != NULL && i < points * replicas; i++) {
+        ensemble->run[i].point = i % points;
+        ensemble->run[i].replica = i / points;
+    }
+    return ensemble->run != NULL;
+}
+
+void gb_ensemble_finish(struct gb_ensemble *ensemble)
+{
+    const size_t runs = ensemble->run ? ensemble->points * ensemble->replicas : 0;
+    for (size_t i = 0; i < runs; i++) {
+        g_free(ensemble->run[i].directory);
+    }
+    gb_alloc_free(ensemble->run);
+    *ensemble = (struct gb_ensemble){0};
+}
+
+struct gb_ensemble_run *gb_ensemble_at(const struct gb_ensemble *ensemble, size_t point,
+                                       size_t replica)
+{
+    return &ensemble->run[replica * ensemble->points + point];
+}
+
+bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err)
+{
+    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
+        struct gb_ensemble_run *run = &ensemble->run[i];
+        if (!g_file_test(run->directory, G_FILE_TEST_EXISTS)) {
+            continue;
+        }
+        bool same = true;
+        run->before = run->ended = gb_solo_done(&run->params, run->directory, &same);
+        if (!same) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "%.300s: holds a run of other parameters; choose another "
+                                "directory",
+                                run->directory);
+        }
+        if (!run->ended && !gb_rundir_check(run->directory, true, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The first k replicas have all ended and are enough, for some k. */
+static bool is_settled(const struct gb_ensemble *ensemble, size_t point)
+{
+    return ensemble->enough != NULL && ensemble->enough(ensemble, point, ensemble->data);
+}
+
+/* The next run to be given, in the order of the list; NULL when there is none now. */
+static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, size_t *from)
+{
+    const size_t runs = ensemble->points * ensemble->replicas;
+    for (; *from < runs; (*from)++) {
+        struct gb_ensemble_run *run = &ensemble->run[*from];
+        if (!run->ended && !run->given && !is_settled(ensemble, run->point)) {
+            return run;
+        }
+    }
+    return NULL;
+}
+
+/* Gives runs to idle workers; false when none can be started. */
+static bool give(struct gb_ensemble *ensemble, struct gb_crew *crew, size_t *from,
+                 struct gb_error *err)
+{
+    struct gb_ensemble_run *run = NULL;
+    while (gb_crew_idle(crew) > 0 && (run = next_run(ensemble, from)) != NULL) {
+        const size_t ticket = (size_t)(run - ensemble->run);
+        if (!gb_crew_give(crew, ticket, &run->params, run->directory, err)) {
+            return gb_crew_busy(crew) > 0; /* with fewer workers then */
+        }
+        run->given = true;
+    }
+    return true;
+}
+
+static void tell(const struct gb_ensemble *ensemble,
+                 const struct gb_ensemble_watch *watch, const struct gb_ensemble_run *run)
+{
+    if (watch->told != NULL) {
+        watch->told(ensemble, run, watch->data);
+    }
+}
+
+static void take(struct gb_ensemble *ensemble, struct gb_crew *crew, size_t *from,
+                 const struct gb_ensemble_watch *watch)
+{
+    struct gb_crew_report report;
+    if (!gb_crew_take(crew, patience_s, &report)) {
+        tell(ensemble, watch, NULL);
+        return;
+    }
+    struct gb_ensemble_run *run = &ensemble->run[report.ticket];
+    if (report.lost) { /* somebody else may do it */
+        run->given = false;
+        *from = MIN(*from, report.ticket);
+        tell(ensemble, watch, NULL);
+        return;
+    }
+    run->ended = true;
+    run->error = report.error;
+    run->seconds = report.seconds;
+    tell(ensemble, watch, run);
+}
+
+bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_crew *crew,
+                      const struct gb_ensemble_watch *watch, struct gb_error *err)
+{
+    size_t from = 0;
+    bool stopping = false;
+    bool good = true;
+    while (true) {
+        if (!stopping && watch->cancelled != NULL && watch->cancelled(watch->data)) {
+            stopping = true;
+            gb_crew_stop(crew);
+        }
+        good = good && (stopping || give(ensemble, crew, &from, err));
+        if (gb_crew_busy(crew) == 0) {
+            break;
+        }
+        take(ensemble, crew, &from, watch);
+    }
+    return good && (!stopping || gb_error_set(err, GB_ERR_CANCELLED,
+                                              "stopped; the same command does what is "
+                                              "missing"));
+}
+
+size_t gb_ensemble_used(const struct gb_ensemble *ensemble, size_t point)
+{
+    struct gb_ensemble shorter = *ensemble;
+    for (shorter.replicas = 1; shorter.replicas < ensemble->replicas;
+         shorter.replicas++) {
+        if (is_settled(&shorter, point)) {
+            break;
+        }
+    }
+    return shorter.replicas;
+}

@@ -1,0 +1,66 @@
+#include "run/quick.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "run/cost.h"
+
+/* Strain of a quick step: three times the usual one.  Less would take longer than two
+ * seconds, more moves the curve by more than cells scatter. */
+static const double quick_step = 0.003;
+/* Seconds a quick dynamic run may take, and the fewest discs worth looking at. */
+static const double dynamic_s = 1.5;
+static const double count_least = 200.0;
+
+static bool shrink_dynamic(struct gb_params *quick)
+{
+    struct gb_cost cost;
+    quick->relax_s = 0.0;
+    quick->hold_s = 0.0;
+    if (!gb_cost_estimate(quick, gb_cost_rate_assumed(quick), &cost, NULL)) {
+        return false;
+    }
+    if (cost.seconds > dynamic_s) {
+        const double count = floor((double)quick->count * dynamic_s / cost.seconds);
+        if (count < count_least) {
+            return false;
+        }
+        quick->count = (int64_t)count;
+    }
+    return true;
+}
+
+bool gb_quick_params(const struct gb_params *full, struct gb_params *quick)
+{
+    *quick = *full;
+    if (quick->count > GB_QUICK_COUNT) {
+        quick->count = GB_QUICK_COUNT;
+        /* a base meant for more particles would leave the cell too flat */
+        quick->base = (struct gb_relative){0.0, true};
+    }
+    quick->strain_step = fmax(quick->strain_step, quick_step);
+    quick->unload_count = 0;
+    quick->changes[0] = '\0'; /* its steps are others */
+    quick->fidelity = GB_FIDELITY_FAST;
+    quick->tolerance = NAN;
+    quick->strain_part = NAN;
+    snprintf(quick->relaxer, sizeof quick->relaxer, "auto");
+    switch (full->kind) {
+    case GB_KIND_QUASISTATIC:
+        break;
+    case GB_KIND_DYNAMIC:
+        if (!shrink_dynamic(quick)) {
+            return false;
+        }
+        break;
+    default:
+        return false;
+    }
+    return gb_params_check(quick, NULL);
+}
+
+bool gb_quick_enough(const struct gb_params *full)
+{
+    struct gb_params quick;
+    return gb_quick_params(full, &quick) && full->count <= quick.count;
+}

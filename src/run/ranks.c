@@ -1,0 +1,451 @@
+#include "run/ranks.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <glib.h>
+
+#include "run/crew.h"
+
+#if GB_WITH_MPI
+
+#include <mpi.h>
+
+enum { TAG_HELLO = 1, TAG_WORK, TAG_REPORT, TAG_ALIVE, TAG_STOP, TAG_QUIT };
+enum { DIRECTORY_MAX = 4096 };
+
+/* Signs of life are sent this often. */
+static const double beat_s = 1.0;
+/* A rank silent for longer is lost; a stalled file system must not look like that. */
+static const double lost_after_s = 20.0;
+/* At the end nobody has to wait that long: signs of life come every second. */
+static const double missing_after_s = 8.0;
+/* The first rank may be busy reading what is there. */
+static const double orphan_after_s = 600.0;
+/* Longest time a rank waits for a report of its crew before it looks for letters. */
+static const double serve_wait_s = 0.002;
+
+/* A run on its way to a rank. */
+struct letter {
+    MPI_Request request;
+    struct parcel {
+        uint64_t ticket;
+        struct gb_params params;
+        char directory[DIRECTORY_MAX];
+    } parcel;
+};
+
+/* What the first rank knows of another. */
+struct member {
+    size_t capacity;
+    GArray *tickets; /* size_t: runs it does */
+    double heard;
+    bool lost;
+    MPI_Request beat; /* last sign of life sent to it */
+};
+
+struct gb_ranks {
+    int index, count;
+    struct member *member; /* of the first rank: count, its own unused */
+    GPtrArray *letters;    /* not yet gone */
+    double beaten;
+    bool any_lost;
+    int byte; /* content of letters that are but a tag */
+};
+
+static double clock_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Started by something that starts several? */
+static bool is_launched(void)
+{
+    return getenv("OMPI_COMM_WORLD_SIZE") != NULL || getenv("PMIX_RANK") != NULL ||
+           getenv("PMI_RANK") != NULL;
+}
+
+bool gb_ranks_create(struct gb_ranks **out, struct gb_error *err)
+{
+    *out = NULL;
+    if (!is_launched()) {
+        return true;
+    }
+    if (MPI_Init(NULL, NULL) != MPI_SUCCESS) {
+        return gb_error_set(err, GB_ERR_MACHINE, "MPI does not start");
+    }
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+    struct gb_ranks *ranks = g_new0(struct gb_ranks, 1);
+    MPI_Comm_rank(MPI_COMM_WORLD, &ranks->index);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks->count);
+    ranks->letters = g_ptr_array_new_with_free_func(g_free);
+    ranks->member = g_new0(struct member, (gsize)ranks->count);
+    for (int r = 0; r < ranks->count; r++) {
+        ranks->member[r].tickets = g_array_new(FALSE, FALSE, sizeof(size_t));
+        ranks->member[r].heard = clock_s();
+        ranks->member[r].beat = MPI_REQUEST_NULL;
+    }
+    *out = ranks;
+    return true;
+}
+
+static void send_tag(struct gb_ranks *ranks, int to, int tag)
+{
+    MPI_Send(&ranks->byte, (int)sizeof ranks->byte, MPI_BYTE, to, tag, MPI_COMM_WORLD);
+}
+
+static void tell_members(struct gb_ranks *ranks, int tag)
+{
+    for (int r = 1; r < ranks->count; r++) {
+        if (!ranks->member[r].lost) {
+            send_tag(ranks, r, tag);
+        }
+    }
+}
+
+/* Is there a letter of any kind? */
+static bool has_letter(MPI_Status *status)
+{
+    int there = 0;
+    return MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, status) ==
+               MPI_SUCCESS &&
+           there != 0;
+}
+
+static void receive(void *to, size_t size, const MPI_Status *status)
+{
+    MPI_Recv(to, (int)size, MPI_BYTE, status->MPI_SOURCE, status->MPI_TAG, MPI_COMM_WORLD,
+             MPI_STATUS_IGNORE);
+}
+
+/* Letters that have gone can be thrown away. */
+static void sweep_letters(struct gb_ranks *ranks)
+{
+    for (guint i = ranks->letters->len; i > 0; i--) {
+        struct letter *letter = g_ptr_array_index(ranks->letters, i - 1);
+        int gone = 0;
+        if (MPI_Test(&letter->request, &gone, MPI_STATUS_IGNORE) == MPI_SUCCESS && gone) {
+            g_ptr_array_remove_index_fast(ranks->letters, i - 1);
+        }
+    }
+}
+
+static bool forget_ticket(struct member *member, size_t ticket)
+{
+    for (guint i = 0; i < member->tickets->len; i++) {
+        if (g_array_index(member->tickets, size_t, i) == ticket) {
+            g_array_remove_index_fast(member->tickets, i);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* One letter; true when it was a report that is still waited for. */
+static bool open_letter(struct gb_ranks *ranks, const MPI_Status *status,
+                        struct gb_crew_report *report)
+{
+    struct member *member = &ranks->member[status->MPI_SOURCE];
+    uint64_t capacity = 0;
+    member->heard = clock_s();
+    switch (status->MPI_TAG) {
+    case TAG_HELLO:
+        receive(&capacity, sizeof capacity, status);
+        member->capacity = capacity;
+        return false;
+    case TAG_REPORT:
+        receive(report, sizeof *report, status);
+        return !member->lost && forget_ticket(member, report->ticket);
+    default:
+        receive(&ranks->byte, sizeof ranks->byte, status);
+        ranks->byte = 0;
+        return false;
+    }
+}
+
+/* Tells the others to end, and whether somebody is missing. */
+static void dismiss(struct gb_ranks *ranks)
+{
+    MPI_Status status;
+    struct gb_crew_report report;
+    while (has_letter(&status)) { /* late signs of life */
+        (void)open_letter(ranks, &status, &report);
+    }
+    for (int r = 1; r < ranks->count; r++) {
+        struct member *member = &ranks->member[r];
+        ranks->any_lost |= member->lost || clock_s() - member->heard > missing_after_s;
+    }
+    ranks->byte = ranks->any_lost;
+    tell_members(ranks, TAG_QUIT);
+}
+
+/* Where somebody is missing, the collective end would wait for ever: the process then
+ * leaves without it. */
+void gb_ranks_destroy(struct gb_ranks *ranks)
+{
+    if (ranks == NULL) {
+        return;
+    }
+    if (ranks->index == 0) {
+        dismiss(ranks);
+    }
+    if (!ranks->any_lost) {
+        sweep_letters(ranks);
+        MPI_Finalize();
+        g_ptr_array_unref(ranks->letters);
+    } /* else letters may still be looked at by the library */
+    for (int r = 0; r < ranks->count; r++) {
+        g_array_unref(ranks->member[r].tickets);
+    }
+    g_free(ranks->member);
+    g_free(ranks);
+}
+
+bool gb_ranks_is_first(const struct gb_ranks *ranks)
+{
+    return ranks == NULL || ranks->index == 0;
+}
+
+/* --- the others ------------------------------------------------------------------ */
+
+/* Everything that has come; false when it is time to go. */
+static bool open_letters(struct gb_ranks *ranks, struct gb_crew *crew, double *heard)
+{
+    MPI_Status status;
+    while (has_letter(&status)) {
+        struct parcel parcel;
+        *heard = clock_s();
+        if (status.MPI_TAG != TAG_WORK) {
+            receive(&ranks->byte, sizeof ranks->byte, &status);
+            if (status.MPI_TAG == TAG_STOP) {
+                gb_crew_stop(crew);
+            } else if (status.MPI_TAG == TAG_QUIT) {
+                return false;
+            }
+            continue;
+        }
+        struct gb_crew_report report = {0};
+        receive(&parcel, sizeof parcel, &status);
+        if (!gb_crew_give(crew, parcel.ticket, &parcel.params, parcel.directory,
+                          &report.error)) {
+            report.ticket = parcel.ticket;
+            MPI_Send(&report, (int)sizeof report, MPI_BYTE, 0, TAG_REPORT,
+                     MPI_COMM_WORLD);
+        }
+    }
+    return true;
+}
+
+static void beat(struct gb_ranks *ranks)
+{
+    if (clock_s() - ranks->beaten > beat_s) {
+        ranks->beaten = clock_s();
+        send_tag(ranks, 0, TAG_ALIVE);
+    }
+}
+
+bool gb_ranks_serve(struct gb_ranks *ranks, struct gb_crew *crew, size_t workers,
+                    bool (*cancelled)(void *data), void *data, struct gb_error *err)
+{
+    double heard = clock_s();
+    bool stopping = false;
+    const uint64_t capacity = workers;
+    MPI_Send(&capacity, (int)sizeof capacity, MPI_BYTE, 0, TAG_HELLO, MPI_COMM_WORLD);
+    while (open_letters(ranks, crew, &heard)) {
+        struct gb_crew_report report;
+        if (gb_crew_take(crew, serve_wait_s, &report)) {
+            MPI_Send(&report, (int)sizeof report, MPI_BYTE, 0, TAG_REPORT,
+                     MPI_COMM_WORLD);
+        }
+        beat(ranks);
+        if (!stopping && cancelled(data)) {
+            stopping = true;
+            gb_crew_stop(crew);
+        }
+        if (clock_s() - heard > orphan_after_s) {
+            ranks->any_lost = true;
+            return gb_error_set(err, GB_ERR_MACHINE,
+                                "nothing was heard of the first rank for %g s",
+                                orphan_after_s);
+        }
+    }
+    /* what the first rank knows of missing ranks */
+    ranks->any_lost = ranks->byte != 0;
+    return !stopping || gb_error_set(err, GB_ERR_CANCELLED, "stopped");
+}
+
+/* --- the first one --------------------------------------------------------------- */
+
+static bool is_idle(const struct member *member)
+{
+    return !member->lost && member->tickets->len < member->capacity;
+}
+
+size_t gb_ranks_idle(const struct gb_ranks *ranks)
+{
+    size_t idle = 0;
+    for (int r = 1; ranks != NULL && r < ranks->count; r++) {
+        const struct member *member = &ranks->member[r];
+        idle += is_idle(member) ? member->capacity - member->tickets->len : 0;
+    }
+    return idle;
+}
+
+bool gb_ranks_give(struct gb_ranks *ranks, size_t ticket, const struct gb_params *params,
+                   const char *directory, struct gb_error *err)
+{
+    int to = 1;
+    while (to < ranks->count && !is_idle(&ranks->member[to])) {
+        to++;
+    }
+    if (to == ranks->count || strlen(directory) >= DIRECTORY_MAX) {
+        return gb_error_set(err, GB_ERR_INPUT, "%.300s: no rank takes it", directory);
+    }
+    struct letter *letter = g_new0(struct letter, 1);
+    letter->parcel.ticket = ticket;
+    letter->parcel.params = *params;
+    g_strlcpy(letter->parcel.directory, directory, DIRECTORY_MAX);
+    /* without waiting: a dead rank never takes it */
+    MPI_Isend(&letter->parcel, (int)sizeof letter->parcel, MPI_BYTE, to, TAG_WORK,
+              MPI_COMM_WORLD, &letter->request);
+    g_ptr_array_add(ranks->letters, letter);
+    g_array_append_val(ranks->member[to].tickets, ticket);
+    sweep_letters(ranks);
+    return true;
+}
+
+/* Signs of life both ways; never waits for one that may be dead. */
+static void look_after(struct gb_ranks *ranks)
+{
+    const double now = clock_s();
+    if (now - ranks->beaten < beat_s) {
+        return;
+    }
+    for (int r = 1; r < ranks->count; r++) {
+        struct member *member = &ranks->member[r];
+        int gone = 1;
+        if (member->capacity > 0 && now - member->heard > lost_after_s &&
+            now - ranks->beaten < lost_after_s) { /* else it was we who slept */
+            member->lost = true;
+            ranks->any_lost = true;
+        }
+        if (member->beat != MPI_REQUEST_NULL) {
+            MPI_Test(&member->beat, &gone, MPI_STATUS_IGNORE);
+        }
+        if (gone && !member->lost) {
+            MPI_Isend(&ranks->byte, (int)sizeof ranks->byte, MPI_BYTE, r, TAG_ALIVE,
+                      MPI_COMM_WORLD, &member->beat);
+        }
+    }
+    ranks->beaten = now;
+}
+
+/* A run of a lost rank. */
+static bool take_lost(struct gb_ranks *ranks, struct gb_crew_report *report)
+{
+    for (int r = 1; r < ranks->count; r++) {
+        struct member *member = &ranks->member[r];
+        if (member->lost && member->tickets->len > 0) {
+            *report = (struct gb_crew_report){
+                .ticket = g_array_index(member->tickets, size_t, 0), .lost = true};
+            g_array_remove_index_fast(member->tickets, 0);
+            gb_error_set(&report->error, GB_ERR_MACHINE,
+                         "rank %d, which did this run, was not heard of for %g s", r,
+                         lost_after_s);
+            return true;
+        }
+    }
+    return false;
+}
+
+bool gb_ranks_take(struct gb_ranks *ranks, struct gb_crew_report *report)
+{
+    MPI_Status status;
+    if (ranks == NULL) {
+        return false;
+    }
+    while (has_letter(&status)) {
+        if (open_letter(ranks, &status, report)) {
+            return true;
+        }
+    }
+    look_after(ranks);
+    return take_lost(ranks, report);
+}
+
+void gb_ranks_stop(struct gb_ranks *ranks)
+{
+    if (ranks != NULL) {
+        tell_members(ranks, TAG_STOP);
+    }
+}
+
+#else
+
+bool gb_ranks_create(struct gb_ranks **out, struct gb_error *err)
+{
+    const char *size = getenv("OMPI_COMM_WORLD_SIZE");
+    size = size != NULL ? size : getenv("PMI_SIZE");
+    *out = NULL;
+    return size == NULL || strcmp(size, "1") == 0 ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "started %s times by mpirun or srun, but built without Open MPI; "
+                        "accepted one process",
+                        size);
+}
+
+void gb_ranks_destroy(struct gb_ranks *ranks)
+{
+    (void)ranks;
+}
+
+bool gb_ranks_is_first(const struct gb_ranks *ranks)
+{
+    (void)ranks;
+    return true;
+}
+
+bool gb_ranks_serve(struct gb_ranks *ranks, struct gb_crew *crew, size_t workers,
+                    bool (*cancelled)(void *data), void *data, struct gb_error *err)
+{
+    (void)ranks;
+    (void)crew;
+    (void)workers;
+    (void)cancelled;
+    (void)data;
+    return gb_error_set(err, GB_ERR_INPUT, "built without Open MPI");
+}
+
+size_t gb_ranks_idle(const struct gb_ranks *ranks)
+{
+    (void)ranks;
+    return 0;
+}
+
+bool gb_ranks_give(struct gb_ranks *ranks, size_t ticket, const struct gb_params *params,
+                   const char *directory, struct gb_error *err)
+{
+    (void)ranks;
+    (void)ticket;
+    (void)params;
+    (void)directory;
+    return gb_error_set(err, GB_ERR_INPUT, "built without Open MPI");
+}
+
+bool gb_ranks_take(struct gb_ranks *ranks, struct gb_crew_report *report)
+{
+    (void)ranks;
+    (void)report;
+    return false;
+}
+
+void gb_ranks_stop(struct gb_ranks *ranks)
+{
+    (void)ranks;
+}
+
+#endif

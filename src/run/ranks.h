@@ -1,0 +1,45 @@
+#ifndef GB_RUN_RANKS_H
+#define GB_RUN_RANKS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "greenbody/params.h"
+
+struct gb_crew;
+struct gb_crew_report;
+
+/* The processes that mpirun or srun started together, on one machine or many: the first
+ * hands out runs, the others do them.  Nothing is collective but the start, and the end
+ * if all are still there: a rank that dies costs what it was doing.  Built without Open
+ * MPI a process is always alone. */
+struct gb_ranks;
+
+/* Joins the others, if there are any: else *out is NULL and all is well.  Errors:
+ * GB_ERR_INPUT when there are others and this build cannot reach them, GB_ERR_MACHINE. */
+bool gb_ranks_create(struct gb_ranks **out, struct gb_error *err);
+/* Tells the others to end, or takes leave.  NULL is fine. */
+void gb_ranks_destroy(struct gb_ranks *ranks);
+
+/* Is this the one that hands out?  True for NULL. */
+bool gb_ranks_is_first(const struct gb_ranks *ranks);
+
+/* What a rank other than the first does: runs of `workers` at a time with its crew, until
+ * told to end or nothing is heard of the first one.  Errors: GB_ERR_CANCELLED,
+ * GB_ERR_MACHINE (the first one is gone). */
+bool gb_ranks_serve(struct gb_ranks *ranks, struct gb_crew *crew, size_t workers,
+                    bool (*cancelled)(void *data), void *data, struct gb_error *err);
+
+/* The rest is for the first one; NULL has nobody.
+ *
+ * idle   workers of the others without a run
+ * give   errors: GB_ERR_INPUT (a directory whose name is too long), GB_ERR_MEMORY
+ * take   a report that has come, without waiting; a rank that was not heard of for long
+ * is lost, and so are its runs stop   asks all runs to stop */
+size_t gb_ranks_idle(const struct gb_ranks *ranks);
+bool gb_ranks_give(struct gb_ranks *ranks, size_t ticket, const struct gb_params *params,
+                   const char *directory, struct gb_error *err);
+bool gb_ranks_take(struct gb_ranks *ranks, struct gb_crew_report *report);
+void gb_ranks_stop(struct gb_ranks *ranks);
+
+#endif

@@ -1,0 +1,30 @@
+#ifndef GB_RUN_SOLO_H
+#define GB_RUN_SOLO_H
+
+#include <stdbool.h>
+
+#include "greenbody/params.h"
+
+/* One run from the first particle to the last file, without a screen: what each of the
+ * many runs of a sweep is. */
+
+/* Runs params into directory; an old run there is replaced.
+ *
+ * cancelled  polled with its data between slices; true ends the run (NULL is fine)
+ * True when the programme came to its end.  Errors: GB_ERR_GUARD and
+ * GB_ERR_NOT_CONVERGED (results kept), GB_ERR_CANCELLED (points kept), GB_ERR_INPUT,
+ * GB_ERR_MACHINE, GB_ERR_MEMORY; status.json says the same where there is one. */
+bool gb_solo_run(const struct gb_params *params, const char *directory,
+                 bool (*cancelled)(void *data), void *data, struct gb_error *err);
+
+/* Is a run of these parameters there, done to its end?  Title, threads and [output] may
+ * differ: they change no result.
+ *
+ * same   false when directory holds the preset of another experiment; true when it holds
+ *        this one's or none that can be read */
+bool gb_solo_done(const struct gb_params *params, const char *directory, bool *same);
+
+/* Does this status.json say that its run was done? */
+bool gb_solo_says_done(const char *path);
+
+#endif

@@ -1,0 +1,112 @@
+#include "run/verify.h"
+
+#include <stdio.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "run/checkpoint.h"
+#include "run/experiment.h"
+#include "run/keep.h"
+#include "run/rundir.h"
+
+/* Force evaluations between two looks at whether to go on. */
+enum { SLICE = 200 };
+
+struct pair {
+    struct gb_record kept, other; /* the state to arrive at; where to begin, then there */
+};
+
+/* The experiment at the checkpoint before, or at its beginning. */
+static bool begin(struct gb_experiment **out, struct gb_verify *verify,
+                  const char *directory, const struct gb_params *params,
+                  struct gb_record *before, bool (*cancelled)(void *data), void *data,
+                  struct gb_error *err)
+{
+    struct gb_params same;
+    struct gb_error ignored;
+    const bool has = gb_keep_read(directory, "state-before.h5", &same, before, &ignored);
+    verify->from = has ? gb_checkpoint_step(before) : -1;
+    if (verify->from > 0 && verify->from < verify->to) {
+        return gb_experiment_resume(out, params, before, err);
+    }
+    verify->from = 0;
+    return gb_experiment_create(out, params, cancelled, data, err);
+}
+
+static bool repeat(struct gb_experiment *experiment, const struct gb_verify *verify,
+                   bool (*cancelled)(void *data), void *data, struct gb_error *err)
+{
+    int64_t step = verify->from;
+    char text[640];
+    while (step < verify->to) {
+        const enum gb_advance how = gb_experiment_advance(experiment, SLICE, err);
+        while (gb_experiment_event(experiment, text, sizeof text)) {
+        }
+        if (cancelled(data)) {
+            return gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
+        }
+        if (how == GB_ADVANCE_STOPPED) {
+            return false;
+        }
+        if (how == GB_ADVANCE_DONE) {
+            return gb_error_set(err, GB_ERR_GUARD,
+                                "the repeated run ends at step %lld, before the "
+                                "checkpoint of step %lld",
+                                (long long)step, (long long)verify->to);
+        }
+        step += how == GB_ADVANCE_POINT;
+    }
+    return true;
+}
+
+static void compare(struct gb_verify *verify, struct pair *pair)
+{
+    gb_record_drop(&pair->kept, "journal/"); /* of the directory, not of the state */
+    const char *name = gb_record_difference(&pair->kept, &pair->other, &verify->row);
+    verify->kept = gb_record_hash(&pair->kept);
+    verify->repeated = gb_record_hash(&pair->other);
+    verify->equal = name == NULL;
+    snprintf(verify->name, sizeof verify->name, "%s", name ? name : "");
+}
+
+static bool verify_locked(struct gb_verify *verify, const char *directory,
+                          struct pair *pair, bool (*cancelled)(void *data), void *data,
+                          struct gb_error *err)
+{
+    struct gb_params params;
+    struct gb_experiment *experiment = NULL;
+    if (!gb_keep_read(directory, "state.h5", &params, &pair->kept, err)) {
+        return false;
+    }
+    verify->to = gb_checkpoint_step(&pair->kept);
+    const bool done = begin(&experiment, verify, directory, &params, &pair->other,
+                            cancelled, data, err) &&
+                      repeat(experiment, verify, cancelled, data, err) &&
+                      gb_checkpoint_take(experiment, &pair->other, err);
+    if (done) {
+        compare(verify, pair);
+    }
+    gb_experiment_destroy(experiment);
+    return done;
+}
+
+bool gb_verify_run(struct gb_verify *verify, const char *directory,
+                   bool (*cancelled)(void *data), void *data, struct gb_error *err)
+{
+    struct gb_rundir dir = {.lock = -1};
+    *verify = (struct gb_verify){0};
+    if (!gb_rundir_open(&dir, directory, err)) {
+        return false;
+    }
+    struct pair *pair = gb_alloc_array(1, sizeof *pair, err);
+    const bool done =
+        pair && verify_locked(verify, directory, pair, cancelled, data, err);
+    if (pair) {
+        gb_record_finish(&pair->kept);
+        gb_record_finish(&pair->other);
+    }
+    gb_alloc_free(pair);
+    gb_rundir_finish(&dir);
+    return done;
+}

@@ -1,0 +1,167 @@
+#include "run/writer.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/alloc.h"
+#include "run/state_record.h"
+
+struct gb_writer {
+    /* const once the thread runs */
+    const struct gb_store *store;
+    const struct gb_params *params;
+    const struct gb_model *model;
+    pthread_t thread;
+
+    /* guarded by the mutex */
+    pthread_mutex_t mutex;
+    pthread_cond_t change;
+    bool busy, quit;
+    struct gb_error err; /* of the last one written */
+    double seconds;
+
+    struct gb_record record[2];
+    int own; /* the engine's; the other one is the thread's while busy */
+};
+
+static double clock_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void write_one(const struct gb_writer *writer, const struct gb_record *record,
+                      struct gb_error *err)
+{
+    struct gb_state *state = NULL;
+    if (gb_state_record(&state, record, writer->params, writer->model, err)) {
+        gb_store_state(writer->store, state, record, err);
+    }
+    gb_state_destroy(state);
+}
+
+static void *work(void *data)
+{
+    struct gb_writer *writer = data;
+    pthread_mutex_lock(&writer->mutex);
+    for (;;) {
+        while (!writer->busy && !writer->quit) {
+            pthread_cond_wait(&writer->change, &writer->mutex);
+        }
+        if (!writer->busy) {
+            break;
+        }
+        const struct gb_record *record = &writer->record[1 - writer->own];
+        struct gb_error err = {0};
+        pthread_mutex_unlock(&writer->mutex);
+        const double from = clock_s();
+        write_one(writer, record, &err);
+        pthread_mutex_lock(&writer->mutex);
+        writer->seconds = clock_s() - from;
+        writer->err = err;
+        writer->busy = false;
+        pthread_cond_broadcast(&writer->change);
+    }
+    pthread_mutex_unlock(&writer->mutex);
+    return NULL;
+}
+
+/* The thread inherits the mask it is created under: signals belong to the program. */
+static bool start(struct gb_writer *writer, struct gb_error *err)
+{
+    sigset_t all;
+    sigset_t old;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &old);
+    const int failure = pthread_create(&writer->thread, NULL, work, writer);
+    pthread_sigmask(SIG_SETMASK, &old, NULL);
+    return failure == 0 ||
+           gb_error_set(err, GB_ERR_MACHINE, "cannot start the writing thread: %s",
+                        strerror(failure));
+}
+
+bool gb_writer_create(struct gb_writer **out, const struct gb_store *store,
+                      const struct gb_params *params, const struct gb_model *model,
+                      struct gb_error *err)
+{
+    struct gb_writer *writer = gb_alloc_array(1, sizeof *writer, err);
+    if (!writer) {
+        return false;
+    }
+    writer->store = store;
+    writer->params = params;
+    writer->model = model;
+    pthread_mutex_init(&writer->mutex, NULL);
+    pthread_cond_init(&writer->change, NULL);
+    if (!start(writer, err)) {
+        pthread_cond_destroy(&writer->change);
+        pthread_mutex_destroy(&writer->mutex);
+        gb_alloc_free(writer);
+        return false;
+    }
+    *out = writer;
+    return true;
+}
+
+void gb_writer_destroy(struct gb_writer *writer)
+{
+    if (!writer) {
+        return;
+    }
+    pthread_mutex_lock(&writer->mutex);
+    writer->quit = true;
+    pthread_cond_broadcast(&writer->change);
+    pthread_mutex_unlock(&writer->mutex);
+    pthread_join(writer->thread, NULL);
+    pthread_cond_destroy(&writer->change);
+    pthread_mutex_destroy(&writer->mutex);
+    gb_record_finish(&writer->record[0]);
+    gb_record_finish(&writer->record[1]);
+    gb_alloc_free(writer);
+}
+
+struct gb_record *gb_writer_record(struct gb_writer *writer)
+{
+    return &writer->record[writer->own];
+}
+
+bool gb_writer_send(struct gb_writer *writer, struct gb_error *err)
+{
+    pthread_mutex_lock(&writer->mutex);
+    const bool ready = !writer->busy && writer->err.code == GB_OK;
+    if (!writer->busy && writer->err.code != GB_OK) {
+        *err = writer->err;
+    }
+    if (ready) {
+        writer->own = 1 - writer->own;
+        writer->busy = true;
+        pthread_cond_broadcast(&writer->change);
+    }
+    pthread_mutex_unlock(&writer->mutex);
+    return ready;
+}
+
+bool gb_writer_wait(struct gb_writer *writer, struct gb_error *err)
+{
+    pthread_mutex_lock(&writer->mutex);
+    while (writer->busy) {
+        pthread_cond_wait(&writer->change, &writer->mutex);
+    }
+    const bool good = writer->err.code == GB_OK;
+    if (!good) {
+        *err = writer->err;
+    }
+    pthread_mutex_unlock(&writer->mutex);
+    return good;
+}
+
+double gb_writer_seconds(struct gb_writer *writer)
+{
+    pthread_mutex_lock(&writer->mutex);
+    const double seconds = writer->seconds;
+    pthread_mutex_unlock(&writer->mutex);
+    return seconds;
+}

@@ -1,0 +1,289 @@
+#include <math.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "common/die.h"
+#include "pack/bed_copy.h"
+#include "run/checkpoint.h"
+#include "run/experiment.h"
+#include "run/experiment_private.h"
+
+enum { POINTS_MOST = 64 };
+
+struct curve {
+    struct gb_point point[POINTS_MOST];
+    int count;
+    GString *events;
+    enum gb_advance how;
+    struct gb_error err;
+    uint64_t hash, filled; /* at the end, and when pressing began */
+};
+
+static void take_events(struct gb_experiment *experiment, GString *events)
+{
+    char text[640];
+    while (gb_experiment_event(experiment, text, sizeof text)) {
+        g_string_append_printf(events, "%s\n", text);
+    }
+}
+
+/* Runs to the end in slices of a given length. */
+static struct curve run(const struct gb_params *params, int64_t slice)
+{
+    struct curve curve = {.events = g_string_new(NULL)};
+    struct gb_experiment *experiment = NULL;
+    if (!gb_experiment_create(&experiment, params, NULL, NULL, &curve.err)) {
+        g_error("%s", curve.err.text);
+    }
+    do {
+        curve.how = gb_experiment_advance(experiment, slice, &curve.err);
+        take_events(experiment, curve.events);
+        if (curve.how == GB_ADVANCE_POINT) {
+            g_assert_cmpint(curve.count, <, POINTS_MOST);
+            curve.filled =
+                curve.count == 0 ? gb_bed_copy_hash(experiment->die->bed) : curve.filled;
+            curve.point[curve.count++] = *gb_experiment_point(experiment);
+        }
+    } while (curve.how == GB_ADVANCE_MORE || curve.how == GB_ADVANCE_POINT);
+    curve.hash = gb_bed_copy_hash(experiment->die->bed);
+    gb_experiment_destroy(experiment);
+    return curve;
+}
+
+static void finish(struct curve *curve)
+{
+    g_string_free(curve->events, TRUE);
+}
+
+/* Poured, settled, flattened, pressed: the whole experiment in small. */
+static void test_whole(void)
+{
+    const struct gb_params params = die_params(NULL);
+    struct curve curve = run(&params, 1000);
+    g_assert_cmpint(curve.how, ==, GB_ADVANCE_DONE);
+    g_assert_cmpint(curve.count, ==, 11);
+    const struct gb_point *point = curve.point;
+    g_assert_cmpint(point[0].branch, ==, GB_BRANCH_RELAX);
+    g_assert_cmpfloat(point[0].density, >, 0.45);
+    g_assert_cmpfloat(point[0].density, <, 0.65);
+    g_assert_cmpfloat(point[0].height_change, ==, 0.0);
+    for (int i = 1; i < curve.count; i++) {
+        g_assert_cmpint(point[i].branch, ==, GB_BRANCH_LOAD);
+        g_assert_cmpint(point[i].step, ==, i);
+        g_assert_cmpfloat(point[i].density, >, point[i - 1].density);
+        g_assert_cmpfloat(point[i].height_change, <, point[i - 1].height_change);
+        g_assert_cmpfloat_with_epsilon(1e-6 * point[i].wanted_pa, 5.0 * i, 0.02);
+        g_assert_cmpfloat_with_epsilon(point[i].p_pa / point[i].wanted_pa, 1.0, 0.01);
+        g_assert_cmpfloat_with_epsilon(point[i].floor_over_punch, 1.0, 0.05);
+        g_assert_cmpfloat(point[i].px_pa, >, 0.1 * point[i].p_pa);
+        g_assert_cmpfloat(point[i].px_pa, <, 1.2 * point[i].p_pa);
+        g_assert_cmpfloat(point[i].central, >, point[i].density);
+    }
+    g_assert_cmpfloat(point[10].coordination, >, 3.0);
+    finish(&curve);
+}
+
+/* Slices of other lengths give the same bits; every law presses the same bed. */
+static void test_same_bits(void)
+{
+    const struct gb_params hertz = die_params("loading.until=10 MPa", NULL);
+    const struct gb_params plastic =
+        die_params("loading.until=10 MPa", "contact.normal=storakers",
+                   "material.hardening=0.2", "contact.mu=0.05", NULL);
+    struct curve a = run(&hertz, 1000), b = run(&hertz, 77), c = run(&plastic, 500);
+    g_assert_true(a.hash == b.hash);
+    g_assert_true(a.hash != c.hash);
+    g_assert_cmpfloat(a.point[0].density, ==, c.point[0].density);
+    g_assert_cmpfloat(a.point[0].central, ==, c.point[0].central);
+    g_assert_true(a.filled == b.filled);
+    finish(&a);
+    finish(&b);
+    finish(&c);
+}
+
+/* Nothing falls through an outlet between one and two of the largest spheres for long. */
+static void test_clogged(void)
+{
+    const struct gb_params params =
+        die_params("die.outlet=7.5 um", "die.angle=60", "particles.count=300", NULL);
+    struct curve curve = run(&params, 1000);
+    g_assert_cmpint(curve.how, ==, GB_ADVANCE_STOPPED);
+    g_assert_cmpint(curve.err.code, ==, GB_ERR_GUARD);
+    g_assert_nonnull(strstr(curve.err.text, "clogged"));
+    finish(&curve);
+}
+
+/* A step far above the critical one: halved until it holds, told, and no worse curve. */
+static void test_step_above_critical(void)
+{
+    const struct gb_params wild =
+        die_params("loading.until=20 MPa", "numerics.time_step=3 ns", NULL);
+    const struct gb_params good = die_params("loading.until=20 MPa", NULL);
+    struct curve a = run(&wild, 1000), b = run(&good, 1000);
+    g_assert_cmpint(a.how, ==, GB_ADVANCE_DONE);
+    g_assert_nonnull(strstr(a.events->str, "time step"));
+    g_assert_cmpfloat_with_epsilon(a.point[a.count - 1].density,
+                                   b.point[b.count - 1].density, 0.02);
+    finish(&a);
+    finish(&b);
+}
+
+/* Hand-made faults: each is told in one line, and the way back is taken. */
+static void check_fault(void (*spoil)(struct gb_bed *bed), const char *word)
+{
+    struct gb_error err = {0};
+    const struct gb_params params = die_params(NULL);
+    struct gb_experiment *experiment = NULL;
+    GString *events = g_string_new(NULL);
+    g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
+    while (gb_experiment_advance(experiment, 1000, &err) != GB_ADVANCE_POINT) {
+    }
+    g_assert_cmpint(gb_experiment_advance(experiment, 50, &err), ==, GB_ADVANCE_MORE);
+    take_events(experiment, events);
+    g_string_truncate(events, 0);
+    spoil(experiment->die->bed);
+    while (gb_experiment_advance(experiment, 1000, &err) == GB_ADVANCE_MORE) {
+    }
+    take_events(experiment, events);
+    g_assert_nonnull(strstr(events->str, word));
+    g_assert_nonnull(strstr(events->str, "guard: "));
+    g_assert_cmpint(gb_bed_escaped(experiment->die->bed), ==, -1);
+    g_assert_cmpfloat(gb_experiment_point(experiment)->density, >, 0.4);
+    g_string_free(events, TRUE);
+    gb_experiment_destroy(experiment);
+}
+
+static void spoil_number(struct gb_bed *bed)
+{
+    bed->place[11][1] = NAN;
+}
+
+static void spoil_escape(struct gb_bed *bed)
+{
+    bed->place[11][0] = 2.0 * bed->die.radius;
+}
+
+static void spoil_punch(struct gb_bed *bed)
+{
+    bed->die.punch_place = 0.5 * bed->die.punch_place;
+}
+
+static void test_faults(void)
+{
+    check_fault(spoil_number, "is no sphere: at (");
+    check_fault(spoil_escape, "left the die");
+    check_fault(spoil_punch, "punch is below");
+}
+
+/* What does not fit is refused before any work, naming the key. */
+static void test_refused(void)
+{
+    static const struct {
+        const char *assignment, *word;
+    } cases[] = {
+        {"particles.table=number: 5 um 0.5; 26 um 0.5", "die.diameter"},
+        {"die.outlet=6 um", "die.outlet"},
+        {"die.outlet=30 um", "die.outlet"},
+        {"die.height=20 um", "particles.count"},
+        {"die.central=26 um", "die.central"},
+        {"die.gravity=300000", "die.gravity"},
+        {"loading.geometry=uniaxial", "loading.geometry"},
+        {"loading.until=density = 0.7", "loading.until"},
+        {"contact.normal=rod", "contact.normal"},
+        {"scene.dimension=2", "scene.dimension"},
+        {"loading.unload_from=10 MPa", "loading.unload_from"},
+    };
+    for (size_t k = 0; k < G_N_ELEMENTS(cases); k++) {
+        struct gb_error err = {0};
+        struct gb_experiment *experiment = NULL;
+        const struct gb_params params = die_params(cases[k].assignment, NULL);
+        g_assert_false(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
+        g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+        if (!strstr(err.text, cases[k].word)) {
+            g_error("%s: %s", cases[k].assignment, err.text);
+        }
+    }
+}
+
+/* The state for pictures: true sizes, inside their box. */
+static void test_state(void)
+{
+    struct gb_error err = {0};
+    const struct gb_params params = die_params("loading.until=5 MPa", NULL);
+    struct gb_experiment *experiment = NULL;
+    g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
+    enum gb_advance how = GB_ADVANCE_MORE;
+    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
+        how = gb_experiment_advance(experiment, 5000, &err);
+        struct gb_state *state = NULL;
+        g_assert_true(gb_experiment_state(experiment, &state, &err));
+        g_assert_cmpfloat_with_epsilon(state->die_radius, 2.5, 1e-12);
+        for (int64_t i = 0; i < state->count; i++) {
+            for (int k = 0; k < 3; k++) {
+                g_assert_cmpfloat(state->position[3 * i + k], >, 0.0);
+                g_assert_cmpfloat(state->position[3 * i + k], <, state->cell[k]);
+            }
+        }
+        for (int64_t p = 0; p < state->pair_count; p++) {
+            g_assert_cmpfloat(state->pair_normal[p], >=, 0.0);
+        }
+        gb_state_destroy(state);
+    }
+    g_assert_cmpint(how, ==, GB_ADVANCE_DONE);
+    gb_experiment_destroy(experiment);
+}
+
+/* Stopped at a point and gone on from its record, to the same bits and records. */
+static void test_resume(void)
+{
+    static struct gb_record record, whole, resumed;
+    struct gb_error err = {0};
+    int64_t row = 0;
+    const struct gb_params params =
+        die_params("loading.until=10 MPa", "contact.normal=storakers",
+                   "material.hardening=0.1", "contact.mu=0.05", NULL);
+    struct gb_experiment *experiment = NULL, *second = NULL;
+    g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
+    for (int points = 0; points < 3;) {
+        const enum gb_advance how = gb_experiment_advance(experiment, 1000, &err);
+        if (how != GB_ADVANCE_POINT) {
+            continue;
+        }
+        points++;
+        g_assert_true(
+            gb_checkpoint_take(experiment, points == 2 ? &record : &whole, &err));
+    }
+    g_assert_cmpint(gb_experiment_advance(experiment, 1000, &err), ==, GB_ADVANCE_DONE);
+    if (!gb_experiment_resume(&second, &params, &record, &err)) {
+        g_error("%s", err.text);
+    }
+    while (gb_experiment_advance(second, 333, &err) != GB_ADVANCE_POINT) {
+    }
+    g_assert_true(gb_checkpoint_take(second, &resumed, &err));
+    const char *different = gb_record_difference(&whole, &resumed, &row);
+    if (different != NULL) {
+        g_error("%s: row %d differs", different, (int)row);
+    }
+    g_assert_true(gb_bed_copy_hash(experiment->die->bed) ==
+                  gb_bed_copy_hash(second->die->bed));
+    gb_experiment_destroy(second);
+    gb_experiment_destroy(experiment);
+    gb_record_finish(&record);
+    gb_record_finish(&whole);
+    gb_record_finish(&resumed);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/die/whole", test_whole);
+    g_test_add_func("/die/same_bits", test_same_bits);
+    g_test_add_func("/die/clogged", test_clogged);
+    g_test_add_func("/die/step_above_critical", test_step_above_critical);
+    g_test_add_func("/die/faults", test_faults);
+    g_test_add_func("/die/refused", test_refused);
+    g_test_add_func("/die/state", test_state);
+    g_test_add_func("/die/resume", test_resume);
+    return g_test_run();
+}

@@ -1,0 +1,264 @@
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include <glib.h>
+
+#include "measure/survey.h"
+#include "pack/bed_copy.h"
+#include "pack/filling.h"
+#include "run/preset.h"
+#include "solve/programme.h"
+
+/* The targets of P3's experiment: three beds, each filled once and pressed by every
+ * model.  Prints the table. */
+
+enum { BEDS = 3, MARKS = 4 };
+
+static const double marks_mpa[MARKS] = {2.0, 10.0, 25.0, 50.0};
+
+struct model {
+    const char *preset, *change; /* one key changed, NULL: none */
+};
+
+static const struct model models[] = {
+    {"p3-hertz-mu0", "numerics.fidelity=fast"},
+    {"p3-hertz-mu0", NULL}, /* balanced */
+    {"p3-storakers-m0-mu0", "numerics.fidelity=fast"},
+    {"p3-storakers-m0.1-mu0", "numerics.fidelity=fast"},
+    {"p3-storakers-m0.2-mu0", "numerics.fidelity=fast"},
+    {"p3-hertz-mu0.01", "numerics.fidelity=fast"},
+    {"p3-hertz-mu0.02", "numerics.fidelity=fast"},
+    {"p3-hertz-mu0.05", "numerics.fidelity=fast"},
+    {"p3-storakers-m0.2-mu0.01", "numerics.fidelity=fast"},
+    {"p3-storakers-m0.2-mu0.02", "numerics.fidelity=fast"},
+    {"p3-storakers-m0.2-mu0.05", "numerics.fidelity=fast"},
+};
+
+enum {
+    MODELS = G_N_ELEMENTS(models),
+    FAST = 0,
+    BALANCED = 1,
+    STORAKERS = 2,
+    HERTZ_MU = 5
+};
+
+struct result {
+    double whole[MARKS], central[MARKS];
+    double worst_residual;        /* of the pressure, from 2 MPa on */
+    double floor_low, floor_high; /* from 2 MPa on */
+};
+
+static struct gb_params load(const struct model *model, int seed)
+{
+    struct gb_error err = {0};
+    struct gb_preset *preset = NULL;
+    char *path = g_strdup_printf("%s/%s.ini", GB_TEST_PRESETS, model->preset);
+    if (!gb_preset_load(&preset, path, &err)) {
+        g_error("%s", err.text);
+    }
+    struct gb_params params = *gb_preset_params(preset);
+    if (model->change && !gb_params_assign(&params, model->change, &err)) {
+        g_error("%s", err.text);
+    }
+    params.seed = (uint64_t)seed;
+    gb_preset_destroy(preset);
+    g_free(path);
+    return params;
+}
+
+static struct gb_model freeze(const struct gb_params *params)
+{
+    struct gb_error err = {0};
+    struct gb_model model;
+    if (!gb_params_check(params, &err) || !gb_model_init(&model, params, &err)) {
+        g_error("%s", err.text);
+    }
+    return model;
+}
+
+/* Processor time, which other work on the machine does not lengthen. */
+static double seconds_since(clock_t start)
+{
+    return (double)(clock() - start) / CLOCKS_PER_SEC;
+}
+
+/* To the next point; false at the end. */
+static bool next_point(struct gb_programme *programme, struct gb_bed *bed)
+{
+    char text[640];
+    struct gb_error err = {0};
+    for (;;) {
+        switch (gb_programme_advance(programme, bed, 100000, text, sizeof text, &err)) {
+        case GB_PROGRAMME_MORE:
+            if (text[0] != '\0') {
+                g_test_message("%s", text);
+            }
+            break;
+        case GB_PROGRAMME_POINT:
+            return true;
+        case GB_PROGRAMME_DONE:
+            return false;
+        case GB_PROGRAMME_STOPPED:
+            g_error("%s", err.text);
+        }
+    }
+}
+
+static void book(struct result *result, const struct gb_programme_report *report,
+                 const struct gb_bed *bed, const struct gb_model *model)
+{
+    const double mpa = 1e-6 * report->wanted * model->pascal_per_stress;
+    for (int k = 0; k < MARKS; k++) {
+        if (fabs(mpa - marks_mpa[k]) < 0.2) {
+            result->whole[k] = gb_survey_density(bed, report->height);
+            result->central[k] =
+                gb_survey_central(bed, report->height, model->die.central);
+        }
+    }
+    if (mpa > 1.9) {
+        const double residual = fabs(report->carried / report->wanted - 1.0);
+        result->worst_residual = fmax(result->worst_residual, residual);
+        result->floor_low = fmin(result->floor_low, report->floor_over_punch);
+        result->floor_high = fmax(result->floor_high, report->floor_over_punch);
+    }
+}
+
+static struct result press(struct gb_bed *bed, const struct gb_bed_copy *filled,
+                           const struct model *name, int seed)
+{
+    struct gb_error err = {0};
+    struct gb_programme *programme = NULL;
+    struct result result = {.floor_low = HUGE_VAL};
+    const struct gb_params params = load(name, seed);
+    const struct gb_model model = freeze(&params);
+    const struct gb_bed_law law = gb_filling_pressing_law(&params);
+    const clock_t start = clock();
+    const int64_t evaluations = bed->evaluations;
+    g_assert_true(gb_bed_copy_restore(bed, filled, &err));
+    g_assert_true(gb_programme_create(&programme, &model.die, &law, &err));
+    g_assert_true(gb_programme_begin(programme, bed, &err));
+    while (next_point(programme, bed)) {
+        const struct gb_programme_report report = gb_programme_report(programme, bed);
+        book(&result, &report, bed, &model);
+    }
+    gb_programme_destroy(programme);
+    const double seconds = seconds_since(start);
+    const double steps = (double)(bed->evaluations - evaluations);
+    g_test_message(
+        "%-26s %-8s whole %.4f %.4f %.4f %.4f central %.4f %.4f %.4f %.4f residual "
+        "%.2f %% floor/punch %.3f to %.3f; %.3g steps, %.1f s, %.4f us",
+        name->preset, name->change ? "fast" : "balanced", result.whole[0],
+        result.whole[1], result.whole[2], result.whole[3], result.central[0],
+        result.central[1], result.central[2], result.central[3],
+        100.0 * result.worst_residual, result.floor_low, result.floor_high, steps,
+        seconds, 1e6 * seconds / (steps * (double)bed->count));
+    return result;
+}
+
+struct bed_result {
+    double height_um, whole, central;
+    struct result model[MODELS];
+};
+
+static struct bed_result study(int seed)
+{
+    struct gb_error err = {0};
+    struct bed_result result;
+    struct gb_bed *bed = NULL;
+    struct gb_programme *programme = NULL;
+    struct gb_bed_copy *filled = NULL;
+    const struct gb_params params = load(&models[0], seed);
+    const struct gb_model model = freeze(&params);
+    const struct gb_bed_law law = gb_filling_pressing_law(&params);
+    const clock_t start = clock();
+    if (!gb_filling_create(&bed, &params, &model, NULL, NULL, &err) ||
+        !gb_programme_create(&programme, &model.die, &law, &err)) {
+        g_error("%s", err.text);
+    }
+    g_assert_true(next_point(programme, bed));
+    g_assert_true(gb_bed_copy_take(bed, &filled, &err));
+    const struct gb_programme_report report = gb_programme_report(programme, bed);
+    result.height_um = 1e6 * report.height * model.metre_per_length;
+    result.whole = gb_survey_density(bed, report.height);
+    result.central = gb_survey_central(bed, report.height, model.die.central);
+    g_test_message(
+        "bed %d: H0 %.2f um, density %.4f whole, %.4f central; filled in %.1f s", seed,
+        result.height_um, result.whole, result.central, seconds_since(start));
+    for (size_t k = 0; k < MODELS; k++) {
+        result.model[k] = press(bed, filled, &models[k], seed);
+    }
+    gb_bed_copy_destroy(filled);
+    gb_programme_destroy(programme);
+    gb_bed_destroy(bed);
+    return result;
+}
+
+static void check_bed(const struct bed_result *bed)
+{
+    const struct result *balanced = &bed->model[BALANCED], *fast = &bed->model[FAST];
+    g_assert_cmpfloat_with_epsilon(bed->height_um, 95.0, 2.0);
+    g_assert_cmpfloat_with_epsilon(bed->whole, 0.62, 0.015);
+    g_assert_cmpfloat(bed->central, >, 0.66);
+    g_assert_cmpfloat(bed->central, <, 0.69);
+    g_assert_cmpfloat_with_epsilon(balanced->whole[3], 0.66, 0.01);
+    g_assert_cmpfloat_with_epsilon(balanced->central[3], 0.70, 0.015);
+    for (int k = 0; k < MARKS; k++) {
+        g_assert_cmpfloat_with_epsilon(fast->whole[k], balanced->whole[k], 0.003);
+        g_assert_cmpfloat(balanced->central[k] - balanced->whole[k], >, 0.04);
+        g_assert_cmpfloat(balanced->central[k] - balanced->whole[k], <, 0.07);
+    }
+    g_assert_cmpfloat(balanced->worst_residual, <, 0.01);
+    for (size_t m = 0; m < MODELS; m++) {
+        /* at 2 MPa the quadratic ramp is five times as steep as the paper's */
+        g_assert_cmpfloat(bed->model[m].worst_residual, <, 0.02);
+    }
+}
+
+/* Means over the beds: one bed scatters by as much as the models differ. */
+static double mean(const struct bed_result *bed, int model, int mark)
+{
+    double sum = 0.0;
+    for (int b = 0; b < BEDS; b++) {
+        sum += bed[b].model[model].whole[mark] / BEDS;
+    }
+    return sum;
+}
+
+static void check_means(const struct bed_result *bed)
+{
+    for (int k = 0; k < MARKS; k++) {
+        for (int m = STORAKERS; m < STORAKERS + 3; m++) {
+            g_assert_cmpfloat_with_epsilon(mean(bed, m, k), mean(bed, FAST, k), 0.003);
+        }
+    }
+    const int rows[2][4] = {{FAST, HERTZ_MU, HERTZ_MU + 1, HERTZ_MU + 2},
+                            {STORAKERS + 2, HERTZ_MU + 3, HERTZ_MU + 4, HERTZ_MU + 5}};
+    for (int law = 0; law < 2; law++) {
+        for (int m = 1; m < 4; m++) {
+            g_assert_cmpfloat(mean(bed, rows[law][m], 3), <,
+                              mean(bed, rows[law][m - 1], 3));
+        }
+        const double gap = mean(bed, rows[law][0], 3) - mean(bed, rows[law][3], 3);
+        g_assert_cmpfloat_with_epsilon(gap, 0.01, 0.005);
+    }
+}
+
+static void test_targets(void)
+{
+    struct bed_result bed[BEDS];
+    for (int b = 0; b < BEDS; b++) {
+        bed[b] = study(b + 1);
+    }
+    for (int b = 0; b < BEDS; b++) {
+        check_bed(&bed[b]);
+    }
+    check_means(bed);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/die/targets", test_targets);
+    return g_test_run();
+}
