@@ -4,27 +4,66 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "run/preset.h"
+#include "tui/complete.h"
 
-enum { HELP_COLS = 60, LIST_COLS = 52, ASK_COLS = 64, NAME_COLS = 10 };
+enum {
+    HELP_COLS = 60,
+    OPEN_ROWS = 34,
+    OPEN_COLS = 84,
+    ASK_COLS = 64,
+    NAME_COLS = 10,
+    OPEN_NOTE = 3
+};
+
+/* Dialogs in which a line is typed. */
+static const struct ask {
+    enum gb_dialog_kind kind;
+    const char *title, *label;
+    bool path; /* Tab completes it */
+} asks[] = {
+    {GB_DIALOG_SAVE, "Save the parameters as a preset (Esc back)",
+     "Name, or a path with a slash:", false},
+    {GB_DIALOG_DATA, "Experiment over the plot (Esc back)",
+     "CSV file, Tab completes; nothing takes it away:", true},
+    {GB_DIALOG_FORK, "What if the run went on with ... (Esc back)",
+     "key=value; several with semicolons between:", false},
+    {GB_DIALOG_FIND, "Find a parameter (Esc back)", "Its name, or a part of it:", false},
+};
+
+static const struct ask *ask_of(const struct gb_dialog *dialog)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(asks); i++) {
+        if (asks[i].kind == dialog->kind) {
+            return &asks[i];
+        }
+    }
+    return NULL;
+}
 
 void gb_dialog_show(struct gb_dialog *dialog, enum gb_dialog_kind kind, const char *text)
 {
     gb_dialog_close(dialog);
     dialog->kind = kind;
-    if (kind == GB_DIALOG_OPEN) {
-        dialog->names = gb_preset_list();
-    }
-    if (kind == GB_DIALOG_COSTLY) {
+    if (kind == GB_DIALOG_COMMAND) {
+        dialog->text = g_strdup(text != NULL ? text : "");
+    } else if (kind == GB_DIALOG_COSTLY) {
         g_strlcpy(dialog->note, text != NULL ? text : "", sizeof dialog->note);
-        return;
+    } else {
+        gb_prompt_set(&dialog->prompt, text != NULL ? text : "");
     }
-    gb_prompt_set(&dialog->prompt, text != NULL ? text : "");
+}
+
+void gb_dialog_browse(struct gb_dialog *dialog, const struct gb_params *current)
+{
+    gb_dialog_close(dialog);
+    dialog->kind = GB_DIALOG_OPEN;
+    gb_browse_start(&dialog->browse, current);
 }
 
 void gb_dialog_close(struct gb_dialog *dialog)
 {
-    g_strfreev(dialog->names);
+    gb_browse_finish(&dialog->browse);
+    g_free(dialog->text);
     memset(dialog, 0, sizeof *dialog);
 }
 
@@ -50,20 +89,6 @@ static struct gb_paint inside(const struct gb_paint *paint)
     return gb_paint_at(paint->term, rect);
 }
 
-static void keep_in_sight(struct gb_dialog *dialog, int lines)
-{
-    if (dialog->focus >= dialog->top + dialog->page) {
-        dialog->top = dialog->focus - dialog->page + 1;
-    }
-    if (dialog->focus < dialog->top) {
-        dialog->top = dialog->focus;
-    }
-    if (dialog->top > lines - dialog->page) {
-        dialog->top = lines - dialog->page;
-    }
-    dialog->top = dialog->top < 0 ? 0 : dialog->top;
-}
-
 static void draw_help(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     size_t count = 0;
@@ -84,11 +109,6 @@ static void draw_help(struct gb_dialog *dialog, const struct gb_paint *screen)
     }
 }
 
-static int name_count(const struct gb_dialog *dialog)
-{
-    return dialog->names == NULL ? 0 : (int)g_strv_length(dialog->names);
-}
-
 static void draw_note(const struct gb_dialog *dialog, const struct gb_paint *paint,
                       int row, int rows)
 {
@@ -100,34 +120,44 @@ static void draw_note(const struct gb_dialog *dialog, const struct gb_paint *pai
 
 static void draw_open(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
-    const int count = name_count(dialog);
-    const int note = dialog->note[0] != '\0' ? 3 : 0;
-    const struct gb_paint frame =
-        box(screen, (count > 0 ? count : 1) + 2 + note, LIST_COLS,
-            "Open a preset (Enter runs it, Esc back)");
-    const struct gb_paint paint = inside(&frame);
-    dialog->page = paint.rect.rows - note;
-    keep_in_sight(dialog, count);
-    if (count == 0) {
-        gb_paint_text(&paint, 0, 0, GB_STYLE_DIM, "no preset was found");
-    }
-    for (int i = 0; i < dialog->page && dialog->top + i < count; i++) {
-        const int at = dialog->top + i;
-        gb_paint_cell(&paint, i, 0, paint.rect.cols,
-                      at == dialog->focus ? GB_STYLE_SELECTED : GB_STYLE_PLAIN,
-                      dialog->names[at]);
-    }
-    draw_note(dialog, &paint, dialog->page, note);
+    const int note = dialog->note[0] != '\0' ? OPEN_NOTE : 0;
+    const struct gb_paint frame = box(screen, OPEN_ROWS, OPEN_COLS,
+                                      "Open a preset (Enter opens, Tab compares, Esc)");
+    struct gb_paint paint = inside(&frame);
+    draw_note(dialog, &paint, paint.rect.rows - note, note);
+    paint.rect.rows -= note;
+    gb_browse_draw(&dialog->browse, &paint);
 }
 
-static void draw_save(const struct gb_dialog *dialog, const struct gb_paint *screen)
+static void draw_ask(const struct gb_dialog *dialog, const struct gb_paint *screen)
 {
-    const struct gb_paint frame =
-        box(screen, 8, ASK_COLS, "Save the parameters as a preset (Esc back)");
+    const struct ask *ask = ask_of(dialog);
+    const struct gb_paint frame = box(screen, 8, ASK_COLS, ask->title);
     const struct gb_paint paint = inside(&frame);
-    gb_paint_text(&paint, 0, 1, GB_STYLE_PLAIN, "Name, or a path with a slash:");
+    gb_paint_text(&paint, 0, 1, GB_STYLE_PLAIN, ask->label);
     gb_prompt_draw(&dialog->prompt, &paint, 1, 1, paint.rect.cols - 2);
     draw_note(dialog, &paint, 3, 3);
+}
+
+/* Without a frame at its sides, so that it can be copied with the mouse: the lines end in
+ * backslashes and are one command for a shell. */
+static void draw_command(const struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    char **lines = g_strsplit(dialog->text, "\n", -1);
+    const int count = (int)g_strv_length(lines);
+    const int rows = MIN(count + 2, screen->rect.rows - 2);
+    const struct gb_rect rect = {(screen->rect.rows - rows) / 2, 0, rows,
+                                 screen->rect.cols};
+    const struct gb_paint paint = gb_paint_at(screen->term, rect);
+    for (int row = 1; row < rows; row++) {
+        gb_paint_cell(&paint, row, 0, rect.cols, GB_STYLE_PLAIN,
+                      row <= count ? lines[row - 1] : "");
+    }
+    gb_paint_title(&paint, "The command that repeats this (Esc back)", true);
+    const struct gb_rect end = {rect.row + rows - 1, 0, 1, rect.cols};
+    const struct gb_paint last = gb_paint_at(screen->term, end);
+    gb_paint_title(&last, "c again closes", false);
+    g_strfreev(lines);
 }
 
 /* The two answers of a question, in one row. */
@@ -174,7 +204,13 @@ void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen)
         draw_open(dialog, screen);
         break;
     case GB_DIALOG_SAVE:
-        draw_save(dialog, screen);
+    case GB_DIALOG_DATA:
+    case GB_DIALOG_FORK:
+    case GB_DIALOG_FIND:
+        draw_ask(dialog, screen);
+        break;
+    case GB_DIALOG_COMMAND:
+        draw_command(dialog, screen);
         break;
     case GB_DIALOG_QUIT:
         draw_quit(screen);
@@ -187,12 +223,10 @@ void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen)
 
 static void go_to(struct gb_dialog *dialog, int to)
 {
-    const int last = dialog->kind == GB_DIALOG_OPEN ? name_count(dialog) - 1 : G_MAXINT;
-    dialog->focus = to < 0 ? 0 : to > last ? last : to;
-    dialog->note[0] = '\0';
+    dialog->focus = to < 0 ? 0 : to;
 }
 
-/* Moves a list or the help page. */
+/* Moves the help page; how far it goes the drawing knows. */
 static void scroll_by_action(struct gb_dialog *dialog, enum gb_action action)
 {
     switch (action) {
@@ -219,36 +253,81 @@ static void scroll_by_action(struct gb_dialog *dialog, enum gb_action action)
     }
 }
 
-bool gb_dialog_type(struct gb_dialog *dialog, const struct gb_term_event *event)
+static void complete(struct gb_dialog *dialog)
 {
-    if (dialog->kind == GB_DIALOG_SAVE && gb_prompt_take(&dialog->prompt, event)) {
+    int count = 0;
+    char *path = gb_complete_path(gb_prompt_text(&dialog->prompt), &count);
+    gb_prompt_set(&dialog->prompt, path);
+    dialog->warned = count != 1;
+    if (count != 1) {
+        snprintf(dialog->note, sizeof dialog->note, "%d files fit", count);
+    }
+    g_free(path);
+}
+
+/* Events that change what is typed; Enter and Esc do not. */
+static bool edit(struct gb_dialog *dialog, const struct gb_term_event *event)
+{
+    const struct ask *ask = ask_of(dialog);
+    bool taken = false;
+    if (dialog->kind == GB_DIALOG_OPEN) {
+        taken = gb_browse_type(&dialog->browse, event);
+    } else if (ask != NULL) {
+        taken = gb_prompt_take(&dialog->prompt, event);
+    }
+    if (taken) {
         dialog->note[0] = '\0';
         dialog->warned = false;
+    }
+    if (ask != NULL && ask->path && event->kind == GB_TERM_KEY && event->code == '\t') {
+        complete(dialog);
+        return true;
+    }
+    return taken;
+}
+
+static bool is_question(const struct gb_dialog *dialog)
+{
+    return dialog->kind == GB_DIALOG_QUIT || dialog->kind == GB_DIALOG_COSTLY;
+}
+
+/* y answers, n and Esc go back. */
+static bool decide(struct gb_dialog *dialog, const struct gb_term_event *event,
+                   enum gb_action action)
+{
+    const bool yes = event->code == 'y' || event->code == 'Y';
+    if (!yes && (event->code == 'n' || event->code == 'N' || action == GB_ACTION_BACK ||
+                 action == GB_ACTION_QUIT)) {
+        gb_dialog_close(dialog);
+    }
+    return yes;
+}
+
+bool gb_dialog_type(struct gb_dialog *dialog, const struct gb_term_event *event)
+{
+    if (edit(dialog, event)) {
         return false;
     }
     const enum gb_action action = gb_keys_action(event->code);
-    if (dialog->kind == GB_DIALOG_QUIT || dialog->kind == GB_DIALOG_COSTLY) {
-        const bool yes = event->code == 'y' || event->code == 'Y';
-        if (!yes && (event->code == 'n' || event->code == 'N' ||
-                     action == GB_ACTION_BACK || action == GB_ACTION_QUIT)) {
-            gb_dialog_close(dialog);
-        }
-        return yes;
+    if (is_question(dialog)) {
+        return decide(dialog, event, action);
     }
     if (action == GB_ACTION_BACK || action == GB_ACTION_QUIT ||
-        (action == GB_ACTION_HELP && dialog->kind == GB_DIALOG_HELP)) {
+        (action == GB_ACTION_HELP && dialog->kind == GB_DIALOG_HELP) ||
+        (action == GB_ACTION_COMMAND && dialog->kind == GB_DIALOG_COMMAND)) {
         gb_dialog_close(dialog);
         return false;
     }
     scroll_by_action(dialog, action);
     return action == GB_ACTION_ENTER && dialog->kind != GB_DIALOG_HELP &&
-           (dialog->kind != GB_DIALOG_OPEN || name_count(dialog) > 0);
+           dialog->kind != GB_DIALOG_COMMAND &&
+           (dialog->kind != GB_DIALOG_OPEN || gb_browse_name(&dialog->browse) != NULL);
 }
 
 const char *gb_dialog_answer(struct gb_dialog *dialog)
 {
     if (dialog->kind == GB_DIALOG_OPEN) {
-        return dialog->names[dialog->focus];
+        return gb_browse_name(&dialog->browse);
     }
     return gb_prompt_text(&dialog->prompt);
 }

@@ -251,6 +251,16 @@ static enum gb_style ink_style(int ink)
     }
 }
 
+static void cell_pen(const struct gb_paint *paint, const struct gb_plot_cell *cell)
+{
+    if (cell->ink >= GB_PLOT_INK_SHADE) {
+        attrset((int)gb_term_shade(paint->term, cell->ink - GB_PLOT_INK_SHADE,
+                                   cell->back - 1));
+    } else {
+        pen(paint, ink_style(cell->ink));
+    }
+}
+
 void gb_paint_plot(const struct gb_paint *paint, int row, int col,
                    const struct gb_plot *plot)
 {
@@ -258,7 +268,7 @@ void gb_paint_plot(const struct gb_paint *paint, int row, int col,
         for (int c = 0; c < plot->cols; c++) {
             const struct gb_plot_cell *cell = &plot->cell[r * plot->cols + c];
             if (cell->ch != ' ' && inside(paint, row + r) && col + c < paint->rect.cols) {
-                pen(paint, ink_style(cell->ink));
+                cell_pen(paint, cell);
                 put(paint, row + r, col + c, cell->ch);
             }
         }

@@ -1,7 +1,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "phys/applies.h"
 #include "phys/field.h"
+#include "tui/knob.h"
+#include "tui/listing.h"
 #include "tui/panels.h"
 
 /* Longest key of the field table, and the mark before it. */
@@ -13,31 +16,19 @@ static const struct gb_field *focused(const struct gb_panel_params *panel)
     return &gb_params_fields(&count)[panel->focus];
 }
 
-static int field_count(void)
+static struct gb_listing listed(const struct gb_panel_params *panel,
+                                struct gb_session *session)
 {
-    size_t count = 0;
-    gb_params_fields(&count);
-    return (int)count;
-}
-
-/* Line of a field: every group has a heading, and a blank line before all but the first.
- */
-static int line_of(int index)
-{
-    size_t count = 0;
-    const struct gb_field *field = gb_params_fields(&count);
-    int line = 1;
-    for (int i = 1; i <= index; i++) {
-        line += strcmp(field[i].group, field[i - 1].group) != 0 ? 3 : 1;
-    }
-    return line;
+    struct gb_listing listing;
+    gb_listing_init(&listing, gb_session_params(session), panel->all);
+    return listing;
 }
 
 /* Keeps the focus and, where there is room, its heading in sight. */
-static void scroll(struct gb_panel_params *panel)
+static void scroll(struct gb_panel_params *panel, const struct gb_listing *listing)
 {
-    const int line = line_of(panel->focus);
-    const int last = line_of(field_count() - 1) + 1;
+    const int line = listing->line[gb_listing_place(listing, panel->focus)];
+    const int last = listing->line[listing->count - 1] + 1;
     if (line - 1 < panel->top) {
         panel->top = line - 1;
     }
@@ -76,7 +67,10 @@ static void draw_field(const struct gb_panel_params *panel, const struct gb_pain
     const struct gb_field *field = &gb_params_fields(&count)[index];
     const bool differs = gb_session_differs(session, field);
     const bool here = index == panel->focus;
-    enum gb_style style = differs ? GB_STYLE_CHANGED : GB_STYLE_PLAIN;
+    const bool idle = !gb_applies_field(gb_session_params(session), field);
+    enum gb_style style = differs ? GB_STYLE_CHANGED
+                          : idle  ? GB_STYLE_DIM
+                                  : GB_STYLE_PLAIN;
     if (here && focus) {
         style = GB_STYLE_SELECTED;
         gb_paint_cell(paint, row, 0, paint->rect.cols - 1, style, "");
@@ -102,19 +96,21 @@ void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *
     const int changes = gb_session_changes(session);
     snprintf(title, sizeof title, changes > 0 ? "Parameters * %d for r" : "Parameters",
              changes);
-    panel->page = paint->rect.rows - 1;
-    scroll(panel);
+    const struct gb_listing listing = listed(panel, session);
     size_t count = 0;
     const struct gb_field *field = gb_params_fields(&count);
-    int line = 0;
-    for (int i = 0; i < (int)count; i++) {
-        line = line_of(i);
-        const int row = 1 + line - panel->top;
-        if (i == 0 || strcmp(field[i].group, field[i - 1].group) != 0) {
-            draw_heading(paint, row - 1, field[i].group);
+    panel->page = paint->rect.rows - 1;
+    if (!panel->editing) { /* a change of the scene may have hidden it */
+        panel->focus = listing.field[gb_listing_place(&listing, panel->focus)];
+    }
+    scroll(panel, &listing);
+    for (int i = 0; i < listing.count; i++) {
+        const int row = 1 + listing.line[i] - panel->top;
+        if (listing.first[i]) {
+            draw_heading(paint, row - 1, field[listing.field[i]].group);
         }
         if (row >= 1 && row < paint->rect.rows) {
-            draw_field(panel, paint, session, i, row, focus);
+            draw_field(panel, paint, session, listing.field[i], row, focus);
         }
     }
     gb_paint_title(paint, title, focus);
@@ -140,22 +136,106 @@ static void undo(struct gb_panel_params *panel, struct gb_session *session,
                  struct gb_message *message)
 {
     const struct gb_field *field = focused(panel);
-    char value[256];
+    char value[GB_PARAMS_VALUE_MAX];
     if (session->runner == NULL) {
         return;
     }
     gb_params_format(gb_runner_params(session->runner), field, value, sizeof value);
     gb_params_set(gb_session_params(session), field, value, NULL);
-    snprintf(message->text, sizeof message->text, "%s.%s is %s again, as in the run",
+    snprintf(message->text, sizeof message->text, "%s.%s is %.256s again, as in the run",
              field->group, field->key, value[0] != '\0' ? value : "empty");
+    message->style = GB_STYLE_PLAIN;
+    gb_session_try(session);
+}
+
+static bool move(struct gb_panel_params *panel, struct gb_session *session, int by)
+{
+    const struct gb_listing listing = listed(panel, session);
+    const int to = gb_listing_place(&listing, panel->focus) + by;
+    panel->focus = listing.field[to < 0               ? 0
+                                 : to < listing.count ? to
+                                                      : listing.count - 1];
+    return true;
+}
+
+static void toggle_all(struct gb_panel_params *panel, struct gb_message *message)
+{
+    panel->all = !panel->all;
+    snprintf(message->text, sizeof message->text, "%s",
+             panel->all ? "all parameters; those without effect on this scene are dim"
+                        : "the parameters that this scene uses");
     message->style = GB_STYLE_PLAIN;
 }
 
-static bool move(struct gb_panel_params *panel, int to)
+/* A good value is taken; one that does not fit the others is taken with a warning,
+ * because the others may be changed next. */
+static bool take(struct gb_session *session, const struct gb_field *field,
+                 const char *text, struct gb_message *message)
 {
-    const int last = field_count() - 1;
-    panel->focus = to < 0 ? 0 : to > last ? last : to;
+    struct gb_error err = {0};
+    if (!gb_params_set(gb_session_params(session), field, text, &err)) {
+        snprintf(message->text, sizeof message->text, "%s", err.text);
+        message->style = GB_STYLE_BAD;
+        return false;
+    }
+    message->text[0] = '\0';
+    if (!gb_params_check(gb_session_params(session), &err)) {
+        snprintf(message->text, sizeof message->text, "does not fit the rest yet: %s",
+                 err.text);
+        message->style = GB_STYLE_WARN;
+        return true;
+    }
+    gb_session_try(session);
     return true;
+}
+
+/* The knob: the next value takes effect at once. */
+static bool turn(struct gb_panel_params *panel, struct gb_session *session, int direction,
+                 struct gb_message *message)
+{
+    const struct gb_field *field = focused(panel);
+    char value[GB_PARAMS_VALUE_MAX];
+    char text[GB_PARAMS_VALUE_MAX + 16];
+    gb_params_format(gb_session_params(session), field, value, sizeof value);
+    if (!gb_knob_turn(field, value, direction, text, sizeof text)) {
+        snprintf(message->text, sizeof message->text,
+                 "%s cannot be turned: Enter edits it", field->key);
+        message->style = GB_STYLE_WARN;
+        return true;
+    }
+    take(session, field, text, message);
+    return true;
+}
+
+void gb_panel_params_quote(const struct gb_panel_params *panel,
+                           struct gb_session *session, char *text, size_t size)
+{
+    const struct gb_field *field = focused(panel);
+    char value[GB_PARAMS_VALUE_MAX];
+    gb_params_format(gb_session_params(session), field, value, sizeof value);
+    snprintf(text, size, "%s.%s=%s", field->group, field->key, value);
+}
+
+bool gb_panel_params_find(struct gb_panel_params *panel, struct gb_session *session,
+                          const char *name)
+{
+    size_t count = 0;
+    const struct gb_field *field = gb_params_fields(&count);
+    for (int exact = 1; exact >= 0; exact--) {
+        for (size_t i = 1; i <= count; i++) {
+            const size_t at = ((size_t)panel->focus + i) % count;
+            char full[64];
+            snprintf(full, sizeof full, "%s.%s", field[at].group, field[at].key);
+            const bool named =
+                strcmp(field[at].key, name) == 0 || strcmp(full, name) == 0;
+            if (exact ? named : strstr(full, name) != NULL) {
+                panel->focus = (int)at;
+                panel->all |= !gb_applies_field(gb_session_params(session), &field[at]);
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 bool gb_panel_params_act(struct gb_panel_params *panel, struct gb_session *session,
@@ -163,20 +243,27 @@ bool gb_panel_params_act(struct gb_panel_params *panel, struct gb_session *sessi
 {
     switch (action) {
     case GB_ACTION_UP:
-        return move(panel, panel->focus - 1);
+        return move(panel, session, -1);
     case GB_ACTION_DOWN:
-        return move(panel, panel->focus + 1);
+        return move(panel, session, 1);
     case GB_ACTION_PAGE_UP:
-        return move(panel, panel->focus - (panel->page > 2 ? panel->page - 2 : 1));
+        return move(panel, session, panel->page > 2 ? 2 - panel->page : -1);
     case GB_ACTION_PAGE_DOWN:
-        return move(panel, panel->focus + (panel->page > 2 ? panel->page - 2 : 1));
+        return move(panel, session, panel->page > 2 ? panel->page - 2 : 1);
     case GB_ACTION_HOME:
-        return move(panel, 0);
+        return move(panel, session, -GB_LISTING_MOST);
     case GB_ACTION_END:
-        return move(panel, field_count() - 1);
+        return move(panel, session, GB_LISTING_MOST);
+    case GB_ACTION_ALL:
+        toggle_all(panel, message);
+        return true;
     case GB_ACTION_ENTER:
         begin_edit(panel, session);
         return true;
+    case GB_ACTION_MORE:
+        return turn(panel, session, 1, message);
+    case GB_ACTION_LESS:
+        return turn(panel, session, -1, message);
     case GB_ACTION_UNDO:
         undo(panel, session, message);
         return true;
@@ -185,28 +272,30 @@ bool gb_panel_params_act(struct gb_panel_params *panel, struct gb_session *sessi
     }
 }
 
-/* A good value is taken; one that does not fit the others is taken with a warning,
- * because the others may be changed next. */
+/* What is being typed or chosen. */
+static const char *typed(struct gb_panel_params *panel)
+{
+    const struct gb_field *field = focused(panel);
+    return field->choices != NULL ? field->choices[panel->choice]
+                                  : gb_prompt_text(&panel->prompt);
+}
+
 static void accept(struct gb_panel_params *panel, struct gb_session *session,
                    struct gb_message *message)
 {
-    const struct gb_field *field = focused(panel);
-    struct gb_error err = {0};
-    const char *text = field->choices != NULL ? field->choices[panel->choice]
-                                              : gb_prompt_text(&panel->prompt);
-    if (!gb_params_set(gb_session_params(session), field, text, &err)) {
-        snprintf(message->text, sizeof message->text, "%s", err.text);
-        message->style = GB_STYLE_BAD;
-        return;
+    if (take(session, focused(panel), typed(panel), message)) {
+        panel->editing = false;
     }
-    panel->editing = false;
-    if (!gb_params_check(gb_session_params(session), &err)) {
-        snprintf(message->text, sizeof message->text, "does not fit the rest yet: %s",
-                 err.text);
-        message->style = GB_STYLE_WARN;
-        return;
+}
+
+struct gb_params gb_panel_params_edited(struct gb_panel_params *panel,
+                                        struct gb_session *session)
+{
+    struct gb_params edited = *gb_session_params(session);
+    if (panel->editing) {
+        gb_params_set(&edited, focused(panel), typed(panel), NULL);
     }
-    message->text[0] = '\0';
+    return edited;
 }
 
 static void choose(struct gb_panel_params *panel, int step)
@@ -267,9 +356,11 @@ void gb_panel_params_explain(const struct gb_panel_params *panel,
                  field->meaning, accepted);
     } else if (gb_session_differs(session, field)) {
         gb_params_format(gb_runner_params(session->runner), field, value, sizeof value);
-        snprintf(message->text, sizeof message->text,
-                 "%s: %s.  * applies at restart (r); the run uses %s (u takes it back)",
-                 field->key, field->meaning, value[0] != '\0' ? value : "none");
+        snprintf(
+            message->text, sizeof message->text,
+            "%s: %s.  * the quick cell answers, the full one follows or r starts it; the "
+            "run uses %s (u takes it back)",
+            field->key, field->meaning, value[0] != '\0' ? value : "none");
     } else {
         snprintf(message->text, sizeof message->text, "%s: %s.  %s; default %s.  [%s]",
                  field->key, field->meaning, accepted,

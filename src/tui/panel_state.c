@@ -234,9 +234,7 @@ static bool applies(const struct item *item, const struct gb_params *params)
 
 static struct choice choose(const struct gb_session *session)
 {
-    const struct gb_params *params = session->runner != NULL
-                                         ? gb_runner_params(session->runner)
-                                         : gb_preset_params(session->preset);
+    const struct gb_params *params = gb_session_seen(session).params;
     const bool moving = params->kind == GB_KIND_DYNAMIC;
     const struct item *all = moving ? moving_items : still_items;
     const int *weight = moving ? moving_weight : still_weight;
@@ -290,13 +288,14 @@ static void draw_progress(const struct gb_paint *paint, const struct gb_session 
     char left[48];
     enum gb_style style = GB_STYLE_DIM;
     const char *word = "not started";
-    const struct gb_snapshot *now = &session->now;
-    if (session->runner != NULL) {
+    const struct gb_seen seen = gb_session_seen(session);
+    const struct gb_snapshot *now = seen.now;
+    if (seen.curve != NULL) {
         word = gb_panel_state_word(now->state, &style);
     }
     write_left(now, left, sizeof left);
     /* the last step of a dynamic run ends a little before or behind its time */
-    const bool done = session->runner != NULL && now->state == GB_RUN_DONE;
+    const bool done = seen.curve != NULL && now->state == GB_RUN_DONE;
     const double share = done ? 1.0 : now->progress;
     const double percent = floor(100.0 * share);
     const int inner = paint->rect.cols - 2;
@@ -354,8 +353,9 @@ static void draw_items(const struct gb_paint *paint, int first, int rows,
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
                          bool focus)
 {
-    gb_paint_title(paint, "State", focus);
-    const struct gb_snapshot *now = &session->now;
+    const struct gb_seen seen = gb_session_seen(session);
+    const struct gb_snapshot *now = seen.now;
+    gb_paint_title(paint, seen.quick ? "State of the quick cell" : "State", focus);
     const struct choice choice = choose(session);
     const bool roomy = paint->rect.rows >= choice.count + 5;
     draw_progress(paint, session, roomy);

@@ -55,8 +55,9 @@ bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyph
     plot->rows = cells > 0 ? rows : 0;
     plot->cols = cells > 0 ? cols : 0;
     plot->glyphs = glyphs;
+    plot->log_x = false;
     for (size_t i = 0; i < cells; i++) {
-        plot->cell[i] = (struct gb_plot_cell){' ', GB_PLOT_INK_NONE, false};
+        plot->cell[i] = (struct gb_plot_cell){' ', GB_PLOT_INK_NONE, false, 0};
         plot->dots[i] = 0;
     }
     plot->top = 0;
@@ -69,7 +70,7 @@ bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyph
 static void put(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
 {
     if (row >= 0 && row < plot->rows && col >= 0 && col < plot->cols) {
-        plot->cell[row * plot->cols + col] = (struct gb_plot_cell){ch, ink, true};
+        plot->cell[row * plot->cols + col] = (struct gb_plot_cell){ch, ink, true, 0};
     }
 }
 
@@ -170,7 +171,7 @@ void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_e
     plot->left = left;
     plot->field_rows = rows;
     plot->field_cols = cols;
-    gb_plot_axis_fit(&plot->x, x_ends[0], x_ends[1], false,
+    gb_plot_axis_fit(&plot->x, x_ends[0], x_ends[1], plot->log_x,
                      limit(cols / TICK_COLS + 1, 2, TICK_COLS_MOST));
     draw_y_axis(plot);
     draw_x_axis(plot);
@@ -307,6 +308,7 @@ void gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int
         char name[GB_PLOT_NAME];
         g_utf8_strncpy(name, entry[i].name, (gsize)(width - 2));
         put(plot, row + i, col, mark_char(plot, entry[i].marker), entry[i].ink);
+        put(plot, row + i, col + 1, ' ', GB_PLOT_INK_NONE);
         gb_plot_text(plot, row + i, col + 2, entry[i].ink, name);
     }
 }

@@ -20,16 +20,18 @@ enum gb_plot_ink {
     GB_PLOT_INK_AXIS,
     GB_PLOT_INK_TEXT,
     GB_PLOT_INK_CURSOR,
-    GB_PLOT_INK_DIM,   /* earlier runs */
-    GB_PLOT_INK_SERIES /* + number of the series' colour, 0..GB_PLOT_COLOURS - 1 */
+    GB_PLOT_INK_DIM,    /* earlier runs */
+    GB_PLOT_INK_SERIES, /* + number of the series' colour, 0..GB_PLOT_COLOURS - 1 */
+    GB_PLOT_INK_SHADE = GB_PLOT_INK_SERIES + 6 /* + 0 (dark) .. GB_PLOT_SHADES - 1 */
 };
 
-enum { GB_PLOT_COLOURS = 6 };
+enum { GB_PLOT_COLOURS = 6, GB_PLOT_SHADES = 8 };
 
 struct gb_plot_cell {
     uint32_t ch; /* Unicode */
     int ink;     /* enum gb_plot_ink, or GB_PLOT_INK_SERIES + colour */
     bool fixed;  /* a marker or a text: lines pass behind it */
+    int back;    /* of a shaded cell: 1 + shade of its background; 0: the screen's own */
 };
 
 /* A line of points.  NaN breaks it; what lies outside the axes is clipped. */
@@ -54,6 +56,7 @@ struct gb_plot {
     int top, left;  /* of the field inside the axes */
     int field_rows, field_cols;
     enum gb_plot_glyphs glyphs;
+    bool log_x; /* of the axes to come; resizing clears it */
     struct gb_plot_axis x, y;
     struct gb_plot_cell *cell; /* rows x cols */
     uint8_t *dots;             /* rows x cols: bits of the raster */

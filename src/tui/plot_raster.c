@@ -143,6 +143,6 @@ void gb_plot_raster_column(struct gb_plot *plot, int col, double share, int ink)
         }
         struct gb_plot_cell *cell =
             &plot->cell[(plot->top + plot->field_rows - 1 - i) * plot->cols + col];
-        *cell = (struct gb_plot_cell){ch, ink, true};
+        *cell = (struct gb_plot_cell){ch, ink, true, 0};
     }
 }

@@ -3,10 +3,11 @@
 
 #include <stdbool.h>
 
+#include "greenbody/params.h"
 #include "tui/paint.h"
 
 /* One line of text being typed: a value, a name. */
-enum { GB_PROMPT_MOST = 200 };
+enum { GB_PROMPT_MOST = GB_PARAMS_VALUE_MAX };
 
 struct gb_prompt {
     uint32_t text[GB_PROMPT_MOST]; /* Unicode */

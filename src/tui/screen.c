@@ -17,7 +17,11 @@ static void draw_header(struct gb_screen *screen)
     const struct gb_session *session = &screen->session;
     enum gb_style style = GB_STYLE_DIM;
     const char *word = "not started";
-    if (session->runner != NULL) {
+    const struct gb_seen seen = gb_session_seen(session);
+    if (seen.quick) {
+        style = GB_STYLE_SERIES;
+        word = gb_trial_live(&session->trial) ? "\u25b6 quick cell" : "\u2713 quick cell";
+    } else if (seen.curve != NULL) {
         word = gb_panel_state_word(session->engine, &style);
     }
     char right[64];
@@ -107,6 +111,7 @@ static void draw_pane(struct gb_screen *screen, enum gb_pane pane)
         gb_panel_params_draw(&screen->params, &paint, &screen->session, focus);
         break;
     case GB_PANE_PLOT:
+        screen->plot.edited = gb_panel_params_edited(&screen->params, &screen->session);
         gb_panel_plot_draw(&screen->plot, &paint, &screen->session, focus);
         break;
     case GB_PANE_STATE:

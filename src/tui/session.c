@@ -1,35 +1,33 @@
 #include "tui/session.h"
 
-#include <glib.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/alloc.h"
 #include "tui/costly.h"
+#include "tui/life.h"
+#include "tui/whatif.h"
+
+/* A live run that has worked longer than this is not replaced unasked. */
+static const double replaced_most_s = 60.0;
 
 void gb_session_init(struct gb_session *session, struct gb_preset *preset)
 {
     memset(session, 0, sizeof *session);
     session->preset = preset;
     session->now.seconds_left = -1.0;
-}
-
-static void drop_earlier(struct gb_earlier *earlier)
-{
-    gb_alloc_free(earlier->density);
-    gb_alloc_free(earlier->pressure_pa);
-    gb_alloc_free(earlier->elapsed);
-    memset(earlier, 0, sizeof *earlier);
+    session->follow = true;
 }
 
 void gb_session_finish(struct gb_session *session)
 {
+    gb_trial_drop(&session->trial);
     gb_runner_destroy(session->runner);
     for (int i = 0; i < session->earlier_count; i++) {
-        drop_earlier(&session->earlier[i]);
+        gb_earlier_drop(&session->earlier[i]);
     }
+    gb_measured_destroy(session->measured);
+    gb_choices_destroy(session->choices);
     gb_preset_destroy(session->opened);
     session->runner = NULL;
     session->opened = NULL;
@@ -61,91 +59,54 @@ const char *gb_session_line(const struct gb_session *session, int index)
     return session->log[at % GB_SESSION_LOG];
 }
 
-double gb_session_elapsed(int kind, const struct gb_point *point)
+/* Keeps the curve of what is about to be replaced.  A curve without points is not worth a
+ * place; without memory it is forgotten. */
+static void keep(struct gb_session *session, const struct gb_params *params,
+                 const struct gb_runner *runner, bool quick)
 {
-    return kind == GB_KIND_DYNAMIC ? 1e9 * point->time_s : (double)point->step;
-}
-
-/* The branches of a curve one after the other, NaN between them. */
-static void copy_branches(struct gb_earlier *earlier, const struct gb_curve *curve,
-                          size_t count)
-{
-    int branch = 0;
-    size_t n = 0;
-    for (size_t i = 0; i < count; i++) {
-        const struct gb_point *point = gb_curve_at(curve, i);
-        if (i > 0 && point->branch != branch && (point->branch > 0 || branch > 0)) {
-            earlier->density[n] = NAN;
-            earlier->elapsed[n] = NAN;
-            earlier->pressure_pa[n++] = NAN;
-        }
-        branch = point->branch;
-        earlier->density[n] = point->density;
-        earlier->elapsed[n] = gb_session_elapsed(earlier->params.kind, point);
-        earlier->pressure_pa[n++] = point->p_pa;
-    }
-    earlier->count = n;
-}
-
-/* Keeps the curve of the run that is about to be replaced.  A run without points is not
- * worth a place; without memory it is forgotten. */
-static void keep_run(struct gb_session *session)
-{
-    const struct gb_curve *curve = gb_runner_curve(session->runner);
+    const struct gb_curve *curve = gb_runner_curve(runner);
     const size_t count = gb_curve_count(curve);
-    if (count < 2) {
+    struct gb_earlier earlier;
+    if (count < 2 || !gb_earlier_copy(&earlier, params, curve, count)) {
         return;
     }
     if (session->earlier_count == GB_SESSION_EARLIER) {
-        drop_earlier(&session->earlier[0]);
+        gb_earlier_drop(&session->earlier[0]);
         memmove(session->earlier, session->earlier + 1,
                 (GB_SESSION_EARLIER - 1) * sizeof session->earlier[0]);
         session->earlier_count--;
     }
-    struct gb_earlier *earlier = &session->earlier[session->earlier_count];
-    memset(earlier, 0, sizeof *earlier);
-    earlier->params = *gb_runner_params(session->runner);
-    earlier->letter = (char)('a' + (session->runs - 1) % 26);
-    earlier->density = gb_alloc_array(2 * count, sizeof(double), NULL);
-    earlier->pressure_pa = gb_alloc_array(2 * count, sizeof(double), NULL);
-    earlier->elapsed = gb_alloc_array(2 * count, sizeof(double), NULL);
-    if (earlier->density == NULL || earlier->pressure_pa == NULL ||
-        earlier->elapsed == NULL) {
-        drop_earlier(earlier);
-        return;
-    }
-    copy_branches(earlier, curve, count);
-    session->earlier_count++;
+    earlier.letter = (char)('a' + session->kept++ % 26);
+    earlier.quick = quick;
+    session->earlier[session->earlier_count++] = earlier;
 }
 
-static bool same_value(const struct gb_params *a, const struct gb_params *b,
-                       const struct gb_field *field)
+static bool trial_is_of(const struct gb_session *session, const struct gb_params *params)
 {
-    char one[256];
-    char other[256];
-    gb_params_format(a, field, one, sizeof one);
-    gb_params_format(b, field, other, sizeof other);
-    return strcmp(one, other) == 0;
+    return session->trial.runner != NULL &&
+           gb_earlier_differences(&session->trial.asked, params) == 0;
 }
 
-/* "mu 0.1, alpha 0.24": what tells an earlier run from the one under way. */
-static void describe(struct gb_earlier *earlier, const struct gb_params *now)
+/* A quick curve has done its work once the full run of its scene has been started. */
+static void keep_trial(struct gb_session *session)
 {
-    size_t count = 0;
-    const struct gb_field *field = gb_params_fields(&count);
-    GString *text = g_string_new(NULL);
-    for (size_t i = 0; i < count; i++) {
-        if (strcmp(field[i].key, "title") != 0 &&
-            !same_value(&earlier->params, now, &field[i])) {
-            char value[256];
-            gb_params_format(&earlier->params, &field[i], value, sizeof value);
-            g_string_append_printf(text, "%s%s %s", text->len > 0 ? ", " : "",
-                                   field[i].key, value);
-        }
+    const struct gb_runner *run = session->runner;
+    if (session->trial.runner != NULL &&
+        (run == NULL || !trial_is_of(session, gb_runner_params(run)))) {
+        keep(session, &session->trial.asked, session->trial.runner, true);
     }
-    g_strlcpy(earlier->difference, text->len > 0 ? text->str : "same parameters",
-              sizeof earlier->difference);
-    g_string_free(text, TRUE);
+}
+
+/* What tells the curves before from the one of these parameters. */
+static void describe_all(struct gb_session *session, const struct gb_params *params)
+{
+    for (int i = 0; i < session->earlier_count; i++) {
+        struct gb_earlier *earlier = &session->earlier[i];
+        char text[GB_EARLIER_DIFFERENCE];
+        gb_earlier_describe(&earlier->params, params, text, sizeof text);
+        snprintf(earlier->difference, sizeof earlier->difference, "%s%.80s",
+                 earlier->quick ? "quick: " : "", text);
+    }
 }
 
 bool gb_session_costly(struct gb_session *session, char *text, size_t size)
@@ -154,32 +115,135 @@ bool gb_session_costly(struct gb_session *session, char *text, size_t size)
                               text, size);
 }
 
-bool gb_session_start(struct gb_session *session, struct gb_error *err)
+void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
 {
-    const struct gb_params *params = gb_session_params(session);
-    struct gb_runner *runner = NULL;
-    if (!gb_runner_create(&runner, params, err)) {
-        return false;
-    }
     if (session->runner != NULL) {
-        keep_run(session);
+        keep(session, gb_runner_params(session->runner), session->runner, false);
         gb_runner_destroy(session->runner);
     }
     session->runner = runner;
+    gb_runner_send(runner, GB_COMMAND_WATCH);
     session->runs++;
+    session->aside = false;
+    session->due = false;
     session->frozen = false;
     session->pause_wanted = false;
     session->waiting = false;
     session->engine = GB_RUN_PACKING;
     session->points = 0;
+    session->picture = NULL;
     session->events_seen = 0;
     memset(&session->now, 0, sizeof session->now);
     session->now.seconds_left = -1.0;
-    for (int i = 0; i < session->earlier_count; i++) {
-        describe(&session->earlier[i], params);
+    describe_all(session, gb_runner_params(runner));
+}
+
+bool gb_session_start(struct gb_session *session, struct gb_error *err)
+{
+    const struct gb_params *params = gb_session_params(session);
+    struct gb_runner *runner = NULL;
+    if (!gb_life_start(&runner, session, params, err)) {
+        return false;
     }
+    if (session->trial.runner != NULL && !trial_is_of(session, params)) {
+        gb_trial_drop(&session->trial);
+    }
+    session->forks = 0;
+    gb_session_replace(session, runner);
     gb_session_note(session, "run %d started", session->runs);
     return true;
+}
+
+bool gb_session_run_is_live(const struct gb_session *session)
+{
+    return session->runner != NULL && session->engine <= GB_RUN_PAUSED;
+}
+
+static void stand_aside(struct gb_session *session, bool aside)
+{
+    if (session->aside != aside && session->runner != NULL &&
+        gb_runner_send(session->runner, aside ? GB_COMMAND_YIELD : GB_COMMAND_TAKE_UP)) {
+        session->aside = aside;
+    }
+}
+
+bool gb_session_try(struct gb_session *session)
+{
+    const struct gb_params *params = gb_session_params(session);
+    struct gb_error err = {0};
+    session->due = false;
+    if (session->runner != NULL && gb_session_changes(session) == 0) {
+        gb_trial_drop(&session->trial);
+        stand_aside(session, false);
+        return false;
+    }
+    if (!gb_params_check(params, NULL)) {
+        return false;
+    }
+    keep_trial(session);
+    stand_aside(session, gb_session_run_is_live(session));
+    session->pause_wanted = false;
+    if (!gb_trial_start(&session->trial, params, &err)) {
+        gb_trial_drop(&session->trial);
+        stand_aside(session, false);
+        return false;
+    }
+    session->frozen = false;
+    describe_all(session, params);
+    return true;
+}
+
+bool gb_session_take_due(struct gb_session *session)
+{
+    const bool due = session->due;
+    session->due = false;
+    return due;
+}
+
+/* The full run follows, unless that would throw away work. */
+static void end_trial(struct gb_session *session)
+{
+    const struct gb_trial *trial = &session->trial;
+    const struct gb_snapshot *now = gb_runner_snapshot(trial->runner, NULL);
+    stand_aside(session, false);
+    if (trial->state != GB_RUN_DONE) {
+        gb_session_note(session, "quick cell: %s", now->error.text);
+        return;
+    }
+    const bool works =
+        gb_session_run_is_live(session) && session->now.seconds > replaced_most_s;
+    gb_session_note(session, "quick cell of %lld: whole curve in %.1f s",
+                    (long long)gb_runner_params(trial->runner)->count, now->seconds);
+    session->due = session->follow && !works;
+    if (!session->due) {
+        gb_session_note(session, "%sr starts the full cell",
+                        works ? "the run under way goes on: " : "");
+    }
+}
+
+struct gb_seen gb_session_seen(const struct gb_session *session)
+{
+    const struct gb_trial *trial = &session->trial;
+    if (trial->runner != NULL && (gb_trial_live(trial) || session->runner == NULL)) {
+        return (struct gb_seen){&trial->now,
+                                gb_runner_params(trial->runner),
+                                gb_runner_curve(trial->runner),
+                                trial->points,
+                                trial->picture,
+                                trial->state,
+                                true};
+    }
+    if (session->runner == NULL) {
+        return (struct gb_seen){.now = &session->now,
+                                .params = gb_preset_params(session->preset)};
+    }
+    return (struct gb_seen){&session->now,
+                            gb_runner_params(session->runner),
+                            gb_runner_curve(session->runner),
+                            session->points,
+                            session->picture,
+                            session->engine,
+                            false};
 }
 
 bool gb_session_open(struct gb_session *session, const char *name, struct gb_error *err)
@@ -192,6 +256,33 @@ bool gb_session_open(struct gb_session *session, const char *name, struct gb_err
     session->opened = preset;
     session->preset = preset;
     return true;
+}
+
+bool gb_session_load_data(struct gb_session *session, const char *path,
+                          struct gb_error *err)
+{
+    struct gb_measured *measured = NULL;
+    struct gb_choices *choices = NULL;
+    if (*path != '\0' && gb_choices_read(&choices, path, NULL)) {
+        gb_choices_destroy(session->choices);
+        session->choices = choices;
+        return true;
+    }
+    if (*path != '\0' && !gb_measured_read(&measured, path, err)) {
+        return false;
+    }
+    gb_measured_destroy(session->measured);
+    session->measured = measured;
+    return true;
+}
+
+void gb_session_misfit(const struct gb_session *session, struct gb_measured_misfit *out)
+{
+    const struct gb_seen seen = gb_session_seen(session);
+    *out = (struct gb_measured_misfit){.reached = 0};
+    if (session->measured != NULL && seen.curve != NULL) {
+        gb_measured_compare(session->measured, seen.curve, seen.points, out);
+    }
 }
 
 static void take_events(struct gb_session *session)
@@ -210,6 +301,7 @@ static void show(struct gb_session *session, const struct gb_snapshot *snapshot)
 {
     session->now = *snapshot;
     session->points = gb_curve_count(gb_runner_curve(session->runner));
+    session->picture = gb_runner_picture(session->runner, NULL);
     take_events(session);
 }
 
@@ -222,7 +314,8 @@ static void take_rate(struct gb_session *session, const struct gb_snapshot *snap
     }
 }
 
-bool gb_session_refresh(struct gb_session *session)
+/* News of the run; the quick cell has its own. */
+static bool refresh_run(struct gb_session *session)
 {
     if (session->runner == NULL) {
         return false;
@@ -242,13 +335,34 @@ bool gb_session_refresh(struct gb_session *session)
     return other_state;
 }
 
+bool gb_session_refresh(struct gb_session *session)
+{
+    char text[GB_SNAPSHOT_EVENT];
+    bool ended = false;
+    const int before = session->trial.state;
+    const bool tried = gb_trial_refresh(&session->trial, session->frozen, &ended);
+    session->waiting = session->waiting && session->trial.state == before;
+    const bool ran = refresh_run(session);
+    gb_whatif_refresh(session);
+    const bool made = gb_errand_poll(&session->errand, text, sizeof text);
+    if (made) {
+        gb_session_note(session, "%s", text);
+    }
+    if (ended) {
+        end_trial(session);
+    }
+    return tried || ran || ended || made;
+}
+
 void gb_session_toggle_pause(struct gb_session *session)
 {
+    const bool quick = gb_trial_live(&session->trial);
     if (!gb_session_live(session)) {
         return;
     }
     const bool wanted = !session->pause_wanted;
-    if (gb_runner_send(session->runner, wanted ? GB_COMMAND_PAUSE : GB_COMMAND_RESUME)) {
+    if (gb_runner_send(quick ? session->trial.runner : session->runner,
+                       wanted ? GB_COMMAND_PAUSE : GB_COMMAND_RESUME)) {
         session->pause_wanted = wanted;
         session->waiting = true;
     }
@@ -264,20 +378,22 @@ void gb_session_toggle_freeze(struct gb_session *session)
 
 bool gb_session_live(const struct gb_session *session)
 {
-    return session->runner != NULL && session->engine <= GB_RUN_PAUSED;
+    return gb_trial_live(&session->trial) || gb_session_run_is_live(session);
 }
 
 bool gb_session_busy(const struct gb_session *session)
 {
-    return session->runner != NULL &&
-           (session->engine <= GB_RUN_RUNNING || session->waiting);
+    const int state = gb_session_seen(session).state;
+    return session->errand.pid != 0 ||
+           ((session->runner != NULL || session->trial.runner != NULL) &&
+            (state <= GB_RUN_RUNNING || session->waiting));
 }
 
 bool gb_session_differs(struct gb_session *session, const struct gb_field *field)
 {
     return session->runner != NULL &&
-           !same_value(gb_session_params(session), gb_runner_params(session->runner),
-                       field);
+           !gb_earlier_same(gb_session_params(session), gb_runner_params(session->runner),
+                            field);
 }
 
 int gb_session_changes(struct gb_session *session)

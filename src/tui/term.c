@@ -33,7 +33,7 @@ struct gb_term {
     FILE *out, *in;
     int out_fd, in_fd, signal_fd;
     int saved_out, saved_err;
-    bool utf8, braille;
+    bool utf8, braille, shaded;
     struct termios modes;
     sigset_t mask_before;
     struct sigaction before[CAUGHT], pipe_before;
@@ -66,7 +66,7 @@ static bool start_screen(struct gb_term *term, const char *type, struct gb_error
     }
     set_modes();
     set_escdelay(ESCAPE_MS);
-    gb_term_style_init(term->style);
+    term->shaded = gb_term_style_init(term->style);
     term->keys = newpad(1, 1);
     keypad(term->keys, TRUE);
     nodelay(term->keys, TRUE);
@@ -194,6 +194,19 @@ void gb_term_stop(struct gb_term *term)
     gb_term_tty_restore(term->saved_out, term->saved_err);
     release_signals(term);
     close_streams(term);
+    gb_alloc_free(term);
+}
+
+void gb_term_abandon(struct gb_term *term)
+{
+    gb_crash_disarm();
+    close(term->signal_fd);
+    close_streams(term);
+    const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (nothing >= 0) {
+        dup2(nothing, STDIN_FILENO);
+        close(nothing);
+    }
     gb_alloc_free(term);
 }
 
@@ -329,6 +342,17 @@ bool gb_term_utf8(const struct gb_term *term)
 bool gb_term_braille(const struct gb_term *term)
 {
     return term->braille;
+}
+
+bool gb_term_shaded(const struct gb_term *term)
+{
+    return term->shaded;
+}
+
+uint64_t gb_term_shade(const struct gb_term *term, int shade, int back)
+{
+    (void)term;
+    return gb_term_style_shade(shade, back);
 }
 
 uint64_t gb_term_style(const struct gb_term *term, enum gb_style style)

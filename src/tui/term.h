@@ -48,6 +48,10 @@ struct gb_term_event {
 bool gb_term_start(struct gb_term **out, struct gb_error *err);
 void gb_term_stop(struct gb_term *term); /* NULL is fine */
 
+/* Instead of gb_term_stop when the terminal is gone: it is not touched again.  Standard
+ * output and error stay in the log file, signals stay blocked. */
+void gb_term_abandon(struct gb_term *term);
+
 /* Sleeps until something happens, at most timeout_ms (negative: for ever). */
 struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms);
 
@@ -63,6 +67,11 @@ void gb_term_size(const struct gb_term *term, int *rows, int *cols);
 bool gb_term_utf8(const struct gb_term *term);
 /* Braille is in no font of the Linux console. */
 bool gb_term_braille(const struct gb_term *term);
+/* Whether the screen has the shades of a relief; their attributes: shade 0 (dark) to
+ * GB_TERM_SHADES - 1 before a background of another shade, -1: the screen's own. */
+enum { GB_TERM_SHADES = 8 };
+bool gb_term_shaded(const struct gb_term *term);
+uint64_t gb_term_shade(const struct gb_term *term, int shade, int back);
 /* curses attributes of a style. */
 uint64_t gb_term_style(const struct gb_term *term, enum gb_style style);
 

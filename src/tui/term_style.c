@@ -53,12 +53,46 @@ static void set_colours(uint64_t *style)
     style[GB_STYLE_FOCUS] = pair[0] | A_REVERSE | A_BOLD;
 }
 
-void gb_term_style_init(uint64_t *style)
+/* One hue from dark to light, so that it reads as depth for every kind of vision. */
+static const short shades_256[GB_TERM_SHADES] = {17, 23, 24, 31, 38, 74, 117, 195};
+
+enum {
+    SHADE_PAIRS = SERIES + 2, /* the first */
+    PAIRS = SHADE_PAIRS + GB_TERM_SHADES * (GB_TERM_SHADES + 1)
+};
+
+static short shade_pair(int shade, int back)
+{
+    return (short)(SHADE_PAIRS + shade * (GB_TERM_SHADES + 1) + back + 1);
+}
+
+static bool set_shades(void)
+{
+    if (COLORS < 256 || COLOR_PAIRS < PAIRS) {
+        return false;
+    }
+    for (int shade = 0; shade < GB_TERM_SHADES; shade++) {
+        for (int back = -1; back < GB_TERM_SHADES; back++) {
+            init_pair(shade_pair(shade, back), shades_256[shade],
+                      back < 0 ? -1 : shades_256[back]);
+        }
+    }
+    return true;
+}
+
+uint64_t gb_term_style_shade(int shade, int back)
+{
+    return (uint64_t)COLOR_PAIR(shade_pair(shade, back));
+}
+
+bool gb_term_style_init(uint64_t *style)
 {
     set_plain(style);
     const char *no_color = getenv("NO_COLOR");
     const bool wanted = no_color == NULL || *no_color == '\0';
-    if (wanted && has_colors() && start_color() == OK && use_default_colors() == OK) {
-        set_colours(style);
+    if (!wanted || !has_colors() || start_color() != OK || use_default_colors() != OK) {
+        return false;
     }
+    set_colours(style);
+    return set_shades();
 }

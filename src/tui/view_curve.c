@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/alloc.h"
 #include "base/units.h"
 #include "tui/views.h"
 
@@ -16,12 +15,18 @@ enum {
     MARK_UNLOAD = 2,
     MARK_RELAX = 3,
     MARK_HOLD = 4,
+    MARK_MEASURED = 5,
     UNLOAD_SPACING = 7
 };
 
-enum { INK_RELAX = GB_PLOT_INK_SERIES + 2, INK_HOLD = GB_PLOT_INK_SERIES + 4 };
+enum {
+    INK_RELAX = GB_PLOT_INK_SERIES + 2,
+    INK_HOLD = GB_PLOT_INK_SERIES + 4,
+    INK_TRIAL = GB_PLOT_INK_SERIES + 1,
+    INK_MEASURED = GB_PLOT_INK_SERIES + 3
+};
 
-enum { STAGES = 3, ENTRIES = STAGES + GB_UNLOAD_MAX + GB_SESSION_EARLIER };
+enum { STAGES = 3, ENTRIES = STAGES + 2 + GB_UNLOAD_MAX + GB_SESSION_EARLIER };
 
 struct legend {
     struct gb_plot_entry entry[ENTRIES];
@@ -63,17 +68,15 @@ static const struct gb_curve *curve_of(const struct gb_session *session)
     return session->runner == NULL ? NULL : gb_runner_curve(session->runner);
 }
 
-/* Of the run under way; without one, of what is edited. */
 static int kind_of(const struct gb_session *session)
 {
-    return session->runner != NULL ? gb_runner_params(session->runner)->kind
-                                   : gb_preset_params(session->preset)->kind;
+    return gb_session_seen(session).params->kind;
 }
 
 static double x_of(const struct gb_panel_plot *panel, const struct gb_session *session,
                    const struct gb_point *point)
 {
-    return panel->view == GB_VIEW_TIME ? gb_session_elapsed(kind_of(session), point)
+    return panel->view == GB_VIEW_TIME ? gb_earlier_elapsed(kind_of(session), point)
                                        : point->density;
 }
 
@@ -88,6 +91,23 @@ static const double *earlier_x(const struct gb_panel_plot *panel,
     return earlier->params.kind == kind_of(session) ? earlier->elapsed : NULL;
 }
 
+/* The full run of the same scene makes the quick curve one of those that can be hidden.
+ * Against time it has no place: its steps are longer. */
+static bool trial_behind(const struct gb_session *session)
+{
+    return session->runner != NULL && !gb_trial_live(&session->trial) &&
+           gb_earlier_differences(&session->trial.asked,
+                                  gb_runner_params(session->runner)) == 0;
+}
+
+static bool trial_shown(const struct gb_panel_plot *panel,
+                        const struct gb_session *session)
+{
+    return session->trial.points > 0 &&
+           (panel->view != GB_VIEW_TIME || kind_of(session) == GB_KIND_DYNAMIC) &&
+           !(panel->hide_earlier && trial_behind(session));
+}
+
 static struct ends find_ends(const struct gb_panel_plot *panel,
                              const struct gb_session *session)
 {
@@ -95,6 +115,16 @@ static struct ends find_ends(const struct gb_panel_plot *panel,
     for (size_t i = 0; i < session->points; i++) {
         const struct gb_point *point = gb_curve_at(curve_of(session), i);
         extend(&ends, x_of(panel, session, point), point->p_pa);
+    }
+    const struct gb_trial *trial = &session->trial;
+    for (size_t i = 0; trial_shown(panel, session) && i < trial->points; i++) {
+        const struct gb_point *point = gb_curve_at(gb_runner_curve(trial->runner), i);
+        extend(&ends, x_of(panel, session, point), point->p_pa);
+    }
+    const struct gb_measured *data = session->measured;
+    for (size_t i = 0; data != NULL && panel->view == GB_VIEW_CURVE && i < data->count;
+         i++) {
+        extend(&ends, data->density[i], data->pressure_pa[i]);
     }
     for (int k = 0; !panel->hide_earlier && k < session->earlier_count; k++) {
         const struct gb_earlier *earlier = &session->earlier[k];
@@ -111,26 +141,6 @@ static struct ends find_ends(const struct gb_panel_plot *panel,
     return ends;
 }
 
-static bool reserve(struct gb_panel_plot *panel, size_t count)
-{
-    if (count <= panel->capacity) {
-        return true;
-    }
-    const size_t capacity = 2 * count + 64;
-    double *x = gb_alloc_array(capacity, sizeof *x, NULL);
-    double *y = x == NULL ? NULL : gb_alloc_array(capacity, sizeof *y, NULL);
-    if (y == NULL) {
-        gb_alloc_free(x);
-        return false;
-    }
-    gb_alloc_free(panel->x);
-    gb_alloc_free(panel->y);
-    panel->x = x;
-    panel->y = y;
-    panel->capacity = capacity;
-    return true;
-}
-
 static void draw_earlier(struct gb_panel_plot *panel, const struct gb_session *session,
                          double unit_pa, struct legend *legend)
 {
@@ -140,7 +150,7 @@ static void draw_earlier(struct gb_panel_plot *panel, const struct gb_session *s
         if (x == NULL) {
             continue;
         }
-        if (!reserve(panel, earlier->count)) {
+        if (!gb_panel_plot_reserve(panel, earlier->count)) {
             return;
         }
         for (size_t i = 0; i < earlier->count; i++) {
@@ -154,6 +164,38 @@ static void draw_earlier(struct gb_panel_plot *panel, const struct gb_session *s
         gb_plot_line(&panel->plot, &series);
         add_entry(legend, &series, earlier->difference);
     }
+}
+
+/* Bright while it is the newest answer, dim once the full cell is on its way. */
+static void draw_trial(struct gb_panel_plot *panel, const struct gb_session *session,
+                       double unit_pa, struct legend *legend)
+{
+    const struct gb_trial *trial = &session->trial;
+    if (!trial_shown(panel, session) || !gb_panel_plot_reserve(panel, trial->points)) {
+        return;
+    }
+    for (size_t i = 0; i < trial->points; i++) {
+        const struct gb_point *point = gb_curve_at(gb_runner_curve(trial->runner), i);
+        panel->x[i] = x_of(panel, session, point);
+        panel->y[i] = point->p_pa / unit_pa;
+    }
+    const struct gb_plot_series series = {.x = panel->x,
+                                          .y = panel->y,
+                                          .count = trial->points,
+                                          .ink = trial_behind(session) ? GB_PLOT_INK_DIM
+                                                                       : INK_TRIAL,
+                                          .marker = 'q'};
+    char name[GB_PLOT_NAME];
+    char difference[GB_EARLIER_DIFFERENCE] = "";
+    if (session->runner != NULL && !trial_behind(session)) {
+        gb_earlier_describe(&trial->asked, gb_runner_params(session->runner), difference,
+                            sizeof difference);
+    }
+    snprintf(name, sizeof name, "quick cell, N %lld%s%.40s",
+             (long long)gb_runner_params(trial->runner)->count,
+             difference[0] != '\0' ? ": " : "", difference);
+    gb_plot_line(&panel->plot, &series);
+    add_entry(legend, &series, name);
 }
 
 /* A quasi-static run has no stages: its first, relaxed state is a part of loading. */
@@ -262,8 +304,9 @@ static void draw_branches(struct gb_panel_plot *panel, const struct gb_session *
 /* What stands in the empty field before there is a point. */
 static void draw_waiting(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const char *text = session->runner == NULL ? "not started: r starts it"
-                       : session->now.state == GB_RUN_PACKING
+    const struct gb_seen seen = gb_session_seen(session);
+    const char *text = seen.curve == NULL ? "not started: r starts it"
+                       : seen.state == GB_RUN_PACKING
                            ? "building the initial structure ..."
                            : "waiting for the first point ...";
     const struct gb_plot *plot = &panel->plot;
@@ -289,6 +332,77 @@ static const char *x_label(const struct gb_panel_plot *panel,
                                                  : "step";
 }
 
+/* The experiment: a mark for each point, a line as long as its error is on each side. */
+static void draw_measured(struct gb_panel_plot *panel, const struct gb_session *session,
+                          double unit_pa, struct legend *legend)
+{
+    const struct gb_measured *data = session->measured;
+    if (data == NULL || panel->view != GB_VIEW_CURVE) {
+        return;
+    }
+    struct gb_plot_series series = {
+        .count = 2, .ink = INK_MEASURED, .marker = MARK_MEASURED, .points = true};
+    for (size_t i = 0; i < data->count; i++) {
+        const double x = data->density[i], y = data->pressure_pa[i] / unit_pa;
+        const double dx = data->density_error[i];
+        const double dy = data->pressure_error_pa[i] / unit_pa;
+        const struct gb_plot_series wide = {.x = (double[]){x - dx, x + dx},
+                                            .y = (double[]){y, y},
+                                            .count = 2,
+                                            .ink = INK_MEASURED};
+        const struct gb_plot_series high = {.x = (double[]){x, x},
+                                            .y = (double[]){y - dy, y + dy},
+                                            .count = 2,
+                                            .ink = INK_MEASURED};
+        gb_plot_line(&panel->plot, &wide); /* NaN draws nothing */
+        gb_plot_line(&panel->plot, &high);
+        series.x = &x;
+        series.y = &y;
+        series.count = 1;
+        gb_plot_line(&panel->plot, &series);
+    }
+    char name[GB_PLOT_NAME];
+    struct gb_measured_misfit misfit;
+    gb_session_misfit(session, &misfit);
+    if (misfit.reached > 0) {
+        snprintf(name, sizeof name, "experiment, misfit %.2f points", 100.0 * misfit.rms);
+    } else {
+        snprintf(name, sizeof name, "experiment");
+    }
+    add_entry(legend, &series, name);
+}
+
+/* A letter where the run went on with other values. */
+static void draw_forks(struct gb_panel_plot *panel, const struct gb_session *session,
+                       double unit_pa)
+{
+    for (int i = 0; i < session->forks; i++) {
+        const size_t at = session->fork_at[i];
+        if (at == 0 || at > session->points) {
+            continue;
+        }
+        const struct gb_point *point = gb_curve_at(curve_of(session), at - 1);
+        const double x = x_of(panel, session, point);
+        const double y = point->p_pa / unit_pa;
+        gb_plot_line(&panel->plot, &(struct gb_plot_series){.x = &x,
+                                                            .y = &y,
+                                                            .count = 1,
+                                                            .ink = GB_PLOT_INK_CURSOR,
+                                                            .marker = 'f',
+                                                            .points = true});
+    }
+}
+
+static void draw_cursor(struct gb_panel_plot *panel, const struct gb_session *session,
+                        double unit_pa)
+{
+    const struct gb_seen seen = gb_session_seen(session);
+    if (panel->cursor_on && panel->cursor < seen.points) {
+        const struct gb_point *point = gb_curve_at(seen.curve, panel->cursor);
+        gb_plot_cursor(&panel->plot, x_of(panel, session, point), point->p_pa / unit_pa);
+    }
+}
+
 void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
     const struct ends ends = find_ends(panel, session);
@@ -300,15 +414,16 @@ void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *se
     if (!panel->hide_earlier) {
         draw_earlier(panel, session, unit_pa, &legend);
     }
-    if (session->points == 0 || !reserve(panel, 2 * session->points + 1)) {
+    draw_trial(panel, session, unit_pa, &legend);
+    draw_measured(panel, session, unit_pa, &legend);
+    if (session->points > 0 && gb_panel_plot_reserve(panel, 2 * session->points + 1)) {
+        draw_branches(panel, session, unit_pa, &legend);
+        draw_forks(panel, session, unit_pa);
+    } else if (session->trial.points == 0) {
         draw_waiting(panel, session);
         return;
     }
-    draw_branches(panel, session, unit_pa, &legend);
     reverse(&legend); /* drawn last means on top: named first */
     gb_plot_legend(&panel->plot, legend.entry, legend.count);
-    if (panel->cursor_on && panel->cursor < session->points) {
-        const struct gb_point *point = gb_curve_at(curve_of(session), panel->cursor);
-        gb_plot_cursor(&panel->plot, x_of(panel, session, point), point->p_pa / unit_pa);
-    }
+    draw_cursor(panel, session, unit_pa);
 }

@@ -4,7 +4,7 @@
 
 void gb_view_histogram_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const double *share = session->now.histogram;
+    const double *share = gb_session_seen(session).now->histogram;
     const double x_ends[2] = {0.0, GB_SNAPSHOT_HISTOGRAM};
     double y_ends[2] = {0.0, 1.0};
     double most = 0.0;

@@ -74,13 +74,14 @@ static void write_numbers(struct gb_plot *plot, const double rose[GB_SNAPSHOT_RO
 
 void gb_view_rose_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const double *rose = session->now.rose;
+    const struct gb_snapshot *now = gb_session_seen(session).now;
+    const double *rose = now->rose;
     struct gb_plot *plot = &panel->plot;
     double radius = 0.0;
     for (int i = 0; i < GB_SNAPSHOT_ROSE; i++) {
         radius = isfinite(rose[i]) ? fmax(radius, fabs(rose[i])) : radius;
     }
-    if (!session->now.now_valid || !(radius > 0.0)) {
+    if (!now->now_valid || !(radius > 0.0)) {
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no contacts yet");
         return;
     }

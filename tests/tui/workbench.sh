@@ -1,140 +1,13 @@
 #!/bin/sh
-# The workbench in a real terminal, as a user meets it.  Waits for what the screen shows, with
-# a deadline, and never for a time.
+# The workbench in a real terminal, as a user meets it.
 # Usage: workbench.sh GREENBODY PRESET_FOLDER
-set -u
-
-greenbody=$1
-presets=$2
-socket=greenbody-test-$$
-here=$(mktemp -d) || exit 1
-tests=0
-bad=0
-deadline_s=30
-
-export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
-export XDG_STATE_HOME="$here/state" LC_ALL=C.UTF-8 ENV=
-unset NO_COLOR COLORTERM TMUX LINES COLUMNS
-
-finish() {
-    term kill-server 2>/dev/null
-    rm -rf "$here"
-}
-trap finish EXIT
-trap 'exit 1' HUP INT TERM
-
-term() {
-    tmux -u -L "$socket" -f /dev/null "$@"
+. "$(dirname "$0")/terminal.sh"
+# The header says "quick cell" while that is what runs.
+full_cell_runs() {
+    screen | head -n 1 | grep -q '▶ running'
 }
 
-screen() {
-    term capture-pane -p
-}
-
-keys() {
-    term send-keys "$@"
-}
-
-result() { # name, 0 when good
-    tests=$((tests + 1))
-    if [ "$2" -eq 0 ]; then
-        echo "ok $tests $1"
-    else
-        echo "not ok $tests $1"
-        screen | sed 's/^/# /'
-        bad=1
-    fi
-}
-
-# command...: until it succeeds or the deadline is over
-until_true() {
-    end=$(($(date +%s) + deadline_s))
-    while ! "$@"; do
-        [ "$(date +%s)" -lt "$end" ] || return 1
-        sleep 0.05
-    done
-}
-
-has() {
-    screen | grep -q -- "$1"
-}
-
-has_not() {
-    ! has "$1"
-}
-
-shows() { # name, pattern
-    until_true has "$2"
-    result "$1" $?
-}
-
-hides() { # name, pattern
-    until_true has_not "$2"
-    result "$1" $?
-}
-
-is() { # name, command...
-    name=$1
-    shift
-    "$@"
-    result "$name" $?
-}
-
-# U+2800 to U+28FF, byte by byte: no grep knows them as a range in every locale
-has_braille() {
-    screen | LC_ALL=C grep -q "$(printf '\342[\240-\243]')"
-}
-
-density() {
-    screen | sed -n 's/.*density *\(0\.[0-9][0-9]*\).*/\1/p' | tail -n 1
-}
-
-density_changed() {
-    now=$(density)
-    [ -n "$now" ] && [ "$now" != "$before" ]
-}
-
-grows() { # name: the density on the screen changes twice
-    before=
-    until_true density_changed && before=$now && until_true density_changed
-    result "$1" $?
-}
-
-# The shell begins a line of its own with the status of what it ran.
-start() { # words after greenbody, and settings before it in $with
-    keys "clear; ${with:-} '$greenbody' $*; echo status=\$?" Enter
-}
-
-terminal_is_back() {
-    [ "$(term display-message -p '#{alternate_on} #{cursor_flag}')" = "0 1" ] || return 1
-    keys "clear; stty -a | tr ' ;' '\\n\\n' | grep -x -e echo -e icanon -e isig | tr '\\n' ." \
-        Enter
-    until_true has 'isig.icanon.echo\.'
-}
-
-go_to() { # parameter: with the focus on the first one
-    for _ in $(seq 60); do
-        if has "^ $1: "; then
-            return 0
-        fi
-        before=$(screen)
-        keys j
-        until_true screen_changed || return 1
-    done
-    return 1
-}
-
-screen_changed() {
-    [ "$(screen)" != "$before" ]
-}
-
-command -v tmux >/dev/null || {
-    echo "Bail out! tmux is needed (./bootstrap installs it)"
-    exit 1
-}
-term new-session -d -x 80 -y 24 /bin/sh || exit 1
-keys "PS1='ready''> '" Enter
-until_true has '^ready>'
+open_terminal
 
 # --- the default scene
 start default
@@ -156,13 +29,19 @@ keys Enter C-u abc Enter
 shows "a bad value is refused with the reason" 'contact.mu = abc: accepted'
 keys C-u 0.3 Enter
 shows "a good value is marked" '^\*mu  *0\.3'
-shows "what applies when is said" 'applies at restart'
-keys r
-shows "r starts anew" 'run 2 started'
+shows "what applies when is said" 'the quick cell answers'
+shows "a quick cell answers" 'q quick cell'
+shows "the full cell follows" 'run 2 started'
 grows "the new curve grows"
 shows "the earlier run is named by what differed" 'a mu 0\.1'
+keys r
+shows "r starts anew" 'run 3 started'
 keys Enter C-u 0.25 Escape
 shows "Esc leaves the value" '^ mu  *0\.3'
+keys +
+shows "+ turns it up" '^[*]mu  *0\.32'
+keys -
+shows "- turns it down again" '^ mu  *0\.3 '
 shows "a run comes to its end" '✓ done'
 
 # --- an idle screen sends nothing: the one place where time has to pass
@@ -194,8 +73,33 @@ keys w C-u mine Enter
 shows "does not replace silently" 'exists: Enter again'
 keys Escape o
 shows "o lists presets" 'Open a preset'
-is "its own among them" has 'mine'
+shows "its own among them" 'mine'
+keys set2-38
+shows "what is typed filters" 'P1 set II, 38 nm'
+shows "what differs is said" 'diameter 38 nm'
+hides "others are gone" 'p1-set1-biaxial'
 keys Escape
+hides "Esc closes the list" 'Open a preset'
+keys c
+shows "c shows the command" 'greenbody run mine'
+keys c
+hides "c closes it" 'greenbody run mine'
+
+# --- a picture from the stored run, made beside the screen
+keys s
+shows "s makes a picture" 'picture: /'
+
+# --- an experiment over the plot
+printf 'density,p_MPa\n0.4,100\n0.55,500\n' >"$here/experiment.csv"
+printf 'density,force\n0.4,100\n' >"$here/other.csv"
+keys e "$here/exp" Tab Enter
+shows "an experiment is drawn" '▲ experiment, misfit'
+keys e C-u "$here/other.csv" Enter
+shows "another table is refused in one line" 'needs density'
+keys Escape
+hides "Esc leaves the experiment" 'Experiment over the plot'
+keys e C-u Enter
+hides "nothing takes it away" '▲ experiment'
 keys q
 shows "q leaves at once when the run is over" 'status=0'
 is "the terminal is back" terminal_is_back
@@ -209,7 +113,15 @@ shows "p pauses the engine" '‖ paused'
 keys p
 hides "p again resumes it" '‖ paused'
 shows "it runs again" '▶ running'
-keys Space
+is "the full cell follows its quick one" until_true full_cell_runs
+keys f C-u 'mu=0.3; count=3' Enter
+shows "a what-if says what can change" 'count=3: a run under way'
+keys C-u 'mu=0.3' Enter
+shows "a what-if goes on from a point" 'density 0.*what if mu=0.3'
+shows "from then on it runs" '▶ running'
+keys c
+shows "the command repeats it" 'loading.changes='
+keys c Space
 shows "space freezes the view" 'view frozen'
 keys Space
 hides "space again lets it go" 'view frozen'
@@ -222,7 +134,7 @@ term resize-window -x 30 -y 10
 shows "too small says so" 'needs 40 x 12'
 term resize-window -x 200 -y 60
 shows "200 x 60 spells names out" 'contacts a particle'
-is "nothing was lost" has 'run 1 started'
+shows "nothing was lost" 'run 1 started'
 term resize-window -x 80 -y 24
 shows "80 x 24 again" 'Parameters'
 keys C-z
@@ -323,7 +235,9 @@ shows "a dumb terminal gets one line" 'dumb cannot place the cursor'
 shows "and status 3" 'status=3'
 
 # --- the terminal goes away
-keys "clear; $keep_pid" Enter
+# where the run is not to outlive it (life.sh is about those that do)
+keys "clear; sh -c 'echo \$\$ >$here/pid; exec $greenbody default particles.count=6000 \
+output.on_hangup=stop'" Enter
 shows "opens a last time" 'Parameters'
 pid=$(cat "$here/pid")
 term kill-server

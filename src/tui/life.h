@@ -1,0 +1,33 @@
+#ifndef GB_TUI_LIFE_H
+#define GB_TUI_LIFE_H
+
+#include "tui/panels.h"
+
+/* The life of a run beside its screen: the directory that keeps it, a terminal that goes
+ * away, a run of another process that is shown or taken over. */
+
+/* Where the next run is to be kept (g_free); NULL: nowhere. */
+char *gb_life_directory(const struct gb_session *session);
+
+/* An engine for these parameters, kept in a new directory of session->folder. */
+bool gb_life_start(struct gb_runner **out, const struct gb_session *session,
+                   const struct gb_params *params, struct gb_error *err);
+
+/* Shows the run in session->attached. */
+bool gb_life_attach(struct gb_session *session, struct gb_error *err);
+
+/* Asks its engine to stop with a checkpoint and goes on here; the same for a run that has
+ * no engine any more. */
+void gb_life_take_over(struct gb_session *session, struct gb_message *message);
+
+/* The terminal is gone.  The run goes on to its end, or stops with a checkpoint, as
+ * output.on_hangup says; meanwhile nothing else is done.  Returns the exit status. */
+int gb_life_detached(struct gb_session *session);
+
+/* Tells on standard error, the screen being given back, where a live run is kept. */
+void gb_life_farewell(const struct gb_session *session);
+
+/* $XDG_STATE_HOME/greenbody/runs (g_free). */
+char *gb_life_folder(void);
+
+#endif

@@ -1,0 +1,193 @@
+#!/bin/bash
+# The workbench loses its terminal, under tmux and under a bare pseudo-terminal: the engine
+# goes on, the rest is idle, attach shows the run and takes it over.
+# Usage: life.sh GREENBODY PRESET_FOLDER SAME_STATE TIMES
+set -u
+
+greenbody=$1
+presets=$2
+same_state=$3
+times=$4
+socket=greenbody-life-$$
+here=$(mktemp -d) || exit 1
+tests=0
+bad=0
+deadline_s=60
+engine=
+
+export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
+export XDG_STATE_HOME="$here/state" LC_ALL=C.UTF-8 ENV=
+unset NO_COLOR COLORTERM TMUX LINES COLUMNS
+
+term() {
+    tmux -u -L "$socket" -f /dev/null "$@"
+}
+
+finish() {
+    term kill-server 2>/dev/null
+    [ -z "$engine" ] || kill -KILL "$engine" 2>/dev/null
+    rm -rf "$here"
+}
+trap finish EXIT
+mkfifo "$here/input" || exit 1
+trap 'exit 1' HUP INT TERM
+
+result() { # name, 0 when good
+    tests=$((tests + 1))
+    if [ "$2" -eq 0 ]; then
+        echo "ok $tests $1"
+    else
+        echo "not ok $tests $1"
+        term capture-pane -p 2>/dev/null | sed 's/^/# /'
+        sed 's/^/# /' "$run/status.json" "$run/events.log" 2>/dev/null
+        bad=1
+    fi
+}
+
+# command...: until it succeeds or the deadline is over
+until_true() {
+    local end=$(($(date +%s) + deadline_s))
+    while ! "$@"; do
+        [ "$(date +%s)" -lt "$end" ] || return 1
+        sleep 0.1
+    done
+}
+
+is() { # name, command...
+    local name=$1
+    shift
+    until_true "$@"
+    result "$name" $?
+}
+
+rows() {
+    grep -vc '^#' "$run/curve.csv" 2>/dev/null || echo 0
+}
+
+more_rows() { # than
+    [ "$(rows)" -gt "$1" ]
+}
+
+status_is() {
+    grep -q "\"state\" : \"$1\"" "$run/status.json" 2>/dev/null
+}
+
+pid() {
+    sed -n 's/.*"pid" : \([0-9]*\).*/\1/p' "$run/status.json"
+}
+
+gone() { # pid
+    ! kill -0 "$1" 2>/dev/null
+}
+
+has() {
+    term capture-pane -p | grep -q -- "$1"
+}
+
+# Clock ticks the first thread, that of the screen, has taken.
+ticks() {
+    awk '{ print $14 + $15 }' "/proc/$1/task/$1/stat"
+}
+
+# Well under a percent of two seconds.
+idle() { # pid
+    local before
+    before=$(ticks "$1")
+    sleep 2
+    [ $(($(ticks "$1") - before)) -le 2 ]
+}
+
+scene="default particles.count=500 numerics.tolerance=1e-3 loading.step=0.05% \
+output.checkpoint_every=0.5s numerics.fidelity=reference"
+
+lives_on() { # name
+    engine=$(pid)
+    local before
+    before=$(rows)
+    is "$1: the engine goes on" more_rows $((before + 3))
+    kill -0 "$engine" 2>/dev/null
+    result "$1: it is the same process" $?
+    idle "$engine"
+    result "$1: the rest is idle" $?
+}
+
+ends() { # name
+    kill -TERM "$engine"
+    is "$1: TERM ends it" gone "$engine"
+    engine=
+    status_is stopped && [ -s "$run/state.h5" ]
+    result "$1: with a checkpoint" $?
+}
+
+under_tmux() {
+    rm -rf "$here/state"
+    run=$here/state/greenbody/runs/default-1
+    term new-session -d -x 100 -y 30 "$greenbody $scene"
+    is 'tmux: the run is kept' more_rows 3
+    term kill-server
+    lives_on tmux
+}
+
+under_pty() {
+    rm -rf "$here/state"
+    run=$here/state/greenbody/runs/default-1
+    # its input never ends, and it is the terminal
+    (exec script -qfc "stty rows 30 cols 100; exec $greenbody $scene" /dev/null \
+        <>"$here/input" >/dev/null 2>&1) &
+    terminal=$!
+    is 'pty: the run is kept' more_rows 3
+    kill -KILL $terminal
+    wait $terminal 2>/dev/null
+    lives_on pty
+}
+
+for _ in $(seq "$times"); do
+    under_pty
+    ends pty
+    under_tmux
+    term new-session -d -x 100 -y 30 "$greenbody attach $run; sleep 100"
+    is 'attach shows it' has 'attached to'
+    is 'with its density' has 'density *0\.[2-9]'
+    kill -0 "$engine"
+    result 'and leaves it alone' $?
+    before=$engine
+    term send-keys t
+    is 'taken over: its engine ends' gone "$before"
+    is 'and goes on here' has 'resumed from the checkpoint'
+    engine=$(pid)
+    at=$(rows)
+    is 'with more rows' more_rows $((at + 2))
+    term kill-server
+    lives_on 'taken over'
+    ends 'taken over'
+done
+
+# --- on_hangup = stop ---------------------------------------------------------------------
+rm -rf "$here/state"
+run=$here/state/greenbody/runs/default-1
+term new-session -d -x 100 -y 30 "$greenbody $scene output.on_hangup=stop"
+is 'stop: the run is kept' more_rows 3
+stopped=$(pid)
+term kill-server
+is 'stop: the engine ends with its terminal' gone "$stopped"
+status_is stopped && [ -s "$run/state.h5" ]
+result 'stop: with a checkpoint' $?
+"$greenbody" verify "$run" >"$here/out" 2>&1
+grep -qx equal "$here/out"
+result 'stop: which verify repeats' $?
+
+# --- without a screen ---------------------------------------------------------------------
+run=$here/quiet
+# The tests themselves may run under nohup, and an ignored HUP stays ignored.
+# shellcheck disable=SC2086  # words
+env --default-signal=HUP "$greenbody" run $scene --out "$run" 2>/dev/null &
+engine=$!
+is 'run: it is kept' more_rows 3
+kill -HUP $engine
+before=$(rows)
+is 'run: HUP lets it go on' more_rows $((before + 3))
+is 'run: and is told among the events' grep -q 'the terminal is gone' "$run/events.log"
+ends run
+
+echo "1..$tests"
+exit $bad

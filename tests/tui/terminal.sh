@@ -1,0 +1,129 @@
+# shellcheck shell=sh
+# A real terminal for the tests of the workbench, to be sourced: sets $greenbody and $presets
+# from the arguments.  Waits for what the screen shows, with a deadline, and never for a time.
+set -u
+
+greenbody=$1
+presets=$2
+socket=greenbody-test-$$
+here=$(mktemp -d) || exit 1
+tests=0
+bad=0
+deadline_s=30
+
+export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
+export XDG_STATE_HOME="$here/state" LC_ALL=C.UTF-8 ENV=
+unset NO_COLOR COLORTERM TMUX LINES COLUMNS
+
+finish() {
+    term kill-server 2>/dev/null
+    rm -rf "$here"
+}
+trap finish EXIT
+trap 'exit 1' HUP INT TERM
+
+term() {
+    tmux -u -L "$socket" -f /dev/null "$@"
+}
+
+screen() {
+    term capture-pane -p
+}
+
+keys() {
+    term send-keys "$@"
+}
+
+result() { # name, 0 when good
+    tests=$((tests + 1))
+    if [ "$2" -eq 0 ]; then
+        echo "ok $tests $1"
+    else
+        echo "not ok $tests $1"
+        screen | sed 's/^/# /'
+        bad=1
+    fi
+}
+
+# command...: until it succeeds or the deadline is over
+until_true() {
+    end=$(($(date +%s) + deadline_s))
+    while ! "$@"; do
+        [ "$(date +%s)" -lt "$end" ] || return 1
+        sleep 0.05
+    done
+}
+
+has() {
+    screen | grep -q -- "$1"
+}
+
+has_not() {
+    ! has "$1"
+}
+
+shows() { # name, pattern
+    until_true has "$2"
+    result "$1" $?
+}
+
+hides() { # name, pattern
+    until_true has_not "$2"
+    result "$1" $?
+}
+
+is() { # name, command...
+    name=$1
+    shift
+    "$@"
+    result "$name" $?
+}
+
+# U+2800 to U+28FF, byte by byte: no grep knows them as a range in every locale
+has_braille() {
+    screen | LC_ALL=C grep -q "$(printf '\342[\240-\243]')"
+}
+
+density() {
+    screen | sed -n 's/.*density *\(0\.[0-9][0-9]*\).*/\1/p' | tail -n 1
+}
+
+density_changed() {
+    now=$(density)
+    [ -n "$now" ] && [ "$now" != "$before" ]
+}
+
+grows() { # name: the density on the screen changes twice
+    before=
+    until_true density_changed && before=$now && until_true density_changed
+    result "$1" $?
+}
+
+# The shell begins a line of its own with the status of what it ran.
+start() { # words after greenbody, and settings before it in $with
+    keys "clear; ${with:-} '$greenbody' $*; echo status=\$?" Enter
+}
+
+terminal_is_back() {
+    [ "$(term display-message -p '#{alternate_on} #{cursor_flag}')" = "0 1" ] || return 1
+    keys "clear; stty -a | tr ' ;' '\\n\\n' | grep -x -e echo -e icanon -e isig | tr '\\n' ." \
+        Enter
+    until_true has 'isig.icanon.echo\.'
+}
+
+go_to() { # parameter
+    keys / C-u "$1" Enter
+    until_true has "^ $1: "
+}
+
+command -v tmux >/dev/null || {
+    echo "Bail out! tmux is needed (./bootstrap installs it)"
+    exit 1
+}
+
+# A terminal of 80 x 24 with a shell in it.
+open_terminal() {
+    term new-session -d -x 80 -y 24 /bin/sh || exit 1
+    keys "PS1='ready''> '" Enter
+    until_true has '^ready>'
+}

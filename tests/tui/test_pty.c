@@ -1,0 +1,323 @@
+/* The program behind a pseudo-terminal: what it sends, how often, how soon it answers,
+ * and that no sequence of keys and sizes breaks it. Usage: test_pty GREENBODY
+ * PRESET_FOLDER */
+#include <errno.h>
+#include <glib.h>
+#include <poll.h>
+#include <pty.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static const char *program, *presets;
+static char *home;
+
+struct child {
+    pid_t pid;
+    int fd;
+    struct termios before;
+    int64_t bytes, bursts; /* received; a burst ends with 15 ms of silence */
+    gint64 last_us;
+    bool saw_leave; /* the sequence that leaves the alternate screen */
+    char tail[64];
+};
+
+static void become_program(char **words)
+{
+    setenv("TERM", "xterm-256color", 1);
+    setenv("LC_ALL", "C.UTF-8", 1);
+    setenv("GB_PRESET_DIR", presets, 1);
+    setenv("XDG_CONFIG_HOME", home, 1);
+    setenv("XDG_STATE_HOME", home, 1);
+    unsetenv("NO_COLOR");
+    if (chdir(home) != 0) {
+        _exit(126);
+    }
+    execv(program, words);
+    _exit(127);
+}
+
+static void open_program(struct child *child, int rows, int cols, const char *setting)
+{
+    struct winsize size = {.ws_row = (unsigned short)rows,
+                           .ws_col = (unsigned short)cols};
+    char *words[] = {g_strdup(program), g_strdup("default"), g_strdup(setting), NULL};
+    memset(child, 0, sizeof *child);
+    child->pid = forkpty(&child->fd, NULL, NULL, &size);
+    g_assert_cmpint(child->pid, >=, 0);
+    if (child->pid == 0) {
+        become_program(words);
+    }
+    tcgetattr(child->fd, &child->before);
+    for (int i = 0; i < 3; i++) {
+        g_free(words[i]);
+    }
+}
+
+static void look_for_leave(struct child *child, const char *text, size_t length)
+{
+    GString *all = g_string_new(child->tail);
+    g_string_append_len(all, text, (gssize)length);
+    for (gsize i = 0; i < all->len; i++) {
+        if (all->str[i] == '\0') {
+            all->str[i] = ' ';
+        }
+    }
+    child->saw_leave = child->saw_leave || strstr(all->str, "\033[?1049l") != NULL;
+    g_strlcpy(child->tail, all->len > 16 ? all->str + all->len - 16 : all->str,
+              sizeof child->tail);
+    g_string_free(all, TRUE);
+}
+
+/* Reads for a time; stops at once when bytes come if first_only.  False: the other end is
+ * closed. */
+static bool receive(struct child *child, double seconds, bool first_only)
+{
+    const gint64 end = g_get_monotonic_time() + (gint64)(1e6 * seconds);
+    for (;;) {
+        const gint64 left = end - g_get_monotonic_time();
+        struct pollfd fd = {child->fd, POLLIN, 0};
+        char buffer[65536];
+        if (left <= 0 || poll(&fd, 1, (int)(left / 1000) + 1) <= 0) {
+            return true;
+        }
+        const ssize_t n = read(child->fd, buffer, sizeof buffer);
+        if (n <= 0) {
+            return false;
+        }
+        const gint64 now = g_get_monotonic_time();
+        child->bursts += now - child->last_us > 15000;
+        child->last_us = now;
+        child->bytes += n;
+        look_for_leave(child, buffer, (size_t)n);
+        if (first_only) {
+            return true;
+        }
+    }
+}
+
+static void send_text(struct child *child, const char *text, size_t length)
+{
+    while (length > 0) {
+        const ssize_t n = write(child->fd, text, length);
+        if (n < 0 && errno != EINTR) {
+            return; /* it has left */
+        }
+        text += n > 0 ? n : 0;
+        length -= n > 0 ? (size_t)n : 0;
+    }
+}
+
+static int wait_for_end(struct child *child)
+{
+    int status = 0;
+    for (int i = 0; i < 1200; i++) {
+        if (!receive(child, 0.02, false)) {
+            g_usleep(20000);
+        }
+        if (waitpid(child->pid, &status, WNOHANG) == child->pid) {
+            receive(child, 0.05, false);
+            return status;
+        }
+    }
+    kill(child->pid, SIGKILL);
+    waitpid(child->pid, &status, 0);
+    g_error("the program does not end");
+}
+
+static void check_restored(struct child *child)
+{
+    struct termios now;
+    g_assert_true(child->saw_leave);
+    if (tcgetattr(child->fd, &now) == 0) {
+        g_assert_cmpuint(now.c_lflag, ==, child->before.c_lflag);
+        g_assert_cmpuint(now.c_iflag, ==, child->before.c_iflag);
+        g_assert_cmpuint(now.c_oflag, ==, child->before.c_oflag);
+    }
+    close(child->fd);
+}
+
+static void quit(struct child *child)
+{
+    kill(child->pid, SIGTERM);
+    const int status = wait_for_end(child);
+    g_assert_true(WIFEXITED(status));
+    g_assert_cmpint(WEXITSTATUS(status), ==, 143);
+    check_restored(child);
+}
+
+/* A running screen of 120 x 40: under 2 kB a frame on average, at most ten frames a
+ * second. Silence tells frames apart: a loaded machine can only merge them, which makes
+ * the mean of bytes larger. */
+static void test_running(void)
+{
+    struct child child;
+    open_program(&child, 40, 120, "particles.count=4000");
+    receive(&child, 2.0, false);
+    child.bytes = child.bursts = 0;
+    receive(&child, 6.0, false);
+    const double mean = (double)child.bytes / (double)MAX(child.bursts, 1);
+    g_test_message("%lld bytes in %lld frames: %.0f bytes a frame, %.1f frames/s",
+                   (long long)child.bytes, (long long)child.bursts, mean,
+                   (double)child.bursts / 6.0);
+    g_assert_cmpint(child.bursts, >=, 6);
+    g_assert_cmpint(child.bursts, <=, 61);
+    g_assert_cmpfloat(mean, <, 2048.0);
+    quit(&child);
+}
+
+/* Paused, after the last frame has come: nothing at all. */
+static void test_paused(void)
+{
+    struct child child;
+    open_program(&child, 40, 120, "particles.count=6000");
+    receive(&child, 3.0, false);
+    send_text(&child, "p", 1);
+    for (int i = 0; i < 40; i++) { /* until a second of silence, which must come */
+        child.bytes = 0;
+        receive(&child, 1.0, false);
+        if (child.bytes == 0) {
+            break;
+        }
+    }
+    g_assert_cmpint(child.bytes, ==, 0);
+    receive(&child, 2.0, false);
+    g_assert_cmpint(child.bytes, ==, 0);
+    quit(&child);
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* A view key while the engine computes N = 8000: the answer comes within 50 ms, taken as
+ * the median, since the machine may be shared. */
+static void test_latency(void)
+{
+    enum { KEYS = 25 };
+    double waited[KEYS];
+    struct child child;
+    open_program(&child, 40, 120, "particles.count=8000");
+    receive(&child, 4.0, false);
+    for (int i = 0; i < KEYS; i++) {
+        /* behind a frame of news, so that what comes next is the answer */
+        receive(&child, 2.0, true);
+        receive(&child, 0.03, false);
+        const gint64 from = g_get_monotonic_time();
+        send_text(&child, i % 2 == 0 ? "2" : "1", 1);
+        receive(&child, 2.0, true);
+        waited[i] = 1e-6 * (double)(g_get_monotonic_time() - from);
+        receive(&child, 0.25, false);
+    }
+    qsort(waited, KEYS, sizeof waited[0], compare_doubles);
+    g_test_message("answer after %.0f ms (median), %.0f ms (worst of %d)",
+                   1e3 * waited[KEYS / 2], 1e3 * waited[KEYS - 1], KEYS);
+    g_assert_cmpfloat(waited[KEYS / 2], <, 0.05);
+    quit(&child);
+}
+
+/* Keys of the table, text, escape sequences; none that sends a signal, and no slash,
+ * which would let a saved preset land anywhere. */
+static const char *random_key(GRand *rand, char buffer[4])
+{
+    static const char *const special[] = {
+        "\033[A", "\033[B", "\033[C", "\033[D", "\033OP", "\033[5~", "\033[6~", "\033[H",
+        "\033[F", "\033[Z", "\t",     "\r",     "\033",   "\x15",    "\x0c",    "\x7f"};
+    static const char plain[] = "hjklgGnNiurpmbLvVwoecafq?+-= 0123456789xyz.;%~";
+    if (g_rand_int_range(rand, 0, 3) == 0) {
+        return special[g_rand_int_range(rand, 0, (gint32)G_N_ELEMENTS(special))];
+    }
+    buffer[0] = plain[g_rand_int_range(rand, 0, (gint32)strlen(plain))];
+    buffer[1] = '\0';
+    return buffer;
+}
+
+static void resize(struct child *child, GRand *rand)
+{
+    const struct winsize size = {.ws_row = (unsigned short)g_rand_int_range(rand, 1, 70),
+                                 .ws_col =
+                                     (unsigned short)g_rand_int_range(rand, 1, 220)};
+    ioctl(child->fd, TIOCSWINSZ, &size);
+}
+
+static bool has_ended(struct child *child)
+{
+    int status = 0;
+    if (waitpid(child->pid, &status, WNOHANG) != child->pid) {
+        return false;
+    }
+    receive(child, 0.05, false);
+    g_assert_true(WIFEXITED(status)); /* q, and y where it asks */
+    g_assert_cmpint(WEXITSTATUS(status), ==, 0);
+    check_restored(child);
+    return true;
+}
+
+static void storm(int keys, int resizes)
+{
+    struct child child;
+    GRand *rand = g_rand_new_with_seed(20240917);
+    open_program(&child, 24, 80, "particles.count=120");
+    int starts = 1;
+    for (int i = 0; i < keys; i++) {
+        char buffer[4];
+        const char *key = random_key(rand, buffer);
+        send_text(&child, key, strlen(key));
+        if (i % MAX(keys / resizes, 1) == 0) {
+            resize(&child, rand);
+        }
+        receive(&child, i % 10 == 0 ? 0.03 : 0.001, false);
+        if (i % 50 == 0 && has_ended(&child)) {
+            open_program(&child, 24, 80, "particles.count=120");
+            starts++;
+        }
+    }
+    g_test_message("%d keys, %d resizes, started %d times", keys, resizes, starts);
+    g_rand_free(rand);
+    /* it may be leaving on its own: both ways out are good ones */
+    kill(child.pid, SIGTERM);
+    const int status = wait_for_end(&child);
+    g_assert_true(WIFEXITED(status));
+    g_assert_true(WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 143);
+    check_restored(&child);
+}
+
+static void test_storm(void)
+{
+    storm(1000, 60);
+}
+
+static void test_long_storm(void)
+{
+    storm(10000, 500);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_assert_cmpint(argc, >=, 3);
+    program = argv[1];
+    presets = argv[2];
+    home = g_dir_make_tmp("gb-pty-XXXXXX", NULL);
+    if (argc > 3) {
+        g_test_add_func("/tui/pty/long-storm", test_long_storm);
+    } else {
+        g_test_add_func("/tui/pty/running", test_running);
+        g_test_add_func("/tui/pty/paused", test_paused);
+        g_test_add_func("/tui/pty/latency", test_latency);
+        g_test_add_func("/tui/pty/storm", test_storm);
+    }
+    const int status = g_test_run();
+    char *command = g_strdup_printf("rm -rf '%s'", home);
+    g_spawn_command_line_sync(command, NULL, NULL, NULL, NULL);
+    g_free(command);
+    g_free(home);
+    return status;
+}
