@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -6,14 +7,15 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "run/bench.h"
+#include "run/bench_die.h"
 
 static const struct gb_options_page page = {
     .usage = "[PRESET] [group.key=value]...",
     .summary =
         "Times the engine on this machine: the initial structure, and one force\n"
         "evaluation with its move (forces, torques, history, relaxer) on one core and\n"
-        "on all of them, at a coordination number of a pressed packing; and the planar\n"
-        "dynamic scene of P2 at density 0.9.",
+        "on all of them, at a coordination number of a pressed packing; the planar\n"
+        "dynamic scene of P2 at density 0.9; and the bed of P3 at 50 MPa in its die.",
     .description =
         "Without a preset: 8000 particles of 9.7 nm with bridges (P1, set II).\n"
         "The times are medians of 15 batches of 24 evaluations.",
@@ -36,8 +38,8 @@ static void print_lines(const struct line *line, size_t count, gboolean csv)
     }
 }
 
-static void report(const struct gb_bench *bench, double planar, double particles,
-                   gboolean csv)
+static void report(const struct gb_bench *bench, double planar,
+                   const struct gb_bench_die *die, double particles, gboolean csv)
 {
     const double micro = 1e6 / particles;
     const struct line line[] = {
@@ -52,19 +54,48 @@ static void report(const struct gb_bench *bench, double planar, double particles
         {"same bits on one and all cores", bench->same_bits, "(1: yes)"},
         {"memory", bench->bytes_per_particle, "bytes per particle"},
         {"planar dynamic scene, one core", 1e-6 * planar, "million particle-steps per s"},
+        {"die at coordination", die->coordination, ""},
+        {"die, Hertz, one core", 1e6 * die->hertz, "us per particle-step"},
+        {"die, Hertz with friction", 1e6 * die->hertz_friction, "us per particle-step"},
+        {"die, Storakers", 1e6 * die->storakers, "us per particle-step"},
+        {"die, Storakers with friction", 1e6 * die->storakers_friction,
+         "us per particle-step"},
     };
     print_lines(line, G_N_ELEMENTS(line), csv);
 }
 
+/* Time of each variant, and what the terms that it lacks cost. */
+static bool report_terms(const struct gb_params *params, double coordination,
+                         gboolean csv, struct gb_error *err)
+{
+    struct gb_bench_term term[GB_BENCH_TERMS];
+    if (!gb_bench_terms(term, params, coordination, err)) {
+        return false;
+    }
+    const double micro = 1e6 / (double)params->count;
+    puts(csv ? "terms,us_per_particle,share" : "evaluation and move, one core");
+    for (int i = 0; i < GB_BENCH_TERMS; i++) {
+        if (isfinite(term[i].evaluation_s)) {
+            printf(csv ? "%s,%.6g,%.4g\n"
+                       : "  %-30s %8.4g us per particle, %5.3g of all\n",
+                   term[i].name, micro * term[i].evaluation_s,
+                   term[i].evaluation_s / term[0].evaluation_s);
+        }
+    }
+    return true;
+}
+
 int gb_cmd_bench(int argc, char **argv)
 {
-    gboolean csv = FALSE;
+    gboolean csv = FALSE, terms = FALSE;
     double coordination = 6.0;
     char **sets = NULL, **words = NULL;
     const GOptionEntry entries[] = {
         {"csv", 0, 0, G_OPTION_ARG_NONE, &csv, "print CSV", NULL},
         {"coordination", 0, 0, G_OPTION_ARG_DOUBLE, &coordination,
          "press until this coordination number", "6"},
+        {"terms", 0, 0, G_OPTION_ARG_NONE, &terms,
+         "what each term of the contact laws costs instead", NULL},
         GB_OPTIONS_SET(&sets),
         {0},
     };
@@ -75,6 +106,7 @@ int gb_cmd_bench(int argc, char **argv)
     struct gb_error err = {0};
     struct gb_preset *preset = NULL;
     struct gb_bench bench;
+    struct gb_bench_die die;
     const bool named = words && words[0] && !strchr(words[0], '=');
     bool done = gb_options_scene(&preset, words, sets, false, &err);
     if (done && !(coordination > 0.0 && coordination < 12.0)) {
@@ -88,10 +120,12 @@ int gb_cmd_bench(int argc, char **argv)
             params->fidelity = GB_FIDELITY_FAST;
         }
         double planar = 0.0;
-        done = gb_bench_run(&bench, params, coordination, &err) &&
-               gb_bench_planar(&planar, &err);
-        if (done) {
-            report(&bench, planar, (double)params->count, csv);
+        if (terms) {
+            done = report_terms(params, coordination, csv, &err);
+        } else if ((done = gb_bench_run(&bench, params, coordination, &err) &&
+                           gb_bench_planar(&planar, &err) &&
+                           gb_bench_die_run(&die, &err))) {
+            report(&bench, planar, &die, (double)params->count, csv);
         }
     }
     gb_preset_destroy(preset);

@@ -10,6 +10,7 @@
 #include "cli/packing.h"
 #include "measure/structure.h"
 #include "pack/cell.h"
+#include "phys/die_scene.h"
 #include "run/experiment.h"
 #include "run/preset.h"
 #include "run/rundir.h"
@@ -42,7 +43,8 @@ static bool prepare(struct pack *pack, char **words, char **sets, struct gb_erro
         return false;
     }
     pack->packing.params = *gb_preset_params(pack->preset);
-    return gb_rundir_check(pack->directory, pack->force, err);
+    return gb_die_scene_absent(&pack->packing.params, "pack", err) &&
+           gb_rundir_check(pack->directory, pack->force, err);
 }
 
 /* The packing exactly as `run` would start from it. */
@@ -56,22 +58,6 @@ static bool grow(struct gb_packing *packing, struct gb_error *err)
     const bool grown = gb_experiment_state(experiment, &packing->state, err);
     gb_experiment_destroy(experiment);
     return grown;
-}
-
-/* Mean of g over the last diameter, each bin by its volume. */
-static double mean_at_end(const struct gb_packing *packing)
-{
-    const double power = packing->state->dimension - 1;
-    double sum = 0.0;
-    double weight = 0.0;
-    for (int k = 0; k < packing->bins; k++) {
-        const double r = (k + 0.5) * packing->r_max / packing->bins;
-        if (r > packing->r_max - 1.0) {
-            sum += packing->g[k] * pow(r, power);
-            weight += pow(r, power);
-        }
-    }
-    return sum / weight;
 }
 
 static bool measure(struct gb_packing *packing, struct gb_error *err)
@@ -90,7 +76,8 @@ static bool measure(struct gb_packing *packing, struct gb_error *err)
                                    &packing->connectivity, err)) {
         return false;
     }
-    packing->g_end = mean_at_end(packing);
+    packing->g_end = gb_structure_rdf_end(state->dimension, packing->r_max, packing->bins,
+                                          packing->g, NULL);
     return true;
 }
 

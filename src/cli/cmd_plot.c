@@ -4,27 +4,31 @@
 
 #include <glib.h>
 
-#include "base/file.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/figures.h"
 #include "cli/options.h"
+#include "cli/plotting.h"
 #include "run/runset.h"
 
 enum { DIRECTORIES_MAX = 1000 };
 
 /* What the command line said. */
 struct request {
-    char *figure, *reference, *densities, *output;
+    char *figure, *reference, *densities, *pressure, *output, *size, *log, *data, *title;
+    char *at;
     gboolean force;
 };
 
 static void free_request(struct request *request)
 {
-    g_free(request->figure);
-    g_free(request->reference);
-    g_free(request->densities);
-    g_free(request->output);
+    char *const texts[] = {request->figure,   request->reference, request->densities,
+                           request->pressure, request->output,    request->size,
+                           request->log,      request->data,      request->title,
+                           request->at};
+    for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
+        g_free(texts[k]);
+    }
 }
 
 static const struct gb_figures_row *find_figure(const char *name, struct gb_error *err)
@@ -42,7 +46,7 @@ static const struct gb_figures_row *find_figure(const char *name, struct gb_erro
     return found;
 }
 
-static bool parse_densities(const char *text, struct gb_figures_request *to,
+static bool parse_densities(const char *text, struct gb_figures_input *to,
                             struct gb_error *err)
 {
     char **parts = g_strsplit(text, ",", GB_FIGURES_DENSITIES + 1);
@@ -61,38 +65,53 @@ static bool parse_densities(const char *text, struct gb_figures_request *to,
                         text, GB_FIGURES_DENSITIES);
 }
 
-/* All that can be known to be wrong before the runs are read. */
-static bool check_request(const struct request *request, char **words,
-                          struct gb_error *err)
+/* Options that belong to some figures only. */
+static bool check_options(const struct request *request,
+                          const struct gb_figures_row *figure, struct gb_error *err)
 {
-    const guint count = g_strv_length(words);
-    if (count == 0 || count > DIRECTORIES_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "plot takes 1 to %d run directories",
-                            DIRECTORIES_MAX);
-    }
-    const bool differs = request->figure && strcmp(request->figure, "difference") == 0;
+    const bool differs = strcmp(figure->name, "difference") == 0;
     if (differs != (request->reference != NULL)) {
         return gb_error_set(err, GB_ERR_INPUT,
                             differs ? "the figure difference needs --reference DIR"
                                     : "--reference is for the figure difference");
     }
-    if (request->densities &&
-        (!request->figure || strcmp(request->figure, "rate") != 0)) {
+    if (request->densities != NULL && strcmp(figure->name, "rate") != 0) {
         return gb_error_set(err, GB_ERR_INPUT, "--density is for the figure rate");
     }
-    if (request->output == NULL) {
-        return true;
-    }
-    if (!g_str_has_suffix(request->output, ".csv")) {
+    const bool at_pressure =
+        strcmp(figure->name, "size-effect") == 0 || strcmp(figure->name, "sweep") == 0;
+    if (request->pressure != NULL && !at_pressure) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "-o %.300s: a name ending in .csv is accepted",
-                            request->output);
+                            "--pressure is for the figures size-effect and sweep");
     }
-    if (!request->force && g_file_test(request->output, G_FILE_TEST_EXISTS)) {
-        return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
-                            request->output);
+    if (request->at != NULL && figure->takes != GB_FIGURES_STATES) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--at is for figures of packings: rdf, force-angle, sizes");
     }
-    return gb_file_check_target(request->output, err);
+    if (request->log != NULL && strspn(request->log, "xy") != strlen(request->log)) {
+        return gb_error_set(err, GB_ERR_INPUT, "--log %.80s: accepted x, y or xy",
+                            request->log);
+    }
+    return true;
+}
+
+static bool check_count(guint count, struct gb_error *err)
+{
+    return (count > 0 && count <= DIRECTORIES_MAX) ||
+           gb_error_set(err, GB_ERR_INPUT, "plot takes 1 to %d run directories",
+                        DIRECTORIES_MAX);
+}
+
+/* All that can be known to be wrong before the runs are read. */
+static bool check_request(const struct request *request,
+                          const struct gb_figures_row *figure, char **words,
+                          struct gb_error *err)
+{
+    return (figure->takes == GB_FIGURES_SCENE ||
+            check_count(g_strv_length(words), err)) &&
+           check_options(request, figure, err) &&
+           (request->output == NULL ||
+            gb_plotting_check(request->output, request->force, err));
 }
 
 static bool same_place(const char *a, const char *b)
@@ -105,63 +124,127 @@ static bool same_place(const char *a, const char *b)
     return same;
 }
 
-/* The directories to read; the reference comes last when it is none of the words. Returns
- * its place; the caller frees the array. */
+/* The directories to read; the reference comes last when it is none of them.  Returns
+ * its place. */
 static size_t list_directories(char **words, const char *reference, GPtrArray *list)
 {
-    size_t place = 0;
-    bool found = reference == NULL;
     for (size_t i = 0; words[i] != NULL; i++) {
-        if (!found && same_place(words[i], reference)) {
-            found = true;
-            place = i;
+        gb_runset_expand(list, words[i]);
+    }
+    for (guint i = 0; i < list->len; i++) {
+        if (reference == NULL || same_place(g_ptr_array_index(list, i), reference)) {
+            return i;
         }
-        g_ptr_array_add(list, words[i]);
     }
-    if (!found) {
-        place = list->len;
-        g_ptr_array_add(list, (char *)reference);
-    }
-    return place;
+    g_ptr_array_add(list, g_strdup(reference));
+    return list->len - 1;
 }
 
-static bool write_series(const struct gb_series *series, const char *output,
+static bool write_series(const struct gb_series *series, const struct request *request,
+                         const struct gb_figures_row *figure, const struct gb_runset *set,
                          struct gb_error *err)
 {
-    GString *text = gb_series_csv(series);
-    bool good = true;
-    if (output != NULL) {
-        good = gb_file_replace(output, text->str, text->len, err);
-    } else if (fwrite(text->str, 1, text->len, stdout) != text->len ||
-               fflush(stdout) != 0) {
-        good = gb_options_output_failed(err);
+    struct gb_plotting_page page = {.width = 1600,
+                                    .height = 1200,
+                                    .name = figure->name,
+                                    .title = request->title,
+                                    .set = set};
+    if (request->output != NULL) {
+        return (request->size == NULL ||
+                gb_image_parse_size(request->size, &page.width, &page.height, err)) &&
+               gb_plotting_write(series, &page, request->output, err);
     }
+    GString *text = gb_series_csv(series);
+    const bool good =
+        (fwrite(text->str, 1, text->len, stdout) == text->len && fflush(stdout) == 0) ||
+        gb_options_output_failed(err);
     g_string_free(text, TRUE);
+    return good;
+}
+
+static void set_log(struct gb_series *series, const char *axes)
+{
+    series->x.log = series->x.log || (axes != NULL && strchr(axes, 'x') != NULL);
+    series->y.log = series->y.log || (axes != NULL && strchr(axes, 'y') != NULL);
+}
+
+static bool plot_series(const struct request *request,
+                        const struct gb_figures_row *figure,
+                        const struct gb_figures_input *input, struct gb_error *err)
+{
+    struct gb_series series = {0};
+    bool good = figure->compute(&series, input, err) &&
+                (request->data == NULL ||
+                 gb_plotting_data(&series, request->data, figure->name, err));
+    if (good) {
+        set_log(&series, request->log);
+        good = write_series(&series, request, figure, input->set, err);
+    }
+    gb_series_finish(&series);
+    return good;
+}
+
+static bool plot_runs(const struct request *request, const struct gb_figures_row *figure,
+                      struct gb_figures_input *input, char **words, struct gb_error *err)
+{
+    struct gb_runset set = {0};
+    GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
+    const size_t place = list_directories(words, request->reference, list);
+    bool good = check_count(list->len, err) &&
+                gb_runset_read(&set, (char *const *)list->pdata, list->len, err);
+    if (good) {
+        input->set = &set;
+        input->reference = set.run[place].group;
+        good = plot_series(request, figure, input, err);
+    }
+    gb_runset_finish(&set);
+    g_ptr_array_unref(list);
+    return good;
+}
+
+/* The figure of a law: of its own preset unless another is named. */
+static bool plot_scene(const struct request *request, const struct gb_figures_row *figure,
+                       struct gb_figures_input *input, char **words, struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    GPtrArray *list = g_ptr_array_new();
+    bool named = false;
+    for (size_t i = 0; words[i] != NULL; i++) {
+        named = named || strchr(words[i], '=') == NULL;
+    }
+    if (!named) {
+        g_ptr_array_add(list, (char *)(uintptr_t)figure->preset);
+    }
+    for (size_t i = 0; words[i] != NULL; i++) {
+        g_ptr_array_add(list, words[i]);
+    }
+    g_ptr_array_add(list, NULL);
+    bool good = gb_options_scene(&preset, (char **)list->pdata, NULL, false, err);
+    if (good) {
+        input->scene = gb_preset_params(preset);
+        good = plot_series(request, figure, input, err);
+    }
+    gb_preset_destroy(preset);
+    g_ptr_array_unref(list);
     return good;
 }
 
 static bool plot(const struct request *request, char **words, struct gb_error *err)
 {
-    struct gb_runset set = {0};
-    struct gb_series series = {0};
-    struct gb_figures_request wanted = {0};
+    struct gb_figures_input input = {.at = request->at, .words = words};
     const struct gb_figures_row *figure = find_figure(request->figure, err);
-    if (figure == NULL || !check_request(request, words, err) ||
-        (request->densities && !parse_densities(request->densities, &wanted, err))) {
+    if (figure == NULL || !check_request(request, figure, words, err) ||
+        (request->densities && !parse_densities(request->densities, &input, err)) ||
+        (request->pressure &&
+         !gb_units_parse(request->pressure, GB_DIM_PRESSURE, &input.pressure_pa, err))) {
         return false;
     }
-    GPtrArray *list = g_ptr_array_new();
-    const size_t place = list_directories(words, request->reference, list);
-    bool good = gb_runset_read(&set, (char *const *)list->pdata, list->len, err);
-    if (good) {
-        wanted.reference = set.run[place].group;
-        good = figure->compute(&series, &set, &wanted, err) &&
-               write_series(&series, request->output, err);
+    if (figure->takes == GB_FIGURES_TABLE) {
+        return plot_series(request, figure, &input, err);
     }
-    gb_series_finish(&series);
-    gb_runset_finish(&set);
-    g_ptr_array_unref(list);
-    return good;
+    return figure->takes == GB_FIGURES_SCENE
+               ? plot_scene(request, figure, &input, words, err)
+               : plot_runs(request, figure, &input, words, err);
 }
 
 /* The list of figures under the options. */
@@ -171,8 +254,15 @@ static char *describe_figures(void)
     for (const struct gb_figures_row *row = gb_figures_all(); row->name != NULL; row++) {
         g_string_append_printf(text, "  %-14s %s\n", row->name, row->doc);
     }
-    g_string_append(text, "\nRuns whose presets are equal but for seed, title, threads "
-                          "and [output] are one\ngroup; means are over its runs.");
+    g_string_append(
+        text, "\nRuns whose presets are equal but for seed, title, threads "
+              "and [output] are one\ngroup; means are over its runs.  The directory "
+              "of a sweep stands for its runs.\nFigures of laws, from contact to "
+              "critical-step, take a preset and group.key=value\nin place of runs; "
+              "chart takes the directory of greenbody chart.\nA figure has a twin "
+              "ending in .csv beside it;\n"
+              "the table of --data has the columns of its axes, and may have "
+              "series (words) and\n<column>_error.");
     return g_string_free(text, FALSE);
 }
 
@@ -186,19 +276,31 @@ int gb_cmd_plot(int argc, char **argv)
         {"figure", 0, 0, G_OPTION_ARG_STRING, &request.figure, "one of those below",
          "NAME"},
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output,
-         "the data of the figure (standard output)", "FILE.csv"},
+         "the figure, and its data beside it (standard output)", "FILE.png|svg|pdf|csv"},
+        {"size", 0, 0, G_OPTION_ARG_STRING, &request.size, "pixels (1600x1200)",
+         "WIDTHxHEIGHT"},
+        {"log", 0, 0, G_OPTION_ARG_STRING, &request.log, "axes that are logarithmic",
+         "x|y|xy"},
+        {"data", 0, 0, G_OPTION_ARG_FILENAME, &request.data,
+         "points of an experiment, drawn as marks", "FILE.csv"},
+        {"title", 0, 0, G_OPTION_ARG_STRING, &request.title, "above the figure", "TEXT"},
         {"force", 0, 0, G_OPTION_ARG_NONE, &request.force, "replace an existing file",
          NULL},
         {"reference", 0, 0, G_OPTION_ARG_FILENAME, &request.reference,
          "difference: a run of the group that is subtracted", "DIR"},
         {"density", 0, 0, G_OPTION_ARG_STRING, &request.densities,
          "rate: densities at which pressures are compared", "RHO,RHO..."},
+        {"pressure", 0, 0, G_OPTION_ARG_STRING, &request.pressure,
+         "size-effect, sweep: where densities are compared (100 MPa)", "P"},
+        {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
+         "rdf, force-angle, sizes: a kept state, as \"p=500 MPa\" (the last)", "POINT"},
         {0},
     };
     char *figures = describe_figures();
     const struct gb_options_page page = {
         .usage = "DIR...",
-        .summary = "Data of a figure over one or more run directories, as CSV.",
+        .summary = "A figure over one or more run directories: PNG, SVG, PDF, or its "
+                   "data as CSV.",
         .description = figures,
     };
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {

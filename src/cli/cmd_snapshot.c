@@ -8,22 +8,25 @@
 
 #if GB_WITH_PICTURES
 
-#include "draw/picture.h"
-#include "run/state.h"
+#include "cli/provenance.h"
+#include "cli/states.h"
+#include "draw/dress_parse.h"
+#include "draw/sheet.h"
 
 /* What the command line said. */
 struct request {
-    char *at, *view, *size, *ground, *output;
-    gboolean force, bare;
+    char *at, *view, *size, *ground, *output, *color, *show, *slice, *cut, *since;
+    gboolean force, bare, rose;
 };
 
 static void free_request(struct request *request)
 {
-    g_free(request->at);
-    g_free(request->view);
-    g_free(request->size);
-    g_free(request->ground);
-    g_free(request->output);
+    char *const texts[] = {
+        request->at,    request->view, request->size,  request->ground, request->output,
+        request->color, request->show, request->slice, request->cut,    request->since};
+    for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
+        g_free(texts[k]);
+    }
 }
 
 static bool parse_ground(const char *text, enum gb_ground *ground, struct gb_error *err)
@@ -37,6 +40,16 @@ static bool parse_ground(const char *text, enum gb_ground *ground, struct gb_err
     }
     return gb_error_set(err, GB_ERR_INPUT,
                         "--ground %.80s: white, dark or transparent is accepted", text);
+}
+
+static bool parse_dress(const struct request *request, struct gb_dress_request *dress,
+                        struct gb_error *err)
+{
+    return (request->color == NULL ||
+            gb_dress_parse_colour(dress, request->color, err)) &&
+           (request->show == NULL || gb_dress_parse_show(dress, request->show, err)) &&
+           (request->slice == NULL || gb_dress_parse_slice(dress, request->slice, err)) &&
+           (request->cut == NULL || gb_dress_parse_cut(dress, request->cut, err));
 }
 
 static bool parse_request(const struct request *request, struct gb_picture *picture,
@@ -57,45 +70,73 @@ static bool parse_request(const struct request *request, struct gb_picture *pict
            (request->size == NULL ||
             gb_image_parse_size(request->size, &picture->width, &picture->height, err)) &&
            (request->ground == NULL ||
-            parse_ground(request->ground, &picture->ground, err));
+            parse_ground(request->ground, &picture->ground, err)) &&
+           parse_dress(request, &picture->dress, err);
 }
 
-/* The state file of a run directory, or the file itself. */
-static char *state_path(const char *place)
+/* --since: another run directory or state file, or a point of the same run. */
+static bool read_since(struct gb_state **out, const char *since, const char *place,
+                       struct gb_error *err)
 {
-    return g_file_test(place, G_FILE_TEST_IS_DIR)
-               ? g_build_filename(place, "state.h5", NULL)
-               : g_strdup(place);
+    const bool is_place = g_file_test(since, G_FILE_TEST_EXISTS);
+    return gb_states_read(out, is_place ? since : place, is_place ? NULL : since, err);
+}
+
+enum { PLACES_MAX = 6 }; /* rows of one image */
+
+/* All states and what --since names, which is measured within each run. */
+static bool read_states(struct gb_state **states, const struct request *request,
+                        char **places, struct gb_error *err)
+{
+    bool good = true;
+    for (size_t i = 0; places[i] != NULL && good; i++) {
+        good = gb_states_read(&states[i], places[i], request->at, err);
+    }
+    return good;
+}
+
+static bool write_picture(const struct request *request, struct gb_picture *picture,
+                          char **places, struct gb_error *err)
+{
+    struct gb_state *states[PLACES_MAX] = {NULL};
+    struct gb_state *since = NULL;
+    char *preset = gb_provenance_preset(places[0]);
+    bool done =
+        read_states(states, request, places, err) &&
+        (request->since == NULL || read_since(&since, request->since, places[0], err));
+    if (done) {
+        picture->preset = preset;
+        picture->dress.since = since;
+        done = gb_sheet_write(picture, request->rose, states, g_strv_length(places),
+                              request->output, err);
+    }
+    for (int i = 0; i < PLACES_MAX; i++) {
+        gb_state_destroy(states[i]);
+    }
+    gb_state_destroy(since);
+    g_free(preset);
+    return done;
 }
 
 static bool take_picture(const struct request *request, char **words,
                          struct gb_error *err)
 {
     struct gb_picture picture;
-    struct gb_state *state = NULL;
-    if (words[0] == NULL || words[1] != NULL) {
+    const guint count = g_strv_length(words);
+    if (count == 0 || count > PLACES_MAX || (count > 1 && request->since != NULL)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "snapshot takes one run directory or .h5 file");
+                            "snapshot takes one run directory or .h5 file, or up to %d "
+                            "without --since",
+                            PLACES_MAX);
     }
     if (!parse_request(request, &picture, err)) {
         return false;
-    }
-    if (request->at != NULL) {
-        return gb_error_set(
-            err, GB_ERR_INPUT,
-            "--at %.80s: %.200s keeps only its final state; leave --at out", request->at,
-            words[0]);
     }
     if (!request->force && g_file_test(request->output, G_FILE_TEST_EXISTS)) {
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
                             request->output);
     }
-    char *path = state_path(words[0]);
-    const bool done = gb_state_read(&state, path, err) &&
-                      gb_picture_write(&picture, state, request->output, err);
-    gb_state_destroy(state);
-    g_free(path);
-    return done;
+    return write_picture(request, &picture, words, err);
 }
 
 int gb_cmd_snapshot(int argc, char **argv)
@@ -116,15 +157,35 @@ int gb_cmd_snapshot(int argc, char **argv)
          "white, dark or transparent", "COLOUR"},
         {"bare", 0, 0, G_OPTION_ARG_NONE, &request.bare, "the packing without words",
          NULL},
-        {"at", 0, 0, G_OPTION_ARG_STRING, &request.at, "a kept state, as \"p=100 MPa\"",
-         "POINT"},
+        {"color", 0, 0, G_OPTION_ARG_STRING, &request.color,
+         "of particles: coordination, pressure, bridges, size, displacement; of forces: "
+         "sign, bridged",
+         "WHAT"},
+        {"show", 0, 0, G_OPTION_ARG_STRING, &request.show,
+         "particles, forces (rods as thick as the force between two particles) or both",
+         "WHAT"},
+        {"slice", 0, 0, G_OPTION_ARG_STRING, &request.slice,
+         "a slab alone, at a share of an edge: y=0.5, or z=0.25:3d for 3 diameters (2)",
+         "PLANE"},
+        {"cut", 0, 0, G_OPTION_ARG_STRING, &request.cut,
+         "leave out what lies beyond y=0.5, or the corner of the usual view", "PLANE"},
+        {"rose", 0, 0, G_OPTION_ARG_NONE, &request.rose,
+         "beside it the mean normal force over all directions, as a body", NULL},
+        {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
+         "a kept state, as \"p=100 MPa\" or \"density=0.5\" (the last)", "POINT"},
+        {"since", 0, 0, G_OPTION_ARG_STRING, &request.since,
+         "displacement: from which state, a point of the run or another directory",
+         "POINT|DIR"},
         {0},
     };
     static const struct gb_options_page page = {
-        .usage = "DIR -o FILE.png",
+        .usage = "DIR... -o FILE.png",
         .summary =
             "Picture of a packing: particles in their box, coloured by coordination\n"
-            "number.  DIR is a run directory or a state.h5.",
+            "number or another measure, or the forces between them.  DIR is a run\n"
+            "directory or a state.h5; several stand one below the other.\n"
+            "The file carries the preset: greenbody run --from FILE.png makes the same\n"
+            "run again.",
     };
     char **words = NULL;
     int status = 0;

@@ -3,62 +3,48 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/figures_chart.h"
+#include "cli/figures_continuum.h"
+#include "cli/figures_curve.h"
+#include "cli/figures_die.h"
+#include "cli/figures_label.h"
+#include "cli/figures_law.h"
+#include "cli/figures_pair.h"
 #include "cli/figures_rate.h"
 #include "cli/figures_relaxation.h"
+#include "cli/figures_state.h"
+#include "cli/figures_sweep.h"
 #include "greenbody/model.h"
 #include "measure/theory.h"
 
-/* Which number is which group and run. */
-static void note_groups(struct gb_series *series, const struct gb_runset *set)
-{
-    for (size_t g = 0; g < set->groups; g++) {
-        char *label = gb_runset_label(set, g);
-        gb_series_note(series, "group %zu: %zu runs%s%s", g + 1,
-                       gb_runset_members(set, g), *label ? ", " : "", label);
-        g_free(label);
-    }
-}
-
-static bool mean_columns(struct gb_series *series, const struct gb_series_sample *sample,
-                         const struct gb_runset *set, struct gb_error *err)
-{
-    for (size_t g = 0; g < set->groups; g++) {
-        double *mean = gb_series_column(series, "mean_%zu_MPa", g + 1);
-        double *error = gb_series_column(series, "se_%zu_MPa", g + 1);
-        if (!gb_series_mean(sample, set, g, mean, error, err)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static void grid_column(struct gb_series *series, const struct gb_series_sample *sample,
-                        const char *name)
-{
-    memcpy(gb_series_column(series, "%s", name), sample->grid,
-           sample->size * sizeof *sample->grid);
-}
+#define RHO "<i>\xcf\x81</i>"
 
 /* P2 Fig. 1. */
-static bool compute_time(struct gb_series *series, const struct gb_runset *set,
-                         const struct gb_figures_request *request, struct gb_error *err)
+static bool compute_time(struct gb_series *series, const struct gb_figures_input *input,
+                         struct gb_error *err)
 {
+    const struct gb_runset *set = input->set;
     struct gb_series_sample sample;
-    (void)request;
     if (!gb_series_sample(&sample, set, NULL, "time_ns", "p_MPa", err)) {
         return false;
     }
     gb_series_init(series, sample.size);
-    note_groups(series, set);
-    grid_column(series, &sample, "time_ns");
+    gb_figures_label_note(series, set);
+    gb_series_axes(series, "time_ns", "time <i>t</i> (ns)", "p_MPa",
+                   "pressure <i>p</i> (MPa)");
+    const double *grid = gb_series_sample_grid(series, &sample, "time_ns");
     for (size_t i = 0; i < set->count; i++) {
         const struct gb_runset_run *run = &set->run[i];
         gb_series_note(series, "run %zu: %s, group %zu", i + 1, run->directory,
                        run->group + 1);
-        memcpy(gb_series_column(series, "run_%zu_MPa", i + 1),
-               sample.rows + i * sample.size, sample.size * sizeof *sample.rows);
+        double *column = gb_series_column(series, "run_%zu_MPa", i + 1);
+        memcpy(column, sample.rows + i * sample.size, sample.size * sizeof *column);
+        if (gb_runset_members(set, run->group) > 1) {
+            gb_series_draw(series, grid, column, NULL, GB_FIGURE_FAINT, (int)run->group,
+                           NULL);
+        }
     }
-    const bool good = mean_columns(series, &sample, set, err);
+    const bool good = gb_figures_label_means(series, &sample, set, grid, err);
     gb_series_sample_finish(&sample);
     return good;
 }
@@ -98,35 +84,40 @@ static bool asymptote_columns(struct gb_series *series, const double *density,
         for (size_t i = 0; i < series->rows; i++) {
             column[i] = 1e-6 * gb_theory_pressure(model, density[i]);
         }
+        gb_series_draw(series, density, column, NULL, GB_FIGURE_LINE,
+                       (int)(set->groups + known - 1), "asymptote");
+        series->y.low = 0.0; /* where it pulls it means nothing */
     }
     g_free(models);
     return good;
 }
 
 /* P2 Fig. 2. */
-static bool compute_densification(struct gb_series *series, const struct gb_runset *set,
-                                  const struct gb_figures_request *request,
+static bool compute_densification(struct gb_series *series,
+                                  const struct gb_figures_input *input,
                                   struct gb_error *err)
 {
+    const struct gb_runset *set = input->set;
     struct gb_series_sample sample;
-    (void)request;
     if (!gb_series_sample(&sample, set, "load", "density", "p_MPa", err)) {
         return false;
     }
     gb_series_init(series, sample.size);
-    note_groups(series, set);
-    grid_column(series, &sample, "density");
-    const bool good = mean_columns(series, &sample, set, err) &&
-                      asymptote_columns(series, sample.grid, set, err);
+    gb_figures_label_note(series, set);
+    gb_series_axes(series, "density", "relative density " RHO, "p_MPa",
+                   "pressure <i>p</i> (MPa)");
+    const double *grid = gb_series_sample_grid(series, &sample, "density");
+    const bool good = gb_figures_label_means(series, &sample, set, grid, err) &&
+                      asymptote_columns(series, grid, set, err);
     gb_series_sample_finish(&sample);
     return good;
 }
 
 /* Errors of the two means are taken as independent: replicas of equal seeds make the
  * difference better known than this, never worse known. */
-static void difference_columns(struct gb_series *series, size_t group, const double *mean,
-                               const double *error, const double *reference,
-                               const double *reference_error)
+static void difference_columns(struct gb_series *series, size_t group, const char *label,
+                               const double *mean, const double *error,
+                               const double *reference, const double *reference_error)
 {
     double *difference = gb_series_column(series, "difference_%zu_MPa", group + 1);
     double *spread = gb_series_column(series, "se_%zu_MPa", group + 1);
@@ -134,15 +125,17 @@ static void difference_columns(struct gb_series *series, size_t group, const dou
         difference[i] = mean[i] - reference[i];
         spread[i] = hypot(error[i], reference_error[i]);
     }
+    gb_series_draw(series, g_ptr_array_index(series->columns, 0), difference, spread,
+                   GB_FIGURE_LINE, (int)group, label);
 }
 
 /* P2 Fig. 3. */
-static bool compute_difference(struct gb_series *series, const struct gb_runset *set,
-                               const struct gb_figures_request *request,
-                               struct gb_error *err)
+static bool compute_difference(struct gb_series *series,
+                               const struct gb_figures_input *input, struct gb_error *err)
 {
+    const struct gb_runset *set = input->set;
     struct gb_series_sample sample;
-    const size_t reference = request->reference;
+    const size_t reference = input->reference;
     if (set->groups < 2) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "difference: all runs have equal presets; accepted runs of "
@@ -152,9 +145,11 @@ static bool compute_difference(struct gb_series *series, const struct gb_runset 
         return false;
     }
     gb_series_init(series, sample.size);
-    note_groups(series, set);
+    gb_figures_label_note(series, set);
     gb_series_note(series, "reference: group %zu", reference + 1);
-    grid_column(series, &sample, "density");
+    gb_series_axes(series, "density", "relative density " RHO, "difference_MPa",
+                   "difference of pressure \xce\x94<i>p</i> (MPa)");
+    gb_series_sample_grid(series, &sample, "density");
     double *buffer = g_new(double, 4 * sample.size + 1);
     double *const at[4] = {buffer, buffer + sample.size, buffer + 2 * sample.size,
                            buffer + 3 * sample.size};
@@ -162,7 +157,9 @@ static bool compute_difference(struct gb_series *series, const struct gb_runset 
     for (size_t g = 0; g < set->groups && good; g++) {
         if (g != reference) {
             good = gb_series_mean(&sample, set, g, at[2], at[3], err);
-            difference_columns(series, g, at[2], at[3], at[0], at[1]);
+            char *label = gb_figures_label(set, g, NULL);
+            difference_columns(series, g, label, at[2], at[3], at[0], at[1]);
+            g_free(label);
         }
     }
     g_free(buffer);
@@ -171,18 +168,58 @@ static bool compute_difference(struct gb_series *series, const struct gb_runset 
 }
 
 static const struct gb_figures_row figures[] = {
-    {"time", "pressure against time, every run, mean and standard error (P2 Fig. 1)",
-     compute_time},
+    {"time", "pressure against time, every run and the mean (P2 Fig. 1)", GB_FIGURES_RUNS,
+     NULL, compute_time},
     {"densification",
-     "pressure against density, mean and standard error; asymptote (P2 Fig. 2)",
-     compute_densification},
+     "pressure against density, with asymptote in 2D (P1 Fig. 5, P2 Fig. 2)",
+     GB_FIGURES_RUNS, NULL, compute_densification},
     {"difference", "pressure less that of the reference, against density (P2 Fig. 3)",
-     compute_difference},
+     GB_FIGURES_RUNS, NULL, compute_difference},
     {"rate", "pressure at given densities against rate, with power law (P2 Fig. 4)",
-     gb_figures_rate},
-    {"relaxation", "the fit of the relaxation after pressing (P2 Table 1)",
-     gb_figures_relaxation},
-    {NULL, NULL, NULL},
+     GB_FIGURES_RUNS, NULL, gb_figures_rate},
+    {"relaxation", "times of the relaxation after pressing, from its fit (P2 Table 1)",
+     GB_FIGURES_RUNS, NULL, gb_figures_relaxation},
+    {"decay", "pressure after pressing against time, with its fit (P2 (4))",
+     GB_FIGURES_RUNS, NULL, gb_figures_relaxation_curve},
+    {"unloading", "density against pressure, with unloading (P1 Fig. 11, 12)",
+     GB_FIGURES_RUNS, NULL, gb_figures_curve_unloading},
+    {"continuum",
+     "pressure against density, with the continuum theory for three geometries (P1 Fig. "
+     "12)",
+     GB_FIGURES_RUNS, NULL, gb_figures_continuum},
+    {"coordination", "mean coordination number against density (P1 Fig. 8)",
+     GB_FIGURES_RUNS, NULL, gb_figures_curve_coordination},
+    {"lateral", "lateral over axial pressure against density (P1 Fig. 13)",
+     GB_FIGURES_RUNS, NULL, gb_figures_curve_lateral},
+    {"size-effect", "gain in density at one pressure against diameter (P1 Fig. 6)",
+     GB_FIGURES_RUNS, NULL, gb_figures_curve_size},
+    {"sweep", "density at one pressure against a varied key, a line per value of others",
+     GB_FIGURES_RUNS, NULL, gb_figures_sweep},
+    {"rdf", "radial distribution function (P1 Fig. 4, 7)", GB_FIGURES_STATES, NULL,
+     gb_figures_state_rdf},
+    {"force-angle", "mean normal force against the angle to z (P1 Fig. 14)",
+     GB_FIGURES_STATES, NULL, gb_figures_state_force},
+    {"sizes", "particle sizes by number with log-normal law (P1 Fig. 10, P3 Fig. 14)",
+     GB_FIGURES_STATES, NULL, gb_figures_state_sizes},
+    {"sizes-volume", "particle sizes by volume (P3 Fig. 14)", GB_FIGURES_STATES, NULL,
+     gb_figures_state_volumes},
+    {"die-height", "change of height against pressure in a die (P3 Fig. 17)",
+     GB_FIGURES_RUNS, NULL, gb_figures_die_height},
+    {"die-density", "density, whole and in the middle of a die (P3 Fig. 18-20)",
+     GB_FIGURES_RUNS, NULL, gb_figures_die_density},
+    {"contact", "normal force of two particles, pressed and released (P1 Fig. 1)",
+     GB_FIGURES_SCENE, "p1-set2-16nm", gb_figures_law_contact},
+    {"bridge-strength", "stress that breaks a bridge, for three lengths (P1 Fig. 2)",
+     GB_FIGURES_SCENE, "p1-set2-16nm", gb_figures_law_strength},
+    {"pair", "force of two equal spheres, elastic and plastic (P3 Fig. 10)",
+     GB_FIGURES_SCENE, "p3-pair", gb_figures_pair_force},
+    {"line", "force on a small sphere between two large ones (P3 Fig. 11)",
+     GB_FIGURES_SCENE, "p3-line", gb_figures_pair_force},
+    {"critical-step", "critical time step of two equal spheres (P3 Fig. 12)",
+     GB_FIGURES_SCENE, "p3-pair", gb_figures_pair_step},
+    {"chart", "error against cost of numerical choices, from greenbody chart",
+     GB_FIGURES_TABLE, NULL, gb_figures_chart},
+    {0},
 };
 
 const struct gb_figures_row *gb_figures_all(void)

@@ -1,6 +1,7 @@
 #include "cli/figures_rate.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "base/alloc.h"
 #include "measure/average.h"
@@ -53,6 +54,14 @@ static bool check_one_series(const struct gb_runset *set, struct gb_error *err)
     return true;
 }
 
+/* A run that ends at a density ends there but for rounding. */
+static double pressure_at(const struct gb_average_curve *curve, double density)
+{
+    const double last = curve->x[curve->count - 1];
+    const bool end = fabs(last - density) < 1e-9 * density;
+    return gb_average_crossing(curve, end ? fmin(last, density) : density, NULL);
+}
+
 /* Pressure of every run where it first reaches each density; densities x runs. */
 static bool find_pressures(double *pressure, const struct gb_runset *set,
                            const double *density, size_t densities, struct gb_error *err)
@@ -67,7 +76,7 @@ static bool find_pressures(double *pressure, const struct gb_runset *set,
         }
         const struct gb_average_curve curve = {x, y, count};
         for (size_t k = 0; k < densities; k++) {
-            pressure[k * set->count + i] = gb_average_crossing(&curve, density[k], NULL);
+            pressure[k * set->count + i] = pressure_at(&curve, density[k]);
         }
         gb_alloc_free(x);
         gb_alloc_free(y);
@@ -182,6 +191,36 @@ static void note_common(struct gb_series *series, struct gb_power_point *points,
                            "densities of one run are not independent");
 }
 
+/* One curve of points and one of the fit for every stretch of rows of one density. */
+static void draw_densities(struct gb_series *series, const double *density)
+{
+    const double *rate = g_ptr_array_index(series->columns, 1);
+    const double *p = g_ptr_array_index(series->columns, 2);
+    const double *error = g_ptr_array_index(series->columns, 3);
+    const double *fit = g_ptr_array_index(series->columns, 5);
+    int style = 0;
+    gb_series_axes(series, "rate_per_s", "densification rate <i>v</i> (1/s)", "p_MPa",
+                   "pressure <i>p</i> (MPa)");
+    series->x.log = series->y.log = true;
+    for (size_t from = 0, to = 0; from < series->rows; from = to, style++) {
+        char label[64];
+        while (to < series->rows && density[to] == density[from]) {
+            to++;
+        }
+        snprintf(label, sizeof label, "<i>\xcf\x81</i> = %g", density[from]);
+        struct gb_series_curve *points =
+            gb_series_draw(series, rate, p, error, GB_FIGURE_POINTS, style, label);
+        points->from = from;
+        points->rows = to - from;
+        struct gb_series_curve *line =
+            gb_series_draw(series, rate, fit, NULL, GB_FIGURE_LINE, style, NULL);
+        line->from = from;
+        line->rows = to - from;
+    }
+    gb_series_say(series, "Bars: standard error; lines: <i>p</i> = <i>a</i> + "
+                          "<i>k v<sup>n</sup></i> fitted at each density.");
+}
+
 static void fill_rows(struct gb_series *series, const struct gb_runset *set,
                       const double *density, size_t densities, const double *pressure)
 {
@@ -213,6 +252,7 @@ static void fill_rows(struct gb_series *series, const struct gb_runset *set,
             columns[k][i] = row[k];
         }
     }
+    draw_densities(series, columns[0]);
     note_common(series, points, series->rows,
                 gb_params_structure_density(&set->run[0].params));
     g_free(points);
@@ -220,12 +260,13 @@ static void fill_rows(struct gb_series *series, const struct gb_runset *set,
     g_free(fitted);
 }
 
-bool gb_figures_rate(struct gb_series *series, const struct gb_runset *set,
-                     const struct gb_figures_request *request, struct gb_error *err)
+bool gb_figures_rate(struct gb_series *series, const struct gb_figures_input *input,
+                     struct gb_error *err)
 {
-    const bool given = request->densities > 0;
-    const double *density = given ? request->density : usual;
-    const size_t densities = given ? request->densities : G_N_ELEMENTS(usual);
+    const struct gb_runset *set = input->set;
+    const bool given = input->densities > 0;
+    const double *density = given ? input->density : usual;
+    const size_t densities = given ? input->densities : G_N_ELEMENTS(usual);
     if (!gb_figures_rate_check(set, "rate", err) || !check_one_series(set, err)) {
         return false;
     }

@@ -4,8 +4,8 @@
 #include "cli/figures.h"
 
 /* Pressure at given densities against the rate, P2 (9); see struct gb_figures_row. */
-bool gb_figures_rate(struct gb_series *series, const struct gb_runset *set,
-                     const struct gb_figures_request *request, struct gb_error *err);
+bool gb_figures_rate(struct gb_series *series, const struct gb_figures_input *input,
+                     struct gb_error *err);
 
 /* All runs are dynamic, or an error that names the figure. */
 bool gb_figures_rate_check(const struct gb_runset *set, const char *figure,

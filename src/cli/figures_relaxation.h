@@ -4,8 +4,12 @@
 #include "cli/figures.h"
 
 /* One row of fitted parameters per group, P2 (4); see struct gb_figures_row. */
-bool gb_figures_relaxation(struct gb_series *series, const struct gb_runset *set,
-                           const struct gb_figures_request *request,
+bool gb_figures_relaxation(struct gb_series *series, const struct gb_figures_input *input,
                            struct gb_error *err);
+
+/* The mean relaxation of each group with its fit, over log t. */
+bool gb_figures_relaxation_curve(struct gb_series *series,
+                                 const struct gb_figures_input *input,
+                                 struct gb_error *err);
 
 #endif

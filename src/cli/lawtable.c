@@ -5,6 +5,8 @@
 
 #include <glib.h>
 
+#include "cli/lawpair.h"
+
 static const struct gb_lawtable_lattice lattices[] = {
     {"sc", 6.0, 1.0},
     {"fcc", 12.0, M_SQRT1_2},
@@ -36,7 +38,9 @@ static void print_dispersion(const struct gb_lawtable_input *input)
     printf("%.17g,%.17g,%.17g\n", input->x, force, newton(input->model, force));
 }
 
-void gb_lawtable_print_contact(const struct gb_model *model, double h, double h_min)
+/* One row of f_n = f_e - f_a: overlap, force, df_n/dh of the active branch, force in nN.
+ * h_min is the deepest overlap of the bridge, 0: no bridge. */
+static void print_contact(const struct gb_model *model, double h, double h_min)
 {
     const struct gb_law_dispersion *dispersion = &model->dispersion;
     const double attraction = gb_law_dispersion_force(dispersion, 1.0 - h);
@@ -53,7 +57,17 @@ void gb_lawtable_print_contact(const struct gb_model *model, double h, double h_
 
 static void print_normal(const struct gb_lawtable_input *input)
 {
-    gb_lawtable_print_contact(input->model, input->x, 0.0);
+    print_contact(input->model, input->x, 0.0);
+}
+
+/* Bridges form and break on the way, where the scene has them. */
+static void follow_contact(const struct gb_lawtable_input *input, double *h_min)
+{
+    const struct gb_model *model = input->model;
+    *h_min = model->terms.bridges
+                 ? gb_law_bridge_deepest(&model->bridge, *h_min, input->x)
+                 : 0.0;
+    print_contact(model, input->x, *h_min);
 }
 
 /* A bridge cannot be opened by more than its length: beyond it h_min has followed. */
@@ -61,7 +75,7 @@ static void print_bridge(const struct gb_lawtable_input *input)
 {
     const double deepest = input->x + input->model->bridge.length;
     const double h_min = isnan(input->h_min) ? deepest : fmin(input->h_min, deepest);
-    gb_lawtable_print_contact(input->model, input->x, h_min);
+    print_contact(input->model, input->x, h_min);
 }
 
 static double contact_radius(double h)
@@ -121,23 +135,46 @@ static void print_lattice(const struct gb_lawtable_input *input)
            pressure * model->pascal_per_stress * 1e-9);
 }
 
+/* Overlaps and distances of most laws, in diameters. */
+#define OVERLAPS  .low = -1e6, .high = 1.0
+#define DISTANCES .low = 0.0, .high = 1e6
+
 static const char force_header[] = "h,force,stiffness,force_nN";
 static const char slip_header[] = "h,stiffness,cap";
+static const char pair_header[] = "h_m,force_N,stiffness_N_per_m";
+
 static const struct gb_lawtable_law laws[] = {
-    {"rod", force_header, "h", false, false, false, -1e6, 1.0, print_rod},
-    {"bridge", force_header, "h", true, true, true, 0.0, 1.0, print_bridge},
-    {"dispersion", "r,force,force_nN", "r", false, false, false, 0.0, 1e6,
-     print_dispersion},
-    {"normal", force_header, "h", true, false, false, -1e6, 1.0, print_normal},
-    {"shear", slip_header, "h", false, false, false, -1e6, 1.0, print_shear},
-    {"pivot", slip_header, "h", false, false, false, -1e6, 1.0, print_pivot},
-    {"roll", slip_header, "h", false, false, false, -1e6, 1.0, print_roll},
-    {"equilibrium", "h_eq,force_max,force_max_nN", NULL, false, false, false, 0.0, 0.0,
-     print_equilibrium},
-    {"bridge-strength", "h,strength_GPa", "h", false, false, true, 0.0, 1.0,
-     print_strength},
-    {"lattice", "h,density,pressure_GPa", "h", false, false, false, -1e6, 1.0,
-     print_lattice},
+    {.name = "rod", .header = force_header, .variable = "h", OVERLAPS, .print = print_rod},
+    {.name = "bridge", .header = force_header, .variable = "h", .h_min = true,
+     .bridged = true, .low = 0.0, .high = 1.0, .print = print_bridge,
+     .follow = follow_contact},
+    {.name = "dispersion", .header = "r,force,force_nN", .variable = "r", DISTANCES,
+     .print = print_dispersion},
+    {.name = "normal", .header = force_header, .variable = "h", OVERLAPS,
+     .print = print_normal, .follow = follow_contact},
+    {.name = "shear", .header = slip_header, .variable = "h", OVERLAPS,
+     .print = print_shear},
+    {.name = "pivot", .header = slip_header, .variable = "h", OVERLAPS,
+     .print = print_pivot},
+    {.name = "roll", .header = slip_header, .variable = "h", OVERLAPS,
+     .print = print_roll},
+    {.name = "equilibrium", .header = "h_eq,force_max,force_max_nN",
+     .print = print_equilibrium},
+    {.name = "bridge-strength", .header = "h,strength_GPa", .variable = "h",
+     .bridged = true, .low = 0.0, .high = 1.0, .print = print_strength},
+    {.name = "lattice", .header = "h,density,pressure_GPa", .variable = "h", OVERLAPS,
+     .print = print_lattice},
+    {.name = "hertz", .header = pair_header, .variable = "h_m", .pair = true, OVERLAPS,
+     .print = gb_lawpair_hertz, .follow = gb_lawpair_follow_hertz},
+    {.name = "storakers", .header = pair_header, .variable = "h_m", .pair = true,
+     OVERLAPS, .print = gb_lawpair_storakers, .follow = gb_lawpair_follow_storakers},
+    {.name = "mindlin", .header = "h_m,stiffness_N_per_m,cap_N", .variable = "h_m",
+     .pair = true, OVERLAPS, .print = gb_lawpair_mindlin},
+    {.name = "models", .header = "h_m,hertz_N,storakers_N,printed_N", .variable = "h_m",
+     .pair = true, OVERLAPS, .print = gb_lawpair_models},
+    {.name = "critical-step", .header = "h_m,hertz_s,storakers_s,printed_s",
+     .variable = "h_m", .pair = true, OVERLAPS, .print = gb_lawpair_steps},
+    {.name = "yield", .header = "h_m,force_N", .pair = true, .print = gb_lawpair_yield},
 };
 
 const struct gb_lawtable_law *gb_lawtable_laws(size_t *count)

@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "greenbody/model.h"
+#include "phys/contact_pair.h"
 
 /* Nearest neighbours and volume per particle (in r^3) of a lattice. */
 struct gb_lawtable_lattice {
@@ -15,29 +16,29 @@ struct gb_lawtable_lattice {
 
 /* What a row is computed from. */
 struct gb_lawtable_input {
-    const struct gb_model *model;
+    const struct gb_model *model;       /* of laws in reduced units */
+    const struct gb_contact_pair *pair; /* of laws of a pair, in SI */
     const struct gb_lawtable_lattice *lattice;
-    double x;     /* h or r */
+    double x;     /* h or r, in diameters; h of a pair in m */
     double h_min; /* of a bridge; NaN: the deepest allowed */
 };
 
 struct gb_lawtable_law {
     const char *name;
     const char *header;
-    const char *variable; /* "h", "r", or NULL: one row without a variable */
-    bool path;            /* has a history to follow */
+    const char *variable; /* "h", "r", "h_m", or NULL: one row without a variable */
+    bool pair;            /* two bodies of any size and material, SI; else reduced */
     bool h_min;           /* takes h_min beside h */
     bool bridged;         /* makes sense in scenes with bridges only */
-    double low, high;     /* of the variable; high is exclusive */
+    double low, high;     /* of the variable, in diameters; high is exclusive */
     void (*print)(const struct gb_lawtable_input *input);
+    /* The same at the next overlap of a contact with a history, whose deepest overlap is
+     * carried along; NULL: no history. */
+    void (*follow)(const struct gb_lawtable_input *input, double *deepest);
 };
 
 /* The laws and the lattices, with their numbers. */
 const struct gb_lawtable_law *gb_lawtable_laws(size_t *count);
 const struct gb_lawtable_lattice *gb_lawtable_lattices(size_t *count);
-
-/* One row of f_n = f_e - f_a: overlap, force, df_n/dh of the active branch, force in nN.
- * h_min is the deepest overlap of the bridge, 0: no bridge. */
-void gb_lawtable_print_contact(const struct gb_model *model, double h, double h_min);
 
 #endif

@@ -22,9 +22,19 @@ struct command {
 /* Every command that this build has; help, dispatch and messages follow from it. */
 static const struct command commands[] = {
     {"run", "one run without a screen, results in a directory", gb_cmd_run},
+    {"sweep", "a grid of parameters with replicas, in one table", gb_cmd_sweep},
+    {"resume", "goes on with a run that was stopped or killed", gb_cmd_resume},
+    {"attach", "shows a run that is under way, or takes it over", gb_cmd_attach},
+    {"verify", "repeats the last stretch of a run and compares", gb_cmd_verify},
+    {"calibrate", "keys fitted to measured densities, with intervals", gb_cmd_calibrate},
+    {"sizes", "the log-normal law of a measured histogram of sizes", gb_cmd_sizes},
     {"pack", "the initial structure alone", gb_cmd_pack},
     {"snapshot", "picture of a packing", gb_cmd_snapshot},
-    {"plot", "data of figures over one or more runs", gb_cmd_plot},
+    {"plot", "figures over one or more runs, and of contact laws", gb_cmd_plot},
+    {"chart", "error against cost of the numerical choices of a scene", gb_cmd_chart},
+    {"stability", "where each method fails, beside theory", gb_cmd_stability},
+    {"report", "figures, pictures and tables of runs in a folder to hand in",
+     gb_cmd_report},
     {"bench", "the speed figures", gb_cmd_bench},
     {"law", "values of a contact law as CSV", gb_cmd_law},
     {"params", "every preset key: unit, range, default, meaning, source", gb_cmd_params},
@@ -67,8 +77,9 @@ static void print_version(void)
 #endif
     printf("greenbody %s\n", GB_VERSION);
     printf("compiler: %s\n", compiler);
-    printf("features: %s, %s; GLib %u.%u, GSL %s\n",
-           GB_WITH_PICTURES ? "pictures" : "no pictures", threads, glib_major_version,
+    printf("features: %s, %s, %s; GLib %u.%u, GSL %s\n",
+           GB_WITH_PICTURES ? "pictures" : "no pictures", threads,
+           GB_WITH_MPI ? "MPI" : "no MPI", glib_major_version,
            glib_minor_version, gsl_version);
     printf("threads: %u\n", g_get_num_processors());
 }
@@ -126,6 +137,10 @@ static int dispatch(int argc, char **argv)
     }
     if (strcmp(word, "--version") == 0) {
         print_version();
+        return 0;
+    }
+    if (strcmp(word, "--keys") == 0) {
+        gb_cmd_workbench_keys();
         return 0;
     }
     for (size_t i = 0; i < G_N_ELEMENTS(commands); i++) {

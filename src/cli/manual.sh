@@ -25,6 +25,12 @@ commands() {
         done
 }
 
+# name in ten columns, then what it does
+workbench() {
+    "$greenbody" --keys | verbatim |
+        sed -e 's/^\(.\{10\}\)\(.*\)$/.TP\n.B \1\n\2/' -e 's/^\(\.B .*[^ ]\) *$/\1/'
+}
+
 # | `key` | default | range | unit | meaning | source |
 keys() {
     "$greenbody" params --markdown | sed 1,2d | verbatim |
@@ -38,6 +44,7 @@ while IFS= read -r line; do
     case $line in
     @COMMANDS@) commands ;;
     @KEYS@) keys ;;
+    @WORKBENCH@) workbench ;;
     *@VERSION@*) printf '%s%s%s\n' "${line%%@VERSION@*}" "$version" "${line#*@VERSION@}" ;;
     *) printf '%s\n' "$line" ;;
     esac

@@ -4,6 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <glib/gstdio.h>
+
+#include "draw/png.h"
+
 static GOptionContext *make_context(const struct gb_options_page *page,
                                     const GOptionEntry *entries, const char *command)
 {
@@ -109,8 +113,43 @@ static bool find_name(char **words, const char **name, struct gb_error *err)
     return true;
 }
 
-bool gb_options_scene(struct gb_preset **out, char **words, char **sets, bool needed,
-                      struct gb_error *err)
+/* The preset inside a picture, by way of a file of the picture's name. */
+static bool load_from_picture(struct gb_preset **out, const char *path,
+                              struct gb_error *err)
+{
+    char *text = NULL;
+    if (!gb_png_read_text(path, "Preset", &text, err)) {
+        return false;
+    }
+    char *folder = g_dir_make_tmp("greenbody-XXXXXX", NULL);
+    char *name = g_path_get_basename(path);
+    memcpy(strrchr(name, '.'), ".ini", 4);
+    char *file = g_build_filename(folder != NULL ? folder : "/nowhere", name, NULL);
+    bool good = g_file_set_contents(file, text, -1, NULL) ||
+                gb_error_set(err, GB_ERR_MACHINE,
+                             "%.300s: its preset needs a temporary file, and there can "
+                             "be none in %.100s",
+                             path, g_get_tmp_dir());
+    good = good && gb_preset_load(out, file, err);
+    g_unlink(file);
+    if (folder != NULL) {
+        g_rmdir(folder);
+    }
+    g_free(file);
+    g_free(name);
+    g_free(folder);
+    g_free(text);
+    return good;
+}
+
+static bool load_named(struct gb_preset **out, const char *name, struct gb_error *err)
+{
+    return g_str_has_suffix(name, ".png") ? load_from_picture(out, name, err)
+                                          : gb_preset_load(out, name, err);
+}
+
+bool gb_options_preset(struct gb_preset **out, char **words, char **sets, bool needed,
+                       struct gb_error *err)
 {
     const char *name = NULL;
     if (!find_name(words, &name, err)) {
@@ -125,12 +164,26 @@ bool gb_options_scene(struct gb_preset **out, char **words, char **sets, bool ne
         return false;
     }
     struct gb_preset *preset = NULL;
-    if (name ? !gb_preset_load(&preset, name, err) : !gb_preset_create(&preset, err)) {
+    if (name ? !load_named(&preset, name, err) : !gb_preset_create(&preset, err)) {
         return false;
     }
     struct gb_params *params = gb_preset_params(preset);
-    if (!assign_all(params, words, true, err) || !assign_all(params, sets, false, err) ||
-        !gb_params_check(params, err)) {
+    if (!assign_all(params, words, true, err) || !assign_all(params, sets, false, err)) {
+        gb_preset_destroy(preset);
+        return false;
+    }
+    *out = preset;
+    return true;
+}
+
+bool gb_options_scene(struct gb_preset **out, char **words, char **sets, bool needed,
+                      struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    if (!gb_options_preset(&preset, words, sets, needed, err)) {
+        return false;
+    }
+    if (!gb_params_check(gb_preset_params(preset), err)) {
         gb_preset_destroy(preset);
         return false;
     }

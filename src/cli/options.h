@@ -28,9 +28,14 @@ bool gb_options_parse(const struct gb_options_page *page, const GOptionEntry *en
             "give a parameter another value; may be repeated", "group.key=value"         \
     }
 
-/* Scene of a command: the preset named by the words (no word without '=': all defaults,
- * unless needed), then the words that contain '=' and the values of --set, then the
- * check. sets may be NULL.  The caller destroys *out. */
+/* Keys of a command: the preset named by the words, or the one inside a picture that
+ * greenbody wrote, a word ending in .png (no word without '=': all defaults, unless
+ * needed), then the words that contain '=' and the values of --set.  sets may be
+ * NULL.  The caller destroys *out. */
+bool gb_options_preset(struct gb_preset **out, char **words, char **sets, bool needed,
+                       struct gb_error *err);
+
+/* The same, checked as a scene. */
 bool gb_options_scene(struct gb_preset **out, char **words, char **sets, bool needed,
                       struct gb_error *err);
 

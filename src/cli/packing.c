@@ -167,7 +167,7 @@ bool gb_packing_write(const struct gb_packing *packing, const char *directory,
         write_file(directory, "packing.csv", packing_text(packing), err) &&
         write_file(directory, "g.csv", g_text(packing), err) &&
         write_file(directory, "structure.json", structure_text(packing), err) &&
-        gb_state_write(packing->state, state, err);
+        gb_state_write(packing->state, NULL, state, err);
     g_free(state);
     return written;
 }

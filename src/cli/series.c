@@ -7,8 +7,19 @@
 #include "base/alloc.h"
 #include "measure/average.h"
 
+static void free_label(void *curve)
+{
+    g_free(((struct gb_series_curve *)curve)->label);
+}
+
 void gb_series_init(struct gb_series *series, size_t rows)
 {
+    *series = (struct gb_series){.x = {.low = NAN, .high = NAN},
+                                 .y = {.low = NAN, .high = NAN}};
+    series->curves = g_array_new(FALSE, FALSE, sizeof(struct gb_series_curve));
+    g_array_set_clear_func(series->curves, free_label);
+    series->marks = g_array_new(FALSE, FALSE, sizeof(struct gb_figure_note));
+    series->caption = g_string_new(NULL);
     series->notes = g_string_new(NULL);
     series->names = g_ptr_array_new_with_free_func(g_free);
     series->columns = g_ptr_array_new_with_free_func(g_free);
@@ -21,6 +32,9 @@ void gb_series_finish(struct gb_series *series)
         g_string_free(series->notes, TRUE);
         g_ptr_array_unref(series->names);
         g_ptr_array_unref(series->columns);
+        g_array_unref(series->curves);
+        g_array_unref(series->marks);
+        g_string_free(series->caption, TRUE);
     }
     *series = (struct gb_series){0};
 }
@@ -50,6 +64,104 @@ double *gb_series_column(struct gb_series *series, const char *format, ...)
     }
     g_ptr_array_add(series->columns, column);
     return column;
+}
+
+void gb_series_axes(struct gb_series *series, const char *x_name, const char *x_label,
+                    const char *y_name, const char *y_label)
+{
+    series->x.name = x_name;
+    series->x.label = x_label;
+    series->y.name = y_name;
+    series->y.label = y_label;
+}
+
+static int index_of(const struct gb_series *series, const double *column)
+{
+    for (guint k = 0; k < series->columns->len; k++) {
+        if (g_ptr_array_index(series->columns, k) == column) {
+            return (int)k;
+        }
+    }
+    return -1;
+}
+
+struct gb_series_curve *gb_series_draw(struct gb_series *series, const double *x,
+                                       const double *y, const double *error,
+                                       enum gb_figure_kind kind, int style,
+                                       const char *label)
+{
+    const struct gb_series_curve curve = {
+        .x = index_of(series, x),
+        .y = index_of(series, y),
+        .error = error != NULL ? index_of(series, error) : -1,
+        .x_error = -1,
+        .rows = series->rows,
+        .kind = kind,
+        .style = style,
+        .label = g_strdup(label),
+    };
+    g_array_append_val(series->curves, curve);
+    return &g_array_index(series->curves, struct gb_series_curve,
+                          series->curves->len - 1);
+}
+
+void gb_series_say(struct gb_series *series, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (series->caption->len > 0) {
+        g_string_append_c(series->caption, ' ');
+    }
+    g_string_append_vprintf(series->caption, format, arguments);
+    va_end(arguments);
+}
+
+void gb_series_grow(struct gb_series *series, size_t rows)
+{
+    for (guint k = 0; k < series->columns->len; k++) {
+        double **column = (double **)&g_ptr_array_index(series->columns, k);
+        *column = g_renew(double, *column, rows + 1);
+        for (size_t i = series->rows; i < rows; i++) {
+            (*column)[i] = NAN;
+        }
+    }
+    series->rows = MAX(series->rows, rows);
+}
+
+static const double *column_at(const struct gb_series *series, int index, size_t from)
+{
+    return index >= 0 ? (const double *)g_ptr_array_index(series->columns, index) + from
+                      : NULL;
+}
+
+void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
+                      struct gb_figure_curve **curves)
+{
+    *curves = g_new0(struct gb_figure_curve, series->curves->len + 1);
+    for (guint k = 0; k < series->curves->len; k++) {
+        const struct gb_series_curve *from =
+            &g_array_index(series->curves, struct gb_series_curve, k);
+        (*curves)[k] = (struct gb_figure_curve){
+            .label = from->label,
+            .kind = from->kind,
+            .style = from->style,
+            .open = from->open,
+            .count = from->rows,
+            .x = column_at(series, from->x, from->from),
+            .y = column_at(series, from->y, from->from),
+            .error = column_at(series, from->error, from->from),
+            .x_error = column_at(series, from->x_error, from->from),
+        };
+    }
+    *figure = (struct gb_figure){
+        .caption = series->caption->str,
+        .x = {series->x.label, series->x.log, series->x.low, series->x.high},
+        .y = {series->y.label, series->y.log, series->y.low, series->y.high},
+        .curve = *curves,
+        .count = series->curves->len,
+        .note = (const struct gb_figure_note *)(void *)series->marks->data,
+        .notes = series->marks->len,
+    };
 }
 
 static void append_notes(GString *text, const char *notes)
@@ -166,4 +278,12 @@ bool gb_series_mean(const struct gb_series_sample *sample, const struct gb_runse
     gb_average_rows(rows, members, sample->size, true, mean, error);
     gb_alloc_free(rows);
     return true;
+}
+
+double *gb_series_sample_grid(struct gb_series *series,
+                              const struct gb_series_sample *sample, const char *name)
+{
+    double *column = gb_series_column(series, "%s", name);
+    memcpy(column, sample->grid, sample->size * sizeof *column);
+    return column;
 }

@@ -6,15 +6,38 @@
 
 #include <glib.h>
 
+#include "draw/figure.h"
 #include "greenbody/status.h"
 #include "run/runset.h"
 
-/* The data of a figure: notes and columns of numbers, NaN where there is none. */
+/* A curve of a figure: columns of its series by number, -1: none. */
+struct gb_series_curve {
+    int x, y, error, x_error;
+    size_t from, rows; /* which rows */
+    enum gb_figure_kind kind;
+    int style;
+    bool open;
+    char *label; /* Pango markup; NULL: not named */
+};
+
+/* An axis: the column that a table of --data must have for it, and its words. */
+struct gb_series_axis {
+    const char *name, *label; /* NULL label: nothing to draw */
+    bool log;
+    double low, high; /* NaN: from the data */
+};
+
+/* The data of a figure: notes and columns of numbers, NaN where there is none; and which
+ * of them are drawn how. */
 struct gb_series {
     GString *notes; /* lines without '#' */
     GPtrArray *names;
     GPtrArray *columns; /* double[rows] each */
     size_t rows;
+    struct gb_series_axis x, y;
+    GArray *curves;   /* struct gb_series_curve */
+    GArray *marks;    /* struct gb_figure_note */
+    GString *caption; /* Pango markup */
 };
 
 void gb_series_init(struct gb_series *series, size_t rows);
@@ -26,6 +49,26 @@ void gb_series_note(struct gb_series *series, const char *format, ...)
 /* Adds a column of NaN and gives it to be filled. */
 double *gb_series_column(struct gb_series *series, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+
+/* What the axes are: names of columns, and words with units; texts that live on. */
+void gb_series_axes(struct gb_series *series, const char *x_name, const char *x_label,
+                    const char *y_name, const char *y_label);
+/* Draws columns that are there already; error may be NULL.  Returns the curve, valid
+ * until the next call; label (NULL: none) is copied. */
+struct gb_series_curve *gb_series_draw(struct gb_series *series, const double *x,
+                                       const double *y, const double *error,
+                                       enum gb_figure_kind kind, int style,
+                                       const char *label);
+/* Adds a sentence to the caption. */
+void gb_series_say(struct gb_series *series, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Adds rows of NaN; columns given out before move. */
+void gb_series_grow(struct gb_series *series, size_t rows);
+
+/* The drawing, whose arrays belong to the series; *curves for g_free. */
+void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
+                      struct gb_figure_curve **curves);
 
 /* As CSV: notes as comments, a header row, the numbers.  g_string_free. */
 GString *gb_series_csv(const struct gb_series *series);
@@ -49,5 +92,9 @@ void gb_series_sample_finish(struct gb_series_sample *sample); /* zeroed is fine
  * `size` values. */
 bool gb_series_mean(const struct gb_series_sample *sample, const struct gb_runset *set,
                     size_t group, double *mean, double *error, struct gb_error *err);
+
+/* The grid as the first column, under a name. */
+double *gb_series_sample_grid(struct gb_series *series,
+                              const struct gb_series_sample *sample, const char *name);
 
 #endif

@@ -1,6 +1,8 @@
 #include "cli/warmup.h"
 
-#include "pack/world.h"
+#include <string.h>
+
+#include "run/checkpoint.h"
 #include "run/cost.h"
 #include "run/pace.h"
 
@@ -26,7 +28,7 @@ void gb_warmup_run(struct gb_warmup *warmup, struct gb_experiment *experiment,
                    double seconds, double gone, const volatile sig_atomic_t *caught,
                    struct gb_error *stopped)
 {
-    const int64_t before = gb_world_evaluations(gb_experiment_world(experiment));
+    const int64_t before = gb_experiment_evaluations(experiment);
     const gint64 start = g_get_monotonic_time();
     struct gb_pace pace;
     gb_pace_init(&pace);
@@ -37,6 +39,7 @@ void gb_warmup_run(struct gb_warmup *warmup, struct gb_experiment *experiment,
             struct gb_point point = *gb_experiment_point(experiment);
             point.seconds = gone + seconds_since(start);
             g_array_append_val(warmup->points, point);
+            (void)gb_checkpoint_take(experiment, &warmup->record, NULL);
         }
     }
     warmup->particle_steps_per_s =
@@ -48,5 +51,6 @@ void gb_warmup_finish(struct gb_warmup *warmup)
     if (warmup->points != NULL) {
         g_array_unref(warmup->points);
     }
-    *warmup = (struct gb_warmup){0};
+    gb_record_finish(&warmup->record);
+    memset(warmup, 0, sizeof *warmup);
 }

@@ -11,6 +11,7 @@
  * work is not lost, the run goes on from there. */
 struct gb_warmup {
     GArray *points;              /* struct gb_point, recorded meanwhile */
+    struct gb_record record;     /* of the last one */
     enum gb_advance how;         /* what the last slice ended with */
     double particle_steps_per_s; /* 0: nothing was evaluated */
 };

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include <glib.h>
+#include <glib/gstdio.h>
 
 #include "common/program.h"
 
@@ -19,6 +20,9 @@ static struct result call(const char *words)
 static const char *const refused[][2] = {
     {"nothing", "nothing: no such option, command, file or preset; commands:"},
     {"params extra", "params takes no words"},
+    {"stability extra", "stability takes no words"},
+    {"sizes", "sizes takes one file"},
+    {"sizes a.csv b.csv", "sizes takes one file"},
     {"params --bogus", "Unknown option --bogus"},
     {"law", "accepted rod, bridge, dispersion"},
     {"law storm --at h=0.1", "law storm: accepted rod"},
@@ -59,6 +63,27 @@ static const char *const refused[][2] = {
     {"law lattice --at h=0.01", "needs --lattice"},
     {"law lattice --lattice hcp --at h=0.01", "accepted sc, fcc, bcc or diamond"},
     {"law rod --lattice sc --at h=0.01", "--lattice is for"},
+    {"law rod --at h=nm", "--at h=nm: accepted"},
+    {"law rod --at h=2MPa", "--at h=2MPa: accepted"},
+    {"law rod --at h=10nm", "h = 1: accepted"}, /* a diameter */
+    {"law hertz",
+     "law hertz needs --at h_m=VALUE or --range h_m=FROM:TO:COUNT or --path"},
+    {"law hertz p3-pair --at h=1", "h_m = 2e-05: accepted -20 up to below 2e-05"},
+    {"law hertz p3-pair --at r=1um", "accepted h_m, h or h/2R, each once"},
+    {"law hertz p3-pair --range h_m=20nm:1e-8:5", "from below to"},
+    {"law hertz p3-pair --range r=0:1nm:5", "accepted h_m for law hertz"},
+    {"law storakers p3-pair --path 0,1", "accepted h_m below 2e-05"},
+    {"law storakers p3-pair --path r=0,20nm", "--path r=0,20nm: accepted h_m"},
+    {"law models p3-pair --path 0,20nm", "law models: accepted --at or --range"},
+    {"law yield p3-pair --at h_m=0", "law yield: accepted no --at"},
+    {"law hertz --at h=0 contact.radius_i=wall contact.radius_j=wall", "a wall"},
+    {"law hertz --at h=0 material.yield=500GPa",
+     "material.yield = 500 GPa: accepted up to material.young = 382 GPa"},
+    {"law hertz --at h=0 material.young_j=100MPa",
+     "material.yield = 800 MPa: accepted up to material.young_j = 100 MPa"},
+    {"law hertz --at h=0 contact.radius_j=inf", "accepted auto, or wall, or 0.1 nm"},
+    {"run default contact.normal=hertz",
+     "contact.normal = hertz: accepted rod with scene.kind = quasistatic"},
     {"law rod --at h=0.1 --set contact.mu=-1", "contact.mu = -1: accepted 0 to 2"},
     {"law rod --at h=0.1 contact.muu=1", "no such key"},
     {"law rod --at h=0.1 --set nonsense", "accepted group.key=value"},
@@ -103,6 +128,24 @@ static const char *const fine[][2] = {
     {"law bridge-strength --at h=0 --vary contact.bridge_length=0.005d,0.01d",
      "contact.bridge_length,h,strength_GPa\n0.005d,0,7.2678313435"},
     {"law rod --range h=0.1:0.1:1", "\n0.1"},
+    {"law rod --at h=1nm", "\n0.1"}, /* over the diameter of 10 nm */
+    {"law hertz p3-pair --at h=-1nm", "h_m,force_N,stiffness_N_per_m\n-1"},
+    {"law storakers p3-pair contact.normal=storakers --range h/2R=0:0.01:2",
+     "h_m,force_N,stiffness_N_per_m\n0,0,0\n2"},
+    {"law models p3-line --at h=0 --vary material.hardening=0,0.2",
+     "material.hardening,h_m,hertz_N,storakers_N,printed_N\n0,0,0,0,0\n0.2,0,0,0,0\n"},
+    {"law critical-step p3-pair --at h=0", "h_m,hertz_s,storakers_s,printed_s\n0,inf"},
+    {"law yield p3-pair", "h_m,force_N\n"},
+    {"law models p3-pair --range h_m=0:200nm:101 --vary "
+     "material.hardening=0,0.05,0.1,0.2",
+     "\n0.05,"},
+    {"law models p3-line --range h_m=0:600nm:101 --vary "
+     "material.hardening=0,0.05,0.1,0.2",
+     "\n0.1,"},
+    {"law critical-step p3-pair --range h_m=0:200nm:101 --vary "
+     "material.hardening=0,0.05,0.1,0.2",
+     "\n0.2,"},
+    {"law mindlin p3-pair --at h=0", "h_m,stiffness_N_per_m,cap_N\n0,0,0\n"},
 };
 
 static void test_fine(void)
@@ -140,6 +183,25 @@ static const struct {
     {"law lattice --lattice fcc --at h=0", 1, 0.74048048969306},
     {"law lattice --lattice bcc --at h=0", 1, 0.68017476158710},
     {"law lattice --lattice diamond --at h=0", 1, 0.34008738079355},
+    {"law hertz p3-pair --at h_m=2e-8", 1, 8.340072949895e-04},
+    {"law hertz p3-pair --at h/2R=0.001", 1, 8.340072949895e-04},
+    {"law hertz p3-line --at h=20nm", 1, 4.815143362683e-04},
+    {"law hertz p3-line contact.radius_i=2um contact.radius_j=10um --at h=20nm", 1,
+     4.815143362683e-04},
+    {"law storakers p3-pair contact.storakers=printed material.hardening=0.1 "
+     "'material.hollomon=1375 MPa' --at h_m=2e-8",
+     1, 2.060865593633e-03},
+    {"law storakers p3-pair --at h_m=2e-8", 1, 8.340072949895e-04}, /* still elastic */
+    {"law storakers p3-pair --at h_m=2e-7", 1, 2.156389197424e-02},
+    {"law models p3-line --at h=0.01", 3, 1.437592798283e-03},
+    /* 2 sqrt(m/k), (24), (29): k = 2 E* sqrt(R* h), m = 2.4756e-11 kg; with xi = 0.9 */
+    {"law critical-step p3-pair --at h=200nm", 1, 2.2374455971219e-08},
+    {"law critical-step p3-pair --at h=200nm contact.damping=0.9", 2,
+     3.0305361215714e-08 * 0.44536240470737},
+    /* against a wall R* doubles; k_t of (12) */
+    {"law hertz p3-pair contact.radius_j=wall --at h=20nm", 1,
+     8.340072949895e-04 * M_SQRT2},
+    {"law mindlin p3-pair --at h=200nm", 1, 8.0 * 180e9 / (2.0 * 1.7 * 2.6) * 1e-6},
 };
 
 static void test_values(void)
@@ -189,6 +251,54 @@ static void test_path(void)
     program_finish(&result);
 }
 
+/* Work done along the rows of a path, and the force at the end. */
+static double path_work(const char *words, double *last)
+{
+    struct result result = call(words);
+    g_assert_cmpint(result.status, ==, 0);
+    char **lines = g_strsplit(g_strchomp(result.out), "\n", -1);
+    double h = NAN, work = 0.0;
+    *last = NAN;
+    for (int i = 1; lines[i]; i++) {
+        char **cells = g_strsplit(lines[i], ",", -1);
+        const double now = g_ascii_strtod(cells[0], NULL);
+        const double force = g_ascii_strtod(cells[1], NULL);
+        work += i > 1 ? 0.5 * (force + *last) * (now - h) : 0.0;
+        h = now;
+        *last = force;
+        g_strfreev(cells);
+    }
+    g_strfreev(lines);
+    program_finish(&result);
+    return work;
+}
+
+/* One contact of NiAl in and out: nothing lost below the crossing of the two laws, half
+ * of the work and more well above it, the same whether a part of the way was gone twice;
+ * a contact that has opened starts anew. */
+static void test_plastic_path(void)
+{
+    double force = 0.0, again = 0.0;
+    const double in = path_work("law storakers p3-pair --path 0,300nm", &force);
+    g_assert_cmpfloat_with_epsilon(force, 3.2345837961e-02, 1e-9);
+    g_assert_cmpfloat(
+        fabs(path_work("law storakers p3-pair --path h_m=0,1e-7,0", &again)), <,
+        1e-12 * in);
+    const double loop = path_work("law storakers p3-pair --path 0,300nm,-1nm", &again);
+    g_assert_cmpfloat(loop, >, 0.2 * in);
+    g_assert_cmpfloat(loop, <, in);
+    g_assert_cmpfloat(again, ==, 0.0);
+    const double twice =
+        path_work("law storakers p3-pair --path 0,0.015,0.0135,0.015", &again);
+    g_assert_cmpfloat_with_epsilon(twice, in, 1e-6 * in);
+    g_assert_cmpfloat_with_epsilon(again, force, 1e-12 * force);
+    const double loops =
+        path_work("law storakers p3-pair --path 0,300nm,0,300nm,0", &again);
+    g_assert_cmpfloat_with_epsilon(loops, 2.0 * loop, 1e-3 * loop);
+    g_assert_cmpfloat(fabs(path_work("law hertz p3-pair --path 0,300nm,0", &again)), <,
+                      1e-12 * in);
+}
+
 /* A full disk is the machine's fault; a reader that goes away is nobody's. */
 static void test_output(void)
 {
@@ -219,6 +329,64 @@ static void test_output(void)
 }
 
 /* Usage: test_cli PROGRAM PRESET_FOLDER */
+/* What P1's law expects of 1000 particles in classes of 4 nm. */
+static void test_sizes(void)
+{
+    static const char text[] =
+        "diameter_nm,count\n2,11\n6,140\n10,235\n14,207\n18,147\n22,96\n26,60\n30,38\n34,"
+        "24\n38,15\n42,9\n46,6\n50,4\n54,3\n";
+    char *path = NULL;
+    const int file = g_file_open_tmp("greenbody-XXXXXX.csv", &path, NULL);
+    g_assert_cmpint(file, >=, 0);
+    g_close(file, NULL);
+    g_assert_true(g_file_set_contents(path, text, -1, NULL));
+    char *words = g_strconcat("sizes ", path, NULL);
+    struct result result = call(words);
+    g_test_message("%s%s", result.out, result.err);
+    g_assert_cmpint(result.status, ==, 0);
+    const char *median = strstr(result.out, "particles.diameter = ");
+    const char *sigma = strstr(result.out, "particles.sigma = ");
+    g_assert_true(median != NULL && sigma != NULL);
+    g_assert_cmpfloat_with_epsilon(g_ascii_strtod(median + 21, NULL), exp(2.644), 0.7);
+    g_assert_cmpfloat_with_epsilon(g_ascii_strtod(sigma + 18, NULL), 0.547, 0.04);
+    g_assert_nonnull(strstr(median, " nm\n"));
+    program_finish(&result);
+    g_assert_true(g_file_set_contents(path, "diameter_nm,number\n2,11\n", -1, NULL));
+    result = call(words);
+    g_assert_cmpint(result.status, ==, 2);
+    g_assert_nonnull(strstr(result.err, "accepted a column count"));
+    program_finish(&result);
+    g_unlink(path);
+    g_free(words);
+    g_free(path);
+}
+
+/* Every variant of a pressed packing has a time; a scene without attraction has no row
+ * for leaving it out. */
+static void test_bench_terms(void)
+{
+    static const struct {
+        const char *words;
+        int rows;
+    } scene[] = {{"bench --terms --csv particles.count=300 --coordination 4.2", 5},
+                 {"bench --terms --csv particles.count=300 --coordination 4.2 "
+                  "material.epsilon=0J",
+                  3}};
+    for (size_t i = 0; i < G_N_ELEMENTS(scene); i++) {
+        struct result result = call(scene[i].words);
+        g_assert_cmpint(result.status, ==, 0);
+        char **lines = g_strsplit(g_strchomp(result.out), "\n", -1);
+        g_assert_cmpuint(g_strv_length(lines), ==, 1 + (guint)scene[i].rows);
+        g_assert_true(g_str_has_prefix(lines[1], "all terms,"));
+        for (int k = 1; k <= scene[i].rows; k++) {
+            const char *number = strchr(lines[k], ',') + 1;
+            g_assert_cmpfloat(g_ascii_strtod(number, NULL), >, 0.0);
+        }
+        g_strfreev(lines);
+        program_finish(&result);
+    }
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -229,8 +397,11 @@ int main(int argc, char **argv)
     g_setenv("LC_ALL", "C.UTF-8", TRUE);
     g_test_add_func("/cli/refused", test_refused);
     g_test_add_func("/cli/fine", test_fine);
+    g_test_add_func("/cli/bench-terms", test_bench_terms);
     g_test_add_func("/cli/values", test_values);
     g_test_add_func("/cli/path", test_path);
+    g_test_add_func("/cli/plastic-path", test_plastic_path);
     g_test_add_func("/cli/output", test_output);
+    g_test_add_func("/cli/sizes", test_sizes);
     return g_test_run();
 }

@@ -1,0 +1,11 @@
+#ifndef GB_CLI_FIGURES_CHART_H
+#define GB_CLI_FIGURES_CHART_H
+
+#include "cli/figures.h"
+
+/* Bound of the error of a choice of numbers against the processor time of one cell, from
+ * the chart.csv of `greenbody chart`. */
+bool gb_figures_chart(struct gb_series *series, const struct gb_figures_input *input,
+                      struct gb_error *err);
+
+#endif

@@ -1,0 +1,20 @@
+#ifndef GB_CLI_FIGURES_LABEL_H
+#define GB_CLI_FIGURES_LABEL_H
+
+#include "cli/series.h"
+
+/* What tells a group from the others, short, as Pango markup: "9.7 nm, µ = 0.4"; the
+ * title of its first run where there is one group, or nothing shorter.  except: a key
+ * "group.key" left out (NULL: none).  g_free. */
+char *gb_figures_label(const struct gb_runset *set, size_t group, const char *except);
+
+/* Notes which number is which group and run, and says in the caption what bands are. */
+void gb_figures_label_note(struct gb_series *series, const struct gb_runset *set);
+
+/* Columns and curves of the mean pressure (MPa) of every group over the grid. */
+bool gb_figures_label_means(struct gb_series *series,
+                            const struct gb_series_sample *sample,
+                            const struct gb_runset *set, const double *grid,
+                            struct gb_error *err);
+
+#endif

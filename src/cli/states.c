@@ -1,0 +1,152 @@
+#include "cli/states.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/units.h"
+
+/* A kept state further away than this share of the wanted value is another one. */
+static const double tolerance = 0.05;
+
+/* What --at says. */
+struct point {
+    bool by_density;
+    double value; /* Pa, or density */
+};
+
+static bool parse_point(const char *text, struct point *point, struct gb_error *err)
+{
+    char **sides = g_strsplit(text, "=", 2);
+    bool good = sides[0] != NULL && sides[1] != NULL;
+    if (good) {
+        g_strstrip(sides[0]);
+        g_strstrip(sides[1]);
+        point->by_density = strcmp(sides[0], "density") == 0;
+        good = (point->by_density || strcmp(sides[0], "p") == 0) &&
+               gb_units_parse(sides[1], point->by_density ? GB_DIM_NONE : GB_DIM_PRESSURE,
+                              &point->value, NULL) &&
+               isfinite(point->value);
+    }
+    g_strfreev(sides);
+    return good || gb_error_set(err, GB_ERR_INPUT,
+                                "--at %.80s: accepted a point as in \"p=100 MPa\" or "
+                                "\"density=0.5\"",
+                                text);
+}
+
+static double value_of(const struct gb_state *state, const struct point *point)
+{
+    return point->by_density ? state->point.density : state->point.p_pa;
+}
+
+/* Relative distance; states of unloading come after those of loading. */
+static double distance(const struct gb_state *state, const struct point *point)
+{
+    const double away =
+        fabs(value_of(state, point) - point->value) / fmax(fabs(point->value), 1e-12);
+    return isfinite(away) ? away + (state->point.branch > 0 ? 1e-6 : 0.0) : INFINITY;
+}
+
+static void describe(GString *list, const struct gb_state *state,
+                     const struct point *point)
+{
+    char value[48];
+    if (point->by_density) {
+        g_snprintf(value, sizeof value, "%.4g", state->point.density);
+    } else {
+        gb_units_format_short(state->point.p_pa, GB_DIM_PRESSURE, 4, value, sizeof value);
+    }
+    g_string_append_printf(list, "%s%s", list->len > 0 ? ", " : "", value);
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* Paths of all states of a directory, sorted; the last one first. */
+static GPtrArray *list_paths(const char *place)
+{
+    GPtrArray *paths = g_ptr_array_new_with_free_func(g_free);
+    if (!g_file_test(place, G_FILE_TEST_IS_DIR)) {
+        g_ptr_array_add(paths, g_strdup(place));
+        return paths;
+    }
+    char *folder = g_build_filename(place, "snapshots", NULL);
+    GDir *dir = g_dir_open(folder, 0, NULL);
+    for (const char *name = dir ? g_dir_read_name(dir) : NULL; name != NULL;
+         name = g_dir_read_name(dir)) {
+        if (g_str_has_suffix(name, ".h5")) {
+            g_ptr_array_add(paths, g_build_filename(folder, name, NULL));
+        }
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    g_free(folder);
+    g_ptr_array_sort(paths, by_name);
+    g_ptr_array_insert(paths, 0, g_build_filename(place, "state.h5", NULL));
+    return paths;
+}
+
+static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
+                         const struct point *point, GString *seen, struct gb_error *err)
+{
+    double best = INFINITY;
+    for (guint k = 0; k < paths->len; k++) {
+        struct gb_state *state = NULL;
+        if (!gb_state_read(&state, g_ptr_array_index(paths, k), err)) {
+            return false;
+        }
+        describe(seen, state, point);
+        const double away = distance(state, point);
+        if (away < best) {
+            struct gb_state *other = *out;
+            *out = state;
+            state = other;
+            best = away;
+        }
+        gb_state_destroy(state);
+    }
+    return best <= tolerance;
+}
+
+bool gb_states_read(struct gb_state **out, const char *place, const char *at,
+                    struct gb_error *err)
+{
+    struct point point = {0};
+    *out = NULL;
+    if (at != NULL && !parse_point(at, &point, err)) {
+        return false;
+    }
+    GPtrArray *paths = list_paths(place);
+    if (!g_file_test(g_ptr_array_index(paths, 0), G_FILE_TEST_EXISTS)) {
+        gb_error_set(err, GB_ERR_INPUT, "%.300s: no such file",
+                     (const char *)g_ptr_array_index(paths, 0));
+        g_ptr_array_unref(paths);
+        return false;
+    }
+    if (at == NULL) {
+        const bool good = gb_state_read(out, g_ptr_array_index(paths, 0), err);
+        g_ptr_array_unref(paths);
+        return good;
+    }
+    GString *seen = g_string_new(NULL);
+    struct gb_error why = {0};
+    const bool good = read_nearest(out, paths, &point, seen, &why);
+    if (!good) {
+        gb_state_destroy(*out);
+        *out = NULL;
+        if (why.code != GB_OK) {
+            *err = why;
+        } else {
+            gb_error_set(err, GB_ERR_INPUT, "--at %.80s: %.200s keeps states at %.150s",
+                         at, place, seen->str);
+        }
+    }
+    g_string_free(seen, TRUE);
+    g_ptr_array_unref(paths);
+    return good;
+}

@@ -1,0 +1,103 @@
+#!/bin/sh
+# `greenbody calibrate` on the engine: cells of known friction and adhesion give the data,
+# other cells find them again.
+# Usage: calibrate.sh GREENBODY PRESET_FOLDER
+set -u
+
+greenbody=$1
+presets=$2
+here=$(mktemp -d) || exit 1
+trap 'rm -rf "$here"' EXIT
+cd "$here" || exit 1
+export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config"
+tests=0
+bad=0
+: >stderr
+
+result() { # name, 0 when good
+    tests=$((tests + 1))
+    if [ "$2" -eq 0 ]; then
+        echo "ok $tests $1"
+    else
+        echo "not ok $tests $1"
+        sed 's/^/# /' stderr stdout
+        bad=1
+    fi
+}
+
+is() { # name, command...: good when the command succeeds
+    name=$1
+    shift
+    "$@"
+    result "$name" $?
+}
+
+refused() { # name, command: status 2, one line on stderr, nothing left behind
+    name=$1
+    shift
+    timeout 20 "$@" >stdout 2>stderr
+    [ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && [ ! -s stdout ] && [ ! -e out ]
+    result "$name" $?
+}
+
+scene='p1-set1-uniaxial particles.count=300 structure.base=auto numerics.fidelity=fast'
+
+# --- the data: cells of other seeds ------------------------------------------------------
+# shellcheck disable=SC2086  # a list of words
+"$greenbody" sweep $scene 'loading.until=200 MPa' 'loading.unload_from=50 MPa; 200 MPa' \
+    structure.seed=100 --replicas 12 --at '10;20;50;100;200 MPa' --out truth >stdout 2>stderr
+is 'the data are simulated' [ $? -eq 0 ]
+awk -F, 'BEGIN { print "p_MPa,density,density_error,branch" }
+    /^1,/ { print $3 "," $5 "," $6 "," $2 }' truth/sweep.csv >lab.csv
+is 'seven densities' [ "$(wc -l <lab.csv)" -eq 8 ]
+
+# --- the fit -----------------------------------------------------------------------------
+calibrate() {
+    # shellcheck disable=SC2086
+    "$greenbody" calibrate $scene contact.mu=0.2 contact.alpha=0.3 --data lab.csv \
+        --free contact.mu=0.04:0.4,contact.alpha=0.2:0.8 --replicas 4 --out fit "$@" \
+        >stdout 2>stderr
+}
+calibrate
+is 'the fit ends with status 0' [ $? -eq 0 ]
+is 'mu = 0.13 lies in its interval' awk -F, '
+    $1 == "contact.mu" { good = $5 <= 0.13 && 0.13 <= $6 && $6 - $5 < 0.2 }
+    END { exit !good }' fit/calibration.csv
+is 'alpha = 0.37 lies in its interval' awk -F, '
+    $1 == "contact.alpha" { good = $5 <= 0.37 && 0.37 <= $6 && $6 - $5 < 0.3 }
+    END { exit !good }' fit/calibration.csv
+is 'the fit is as good as the data' awk -F, '
+    NR > 1 { d = $4 - $6; n++; s += d * d }
+    END { exit !(n == 7 && sqrt(s / n) < 0.008) }' fit/fit.csv
+is 'the fitted preset can be run' \
+    "$greenbody" run fit/calibrated.ini --set 'loading.until=1 MPa' \
+    --set loading.unload_from= --quiet --out again
+
+# --- once more ---------------------------------------------------------------------------
+cp fit/calibration.csv first.csv
+cp stdout first
+find fit/runs -name curve.csv -exec touch -d 2001-01-01 {} +
+calibrate --jobs 1
+is 'a finished fit is found again' cmp first.csv fit/calibration.csv
+is 'and told again' cmp first stdout
+is 'without a new run' [ -z "$(find fit/runs -name curve.csv -newermt 2002-01-01)" ]
+
+# --- wrong input -------------------------------------------------------------------------
+set -- "$greenbody" calibrate p1-set1-uniaxial --out out
+refused 'no data' "$@" --free contact.mu
+refused 'no keys' "$@" --data lab.csv
+refused 'an unknown key' "$@" --data lab.csv --free contact.nu
+refused 'a key that is no number' "$@" --data lab.csv --free loading.geometry
+refused 'a key twice' "$@" --data lab.csv --free contact.mu,contact.mu
+refused 'a range upside down' "$@" --data lab.csv --free contact.mu=0.4:0.1
+refused 'two replicas' "$@" --data lab.csv --free contact.mu --replicas 2
+printf 'p_MPa,density,colour\n100,0.5,3\n' >wrong.csv
+refused 'a column of nothing known' "$@" --data wrong.csv --free contact.mu
+printf 'p_MPa,density\n100,1.5\n' >wrong.csv
+refused 'a density above 1' "$@" --data wrong.csv --free contact.mu
+printf 'p_MPa,density,particles.diameter_MPa\n100,0.5,3\n' >wrong.csv
+refused 'a unit of another kind' "$@" --data wrong.csv --free contact.mu
+is 'too few data are refused before any run' [ ! -e out ]
+
+echo "1..$tests"
+exit $bad

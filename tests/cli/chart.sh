@@ -1,0 +1,85 @@
+#!/bin/sh
+# `greenbody chart` as a user meets it.  Usage: chart.sh GREENBODY PRESET_FOLDER
+set -u
+
+greenbody=$1
+here=$(mktemp -d) || exit 1
+trap 'rm -rf "$here"' EXIT
+cd "$here" || exit 1
+export GB_PRESET_DIR="$2" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
+tests=0
+bad=0
+
+is() { # name, command...: good when the command succeeds
+    name=$1
+    shift
+    tests=$((tests + 1))
+    if "$@"; then
+        echo "ok $tests $name"
+    else
+        echo "not ok $tests $name"
+        sed 's/^/# /' stderr
+        bad=1
+    fi
+}
+
+chart() { # more arguments: a small scene and a short plan
+    "$greenbody" chart mine.ini --seeds 3 --at '20 MPa; 50 MPa' \
+        --vary 'numerics.tolerance=0.05,0.02' --vary 'loading.step=0.5 %,1 %' \
+        --reference 'loading.step=0.2 %' "$@" >stdout 2>stderr
+}
+
+refused() { # status 2, one line on stderr, nothing on stdout
+    "$@" >stdout 2>stderr
+    [ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && [ ! -s stdout ]
+}
+
+rows() {
+    grep -c '^[a-z]*,[0-9]' "$1"
+}
+
+sed -e 's/^count = .*/count = 200/' -e 's/^title = .*/title = mine  # kept/' \
+    "$GB_PRESET_DIR/default.ini" >mine.ini
+cp mine.ini before.ini
+
+is 'without --out nothing is done' refused "$greenbody" chart mine.ini
+is 'a key that is no choice' refused "$greenbody" chart mine.ini --vary contact.mu=0.1 \
+    --out out
+is 'a budget that is no time' refused "$greenbody" chart mine.ini --budget 10 --out out
+is 'one seed says nothing' refused "$greenbody" chart mine.ini --seeds 1 --out out
+is 'and nothing is made' [ ! -e out ]
+
+is 'a budget stops it in good order' chart --budget '1 ms' --out out
+is 'and says how to go on' grep -q 'the same command goes on' stdout
+is 'nothing half measured is kept' [ "$(rows out/runs.csv)" -eq 0 ]
+is 'two seeds first' chart --seeds 2 --out out
+is 'all of them' [ "$(rows out/runs.csv)" -eq 12 ]
+cp out/runs.csv first.csv
+is 'a third one later' chart --out out
+is 'to the end' [ "$(rows out/runs.csv)" -eq 18 ]
+is 'what was measured is not measured again' sh -c \
+    '[ "$(head -n 15 out/runs.csv | cksum)" = "$(cksum <first.csv)" ]'
+is 'a row per choice' [ "$(rows out/chart.csv)" -eq 6 ]
+is 'with the error at each pressure' grep -q ',error_20MPa,error_se_20MPa,scatter_20MPa' \
+    out/chart.csv
+is 'the command is kept' grep -q '^# command: greenbody chart mine.ini' out/chart.csv
+is 'the table tells the reference' grep -q '^R ' stdout
+is 'and the cells for a standard error' grep -q 'a standard error of 0.001' stdout
+is 'the scene is not touched' cmp -s mine.ini before.ini
+is 'another scene does not go on there' refused "$greenbody" chart mine.ini \
+    contact.mu=0.3 --out out --at '20 MPa; 50 MPa' --seeds 3
+is 'nor other pressures' refused "$greenbody" chart mine.ini --at '30 MPa' --seeds 3 \
+    --out out
+
+is 'the choice goes into a copy' chart --allow 1 --out out --write copy.ini
+is 'that differs in its numbers only' sh -c "diff mine.ini copy.ini | grep '^[<>]' |
+    grep -vqE '^[<>] (step|strain_part|relaxer|tolerance|cutoff) = ' && exit 1; exit 0"
+is 'and keeps the rest' grep -q '^title = mine  # kept' copy.ini
+is 'with the cheapest step' grep -q '^step = 1 %' copy.ini
+is 'a file that is somebody else'\''s is not replaced' refused "$greenbody" chart \
+    mine.ini --seeds 3 --at '20 MPa; 50 MPa' --out out --write before.ini
+is 'but the preset itself is' chart --allow 1 --out out --write mine.ini
+is 'to the same' cmp -s mine.ini copy.ini
+
+echo "1..$tests"
+exit $bad

@@ -1,0 +1,84 @@
+#!/bin/sh
+# `greenbody sweep` under mpirun: the tables of one process, also when a rank is killed.
+# Usage: ranks.sh GREENBODY PRESET_FOLDER
+set -u
+
+greenbody=$1
+presets=$2
+here=$(mktemp -d) || exit 1
+trap 'rm -rf "$here"' EXIT
+cd "$here" || exit 1
+export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config"
+# for this test only: a container's root may start ranks
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+tests=0
+bad=0
+: >stderr
+
+if ! "$greenbody" --version | grep -q ', MPI' || ! mpirun --version >/dev/null 2>&1; then
+    echo '1..0 # SKIP built without MPI, or no mpirun'
+    exit 0
+fi
+
+result() { # name, 0 when good
+    tests=$((tests + 1))
+    if [ "$2" -eq 0 ]; then
+        echo "ok $tests $1"
+    else
+        echo "not ok $tests $1"
+        sed 's/^/# /' stderr
+        bad=1
+    fi
+}
+
+is() { # name, command...: good when the command succeeds
+    name=$1
+    shift
+    "$@"
+    result "$name" $?
+}
+
+scene='p1-nobridge-38nm particles.count=200 structure.base=auto loading.unload_from='
+scene="$scene numerics.fidelity=fast"
+ranks='mpirun --oversubscribe --enable-recovery'
+
+sweep() { # more arguments
+    # shellcheck disable=SC2086  # lists of words
+    $start "$greenbody" sweep $scene --set 'loading.until=10 MPa' \
+        --vary 'contact.mu=0.1;0.3' --replicas 4 "$@" >stdout 2>stderr
+}
+
+start=
+sweep --jobs 1 --out one
+start="$ranks -np 2"
+sweep --out two
+is 'two ranks end with status 0' [ $? -eq 0 ]
+is 'and give the tables of one process' cmp one/sweep.csv two/sweep.csv
+is 'and its list of runs' cmp one/runs.csv two/runs.csv
+start='mpirun --oversubscribe -np 2'
+sweep --at 5 --out out
+is 'wrong input ends all ranks with its status' [ $? -eq 2 ]
+is 'told once' [ "$(grep -c '^greenbody: ' stderr)" -eq 1 ]
+
+# --- a killed rank -----------------------------------------------------------------------
+# shellcheck disable=SC2086
+$ranks -np 2 "$greenbody" sweep $scene --set 'loading.until=10 MPa' \
+    --set particles.count=400 --vary 'contact.mu=0.1;0.3' --replicas 4 --out killed \
+    >stdout 2>stderr &
+mpirun=$!
+while [ "$(find . -path './killed/*/status.json' | wc -l)" -lt 2 ]; do
+    kill -0 $mpirun || break
+    sleep 0.1
+done
+for pid in $(pgrep -P $mpirun); do
+    if tr '\0' '\n' <"/proc/$pid/environ" | grep -qx OMPI_COMM_WORLD_RANK=1; then
+        kill -KILL "$pid"
+        killed=$pid
+    fi
+done
+wait $mpirun
+is 'a rank was killed' [ -n "${killed:-}" ]
+is 'all runs are done by the others' [ "$(grep -c ',done,$' killed/runs.csv)" -eq 8 ]
+
+echo "1..$tests"
+exit $bad

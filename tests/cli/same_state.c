@@ -1,0 +1,34 @@
+/* Are the states of two run directories equal to the last bit, apart from times?  Names
+ * the first array that is not.  Usage: same_state DIR DIR */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "run/checkpoint.h"
+#include "run/keep.h"
+
+static struct gb_record records[2];
+
+int main(int argc, char **argv)
+{
+    struct gb_params params;
+    struct gb_error err = {0};
+    int64_t row = 0;
+    if (argc != 3) {
+        fputs("usage: same_state DIR DIR\n", stderr);
+        return 2;
+    }
+    for (int k = 0; k < 2; k++) {
+        if (!gb_keep_read(argv[k + 1], "state.h5", &params, &records[k], &err)) {
+            fprintf(stderr, "%s\n", err.text);
+            return 2;
+        }
+        gb_record_drop(&records[k], "journal/"); /* seconds, and bytes of files */
+    }
+    const char *name = gb_record_difference(&records[0], &records[1], &row);
+    if (name != NULL) {
+        fprintf(stderr, "%s differs in row %lld\n", name, (long long)row);
+    }
+    gb_record_finish(&records[0]);
+    gb_record_finish(&records[1]);
+    return name != NULL;
+}

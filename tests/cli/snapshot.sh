@@ -1,0 +1,88 @@
+#!/bin/sh
+# `greenbody snapshot` as a user meets it, and the way back: `greenbody run --from`.
+# Usage: snapshot.sh GREENBODY PRESET_FOLDER
+set -u
+
+greenbody=$1
+here=$(mktemp -d) || exit 1
+trap 'rm -rf "$here"' EXIT
+cd "$here" || exit 1
+export GB_PRESET_DIR="$2" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
+unset DISPLAY
+export TERM=dumb
+tests=0
+bad=0
+
+result() { # name, 0 when good
+    tests=$((tests + 1))
+    if [ "$2" -eq 0 ]; then
+        echo "ok $tests $1"
+    else
+        echo "not ok $tests $1"
+        sed 's/^/# /' stderr
+        bad=1
+    fi
+}
+
+good() { # name, arguments of the program
+    name=$1
+    shift
+    "$greenbody" "$@" >stdout 2>stderr && [ ! -s stderr ]
+    result "$name" $?
+}
+
+refused() { # name, part of the line, arguments: one line, status 2 or 3
+    name=$1
+    part=$2
+    shift 2
+    "$greenbody" "$@" >stdout 2>stderr
+    status=$?
+    { [ "$status" -eq 2 ] || [ "$status" -eq 3 ]; } && [ "$(wc -l <stderr)" -eq 1 ] &&
+        grep -qF -- "$part" stderr
+    result "$name" $?
+}
+
+"$greenbody" run default particles.count=200 "loading.until=5 MPa" loading.unload_from= \
+    numerics.fidelity=fast -q --out a >stdout 2>stderr || { cat stderr; exit 1; }
+
+for color in coordination pressure bridges; do
+    good "coloured by $color" snapshot a -o "$color.png" --size 300x300 --color "$color"
+done
+good "forces" snapshot a -o forces.png --size 300x300 --show forces --ground dark
+good "slice, cut, no perspective" snapshot a -o slice.png --size 300x300 --show both \
+    --slice y=0.5:3d --cut corner --view front,flat
+kept=$(awk -F, '/^load/ { p = $7 } END { printf "%.4g", p }' a/curve.csv)
+good "a point that is kept" snapshot a -o at.png --size 300x300 --at "p=$kept MPa"
+good "two rows with roses" snapshot a a/state.h5 --rose -o rose.png --size 600x600
+good "displacement since itself" snapshot a --since a --color displacement -o d.png \
+    --size 300x300
+
+refused "exists" "exists; --force replaces it" snapshot a -o forces.png
+refused "size 0" "16 to 16384" snapshot a -o x.png --size 0x0
+refused "size 100000" "16 to 16384" snapshot a -o x.png --size 100000x100000
+refused "no such point" "keeps states at" snapshot a -o x.png --at "p=5 GPa"
+refused "no point" "--at 5" snapshot a -o x.png --at 5
+refused "unknown colour" "coordination, pressure" snapshot a -o x.png --color red
+refused "displacement without a start" "--since" snapshot a -o x.png --color displacement
+refused "no folder" "no/x.png" snapshot a -o no/x.png --size 300x300
+refused "no picture" "No such file" run --from none.png
+cp stdout stdout.png
+refused "not a picture" "stdout.png" run --from stdout.png
+printf '<fontconfig><dir>/nonexistent</dir></fontconfig>\n' >fonts.conf
+FONTCONFIG_FILE=$here/fonts.conf "$greenbody" snapshot a -o x.png --size 300x300 \
+    >stdout 2>stderr
+[ $? -eq 3 ] && grep -q "no font is installed" stderr
+result "no font" $?
+[ ! -e x.png ]
+result "nothing is left by what was refused" $?
+
+"$greenbody" run --from forces.png -q --out b >stdout 2>stderr &&
+    cut -d, -f1-13 a/curve.csv | grep -v '^#' >one &&
+    cut -d, -f1-13 b/curve.csv | grep -v '^#' >two && cmp -s one two
+result "the picture makes the same run again" $?
+"$greenbody" snapshot b -o again.png --size 300x300 --show forces --ground dark \
+    >stdout 2>stderr && cmp -s forces.png again.png
+result "and the same picture" $?
+
+echo "1..$tests"
+exit "$bad"

@@ -1,0 +1,154 @@
+#!/bin/sh
+# `greenbody sweep` as a user meets it: the same tables for any number of workers, restarts
+# that do what is missing, signals, wrong input.
+# Usage: sweep.sh GREENBODY PRESET_FOLDER
+set -u
+
+greenbody=$1
+presets=$2
+here=$(mktemp -d) || exit 1
+trap 'rm -rf "$here"' EXIT
+cd "$here" || exit 1
+export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config"
+tests=0
+bad=0
+: >stderr
+
+result() { # name, 0 when good
+    tests=$((tests + 1))
+    if [ "$2" -eq 0 ]; then
+        echo "ok $tests $1"
+    else
+        echo "not ok $tests $1"
+        sed 's/^/# /' stderr
+        bad=1
+    fi
+}
+
+is() { # name, command...: good when the command succeeds
+    name=$1
+    shift
+    "$@"
+    result "$name" $?
+}
+
+sweep() { # more arguments: four tiny runs
+    "$greenbody" sweep p1-nobridge-38nm particles.count=100 structure.base=auto \
+        'loading.until=5 MPa' 'loading.unload_from=5 MPa' numerics.fidelity=fast \
+        --vary 'contact.mu=0.1;0.3' --replicas 2 --at '2;5 MPa' "$@" >stdout 2>stderr
+}
+
+refused() { # name, command: status 2, one line on stderr, nothing left behind
+    name=$1
+    shift
+    timeout 20 "$@" >stdout 2>stderr
+    [ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && [ ! -s stdout ] && [ ! -e out ]
+    result "$name" $?
+}
+
+# --- workers and restarts ----------------------------------------------------------------
+sweep --jobs 1 --out one
+is 'a sweep ends with status 0' [ $? -eq 0 ]
+is 'a row per point, branch and pressure' [ "$(grep -c '^[12],0' one/sweep.csv)" -eq 6 ]
+is 'both replicas count' grep -q '^2,0.3,load,5,2,0\.' one/sweep.csv
+is 'a row per run' [ "$(grep -c ',done,$' one/runs.csv)" -eq 4 ]
+is 'a directory per run' [ -f one/mu-0.1_seed-2/curve.csv ]
+sweep --jobs 3 --out three
+is 'the table does not depend on the workers' cmp one/sweep.csv three/sweep.csv
+is 'nor does the list of runs' cmp one/runs.csv three/runs.csv
+
+rm -r one/mu-0.3_seed-1
+touch -d 2001-01-01 one/*/curve.csv
+sweep --out one
+is 'only what is missing is done again' \
+    [ "$(find one -name curve.csv -newermt 2002-01-01)" = one/mu-0.3_seed-1/curve.csv ]
+is 'and the table is the same' cmp one/sweep.csv three/sweep.csv
+sweep --replicas 3 --out one
+is 'more replicas add to what is there' \
+    [ "$(find one -name curve.csv -newermt 2002-01-01 | wc -l)" -eq 3 ]
+is 'and count' grep -q '^2,0.3,load,5,3,0\.' one/sweep.csv
+sweep --replicas 9 --until-se 0.9@5MPa --jobs 1 --out one
+is 'replicas end when the error is small enough' \
+    [ "$(find one -name curve.csv | wc -l)" -eq 8 ]
+
+# --- figures over a sweep ----------------------------------------------------------------
+plot() {
+    "$greenbody" plot "$@" >stdout 2>stderr
+}
+plot three --figure unloading
+is 'a sweep can be plotted' [ "$(grep -c '^# group [12]: 2 runs, contact.mu' stdout)" -eq 2 ]
+plot three --figure sweep --pressure '5 MPa'
+is 'against the varied key' [ "$(grep -c '^0\.[13],0\.' stdout)" -eq 2 ]
+is 'as the table has it' awk -F, '
+    NR == FNR { if ($3 == "load" && $4 == 5) want[$2] = $6; next }
+    /^0/ { n++; d = $2 - want[$1]; if (d > 1e-9 || d < -1e-9) bad = 1 }
+    END { exit bad || n != 2 }' three/sweep.csv stdout
+plot three/mu-0.1_seed-1 --figure sweep
+is 'nothing varied, nothing drawn' [ $? -eq 2 ]
+plot three --figure continuum
+is 'the continuum theory foretells other geometries' \
+    grep -q 'theory_uniaxial_MPa.*theory_isotropic_MPa' stdout
+plot three/mu-0.1_seed-1 --figure continuum
+# from the same law: the uniaxial prediction is the curve itself, the isotropic one lower
+is 'from the uniaxial curve' awk -F, '
+    /^#/ { next }
+    !seen { for (i = 1; i <= NF; i++) at[$i] = i; seen = 1; next }
+    { uniaxial = $at["theory_uniaxial_MPa"]; d = $at["density_theory_uniaxial"]
+      isotropic[$at["density_theory_isotropic"]] = $at["theory_isotropic_MPa"] }
+    uniaxial != "" { n++; last = uniaxial; end = d }
+    END { for (d in isotropic) if (d != "" && d <= end && isotropic[d] > below)
+              below = isotropic[d]
+          exit !(n > 50 && below > 0 && below < last) }' stdout
+
+# --- a run that cannot be done -----------------------------------------------------------
+mkdir three/mu-0.1_seed-1/snapshots
+rm three/mu-0.3_seed-1/curve.csv three/mu-0.3_seed-1/status.json
+mkdir three/mu-0.3_seed-1/curve.csv
+sweep --out three
+is 'what is no run is told and left alone' [ $? -eq 2 ]
+rmdir three/mu-0.3_seed-1/curve.csv
+sweep --set numerics.max_evaluations=1 --set numerics.tolerance=1e-12 --out guard
+is 'failed runs give status 1' [ $? -eq 1 ]
+is 'and are listed' [ "$(grep -c ',failed,"' guard/runs.csv)" -eq 4 ]
+
+# --- signals -----------------------------------------------------------------------------
+"$greenbody" sweep p1-nobridge-38nm particles.count=4000 --replicas 4 --jobs 2 \
+    --out long >stdout 2>stderr &
+pid=$!
+while [ "$(find . -path './long/*/status.json' | wc -l)" -lt 2 ]; do
+    sleep 0.1
+done
+kill -TERM $pid
+wait $pid
+is 'SIGTERM: status 143' [ $? -eq 143 ]
+is 'and nothing goes on' [ "$(grep -l '"state" : "running"' long/*/status.json | wc -l)" -eq 0 ]
+is 'the list says so' [ "$(grep -c 'missing\|stopped' long/runs.csv)" -eq 4 ]
+"$greenbody" sweep p1-nobridge-38nm particles.count=4000 --replicas 2 --jobs 2 \
+    --out killed >stdout 2>stderr &
+pid=$!
+while [ "$(find . -path './killed/*/status.json' | wc -l)" -lt 2 ]; do
+    sleep 0.1
+done
+kill -KILL $pid
+wait $pid 2>/dev/null
+tries=0
+while [ $tries -lt 100 ] && grep -q '"state" : "running"' killed/*/status.json; do
+    tries=$((tries + 1))
+    sleep 0.1
+done
+is 'SIGKILL: the workers stop by themselves' [ $tries -lt 100 ]
+
+# --- wrong input -------------------------------------------------------------------------
+refused 'no --out' "$greenbody" sweep default
+refused 'no preset' "$greenbody" sweep --out out
+refused 'an unknown key' "$greenbody" sweep default --vary contact.nu=1:2:3 --out out
+refused 'a value out of range' "$greenbody" sweep default --vary 'contact.mu=0.1;-1' --out out
+refused 'no replicas' "$greenbody" sweep default --replicas 0 --out out
+refused 'a target without pressure' "$greenbody" sweep default --until-se 0.1 --out out
+refused 'pressures without unit' "$greenbody" sweep default --at 5 --out out
+refused 'a point that cannot be' "$greenbody" sweep default \
+    --vary 'loading.until=1 MPa;2 GPa' --set 'loading.unload_from=1 GPa' --out out
+refused 'the directory of a run' "$greenbody" sweep default --out one/mu-0.1_seed-1
+
+echo "1..$tests"
+exit $bad
