@@ -108,6 +108,7 @@ void gb_bed_change_law(struct gb_bed *bed, const struct gb_bed_law *law)
     bed->law = *law;
     bed->pair_kernel = gb_bed_batch_pick(law, false, 0);
     bed->wall_kernel = gb_bed_batch_pick(law, true, 0);
+    bed->carrier = gb_bed_carrier_pick(0);
     empty(&bed->pairs, bed->count);
     empty(&bed->walls, bed->count);
     bed->listed = false;
@@ -150,58 +151,23 @@ static bool refresh_lists(struct gb_bed *bed, double moved2, struct gb_error *er
     return true;
 }
 
-static void fill_pairs(const struct gb_bed *bed, struct gb_bed_batch *b, int64_t slot,
-                       bool friction)
-{
-    const int32_t *first = bed->pairs.first + slot, *other = bed->pairs.other + slot;
-    for (int k = 0; k < b->n; k++) {
-        const double *xi = bed->place[first[k]], *xj = bed->place[other[k]];
-        const double *vi = bed->speed[first[k]], *vj = bed->speed[other[k]];
-        for (int c = 0; c < 3; c++) {
-            b->arm[c][k] = xi[c] - xj[c];
-            b->slip[c][k] = vi[c] - vj[c];
-        }
-        b->reach[k] = xi[3] + xj[3];
-        if (friction) {
-            const double *wi = bed->spin[first[k]], *wj = bed->spin[other[k]];
-            for (int c = 0; c < 3; c++) {
-                b->roll[c][k] = xi[3] * wi[c] + xj[3] * wj[c];
-            }
-        }
-    }
-}
-
-static void spill_pairs(struct gb_bed *bed, const struct gb_bed_batch *b, int64_t slot,
-                        bool friction)
-{
-    const int32_t *first = bed->pairs.first + slot, *other = bed->pairs.other + slot;
-    for (int k = 0; k < b->n; k++) {
-        double *fi = bed->force[first[k]], *fj = bed->force[other[k]];
-        for (int c = 0; c < 3; c++) {
-            fi[c] += b->force[c][k];
-            fj[c] -= b->force[c][k];
-        }
-        if (friction) {
-            const double ri = bed->place[first[k]][3], rj = bed->place[other[k]][3];
-            double *ti = bed->torque[first[k]], *tj = bed->torque[other[k]];
-            for (int c = 0; c < 3; c++) {
-                ti[c] += ri * b->moment[c][k];
-                tj[c] += rj * b->moment[c][k];
-            }
-        }
-    }
-}
-
 static void sweep_pairs(struct gb_bed *bed, struct gb_bed_batch *b)
 {
-    const bool friction = bed->law.mu > 0.0;
+    struct gb_bed_rows rows = {.place = (const gb_bed_row *)bed->place,
+                               .speed = (const gb_bed_row *)bed->speed,
+                               .spin = (const gb_bed_row *)bed->spin,
+                               .force = bed->force,
+                               .torque = bed->torque,
+                               .friction = bed->law.mu > 0.0};
     b->mu = bed->law.mu;
     for (int64_t slot = 0; slot < bed->pairs.count; slot += b->n) {
         const int64_t left = bed->pairs.count - slot;
         b->n = left < GB_BED_BATCH ? (int)left : GB_BED_BATCH;
-        fill_pairs(bed, b, slot, friction);
+        rows.first = bed->pairs.first + slot;
+        rows.other = bed->pairs.other + slot;
+        bed->carrier.fill(&rows, b);
         bed->pair_kernel(&bed->law, b, &bed->pairs.contacts, slot);
-        spill_pairs(bed, b, slot, friction);
+        bed->carrier.spill(&rows, b);
     }
 }
 

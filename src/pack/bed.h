@@ -10,11 +10,8 @@
 #include "pack/sift.h"
 
 /* Spheres of many sizes in a die.  Reduced units: length d (the reference diameter),
- * stress E, mass that of a sphere of diameter d, so that time is sqrt(m/(E d)).
- *
- * Rows of four doubles, so that a vector is one load; the fourth is the radius in place
- * and 0 elsewhere. */
-typedef double gb_bed_row[4];
+ * stress E, mass that of a sphere of diameter d, so that time is sqrt(m/(E d)).  The
+ * fourth of a row is the radius in place and 0 elsewhere. */
 
 /* Near contacts, sorted by their first particle and then by `other`: the second particle,
  * or enum gb_die_wall. */
@@ -41,6 +38,7 @@ struct gb_bed {
     struct gb_die die;
     struct gb_bed_law law;
     gb_bed_kernel *pair_kernel, *wall_kernel;
+    struct gb_bed_carrier carrier; /* of pairs */
     struct gb_bed_list pairs, walls;
     struct gb_bed_tally tally;
     double smallest;  /* radius */

@@ -33,4 +33,26 @@ typedef void gb_bed_kernel(const struct gb_bed_law *law, struct gb_bed_batch *ba
  * picks by processor; 128, 256 or 512 limits the vectors (tests). */
 gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law, bool walls, int widest);
 
+/* Rows of four doubles of the particles, so that a vector is one load. */
+typedef double gb_bed_row[4];
+
+/* What a batch of pairs takes from its particles and gives them back; the particles of
+ * pair k are first[k] and other[k].  Without friction neither spin nor torque is used. */
+struct gb_bed_rows {
+    const gb_bed_row *place, *speed, *spin;
+    gb_bed_row *force, *torque;
+    const int32_t *first, *other;
+    bool friction;
+};
+typedef void gb_bed_fill(const struct gb_bed_rows *rows, struct gb_bed_batch *batch);
+typedef void gb_bed_spill(const struct gb_bed_rows *rows,
+                          const struct gb_bed_batch *batch);
+
+/* The variant for this processor, widest as above; the same bits from all. */
+struct gb_bed_carrier {
+    gb_bed_fill *fill;
+    gb_bed_spill *spill;
+};
+struct gb_bed_carrier gb_bed_carrier_pick(int widest);
+
 #endif

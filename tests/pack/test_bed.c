@@ -416,12 +416,70 @@ static void test_pour(void)
     gb_bed_destroy(bed);
 }
 
+/* Batches of any length are filled and spilled to the same bits at every vector width. */
+static void test_carrier(void)
+{
+    enum { ROWS = 40, COLUMNS = 5 };
+    gb_bed_row row[COLUMNS][ROWS], out[2][2][ROWS];
+    int32_t first[GB_BED_BATCH], other[GB_BED_BATCH];
+    struct gb_bed_batch batch[2];
+    for (int c = 0; c < COLUMNS; c++) {
+        for (int i = 0; i < ROWS; i++) {
+            for (int k = 0; k < 4; k++) {
+                row[c][i][k] = c > 0 && k == 3 ? 0.0 : sin(1.0 + 4.0 * i + 160.0 * c + k);
+            }
+        }
+    }
+    for (int k = 0; k < GB_BED_BATCH; k++) {
+        first[k] = k * 7 % ROWS;
+        other[k] = (k * 11 + 3) % ROWS;
+    }
+    for (int n = 1; n <= GB_BED_BATCH; n++) {
+        for (int friction = 0; friction < 2; friction++) {
+            memset(batch, 0, sizeof batch);
+            for (int wide = 0; wide < 2; wide++) {
+                const struct gb_bed_carrier carrier = gb_bed_carrier_pick(wide ? 0 : 128);
+                memcpy(out[wide][0], row[3], sizeof row[3]);
+                memcpy(out[wide][1], row[4], sizeof row[4]);
+                const struct gb_bed_rows rows = {.place = (const gb_bed_row *)row[0],
+                                                 .speed = (const gb_bed_row *)row[1],
+                                                 .spin = (const gb_bed_row *)row[2],
+                                                 .force = out[wide][0],
+                                                 .torque = out[wide][1],
+                                                 .first = first,
+                                                 .other = other,
+                                                 .friction = friction};
+                batch[wide].n = n;
+                carrier.fill(&rows, &batch[wide]);
+                for (int c = 0; c < 3; c++) {
+                    for (int k = 0; k < GB_BED_BATCH; k++) {
+                        batch[wide].force[c][k] = cos(0.3 * k + c);
+                        batch[wide].moment[c][k] = cos(0.7 * k + c);
+                    }
+                }
+                carrier.spill(&rows, &batch[wide]);
+            }
+            g_assert_true(memcmp(&batch[0], &batch[1], sizeof batch[0]) == 0);
+            g_assert_true(memcmp(out[0], out[1], sizeof out[0]) == 0);
+            const int last = n - 1;
+            const double *xi = row[0][first[last]], *xj = row[0][other[last]];
+            g_assert_cmpfloat(batch[0].reach[last], ==, xi[3] + xj[3]);
+            g_assert_cmpfloat(batch[0].arm[2][last], ==, xi[2] - xj[2]);
+            g_assert_cmpfloat(batch[0].roll[1][last], ==,
+                              friction ? xi[3] * row[2][first[last]][1] +
+                                             xj[3] * row[2][other[last]][1]
+                                       : 0.0);
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/bed/power", test_power);
     g_test_add_func("/bed/laws", test_laws);
     g_test_add_func("/bed/momentum", test_momentum);
+    g_test_add_func("/bed/carrier", test_carrier);
     g_test_add_func("/bed/list", test_list);
     g_test_add_func("/bed/walls", test_walls);
     g_test_add_func("/bed/funnel", test_funnel);
