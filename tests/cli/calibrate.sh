@@ -2,35 +2,7 @@
 # `greenbody calibrate` on the engine: cells of known friction and adhesion give the data,
 # other cells find them again.
 # Usage: calibrate.sh GREENBODY PRESET_FOLDER
-set -u
-
-greenbody=$1
-presets=$2
-here=$(mktemp -d) || exit 1
-trap 'rm -rf "$here"' EXIT
-cd "$here" || exit 1
-export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config"
-tests=0
-bad=0
-: >stderr
-
-result() { # name, 0 when good
-    tests=$((tests + 1))
-    if [ "$2" -eq 0 ]; then
-        echo "ok $tests $1"
-    else
-        echo "not ok $tests $1"
-        sed 's/^/# /' stderr stdout
-        bad=1
-    fi
-}
-
-is() { # name, command...: good when the command succeeds
-    name=$1
-    shift
-    "$@"
-    result "$name" $?
-}
+. "$(dirname "$0")/folder.sh"
 
 refused() { # name, command: status 2, one line on stderr, nothing left behind
     name=$1

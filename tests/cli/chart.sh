@@ -1,27 +1,6 @@
 #!/bin/sh
 # `greenbody chart` as a user meets it.  Usage: chart.sh GREENBODY PRESET_FOLDER
-set -u
-
-greenbody=$1
-here=$(mktemp -d) || exit 1
-trap 'rm -rf "$here"' EXIT
-cd "$here" || exit 1
-export GB_PRESET_DIR="$2" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
-tests=0
-bad=0
-
-is() { # name, command...: good when the command succeeds
-    name=$1
-    shift
-    tests=$((tests + 1))
-    if "$@"; then
-        echo "ok $tests $name"
-    else
-        echo "not ok $tests $name"
-        sed 's/^/# /' stderr
-        bad=1
-    fi
-}
+. "$(dirname "$0")/folder.sh"
 
 chart() { # more arguments: a small scene and a short plan
     "$greenbody" chart mine.ini --seeds 3 --at '20 MPa; 50 MPa' \

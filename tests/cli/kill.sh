@@ -3,37 +3,11 @@
 # those of the undisturbed run, byte for byte apart from times; no file is lost or half
 # written.  Signals that ask politely, locks and verify on the way.
 # Usage: kill.sh GREENBODY PRESET_FOLDER SAME_STATE KILLS [SEED]
-set -u
+. "$(dirname "$0")/folder.sh"
 
-greenbody=$1
-presets=$2
 same_state=$3
 most=$4
 RANDOM=${5:-1}
-here=$(mktemp -d) || exit 1
-trap 'rm -rf "$here"' EXIT
-cd "$here" || exit 1
-export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
-tests=0
-bad=0
-
-result() { # name, 0 when good
-    tests=$((tests + 1))
-    if [ "$2" -eq 0 ]; then
-        echo "ok $tests $1"
-    else
-        echo "not ok $tests $1"
-        sed 's/^/# /' stderr
-        bad=1
-    fi
-}
-
-is() { # name, command...: good when the command succeeds
-    name=$1
-    shift
-    "$@"
-    result "$name" $?
-}
 
 # The rows without their times; seconds are the 14th column.
 rows() {

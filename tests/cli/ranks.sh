@@ -1,42 +1,15 @@
 #!/bin/sh
 # `greenbody sweep` under mpirun: the tables of one process, also when a rank is killed.
 # Usage: ranks.sh GREENBODY PRESET_FOLDER
-set -u
+. "$(dirname "$0")/folder.sh"
 
-greenbody=$1
-presets=$2
-here=$(mktemp -d) || exit 1
-trap 'rm -rf "$here"' EXIT
-cd "$here" || exit 1
-export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config"
 # for this test only: a container's root may start ranks
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-tests=0
-bad=0
-: >stderr
 
 if ! "$greenbody" --version | grep -q ', MPI' || ! mpirun --version >/dev/null 2>&1; then
     echo '1..0 # SKIP built without MPI, or no mpirun'
     exit 0
 fi
-
-result() { # name, 0 when good
-    tests=$((tests + 1))
-    if [ "$2" -eq 0 ]; then
-        echo "ok $tests $1"
-    else
-        echo "not ok $tests $1"
-        sed 's/^/# /' stderr
-        bad=1
-    fi
-}
-
-is() { # name, command...: good when the command succeeds
-    name=$1
-    shift
-    "$@"
-    result "$name" $?
-}
 
 scene='p1-nobridge-38nm particles.count=200 structure.base=auto loading.unload_from='
 scene="$scene numerics.fidelity=fast"

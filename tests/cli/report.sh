@@ -1,26 +1,7 @@
 #!/bin/sh
 # `greenbody report`: what lies in the folder, that the page finds it, and what is refused.
 # Usage: report.sh GREENBODY PRESET_FOLDER
-set -u
-
-greenbody=$1
-here=$(mktemp -d) || exit 1
-trap 'rm -rf "$here"' EXIT
-cd "$here" || exit 1
-export GB_PRESET_DIR="$2" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
-tests=0
-bad=0
-
-result() { # name, 0 when good
-    tests=$((tests + 1))
-    if [ "$2" -eq 0 ]; then
-        echo "ok $tests $1"
-    else
-        echo "not ok $tests $1"
-        sed 's/^/# /' stderr
-        bad=1
-    fi
-}
+. "$(dirname "$0")/folder.sh"
 
 refused() { # name, status, part of the line, arguments
     name=$1

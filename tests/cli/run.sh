@@ -1,34 +1,7 @@
 #!/bin/sh
 # `greenbody run` as a user meets it: what a run leaves behind, and what wrong input gets.
 # Usage: run.sh GREENBODY PRESET_FOLDER
-set -u
-
-greenbody=$1
-presets=$2
-here=$(mktemp -d) || exit 1
-trap 'rm -rf "$here"' EXIT
-cd "$here" || exit 1
-export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
-tests=0
-bad=0
-
-result() { # name, 0 when good
-    tests=$((tests + 1))
-    if [ "$2" -eq 0 ]; then
-        echo "ok $tests $1"
-    else
-        echo "not ok $tests $1"
-        sed 's/^/# /' stderr
-        bad=1
-    fi
-}
-
-is() { # name, command...: good when the command succeeds
-    name=$1
-    shift
-    "$@"
-    result "$name" $?
-}
+. "$(dirname "$0")/folder.sh"
 
 run() { # more arguments: the small scene
     "$greenbody" run default --set particles.count=200 --set "loading.until=5 MPa" \

@@ -1,28 +1,10 @@
 #!/bin/sh
 # `greenbody snapshot` as a user meets it, and the way back: `greenbody run --from`.
 # Usage: snapshot.sh GREENBODY PRESET_FOLDER
-set -u
+. "$(dirname "$0")/folder.sh"
 
-greenbody=$1
-here=$(mktemp -d) || exit 1
-trap 'rm -rf "$here"' EXIT
-cd "$here" || exit 1
-export GB_PRESET_DIR="$2" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
 unset DISPLAY
 export TERM=dumb
-tests=0
-bad=0
-
-result() { # name, 0 when good
-    tests=$((tests + 1))
-    if [ "$2" -eq 0 ]; then
-        echo "ok $tests $1"
-    else
-        echo "not ok $tests $1"
-        sed 's/^/# /' stderr
-        bad=1
-    fi
-}
 
 good() { # name, arguments of the program
     name=$1

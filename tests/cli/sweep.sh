@@ -2,35 +2,7 @@
 # `greenbody sweep` as a user meets it: the same tables for any number of workers, restarts
 # that do what is missing, signals, wrong input.
 # Usage: sweep.sh GREENBODY PRESET_FOLDER
-set -u
-
-greenbody=$1
-presets=$2
-here=$(mktemp -d) || exit 1
-trap 'rm -rf "$here"' EXIT
-cd "$here" || exit 1
-export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config"
-tests=0
-bad=0
-: >stderr
-
-result() { # name, 0 when good
-    tests=$((tests + 1))
-    if [ "$2" -eq 0 ]; then
-        echo "ok $tests $1"
-    else
-        echo "not ok $tests $1"
-        sed 's/^/# /' stderr
-        bad=1
-    fi
-}
-
-is() { # name, command...: good when the command succeeds
-    name=$1
-    shift
-    "$@"
-    result "$name" $?
-}
+. "$(dirname "$0")/folder.sh"
 
 sweep() { # more arguments: four tiny runs
     "$greenbody" sweep p1-nobridge-38nm particles.count=100 structure.base=auto \

@@ -1,0 +1,34 @@
+# shellcheck shell=sh
+# What tests of the program share, to be sourced: sets $greenbody and $presets from the
+# arguments and works in a folder of its own, which goes away at the end.  What the program
+# said last lies in the files stdout and stderr.
+set -u
+
+greenbody=$1
+presets=$2
+here=$(mktemp -d) || exit 1
+trap 'rm -rf "$here"' EXIT
+cd "$here" || exit 1
+export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
+tests=0
+bad=0
+: >stdout
+: >stderr
+
+result() { # name, 0 when good
+    tests=$((tests + 1))
+    if [ "$2" -eq 0 ]; then
+        echo "ok $tests $1"
+    else
+        echo "not ok $tests $1"
+        sed 's/^/# /' stderr stdout
+        bad=1
+    fi
+}
+
+is() { # name, command...: good when the command succeeds
+    name=$1
+    shift
+    "$@"
+    result "$name" $?
+}
