@@ -436,7 +436,7 @@ static void list_folder(const char *folder, GHashTable *names)
 
 char **gb_preset_list(void)
 {
-    GHashTable *names = g_hash_table_new(g_str_hash, g_str_equal);
+    GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
     char **list = folders();
     for (int i = 0; list[i]; i++) {
         list_folder(list[i], names);
@@ -444,6 +444,7 @@ char **gb_preset_list(void)
     g_strfreev(list);
     guint count = 0;
     char **found = (char **)g_hash_table_get_keys_as_array(names, &count);
+    g_hash_table_steal_all(names); /* they are the caller's now */
     g_hash_table_destroy(names);
     qsort(found, count, sizeof *found, compare_names);
     return found;
