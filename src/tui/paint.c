@@ -135,29 +135,69 @@ static void wrap_row(const struct gb_paint *paint, int row, enum gb_style style,
     }
 }
 
+/* Text being broken into rows. */
+struct wrapping {
+    const struct gb_paint *paint;
+    int row, rows, used; /* row < 0: they are only counted */
+    enum gb_style style;
+    GString *line;
+};
+
+static void end_row(struct wrapping *wrapping)
+{
+    if (wrapping->line->len > 0 && wrapping->used < wrapping->rows) {
+        wrap_row(wrapping->paint,
+                 wrapping->row < 0 ? wrapping->row : wrapping->row + wrapping->used,
+                 wrapping->style, wrapping->line->str);
+        wrapping->used++;
+    }
+    g_string_truncate(wrapping->line, 0);
+}
+
+/* A word longer than a row, such as a path, goes on in the next one; what is left of it.
+ */
+static const char *break_word(struct wrapping *wrapping, const char *word, int room)
+{
+    while (gb_paint_width(word) > room && wrapping->used < wrapping->rows - 1) {
+        for (int width = 0; width + cells(g_utf8_get_char(word)) <= room;) {
+            width += cells(g_utf8_get_char(word));
+            g_string_append_unichar(wrapping->line, g_utf8_get_char(word));
+            word = g_utf8_next_char(word);
+        }
+        end_row(wrapping);
+    }
+    return word;
+}
+
+/* The last row takes all that is left: what does not fit shows as cut. */
+static void add_word(struct wrapping *wrapping, const char *word, int room)
+{
+    GString *line = wrapping->line;
+    const int width = gb_paint_width(line->str) + 1 + gb_paint_width(word);
+    if (line->len > 0 && width > room && wrapping->used < wrapping->rows - 1) {
+        end_row(wrapping);
+    }
+    if (line->len == 0) {
+        word = break_word(wrapping, word, room);
+    }
+    g_string_append_printf(line, "%s%s", line->len > 0 ? " " : "", word);
+}
+
 static int wrap(const struct gb_paint *paint, int row, int rows, enum gb_style style,
                 const char *text)
 {
-    int used = 0;
-    char **words = g_strsplit(text, " ", -1);
-    GString *line = g_string_new(NULL);
-    for (int i = 0; words[i] != NULL && used < rows; i++) {
-        const int width = gb_paint_width(line->str) + 1 + gb_paint_width(words[i]);
-        if (line->len > 0 && width > paint->rect.cols - 2 && used < rows - 1) {
-            wrap_row(paint, row < 0 ? row : row + used, style, line->str);
-            used++;
-            g_string_truncate(line, 0);
-        }
-        /* the last row takes all that is left: what does not fit shows as cut */
-        g_string_append_printf(line, "%s%s", line->len > 0 ? " " : "", words[i]);
+    struct wrapping wrapping = {paint, row, rows, 0, style, g_string_new(NULL)};
+    char *valid = g_utf8_make_valid(text, -1);
+    char **words = g_strsplit(valid, " ", -1);
+    const int room = paint->rect.cols > 4 ? paint->rect.cols - 2 : 2;
+    for (int i = 0; words[i] != NULL && wrapping.used < rows; i++) {
+        add_word(&wrapping, words[i], room);
     }
-    if (line->len > 0 && used < rows) {
-        wrap_row(paint, row < 0 ? row : row + used, style, line->str);
-        used++;
-    }
-    g_string_free(line, TRUE);
+    end_row(&wrapping);
+    g_string_free(wrapping.line, TRUE);
     g_strfreev(words);
-    return used;
+    g_free(valid);
+    return wrapping.used;
 }
 
 int gb_paint_wrap(const struct gb_paint *paint, int row, int rows, enum gb_style style,

@@ -214,7 +214,8 @@ static void end_trial(struct gb_session *session)
         gb_session_run_is_live(session) && session->now.seconds > replaced_most_s;
     gb_session_note(session, "quick cell of %lld: whole curve in %.1f s",
                     (long long)gb_runner_params(trial->runner)->count, now->seconds);
-    session->due = session->follow && !works;
+    /* a pause that came too late for the quick cell is one all the same */
+    session->due = session->follow && !works && !session->pause_wanted;
     if (!session->due) {
         gb_session_note(session, "%sr starts the full cell",
                         works ? "the run under way goes on: " : "");

@@ -33,6 +33,8 @@ struct gb_term {
     FILE *out, *in;
     int out_fd, in_fd, signal_fd;
     int saved_out, saved_err;
+    int64_t frames;
+    int64_t since_us; /* clock at the start */
     bool utf8, braille, shaded;
     struct termios modes;
     sigset_t mask_before;
@@ -174,6 +176,7 @@ bool gb_term_start(struct gb_term **out, struct gb_error *err)
     }
     gb_term_tty_redirect();
     arm_crash(term);
+    term->since_us = g_get_monotonic_time();
     *out = term;
     return true;
 fail:
@@ -191,6 +194,9 @@ void gb_term_stop(struct gb_term *term)
     delwin(term->keys);
     endwin();
     delscreen(term->screen);
+    fprintf(stderr, "greenbody: frames drawn: %lld in %.1f s\n", /* into the log */
+            (long long)term->frames,
+            1e-6 * (double)(g_get_monotonic_time() - term->since_us));
     gb_term_tty_restore(term->saved_out, term->saved_err);
     release_signals(term);
     close_streams(term);
@@ -323,8 +329,8 @@ void gb_term_repaint(struct gb_term *term)
 
 void gb_term_flush(struct gb_term *term)
 {
-    (void)term;
     refresh();
+    term->frames++;
 }
 
 void gb_term_size(const struct gb_term *term, int *rows, int *cols)

@@ -12,7 +12,7 @@ socket=greenbody-life-$$
 here=$(mktemp -d) || exit 1
 tests=0
 bad=0
-deadline_s=60
+deadline_s=120
 engine=
 
 export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
@@ -97,7 +97,8 @@ idle() { # pid
     [ $(($(ticks "$1") - before)) -le 2 ]
 }
 
-scene="default particles.count=500 numerics.tolerance=1e-3 loading.step=0.05% \
+# takes far longer than any of what is done with it
+scene="default particles.count=1000 numerics.tolerance=1e-3 loading.step=0.01% \
 output.checkpoint_every=0.5s numerics.fidelity=reference"
 
 lives_on() { # name
@@ -107,8 +108,7 @@ lives_on() { # name
     is "$1: the engine goes on" more_rows $((before + 3))
     kill -0 "$engine" 2>/dev/null
     result "$1: it is the same process" $?
-    idle "$engine"
-    result "$1: the rest is idle" $?
+    is "$1: the rest is idle" idle "$engine"
 }
 
 ends() { # name

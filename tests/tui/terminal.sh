@@ -9,7 +9,7 @@ socket=greenbody-test-$$
 here=$(mktemp -d) || exit 1
 tests=0
 bad=0
-deadline_s=30
+deadline_s=120
 
 export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
 export XDG_STATE_HOME="$here/state" LC_ALL=C.UTF-8 ENV=
@@ -88,20 +88,54 @@ density() {
     screen | sed -n 's/.*density *\(0\.[0-9][0-9]*\).*/\1/p' | tail -n 1
 }
 
-density_changed() {
-    now=$(density)
-    [ -n "$now" ] && [ "$now" != "$before" ]
+# Runs begin near the density of their structure, 0.24, and stay beyond this one once they
+# have passed it, so that a slow look at the screen misses nothing.
+is_pressed() {
+    [ -n "$(density)" ] && [ "$(density | cut -c 3-4)" -ge 30 ]
 }
 
-grows() { # name: the density on the screen changes twice
-    before=
-    until_true density_changed && before=$now && until_true density_changed
+grows() { # name: the density on the screen goes up
+    until_true is_pressed
     result "$1" $?
+}
+
+# A line of the events, however many came behind it: a screen of 60 rows holds them all.
+told() { # name, pattern
+    term resize-window -x 200 -y 60
+    until_true has "$2"
+    result "$1" $?
+    term resize-window -x 80 -y 24
+    until_true fits_80
+}
+
+fits_80() {
+    [ "$(screen | wc -l)" -eq 24 ] && screen | tail -n 1 | grep -q 'q quit'
+}
+
+# Nothing comes within a second: awaited, since the last frame may be late.
+sends_nothing() {
+    rm -f "$here/sent"
+    term pipe-pane "cat >'$here/sent'"
+    sleep 1
+    term pipe-pane
+    [ ! -s "$here/sent" ]
+}
+
+asks_or_has_left() {
+    has 'Quit?' || has 'status='
+}
+
+# q, and y where a live run is asked about.
+leaves() { # name
+    keys q
+    until_true asks_or_has_left
+    has 'status=' || keys y
+    shows "$1" 'status=0'
 }
 
 # The shell begins a line of its own with the status of what it ran.
 start() { # words after greenbody, and settings before it in $with
-    keys "clear; ${with:-} '$greenbody' $*; echo status=\$?" Enter
+    keys C-u "clear; ${with:-} '$greenbody' $*; echo status=\$?" Enter
 }
 
 terminal_is_back() {

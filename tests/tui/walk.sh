@@ -69,8 +69,7 @@ term resize-window -x 60 -y 20
 walk_views 60x20
 walk_keys 60x20
 term resize-window -x 80 -y 24
-keys q y
-shows "quits" 'status=0'
+leaves "quits"
 
 for with in LC_ALL=C NO_COLOR=1 TERM=linux TERM=screen; do
     start default particles.count=300
@@ -83,8 +82,7 @@ for with in LC_ALL=C NO_COLOR=1 TERM=linux TERM=screen; do
             eval '! term capture-pane -p -e | grep -q "$(printf "\033")\[[0-9;]*[34][0-8]"'
         ;;
     esac
-    keys q y
-    shows "$with: quits" 'status=0'
+    leaves "$with: quits"
 done
 
 echo "1..$tests"
