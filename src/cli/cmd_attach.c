@@ -7,9 +7,11 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/pressing.h"
+#include "cli/screening.h"
 #include "run/rundir.h"
 #include "run/runner.h"
 #include "tui/app.h"
+#include "tui/guess.h"
 
 /* Without a screen: its progress, line by line, until it ends or the watcher is stopped.
  */
@@ -38,7 +40,8 @@ static int watch(const char *directory, struct gb_error *err)
     return number != 0 ? 128 + number : 0;
 }
 
-static int show(const char *directory, struct gb_error *err)
+static int show(const char *directory, const struct gb_settings *settings,
+                struct gb_error *err)
 {
     struct gb_preset *preset = NULL;
     char *path = g_build_filename(directory, "preset.ini", NULL);
@@ -47,7 +50,7 @@ static int show(const char *directory, struct gb_error *err)
         gb_error_set(err, GB_ERR_INPUT, "%s: no run directory, it has no preset.ini",
                      directory);
     } else if (gb_preset_load(&preset, path, err)) {
-        status = gb_app_run(preset, NULL, directory, err);
+        status = gb_app_run(preset, NULL, directory, settings, err);
     }
     gb_preset_destroy(preset);
     g_free(path);
@@ -66,16 +69,24 @@ int gb_cmd_attach(int argc, char **argv)
         "on here.  Where stdout is no terminal, its progress is told line by line."};
     char **words = NULL;
     int status = 0;
-    const GOptionEntry entries[] = {{0}};
+    struct gb_screening screening = {0};
+    const GOptionEntry entries[] = {GB_SCREENING_OPTIONS(&screening), {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         struct gb_error err = {0};
-        if (words[0] == NULL || words[1] != NULL) {
+        struct gb_settings settings;
+        if (screening.diagnose && gb_screening_settings(&screening, &settings, &err)) {
+            gb_guess_print(stdout, STDOUT_FILENO, &settings);
+        } else if (words[0] == NULL || words[1] != NULL) {
             gb_error_set(&err, GB_ERR_INPUT, "attach: one run directory is needed");
             status = gb_options_fail(&err);
+        } else if (!gb_screening_settings(&screening, &settings, &err)) {
+            status = gb_options_fail(&err);
         } else {
-            status = isatty(STDOUT_FILENO) ? show(words[0], &err) : watch(words[0], &err);
+            status = isatty(STDOUT_FILENO) ? show(words[0], &settings, &err)
+                                           : watch(words[0], &err);
         }
     }
+    gb_screening_finish(&screening);
     g_strfreev(words);
     return status;
 }

@@ -1,10 +1,13 @@
 #include <glib.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/screening.h"
 #include "tui/app.h"
+#include "tui/guess.h"
 #include "tui/keys.h"
 #include "tui/life.h"
 
@@ -47,8 +50,11 @@ int gb_cmd_workbench(int argc, char **argv)
     char **words = NULL;
     int status = 0;
     char *folder = NULL;
+    struct gb_screening screening = {0};
+    struct gb_settings settings;
     const GOptionEntry entries[] = {
         GB_OPTIONS_SET(&sets),
+        GB_SCREENING_OPTIONS(&screening),
         {"runs", 0, 0, G_OPTION_ARG_FILENAME, &folder,
          "folder that keeps the runs (default: greenbody/runs in $XDG_STATE_HOME)",
          "DIR"},
@@ -58,11 +64,15 @@ int gb_cmd_workbench(int argc, char **argv)
         .summary = "The workbench: a pressing seen live, its parameters at hand.",
         .description =
             "Without a preset it opens the one named default.  ? lists the keys, and so "
-            "does greenbody --keys.",
+            "does greenbody --keys.  With --batch, or where stdout is no terminal, it "
+            "does what greenbody run does.  color, graph, images, mouse, ascii and slow "
+            "(on or off) can stand in [screen] of greenbody/screen.ini in "
+            "$XDG_CONFIG_HOME.",
     };
     if (!gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         g_strfreev(sets);
         g_free(folder);
+        gb_screening_finish(&screening);
         return status;
     }
     if (!names_preset(words)) {
@@ -70,14 +80,20 @@ int gb_cmd_workbench(int argc, char **argv)
     }
     struct gb_error err = {0};
     struct gb_preset *preset = NULL;
-    if (gb_options_scene(&preset, words, sets, false, &err)) {
+    if (!gb_screening_settings(&screening, &settings, &err)) {
+        status = gb_options_fail(&err);
+        err.code = GB_OK;
+    } else if (screening.diagnose) {
+        gb_guess_print(stdout, STDOUT_FILENO, &settings);
+    } else if (gb_options_scene(&preset, words, sets, false, &err)) {
         folder = folder != NULL ? folder : gb_life_folder();
-        status = gb_app_run(preset, folder, NULL, &err);
+        status = gb_app_run(preset, folder, NULL, &settings, &err);
     }
     if (err.code != GB_OK) {
         status = gb_options_fail(&err);
     }
     gb_preset_destroy(preset);
+    gb_screening_finish(&screening);
     g_free(folder);
     g_strfreev(words);
     g_strfreev(sets);

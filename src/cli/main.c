@@ -12,6 +12,7 @@
 
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/screening.h"
 
 struct command {
     const char *name;
@@ -60,6 +61,10 @@ static void print_help(void)
     g_strfreev(presets);
     puts("\nOptions:\n"
          "  -h, --help     this page\n"
+         "  --diagnose     what the terminal is taken for\n"
+         "  --batch        no workbench: what run does, also in a terminal\n"
+         "  --color, --graph, --images, --mouse, --ascii, --slow\n"
+         "                 of the workbench: see greenbody default --help\n"
          "  --version      version, compiler, features, threads");
 }
 
@@ -79,8 +84,8 @@ static void print_version(void)
     printf("compiler: %s\n", compiler);
     printf("features: %s, %s, %s; GLib %u.%u, GSL %s\n",
            GB_WITH_PICTURES ? "pictures" : "no pictures", threads,
-           GB_WITH_MPI ? "MPI" : "no MPI", glib_major_version,
-           glib_minor_version, gsl_version);
+           GB_WITH_MPI ? "MPI" : "no MPI", glib_major_version, glib_minor_version,
+           gsl_version);
     printf("threads: %u\n", g_get_num_processors());
 }
 
@@ -116,7 +121,11 @@ static int open_scene(int argc, char **argv)
     if (argc > 1 && argv[1][0] != '-' && !may_open(argv[1])) {
         return unknown(argv[1]);
     }
-    if (!isatty(STDOUT_FILENO)) {
+    const bool asked = gb_screening_has(argc, argv, "--diagnose") ||
+                       gb_screening_has(argc, argv, "--help");
+    const bool batch = gb_screening_has(argc, argv, "--batch");
+    if (!asked && (batch || !isatty(STDOUT_FILENO))) {
+        argc = gb_screening_drop(argc, argv);
         static char name[] = "run";
         static char preset[] = "default";
         argv[0] = name;

@@ -27,8 +27,13 @@ commands() {
 
 # name in ten columns, then what it does
 workbench() {
-    "$greenbody" --keys | verbatim |
-        sed -e 's/^\(.\{10\}\)\(.*\)$/.TP\n.B \1\n\2/' -e 's/^\(\.B .*[^ ]\) *$/\1/'
+    "$greenbody" --keys | sed -e 's/^\(.\{10\}\)\(.*\)$/\1\n\2/' -e 's/ *\n/\n/' |
+        verbatim | sed -e 's/^/.B /' -e 'i .TP' -e n
+}
+
+# The help page of the workbench itself.
+screen() {
+    "$greenbody" --color=auto --help | verbatim
 }
 
 # | `key` | default | range | unit | meaning | source |
@@ -45,6 +50,7 @@ while IFS= read -r line; do
     @COMMANDS@) commands ;;
     @KEYS@) keys ;;
     @WORKBENCH@) workbench ;;
+    @SCREEN@) screen ;;
     *@VERSION@*) printf '%s%s%s\n' "${line%%@VERSION@*}" "$version" "${line#*@VERSION@}" ;;
     *) printf '%s\n' "$line" ;;
     esac

@@ -70,6 +70,7 @@ static const struct gb_key table[] = {
     {{'x'}, "x", NULL, "report on the run, a folder to hand in", GB_ACTION_REPORT},
     {{'w'}, "w", "save", "save the parameters as a preset", GB_ACTION_SAVE},
     {{'o'}, "o", "open", "open a preset and run it", GB_ACTION_OPEN},
+    {{'M'}, "M", NULL, "mouse on or off (Shift-drag selects text)", GB_ACTION_MOUSE},
     {{CTRL_L}, "^L", NULL, "paint the screen anew", GB_ACTION_REPAINT},
     {{'?', KEY_F(1)}, "? F1", "help", "this list", GB_ACTION_HELP},
     {{'q', KEY_F(10)}, "q F10", "quit", "quit; asks while a run is live", GB_ACTION_QUIT},

@@ -207,6 +207,20 @@ static bool turn(struct gb_panel_params *panel, struct gb_session *session, int 
     return true;
 }
 
+bool gb_panel_params_point(struct gb_panel_params *panel, struct gb_session *session,
+                           int row, int col, bool *value)
+{
+    const struct gb_listing listing = listed(panel, session);
+    *value = col >= VALUE_COL;
+    for (int i = 0; i < listing.count; i++) {
+        if (row >= 1 && 1 + listing.line[i] - panel->top == row) {
+            panel->focus = listing.field[i];
+            return true;
+        }
+    }
+    return false;
+}
+
 void gb_panel_params_quote(const struct gb_panel_params *panel,
                            struct gb_session *session, char *text, size_t size)
 {

@@ -10,7 +10,8 @@
 /* INSET: of the pane, below which the laws have no place under the curve. */
 enum { PAGE_POINTS = 10, INSET_FROM_ROWS = 30, INSET_COLS = 50 };
 
-void gb_panel_plot_init(struct gb_panel_plot *panel, const struct gb_term *term)
+void gb_panel_plot_init(struct gb_panel_plot *panel, const struct gb_term *term,
+                        int graph)
 {
     *panel = (struct gb_panel_plot){.view = GB_VIEW_CURVE};
     gb_plot_init(&panel->plot);
@@ -18,9 +19,16 @@ void gb_panel_plot_init(struct gb_panel_plot *panel, const struct gb_term *term)
         gb_plot_init(&panel->inset[i]);
     }
     panel->shades = gb_term_shaded(term);
+    panel->utf8 = gb_term_utf8(term);
+    panel->pixels = gb_term_images(term) != GB_IMAGES_NONE;
     panel->glyphs = gb_term_braille(term) ? GB_PLOT_BRAILLE
-                    : gb_term_utf8(term)  ? GB_PLOT_BLOCK
+                    : panel->utf8         ? GB_PLOT_BLOCK
                                           : GB_PLOT_ASCII;
+    if (graph != GB_GRAPH_AUTO && panel->utf8) {
+        panel->glyphs = graph == GB_GRAPH_BRAILLE ? GB_PLOT_BRAILLE
+                        : graph == GB_GRAPH_BLOCK ? GB_PLOT_BLOCK
+                                                  : GB_PLOT_ASCII;
+    }
 }
 
 void gb_panel_plot_finish(struct gb_panel_plot *panel)
@@ -171,6 +179,8 @@ void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *pain
     struct gb_paint upper = *paint;
     const int rows = inset_rows(panel, &paint->rect);
     upper.rect.rows -= rows;
+    panel->field = (struct gb_rect){upper.rect.row + 1, upper.rect.col + 1,
+                                    upper.rect.rows - 3, upper.rect.cols - 2};
     write_title(panel, session, title, sizeof title);
     gb_paint_title(&upper, title, focus);
     if (draw_view(panel, &panel->plot, &upper, session, panel->view) && rows > 0) {
@@ -194,10 +204,48 @@ static bool move(struct gb_panel_plot *panel, const struct gb_session *session,
     return true;
 }
 
+/* Cells between a point of the curve and a cell of the field; across only where the view
+ * has another quantity than the pressure on its y axis. */
+static double away(const struct gb_panel_plot *panel, const struct gb_session *session,
+                   const struct gb_point *point, int row, int col)
+{
+    const struct gb_plot *plot = &panel->plot;
+    const double x = gb_view_curve_x(panel, session, point);
+    const double across = gb_plot_axis_place(&plot->x, x) * plot->field_cols - 0.5 - col;
+    if (!views[panel->view].log || !(panel->unit_pa > 0.0)) {
+        return fabs(across);
+    }
+    const double y = gb_plot_axis_place(&plot->y, point->p_pa / panel->unit_pa);
+    return hypot(across, 2.0 * ((1.0 - y) * plot->field_rows - 0.5 - row));
+}
+
+void gb_panel_plot_point(struct gb_panel_plot *panel, const struct gb_session *session,
+                         int row, int col)
+{
+    const struct gb_seen seen = gb_session_seen(session);
+    const int down = row - 1 - panel->plot.top; /* the plot begins at 1, 1 */
+    const int right = col - 1 - panel->plot.left;
+    double nearest = HUGE_VAL;
+    if (!views[panel->view].of_points || panel->plot.field_cols <= 0) {
+        return;
+    }
+    for (size_t i = 0; i < seen.points; i++) {
+        const double distance =
+            away(panel, session, gb_curve_at(seen.curve, i), down, right);
+        if (distance < nearest) { /* NaN is none */
+            nearest = distance;
+            panel->cursor = i;
+            panel->cursor_on = true;
+        }
+    }
+}
+
 /* The glyphs that this screen can show, in turn. */
 static void next_glyphs(struct gb_panel_plot *panel)
 {
-    panel->glyphs = (panel->glyphs + 1) % GB_PLOT_GLYPHS;
+    if (panel->utf8) {
+        panel->glyphs = (panel->glyphs + 1) % GB_PLOT_GLYPHS;
+    }
 }
 
 static bool show(struct gb_panel_plot *panel, int view)

@@ -36,6 +36,10 @@ bool gb_panel_params_act(struct gb_panel_params *panel, struct gb_session *sessi
  * none. */
 bool gb_panel_params_find(struct gb_panel_params *panel, struct gb_session *session,
                           const char *name);
+/* The parameter in a row of the pane gets the focus; false: there is none.  *value tells
+ * whether the column is one of its value. */
+bool gb_panel_params_point(struct gb_panel_params *panel, struct gb_session *session,
+                           int row, int col, bool *value);
 /* "contact.mu=0.1": the parameter with the focus, as edited. */
 void gb_panel_params_quote(const struct gb_panel_params *panel,
                            struct gb_session *session, char *text, size_t size);
@@ -72,9 +76,13 @@ struct gb_panel_plot {
     enum gb_view view;
     bool log, hide_earlier;
     bool shades; /* the screen can shade a relief */
+    bool utf8;   /* and has more than ASCII */
+    bool pixels; /* the packing is shown as a picture: its cells stay empty */
     enum gb_plot_glyphs glyphs;
     bool cursor_on;
-    size_t cursor; /* point of the curve */
+    size_t cursor;        /* point of the curve */
+    double unit_pa;       /* of the pressure axis */
+    struct gb_rect field; /* cells of the screen that the view fills */
     struct gb_plot plot, inset[GB_PANEL_INSETS];
     struct gb_plot *target;  /* the one a law is being drawn into */
     struct gb_params edited; /* with the value being typed, if it is a good one */
@@ -82,12 +90,17 @@ struct gb_panel_plot {
     size_t capacity;
 };
 
-void gb_panel_plot_init(struct gb_panel_plot *panel, const struct gb_term *term);
+/* graph: GB_GRAPH_AUTO or what is asked for. */
+void gb_panel_plot_init(struct gb_panel_plot *panel, const struct gb_term *term,
+                        int graph);
 void gb_panel_plot_finish(struct gb_panel_plot *panel);
 void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *paint,
                         const struct gb_session *session, bool focus);
 bool gb_panel_plot_act(struct gb_panel_plot *panel, const struct gb_session *session,
                        enum gb_action action);
+/* The cursor goes to the point of the curve that is nearest to a cell of the pane. */
+void gb_panel_plot_point(struct gb_panel_plot *panel, const struct gb_session *session,
+                         int row, int col);
 /* Room for count points in x and y. */
 bool gb_panel_plot_reserve(struct gb_panel_plot *panel, size_t count);
 /* "relax", "compress" or "hold": the branch of a point of a dynamic run. */

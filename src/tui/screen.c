@@ -55,32 +55,66 @@ static int footer_width(const struct gb_key *key, int gap)
     return gb_paint_width(name) + 1 + gb_paint_width(key->brief) + gap;
 }
 
-/* As many keys of the table as fit; the last two, help and quit, always. */
-static void draw_footer(struct gb_screen *screen)
+/* Where the keys of the footer stand: as many of the table as fit; the last two, help and
+ * quit, always.  at[i] is -1 for those that do not.  Returns their number. */
+enum { FOOTER_KEYS = 64 };
+
+static size_t place_footer(int cols, int at[FOOTER_KEYS])
 {
-    const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.footer);
     size_t count = 0;
     const struct gb_key *key = gb_keys_table(&count);
     int all = 0;
     for (size_t i = 0; i < count; i++) {
         all += key[i].brief != NULL ? footer_width(&key[i], 2) : 0;
     }
-    const int gap = all <= paint.rect.cols ? 2 : 1;
+    const int gap = all <= cols ? 2 : 1;
     int reserved = footer_width(&key[count - 2], gap) + footer_width(&key[count - 1], 0);
     int col = gap - 1;
     for (size_t i = 0; i < count; i++) {
-        if (key[i].brief == NULL) {
-            continue;
-        }
         const bool last = i + 2 >= count;
-        if (!last && col + footer_width(&key[i], gap) + reserved > paint.rect.cols) {
-            continue;
+        at[i] = -1;
+        if (key[i].brief != NULL &&
+            (last || col + footer_width(&key[i], gap) + reserved <= cols)) {
+            at[i] = col;
+            col += footer_width(&key[i], gap);
         }
+    }
+    return count;
+}
+
+static void draw_footer(struct gb_screen *screen)
+{
+    const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.footer);
+    int at[FOOTER_KEYS];
+    size_t count = 0;
+    const struct gb_key *key = gb_keys_table(&count);
+    place_footer(paint.rect.cols, at);
+    for (size_t i = 0; i < count; i++) {
         char name[16];
         brief_name(&key[i], name, sizeof name);
-        col = gb_paint_text(&paint, 0, col, GB_STYLE_BOLD, name) + 1;
-        col = gb_paint_text(&paint, 0, col, GB_STYLE_DIM, key[i].brief) + gap;
+        if (at[i] >= 0) {
+            const int col = gb_paint_text(&paint, 0, at[i], GB_STYLE_BOLD, name) + 1;
+            gb_paint_text(&paint, 0, col, GB_STYLE_DIM, key[i].brief);
+        }
     }
+}
+
+const struct gb_key *gb_screen_key_at(const struct gb_screen *screen, int row, int col)
+{
+    const struct gb_rect *footer = &screen->layout.footer;
+    int at[FOOTER_KEYS];
+    size_t count = 0;
+    const struct gb_key *key = gb_keys_table(&count);
+    if (footer->rows == 0 || row != footer->row) {
+        return NULL;
+    }
+    place_footer(footer->cols, at);
+    for (size_t i = 0; i < count; i++) {
+        if (at[i] >= 0 && col >= at[i] && col < at[i] + footer_width(&key[i], 0)) {
+            return &key[i];
+        }
+    }
+    return NULL;
 }
 
 static void draw_message(struct gb_screen *screen)
@@ -183,4 +217,13 @@ void gb_screen_draw(struct gb_screen *screen)
     draw_footer(screen);
     const struct gb_paint paint = whole(screen);
     gb_dialog_draw(&screen->dialog, &paint);
+}
+
+const struct gb_picture *gb_screen_picture(const struct gb_screen *screen)
+{
+    const struct gb_seen seen = gb_session_seen(&screen->session);
+    const bool wanted = screen->plot.pixels && screen->plot.view == GB_VIEW_PACKING &&
+                        screen->dialog.kind == GB_DIALOG_NONE &&
+                        gb_layout_shows(&screen->layout, GB_PANE_PLOT);
+    return wanted && seen.picture != NULL && seen.picture->valid ? seen.picture : NULL;
 }

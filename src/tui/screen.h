@@ -2,6 +2,7 @@
 #define GB_TUI_SCREEN_H
 
 #include "tui/dialog.h"
+#include "tui/image.h"
 #include "tui/panels.h"
 
 /* Everything the screen shows, in one place: app.c changes it, screen.c draws it. */
@@ -14,11 +15,18 @@ struct gb_screen {
     struct gb_panel_plot plot;
     struct gb_panel_events events;
     struct gb_dialog dialog;
+    struct gb_image image;     /* on top of the packing's cells */
     struct gb_message message; /* "": the focused pane explains itself */
 };
 
 /* Draws all of it into curses' memory; what differs from the terminal is sent by
  * gb_term_flush. */
 void gb_screen_draw(struct gb_screen *screen);
+
+/* What is to lie on the screen in pixels; NULL: nothing. */
+const struct gb_picture *gb_screen_picture(const struct gb_screen *screen);
+
+/* The key that stands in that cell of the footer; NULL: none. */
+const struct gb_key *gb_screen_key_at(const struct gb_screen *screen, int row, int col);
 
 #endif

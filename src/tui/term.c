@@ -3,8 +3,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <glib.h>
-#include <langinfo.h>
-#include <locale.h>
 #include <ncurses.h>
 #include <poll.h>
 #include <signal.h>
@@ -16,11 +14,15 @@
 
 #include "base/alloc.h"
 #include "tui/crash.h"
+#include "tui/guess.h"
 #include "tui/term_style.h"
 #include "tui/term_tty.h"
 
 /* After Esc a terminal sends the rest of a function key within this time. */
 enum { ESCAPE_MS = 40 };
+
+/* Pixels, where the terminal does not tell them. */
+enum { USUAL_CELL_WIDTH = 10 };
 
 static const int caught[] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,
                              SIGTSTP, SIGCONT, SIGWINCH};
@@ -35,20 +37,14 @@ struct gb_term {
     int saved_out, saved_err;
     int64_t frames;
     int64_t since_us; /* clock at the start */
-    bool utf8, braille, shaded;
+    int64_t repaints;
+    bool shaded, mouse;
+    struct gb_guess guess;
     struct termios modes;
     sigset_t mask_before;
     struct sigaction before[CAUGHT], pipe_before;
     uint64_t style[GB_STYLE_COUNT];
 };
-
-static void set_locale(struct gb_term *term, const char *type)
-{
-    setlocale(LC_ALL, "");
-    setlocale(LC_NUMERIC, "C"); /* numbers keep their point everywhere */
-    term->utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
-    term->braille = term->utf8 && strcmp(type, "linux") != 0;
-}
 
 static void set_modes(void)
 {
@@ -68,7 +64,7 @@ static bool start_screen(struct gb_term *term, const char *type, struct gb_error
     }
     set_modes();
     set_escdelay(ESCAPE_MS);
-    term->shaded = gb_term_style_init(term->style);
+    term->shaded = gb_term_style_init(term->style, term->guess.coloured);
     term->keys = newpad(1, 1);
     keypad(term->keys, TRUE);
     nodelay(term->keys, TRUE);
@@ -105,7 +101,8 @@ static void arm_crash(const struct gb_term *term)
     const char *leave = tigetstr("rmcup");
     const char *cursor = tigetstr("cnorm");
     const char *plain = tigetstr("sgr0");
-    g_snprintf(reset, sizeof reset, "%s%s%s\r\n",
+    g_snprintf(reset, sizeof reset, "%s%s%s%s\r\n",
+               term->guess.can_mouse ? "\033[?1006l\033[?1000l" : "",
                plain != NULL && plain != (char *)-1 ? plain : "",
                leave != NULL && leave != (char *)-1 ? leave : "",
                cursor != NULL && cursor != (char *)-1 ? cursor : "");
@@ -154,7 +151,8 @@ static void close_streams(struct gb_term *term)
     }
 }
 
-bool gb_term_start(struct gb_term **out, struct gb_error *err)
+bool gb_term_start(struct gb_term **out, const struct gb_settings *settings,
+                   struct gb_error *err)
 {
     struct gb_term *term = gb_alloc_array(1, sizeof *term, err);
     if (term == NULL) {
@@ -164,18 +162,17 @@ bool gb_term_start(struct gb_term **out, struct gb_error *err)
     if (!open_streams(term, err)) {
         goto fail;
     }
-    const char *type = gb_term_tty_type(term->out_fd, err);
-    if (type == NULL) {
+    if (!gb_guess_make(&term->guess, term->out_fd, settings, err)) {
         goto fail;
     }
-    set_locale(term, type);
     catch_signals(term);
-    if (!start_screen(term, type, err)) {
+    if (!start_screen(term, term->guess.type, err)) {
         release_signals(term);
         goto fail;
     }
     gb_term_tty_redirect();
     arm_crash(term);
+    gb_term_mouse(term, settings->mouse == 0);
     term->since_us = g_get_monotonic_time();
     *out = term;
     return true;
@@ -235,29 +232,31 @@ void gb_term_suspend(struct gb_term *term)
 /* The new size is taken from the kernel here and not in a handler. */
 static struct gb_term_event resized(struct gb_term *term)
 {
+    term->repaints++;
     struct winsize size;
     if (ioctl(term->out_fd, TIOCGWINSZ, &size) == 0 && size.ws_row > 0 &&
         size.ws_col > 0) {
         resizeterm(size.ws_row, size.ws_col);
     }
-    return (struct gb_term_event){GB_TERM_RESIZED, 0};
+    return (struct gb_term_event){.kind = GB_TERM_RESIZED, .code = 0};
 }
 
 static struct gb_term_event from_signal(struct gb_term *term)
 {
     struct signalfd_siginfo info;
-    const struct gb_term_event nothing = {GB_TERM_NOTHING, 0};
+    const struct gb_term_event nothing = {.kind = GB_TERM_NOTHING};
     if (read(term->signal_fd, &info, sizeof info) != (ssize_t)sizeof info) {
         return nothing;
     }
     switch (info.ssi_signo) {
     case SIGINT:
-        return (struct gb_term_event){GB_TERM_INTERRUPT, SIGINT};
+        return (struct gb_term_event){.kind = GB_TERM_INTERRUPT, .code = SIGINT};
     case SIGTERM:
     case SIGQUIT:
-        return (struct gb_term_event){GB_TERM_TERMINATE, (int32_t)info.ssi_signo};
+        return (struct gb_term_event){.kind = GB_TERM_TERMINATE,
+                                      .code = (int32_t)info.ssi_signo};
     case SIGHUP:
-        return (struct gb_term_event){GB_TERM_GONE, SIGHUP};
+        return (struct gb_term_event){.kind = GB_TERM_GONE, .code = SIGHUP};
     case SIGTSTP:
         gb_term_suspend(term);
         gb_term_repaint(term);
@@ -273,12 +272,39 @@ static struct gb_term_event from_signal(struct gb_term *term)
     }
 }
 
+/* A press of the left button or a turn of the wheel; the rest is nothing. */
+static struct gb_term_event from_mouse(void)
+{
+    struct gb_term_event event = {.kind = GB_TERM_NOTHING};
+    MEVENT mouse;
+    if (getmouse(&mouse) != OK) {
+        return event;
+    }
+    event.row = mouse.y;
+    event.col = mouse.x;
+    event.kind = GB_TERM_MOUSE;
+    if (mouse.bstate & BUTTON1_PRESSED) {
+        event.code = GB_TERM_CLICK;
+    } else if (mouse.bstate & BUTTON4_PRESSED) {
+        event.code = GB_TERM_WHEEL_UP;
+    } else if (mouse.bstate & BUTTON5_PRESSED) {
+        event.code = GB_TERM_WHEEL_DOWN;
+    } else {
+        event.kind = GB_TERM_NOTHING;
+    }
+    return event;
+}
+
 static bool next_key(struct gb_term *term, struct gb_term_event *event)
 {
     wint_t code = 0;
     const int how = wget_wch(term->keys, &code);
     if (how == ERR) {
         return false;
+    }
+    if (how == KEY_CODE_YES && code == KEY_MOUSE) {
+        *event = from_mouse();
+        return true;
     }
     if (how == KEY_CODE_YES) {
         event->kind = code == KEY_RESIZE ? GB_TERM_RESIZED : GB_TERM_KEY;
@@ -303,7 +329,7 @@ static bool is_gone(const struct gb_term *term, short revents)
 
 struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms)
 {
-    struct gb_term_event event = {GB_TERM_NOTHING, 0};
+    struct gb_term_event event = {.kind = GB_TERM_NOTHING};
     if (next_key(term, &event)) {
         return event;
     }
@@ -315,7 +341,7 @@ struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms)
         return from_signal(term);
     }
     if (is_gone(term, fds[1].revents)) {
-        return (struct gb_term_event){GB_TERM_GONE, SIGHUP};
+        return (struct gb_term_event){.kind = GB_TERM_GONE, .code = SIGHUP};
     }
     next_key(term, &event);
     return event;
@@ -323,7 +349,7 @@ struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms)
 
 void gb_term_repaint(struct gb_term *term)
 {
-    (void)term;
+    term->repaints++;
     clearok(curscr, TRUE);
 }
 
@@ -342,12 +368,12 @@ void gb_term_size(const struct gb_term *term, int *rows, int *cols)
 
 bool gb_term_utf8(const struct gb_term *term)
 {
-    return term->utf8;
+    return term->guess.utf8;
 }
 
 bool gb_term_braille(const struct gb_term *term)
 {
-    return term->braille;
+    return term->guess.braille;
 }
 
 bool gb_term_shaded(const struct gb_term *term)
@@ -364,4 +390,43 @@ uint64_t gb_term_shade(const struct gb_term *term, int shade, int back)
 uint64_t gb_term_style(const struct gb_term *term, enum gb_style style)
 {
     return term->style[style];
+}
+
+void gb_term_mouse(struct gb_term *term, bool on)
+{
+    const mmask_t wanted = BUTTON1_PRESSED | BUTTON4_PRESSED | BUTTON5_PRESSED;
+    term->mouse = on && term->guess.can_mouse;
+    mouseinterval(0); /* a press counts at once, clicks are not waited for */
+    mousemask(term->mouse ? wanted : 0, NULL);
+}
+
+bool gb_term_has_mouse(const struct gb_term *term)
+{
+    return term->mouse;
+}
+
+int gb_term_images(const struct gb_term *term)
+{
+    return term->guess.images;
+}
+
+void gb_term_cell(const struct gb_term *term, int *width, int *height)
+{
+    struct winsize size = {0};
+    const bool told = ioctl(term->out_fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 &&
+                      size.ws_row > 0 && size.ws_xpixel >= size.ws_col &&
+                      size.ws_ypixel >= size.ws_row;
+    *width = told ? size.ws_xpixel / size.ws_col : USUAL_CELL_WIDTH;
+    *height = told ? size.ws_ypixel / size.ws_row : 2 * USUAL_CELL_WIDTH;
+}
+
+int64_t gb_term_repaints(const struct gb_term *term)
+{
+    return term->repaints;
+}
+
+void gb_term_send(struct gb_term *term, int row, int col, const char *text)
+{
+    fprintf(term->out, "\0337\033[%d;%dH%s\0338", row + 1, col + 1, text);
+    fflush(term->out);
 }

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
+#include "tui/settings.h"
 
 /* The terminal: taken at the start, given back on every way out.  While curses owns it,
  * standard output and error of everybody else go to a log file. */
@@ -32,20 +33,25 @@ enum gb_term_event_kind {
     GB_TERM_NOTHING,   /* the time is over */
     GB_TERM_KEY,       /* curses key code or control character */
     GB_TERM_TEXT,      /* printable character */
+    GB_TERM_MOUSE,     /* code: one of gb_term_mouse_code, at row, col */
     GB_TERM_RESIZED,   /* also after a suspension: paint everything */
     GB_TERM_INTERRUPT, /* SIGINT */
     GB_TERM_TERMINATE, /* SIGTERM, SIGQUIT */
     GB_TERM_GONE       /* SIGHUP, or the terminal is closed: it must not be touched */
 };
 
+enum gb_term_mouse_code { GB_TERM_CLICK, GB_TERM_WHEEL_UP, GB_TERM_WHEEL_DOWN };
+
 struct gb_term_event {
     enum gb_term_event_kind kind;
     int32_t code;
+    int row, col; /* of the mouse */
 };
 
 /* Takes the terminal.  Errors (GB_ERR_MACHINE): not a terminal, unknown and no fallback
  * works, cannot place the cursor; nothing has been changed then. */
-bool gb_term_start(struct gb_term **out, struct gb_error *err);
+bool gb_term_start(struct gb_term **out, const struct gb_settings *settings,
+                   struct gb_error *err);
 void gb_term_stop(struct gb_term *term); /* NULL is fine */
 
 /* Instead of gb_term_stop when the terminal is gone: it is not touched again.  Standard
@@ -72,6 +78,18 @@ bool gb_term_braille(const struct gb_term *term);
 enum { GB_TERM_SHADES = 8 };
 bool gb_term_shaded(const struct gb_term *term);
 uint64_t gb_term_shade(const struct gb_term *term, int shade, int back);
+/* Whether clicks and the wheel are reported; then only Shift lets the terminal itself
+ * select text.  Stays off where terminfo knows no mouse. */
+void gb_term_mouse(struct gb_term *term, bool on);
+bool gb_term_has_mouse(const struct gb_term *term);
+
+/* Pictures between the characters: GB_IMAGES_NONE, _SIXEL or _KITTY; pixels of a cell;
+ * how often the screen was wiped, which takes pictures away; sends one behind a flush. */
+int gb_term_images(const struct gb_term *term);
+void gb_term_cell(const struct gb_term *term, int *width, int *height);
+int64_t gb_term_repaints(const struct gb_term *term);
+void gb_term_send(struct gb_term *term, int row, int col, const char *text);
+
 /* curses attributes of a style. */
 uint64_t gb_term_style(const struct gb_term *term, enum gb_style style);
 

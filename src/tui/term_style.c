@@ -2,7 +2,6 @@
 
 #include <ncurses.h>
 #include <stdbool.h>
-#include <stdlib.h>
 
 #include "tui/term.h"
 
@@ -85,12 +84,10 @@ uint64_t gb_term_style_shade(int shade, int back)
     return (uint64_t)COLOR_PAIR(shade_pair(shade, back));
 }
 
-bool gb_term_style_init(uint64_t *style)
+bool gb_term_style_init(uint64_t *style, bool coloured)
 {
     set_plain(style);
-    const char *no_color = getenv("NO_COLOR");
-    const bool wanted = no_color == NULL || *no_color == '\0';
-    if (!wanted || !has_colors() || start_color() != OK || use_default_colors() != OK) {
+    if (!coloured || !has_colors() || start_color() != OK || use_default_colors() != OK) {
         return false;
     }
     set_colours(style);

@@ -8,10 +8,15 @@
 #include <term.h>
 #include <unistd.h>
 
+char *gb_term_tty_log(void)
+{
+    return g_build_filename(g_get_user_state_dir(), "greenbody", "workbench.log", NULL);
+}
+
 static int open_log(void)
 {
-    char *folder = g_build_filename(g_get_user_state_dir(), "greenbody", NULL);
-    char *path = g_build_filename(folder, "workbench.log", NULL);
+    char *path = gb_term_tty_log();
+    char *folder = g_path_get_dirname(path);
     g_mkdir_with_parents(folder, 0700);
     int fd = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
     if (fd < 0) {
@@ -51,6 +56,17 @@ static bool places_cursor(const char *type, int fd)
     const bool places = cursor_address != NULL;
     del_curterm(cur_term);
     return places;
+}
+
+int gb_term_tty_colours(const char *type, int fd)
+{
+    int found = 0;
+    if (setupterm(type, fd, &found) != OK) {
+        return 0;
+    }
+    const int colours = tigetnum("colors");
+    del_curterm(cur_term);
+    return colours > 0 ? colours : 0;
 }
 
 const char *gb_term_tty_type(int fd, struct gb_error *err)

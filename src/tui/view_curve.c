@@ -73,8 +73,8 @@ static int kind_of(const struct gb_session *session)
     return gb_session_seen(session).params->kind;
 }
 
-static double x_of(const struct gb_panel_plot *panel, const struct gb_session *session,
-                   const struct gb_point *point)
+double gb_view_curve_x(const struct gb_panel_plot *panel,
+                       const struct gb_session *session, const struct gb_point *point)
 {
     return panel->view == GB_VIEW_TIME ? gb_earlier_elapsed(kind_of(session), point)
                                        : point->density;
@@ -114,12 +114,12 @@ static struct ends find_ends(const struct gb_panel_plot *panel,
     struct ends ends = {{HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}, HUGE_VAL};
     for (size_t i = 0; i < session->points; i++) {
         const struct gb_point *point = gb_curve_at(curve_of(session), i);
-        extend(&ends, x_of(panel, session, point), point->p_pa);
+        extend(&ends, gb_view_curve_x(panel, session, point), point->p_pa);
     }
     const struct gb_trial *trial = &session->trial;
     for (size_t i = 0; trial_shown(panel, session) && i < trial->points; i++) {
         const struct gb_point *point = gb_curve_at(gb_runner_curve(trial->runner), i);
-        extend(&ends, x_of(panel, session, point), point->p_pa);
+        extend(&ends, gb_view_curve_x(panel, session, point), point->p_pa);
     }
     const struct gb_measured *data = session->measured;
     for (size_t i = 0; data != NULL && panel->view == GB_VIEW_CURVE && i < data->count;
@@ -176,7 +176,7 @@ static void draw_trial(struct gb_panel_plot *panel, const struct gb_session *ses
     }
     for (size_t i = 0; i < trial->points; i++) {
         const struct gb_point *point = gb_curve_at(gb_runner_curve(trial->runner), i);
-        panel->x[i] = x_of(panel, session, point);
+        panel->x[i] = gb_view_curve_x(panel, session, point);
         panel->y[i] = point->p_pa / unit_pa;
     }
     const struct gb_plot_series series = {.x = panel->x,
@@ -220,14 +220,14 @@ static size_t gather(struct gb_panel_plot *panel, const struct gb_session *sessi
         const struct gb_point *point = gb_curve_at(curve_of(session), i);
         const bool mine = belongs(point, branch, kind_of(session));
         if (mine && n == 0 && root != NULL) {
-            panel->x[n] = x_of(panel, session, root);
+            panel->x[n] = gb_view_curve_x(panel, session, root);
             panel->y[n++] = root->p_pa / unit_pa;
         } else if (mine && gap && panel->view == GB_VIEW_TIME) {
             panel->x[n] = NAN;
             panel->y[n++] = NAN;
         }
         if (mine) {
-            panel->x[n] = x_of(panel, session, point);
+            panel->x[n] = gb_view_curve_x(panel, session, point);
             panel->y[n++] = point->p_pa / unit_pa;
             *from_pa = point->branch_from_pa;
         }
@@ -382,7 +382,7 @@ static void draw_forks(struct gb_panel_plot *panel, const struct gb_session *ses
             continue;
         }
         const struct gb_point *point = gb_curve_at(curve_of(session), at - 1);
-        const double x = x_of(panel, session, point);
+        const double x = gb_view_curve_x(panel, session, point);
         const double y = point->p_pa / unit_pa;
         gb_plot_line(&panel->plot, &(struct gb_plot_series){.x = &x,
                                                             .y = &y,
@@ -399,7 +399,8 @@ static void draw_cursor(struct gb_panel_plot *panel, const struct gb_session *se
     const struct gb_seen seen = gb_session_seen(session);
     if (panel->cursor_on && panel->cursor < seen.points) {
         const struct gb_point *point = gb_curve_at(seen.curve, panel->cursor);
-        gb_plot_cursor(&panel->plot, x_of(panel, session, point), point->p_pa / unit_pa);
+        gb_plot_cursor(&panel->plot, gb_view_curve_x(panel, session, point),
+                       point->p_pa / unit_pa);
     }
 }
 
@@ -407,6 +408,7 @@ void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *se
 {
     const struct ends ends = find_ends(panel, session);
     const double unit_pa = ends.y[1] >= 9.9e9 ? 1e9 : 1e6;
+    panel->unit_pa = unit_pa;
     const double y_ends[2] = {ends.y[0] / unit_pa, ends.y[1] / unit_pa};
     gb_plot_axes(&panel->plot, ends.x, y_ends, panel->log, x_label(panel, session),
                  unit_pa > 1e6 ? "p, GPa" : "p, MPa");

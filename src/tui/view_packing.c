@@ -47,14 +47,22 @@ static void put_mean(struct gb_plot_cell *cell, float above, float below, bool a
     cell->ch = ascii ? ascii_ramp[level(mean, ASCII)] : wide_ramp[level(mean, WIDE)];
 }
 
+/* Two short lines in the corner, or one below a picture. */
 static void write_caption(struct gb_plot *plot, const struct gb_picture *picture,
-                          const struct gb_params *params)
+                          const struct gb_params *params, bool below)
 {
-    char text[96];
-    snprintf(text, sizeof text, "%d of %lld", picture->count, (long long)params->count);
-    gb_plot_text(plot, plot->rows - 1, 0, GB_PLOT_INK_TEXT, text);
-    snprintf(text, sizeof text, "%.3g x %.3g d", picture->window[0], picture->window[2]);
-    gb_plot_text(plot, plot->rows - 2, 0, GB_PLOT_INK_TEXT, text);
+    char share[48];
+    char size[48];
+    char text[128];
+    snprintf(share, sizeof share, "%d of %lld", picture->count, (long long)params->count);
+    snprintf(size, sizeof size, "%.3g x %.3g d", picture->window[0], picture->window[2]);
+    if (below) {
+        snprintf(text, sizeof text, "%s, %s, z upwards", share, size);
+        gb_plot_text(plot, plot->rows - 1, 0, GB_PLOT_INK_TEXT, text);
+        return;
+    }
+    gb_plot_text(plot, plot->rows - 1, 0, GB_PLOT_INK_TEXT, share);
+    gb_plot_text(plot, plot->rows - 2, 0, GB_PLOT_INK_TEXT, size);
     gb_plot_text(plot, 0, 0, GB_PLOT_INK_TEXT, "z");
 }
 
@@ -64,6 +72,10 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
     struct gb_plot *plot = &panel->plot;
     if (seen.picture == NULL || !seen.picture->valid) {
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no packing yet");
+        return;
+    }
+    if (panel->pixels) { /* the picture comes on top of these cells */
+        write_caption(plot, seen.picture, seen.params, true);
         return;
     }
     const size_t dots = (size_t)plot->rows * (size_t)plot->cols * 2;
@@ -86,5 +98,5 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
         }
     }
     gb_alloc_free(shade);
-    write_caption(plot, seen.picture, seen.params);
+    write_caption(plot, seen.picture, seen.params, false);
 }

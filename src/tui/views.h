@@ -6,6 +6,9 @@
 /* Pressure against density, or against time: earlier runs, unloading branches, the
  * loading branch on top; of dynamic runs the three stages. */
 void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *session);
+/* Where a point stands on the x axis of that: density, time or step. */
+double gb_view_curve_x(const struct gb_panel_plot *panel,
+                       const struct gb_session *session, const struct gb_point *point);
 
 /* Shares of particles by their number of contacts. */
 void gb_view_histogram_draw(struct gb_panel_plot *panel,

@@ -15,6 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tui/pixels.h"
+
 /* The targets of speed are asserted of medians with 'long', on a machine that does
  * nothing else; here of what other work cannot spoil. */
 static const char *program, *presets;
@@ -120,6 +122,15 @@ static void send_text(struct child *child, const char *text, size_t length)
     }
 }
 
+/* Until so many frames have come, however long that takes. */
+static void receive_bursts(struct child *child, int64_t bursts)
+{
+    for (int i = 0; i < 600 && child->bursts < bursts; i++) {
+        receive(child, 0.2, false);
+    }
+    g_assert_cmpint(child->bursts, >=, bursts);
+}
+
 static int wait_for_end(struct child *child)
 {
     int status = 0;
@@ -173,15 +184,6 @@ static void read_frames(long long *frames, double *seconds)
     g_free(path);
 }
 
-/* Until so many frames have come, however long that takes. */
-static void receive_bursts(struct child *child, int64_t bursts)
-{
-    for (int i = 0; i < 600 && child->bursts < bursts; i++) {
-        receive(child, 0.2, false);
-    }
-    g_assert_cmpint(child->bursts, >=, bursts);
-}
-
 /* A running screen of 120 x 40: under 2 kB a frame on average, the first whole one
  * included, at most ten frames within any second. The program counts its frames itself:
  * here they may come in one piece on a loaded machine. */
@@ -228,16 +230,17 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Seconds until the list of keys is on the screen. */
-static double time_of_help(struct child *child)
+/* Seconds from a key until a text is on the screen. */
+static double await(struct child *child, const char *key, const char *text)
 {
     const gint64 from = g_get_monotonic_time();
-    child->awaited = "scroll,";
+    child->awaited = text;
     child->saw_awaited = false;
-    send_text(child, "?", 1);
+    child->tail[0] = '\0';
+    send_text(child, key, strlen(key));
     while (!child->saw_awaited) {
         g_assert_true(receive(child, 0.5, true));
-        g_assert_cmpint(g_get_monotonic_time() - from, <, G_USEC_PER_SEC * 60);
+        g_assert_cmpint(g_get_monotonic_time() - from, <, G_USEC_PER_SEC * 120);
     }
     return 1e-6 * (double)(g_get_monotonic_time() - from);
 }
@@ -251,7 +254,7 @@ static void measure_latency(double waited[LATENCY_KEYS])
     open_program(&child, 40, 120, "particles.count=8000");
     receive_bursts(&child, 20);
     for (int i = 0; i < LATENCY_KEYS; i++) {
-        waited[i] = time_of_help(&child);
+        waited[i] = await(&child, "?", "scroll,");
         send_text(&child, "?", 1);
         receive(&child, 0.31, false);
     }
@@ -280,14 +283,46 @@ static void test_latency_median(void)
     g_assert_cmpfloat(waited[LATENCY_KEYS / 2], <, 0.05);
 }
 
+/* The packing in real pixels where that is asked for: a picture comes with its view, and
+ * none once the view is another. */
+static void check_images(const char *option, const char *begins)
+{
+    struct child child;
+    open_program(&child, 40, 120, option);
+    receive_bursts(&child, 5);
+    await(&child, "9", begins);
+    await(&child, "?", "scroll,");
+    await(&child, "?", begins);
+    quit(&child);
+}
+
+static void test_images(void)
+{
+    if (!gb_pixels_available()) {
+        g_test_skip("built without libchafa");
+        return;
+    }
+    check_images("--images=sixel", "\033P");
+    check_images("--images=kitty", "\033_G");
+}
+
 /* Keys of the table, text, escape sequences; none that sends a signal, and no slash,
  * which would let a saved preset land anywhere. */
-static const char *random_key(GRand *rand, char buffer[4])
+enum { KEY_MOST = 32 };
+
+static const char *random_key(GRand *rand, char buffer[KEY_MOST])
 {
     static const char *const special[] = {
         "\033[A", "\033[B", "\033[C", "\033[D", "\033OP", "\033[5~", "\033[6~", "\033[H",
         "\033[F", "\033[Z", "\t",     "\r",     "\033",   "\x15",    "\x0c",    "\x7f"};
-    static const char plain[] = "hjklgGnNiurpmbLvVwoecafq?+-= 0123456789xyz.;%~";
+    static const char plain[] = "hjklgGnNiurpmbLvVwoecafsxtAMq?+-= 0123456789xyz.;%~";
+    if (g_rand_int_range(rand, 0, 8) == 0) { /* the mouse */
+        static const int button[] = {0, 0, 64, 65, 2, 35};
+        g_snprintf(buffer, KEY_MOST, "\033[<%d;%d;%dM",
+                   button[g_rand_int_range(rand, 0, G_N_ELEMENTS(button))],
+                   g_rand_int_range(rand, 1, 230), g_rand_int_range(rand, 1, 80));
+        return buffer;
+    }
     if (g_rand_int_range(rand, 0, 3) == 0) {
         return special[g_rand_int_range(rand, 0, (gint32)G_N_ELEMENTS(special))];
     }
@@ -317,14 +352,21 @@ static bool has_ended(struct child *child)
     return true;
 }
 
+/* With its first frame: before, a signal would find no handler. */
+static void open_for_storm(struct child *child)
+{
+    open_program(child, 24, 80, "particles.count=120");
+    receive_bursts(child, 1);
+}
+
 static void storm(int keys, int resizes)
 {
     struct child child;
     GRand *rand = g_rand_new_with_seed(20240917);
-    open_program(&child, 24, 80, "particles.count=120");
+    open_for_storm(&child);
     int starts = 1;
     for (int i = 0; i < keys; i++) {
-        char buffer[4];
+        char buffer[KEY_MOST];
         const char *key = random_key(rand, buffer);
         send_text(&child, key, strlen(key));
         if (i % MAX(keys / resizes, 1) == 0) {
@@ -332,7 +374,7 @@ static void storm(int keys, int resizes)
         }
         receive(&child, i % 10 == 0 ? 0.03 : 0.001, false);
         if (i % 50 == 0 && has_ended(&child)) {
-            open_program(&child, 24, 80, "particles.count=120");
+            open_for_storm(&child);
             starts++;
         }
     }
@@ -341,6 +383,7 @@ static void storm(int keys, int resizes)
     /* it may be leaving on its own: both ways out are good ones */
     kill(child.pid, SIGTERM);
     const int status = wait_for_end(&child);
+    g_test_message("status %d", status);
     g_assert_true(WIFEXITED(status));
     g_assert_true(WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 143);
     check_restored(&child);
@@ -370,6 +413,7 @@ int main(int argc, char **argv)
         g_test_add_func("/tui/pty/running", test_running);
         g_test_add_func("/tui/pty/paused", test_paused);
         g_test_add_func("/tui/pty/latency", test_latency);
+        g_test_add_func("/tui/pty/images", test_images);
         g_test_add_func("/tui/pty/storm", test_storm);
     }
     const int status = g_test_run();
