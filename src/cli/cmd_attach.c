@@ -12,6 +12,20 @@
 #include "run/runner.h"
 #include "tui/app.h"
 #include "tui/guess.h"
+#include "tui/watch.h"
+
+/* Of many runs: how they stand, once. */
+static int tell_runs(const char *directory, struct gb_error *err)
+{
+    struct gb_swarm swarm;
+    const bool read = gb_swarm_read(&swarm, directory, err);
+    if (read) {
+        printf("%zu runs: %zu done, %zu under way, %zu failed\n", swarm.runs, swarm.done,
+               swarm.live, swarm.failed);
+    }
+    gb_swarm_finish(&swarm);
+    return read ? 0 : gb_options_fail(err);
+}
 
 /* Without a screen: its progress, line by line, until it ends or the watcher is stopped.
  */
@@ -19,6 +33,9 @@ static int watch(const char *directory, struct gb_error *err)
 {
     struct gb_runner *runner = NULL;
     struct gb_progress progress;
+    if (gb_swarm_is(directory)) {
+        return tell_runs(directory, err);
+    }
     if (!gb_runner_follow(&runner, directory, err)) {
         return gb_options_fail(err);
     }
@@ -46,7 +63,9 @@ static int show(const char *directory, const struct gb_settings *settings,
     struct gb_preset *preset = NULL;
     char *path = g_build_filename(directory, "preset.ini", NULL);
     int status = 0;
-    if (!g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
+    if (gb_swarm_is(directory)) {
+        status = gb_watch_run(directory, settings, err);
+    } else if (!g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
         gb_error_set(err, GB_ERR_INPUT, "%s: no run directory, it has no preset.ini",
                      directory);
     } else if (gb_preset_load(&preset, path, err)) {
@@ -63,7 +82,9 @@ int gb_cmd_attach(int argc, char **argv)
         "DIR",
         "Shows a run that is under way elsewhere, live, from its directory.  Leaving "
         "does "
-        "not touch the run.",
+        "not touch the run.  For a directory of many runs (sweep, calibrate) it shows "
+        "their mean curves with standard errors, the density over what was varied, and "
+        "how far each run is.",
         "t takes it over: its engine is asked to stop with a checkpoint, and the run "
         "goes "
         "on here.  Where stdout is no terminal, its progress is told line by line."};

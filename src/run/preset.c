@@ -427,14 +427,8 @@ static void list_folder(const char *folder, GHashTable *names)
         return;
     }
     for (const char *file = g_dir_read_name(dir); file; file = g_dir_read_name(dir)) {
-        if (!g_str_has_suffix(file, ".ini")) {
-            continue;
-        }
-        char *name = g_strndup(file, strlen(file) - strlen(".ini"));
-        if (g_hash_table_contains(names, name)) { /* of a folder before */
-            g_free(name);
-        } else {
-            g_hash_table_add(names, name);
+        if (g_str_has_suffix(file, ".ini")) {
+            g_hash_table_add(names, g_strndup(file, strlen(file) - strlen(".ini")));
         }
     }
     g_dir_close(dir);

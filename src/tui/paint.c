@@ -17,6 +17,7 @@ static const struct {
     {0x2026, '~'}, {0x00b7, '-'}, {0x25b6, '>'}, {0x2016, '='}, {0x2713, '*'},
     {0x25a0, '#'}, {0x2717, '!'}, {0x25cc, 'o'}, {0x2588, '#'}, {0x2591, '.'},
     {0x2022, '*'}, {0x2192, '>'}, {0x00d7, 'x'}, {0x25cf, '*'}, {0x25cb, 'o'},
+    {0x2592, ':'}, {0x2593, '*'},
 };
 
 static gunichar shown(const struct gb_paint *paint, gunichar ch)

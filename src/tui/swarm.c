@@ -1,0 +1,254 @@
+#include "tui/swarm.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "greenbody/snapshot.h"
+#include "measure/average.h"
+#include "phys/field.h"
+#include "run/follow.h"
+#include "run/reading.h"
+
+static const double least_pa = 1e6;
+
+static bool has_file(const char *directory, const char *name)
+{
+    char *path = g_build_filename(directory, name, NULL);
+    const bool has = g_file_test(path, G_FILE_TEST_IS_REGULAR);
+    g_free(path);
+    return has;
+}
+
+static int compare(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* Directories of runs inside, by name; each to be freed. */
+static GPtrArray *list_runs(const char *directory)
+{
+    GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
+    GDir *dir = g_dir_open(directory, 0, NULL);
+    const char *name = NULL;
+    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+        char *path = g_build_filename(directory, name, NULL);
+        if (has_file(path, "preset.ini") && has_file(path, "status.json")) {
+            g_ptr_array_add(list, path);
+        } else {
+            g_free(path);
+        }
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    if (list->len > 1) {
+        qsort(list->pdata, list->len, sizeof list->pdata[0], compare);
+    }
+    return list;
+}
+
+bool gb_swarm_is(const char *directory)
+{
+    if (has_file(directory, "preset.ini")) {
+        return false;
+    }
+    GPtrArray *list = list_runs(directory);
+    const bool is = list->len > 0;
+    g_ptr_array_free(list, TRUE);
+    return is;
+}
+
+static void read_states(struct gb_swarm *swarm, GPtrArray *list)
+{
+    double progress = 0.0;
+    swarm->runs = list->len;
+    swarm->run = g_new0(struct gb_swarm_run, list->len + 1);
+    for (size_t i = 0; i < list->len; i++) {
+        struct gb_swarm_run *run = &swarm->run[i];
+        struct gb_snapshot shot = {0};
+        struct gb_follow_engine engine;
+        struct gb_error err = {0};
+        run->name = g_path_get_basename(list->pdata[i]);
+        run->state = GB_RUN_PACKING;
+        if (gb_follow_status(list->pdata[i], &shot, &engine, &err)) {
+            run->state = shot.state;
+            run->progress = shot.state == GB_RUN_DONE ? 1.0 : shot.progress;
+            g_strlcpy(run->error, shot.error.text, sizeof run->error);
+        }
+        swarm->done += run->state == GB_RUN_DONE;
+        swarm->failed += run->state == GB_RUN_FAILED;
+        swarm->live += run->state <= GB_RUN_PAUSED;
+        progress += run->progress;
+    }
+    swarm->progress = list->len > 0 ? progress / (double)list->len : 0.0;
+}
+
+/* Those whose curve can be read by now: one that is just being begun has none yet. */
+static GPtrArray *readable(const GPtrArray *list)
+{
+    GPtrArray *good = g_ptr_array_new();
+    for (size_t i = 0; i < list->len; i++) {
+        struct gb_table *table = NULL;
+        struct gb_error err = {0};
+        if (gb_reading_open(&table, list->pdata[i], &err)) {
+            if (gb_table_rows(table) > 0) {
+                g_ptr_array_add(good, list->pdata[i]);
+            }
+            gb_table_destroy(table);
+        }
+    }
+    return good;
+}
+
+static void set_levels(struct gb_swarm *swarm, const struct gb_runset *set)
+{
+    double most_pa = 10.0 * least_pa;
+    for (size_t i = 0; i < set->count; i++) {
+        const double *p = gb_table_column(set->run[i].table, "p_MPa", NULL);
+        for (size_t k = 0; p != NULL && k < gb_table_rows(set->run[i].table); k++) {
+            most_pa = fmax(most_pa, 1e6 * p[k]); /* NaN is left out */
+        }
+    }
+    for (size_t k = 0; k < GB_SWARM_LEVELS; k++) {
+        const double part = (double)k / (GB_SWARM_LEVELS - 1);
+        swarm->level_pa[k] = least_pa * pow(most_pa / least_pa, part);
+    }
+}
+
+/* Mean and standard error over the replicas that got to each level. */
+static void average(struct gb_swarm *swarm, const struct gb_runset *set, size_t group)
+{
+    struct gb_swarm_group *out = &swarm->group[group];
+    double *values = g_new(double, set->count);
+    for (size_t k = 0; k < GB_SWARM_LEVELS; k++) {
+        size_t count = 0;
+        for (size_t i = 0; i < set->count; i++) {
+            double read[GB_READING_QUANTITIES];
+            if (set->run[i].group == group && set->run[i].table != NULL) {
+                gb_reading_loaded(set->run[i].table, swarm->level_pa[k], read);
+                values[count++] = read[GB_READING_DENSITY];
+            }
+        }
+        out->reached[k] = gb_average_values(values, count, &out->mean[k], &out->error[k]);
+    }
+    g_free(values);
+}
+
+/* Place of a value in a key's list, at its end when it is new. */
+static size_t place_of(struct gb_swarm_key *key, const char *value)
+{
+    for (size_t i = 0; i < key->count; i++) {
+        if (strcmp(key->values[i], value) == 0) {
+            return i;
+        }
+    }
+    key->values = g_renew(char *, key->values, key->count + 2);
+    key->values[key->count] = g_strdup(value);
+    key->values[key->count + 1] = NULL;
+    return key->count++;
+}
+
+static void find_keys(struct gb_swarm *swarm, const struct gb_runset *set)
+{
+    size_t count = 0;
+    const struct gb_field *field = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        struct gb_swarm_key key = {&field[i], NULL, 0};
+        size_t *place = g_new0(size_t, set->groups + 1);
+        for (size_t g = 0; g < set->groups && !gb_runset_bookkeeping(&field[i]); g++) {
+            char value[GB_PARAMS_VALUE_MAX];
+            gb_params_format(&gb_runset_first(set, g)->params, &field[i], value,
+                             sizeof value);
+            place[g] = place_of(&key, value);
+        }
+        if (key.count > 1 && swarm->keys++ < GB_SWARM_VARIED) {
+            const size_t k = swarm->keys - 1;
+            swarm->key[k] = key;
+            for (size_t g = 0; g < set->groups; g++) {
+                swarm->group[g].place[k] = place[g];
+            }
+        } else {
+            g_strfreev(key.values);
+        }
+        g_free(place);
+    }
+}
+
+static bool read_groups(struct gb_swarm *swarm, const GPtrArray *good,
+                        struct gb_error *err)
+{
+    struct gb_runset set = {0};
+    if (!gb_runset_read(&set, (char *const *)good->pdata, good->len, err)) {
+        return false;
+    }
+    swarm->groups = set.groups;
+    swarm->group = g_new0(struct gb_swarm_group, set.groups + 1);
+    set_levels(swarm, &set);
+    for (size_t g = 0; g < set.groups; g++) {
+        swarm->group[g].label = gb_runset_label(&set, g);
+        swarm->group[g].members = gb_runset_members(&set, g);
+        average(swarm, &set, g);
+    }
+    find_keys(swarm, &set);
+    gb_runset_finish(&set);
+    return true;
+}
+
+bool gb_swarm_read(struct gb_swarm *swarm, const char *directory, struct gb_error *err)
+{
+    memset(swarm, 0, sizeof *swarm);
+    GPtrArray *list = list_runs(directory);
+    swarm->directory = g_strdup(directory);
+    bool read = true;
+    if (list->len == 0) {
+        read = gb_error_set(err, GB_ERR_INPUT, "%s: there is no run in it", directory);
+    } else {
+        read_states(swarm, list);
+        GPtrArray *good = readable(list);
+        read = good->len == 0 || read_groups(swarm, good, err);
+        g_ptr_array_free(good, TRUE);
+    }
+    g_ptr_array_free(list, TRUE);
+    return read;
+}
+
+void gb_swarm_finish(struct gb_swarm *swarm)
+{
+    for (size_t i = 0; i < swarm->runs; i++) {
+        g_free(swarm->run[i].name);
+    }
+    for (size_t g = 0; g < swarm->groups; g++) {
+        g_free(swarm->group[g].label);
+    }
+    for (size_t k = 0; k < GB_SWARM_VARIED; k++) {
+        g_strfreev(swarm->key[k].values);
+    }
+    g_free(swarm->run);
+    g_free(swarm->group);
+    g_free(swarm->directory);
+    memset(swarm, 0, sizeof *swarm);
+}
+
+size_t gb_swarm_level(const struct gb_swarm *swarm, double pressure_pa)
+{
+    size_t best = 0;
+    for (size_t k = 1; k < GB_SWARM_LEVELS; k++) {
+        if (fabs(log(swarm->level_pa[k] / pressure_pa)) <
+            fabs(log(swarm->level_pa[best] / pressure_pa))) {
+            best = k;
+        }
+    }
+    return best;
+}
+
+const struct gb_swarm_group *gb_swarm_at(const struct gb_swarm *swarm, size_t first,
+                                         size_t second)
+{
+    for (size_t g = 0; g < swarm->groups; g++) {
+        if (swarm->group[g].place[0] == first && swarm->group[g].place[1] == second) {
+            return &swarm->group[g];
+        }
+    }
+    return NULL;
+}

@@ -1,0 +1,63 @@
+#!/bin/sh
+# A directory of many runs, watched: means with bands, the map, the runs; live.
+# Usage: many.sh GREENBODY PRESET_FOLDER
+. "$(dirname "$0")/terminal.sh"
+
+is_ascii() {
+    ! screen | LC_ALL=C grep -q '[^ -~]'
+}
+
+sweep() { # words
+    "$greenbody" sweep default particles.count=100 loading.until='200 MPa' \
+        loading.unload_from= --vary 'contact.mu=0.1;0.3' --vary 'contact.alpha=0.24;0.4' \
+        --out "$here/map" --quiet "$@" >"$here/out" 2>&1
+}
+
+sweep --replicas 2 --jobs 2
+is "a sweep of 2 x 2 with two cells each" [ $? -eq 0 ]
+"$greenbody" attach "$here/map" >"$here/out" 2>&1
+is "without a terminal it is told how they stand" \
+    grep -qx '8 runs: 8 done, 0 under way, 0 failed' "$here/out"
+mkdir "$here/empty"
+"$greenbody" attach "$here/empty" >"$here/out" 2>&1
+is "a directory without runs is refused" [ $? -eq 2 ]
+
+open_terminal
+start attach "$here/map"
+shows "attach shows the means" '1 Pressure against density, means'
+shows "how many runs there are" '8 runs: 8 done, 0 under way, 0 failed  100 %'
+shows "what tells the groups apart" 'alpha = 0.4, contact.mu = 0.3, 2 cells'
+keys 2
+shows "2 shows the map" '2 Density over what was varied'
+shows "one key across" 'contact.alpha'
+shows "values with their errors" '0\.[2-6][0-9]* +-[0-9]'
+before=$(screen | sed -n 's/.*density at \(.*\), +-.*/\1/p')
+keys Left Left
+hides "Left goes to a lower pressure" "density at $before,"
+keys 3
+shows "3 lists the runs" '✓ done  *100 % *mu-0.1_alpha-0.24_seed-1'
+term resize-window -x 60 -y 20
+shows "at 60 x 20, too" '100 % *mu-0.1_alpha-0.24_seed-1'
+keys 1
+shows "with curves" 'p, MPa'
+term resize-window -x 30 -y 10
+shows "too small says so" 'needs 40 x 12'
+term resize-window -x 80 -y 24
+shows "and comes back" 'means and their'
+
+# --- more cells are computed while it is watched
+sweep --replicas 3 --jobs 1 &
+shows "new runs are seen" '12 runs: '
+shows "until they are done" '12 runs: 12 done'
+wait
+shows "as cells of their groups" '3 cells'
+leaves "closes"
+with='LC_ALL=C' start attach "$here/map"
+shows "without UTF-8 it opens" 'means and their'
+keys 2
+shows "shows the map" 'density at'
+is "in ASCII" until_true is_ascii
+leaves "closes, too"
+
+echo "1..$tests"
+exit "$bad"

@@ -1,0 +1,127 @@
+/* From a knob to its curves: the laws within the frame, the whole quick curve of 1000
+ * particles to 1 GPa within two seconds.  Processor time of one core, which other work on
+ * the machine stretches little; with 'hard' the targets themselves, else bounds that only
+ * a change of the program breaks.  Usage: test_answer [hard] */
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "run/experiment.h"
+#include "run/quick.h"
+#include "tui/views.h"
+
+static bool hard;
+
+static double processor_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static struct gb_params powder(void)
+{
+    struct gb_params params;
+    struct gb_error err = {0};
+    static const char *const words[] = {"particles.count=8000", "loading.until=1 GPa",
+                                        "loading.unload_from=100 MPa; 1 GPa",
+                                        "numerics.threads=1"};
+    gb_params_init(&params);
+    for (size_t i = 0; i < G_N_ELEMENTS(words); i++) {
+        if (!gb_params_assign(&params, words[i], &err)) {
+            g_error("%s", err.text);
+        }
+    }
+    return params;
+}
+
+/* Both laws as a screen of 200 x 60 shows them, with those of the run dim behind. */
+static double draw_laws(struct gb_panel_plot *panel, const struct gb_session *session)
+{
+    const double from = processor_s();
+    for (int i = 0; i < GB_PANEL_INSETS; i++) {
+        panel->target = &panel->inset[i];
+        g_assert_true(gb_plot_resize(panel->target, 20, 60, GB_PLOT_BRAILLE, NULL));
+        if (i == 0) {
+            gb_view_law_force(panel, session);
+        } else {
+            gb_view_law_strength(panel, session);
+        }
+        char *dump = gb_plot_dump(panel->target);
+        g_assert_nonnull(strstr(dump, "h"));
+        g_free(dump);
+    }
+    return processor_s() - from;
+}
+
+static void test_laws(void)
+{
+    struct gb_preset *preset = NULL;
+    struct gb_session session;
+    struct gb_panel_plot panel = {.view = GB_VIEW_CURVE};
+    double least = HUGE_VAL;
+    g_assert_true(gb_preset_create(&preset, NULL));
+    *gb_preset_params(preset) = powder();
+    gb_session_init(&session, preset);
+    for (int i = 0; i < GB_PANEL_INSETS; i++) {
+        gb_plot_init(&panel.inset[i]);
+    }
+    for (int i = 0; i < 5; i++) {
+        panel.edited = powder();
+        panel.edited.mu = 0.1 * (i + 1);
+        least = fmin(least, draw_laws(&panel, &session));
+    }
+    g_test_message("both laws in %.2f ms", 1e3 * least);
+    g_assert_cmpfloat(least, <, 0.1);
+    gb_panel_plot_finish(&panel);
+    gb_session_finish(&session);
+    gb_preset_destroy(preset);
+}
+
+static double press(const struct gb_params *params)
+{
+    struct gb_experiment *experiment = NULL;
+    struct gb_error err = {0};
+    const double from = processor_s();
+    int points = 0;
+    if (!gb_experiment_create(&experiment, params, NULL, NULL, &err)) {
+        g_error("%s", err.text);
+    }
+    enum gb_advance how = GB_ADVANCE_MORE;
+    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
+        how = gb_experiment_advance(experiment, 1000, &err);
+        points += how == GB_ADVANCE_POINT;
+    }
+    const double seconds = processor_s() - from;
+    g_assert_cmpint(how, ==, GB_ADVANCE_DONE);
+    g_assert_cmpfloat(gb_experiment_point(experiment)->p_pa, >=, 0.99e9);
+    g_assert_cmpint(points, >, 100);
+    gb_experiment_destroy(experiment);
+    return seconds;
+}
+
+/* The quick twin of 8000 particles, packing included. */
+static void test_quick_curve(void)
+{
+    struct gb_params quick;
+    const struct gb_params full = powder();
+    double least = HUGE_VAL;
+    g_assert_true(gb_quick_params(&full, &quick));
+    g_assert_cmpint(quick.count, ==, 1000);
+    for (int i = 0; i < (hard ? 3 : 1); i++) {
+        least = fmin(least, press(&quick));
+    }
+    g_test_message("quick curve of %lld particles to 1 GPa in %.2f s of one core",
+                   (long long)quick.count, least);
+    g_assert_cmpfloat(least, <, hard ? 2.0 : 30.0);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    hard = argc > 1;
+    g_test_add_func("/tui/answer/laws", test_laws);
+    g_test_add_func("/tui/answer/quick-curve", test_quick_curve);
+    return g_test_run();
+}
