@@ -1,6 +1,7 @@
 #include "tui/crash.h"
 
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -16,7 +17,13 @@ static struct {
     char reset[256];
     size_t length;
     struct sigaction before[FAULTS];
+    char state[4200], resume[4300]; /* path of the checkpoint, line that names it */
 } armed;
+
+static bool put(const char *text, size_t length)
+{
+    return write(armed.err, text, length) >= 0;
+}
 
 static void handle(int number)
 {
@@ -27,7 +34,9 @@ static void handle(int number)
     }
     tcsetattr(armed.screen, TCSANOW, &armed.modes);
     dup2(armed.err, STDERR_FILENO);
-    if (write(armed.err, text, sizeof text - 1) < 0) {
+    if (!put(text, sizeof text - 1) ||
+        (armed.state[0] != '\0' && access(armed.state, R_OK) == 0 &&
+         !put(armed.resume, strlen(armed.resume)))) {
         _exit(128 + number);
     }
     for (int i = 0; i < FAULTS; i++) {
@@ -55,4 +64,16 @@ void gb_crash_disarm(void)
     for (int i = 0; i < FAULTS; i++) {
         sigaction(faults[i], &armed.before[i], NULL);
     }
+}
+
+void gb_crash_name(const char *directory)
+{
+    armed.state[0] = '\0'; /* until the line is whole */
+    if (directory == NULL) {
+        return;
+    }
+    snprintf(armed.resume, sizeof armed.resume,
+             "greenbody: go on from the last checkpoint with: greenbody resume '%s'\n",
+             directory);
+    snprintf(armed.state, sizeof armed.state, "%s/state.h5", directory);
 }

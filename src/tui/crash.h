@@ -14,4 +14,8 @@
 void gb_crash_arm(int screen, int err, const struct termios *modes, const char *reset);
 void gb_crash_disarm(void);
 
+/* The run directory whose last checkpoint, if there is one by then, is named in the
+ * message; copied, NULL: none. */
+void gb_crash_name(const char *directory);
+
 #endif

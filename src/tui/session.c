@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "tui/costly.h"
+#include "tui/crash.h"
 #include "tui/life.h"
 #include "tui/whatif.h"
 
@@ -123,6 +124,7 @@ void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
     }
     session->runner = runner;
     gb_runner_send(runner, GB_COMMAND_WATCH);
+    gb_crash_name(gb_runner_directory(runner));
     session->runs++;
     session->aside = false;
     session->due = false;

@@ -220,10 +220,15 @@ shows "opens a third time" 'Parameters'
 kill -TERM "$(cat "$here/pid")"
 shows "SIGTERM leaves" 'status=143'
 is "the terminal is back after SIGTERM" terminal_is_back
+rm -rf "$here/state"
+keep_pid="sh -c 'echo \$\$ >$here/pid; exec $greenbody default particles.count=6000 \
+output.checkpoint_every=0.1s'"
 keys "clear; ulimit -c 0; $keep_pid; echo status=\$?" Enter
 shows "opens a fourth time" 'Parameters'
+is "a checkpoint is written" until_true eval 'ls "$here"/state/greenbody/runs/*/state.h5 >"$here/ls" 2>&1'
 kill -SEGV "$(cat "$here/pid")"
 shows "a crash is told" 'the program has failed'
+is "with its last checkpoint" has 'greenbody resume'
 shows "with a status of its own" 'status=[1-9]' # 139, or what a sanitizer says
 is "the terminal is back after a crash" terminal_is_back
 
