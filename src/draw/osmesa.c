@@ -9,12 +9,15 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "draw/hidden.h"
+#include "draw/lens.h"
 #include "draw/shaders.h"
 
 enum {
-    SAMPLES = 2,       /* a side, of one pixel */
-    TILE = 1024,       /* largest tile, pixels: bounds the memory */
-    SHADOW = 2048,     /* side of the shadow map */
+    SAMPLES = 2,         /* a side, of one pixel */
+    TILE_WIDTH = 2048,   /* widest tile, pixels */
+    TILE_AREA = 1 << 20, /* largest one: bounds the memory */
+    SHADOW = 1024,       /* side of the shadow map */
     REACH_LIMIT = 192, /* samples; farthest look of the occlusion, and margin of a tile */
     CANVAS = 16,       /* OSMesa's own buffer, not drawn to */
     RIBBON = 6,        /* vertices of a box edge */
@@ -65,12 +68,6 @@ struct gb_osmesa {
     GLint most_spheres;
 };
 
-/* Where a pass looks from, as the shaders take it. */
-struct lens {
-    float lens[4], range[2];
-    float turn[9], shift[3]; /* turn by columns */
-};
-
 /* One painting: names of GL objects, and the tile under way. */
 struct pass {
     const struct gb_osmesa *painter;
@@ -81,7 +78,9 @@ struct pass {
     GLuint frame[4]; /* seen, shadow, samples, pixels */
     GLuint pixels, array[ARRAYS];
     uint32_t *index;
-    struct lens eye, light;
+    uint8_t *hidden; /* from the eye: spheres, then rods */
+    uint8_t *unlit;  /* from the light */
+    struct gb_lens eye, light;
     int margin;              /* of a tile, samples */
     int x, y, width, height; /* tile, pixels */
     int most_width, most_height;
@@ -193,7 +192,7 @@ static void set_sampler(GLuint program, const char *name, enum texture unit)
     glUniform1i(glGetUniformLocation(program, name), (GLint)unit);
 }
 
-static void set_lens(GLuint program, const struct lens *lens, int width, int height)
+static void set_lens(GLuint program, const struct gb_lens *lens, int width, int height)
 {
     glUniform4fv(glGetUniformLocation(program, "lens"), 1, lens->lens);
     glUniform2fv(glGetUniformLocation(program, "range"), 1, lens->range);
@@ -219,8 +218,8 @@ static void linear_colour(const uint8_t rgb[3], float out[3])
 static void set_eye_lens(struct pass *pass)
 {
     const struct gb_view *view = &pass->scene->view;
-    struct lens *lens = &pass->eye;
-    *lens = (struct lens){.turn = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    struct gb_lens *lens = &pass->eye;
+    *lens = (struct gb_lens){.turn = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
     for (int k = 0; k < 2; k++) {
         const int origin = k == 0 ? pass->x : pass->y;
         lens->lens[k] = (float)(SAMPLES * (view->centre[k] - origin) + pass->margin);
@@ -272,7 +271,7 @@ static void widen(struct room *room, const float *point, float radius)
 static void set_light_lens(struct pass *pass)
 {
     const struct gb_scene *scene = pass->scene;
-    struct lens *lens = &pass->light;
+    struct gb_lens *lens = &pass->light;
     struct room room = {.low = {INFINITY, INFINITY, INFINITY},
                         .high = {-INFINITY, -INFINITY, -INFINITY}};
     light_axes(scene->light, room.axis);
@@ -399,6 +398,13 @@ static void make_inputs(struct pass *pass)
     bind_places(pass, ARRAY_FACETS, BUFFER_FACETS);
 }
 
+static void free_lists(struct pass *pass)
+{
+    gb_alloc_free(pass->index);
+    gb_alloc_free(pass->hidden);
+    gb_alloc_free(pass->unlit);
+}
+
 static void free_pass(struct pass *pass)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -407,11 +413,12 @@ static void free_pass(struct pass *pass)
     glDeleteRenderbuffers(1, &pass->pixels);
     glDeleteFramebuffers(4, pass->frame);
     glDeleteTextures(TEXTURES, pass->texture);
-    gb_alloc_free(pass->index);
+    free_lists(pass);
 }
 
 /* Whether a sphere may show in the target; generous by the slant of perspective. */
-static bool in_target(const struct lens *lens, const float *ball, int width, int height)
+static bool in_target(const struct gb_lens *lens, const float *ball, int width,
+                      int height)
 {
     const float scale = lens->lens[3] != 0.0F ? lens->lens[2] : lens->lens[2] / ball[2];
     const float x = lens->lens[0] + scale * ball[0];
@@ -421,13 +428,23 @@ static bool in_target(const struct lens *lens, const float *ball, int width, int
            y - r <= (float)height;
 }
 
-static void draw_spheres(struct pass *pass, const struct lens *lens, bool all, int width,
+/* Whether a part within a ball needs to be drawn: spheres come first, then rods.  The
+ * light sees all of the scene, the eye a tile. */
+static bool shows(const struct pass *pass, const struct gb_lens *lens, size_t part,
+                  const float *ball, int width, int height)
+{
+    return lens == &pass->light
+               ? pass->unlit[part] == 0
+               : pass->hidden[part] == 0 && in_target(lens, ball, width, height);
+}
+
+static void draw_spheres(struct pass *pass, const struct gb_lens *lens, int width,
                          int height)
 {
     const GLuint program = pass->painter->program[PROGRAM_SPHERE];
     GLsizei count = 0;
     for (size_t i = 0; i < pass->scene->count; i++) {
-        if (all || in_target(lens, &pass->scene->sphere[4 * i], width, height)) {
+        if (shows(pass, lens, i, &pass->scene->sphere[4 * i], width, height)) {
             pass->index[count++] = (uint32_t)i;
         }
     }
@@ -446,23 +463,22 @@ static void set_first(GLuint program, size_t first)
 }
 
 /* A rod may show where one of its ends, grown by its length, does. */
-static bool rod_in_target(const struct lens *lens, const float *rod, int width,
-                          int height)
+static void rod_ball(const float *rod, float ball[4])
 {
-    const float ball[4] = {
-        rod[0], rod[1], rod[2],
-        rod[3] + hypotf(hypotf(rod[4] - rod[0], rod[5] - rod[1]), rod[6] - rod[2])};
-    return in_target(lens, ball, width, height);
+    memcpy(ball, rod, 3 * sizeof *ball);
+    ball[3] = rod[3] + hypotf(hypotf(rod[4] - rod[0], rod[5] - rod[1]), rod[6] - rod[2]);
 }
 
-static void draw_rods(struct pass *pass, const struct lens *lens, bool all, int width,
+static void draw_rods(struct pass *pass, const struct gb_lens *lens, int width,
                       int height)
 {
     const GLuint program = pass->painter->program[PROGRAM_ROD];
     const struct gb_scene *scene = pass->scene;
     GLsizei count = 0;
     for (size_t i = 0; i < scene->rods; i++) {
-        if (all || rod_in_target(lens, &scene->rod[8 * i], width, height)) {
+        float ball[4];
+        rod_ball(&scene->rod[8 * i], ball);
+        if (shows(pass, lens, scene->count + i, ball, width, height)) {
             pass->index[count++] = (uint32_t)i;
         }
     }
@@ -476,7 +492,7 @@ static void draw_rods(struct pass *pass, const struct lens *lens, bool all, int 
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
 }
 
-static void draw_facets(const struct pass *pass, const struct lens *lens, int width,
+static void draw_facets(const struct pass *pass, const struct gb_lens *lens, int width,
                         int height)
 {
     const GLuint program = pass->painter->program[PROGRAM_FACET];
@@ -488,14 +504,14 @@ static void draw_facets(const struct pass *pass, const struct lens *lens, int wi
 }
 
 /* All but the edges of the box. */
-static void draw_parts(struct pass *pass, const struct lens *lens, bool all, int width,
+static void draw_parts(struct pass *pass, const struct gb_lens *lens, int width,
                        int height)
 {
     if (pass->scene->count > 0) {
-        draw_spheres(pass, lens, all, width, height);
+        draw_spheres(pass, lens, width, height);
     }
     if (pass->scene->rods > 0) {
-        draw_rods(pass, lens, all, width, height);
+        draw_rods(pass, lens, width, height);
     }
     if (pass->scene->facets > 0) {
         draw_facets(pass, lens, width, height);
@@ -503,7 +519,8 @@ static void draw_parts(struct pass *pass, const struct lens *lens, bool all, int
 }
 
 /* Two triangles along an edge, in samples of the tile. */
-static void ribbon(const struct lens *lens, const float edge[6], float width, float *out)
+static void ribbon(const struct gb_lens *lens, const float edge[6], float width,
+                   float *out)
 {
     static const int corner[RIBBON] = {0, 1, 2, 2, 1, 3};
     float end[2][3];
@@ -548,12 +565,11 @@ static void draw_edges(struct pass *pass, int width, int height)
 
 static void draw_shadow(struct pass *pass)
 {
-    set_light_lens(pass);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[1]);
     glViewport(0, 0, SHADOW, SHADOW);
     glEnable(GL_DEPTH_TEST);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_parts(pass, &pass->light, true, SHADOW, SHADOW);
+    draw_parts(pass, &pass->light, SHADOW, SHADOW);
 }
 
 static void draw_seen(struct pass *pass, int width, int height)
@@ -564,7 +580,7 @@ static void draw_seen(struct pass *pass, int width, int height)
     glEnable(GL_DEPTH_TEST);
     glClearBufferuiv(GL_COLOR, 0, nobody);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_parts(pass, &pass->eye, false, width, height);
+    draw_parts(pass, &pass->eye, width, height);
     draw_edges(pass, width, height);
 }
 
@@ -679,10 +695,31 @@ static bool gl_failed(struct gb_error *err)
     return true;
 }
 
-static int tile_size(int side)
+/* Pieces of at most this size that cover a side evenly. */
+static int tile_size(int side, int most)
 {
-    const int tiles = (side + TILE - 1) / TILE;
+    const int tiles = (side + most - 1) / most;
     return (side + tiles - 1) / tiles;
+}
+
+/* The list to draw from, and what need not be on it. */
+static bool make_lists(struct pass *pass, struct gb_error *err)
+{
+    const struct gb_scene *scene = pass->scene;
+    const size_t parts = scene->count + scene->rods;
+    const int width = SAMPLES * pass->image->width;
+    const int height = SAMPLES * pass->image->height;
+    pass->index =
+        gb_alloc_array(MAX(scene->count, scene->rods) + 1, sizeof *pass->index, err);
+    pass->hidden = gb_alloc_array(parts + 1, 1, err);
+    pass->unlit = gb_alloc_array(parts + 1, 1, err);
+    if (pass->index == NULL || pass->hidden == NULL || pass->unlit == NULL) {
+        return false;
+    }
+    set_eye_lens(pass); /* of the whole image: no tile and no margin yet */
+    set_light_lens(pass);
+    return gb_hidden_find(scene, &pass->eye, width, height, pass->hidden, err) &&
+           gb_hidden_find(scene, &pass->light, SHADOW, SHADOW, pass->unlit, err);
 }
 
 bool gb_osmesa_paint(struct gb_osmesa *painter, const struct gb_scene *scene,
@@ -699,14 +736,13 @@ bool gb_osmesa_paint(struct gb_osmesa *painter, const struct gb_scene *scene,
     if (!make_current(painter, err)) {
         return false;
     }
-    pass.index =
-        gb_alloc_array(MAX(scene->count, scene->rods) + 1, sizeof *pass.index, err);
-    if (pass.index == NULL) {
+    if (!make_lists(&pass, err)) {
+        free_lists(&pass);
         return false;
     }
     pass.margin = tile_margin(scene);
-    pass.most_width = tile_size(image->width);
-    pass.most_height = tile_size(image->height);
+    pass.most_width = tile_size(image->width, TILE_WIDTH);
+    pass.most_height = tile_size(image->height, TILE_AREA / pass.most_width);
     make_targets(&pass);
     make_inputs(&pass);
     bool failed = gl_failed(err);
