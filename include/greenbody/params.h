@@ -144,6 +144,7 @@ struct gb_params {
     double safety;                /* of the automatic step of a die; NaN: auto */
     double inertia_scale;         /* of the rotation of particles in a die */
     /* [output] */
+    char snapshots_at[192]; /* phys/marks.h */
     double checkpoint_every_s;
     int on_hangup; /* enum gb_on_hangup */
 };

@@ -12,6 +12,7 @@
 #include "phys/dynamics.h"
 #include "phys/field.h"
 #include "phys/law_storakers.h"
+#include "phys/marks.h"
 #include "phys/sizetable.h"
 
 static const char *const kinds[] = {"quasistatic", "dynamic", "die", NULL};
@@ -21,19 +22,18 @@ static const char *const normals[] = {"rod", "hertz", "storakers", NULL};
 static const char *const storakers[] = {"capped", "printed", NULL};
 static const char *const radii[] = {"deepest", "current", NULL};
 static const char *const motions[] = {"half", "full", NULL};
-static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", "die",
-                                         NULL};
+static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", "die", NULL};
 static const char *const ramps[] = {"auto", "linear", "quadratic", NULL};
 static const char *const hangups[] = {"detach", "stop", NULL};
 static const char *const fidelities[] = {"fast", "balanced", "reference", NULL};
 static const char *const relaxers[] = {"auto", "predict", "fire", "steepest", NULL};
 
 /* Member of gb_params, as offset and size. */
-#define AT(member) \
-    .offset = offsetof(struct gb_params, member), \
+#define AT(member)                                                                       \
+    .offset = offsetof(struct gb_params, member),                                        \
     .size = sizeof(((struct gb_params *)0)->member)
 #define RANGE(low, high) .min = (low), .max = (high)
-#define AUTO(value) .auto_allowed = true, .automatic = (value)
+#define AUTO(value)      .auto_allowed = true, .automatic = (value)
 
 /* THE field table: everything a preset can say. */
 static const struct gb_field fields[] = {
@@ -50,19 +50,17 @@ static const struct gb_field fields[] = {
     {"material", "name", GB_FIELD_TEXT, AT(material), .fallback = "alumina",
      .meaning = "name of the material", .source = "user"},
     {"material", "young", GB_FIELD_NUMBER, AT(young_pa), .dimension = GB_DIM_PRESSURE,
-     RANGE(1e3, 1e13),
-     .fallback = "382 GPa", .meaning = "Young's modulus E", .source = "P1 V"},
+     RANGE(1e3, 1e13), .fallback = "382 GPa", .meaning = "Young's modulus E",
+     .source = "P1 V"},
     {"material", "poisson", GB_FIELD_NUMBER, AT(poisson), RANGE(0.0, 0.49),
      .fallback = "0.25", .meaning = "Poisson's ratio nu", .source = "P1 V"},
     {"material", "density", GB_FIELD_NUMBER, AT(density_kg_m3),
-     .dimension = GB_DIM_MASS_DENSITY,
-     RANGE(1.0, 1e5), .fallback = "3990 kg/m3",
+     .dimension = GB_DIM_MASS_DENSITY, RANGE(1.0, 1e5), .fallback = "3990 kg/m3",
      .meaning = "mass density of the solid (no effect in quasi-static runs)",
      .source = "handbook value for alumina"},
     {"material", "d0", GB_FIELD_NUMBER, AT(d0_m), .dimension = GB_DIM_LENGTH,
-     RANGE(1e-11, 1e-8),
-     .fallback = "0.392 nm", .meaning = "molecular diameter of the dispersion law",
-     .source = "P1 (3)"},
+     RANGE(1e-11, 1e-8), .fallback = "0.392 nm",
+     .meaning = "molecular diameter of the dispersion law", .source = "P1 (3)"},
     {"material", "n_d0_cubed", GB_FIELD_NUMBER, AT(n_d0_cubed), RANGE(0.0, 10.0),
      .fallback = "1.4142135623730951",
      .meaning = "number of molecules per d0^3; sqrt 2 is close packing",
@@ -81,20 +79,20 @@ static const struct gb_field fields[] = {
      .dimension = GB_DIM_PRESSURE, RANGE(1e3, 1e13), AUTO(NAN), .fallback = "auto",
      .meaning = "strength coefficient sigma_0; auto is yield (young/yield)^hardening",
      .source = "P3 (15), 4"},
-    {"material", "young_j", GB_FIELD_NUMBER, AT(young_j_pa),
-     .dimension = GB_DIM_PRESSURE, RANGE(1e3, 1e13), AUTO(NAN), .fallback = "auto",
+    {"material", "young_j", GB_FIELD_NUMBER, AT(young_j_pa), .dimension = GB_DIM_PRESSURE,
+     RANGE(1e3, 1e13), AUTO(NAN), .fallback = "auto",
      .meaning = "Young's modulus of the second body of a pair; auto is young",
      .source = "P3 (3)"},
-    {"material", "poisson_j", GB_FIELD_NUMBER, AT(poisson_j), RANGE(0.0, 0.49),
-     AUTO(NAN), .fallback = "auto",
+    {"material", "poisson_j", GB_FIELD_NUMBER, AT(poisson_j), RANGE(0.0, 0.49), AUTO(NAN),
+     .fallback = "auto",
      .meaning = "Poisson's ratio of the second body of a pair; auto is poisson",
      .source = "P3 (3)"},
     {"material", "density_j", GB_FIELD_NUMBER, AT(density_j_kg_m3),
      .dimension = GB_DIM_MASS_DENSITY, RANGE(1.0, 1e5), AUTO(NAN), .fallback = "auto",
      .meaning = "mass density of the second body of a pair; auto is density",
      .source = "P3 (8)"},
-    {"material", "yield_j", GB_FIELD_NUMBER, AT(yield_j_pa),
-     .dimension = GB_DIM_PRESSURE, RANGE(1e3, 1e12), AUTO(NAN), .fallback = "auto",
+    {"material", "yield_j", GB_FIELD_NUMBER, AT(yield_j_pa), .dimension = GB_DIM_PRESSURE,
+     RANGE(1e3, 1e12), AUTO(NAN), .fallback = "auto",
      .meaning = "yield stress of the second body of a pair; auto is yield",
      .source = "P3 (18)"},
 
@@ -133,8 +131,8 @@ static const struct gb_field fields[] = {
      .meaning = "law of the normal force: rod model, or Hertz or Storakers in a die",
      .source = "P1 (1); P3 (2), (16)"},
     {"contact", "alpha", GB_FIELD_NUMBER, AT(alpha), RANGE(0.05, 10.0),
-     .fallback = "0.24",
-     .meaning = "least gap in the dispersion law, in d0", .source = "P1 (3), V"},
+     .fallback = "0.24", .meaning = "least gap in the dispersion law, in d0",
+     .source = "P1 (3), V"},
     {"contact", "mu", GB_FIELD_NUMBER, AT(mu), RANGE(0.0, 2.0), .fallback = "0.1",
      .meaning = "friction coefficient in shear", .source = "P1 (5), V"},
     {"contact", "mu_wall", GB_FIELD_NUMBER, AT(mu_wall), RANGE(0.0, 2.0),
@@ -145,13 +143,13 @@ static const struct gb_field fields[] = {
      .fallback = "auto", .meaning = "friction coefficient in pivoting; auto is mu",
      .source = "P1 (8)"},
     {"contact", "bridge_length", GB_FIELD_RELATIVE, AT(bridge_length),
-     .dimension = GB_DIM_LENGTH, .relative = "d",
-     RANGE(1e-5, HUGE_VAL), .fallback = "0.008 d",
+     .dimension = GB_DIM_LENGTH, .relative = "d", RANGE(1e-5, HUGE_VAL),
+     .fallback = "0.008 d",
      .meaning = "overlap at which a solid bridge forms; 1 d or more: no bridges",
      .source = "P1 (2), V"},
     {"contact", "shear_strength", GB_FIELD_RELATIVE, AT(shear_strength),
-     .dimension = GB_DIM_PRESSURE,
-     .relative = "E", RANGE(0.0, 1.0), AUTO(NAN), .fallback = "auto",
+     .dimension = GB_DIM_PRESSURE, .relative = "E", RANGE(0.0, 1.0), AUTO(NAN),
+     .fallback = "auto",
      .meaning = "shear strength sigma_b; auto is 0.018 E, and no limit without bridges",
      .source = "P1 (4), (5), V"},
     {"contact", "bridge_radius", GB_FIELD_CHOICE, AT(bridge_radius), .choices = radii,
@@ -164,7 +162,8 @@ static const struct gb_field fields[] = {
      .source = "P1 II.B"},
     {"contact", "viscosity", GB_FIELD_NUMBER, AT(viscosity_pa_s),
      .dimension = GB_DIM_VISCOSITY, RANGE(0.0, 1e3), .fallback = "1 mPa s",
-     .meaning = "shear viscosity eta of the solid in dynamic scenes; 0: no viscous forces",
+     .meaning =
+         "shear viscosity eta of the solid in dynamic scenes; 0: no viscous forces",
      .source = "P2 (3)"},
     {"contact", "damping", GB_FIELD_NUMBER, AT(damping), RANGE(0.0, 10.0),
      .fallback = "0.9",
@@ -191,13 +190,11 @@ static const struct gb_field fields[] = {
      .meaning = "density of the initial structure; auto is 0.24 in 3D, 0.5 in 2D",
      .source = "P1 III, P2"},
     {"structure", "base", GB_FIELD_RELATIVE, AT(base), .dimension = GB_DIM_LENGTH,
-     .relative = "d",
-     RANGE(3.0, 1e4), AUTO(0.0), .fallback = "auto",
+     .relative = "d", RANGE(3.0, 1e4), AUTO(0.0), .fallback = "auto",
      .meaning = "edges x and y of the cell; auto is P1's aspect ratio, a square in 2D",
      .source = "P1 III"},
     {"structure", "r_meso", GB_FIELD_RELATIVE, AT(r_meso), .dimension = GB_DIM_LENGTH,
-     .relative = "d",
-     RANGE(1.0, 10.0), .fallback = "2 d",
+     .relative = "d", RANGE(1.0, 10.0), .fallback = "2 d",
      .meaning = "reach within which the growth counts neighbours", .source = "P1 III"},
     {"structure", "seed", GB_FIELD_SEED, AT(seed), .fallback = "1",
      .meaning = "seed of the random numbers: same seed, same structure",
@@ -242,19 +239,18 @@ static const struct gb_field fields[] = {
      .source = "P3 5"},
 
     {"loading", "geometry", GB_FIELD_CHOICE, AT(geometry), .choices = geometries,
-     .fallback = "uniaxial", .meaning = "axes compressed: z, or y and z, or all; or a die",
+     .fallback = "uniaxial",
+     .meaning = "axes compressed: z, or y and z, or all; or a die",
      .source = "P1 III, VI"},
     {"loading", "step", GB_FIELD_NUMBER, AT(strain_step), .dimension = GB_DIM_FRACTION,
      RANGE(1e-6, 0.02), .fallback = "0.1 %",
      .meaning = "shrinkage of an axis per step, of its current length",
      .source = "P1 III"},
     {"loading", "until", GB_FIELD_UNTIL, AT(until_pressure_pa),
-     .dimension = GB_DIM_PRESSURE,
-     RANGE(1e3, 1e12), .fallback = "1 GPa",
+     .dimension = GB_DIM_PRESSURE, RANGE(1e3, 1e12), .fallback = "1 GPa",
      .meaning = "pressure or density at which loading ends", .source = "P1 V"},
     {"loading", "unload_from", GB_FIELD_PRESSURES, AT(unload_from_pa),
-     .dimension = GB_DIM_PRESSURE,
-     RANGE(1e3, 1e12), .fallback = "",
+     .dimension = GB_DIM_PRESSURE, RANGE(1e3, 1e12), .fallback = "",
      .meaning = "pressures from which branches of unloading start", .source = "P1 V, VI"},
     {"loading", "changes", GB_FIELD_TEXT, AT(changes), .fallback = "",
      .meaning = "what changes behind which recorded step, as 120 contact.mu=0.3; "
@@ -297,8 +293,7 @@ static const struct gb_field fields[] = {
      .fallback = "auto", .meaning = "how a strain step is brought to equilibrium",
      .source = "P1 (15); numerical"},
     {"numerics", "tolerance", GB_FIELD_NUMBER, AT(tolerance), RANGE(1e-12, 0.1),
-     AUTO(NAN),
-     .fallback = "auto",
+     AUTO(NAN), .fallback = "auto",
      .meaning = "rms residual force over the force scale at which a step is relaxed",
      .source = "numerical"},
     {"numerics", "strain_part", GB_FIELD_NUMBER, AT(strain_part),
@@ -306,8 +301,7 @@ static const struct gb_field fields[] = {
      .meaning = "largest strain relaxed at once: a strain step is taken in equal parts",
      .source = "numerical"},
     {"numerics", "cutoff", GB_FIELD_RELATIVE, AT(cutoff), .dimension = GB_DIM_LENGTH,
-     .relative = "d",
-     RANGE(1.0, 3.0), AUTO(NAN), .fallback = "auto",
+     .relative = "d", RANGE(1.0, 3.0), AUTO(NAN), .fallback = "auto",
      .meaning = "distance beyond which attraction is left out", .source = "numerical"},
     {"numerics", "threads", GB_FIELD_INTEGER, AT(threads), RANGE(1.0, 1024.0), AUTO(-1.0),
      .fallback = "auto",
@@ -319,7 +313,8 @@ static const struct gb_field fields[] = {
      .source = "numerical"},
     {"numerics", "time_step", GB_FIELD_RELATIVE, AT(time_step), .dimension = GB_DIM_TIME,
      .relative = "T", RANGE(1e-6, 10.0), AUTO(NAN), .fallback = "auto",
-     .meaning = "time step of dynamic scenes, T = sqrt(pi rho d^2/(6 E)); auto: step_error",
+     .meaning =
+         "time step of dynamic scenes, T = sqrt(pi rho d^2/(6 E)); auto: step_error",
      .source = "P2 2 (0.04 T)"},
     {"numerics", "step_error", GB_FIELD_NUMBER, AT(step_error),
      .dimension = GB_DIM_FRACTION, RANGE(1e-8, 0.5), .fallback = "0.1 %",
@@ -327,20 +322,26 @@ static const struct gb_field fields[] = {
      .source = "numerical"},
     {"numerics", "safety", GB_FIELD_NUMBER, AT(safety), RANGE(1e-4, 10.0), AUTO(NAN),
      .fallback = "auto",
-     .meaning = "share of the critical time step taken in a die; auto: 0.5, reference 0.1",
+     .meaning =
+         "share of the critical time step taken in a die; auto: 0.5, reference 0.1",
      .source = "P3 (26)"},
     {"numerics", "inertia_scale", GB_FIELD_NUMBER, AT(inertia_scale), RANGE(1.0, 1e4),
      .fallback = "10",
      .meaning = "factor on the rotational inertia of particles in a die",
      .source = "P3 3.4"},
 
+    {"output", "snapshots_at", GB_FIELD_TEXT, AT(snapshots_at), .fallback = "",
+     .meaning =
+         "where states are kept while loading, as 100 MPa; density = 0.5; every 20 "
+         "(points)",
+     .source = "user"},
     {"output", "checkpoint_every", GB_FIELD_NUMBER, AT(checkpoint_every_s),
-     .dimension = GB_DIM_TIME,
-     RANGE(0.1, 604800.0), .fallback = "60 s",
+     .dimension = GB_DIM_TIME, RANGE(0.1, 604800.0), .fallback = "60 s",
      .meaning = "time between checkpoints of a run", .source = "numerical"},
     {"output", "on_hangup", GB_FIELD_CHOICE, AT(on_hangup), .choices = hangups,
      .fallback = "detach",
-     .meaning = "when the terminal goes away: the run goes on, or stops with a checkpoint",
+     .meaning =
+         "when the terminal goes away: the run goes on, or stops with a checkpoint",
      .source = "numerical"},
 };
 
@@ -438,10 +439,10 @@ bool gb_params_assign(struct gb_params *params, const char *assignment,
     return good;
 }
 
-/* sigma_b when the preset leaves it open, in E.  With bridges: P1's set II.  Without: P1 calls mu
- * the only free parameter of such scenes, and with 0.018 E the strength, not mu, would limit the
- * friction of the finest powders (density differences at 100 MPa come out a fifth too small). No
- * shear spring ever carries E. */
+/* sigma_b when the preset leaves it open, in E.  With bridges: P1's set II.  Without: P1
+ * calls mu the only free parameter of such scenes, and with 0.018 E the strength, not mu,
+ * would limit the friction of the finest powders (density differences at 100 MPa come out
+ * a fifth too small). No shear spring ever carries E. */
 static const double strength_bridged = 0.018, strength_unlimited = 1.0;
 
 double gb_params_bridge_length_m(const struct gb_params *params)
@@ -495,8 +496,8 @@ double gb_params_time_step_s(const struct gb_params *params)
 static double base_edge(const struct gb_params *params, double volume)
 {
     if (params->base.relative && params->base.value == 0.0) {
-        const double share = (double)params->count / 8000.0 *
-                             (0.24 / gb_params_structure_density(params));
+        const double share =
+            (double)params->count / 8000.0 * (0.24 / gb_params_structure_density(params));
         return params->dimension == 2 ? sqrt(volume) : 18.0 * cbrt(share);
     }
     return params->base.relative ? params->base.value
@@ -598,7 +599,9 @@ static bool check_normal(const struct gb_params *params, struct gb_error *err)
 
 bool gb_params_check(const struct gb_params *params, struct gb_error *err)
 {
-    if (!gb_params_check_fields(params, err) || !gb_sizetable_check_params(params, err)) {
+    struct gb_marks marks;
+    if (!gb_params_check_fields(params, err) || !gb_sizetable_check_params(params, err) ||
+        !gb_marks_parse(params->snapshots_at, &marks, err)) {
         return false;
     }
     if (params->kind == GB_KIND_DIE) {

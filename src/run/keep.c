@@ -6,6 +6,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "run/album.h"
 #include "run/checkpoint.h"
 #include "run/hdf_record.h"
 #include "run/preset.h"
@@ -37,6 +38,7 @@ struct gb_keep {
     struct gb_model model;
     struct gb_store *store;
     struct gb_writer *writer;
+    struct gb_album album;
     struct journal journal; /* events and seconds as they grow */
     bool fresh;             /* the record in memory is newer than state.h5 */
     double written_at;      /* seconds of the run */
@@ -80,6 +82,7 @@ static bool make(struct gb_keep **out, const struct gb_params *params,
     }
     keep->params = *params;
     keep->journal.preset = digest(params);
+    gb_album_init(&keep->album, params);
     if (!gb_params_check(params, err) || !gb_model_init(&keep->model, params, err)) {
         gb_alloc_free(keep);
         return false;
@@ -212,6 +215,9 @@ bool gb_keep_resume(struct gb_keep **out, struct gb_experiment **experiment,
         return false;
     }
     keep->written_at = keep->journal.seconds;
+    if (*experiment != NULL) {
+        gb_album_pass(&keep->album, gb_experiment_point(*experiment));
+    }
     *out = keep;
     return true;
 }
@@ -267,9 +273,14 @@ bool gb_keep_point(struct gb_keep *keep, struct gb_experiment *experiment,
     if (!gb_store_point(keep->store, point, err)) {
         return false;
     }
-    return !keep->writer ||
-           (gb_checkpoint_take(experiment, gb_writer_record(keep->writer), err) &&
-            sign(keep, point->seconds, err));
+    if (!keep->writer) {
+        return true;
+    }
+    struct gb_record *record = gb_writer_record(keep->writer);
+    return gb_checkpoint_take(experiment, record, err) &&
+           sign(keep, point->seconds, err) &&
+           gb_album_point(&keep->album, gb_store_directory(keep->store), point,
+                          gb_keep_points(keep), record, &keep->params, &keep->model, err);
 }
 
 bool gb_keep_adopt(struct gb_keep *keep, const struct gb_point *points, int64_t count,
@@ -279,6 +290,7 @@ bool gb_keep_adopt(struct gb_keep *keep, const struct gb_point *points, int64_t 
         if (!gb_store_point(keep->store, &points[i], err)) {
             return false;
         }
+        gb_album_pass(&keep->album, &points[i]);
     }
     if (count == 0 || !keep->writer) {
         return true;
