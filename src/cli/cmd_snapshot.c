@@ -9,14 +9,17 @@
 #if GB_WITH_PICTURES
 
 #include "cli/provenance.h"
+#include "cli/sequence.h"
 #include "cli/states.h"
+#include "cli/video.h"
 #include "draw/dress_parse.h"
 #include "draw/sheet.h"
 
 /* What the command line said. */
 struct request {
     char *at, *view, *size, *ground, *output, *color, *show, *slice, *cut, *since;
-    gboolean force, bare, rose;
+    gboolean force, bare, rose, sequence;
+    double fps;
 };
 
 static void free_request(struct request *request)
@@ -61,10 +64,11 @@ static bool parse_request(const struct request *request, struct gb_picture *pict
         return gb_error_set(err, GB_ERR_INPUT,
                             "snapshot needs -o FILE.png for the picture");
     }
-    if (!g_str_has_suffix(request->output, ".png")) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "-o %.300s: a name ending in .png is accepted",
-                            request->output);
+    if (!g_str_has_suffix(request->output, ".png") &&
+        !(request->sequence && gb_video_knows(request->output))) {
+        return gb_error_set(
+            err, GB_ERR_INPUT, "-o %.300s: a name ending in .png is accepted%s",
+            request->output, request->sequence ? ", or .mp4, .webm, .mkv, .gif" : "");
     }
     return (request->view == NULL || gb_view_parse(request->view, &picture->look, err)) &&
            (request->size == NULL ||
@@ -118,6 +122,31 @@ static bool write_picture(const struct request *request, struct gb_picture *pict
     return done;
 }
 
+static bool take_sequence(const struct request *request, struct gb_picture *picture,
+                          char **words, struct gb_error *err)
+{
+    const struct gb_sequence sequence = {.directory = words[0],
+                                         .output = request->output,
+                                         .frames_per_s = request->fps,
+                                         .force = request->force};
+    struct gb_state *since = NULL;
+    if (words[1] != NULL || request->at != NULL || request->rose) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--sequence takes one run directory, without --at and --rose");
+    }
+    if (!(request->fps >= 0.1 && request->fps <= 100.0)) {
+        return gb_error_set(err, GB_ERR_INPUT, "--fps %g: 0.1 to 100 is accepted",
+                            request->fps);
+    }
+    bool done =
+        request->since == NULL || read_since(&since, request->since, words[0], err);
+    picture->dress.since = since;
+    done = done && gb_sequence_write(&sequence, picture, err);
+    gb_state_destroy(since);
+    return done;
+}
+
 static bool take_picture(const struct request *request, char **words,
                          struct gb_error *err)
 {
@@ -132,6 +161,9 @@ static bool take_picture(const struct request *request, char **words,
     if (!parse_request(request, &picture, err)) {
         return false;
     }
+    if (request->sequence) {
+        return take_sequence(request, &picture, words, err);
+    }
     if (!request->force && g_file_test(request->output, G_FILE_TEST_EXISTS)) {
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
                             request->output);
@@ -141,7 +173,7 @@ static bool take_picture(const struct request *request, char **words,
 
 int gb_cmd_snapshot(int argc, char **argv)
 {
-    struct request request = {0};
+    struct request request = {.fps = 8.0};
     const GOptionEntry entries[] = {
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, "the picture",
          "FILE.png"},
@@ -173,6 +205,11 @@ int gb_cmd_snapshot(int argc, char **argv)
          "beside it the mean normal force over all directions, as a body", NULL},
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
          "a kept state, as \"p=100 MPa\" or \"density=0.5\" (the last)", "POINT"},
+        {"sequence", 0, 0, G_OPTION_ARG_NONE, &request.sequence,
+         "all kept states: x.png moves, x.mp4 (.webm, .mkv, .gif) is a film by ffmpeg, "
+         "x-%03d.png one picture each",
+         NULL},
+        {"fps", 0, 0, G_OPTION_ARG_DOUBLE, &request.fps, "frames a second (8)", "N"},
         {"since", 0, 0, G_OPTION_ARG_STRING, &request.since,
          "displacement: from which state, a point of the run or another directory",
          "POINT|DIR"},
@@ -196,6 +233,7 @@ int gb_cmd_snapshot(int argc, char **argv)
     }
     /* a file that may not grow is an error of a write */
     signal(SIGXFSZ, SIG_IGN);
+    signal(SIGPIPE, SIG_IGN); /* so is an ffmpeg that went away */
     const bool done = take_picture(&request, words, &err);
     g_strfreev(words);
     free_request(&request);

@@ -150,3 +150,51 @@ bool gb_states_read(struct gb_state **out, const char *place, const char *at,
     g_ptr_array_unref(paths);
     return good;
 }
+
+struct frame {
+    int64_t step;
+    char *path;
+};
+
+static int by_step(const void *a, const void *b)
+{
+    const struct frame *x = a;
+    const struct frame *y = b;
+    return (x->step > y->step) - (x->step < y->step);
+}
+
+/* Moves the paths over in the order of their steps, without those that say the same. */
+static GPtrArray *sort_frames(GArray *frames)
+{
+    GPtrArray *sorted = g_ptr_array_new_with_free_func(g_free);
+    g_array_sort(frames, by_step);
+    for (guint k = 0; k < frames->len; k++) {
+        const struct frame *frame = &g_array_index(frames, struct frame, k);
+        if (k > 0 && g_array_index(frames, struct frame, k - 1).step == frame->step) {
+            continue;
+        }
+        g_ptr_array_add(sorted, g_strdup(frame->path));
+    }
+    return sorted;
+}
+
+GPtrArray *gb_states_along(const char *place, struct gb_error *err)
+{
+    GPtrArray *paths = list_paths(place);
+    GArray *frames = g_array_new(FALSE, FALSE, sizeof(struct frame));
+    bool good = true;
+    for (guint k = 0; k < paths->len && good; k++) {
+        struct gb_state *state = NULL;
+        char *path = g_ptr_array_index(paths, k);
+        good = gb_state_read(&state, path, err);
+        if (good) {
+            const struct frame frame = {state->point.step, path};
+            g_array_append_val(frames, frame);
+        }
+        gb_state_destroy(state);
+    }
+    GPtrArray *sorted = good ? sort_frames(frames) : NULL;
+    g_array_unref(frames);
+    g_ptr_array_unref(paths);
+    return sorted;
+}

@@ -3,6 +3,8 @@
 
 #include <stdbool.h>
 
+#include <glib.h>
+
 #include "run/state.h"
 
 /* The packings that a run directory keeps: state.h5, the last one, and those of its
@@ -15,5 +17,9 @@
  * is. */
 bool gb_states_read(struct gb_state **out, const char *place, const char *at,
                     struct gb_error *err);
+
+/* Paths of all states of a directory in the order of the run, each point once
+ * (g_ptr_array_unref); NULL and err when one cannot be read. */
+GPtrArray *gb_states_along(const char *place, struct gb_error *err);
 
 #endif

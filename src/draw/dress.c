@@ -70,8 +70,8 @@ void gb_dress_pressure(const struct gb_state *state, double *pressure)
 }
 
 /* Colours along the scale between two quantiles of the values. */
-static bool colour_values(struct gb_dress *dress, const double *value, bool from_zero,
-                          struct gb_error *err)
+static bool colour_values(struct gb_dress *dress, const double *value,
+                          const struct gb_dress_request *request, struct gb_error *err)
 {
     double *sorted = gb_alloc_array(dress->count, sizeof *sorted, err);
     struct gb_dress_scale *scale = &dress->scale;
@@ -81,8 +81,13 @@ static bool colour_values(struct gb_dress *dress, const double *value, bool from
     memcpy(sorted, value, dress->count * sizeof *sorted);
     qsort(sorted, dress->count, sizeof *sorted, compare);
     const double last = (double)(dress->count - 1);
+    const bool from_zero = request->colour == GB_DRESS_DISPLACEMENT;
     scale->low = from_zero ? 0.0 : sorted[(size_t)(low_share * last)];
     scale->high = sorted[(size_t)ceil(high_share * last)];
+    if (request->high > request->low) {
+        scale->low = request->low;
+        scale->high = request->high;
+    }
     if (!(scale->high > scale->low)) {
         scale->high = scale->low + fmax(fabs(scale->low) * 1e-3, 1e-12);
     }
@@ -185,7 +190,7 @@ static bool colour_field(struct gb_dress *dress, const struct gb_state *state,
     }
     dress->scale.title =
         pressure ? "pressure of the contacts (MPa)" : titles[moved][nano ? 0 : 1];
-    const bool good = colour_values(dress, value, moved, err);
+    const bool good = colour_values(dress, value, request, err);
     gb_alloc_free(value);
     return good;
 }

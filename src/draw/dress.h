@@ -32,6 +32,8 @@ struct gb_dress_request {
     double cut_at;
     bool cut_corner;              /* the octant nearest to the usual viewer is left out */
     const struct gb_state *since; /* for the displacement */
+    double low, high;             /* of the colours; equal: those of the state */
+    double thickest_n;            /* force of the thickest rod; 0: that of the state */
 };
 
 /* All of the packing, coloured by coordination number. */

@@ -95,10 +95,12 @@ bool gb_dress_rods_make(struct gb_dress *dress, const struct gb_state *state,
         !find_reference(state, &reference, err)) {
         return false;
     }
+    const double newton =
+        state->pascal_per_stress * state->metre_per_length * state->metre_per_length;
+    reference = request->thickest_n > 0.0 ? request->thickest_n / newton : reference;
     memcpy(dress->swatch, signs ? by_sign : by_bridge, sizeof dress->swatch);
     dress->swatches = 2;
-    dress->thickest_n = reference * state->pascal_per_stress * state->metre_per_length *
-                        state->metre_per_length;
+    dress->thickest_n = reference * newton;
     for (int64_t k = 0; k < state->pair_count; k++) {
         const int32_t *ends = &state->pair[2 * k];
         if (dress->hidden[ends[0]] != 0 || dress->hidden[ends[1]] != 0) {

@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/file.h"
 #include "base/units.h"
@@ -21,7 +22,7 @@ void gb_picture_init(struct gb_picture *picture)
 static bool paint(struct gb_image *image, const struct gb_picture *picture,
                   const struct gb_state *state, struct gb_error *err)
 {
-    struct gb_osmesa *painter = NULL;
+    struct gb_osmesa *painter = picture->painter;
     struct gb_scene *scene = NULL;
     struct gb_dress *dress = NULL;
     struct gb_caption_layout layout;
@@ -29,10 +30,12 @@ static bool paint(struct gb_image *image, const struct gb_picture *picture,
     const bool done = gb_dress_create(&dress, state, &picture->dress, err) &&
                       gb_scene_create(&scene, state, dress, &picture->look, &layout.scene,
                                       picture->ground, err) &&
-                      gb_osmesa_open(&painter, err) &&
+                      (painter != NULL || gb_osmesa_open(&painter, err)) &&
                       gb_osmesa_paint(painter, scene, image, err) &&
                       gb_caption_draw(image, &layout, scene, dress, state, err);
-    gb_osmesa_close(painter);
+    if (painter != picture->painter) {
+        gb_osmesa_close(painter);
+    }
     gb_dress_destroy(dress);
     gb_scene_destroy(scene);
     return done;
@@ -54,34 +57,40 @@ bool gb_picture_paint(struct gb_image **out, const struct gb_picture *picture,
     return done;
 }
 
+void gb_picture_describe(struct gb_picture_texts *texts, const struct gb_state *state,
+                         const char *preset)
+{
+    char branch[48];
+    snprintf(texts->seed, sizeof texts->seed, "%" PRIu64, state->seed);
+    snprintf(texts->density, sizeof texts->density, "%.6g", state->point.density);
+    snprintf(texts->pressure, sizeof texts->pressure, "unknown");
+    if (isfinite(state->point.p_pa)) {
+        gb_units_format_short(state->point.p_pa, GB_DIM_PRESSURE, 6, texts->pressure,
+                              sizeof texts->pressure);
+    }
+    gb_curve_branch_name(&state->point, branch, sizeof branch);
+    snprintf(texts->point, sizeof texts->point, "%s, step %" PRId64, branch,
+             state->point.step);
+    const struct gb_png_text all[] = {
+        {"Software", "greenbody " GB_VERSION},
+        {"Title", state->preset},
+        {"Seed", texts->seed},
+        {"Point", texts->point},
+        {"Density", texts->density},
+        {"Pressure", texts->pressure},
+        {"Preset", preset},
+    };
+    memcpy(texts->text, all, sizeof all);
+    texts->count = (int)(sizeof all / sizeof all[0]) - (preset == NULL);
+}
+
 bool gb_picture_save(const struct gb_image *image, const struct gb_picture *picture,
                      const struct gb_state *state, const char *path, struct gb_error *err)
 {
-    char seed[24];
-    char point[96];
-    char branch[48];
-    char density[32];
-    char pressure[48] = "unknown";
-    snprintf(seed, sizeof seed, "%" PRIu64, state->seed);
-    snprintf(density, sizeof density, "%.6g", state->point.density);
-    if (isfinite(state->point.p_pa)) {
-        gb_units_format_short(state->point.p_pa, GB_DIM_PRESSURE, 6, pressure,
-                              sizeof pressure);
-    }
-    gb_curve_branch_name(&state->point, branch, sizeof branch);
-    snprintf(point, sizeof point, "%s, step %" PRId64, branch, state->point.step);
-    const struct gb_png_text texts[] = {
-        {"Software", "greenbody " GB_VERSION},
-        {"Title", state->preset},
-        {"Seed", seed},
-        {"Point", point},
-        {"Density", density},
-        {"Pressure", pressure},
-        {"Preset", picture->preset},
-    };
-    const int count = (int)(sizeof texts / sizeof texts[0]) - (picture->preset == NULL);
-    return gb_png_write(image, picture->ground != GB_GROUND_TRANSPARENT, texts, count,
-                        path, err);
+    struct gb_picture_texts texts;
+    gb_picture_describe(&texts, state, picture->preset);
+    return gb_png_write(image, picture->ground != GB_GROUND_TRANSPARENT, texts.text,
+                        texts.count, path, err);
 }
 
 bool gb_picture_write(const struct gb_picture *picture, const struct gb_state *state,

@@ -4,6 +4,8 @@
 #include <stdbool.h>
 
 #include "draw/image.h"
+#include "draw/osmesa.h"
+#include "draw/png.h"
 #include "draw/scene.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
@@ -16,7 +18,8 @@ struct gb_picture {
     enum gb_ground ground;
     bool words; /* title, colour bar, scale bar, density and pressure */
     struct gb_dress_request dress;
-    const char *preset; /* whole text of the preset, for the file; NULL: unknown */
+    struct gb_osmesa *painter; /* used again for many pictures; NULL: one's own */
+    const char *preset;        /* whole text of the preset, for the file; NULL: unknown */
 };
 
 /* 1600 x 1200 on white from above the side, with words. */
@@ -35,5 +38,14 @@ bool gb_picture_write(const struct gb_picture *picture, const struct gb_state *s
 bool gb_picture_save(const struct gb_image *image, const struct gb_picture *picture,
                      const struct gb_state *state, const char *path,
                      struct gb_error *err);
+
+/* Text chunks of a picture; the strings live in the struct and in its arguments. */
+struct gb_picture_texts {
+    struct gb_png_text text[8];
+    int count;
+    char seed[24], point[96], density[32], pressure[48];
+};
+void gb_picture_describe(struct gb_picture_texts *texts, const struct gb_state *state,
+                         const char *preset);
 
 #endif

@@ -101,21 +101,17 @@ static bool encode(struct writer *writer, const struct gb_image *image, bool opa
     return true;
 }
 
-bool gb_png_write(const struct gb_image *image, bool opaque,
-                  const struct gb_png_text *texts, int text_count, const char *path,
-                  struct gb_error *err)
+bool gb_png_encode(const struct gb_image *image, bool opaque,
+                   const struct gb_png_text *texts, int text_count, char **memory,
+                   size_t *size, struct gb_error *err)
 {
     struct writer writer = {.png = NULL};
-    char *memory = NULL;
-    size_t size = 0;
-    if (!gb_file_check_target(path, err)) {
-        return false;
-    }
+    *memory = NULL;
     writer.row = gb_alloc_array((size_t)image->width, 4, err);
     if (writer.row == NULL) {
         return false;
     }
-    writer.stream = open_memstream(&memory, &size);
+    writer.stream = open_memstream(memory, size);
     writer.png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, on_error, on_warning);
     writer.info = writer.png != NULL ? png_create_info_struct(writer.png) : NULL;
@@ -127,12 +123,26 @@ bool gb_png_write(const struct gb_image *image, bool opaque,
     if (writer.stream != NULL && fclose(writer.stream) != 0) {
         done = false;
     }
-    done =
-        done ? gb_file_replace(path, memory, size, err)
-             : gb_error_set(err, GB_ERR_MEMORY, "%s: libpng cannot write the picture: %s",
-                            path, writer.reason[0] != '\0' ? writer.reason : "no memory");
-    free(memory);
     gb_alloc_free(writer.row);
+    if (!done) {
+        free(*memory);
+        *memory = NULL;
+    }
+    return done || gb_error_set(err, GB_ERR_MEMORY, "libpng cannot write the picture: %s",
+                                writer.reason[0] != '\0' ? writer.reason : "no memory");
+}
+
+bool gb_png_write(const struct gb_image *image, bool opaque,
+                  const struct gb_png_text *texts, int text_count, const char *path,
+                  struct gb_error *err)
+{
+    char *memory = NULL;
+    size_t size = 0;
+    const bool done =
+        gb_file_check_target(path, err) &&
+        gb_png_encode(image, opaque, texts, text_count, &memory, &size, err) &&
+        gb_file_replace(path, memory, size, err);
+    free(memory);
     return done;
 }
 

@@ -2,6 +2,7 @@
 #define GB_DRAW_PNG_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "draw/image.h"
 #include "greenbody/status.h"
@@ -16,6 +17,11 @@ struct gb_png_text {
 bool gb_png_write(const struct gb_image *image, bool opaque,
                   const struct gb_png_text *texts, int text_count, const char *path,
                   struct gb_error *err);
+
+/* The same into memory, which belongs to the caller (free). */
+bool gb_png_encode(const struct gb_image *image, bool opaque,
+                   const struct gb_png_text *texts, int text_count, char **memory,
+                   size_t *size, struct gb_error *err);
 
 /* The value of the text chunk `key` of a PNG file (g_free).  Errors: GB_ERR_INPUT when
  * the file is no PNG or has no such chunk, GB_ERR_MACHINE when it cannot be read. */

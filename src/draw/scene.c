@@ -156,7 +156,9 @@ static bool begin(struct gb_scene **out, const struct gb_state *state, size_t ro
                   enum gb_ground ground, struct gb_error *err)
 {
     const bool planar = state->dimension == 2;
-    const struct gb_look along_y = {-90.0, 0.0, true};
+    const struct gb_look along_y = {.azimuth_deg = -90.0,
+                                    .orthographic = true,
+                                    .room = {look->room[0], 0.0, look->room[2]}};
     const size_t parts[3] = {(size_t)state->count, rods, 0};
     double cell[3];
     memcpy(cell, state->cell, sizeof cell);

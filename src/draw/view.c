@@ -132,16 +132,17 @@ void gb_view_init(struct gb_view *view, const struct gb_look *look, const double
     double low[2];
     double high[2];
     double diagonal = 0.0;
+    const double *room = look->room[0] > 0.0 ? look->room : cell;
     *view = (struct gb_view){.orthographic = look->orthographic, .focal = 1.0};
     set_axes(view, look);
     for (int k = 0; k < 3; k++) {
-        view->target[k] = 0.5 * cell[k];
-        diagonal += (cell[k] + 2.0 * margin) * (cell[k] + 2.0 * margin);
+        view->target[k] = 0.5 * room[k];
+        diagonal += (room[k] + 2.0 * margin) * (room[k] + 2.0 * margin);
     }
     if (!look->orthographic) {
         view->distance = viewer_distance * 0.5 * sqrt(diagonal);
     }
-    bounds(view, cell, margin, low, high);
+    bounds(view, room, margin, low, high);
     view->focal =
         fmin(frame->width / (high[0] - low[0]), frame->height / (high[1] - low[1]));
     view->centre[0] =

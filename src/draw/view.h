@@ -10,6 +10,7 @@ struct gb_look {
     double azimuth_deg;   /* of the viewer around z; 0 is on the x axis, -90 on -y */
     double elevation_deg; /* of the viewer above the x-y plane */
     bool orthographic;
+    double room[3]; /* edges of the box that is to be in the frame; 0: the packing's */
 };
 
 /* "corner", "front" (along y), "side" (along x), "top", or "AZIMUTH,ELEVATION" in

@@ -25,7 +25,7 @@ refused() { # name, part of the line, arguments: one line, status 2 or 3
 }
 
 "$greenbody" run default particles.count=200 "loading.until=5 MPa" loading.unload_from= \
-    numerics.fidelity=fast -q --out a >stdout 2>stderr || { cat stderr; exit 1; }
+    numerics.fidelity=fast "output.snapshots_at=every 8" -q --out a >stdout 2>stderr || { cat stderr; exit 1; }
 
 for color in coordination pressure bridges; do
     good "coloured by $color" snapshot a -o "$color.png" --size 300x300 --color "$color"
@@ -39,6 +39,28 @@ good "two rows with roses" snapshot a a/state.h5 --rose -o rose.png --size 600x6
 good "displacement since itself" snapshot a --since a --color displacement -o d.png \
     --size 300x300
 
+good "a sequence that moves" snapshot a --sequence -o moves.png --size 200x200
+grep -aq acTL moves.png && [ "$(grep -ao fcTL moves.png | wc -l)" -ge 2 ]
+result "it has frames" $?
+good "a sequence of numbered frames" snapshot a --sequence -o f-%02d.png --size 200x200 \
+    --show both --color pressure
+[ -s f-01.png ] && [ -s f-02.png ] && [ ! -e f-00.png ]
+result "they are numbered from 1" $?
+refused "numbered frames that exist" "f-01.png: exists; --force replaces it" \
+    snapshot a --sequence -o f-%02d.png
+refused "two numbers in a name" "accepted one number" snapshot a --sequence -o %d-%d.png
+refused "no frames a second" "0.1 to 100" snapshot a --sequence --fps 0 -o g.png
+refused "a sequence of one state" "output.snapshots_at" snapshot a/state.h5 --sequence \
+    -o g.png
+if command -v ffmpeg >/dev/null; then
+    good "a film" snapshot a --sequence -o film.gif --size 201x203
+    [ -s film.gif ] && [ ! -e film.gif.part.gif ]
+    result "it is there" $?
+fi
+mkdir empty
+PATH=$here/empty "$greenbody" snapshot a --sequence -o other.mp4 >stdout 2>stderr
+[ $? -eq 3 ] && [ "$(wc -l <stderr)" -eq 1 ] && grep -qF "needs the program ffmpeg" stderr
+result "a film without ffmpeg" $?
 refused "exists" "exists; --force replaces it" snapshot a -o forces.png
 refused "size 0" "16 to 16384" snapshot a -o x.png --size 0x0
 refused "size 100000" "16 to 16384" snapshot a -o x.png --size 100000x100000

@@ -49,7 +49,8 @@ static void test_fit(void)
     for (int flat = 0; flat < 2; flat++) {
         for (int a = -360; a <= 360; a += 45) {
             for (int e = -90; e <= 90; e += 30) {
-                const struct gb_look look = {a, e, flat != 0};
+                const struct gb_look look = {
+                    .azimuth_deg = a, .elevation_deg = e, .orthographic = flat != 0};
                 struct gb_view view;
                 gb_view_init(&view, &look, cell, 0.5, &frame);
                 for (int corner = 0; corner < 8; corner++) {
@@ -85,7 +86,8 @@ static void test_front_is_upright(void)
 
 static void test_views(void)
 {
-    struct gb_look look = {1.0, 2.0, false};
+    struct gb_look look = {
+        .azimuth_deg = 1.0, .elevation_deg = 2.0, .orthographic = false};
     struct gb_error err = {0};
     const char *wrong[] = {"",        "back",  "1",     "1,",    "1,2,3",
                            "nan,0",   "inf,0", "0,91",  "361,0", "1,2,flat,flat",
@@ -145,7 +147,8 @@ static void test_scene(void)
     struct gb_scene *scene = NULL;
     struct gb_error err = {0};
     struct gb_state *state = packing(3);
-    const struct gb_look look = {-58.0, 20.0, false};
+    const struct gb_look look = {
+        .azimuth_deg = -58.0, .elevation_deg = 20.0, .orthographic = false};
     g_assert_true(
         gb_scene_create(&scene, state, NULL, &look, &frame, GB_GROUND_WHITE, &err));
     g_assert_cmpuint(scene->count, ==, 3);
@@ -172,7 +175,8 @@ static void test_die(void)
     struct gb_scene *scene = NULL;
     struct gb_error err = {0};
     struct gb_state *state = packing(3);
-    const struct gb_look look = {0.0, 90.0, true}; /* from above */
+    const struct gb_look look = {
+        .azimuth_deg = 0.0, .elevation_deg = 90.0, .orthographic = true}; /* from above */
     state->cell[1] = state->cell[0];
     state->die_radius = 2.0;
     g_assert_true(
@@ -192,7 +196,8 @@ static void test_planar(void)
     struct gb_scene *scene = NULL;
     struct gb_error err = {0};
     struct gb_state *state = packing(2);
-    const struct gb_look look = {-58.0, 20.0, false};
+    const struct gb_look look = {
+        .azimuth_deg = -58.0, .elevation_deg = 20.0, .orthographic = false};
     g_assert_true(
         gb_scene_create(&scene, state, NULL, &look, &frame, GB_GROUND_WHITE, &err));
     g_assert_true(scene->view.orthographic);
