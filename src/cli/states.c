@@ -6,17 +6,13 @@
 #include <glib.h>
 
 #include "base/units.h"
+#include "run/album.h"
 
-/* A kept state further away than this share of the wanted value is another one. */
+/* A kept state further away than this share of the wanted value is another one, unless it
+ * was kept for just this value: a step of the loading can jump over it. */
 static const double tolerance = 0.05;
 
-/* What --at says. */
-struct point {
-    bool by_density;
-    double value; /* Pa, or density */
-};
-
-static bool parse_point(const char *text, struct point *point, struct gb_error *err)
+static bool parse_point(const char *text, struct gb_mark *point, struct gb_error *err)
 {
     char **sides = g_strsplit(text, "=", 2);
     bool good = sides[0] != NULL && sides[1] != NULL;
@@ -36,13 +32,25 @@ static bool parse_point(const char *text, struct point *point, struct gb_error *
                                 text);
 }
 
-static double value_of(const struct gb_state *state, const struct point *point)
+static double value_of(const struct gb_state *state, const struct gb_mark *point)
 {
     return point->by_density ? state->point.density : state->point.p_pa;
 }
 
+/* Whether a state was asked for with just this point. */
+static bool is_kept_for(const char *path, const struct gb_mark *point)
+{
+    char name[64];
+    char *base = g_path_get_basename(path);
+    gb_album_name(point, name, sizeof name);
+    const bool same =
+        g_str_has_prefix(base, name) && strcmp(base + strlen(name), ".h5") == 0;
+    g_free(base);
+    return same;
+}
+
 /* Relative distance; states of unloading come after those of loading. */
-static double distance(const struct gb_state *state, const struct point *point)
+static double distance(const struct gb_state *state, const struct gb_mark *point)
 {
     const double away =
         fabs(value_of(state, point) - point->value) / fmax(fabs(point->value), 1e-12);
@@ -50,7 +58,7 @@ static double distance(const struct gb_state *state, const struct point *point)
 }
 
 static void describe(GString *list, const struct gb_state *state,
-                     const struct point *point)
+                     const struct gb_mark *point)
 {
     char value[48];
     if (point->by_density) {
@@ -92,7 +100,7 @@ static GPtrArray *list_paths(const char *place)
 }
 
 static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
-                         const struct point *point, GString *seen, struct gb_error *err)
+                         const struct gb_mark *point, GString *seen, struct gb_error *err)
 {
     double best = INFINITY;
     for (guint k = 0; k < paths->len; k++) {
@@ -101,7 +109,8 @@ static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
             return false;
         }
         describe(seen, state, point);
-        const double away = distance(state, point);
+        const char *path = g_ptr_array_index(paths, k);
+        const double away = is_kept_for(path, point) ? 0.0 : distance(state, point);
         if (away < best) {
             struct gb_state *other = *out;
             *out = state;
@@ -116,7 +125,7 @@ static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
 bool gb_states_read(struct gb_state **out, const char *place, const char *at,
                     struct gb_error *err)
 {
-    struct point point = {0};
+    struct gb_mark point = {0};
     *out = NULL;
     if (at != NULL && !parse_point(at, &point, err)) {
         return false;

@@ -36,8 +36,7 @@ static bool reaches(const struct gb_album *album, const struct gb_mark *mark,
     return point->branch == GB_BRANCH_LOAD && before < mark->value && now >= mark->value;
 }
 
-/* "p-100MPa" */
-static void name_mark(const struct gb_mark *mark, char *name, size_t size)
+char *gb_album_name(const struct gb_mark *mark, char *name, size_t size)
 {
     char value[48];
     char *to = value;
@@ -53,6 +52,7 @@ static void name_mark(const struct gb_mark *mark, char *name, size_t size)
     }
     *to = '\0';
     snprintf(name, size, "%s-%s", mark->by_density ? "density" : "p", value);
+    return name;
 }
 
 static bool write_state(const char *directory, const char *name,
@@ -80,7 +80,7 @@ static int list_due(const struct gb_album *album, const struct gb_point *point,
     int count = 0;
     for (int i = 0; i < marks->count; i++) {
         if (reaches(album, &marks->mark[i], point)) {
-            name_mark(&marks->mark[i], names[count++], sizeof names[0]);
+            gb_album_name(&marks->mark[i], names[count++], sizeof names[0]);
         }
     }
     if (marks->every > 0 && (number - 1) % marks->every == 0) {

@@ -15,6 +15,9 @@ struct gb_album {
     double p_pa, density; /* highest so far while loading */
 };
 
+/* Name of the state that is kept for a mark, without its ending. */
+char *gb_album_name(const struct gb_mark *mark, char *name, size_t size);
+
 /* The marks of checked params. */
 void gb_album_init(struct gb_album *album, const struct gb_params *params);
 
