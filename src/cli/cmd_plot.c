@@ -1,3 +1,4 @@
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +16,8 @@ enum { DIRECTORIES_MAX = 1000 };
 
 /* What the command line said. */
 struct request {
-    char *figure, *reference, *densities, *pressure, *output, *size, *log, *data, *title;
+    char *figure, *reference, *densities, *pressure, *output, *size, *log, *data, *title,
+        *inset;
     char *at;
     gboolean force;
 };
@@ -25,7 +27,7 @@ static void free_request(struct request *request)
     char *const texts[] = {request->figure,   request->reference, request->densities,
                            request->pressure, request->output,    request->size,
                            request->log,      request->data,      request->title,
-                           request->at};
+                           request->at,       request->inset};
     for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
         g_free(texts[k]);
     }
@@ -168,12 +170,32 @@ static void set_log(struct gb_series *series, const char *axes)
     series->y.log = series->y.log || (axes != NULL && strchr(axes, 'y') != NULL);
 }
 
+/* "5:9" along x, or none. */
+static bool set_inset(struct gb_series *series, const char *text, struct gb_error *err)
+{
+    const char *end = NULL;
+    double from = 0.0;
+    double to = 0.0;
+    const bool none = strcmp(text, "none") == 0;
+    if (!none && (!gb_units_number(text, &end, &from) || *end != ':' ||
+                  !gb_units_number(end + 1, &end, &to) || *end != '\0' || !(from < to))) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--inset %.80s: accepted FROM:TO of the lower axis, as in "
+                            "5:9, or none",
+                            text);
+    }
+    series->inset[0] = none ? NAN : from;
+    series->inset[1] = none ? NAN : to;
+    return true;
+}
+
 static bool plot_series(const struct request *request,
                         const struct gb_figures_row *figure,
                         const struct gb_figures_input *input, struct gb_error *err)
 {
     struct gb_series series = {0};
     bool good = figure->compute(&series, input, err) &&
+                (request->inset == NULL || set_inset(&series, request->inset, err)) &&
                 (request->data == NULL ||
                  gb_plotting_data(&series, request->data, figure->name, err));
     if (good) {
@@ -193,6 +215,7 @@ static bool plot_runs(const struct request *request, const struct gb_figures_row
     bool good = check_count(list->len, err) &&
                 gb_runset_read(&set, (char *const *)list->pdata, list->len, err);
     if (good) {
+        gb_runset_merge(&set, gb_figures_ignored(figure));
         input->set = &set;
         input->reference = set.run[place].group;
         good = plot_series(request, figure, input, err);
@@ -256,7 +279,8 @@ static char *describe_figures(void)
     }
     g_string_append(
         text, "\nRuns whose presets are equal but for seed, title, threads "
-              "and [output] are one\ngroup; means are over its runs.  The directory "
+              "and [output] are one\ngroup; means are over its runs (figures of the "
+              "loading branch: also those that differ in\nloading.hold).  The directory "
               "of a sweep stands for its runs.\nFigures of laws, from contact to "
               "critical-step, take a preset and group.key=value\nin place of runs; "
               "chart takes the directory of greenbody chart.\nA figure has a twin "
@@ -283,6 +307,8 @@ int gb_cmd_plot(int argc, char **argv)
          "x|y|xy"},
         {"data", 0, 0, G_OPTION_ARG_FILENAME, &request.data,
          "points of an experiment, drawn as marks", "FILE.csv"},
+        {"inset", 0, 0, G_OPTION_ARG_STRING, &request.inset,
+         "a part of the lower axis drawn larger in a free corner; none", "FROM:TO"},
         {"title", 0, 0, G_OPTION_ARG_STRING, &request.title, "above the figure", "TEXT"},
         {"force", 0, 0, G_OPTION_ARG_NONE, &request.force, "replace an existing file",
          NULL},

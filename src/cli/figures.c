@@ -92,7 +92,35 @@ static bool asymptote_columns(struct gb_series *series, const double *density,
     return good;
 }
 
-/* P2 Fig. 2. */
+/* The beginning of the curves drawn larger, as in P1 Fig. 5: up to a share of the highest
+ * pressure. */
+static void magnify_beginning(struct gb_series *series, size_t groups)
+{
+    const double share = 0.05;
+    const double *density = g_ptr_array_index(series->columns, 0);
+    double most = 0.0;
+    size_t last = series->rows;
+    for (size_t g = 0; g < groups; g++) {
+        const double *mean = g_ptr_array_index(series->columns, 1 + 2 * g);
+        for (size_t i = 0; i < series->rows; i++) {
+            most = isfinite(mean[i]) ? fmax(most, mean[i]) : most;
+        }
+    }
+    for (size_t g = 0; g < groups; g++) {
+        const double *mean = g_ptr_array_index(series->columns, 1 + 2 * g);
+        size_t i = 0;
+        while (i < last && !(mean[i] > share * most)) {
+            i++;
+        }
+        last = i;
+    }
+    if (last > 1 && last < series->rows) {
+        series->inset[0] = density[0];
+        series->inset[1] = density[last];
+    }
+}
+
+/* P1 Fig. 5, P2 Fig. 2. */
 static bool compute_densification(struct gb_series *series,
                                   const struct gb_figures_input *input,
                                   struct gb_error *err)
@@ -109,6 +137,9 @@ static bool compute_densification(struct gb_series *series,
     const double *grid = gb_series_sample_grid(series, &sample, "density");
     const bool good = gb_figures_label_means(series, &sample, set, grid, err) &&
                       asymptote_columns(series, grid, set, err);
+    if (good && set->run[0].params.kind == GB_KIND_QUASISTATIC) {
+        magnify_beginning(series, set->groups);
+    }
     gb_series_sample_finish(&sample);
     return good;
 }
@@ -225,6 +256,20 @@ static const struct gb_figures_row figures[] = {
 const struct gb_figures_row *gb_figures_all(void)
 {
     return figures;
+}
+
+const char *const *gb_figures_ignored(const struct gb_figures_row *row)
+{
+    static const char *const of_loading[] = {"densification", "difference", "rate",
+                                             "coordination", "lateral"};
+    static const char *const held[] = {"loading.hold", "loading.record_time", NULL};
+    static const char *const none[] = {NULL};
+    for (size_t k = 0; k < G_N_ELEMENTS(of_loading); k++) {
+        if (strcmp(row->name, of_loading[k]) == 0) {
+            return held;
+        }
+    }
+    return none;
 }
 
 const struct gb_figures_row *gb_figures_find(const char *name)

@@ -41,6 +41,9 @@ struct gb_figures_row {
 
 /* Every figure, ended by a row without name. */
 const struct gb_figures_row *gb_figures_all(void);
+/* Keys in which runs may differ and still be one group of a figure, NULL at the end: what
+ * comes after the branch it shows. */
+const char *const *gb_figures_ignored(const struct gb_figures_row *row);
 /* NULL when there is none of this name. */
 const struct gb_figures_row *gb_figures_find(const char *name);
 

@@ -9,6 +9,8 @@
 #include "measure/average.h"
 #include "measure/structure.h"
 
+/* Far distances are drawn larger where there are that many diameters. */
+static const double inset_from = 4.0, inset_to = 9.0, inset_least = 6.0;
 static const double bin_width = 0.025; /* of g(r), d */
 enum { ANGLES = 18, BINS = 24, FARTHEST = 400, LAW = 241 };
 
@@ -142,6 +144,11 @@ bool gb_figures_state_rdf(struct gb_series *series, const struct gb_figures_inpu
         series->x.low = 0.0;
         series->y.low = 0.0;
         series->y.high = 1.35 * most;
+        const double last = bins * bin_width; /* of insets in P1 Fig. 4 and 7 */
+        if (last >= inset_least) {
+            series->inset[0] = inset_from;
+            series->inset[1] = fmin(last, inset_to);
+        }
     }
     g_free(rows);
     free_all(states, set->count);

@@ -62,7 +62,10 @@ static void show_figure(struct gb_report *report, const struct gb_figures_row *r
 static bool add_figure(struct gb_report *report, const struct gb_figures_row *row,
                        struct gb_error *err)
 {
-    const struct gb_figures_input input = {.set = report->set};
+    struct gb_runset set = *report->set; /* in the groups of this figure */
+    set.run = g_memdup2(set.run, set.count * sizeof *set.run);
+    gb_runset_merge(&set, gb_figures_ignored(row));
+    const struct gb_figures_input input = {.set = &set};
     struct gb_series series = {0};
     struct gb_error why = {0};
     bool good = true;
@@ -80,6 +83,7 @@ static bool add_figure(struct gb_report *report, const struct gb_figures_row *ro
         show_figure(report, row);
     }
     gb_series_finish(&series);
+    g_free(set.run);
     if (!good && err != NULL) {
         *err = why;
     }

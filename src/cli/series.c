@@ -15,7 +15,8 @@ static void free_label(void *curve)
 void gb_series_init(struct gb_series *series, size_t rows)
 {
     *series = (struct gb_series){.x = {.low = NAN, .high = NAN},
-                                 .y = {.low = NAN, .high = NAN}};
+                                 .y = {.low = NAN, .high = NAN},
+                                 .inset = {NAN, NAN}};
     series->curves = g_array_new(FALSE, FALSE, sizeof(struct gb_series_curve));
     g_array_set_clear_func(series->curves, free_label);
     series->marks = g_array_new(FALSE, FALSE, sizeof(struct gb_figure_note));
@@ -155,6 +156,7 @@ void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
     }
     *figure = (struct gb_figure){
         .caption = series->caption->str,
+        .inset = {series->inset[0], series->inset[1]},
         .x = {series->x.label, series->x.log, series->x.low, series->x.high},
         .y = {series->y.label, series->y.log, series->y.low, series->y.high},
         .curve = *curves,

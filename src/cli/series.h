@@ -38,6 +38,7 @@ struct gb_series {
     GArray *curves;   /* struct gb_series_curve */
     GArray *marks;    /* struct gb_figure_note */
     GString *caption; /* Pango markup */
+    double inset[2];  /* part of the x axis drawn larger; NaN: none */
 };
 
 void gb_series_init(struct gb_series *series, size_t rows);

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "draw/figure_marks.h"
 #include "draw/figure_names.h"
+#include "draw/figure_room.h"
 #include "draw/hush.h"
 #include "draw/text.h"
 
@@ -19,6 +20,7 @@ static const double page_height = 300.0;
 
 static const double label_size = 10.0;
 static const double tick_size = 8.8;
+static const double inset_size = 7.4; /* of its tick labels */
 static const double title_size = 10.6;
 static const double caption_size = 8.0;
 static const double rule = 0.6; /* frame and ticks */
@@ -31,6 +33,7 @@ struct page {
     const struct gb_figure *figure;
     struct gb_text text;
     double width, height;
+    double tick_size;
     double beside; /* room kept for a legend right of the frame */
     struct gb_figure_layout layout;
     struct gb_figure_names names;
@@ -138,7 +141,7 @@ static double widest_label(const struct page *page)
     for (int k = 0; k < page->layout.y.ticks; k++) {
         double wide = 0.0;
         double high = 0.0;
-        gb_text_measure(&page->text, page->layout.y.label[k], tick_size, 0.0, &wide,
+        gb_text_measure(&page->text, page->layout.y.label[k], page->tick_size, 0.0, &wide,
                         &high);
         most = fmax(most, wide);
     }
@@ -155,6 +158,15 @@ static double text_height(const struct page *page, const char *markup, double si
     return high;
 }
 
+/* The axes run along the frame. */
+static void aim(struct gb_figure_layout *layout)
+{
+    layout->x.from = layout->frame[0];
+    layout->x.to = layout->frame[2];
+    layout->y.from = layout->frame[3];
+    layout->y.to = layout->frame[1];
+}
+
 static void set_frame(struct page *page)
 {
     const struct gb_figure *figure = page->figure;
@@ -169,10 +181,26 @@ static void set_frame(struct page *page)
                1.7 * label_size - 1.5 * tick_size - gap;
     frame[2] = fmax(frame[2], frame[0] + 10.0);
     frame[3] = fmax(frame[3], frame[1] + 10.0);
-    layout->x.from = frame[0];
-    layout->x.to = frame[2];
-    layout->y.from = frame[3];
-    layout->y.to = frame[1];
+    aim(layout);
+}
+
+/* The largest free rectangle of some that will do. */
+static void place_inset(struct page *page)
+{
+    static const double shares[] = {0.5, 0.46, 0.42, 0.38, 0.34};
+    const double *f = page->layout.frame;
+    struct gb_figure_room room;
+    if (!(page->figure->inset[0] < page->figure->inset[1])) {
+        return;
+    }
+    gb_figure_room_init(&room, page->figure, &page->layout);
+    for (size_t k = 0; k < G_N_ELEMENTS(shares); k++) {
+        if (gb_figure_room_find(&room, shares[k] * (f[2] - f[0]),
+                                shares[k] * (f[3] - f[1]), page->layout.inset)) {
+            break;
+        }
+    }
+    gb_figure_room_finish(&room);
 }
 
 /* The legend beside the frame, when there is no room in it. */
@@ -185,6 +213,8 @@ static void set_names(struct page *page)
     page->beside = fmin(page->names.legend[2] + gap, 0.5 * page->width);
     fit_axes(page);
     set_frame(page);
+    memset(page->layout.inset, 0, sizeof page->layout.inset);
+    place_inset(page);
     const double wide = page->names.legend[2];
     const double high = page->names.legend[3];
     gb_figure_names_finish(&page->names);
@@ -229,18 +259,18 @@ static void draw_tick_labels(const struct page *page)
     for (int k = 0; k < layout->x.ticks; k++) {
         const double at[2] = {gb_figure_axis_place(&layout->x, layout->x.tick[k]),
                               layout->frame[3] + gap};
-        gb_text_write(&page->text, layout->x.label[k], tick_size, 0.0, at,
+        gb_text_write(&page->text, layout->x.label[k], page->tick_size, 0.0, at,
                       (double[2]){0.5, 0.0}, 0);
     }
     for (int k = 0; k < layout->y.ticks; k++) {
         const double at[2] = {layout->frame[0] - gap,
                               gb_figure_axis_place(&layout->y, layout->y.tick[k])};
-        gb_text_write(&page->text, layout->y.label[k], tick_size, 0.0, at,
+        gb_text_write(&page->text, layout->y.label[k], page->tick_size, 0.0, at,
                       (double[2]){1.0, 0.5}, 0);
     }
 }
 
-static void draw_axes(const struct page *page)
+static void draw_rules(const struct page *page)
 {
     cairo_t *cairo = page->text.cairo;
     const struct gb_figure_layout *layout = &page->layout;
@@ -254,6 +284,13 @@ static void draw_axes(const struct page *page)
     draw_ticks(page, true, layout->x.minor, layout->x.minors, minor);
     draw_ticks(page, false, layout->y.minor, layout->y.minors, minor);
     draw_tick_labels(page);
+}
+
+static void draw_axes(const struct page *page)
+{
+    const struct gb_figure_layout *layout = &page->layout;
+    const double *f = layout->frame;
+    draw_rules(page);
     char *x_name = axis_name(&page->figure->x, &layout->x);
     char *y_name = axis_name(&page->figure->y, &layout->y);
     gb_text_write(&page->text, x_name, label_size, 0.0,
@@ -315,13 +352,64 @@ static void draw_curves(const struct page *page)
     cairo_restore(cairo);
 }
 
+/* The part of the x axis that is drawn larger, and what y has there. */
+static void inset_axes(const struct gb_figure *figure, struct gb_figure *part)
+{
+    double low = INFINITY;
+    double high = -INFINITY;
+    *part = *figure;
+    part->x.low = figure->inset[0];
+    part->x.high = figure->inset[1];
+    for (size_t i = 0; i < figure->count; i++) {
+        const struct gb_figure_curve *curve = &figure->curve[i];
+        for (size_t k = 0; k < curve->count; k++) {
+            if (curve->x[k] >= part->x.low && curve->x[k] <= part->x.high) {
+                widen(&figure->y, &curve->y[k], curve->error ? &curve->error[k] : NULL, 1,
+                      &low, &high);
+            }
+        }
+    }
+    pad(&figure->y, 0.06, &low, &high);
+    part->y.low = low;
+    part->y.high = high;
+}
+
+static void draw_inset(const struct page *page)
+{
+    cairo_t *cairo = page->text.cairo;
+    const double *box = page->layout.inset;
+    struct gb_figure part;
+    if (!(box[2] > box[0])) {
+        return;
+    }
+    inset_axes(page->figure, &part);
+    struct page small = *page;
+    small.figure = &part;
+    small.width = 1.15 * (box[2] - box[0]); /* for the number of ticks */
+    small.height = 1.3 * (box[3] - box[1]);
+    small.tick_size = inset_size;
+    fit_axes(&small);
+    double *frame = small.layout.frame;
+    frame[0] = box[0] + widest_label(&small) + gap;
+    frame[1] = box[1];
+    frame[2] = box[2] - inset_size; /* half a number sticks out */
+    frame[3] = box[3] - 1.5 * inset_size - gap;
+    aim(&small.layout);
+    cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+    cairo_rectangle(cairo, frame[0], frame[1], frame[2] - frame[0], frame[3] - frame[1]);
+    cairo_fill(cairo);
+    draw_curves(&small);
+    draw_rules(&small);
+}
+
 /* The whole page onto a surface of which a point is `unit` long. */
 static bool draw(cairo_surface_t *surface, const struct gb_figure *figure, double width,
                  double height, double unit, struct gb_figure_layout *out,
                  struct gb_error *err)
 {
     cairo_t *cairo = cairo_create(surface);
-    struct page page = {.figure = figure, .width = width, .height = height};
+    struct page page = {
+        .figure = figure, .width = width, .height = height, .tick_size = tick_size};
     bool good = gb_text_init(&page.text, cairo, err);
     if (good) {
         cairo_scale(cairo, unit, unit);
@@ -329,9 +417,11 @@ static bool draw(cairo_surface_t *surface, const struct gb_figure *figure, doubl
         cairo_paint(cairo);
         fit_axes(&page);
         set_frame(&page);
+        place_inset(&page);
         set_names(&page);
         draw_curves(&page);
         draw_axes(&page);
+        draw_inset(&page);
         draw_notes(&page);
         gb_figure_names_draw(&page.names, figure, &page.text);
         draw_words(&page);
@@ -358,6 +448,7 @@ static void enlarge(struct gb_figure_layout *layout)
     for (int k = 0; k < 4; k++) {
         layout->frame[k] *= layout->unit;
         layout->legend[k] *= layout->unit;
+        layout->inset[k] *= layout->unit;
     }
     layout->x.from *= layout->unit;
     layout->x.to *= layout->unit;

@@ -54,6 +54,8 @@ struct gb_figure {
     size_t count;
     const struct gb_figure_note *note;
     size_t notes;
+    double inset[2]; /* part of the x axis that is drawn larger where there is room;
+                      * equal: none */
 };
 
 /* Where things came to lie, in pixels of the image; for those who look for them. */
@@ -61,6 +63,7 @@ struct gb_figure_layout {
     struct gb_figure_axis_scale x, y;
     double frame[4];  /* left, top, right, bottom */
     double legend[4]; /* of the box; all 0: there is none */
+    double inset[4];  /* of the part drawn larger with its numbers; all 0: none */
     bool direct;      /* lines are named where they run */
     double unit;      /* pixels per point */
 };

@@ -26,6 +26,8 @@ static const double line_width = 1.35;
 static const double faint_width = 0.45;
 static const double bar_width = 0.75;
 static const double mark_size = 2.6; /* radius of a disc */
+static const double core_size = 1.1;
+static const double bead_distance = 46.0;
 
 void gb_figure_marks_colour(int style, double rgb[3])
 {
@@ -34,8 +36,8 @@ void gb_figure_marks_colour(int style, double rgb[3])
     }
 }
 
-/* The second round of colours has other dashes, and hollow marks where the first has
- * filled ones. */
+/* The second round of colours has other dashes, marks with a core, and marks along its
+ * lines: apart without colours too. */
 static int round_of(int style)
 {
     return style / GB_FIGURE_STYLES;
@@ -195,19 +197,52 @@ static void outline(cairo_t *cairo, int style, const double at[2])
     cairo_close_path(cairo);
 }
 
-static void draw_mark(cairo_t *cairo, const struct gb_figure_curve *curve,
-                      const double at[2])
+static void set_fill(cairo_t *cairo, const struct gb_figure_curve *curve, bool white)
 {
-    outline(cairo, curve->style, at);
-    if (curve->open != (round_of(curve->style) % 2 == 1)) {
+    if (white) {
         cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
     } else {
         set_colour(cairo, curve->style, 1.0);
     }
+}
+
+static void draw_mark(cairo_t *cairo, const struct gb_figure_curve *curve,
+                      const double at[2])
+{
+    outline(cairo, curve->style, at);
+    set_fill(cairo, curve, curve->open);
     cairo_fill_preserve(cairo);
     set_colour(cairo, curve->style, 1.0);
     cairo_set_line_width(cairo, 0.9);
     cairo_stroke(cairo);
+    if (round_of(curve->style) > 0) {
+        cairo_arc(cairo, at[0], at[1], core_size, 0.0, 2.0 * M_PI);
+        set_fill(cairo, curve, !curve->open);
+        cairo_fill(cairo);
+    }
+}
+
+/* A line of a later round: marks at even distances along it. */
+static void draw_beads(cairo_t *cairo, const struct gb_figure_layout *layout,
+                       const struct gb_figure_curve *curve)
+{
+    double next = bead_distance *
+                  (0.3 + 0.6 * (curve->style % GB_FIGURE_STYLES) / GB_FIGURE_STYLES);
+    double last[2] = {NAN, NAN};
+    for (size_t k = 0; k < curve->count; k++) {
+        double at[2];
+        if (!gb_figure_marks_place(layout, curve, k, at)) {
+            last[0] = NAN;
+            continue;
+        }
+        next -= isfinite(last[0]) ? hypot(at[0] - last[0], at[1] - last[1]) : 0.0;
+        if (next <= 0.0) {
+            draw_mark(cairo, curve, at);
+            next = bead_distance;
+        }
+        last[0] = at[0];
+        last[1] = at[1];
+    }
 }
 
 static void bar(cairo_t *cairo, const double a[2], const double b[2])
@@ -264,6 +299,9 @@ void gb_figure_marks_curve(cairo_t *cairo, const struct gb_figure_layout *layout
     if (line || curve->kind == GB_FIGURE_BOTH) {
         draw_line(cairo, layout, curve);
     }
+    if (curve->kind == GB_FIGURE_LINE && round_of(curve->style) > 0) {
+        draw_beads(cairo, layout, curve);
+    }
     if (curve->kind == GB_FIGURE_STEPS) {
         draw_steps(cairo, layout, curve);
     }
@@ -292,7 +330,8 @@ void gb_figure_marks_sample(cairo_t *cairo, const struct gb_figure_curve *curve,
         cairo_stroke(cairo);
         cairo_set_dash(cairo, NULL, 0, 0.0);
     }
-    if (curve->kind == GB_FIGURE_POINTS || curve->kind == GB_FIGURE_BOTH) {
+    if (curve->kind == GB_FIGURE_POINTS || curve->kind == GB_FIGURE_BOTH ||
+        (curve->kind == GB_FIGURE_LINE && round_of(curve->style) > 0)) {
         draw_mark(cairo, curve, middle);
     }
 }

@@ -115,6 +115,10 @@ void gb_figure_room_init(struct gb_figure_room *room, const struct gb_figure *fi
         const double y = gb_figure_axis_place(&layout->y, note->y);
         fill(&ink, x - 14.0, y - 14.0, x + 14.0, y + 14.0);
     }
+    if (layout->inset[2] > layout->inset[0]) {
+        fill(&ink, layout->inset[0], layout->inset[1], layout->inset[2],
+             layout->inset[3]);
+    }
     sum_up(room, ink.on);
     g_free(ink.on);
 }

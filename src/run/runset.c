@@ -112,6 +112,33 @@ static bool join(struct gb_runset *set, size_t index, struct gb_error *err)
     return true;
 }
 
+/* The group that a run belongs to among those before it; the number of groups so far when
+ * it is a new one. */
+static size_t group_of(const struct gb_runset *set, size_t index, const char *const *keys)
+{
+    const struct gb_runset_run *run = &set->run[index];
+    for (size_t i = 0; i < index; i++) {
+        bool taken = difference(&run->params, &set->run[i].params, keys) != NULL;
+        for (size_t k = 0; k < index && !taken; k++) {
+            taken = set->run[k].group == set->run[i].group &&
+                    set->run[k].params.seed == run->params.seed;
+        }
+        if (!taken) {
+            return set->run[i].group;
+        }
+    }
+    return set->groups;
+}
+
+void gb_runset_merge(struct gb_runset *set, const char *const *keys)
+{
+    set->groups = 0;
+    for (size_t i = 0; i < set->count; i++) {
+        set->run[i].group = group_of(set, i, keys);
+        set->groups += set->run[i].group == set->groups;
+    }
+}
+
 static bool has_file(const char *directory, const char *name)
 {
     char *path = g_build_filename(directory, name, NULL);
@@ -198,10 +225,12 @@ size_t gb_runset_members(const struct gb_runset *set, size_t group)
     return members;
 }
 
+/* Between groups: within one, keys may differ that were merged. */
 static bool differs_somewhere(const struct gb_runset *set, const struct gb_field *field)
 {
-    for (size_t i = 1; i < set->count; i++) {
-        if (!is_equal(field, &set->run[0].params, &set->run[i].params)) {
+    const struct gb_params *first = &gb_runset_first(set, 0)->params;
+    for (size_t g = 1; g < set->groups; g++) {
+        if (!is_equal(field, first, &gb_runset_first(set, g)->params)) {
             return true;
         }
     }

@@ -36,6 +36,11 @@ bool gb_runset_read(struct gb_runset *set, char *const *directories, size_t coun
                     struct gb_error *err);
 void gb_runset_finish(struct gb_runset *set); /* zeroed is fine */
 
+/* Groups again, as if runs that differ in these keys only ("group.key", "group.", NULL at
+ * the end) were one experiment.  A seed that its group has already stays apart: the same
+ * run twice would make the error too small. */
+void gb_runset_merge(struct gb_runset *set, const char *const *keys);
+
 /* Are these one experiment: equal but for seed, title, threads and [output]? */
 bool gb_runset_same(const struct gb_params *a, const struct gb_params *b);
 

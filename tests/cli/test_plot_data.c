@@ -142,6 +142,33 @@ static void test_densification(void)
     program_finish(&result);
 }
 
+/* Runs that differ in what comes after the loading are one group of a figure of the
+ * loading, but the same seed counts once. */
+static void test_held(void)
+{
+    static const char *const hold = "hold = 2 ns\n";
+    char *curve = g_build_filename(folder, "a1", "curve.csv", NULL);
+    char *text = NULL;
+    g_assert_true(g_file_get_contents(curve, &text, NULL, NULL));
+    write_preset("h3", 6.8e8, 3, hold);
+    write_in("h3", "curve.csv", text);
+    write_preset("h1", 6.8e8, 1, hold);
+    write_in("h1", "curve.csv", text);
+    struct result result = fine("a1 a2 h3 --figure densification");
+    g_assert_nonnull(strstr(result.out, "# group 1: 3 runs\n"));
+    g_assert_null(strstr(result.out, "# group 2"));
+    program_finish(&result);
+    result = fine("a1 h1 --figure densification");
+    g_assert_nonnull(strstr(result.out, "# group 1: 1 runs, loading.hold"));
+    g_assert_nonnull(strstr(result.out, "# group 2: 1 runs, loading.hold = 2 ns"));
+    program_finish(&result);
+    result = fine("a1 a2 h3 --figure time");
+    g_assert_nonnull(strstr(result.out, "# group 2: 1 runs, loading.hold = 2 ns"));
+    program_finish(&result);
+    g_free(text);
+    g_free(curve);
+}
+
 static void test_difference(void)
 {
     const char *const words[] = {"a1 a2 b1 b2 --figure difference --reference b2",
@@ -434,6 +461,7 @@ int main(int argc, char **argv)
     write_broken();
     g_test_add_func("/plot/time", test_time);
     g_test_add_func("/plot/densification", test_densification);
+    g_test_add_func("/plot/held", test_held);
     g_test_add_func("/plot/difference", test_difference);
     g_test_add_func("/plot/rate", test_rate);
     g_test_add_func("/plot/relaxation", test_relaxation);

@@ -189,6 +189,75 @@ static void test_legend(void)
     gb_image_destroy(image);
 }
 
+static bool is_white(const struct gb_image *image, int x, int y)
+{
+    const uint8_t *at = &image->rgba[4 * (y * WIDE + x)];
+    return at[0] + at[1] + at[2] == 765;
+}
+
+/* A part of the axis drawn larger stands where nothing else does, and has its own ink. */
+static void test_inset(void)
+{
+    struct sheet sheet;
+    struct gb_figure_layout with;
+    struct gb_figure_layout without;
+    make(&sheet);
+    struct gb_image *plain = paint(&sheet.figure, &without);
+    g_assert_cmpfloat(without.inset[2], ==, 0.0);
+    gb_image_destroy(plain);
+    sheet.figure.inset[0] = 0.1;
+    sheet.figure.inset[1] = 0.3;
+    struct gb_image *image = paint(&sheet.figure, &with);
+    const double *box = with.inset;
+    g_assert_cmpfloat(box[2], >, box[0]);
+    g_assert_cmpfloat(box[2] - box[0], <, 0.6 * (with.frame[2] - with.frame[0]));
+    g_assert_true(box[0] > with.frame[0] && box[1] > with.frame[1] &&
+                  box[2] < with.frame[2] && box[3] < with.frame[3]);
+    int ink = 0;
+    for (int y = (int)box[1]; y < (int)box[3]; y++) {
+        for (int x = (int)box[0]; x < (int)box[2]; x++) {
+            ink += distance_to(&image->rgba[4 * (y * WIDE + x)], 0) < 0.1;
+        }
+    }
+    g_assert_cmpint(ink, >, 100); /* the steep line */
+    gb_image_destroy(image);
+    for (int k = 0; k < 3; k++) {
+        sheet.curve[k].label = NULL;
+    }
+    sheet.figure.inset[1] = sheet.figure.inset[0];
+    image = paint(&sheet.figure, &without);
+    for (int y = (int)box[1]; y < (int)box[3]; y++) {
+        for (int x = (int)box[0]; x < (int)box[2]; x++) {
+            g_assert_true(is_white(image, x, y));
+        }
+    }
+    gb_image_destroy(image);
+}
+
+/* After as many curves as there are colours, lines carry marks: with a colour and a dash
+ * alone they would be those of others without colours. */
+static void test_rounds(void)
+{
+    struct sheet sheet;
+    struct gb_figure_layout layout;
+    int ink[2] = {0, 0};
+    make(&sheet);
+    sheet.figure.count = 1;
+    sheet.curve[0].error = NULL;
+    for (int k = 0; k < 2; k++) {
+        sheet.curve[0].style = 3 + k * GB_FIGURE_STYLES;
+        sheet.curve[0].label = NULL;
+        struct gb_image *image = paint(&sheet.figure, &layout);
+        for (int y = (int)layout.frame[1] + 20; y < (int)layout.frame[3] - 20; y++) {
+            for (int x = (int)layout.frame[0] + 20; x < (int)layout.frame[2] - 20; x++) {
+                ink[k] += !is_white(image, x, y);
+            }
+        }
+        gb_image_destroy(image);
+    }
+    g_assert_cmpint(ink[1], >, ink[0] + 100);
+}
+
 /* A frame full of points: the legend stands beside it. */
 static void test_full(void)
 {
@@ -297,6 +366,8 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/figure/odd-axes", test_odd_axes);
     g_test_add_func("/draw/figure/ink", test_ink);
     g_test_add_func("/draw/figure/legend", test_legend);
+    g_test_add_func("/draw/figure/inset", test_inset);
+    g_test_add_func("/draw/figure/rounds", test_rounds);
     g_test_add_func("/draw/figure/full", test_full);
     g_test_add_func("/draw/figure/nothing", test_nothing);
     g_test_add_func("/draw/figure/files", test_files);
