@@ -36,6 +36,11 @@ double gb_cost_rate_assumed(const struct gb_params *params);
 double gb_cost_rate_measured(const struct gb_experiment *experiment,
                              int64_t evaluations_before, double seconds);
 
+/* Seconds that a quasi-static run will take about, by those that its quick cell
+ * (run/quick.h) took on this machine: good to a factor of two.  NaN for other kinds. */
+double gb_cost_from_quick(const struct gb_params *full, const struct gb_params *quick,
+                          double quick_s);
+
 /* "9 s", "12 min", "8 h 52 min", "41 days".  Returns buffer. */
 char *gb_cost_duration(double seconds, char *buffer, size_t size);
 

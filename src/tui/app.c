@@ -36,7 +36,7 @@ static void interrupt(struct gb_app *app)
         !gb_session_live(&app->screen.session)) {
         gb_asks_leave(app, STATUS_SIGNAL + SIGINT);
     } else {
-        gb_dialog_show(&app->screen.dialog, GB_DIALOG_QUIT, NULL);
+        gb_asks_leave_live(app);
     }
 }
 

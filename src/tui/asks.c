@@ -159,6 +159,13 @@ void gb_asks_fork(struct gb_app *app)
         gb_asks_tell(app, GB_STYLE_WARN, "a what-if needs a run under way: r starts one");
         return;
     }
+    if (gb_runner_params(screen->session.runner)->kind != GB_KIND_QUASISTATIC) {
+        gb_asks_tell(
+            app, GB_STYLE_WARN,
+            "a what-if goes on from an equilibrium, which only quasi-static runs "
+            "have: change the parameter and r starts anew");
+        return;
+    }
     gb_panel_params_quote(&screen->params, &screen->session, text, sizeof text);
     gb_dialog_show(&screen->dialog, GB_DIALOG_FORK, text);
 }
@@ -268,11 +275,25 @@ void gb_asks_answer(struct gb_app *app)
     }
 }
 
+void gb_asks_leave_live(struct gb_app *app)
+{
+    const struct gb_session *session = &app->screen.session;
+    const bool kept =
+        session->runner != NULL && gb_runner_directory(session->runner) != NULL;
+    const char *text = session->attached != NULL
+                           ? "A run is shown that is under way elsewhere; it goes on."
+                       : kept
+                           ? "A run is live. It stops with a checkpoint, and `greenbody "
+                             "resume` goes on with it."
+                           : "A run is live; what it has found so far is not stored.";
+    gb_dialog_show(&app->screen.dialog, GB_DIALOG_QUIT, text);
+}
+
 void gb_asks_quit(struct gb_app *app)
 {
     const bool seen = app->screen.layout.kind != GB_LAYOUT_TOO_SMALL;
     if (gb_session_live(&app->screen.session) && seen) {
-        gb_dialog_show(&app->screen.dialog, GB_DIALOG_QUIT, NULL);
+        gb_asks_leave_live(app);
     } else {
         gb_asks_leave(app, 0);
     }

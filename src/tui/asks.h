@@ -23,6 +23,8 @@ void gb_asks_data(struct gb_app *app);
 void gb_asks_fork(struct gb_app *app);
 void gb_asks_command(struct gb_app *app);
 void gb_asks_quit(struct gb_app *app);
+/* The question before a run that is live is left. */
+void gb_asks_leave_live(struct gb_app *app);
 
 /* Another command of this program makes it from the run's directory, beside the screen.
  * Its path: the directory, middle, a number that is free, end. */

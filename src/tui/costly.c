@@ -40,3 +40,22 @@ bool gb_costly_question(const struct gb_params *params, double particle_steps_pe
              measured ? "as the last run" : "assumed", advice);
     return true;
 }
+
+bool gb_costly_after_quick(const struct gb_params *full, const struct gb_params *quick,
+                           double quick_s, double *seconds, char *text, size_t size)
+{
+    char duration[48];
+    struct gb_error err = {0};
+    const struct gb_cost cost = {.seconds = gb_cost_from_quick(full, quick, quick_s)};
+    *seconds = cost.seconds;
+    if (!isfinite(cost.seconds) || gb_cost_unasked(&cost, &err)) {
+        return false;
+    }
+    gb_cost_duration(cost.seconds, duration, sizeof duration);
+    snprintf(text, size,
+             "This run will take about %s: %lld particles, by the %.1f s of its quick "
+             "cell. Cheaper: fewer particles.count%s.",
+             duration, (long long)full->count, quick_s,
+             full->fidelity == GB_FIDELITY_FAST ? "" : " or numerics.fidelity = fast");
+    return true;
+}

@@ -14,4 +14,9 @@
 bool gb_costly_question(const struct gb_params *params, double particle_steps_per_s,
                         char *text, size_t size);
 
+/* The same of a quasi-static run, by what its quick cell took.  *seconds: that the run
+ * will take about, NaN when it cannot be foretold. */
+bool gb_costly_after_quick(const struct gb_params *full, const struct gb_params *quick,
+                           double quick_s, double *seconds, char *text, size_t size);
+
 #endif

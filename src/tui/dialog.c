@@ -46,7 +46,7 @@ void gb_dialog_show(struct gb_dialog *dialog, enum gb_dialog_kind kind, const ch
     dialog->kind = kind;
     if (kind == GB_DIALOG_COMMAND) {
         dialog->text = g_strdup(text != NULL ? text : "");
-    } else if (kind == GB_DIALOG_COSTLY) {
+    } else if (kind == GB_DIALOG_COSTLY || kind == GB_DIALOG_QUIT) {
         g_strlcpy(dialog->note, text != NULL ? text : "", sizeof dialog->note);
     } else {
         gb_prompt_set(&dialog->prompt, text != NULL ? text : "");
@@ -183,12 +183,11 @@ static void draw_costly(const struct gb_dialog *dialog, const struct gb_paint *s
     draw_answers(&paint, paint.rect.rows - 1, "starts it", "leaves it");
 }
 
-static void draw_quit(const struct gb_paint *screen)
+static void draw_quit(const struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     const struct gb_paint frame = box(screen, 6, ASK_COLS, "Quit?");
     const struct gb_paint paint = inside(&frame);
-    gb_paint_wrap(&paint, 0, 2, GB_STYLE_PLAIN,
-                  "A run is live; what it has found so far is not stored.");
+    gb_paint_wrap(&paint, 0, 2, GB_STYLE_PLAIN, dialog->note);
     draw_answers(&paint, 3, "ends it and quits", "goes back");
 }
 
@@ -213,7 +212,7 @@ void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen)
         draw_command(dialog, screen);
         break;
     case GB_DIALOG_QUIT:
-        draw_quit(screen);
+        draw_quit(dialog, screen);
         break;
     case GB_DIALOG_COSTLY:
         draw_costly(dialog, screen);

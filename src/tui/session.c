@@ -1,9 +1,11 @@
 #include "tui/session.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "run/cost.h"
 #include "tui/costly.h"
 #include "tui/crash.h"
 #include "tui/life.h"
@@ -110,8 +112,26 @@ static void describe_all(struct gb_session *session, const struct gb_params *par
     }
 }
 
+/* What the quick cell foretells of the full one; NaN: nothing. */
+static bool foretell(const struct gb_session *session, double *seconds, char *text,
+                     size_t size)
+{
+    const struct gb_trial *trial = &session->trial;
+    const struct gb_params *params = gb_preset_params(session->preset);
+    *seconds = NAN;
+    return trial->runner != NULL && trial->state == GB_RUN_DONE &&
+           trial_is_of(session, params) &&
+           gb_costly_after_quick(params, gb_runner_params(trial->runner),
+                                 gb_runner_snapshot(trial->runner, NULL)->seconds,
+                                 seconds, text, size);
+}
+
 bool gb_session_costly(struct gb_session *session, char *text, size_t size)
 {
+    double seconds = NAN;
+    if (foretell(session, &seconds, text, size)) {
+        return true;
+    }
     return gb_costly_question(gb_session_params(session), session->particle_steps_per_s,
                               text, size);
 }
@@ -202,6 +222,19 @@ bool gb_session_take_due(struct gb_session *session)
     return due;
 }
 
+static void note_foretold(struct gb_session *session)
+{
+    char question[400];
+    char duration[48];
+    double seconds = NAN;
+    foretell(session, &seconds, question, sizeof question);
+    if (isfinite(seconds)) {
+        gb_session_note(session, "the full cell of %lld: about %s",
+                        (long long)gb_session_params(session)->count,
+                        gb_cost_duration(seconds, duration, sizeof duration));
+    }
+}
+
 /* The full run follows, unless that would throw away work. */
 static void end_trial(struct gb_session *session)
 {
@@ -216,6 +249,7 @@ static void end_trial(struct gb_session *session)
         gb_session_run_is_live(session) && session->now.seconds > replaced_most_s;
     gb_session_note(session, "quick cell of %lld: whole curve in %.1f s",
                     (long long)gb_runner_params(trial->runner)->count, now->seconds);
+    note_foretold(session);
     /* a pause that came too late for the quick cell is one all the same */
     session->due = session->follow && !works && !session->pause_wanted;
     if (!session->due) {

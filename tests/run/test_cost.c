@@ -1,9 +1,11 @@
+#include <math.h>
 #include <string.h>
 
 #include <glib.h>
 
 #include "run/cost.h"
 #include "run/experiment.h"
+#include "run/quick.h"
 
 /* P2's scene at its slowest rate, v5, with the paper's step. */
 static struct gb_params slowest(void)
@@ -121,6 +123,33 @@ static void test_measured(void)
     g_assert_cmpfloat(gb_cost_rate_assumed(&params), ==, 8e6);
 }
 
+/* A full cell by its quick one: as many times longer as it has more particles, finer
+ * steps and tighter tolerances, and shorter by the threads it keeps busy. */
+static void test_from_quick(void)
+{
+    struct gb_params full;
+    struct gb_params quick;
+    gb_params_init(&full);
+    full.threads = 1;
+    full.count = 8000;
+    full.fidelity = GB_FIDELITY_FAST;
+    full.unload_count = 0;
+    g_assert_true(gb_quick_params(&full, &quick));
+    g_assert_cmpfloat(gb_cost_from_quick(&full, &quick, 2.0), ==, 16.0);
+    full.fidelity = GB_FIDELITY_BALANCED;
+    const double balanced = gb_cost_from_quick(&full, &quick, 2.0);
+    g_assert_cmpfloat(balanced, >, 30.0); /* 2.3 times as many sweeps were counted */
+    g_assert_cmpfloat(balanced, <, 45.0);
+    full.fidelity = GB_FIDELITY_REFERENCE;
+    const double reference = gb_cost_from_quick(&full, &quick, 2.0);
+    g_assert_cmpfloat(reference, >, 10.0 * 16.0); /* 13 times */
+    g_assert_cmpfloat(reference, <, 16.0 * 16.0);
+    full.unload_count = 2;
+    g_assert_cmpfloat(gb_cost_from_quick(&full, &quick, 2.0), >, reference);
+    full.kind = GB_KIND_DYNAMIC;
+    g_assert_true(isnan(gb_cost_from_quick(&full, &quick, 2.0)));
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -129,5 +158,6 @@ int main(int argc, char **argv)
     g_test_add_func("/cost/refused", test_refused);
     g_test_add_func("/cost/unasked", test_unasked);
     g_test_add_func("/cost/measured", test_measured);
+    g_test_add_func("/cost/from-quick", test_from_quick);
     return g_test_run();
 }

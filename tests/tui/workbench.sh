@@ -115,6 +115,7 @@ is "the terminal is back" terminal_is_back
 start "$long"
 shows "opens with settings" 'N 6000'
 is "the full cell follows its quick one" until_true full_cell_runs
+told "how long it takes is foretold" 'the full cell of 6000: about [0-9]'
 keys p
 shows "p pauses the engine" '‖ paused'
 keys p
@@ -183,6 +184,8 @@ is "the cheaper run starts" until_true [ -e "$runs/p2-v5-1/curve.csv" ]
 is "it is not asked about" has_not 'A long run'
 shows "the stage is told" 'stage  *[a-z]'
 shows "energies have a unit" 'work  *[0-9.]* [a-z]*J'
+keys f
+shows "a what-if is refused with the reason" 'only quasi-static runs'
 keys 4
 shows "4 shows pressure against time" '4 Pressure against time'
 shows "in nanoseconds" 't, ns'
