@@ -120,6 +120,16 @@ static void magnify_beginning(struct gb_series *series, size_t groups)
     }
 }
 
+static bool all_quasistatic(const struct gb_runset *set)
+{
+    for (size_t i = 0; i < set->count; i++) {
+        if (set->run[i].params.kind != GB_KIND_QUASISTATIC) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* P1 Fig. 5, P2 Fig. 2. */
 static bool compute_densification(struct gb_series *series,
                                   const struct gb_figures_input *input,
@@ -137,7 +147,7 @@ static bool compute_densification(struct gb_series *series,
     const double *grid = gb_series_sample_grid(series, &sample, "density");
     const bool good = gb_figures_label_means(series, &sample, set, grid, err) &&
                       asymptote_columns(series, grid, set, err);
-    if (good && set->run[0].params.kind == GB_KIND_QUASISTATIC) {
+    if (good && all_quasistatic(set)) {
         magnify_beginning(series, set->groups);
     }
     gb_series_sample_finish(&sample);

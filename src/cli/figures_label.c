@@ -95,9 +95,9 @@ static glong seen_length(const char *markup)
     return length;
 }
 
-char *gb_figures_label(const struct gb_runset *set, size_t group, const char *except)
+/* "key = value, ..." in short; takes whole. */
+static GString *shorten(char *whole, const char *except)
 {
-    char *whole = gb_runset_label(set, group);
     char **parts = g_strsplit(whole, ", ", -1);
     GString *label = g_string_new(NULL);
     for (int k = 0; parts[k] != NULL; k++) {
@@ -105,11 +105,30 @@ char *gb_figures_label(const struct gb_runset *set, size_t group, const char *ex
     }
     g_strfreev(parts);
     g_free(whole);
-    const bool given = label->len > 0 && seen_length(label->str) <= LONGEST;
-    if (!given && except == NULL) {
-        char *title = g_markup_escape_text(gb_runset_first(set, group)->params.title, -1);
-        g_string_assign(label, title);
-        g_free(title);
+    return label;
+}
+
+/* Scenes that differ in much are named by their titles, and those of one title by what
+ * tells them apart. */
+static void use_title(GString *label, const struct gb_runset *set, size_t group,
+                      const char *except)
+{
+    char *title = g_markup_escape_text(gb_runset_first(set, group)->params.title, -1);
+    GString *more = shorten(gb_runset_label_of_title(set, group), except);
+    g_string_assign(label, title);
+    if (more->len > 0 && seen_length(more->str) <= LONGEST) {
+        g_string_append_printf(label, ": %s", more->str);
+    }
+    g_string_free(more, TRUE);
+    g_free(title);
+}
+
+char *gb_figures_label(const struct gb_runset *set, size_t group, const char *except)
+{
+    GString *label = shorten(gb_runset_label(set, group), except);
+    const bool nothing = label->len == 0 && except == NULL;
+    if (nothing || seen_length(label->str) > LONGEST) {
+        use_title(label, set, group, except);
     }
     return g_string_free(label, FALSE);
 }

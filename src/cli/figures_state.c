@@ -316,12 +316,14 @@ static bool draw_sizes(struct gb_series *series, const struct gb_figures_input *
         place[k] = edge[0] + (edge[BINS] - edge[0]) * k / (LAW - 1);
         law[k] = log_normal(place[k], mean, deviation, power);
     }
-    gb_series_axes(series, per_metre > 5e6 ? "diameter_nm" : "diameter_um",
-                   per_metre > 5e6 ? "particle diameter <i>d</i> (nm)"
-                                   : "particle diameter <i>d</i> (\xce\xbcm)",
-                   "share",
-                   power == 0 ? "share of the number per length"
-                              : "share of the volume per length");
+    static const char *const shares[2][2] = {
+        {"share of the number (1/\xce\xbcm)", "share of the volume (1/\xce\xbcm)"},
+        {"share of the number (1/nm)", "share of the volume (1/nm)"}};
+    const bool nano = per_metre > 5e6;
+    gb_series_axes(series, nano ? "diameter_nm" : "diameter_um",
+                   nano ? "particle diameter <i>d</i> (nm)"
+                        : "particle diameter <i>d</i> (\xce\xbcm)",
+                   "share", shares[nano][power != 0]);
     gb_series_draw(series, edge, share, NULL, GB_FIGURE_STEPS, 0, "particles");
     gb_series_draw(series, place, law, NULL, GB_FIGURE_LINE, 1, "log-normal law");
     gb_series_note(series, "log-normal: mean of ln d %.6g (d in %s), deviation %.6g",

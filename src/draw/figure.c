@@ -66,7 +66,8 @@ static bool has_marks(const struct gb_figure *figure)
     return figure->notes > 0;
 }
 
-static void pad(const struct gb_figure_axis *axis, double share, double *low,
+/* An axis that begins at zero does so, but for marks that stand there. */
+static void pad(const struct gb_figure_axis *axis, double share, bool marks, double *low,
                 double *high)
 {
     if (axis->log && *low > 0.0) {
@@ -75,7 +76,7 @@ static void pad(const struct gb_figure_axis *axis, double share, double *low,
         *high *= factor;
     } else if (!axis->log) {
         const double span = *high - *low;
-        *low -= *low == 0.0 ? 0.0 : share * span;
+        *low -= *low == 0.0 && !marks ? 0.0 : share * span;
         *high += share * span;
     }
 }
@@ -96,12 +97,13 @@ static void ends(const struct page *page, bool along_x, double *low, double *hig
             *low = fmin(*low, 0.0);
         }
     }
+    const bool marked = *low == 0.0 && has_marks(figure);
     if (!axis->log && *low > 0.0 && *low < 0.2 * *high) {
         *low = 0.0;
     }
     if (isfinite(*high - *low)) {
         const double share = figure->notes > 0 ? 0.08 : has_marks(figure) ? 0.04 : 0.0;
-        pad(axis, along_x ? share : fmax(share, 0.03), low, high);
+        pad(axis, along_x ? share : fmax(share, 0.03), marked, low, high);
     }
     *low = isfinite(axis->low) ? axis->low : *low;
     *high = isfinite(axis->high) ? axis->high : *high;
@@ -114,8 +116,8 @@ static void fit_axes(struct page *page)
     for (int k = 0; k < 2; k++) {
         const struct gb_figure_axis *axis = k == 0 ? &figure->x : &figure->y;
         const bool exact[2] = {isfinite(axis->low), isfinite(axis->high)};
-        const int wanted =
-            (int)fmax((k == 0 ? page->width / 62.0 : page->height / 48.0), 2.0);
+        const int wanted = (int)fmax(
+            k == 0 ? (page->width - page->beside) / 62.0 : page->height / 48.0, 2.0);
         double low = 0.0;
         double high = 1.0;
         ends(page, k == 0, &low, &high);
@@ -369,7 +371,7 @@ static void inset_axes(const struct gb_figure *figure, struct gb_figure *part)
             }
         }
     }
-    pad(&figure->y, 0.06, &low, &high);
+    pad(&figure->y, 0.06, true, &low, &high);
     part->y.low = low;
     part->y.high = high;
 }

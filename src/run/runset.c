@@ -225,26 +225,31 @@ size_t gb_runset_members(const struct gb_runset *set, size_t group)
     return members;
 }
 
-/* Between groups: within one, keys may differ that were merged. */
-static bool differs_somewhere(const struct gb_runset *set, const struct gb_field *field)
+/* Between groups, of one title when that is given: within a group, keys may differ that
+ * were merged. */
+static bool differs_somewhere(const struct gb_runset *set, const struct gb_field *field,
+                              const struct gb_params *params, const char *title)
 {
-    const struct gb_params *first = &gb_runset_first(set, 0)->params;
-    for (size_t g = 1; g < set->groups; g++) {
-        if (!is_equal(field, first, &gb_runset_first(set, g)->params)) {
+    for (size_t g = 0; g < set->groups; g++) {
+        const struct gb_params *other = &gb_runset_first(set, g)->params;
+        if ((title == NULL || strcmp(title, other->title) == 0) &&
+            !is_equal(field, params, other)) {
             return true;
         }
     }
     return false;
 }
 
-char *gb_runset_label(const struct gb_runset *set, size_t group)
+static char *label_among(const struct gb_runset *set, size_t group, bool same_title)
 {
     const struct gb_params *params = &gb_runset_first(set, group)->params;
+    const char *title = same_title ? params->title : NULL;
     GString *label = g_string_new(NULL);
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
-        if (!gb_runset_bookkeeping(&fields[i]) && differs_somewhere(set, &fields[i])) {
+        if (!gb_runset_bookkeeping(&fields[i]) &&
+            differs_somewhere(set, &fields[i], params, title)) {
             char value[GB_PARAMS_VALUE_MAX];
             g_string_append_printf(
                 label, "%s%s.%s = %s", label->len ? ", " : "", fields[i].group,
@@ -252,6 +257,16 @@ char *gb_runset_label(const struct gb_runset *set, size_t group)
         }
     }
     return g_string_free(label, FALSE);
+}
+
+char *gb_runset_label(const struct gb_runset *set, size_t group)
+{
+    return label_among(set, group, false);
+}
+
+char *gb_runset_label_of_title(const struct gb_runset *set, size_t group)
+{
+    return label_among(set, group, true);
 }
 
 const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,

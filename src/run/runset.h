@@ -55,6 +55,9 @@ size_t gb_runset_members(const struct gb_runset *set, size_t group);
  * a single group.  Caller g_frees. */
 char *gb_runset_label(const struct gb_runset *set, size_t group);
 
+/* The same, from the groups of the same title alone. */
+char *gb_runset_label_of_title(const struct gb_runset *set, size_t group);
+
 /* The first key in which two groups differ, other than those of `accepted`, a
  * NULL-terminated list of "group.key" and "group."; NULL when there is none. */
 const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,
