@@ -121,6 +121,26 @@ INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepes
     }
 }
 
+INLINE void stretch(const struct gb_model *model, struct terms t, struct gb_batch *batch,
+                    struct gb_contacts *contacts, int64_t slot)
+{
+    if (t.planar) {
+        stretch_2d(model, t, batch, contacts, slot);
+    } else {
+        stretch_3d(model, t, batch, contacts, slot);
+    }
+}
+
+INLINE void load(const struct gb_model *model, struct terms t, struct gb_batch *batch,
+                 struct gb_contacts *contacts, int64_t slot)
+{
+    if (t.planar) {
+        load_2d(model, t, batch, contacts, slot);
+    } else {
+        load_3d(model, t, batch, contacts, slot);
+    }
+}
+
 /* Variants: planar or not, {normal only, friction, friction and bridges}, viscous or not.
  */
 #define VARIANT(name, attribute, planar_, friction_, bridges_, viscous_)                 \
@@ -128,28 +148,30 @@ INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepes
                                          struct gb_batch *batch,                         \
                                          struct gb_contacts *contacts, int64_t slot)     \
     {                                                                                    \
-        const struct terms t = {planar_, friction_, bridges_, viscous_};                 \
-        if (planar_) {                                                                   \
-            stretch_2d(model, t, batch, contacts, slot);                                 \
+        const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
+        const struct terms printed = {planar_, friction_, bridges_, viscous_, true};     \
+        if (bridges_ && model->bridge.radius_current) {                                  \
+            stretch(model, printed, batch, contacts, slot);                              \
         } else {                                                                         \
-            stretch_3d(model, t, batch, contacts, slot);                                 \
+            stretch(model, t, batch, contacts, slot);                                    \
         }                                                                                \
     }                                                                                    \
     attribute static void name##_load(const struct gb_model *model,                      \
                                       struct gb_batch *batch,                            \
                                       struct gb_contacts *contacts, int64_t slot)        \
     {                                                                                    \
-        const struct terms t = {planar_, friction_, bridges_, viscous_};                 \
-        if (planar_) {                                                                   \
-            load_2d(model, t, batch, contacts, slot);                                    \
+        const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
+        const struct terms printed = {planar_, friction_, bridges_, viscous_, true};     \
+        if (bridges_ && model->bridge.radius_current) {                                  \
+            load(model, printed, batch, contacts, slot);                                 \
         } else {                                                                         \
-            load_3d(model, t, batch, contacts, slot);                                    \
+            load(model, t, batch, contacts, slot);                                       \
         }                                                                                \
     }                                                                                    \
     attribute static void name##_tally(struct gb_batch *batch, const double *deepest,    \
                                        struct gb_tally *tally)                           \
     {                                                                                    \
-        const struct terms t = {planar_, friction_, bridges_, viscous_};                 \
+        const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
         tally_batch(t, batch, deepest, tally);                                           \
     }
 

@@ -13,8 +13,9 @@ INLINE void stretch_2d(const struct gb_model *model, struct terms t,
     double *restrict ax = c->arm[0] + slot, *restrict az = c->arm[1] + slot;
     double *restrict shear = c->shear[0] + slot, *restrict roll = c->roll[0] + slot;
     const double m = model->slip.motion, length = model->bridge.length;
-    const double k_shear = model->slip.shear, sigma = model->slip.strength;
-    const double printed = mask(model->bridge.radius_current);
+    const double k_shear = model->slip.shear;
+    /* the cap over the stiffness, squared, without the contact's size */
+    const double tear = M_PI * M_PI * model->slip.strength * model->slip.strength;
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
         const double rx = b->r[0][k], rz = b->r[1][k];
@@ -46,10 +47,8 @@ INLINE void stretch_2d(const struct gb_model *model, struct terms t,
                 if (t.viscous) {
                     b->rate[1][k] = holds * g;
                 }
-                const double a2 = 0.25 * radius_square(t, printed, length, now, h);
-                const double ks = k_shear * sqrt(larger(a2, 0.0));
-                const double cap = M_PI * a2 * sigma;
-                b->fails[k] = mask((now > 0.0) & (ks * ks * v * v > cap * cap));
+                const double a2 = 0.25 * radius_square(t, length, now, h);
+                b->fails[k] = mask((now > 0.0) & (k_shear * k_shear * v * v > tear * a2));
             }
         }
         if (t.viscous) {
@@ -75,7 +74,6 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
     const struct gb_law_slip slip = model->slip;
     const double inverse_motion = 1.0 / slip.motion;
     const double damp = b->damp, cutoff2 = b->cutoff2;
-    const double printed = mask(model->bridge.radius_current);
     const double length = model->bridge.length;
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
@@ -93,8 +91,8 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
             fn += lag;
         }
         if (t.friction) {
-            const double a2 = live * 0.25 * radius_square(t, printed, length, state, h);
-            const double a = sqrt(larger(a2, 0.0)), ks = slip.shear * a;
+            const double a2 = live * 0.25 * radius_square(t, length, state, h);
+            const double a = radius(t, a2, live, f.root), ks = slip.shear * a;
             const double strength = M_PI * a2 * slip.strength;
             const double cap = held ? strength : smaller(slip.mu * f.elastic, strength);
             double v = shear[k];

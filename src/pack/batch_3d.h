@@ -17,8 +17,9 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t,
     double *restrict qz = c->roll[2] + slot;
     const double m = model->slip.motion, length = model->bridge.length;
     const double k_shear = model->slip.shear, k_pivot = model->slip.pivot;
-    const double sigma = model->slip.strength;
-    const double printed = mask(model->bridge.radius_current);
+    /* the caps over the stiffnesses, both squared, without the contact's size */
+    const double tear = M_PI * M_PI * model->slip.strength * model->slip.strength;
+    const double wring = 0.25 * tear;
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
         const double rx = b->r[0][k], ry = b->r[1][k], rz = b->r[2][k];
@@ -90,15 +91,11 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t,
                     b->rate[6][k] = holds * gz;
                 }
                 /* (5), (11): the cap of shear or pivoting is reached */
-                const double a2 = 0.25 * radius_square(t, printed, length, now, h);
-                const double a = sqrt(larger(a2, 0.0));
-                const double shear = k_shear * a, shear_cap = M_PI * a2 * sigma;
-                const double turn = k_pivot * a2 * a,
-                             turn_cap = 0.5 * M_PI * a2 * a * sigma;
-                const double shear2 = shear * shear * (vx * vx + vy * vy + vz * vz);
-                const double turn2 = turn * turn * twist * twist;
-                b->fails[k] = mask((now > 0.0) & ((shear2 > shear_cap * shear_cap) |
-                                                  (turn2 > turn_cap * turn_cap)));
+                const double a2 = 0.25 * radius_square(t, length, now, h);
+                const double v_squared = vx * vx + vy * vy + vz * vz;
+                b->fails[k] =
+                    mask((now > 0.0) & ((k_shear * k_shear * v_squared > tear * a2) |
+                                        (k_pivot * k_pivot * twist * twist > wring)));
             }
         }
         if (t.viscous) {
@@ -130,7 +127,6 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
     const struct gb_law_slip slip = model->slip;
     const double inverse_motion = 1.0 / slip.motion;
     const double damp = b->damp, cutoff2 = b->cutoff2;
-    const double printed = mask(model->bridge.radius_current);
     const double length = model->bridge.length;
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
@@ -150,8 +146,8 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
         double tx = 0.0, ty = 0.0, tz = 0.0, jx = 0.0, jy = 0.0, jz = 0.0;
         double slides = 0.0;
         if (t.friction) {
-            const double a2 = live * 0.25 * radius_square(t, printed, length, state, h);
-            const double a = sqrt(larger(a2, 0.0));
+            const double a2 = live * 0.25 * radius_square(t, length, state, h);
+            const double a = radius(t, a2, live, f.root);
             const double ks = slip.shear * a, kp = slip.pivot * a2 * a;
             const double strength = M_PI * a2 * slip.strength;
             const double twisting = 0.5 * M_PI * a2 * a * slip.strength;
