@@ -237,9 +237,9 @@ static void fill_moments(const struct gb_model *model, struct gb_batch *batch,
                          const double *deepest)
 {
     for (int k = 0; k < batch->n; k++) {
-        batch->moment[k] = deepest[k] == 0.0 && model->slip.mu_pivot > 0.0
-                               ? gb_law_rod_moment(&model->rod, batch->overlap[k])
-                               : 0.0;
+        if (deepest[k] == 0.0) {
+            batch->moment[k] = gb_law_rod_moment(&model->rod, batch->overlap[k]);
+        }
     }
 }
 
@@ -250,8 +250,9 @@ static void fail_bridges(const struct gb_model *model, struct gb_batch *batch,
 {
     for (int k = 0; k < batch->n; k++) {
         if (batch->fails[k] != 0.0) {
-            deepest[k] =
-                batch->overlap[k] > model->bridge.length ? batch->overlap[k] : 0.0;
+            const bool stays = batch->overlap[k] > model->bridge.length;
+            deepest[k] = stays ? batch->overlap[k] : 0.0;
+            batch->loose += !stays;
         }
     }
 }
@@ -260,10 +261,10 @@ void gb_batch_advance(const struct gb_batch_kernel *kernel, const struct gb_mode
                       struct gb_batch *batch, struct gb_contacts *contacts, int64_t slot)
 {
     kernel->stretch(model, batch, contacts, slot);
-    if (model->terms.bridges) {
+    if (batch->failed > 0.0) {
         fail_bridges(model, batch, contacts->deepest + slot);
     }
-    if (model->terms.friction && model->dimension == 3) {
+    if (batch->loose > 0.0 && model->slip.mu_pivot > 0.0 && model->dimension == 3) {
         fill_moments(model, batch, contacts->deepest + slot);
     }
     kernel->load(model, batch, contacts, slot);

@@ -60,6 +60,7 @@ struct gb_batch {
     double sliding[GB_BATCH];  /* 1: shear spring at its cap */
     double absorbed[GB_BATCH]; /* work the contact took up in this step; viscous scenes */
     /* between the two halves */
+    double failed, loose; /* how many fail, how many touch without a bridge */
     double unit[3][GB_BATCH], distance[GB_BATCH], moment[GB_BATCH], fails[GB_BATCH];
     double rate[8][GB_BATCH]; /* increments of the motions the springs see; 7: of h */
 };

@@ -16,7 +16,8 @@ INLINE void stretch_2d(const struct gb_model *model, struct terms t,
     const double k_shear = model->slip.shear;
     /* the cap over the stiffness, squared, without the contact's size */
     const double tear = M_PI * M_PI * model->slip.strength * model->slip.strength;
-#pragma omp simd
+    double failed = 0.0;
+#pragma omp simd reduction(+ : failed)
     for (int k = 0; k < b->n; k++) {
         const double rx = b->r[0][k], rz = b->r[1][k];
         const double squared = rx * rx + rz * rz;
@@ -48,7 +49,10 @@ INLINE void stretch_2d(const struct gb_model *model, struct terms t,
                     b->rate[1][k] = holds * g;
                 }
                 const double a2 = 0.25 * radius_square(t, length, now, h);
-                b->fails[k] = mask((now > 0.0) & (k_shear * k_shear * v * v > tear * a2));
+                const double fails =
+                    mask((now > 0.0) & (k_shear * k_shear * v * v > tear * a2));
+                b->fails[k] = fails;
+                failed += fails;
             }
         }
         if (t.viscous) {
@@ -59,6 +63,8 @@ INLINE void stretch_2d(const struct gb_model *model, struct terms t,
         ax[k] = rx;
         az[k] = rz;
     }
+    b->failed = failed;
+    b->loose = 0.0;
 }
 
 /* Second half, 2D. */

@@ -20,7 +20,8 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t,
     /* the caps over the stiffnesses, both squared, without the contact's size */
     const double tear = M_PI * M_PI * model->slip.strength * model->slip.strength;
     const double wring = 0.25 * tear;
-#pragma omp simd
+    double failed = 0.0, loose = 0.0;
+#pragma omp simd reduction(+ : failed, loose)
     for (int k = 0; k < b->n; k++) {
         const double rx = b->r[0][k], ry = b->r[1][k], rz = b->r[2][k];
         const double squared = rx * rx + ry * ry + rz * rz;
@@ -93,10 +94,16 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t,
                 /* (5), (11): the cap of shear or pivoting is reached */
                 const double a2 = 0.25 * radius_square(t, length, now, h);
                 const double v_squared = vx * vx + vy * vy + vz * vz;
-                b->fails[k] =
+                const double fails =
                     mask((now > 0.0) & ((k_shear * k_shear * v_squared > tear * a2) |
                                         (k_pivot * k_pivot * twist * twist > wring)));
+                b->fails[k] = fails;
+                failed += fails;
             }
+        }
+        if (t.friction) {
+            b->moment[k] = 0.0;
+            loose += mask(now == 0.0);
         }
         if (t.viscous) {
             const double arm2 = ax[k] * ax[k] + ay[k] * ay[k] + az[k] * az[k];
@@ -107,6 +114,8 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t,
         ay[k] = ry;
         az[k] = rz;
     }
+    b->failed = failed;
+    b->loose = loose;
 }
 
 /* Second half, 3D: forces and torques from the springs, which are cut at their caps. */
