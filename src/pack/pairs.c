@@ -13,11 +13,14 @@ enum { CROWD = 256 };
 struct grid {
     const struct gb_cell *cell;
     const double *position;
+    double (*sorted)[3]; /* places, grid cell by grid cell: begin[c] .. begin[c + 1] */
+    const double (*shift)[3];
+    bool plain;      /* which image is meant follows from the grid cells */
     int n[3];        /* grid cells along each axis */
     int span_low[3]; /* neighbouring cells to visit: span_low .. span_high */
     int span_high[3];
     double inverse[3];
-    const int32_t *head, *next;
+    const int32_t *begin, *order;
 };
 
 static bool list_init(struct gb_pair_list *list, int64_t count, struct gb_error *err)
@@ -96,6 +99,7 @@ static int grid_index(const struct grid *grid, const double x[3])
 static void grid_shape(struct grid *grid, double reach, int64_t count)
 {
     const int most = (int)fmax(1.0, ceil(cbrt((double)count)) * 2.0);
+    grid->plain = true;
     for (int k = 0; k < 3; k++) {
         const double edge = grid->cell->edge[k];
         grid->n[k] =
@@ -104,29 +108,45 @@ static void grid_shape(struct grid *grid, double reach, int64_t count)
         /* with one or two cells along an axis, -1 and +1 are the same cell */
         grid->span_low[k] = grid->n[k] > 2 ? -1 : 0;
         grid->span_high[k] = grid->n[k] > 1 ? 1 : 0;
+        grid->plain = grid->plain && (grid->n[k] > 2 || !grid->cell->periodic[k]);
+    }
+}
+
+/* Sorts the particles by grid cells, ascending within each. */
+static void grid_sort(struct gb_pairs *pairs, const struct grid *grid, int64_t cells)
+{
+    int32_t *begin = pairs->head, *order = pairs->next;
+    memset(begin, 0, ((size_t)cells + 1) * sizeof *begin);
+    for (int64_t i = 0; i < pairs->count; i++) {
+        begin[grid_index(grid, grid->position + 3 * i)]++;
+    }
+    for (int64_t c = 1; c <= cells; c++) {
+        begin[c] += begin[c - 1];
+    }
+    for (int64_t i = pairs->count - 1; i >= 0; i--) {
+        const int32_t at = --begin[grid_index(grid, grid->position + 3 * i)];
+        order[at] = (int32_t)i;
+        memcpy(grid->sorted[at], grid->position + 3 * i, sizeof *grid->sorted);
     }
 }
 
 static bool grid_fill(struct gb_pairs *pairs, struct grid *grid, struct gb_error *err)
 {
     const int64_t cells = (int64_t)grid->n[0] * grid->n[1] * grid->n[2];
-    if (cells > pairs->head_capacity) {
+    if (cells + 1 > pairs->head_capacity) {
         gb_alloc_free(pairs->head);
         pairs->head_capacity = 0;
-        pairs->head = gb_alloc_array((size_t)cells, sizeof *pairs->head, err);
+        pairs->head = gb_alloc_array((size_t)cells + 1, sizeof *pairs->head, err);
         if (!pairs->head) {
             return false;
         }
-        pairs->head_capacity = cells;
+        pairs->head_capacity = cells + 1;
     }
-    memset(pairs->head, 0xff, (size_t)cells * sizeof *pairs->head);
-    for (int64_t i = pairs->count - 1; i >= 0; i--) {
-        const int c = grid_index(grid, grid->position + 3 * i);
-        pairs->next[i] = pairs->head[c];
-        pairs->head[c] = (int32_t)i;
-    }
-    grid->head = pairs->head;
-    grid->next = pairs->next;
+    /* the places of the build before are not needed any more */
+    grid->sorted = (double(*)[3])pairs->built_at;
+    grid_sort(pairs, grid, cells);
+    grid->begin = pairs->head;
+    grid->order = pairs->next;
     return true;
 }
 
@@ -173,20 +193,49 @@ static void insert_sorted(struct neighbour *list, int n, struct neighbour item)
     list[k] = item;
 }
 
-/* Members of one grid cell that come after i and lie within the bounds. */
-static int scan_cell(const struct grid *grid, int64_t i, int c, struct bounds bounds,
-                     struct neighbour *list, int n)
+/* Members of the grid cells first .. last that come after i and lie within the bounds;
+ * image: that of all of them, where the grid is plain. */
+static int scan_cells(const struct grid *grid, int64_t i, int first, int last, int image,
+                      struct bounds bounds, struct neighbour *list, int n)
 {
-    for (int32_t j = grid->head[c]; j >= 0 && n < CROWD; j = grid->next[j]) {
-        if (j <= i) {
-            continue;
+    const double *x = grid->position + 3 * i, *shift = grid->shift[image];
+    for (int32_t k = grid->begin[first]; k < grid->begin[last + 1] && n < CROWD; k++) {
+        const double *y = grid->sorted[k];
+        const double r[3] = {x[0] - y[0] + shift[0], x[1] - y[1] + shift[1],
+                             x[2] - y[2] + shift[2]};
+        double squared = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+        uint8_t seen = (uint8_t)image;
+        if (!grid->plain) {
+            seen = nearest_image(grid->cell, x, y, &squared);
         }
-        double squared;
-        const uint8_t image = nearest_image(grid->cell, grid->position + 3 * i,
-                                            grid->position + 3 * (int64_t)j, &squared);
-        if (squared < bounds.far) {
-            insert_sorted(list, n++, (struct neighbour){j, image, squared < bounds.near});
+        if (squared < bounds.far && grid->order[k] > i) {
+            insert_sorted(
+                list, n++,
+                (struct neighbour){grid->order[k], seen, squared < bounds.near});
         }
+    }
+    return n;
+}
+
+/* Which image of a neighbouring grid cell is meant, as a digit of the image's index. */
+static int image_digit(int place, int n)
+{
+    return place < 0 ? 2 : place >= n ? 0 : 1;
+}
+
+/* One row of grid cells along x. */
+static int scan_row(const struct grid *grid, int64_t i, int home, int row, int image,
+                    struct bounds bounds, struct neighbour *list, int n)
+{
+    const int cells = grid->n[0];
+    if (grid->plain && cells > 2 && home > 0 && home < cells - 1) {
+        return scan_cells(grid, i, row + home - 1, row + home + 1, image + 1, bounds,
+                          list, n);
+    }
+    for (int u = grid->span_low[0]; u <= grid->span_high[0]; u++) {
+        const int c = row + (home + u + cells) % cells;
+        n = scan_cells(grid, i, c, c, image + image_digit(home + u, cells), bounds, list,
+                       n);
     }
     return n;
 }
@@ -204,11 +253,10 @@ static int scan_particle(const struct grid *grid, int64_t i, struct bounds bound
         const int cw = (home[2] + w + grid->n[2]) % grid->n[2];
         for (int v = grid->span_low[1]; v <= grid->span_high[1]; v++) {
             const int cv = (home[1] + v + grid->n[1]) % grid->n[1];
-            for (int u = grid->span_low[0]; u <= grid->span_high[0]; u++) {
-                const int cu = (home[0] + u + grid->n[0]) % grid->n[0];
-                const int c = (cw * grid->n[1] + cv) * grid->n[0] + cu;
-                n = scan_cell(grid, i, c, bounds, list, n);
-            }
+            const int image = 9 * image_digit(home[2] + w, grid->n[2]) +
+                              3 * image_digit(home[1] + v, grid->n[1]);
+            n = scan_row(grid, i, home[0], (cw * grid->n[1] + cv) * grid->n[0], image,
+                         bounds, list, n);
         }
     }
     return n;
@@ -311,7 +359,10 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
             "reach %.3g d: take more particles or another structure.base",
             gb_cell_shortest(cell), reach);
     }
-    struct grid grid = {.cell = cell, .position = position};
+    double shift[27][3];
+    gb_pairs_shifts(cell, shift);
+    struct grid grid = {
+        .cell = cell, .position = position, .shift = (const double(*)[3])shift};
     grid_shape(&grid, reach, pairs->count);
     const struct bounds bounds = {(1.0 + skin) * (1.0 + skin), reach * reach};
     if (!grid_fill(pairs, &grid, err) || !fill_pairs(pairs, &grid, bounds, err)) {
