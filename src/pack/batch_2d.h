@@ -105,7 +105,7 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
             const double trial = v;
             const double shear2 = ks * ks * v * v;
             const bool cut = shear2 > cap * cap;
-            v *= cut_to(cap, shear2, cut);
+            v *= cut_to(t, cap, shear2, cut);
             shear[k] = v;
             slides = mask(cut);
             if (t.viscous) {
@@ -124,7 +124,7 @@ INLINE void load_2d(const struct gb_model *model, struct terms t,
                 const double before = p;
                 const double roll2 = kr * kr * p * p;
                 const bool rolls = roll2 > roll_cap * roll_cap;
-                p *= cut_to(roll_cap, roll2, rolls);
+                p *= cut_to(t, roll_cap, roll2, rolls);
                 roll[k] = p;
                 if (t.viscous) {
                     const double g = b->rate[1][k], lag = damp * mask(!rolls & held);

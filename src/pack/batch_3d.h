@@ -168,8 +168,8 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
             const double v2 = vx * vx + vy * vy + vz * vz;
             const double shear2 = ks * ks * v2, turn2 = kp * kp * p * p;
             const bool cut = shear2 > cap * cap, turned = turn2 > turn_cap * turn_cap;
-            const double keep = cut_to(cap, shear2, cut);
-            const double stay = cut_to(turn_cap, turn2, turned);
+            const double keep = cut_to(t, cap, shear2, cut);
+            const double stay = cut_to(t, turn_cap, turn2, turned);
             vx *= keep;
             vy *= keep;
             vz *= keep;
@@ -211,7 +211,7 @@ INLINE void load_3d(const struct gb_model *model, struct terms t,
                 const double p2 = px * px + py * py + pz * pz;
                 const double roll2 = kr * kr * p2;
                 const bool rolls = roll2 > roll_cap * roll_cap;
-                const double hold = mask(held) * cut_to(roll_cap, roll2, rolls);
+                const double hold = mask(held) * cut_to(t, roll_cap, roll2, rolls);
                 px *= hold;
                 py *= hold;
                 pz *= hold;

@@ -91,11 +91,11 @@ INLINE double keep_length(double before, double after)
     return before * inverse_root(before * after);
 }
 
-/* Factor that cuts a spring of squared load load2 back to its cap: to a hair below it, so
- * that no rounding error makes a spring at rest there slide. */
-INLINE double cut_to(double cap, double load2, bool over)
+/* Factor that cuts a spring of squared load load2 back to its cap; where nothing moves by
+ * itself to a hair below it, so that no rounding error makes a spring at rest slide. */
+INLINE double cut_to(struct terms t, double cap, double load2, bool over)
 {
-    const double hair = 1.0 - 0x1p-40;
+    const double hair = t.viscous ? 1.0 : 1.0 - 0x1p-40;
     return over ? hair * cap * inverse_root(load2) : 1.0;
 }
 
