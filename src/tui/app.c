@@ -105,6 +105,17 @@ static void draw(struct gb_app *app)
     app->dirty = app->urgent = false;
 }
 
+/* True: there was something. */
+static bool overhear(struct gb_app *app)
+{
+    char line[160];
+    const bool heard = gb_overheard_poll(&app->overheard, line, sizeof line);
+    if (heard) {
+        gb_session_note(&app->screen.session, "a library says: %s", line);
+    }
+    return heard;
+}
+
 static void loop(struct gb_app *app)
 {
     while (!app->leave) {
@@ -112,6 +123,7 @@ static void loop(struct gb_app *app)
         handle(app, &event);
         app->dirty = gb_session_refresh(&app->screen.session) || app->dirty ||
                      gb_image_due(&app->screen.image, clock_s());
+        app->dirty = overhear(app) || app->dirty;
         gb_asks_follow(app);
         if (app->dirty && !app->leave && frame_wait(app) <= 0.0) {
             draw(app);
@@ -168,6 +180,7 @@ int gb_app_run(struct gb_preset *preset, const char *folder, const char *attache
         return gb_status_exit_code(GB_ERR_MACHINE);
     }
     app->dirty = app->urgent = true;
+    gb_overheard_init(&app->overheard);
     app->most = settings->slow ? GB_APP_FRAMES_SLOW : GB_APP_FRAMES;
     first_focus(screen);
     gb_session_init(&screen->session, preset);

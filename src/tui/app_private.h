@@ -1,6 +1,7 @@
 #ifndef GB_TUI_APP_PRIVATE_H
 #define GB_TUI_APP_PRIVATE_H
 
+#include "tui/overheard.h"
 #include "tui/screen.h"
 
 /* The workbench from inside: app.c is the loop, act.c what each key does, asks.c what is
@@ -9,6 +10,7 @@ enum { GB_APP_FRAMES = 10, GB_APP_FRAMES_SLOW = 2 };
 
 struct gb_app {
     struct gb_screen screen;
+    struct gb_overheard overheard;
     bool leave, dirty;
     bool gone;   /* the terminal */
     bool urgent; /* a key waits for its frame */

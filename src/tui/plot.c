@@ -198,6 +198,19 @@ static uint32_t mark_char(const struct gb_plot *plot, int marker)
     return plot->glyphs == GB_PLOT_ASCII ? ascii_marks[marker] : wide_marks[marker];
 }
 
+/* The label of an axis stays whole: the line itself shows that the curve is there. */
+static void put_marker(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
+{
+    if (row < 0 || row >= plot->rows || col < 0 || col >= plot->cols) {
+        return;
+    }
+    const struct gb_plot_cell *cell = &plot->cell[row * plot->cols + col];
+    const bool text = cell->ink == GB_PLOT_INK_TEXT || cell->ink == GB_PLOT_INK_AXIS;
+    if (!cell->fixed || !text) {
+        put(plot, row, col, ch, ink);
+    }
+}
+
 /* Markers at least `spacing` cells apart, and one at the last point. */
 static void draw_markers(struct gb_plot *plot, const struct gb_plot_series *series)
 {
@@ -216,13 +229,13 @@ static void draw_markers(struct gb_plot *plot, const struct gb_plot_series *seri
         end_col = field_col(plot, x);
         const int away = MAX(2 * abs(end_row - last_row), abs(end_col - last_col));
         if (series->points || (series->spacing > 0 && away >= series->spacing)) {
-            put(plot, end_row, end_col, ch, series->ink);
+            put_marker(plot, end_row, end_col, ch, series->ink);
             last_row = end_row;
             last_col = end_col;
         }
     }
     if (series->spacing == 0 && end_row >= 0) {
-        put(plot, end_row, end_col, ch, series->ink);
+        put_marker(plot, end_row, end_col, ch, series->ink);
     }
 }
 

@@ -13,6 +13,14 @@ char *gb_term_tty_log(void)
     return g_build_filename(g_get_user_state_dir(), "greenbody", "workbench.log", NULL);
 }
 
+int gb_term_tty_read_log(void)
+{
+    char *path = gb_term_tty_log();
+    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+    g_free(path);
+    return fd;
+}
+
 static int open_log(void)
 {
     char *path = gb_term_tty_log();

@@ -8,6 +8,9 @@
 /* Path of the log file; g_free. */
 char *gb_term_tty_log(void);
 
+/* The log opened for reading; -1: it cannot be. */
+int gb_term_tty_read_log(void);
+
 /* Sends standard output and error to a log file ($XDG_STATE_HOME/greenbody/workbench.log,
  * or nowhere). */
 void gb_term_tty_redirect(void);

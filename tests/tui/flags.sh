@@ -26,6 +26,10 @@ wheel() { # 64 up, 65 down; column, row
     term send-keys -l "$(printf '\033[<%d;%d;%dM' "$1" "$2" "$3")"
 }
 
+has_prompt() {
+    screen | grep -q '^ready> *$'
+}
+
 # Row of the screen, counted from 1, in which that stands.
 row_of() {
     screen | grep -n -- "$1" | head -n 1 | cut -d : -f 1
@@ -102,6 +106,17 @@ leaves "and closes again"
 start "$small --batch --out $here/batch"
 is "--batch does what run does" until_true grep -qs '"done"' "$here/batch/status.json"
 shows "and leaves" 'status=0'
+
+# --- what libraries write to standard error
+keys C-u "clear; sh -c 'echo \$\$ >$here/pid; exec $greenbody $small particles.count=3000'" Enter
+shows "opens" 'Parameters'
+shows "computes" '▶'
+echo 'driver: no such thing' >>"/proc/$(cat "$here/pid")/fd/2"
+told "what a library says stands among the events" 'a library says: driver: no such'
+keys q
+until_true asks_or_has_left
+keys y
+until_true has_prompt
 
 # --- the mouse, as a terminal of the kind xterm reports it
 with='TERM=xterm-256color' start "$small"
