@@ -133,7 +133,7 @@ char *gb_figures_label(const struct gb_runset *set, size_t group, const char *ex
     return g_string_free(label, FALSE);
 }
 
-void gb_figures_label_note(struct gb_series *series, const struct gb_runset *set)
+size_t gb_figures_label_groups(struct gb_series *series, const struct gb_runset *set)
 {
     size_t most = 0;
     for (size_t g = 0; g < set->groups; g++) {
@@ -144,6 +144,12 @@ void gb_figures_label_note(struct gb_series *series, const struct gb_runset *set
         g_free(label);
         most = MAX(most, members);
     }
+    return most;
+}
+
+void gb_figures_label_note(struct gb_series *series, const struct gb_runset *set)
+{
+    const size_t most = gb_figures_label_groups(series, set);
     if (most > 1) {
         gb_series_say(series, "Means of %zu runs; bands and bars: standard error.", most);
     }

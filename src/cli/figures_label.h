@@ -8,7 +8,10 @@
  * "group.key" left out (NULL: none).  g_free. */
 char *gb_figures_label(const struct gb_runset *set, size_t group, const char *except);
 
-/* Notes which number is which group and run, and says in the caption what bands are. */
+/* Notes which number is which group and run; runs of the largest group. */
+size_t gb_figures_label_groups(struct gb_series *series, const struct gb_runset *set);
+
+/* The same, and says in the caption what bands are. */
 void gb_figures_label_note(struct gb_series *series, const struct gb_runset *set);
 
 /* Columns and curves of the mean pressure (MPa) of every group over the grid. */

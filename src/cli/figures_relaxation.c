@@ -318,7 +318,10 @@ bool gb_figures_relaxation_curve(struct gb_series *series,
         return false;
     }
     gb_series_init(series, CURVE_POINTS);
-    gb_figures_label_note(series, set);
+    const size_t most = gb_figures_label_groups(series, set);
+    if (most > 1) {
+        gb_series_say(series, "Means of %zu runs.", most);
+    }
     gb_series_axes(series, "t_ns", "time since the end of compression <i>t</i> (ns)",
                    "p_MPa", "pressure <i>p</i> (MPa)");
     series->x.log = true;
