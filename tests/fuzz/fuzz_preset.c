@@ -14,6 +14,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort(); /* refused without a word */
     }
     gb_preset_destroy(preset);
-    target_close(fd);
+    target_close(fd, path);
     return 0;
 }

@@ -20,6 +20,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     gb_state_destroy(state);
     (void)gb_hdf_record_read(&record, path, &err);
     gb_record_finish(&record);
-    target_close(fd);
+    target_close(fd, path);
     return 0;
 }

@@ -21,6 +21,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     }
     gb_table_destroy(table);
-    target_close(fd);
+    target_close(fd, path);
     return 0;
 }

@@ -5,7 +5,6 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 /* One reader of hostile input: libFuzzer calls it with what it invents, replay.c with the
@@ -14,20 +13,23 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { TARGET_PATH = 64 };
 
-/* The input as a file in memory; its path lasts until target_close. */
+/* The input as a file; its path lasts until target_close.  A file with a real name: HDF5
+ * follows links to one before it opens anything, and memory files have none. */
 static inline int target_open(const uint8_t *data, size_t size, char path[TARGET_PATH])
 {
-    const int fd = memfd_create("input", 0);
+    snprintf(path, TARGET_PATH, "%s/greenbody-input-XXXXXX",
+             access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp");
+    const int fd = mkstemp(path);
     if (fd < 0 || write(fd, data, size) != (ssize_t)size) {
         abort();
     }
-    snprintf(path, TARGET_PATH, "/proc/self/fd/%d", fd);
     return fd;
 }
 
-static inline void target_close(int fd)
+static inline void target_close(int fd, const char *path)
 {
     close(fd);
+    unlink(path);
 }
 
 #endif
