@@ -1,6 +1,5 @@
 #include "base/record.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -51,14 +50,17 @@ struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
                                      enum gb_record_type type, int64_t rows, int columns,
                                      const char *unit, struct gb_error *err)
 {
-    if (record->count == GB_RECORD_ITEMS || strlen(name) >= GB_RECORD_NAME) {
+    const size_t length = strlen(name);
+    const size_t unit_length = strlen(unit);
+    if (record->count == GB_RECORD_ITEMS || length >= GB_RECORD_NAME ||
+        unit_length >= sizeof record->item[0].unit) {
         gb_error_set(err, GB_ERR_INPUT, "%s: a checkpoint has at most %d arrays", name,
                      GB_RECORD_ITEMS);
         return NULL;
     }
     struct gb_record_item *item = &record->item[record->count];
-    snprintf(item->name, sizeof item->name, "%s", name);
-    snprintf(item->unit, sizeof item->unit, "%s", unit);
+    memcpy(item->name, name, length + 1); /* a hundred of them at every point */
+    memcpy(item->unit, unit, unit_length + 1);
     item->type = type;
     item->rows = rows;
     item->columns = columns;

@@ -167,9 +167,13 @@ static bool scan(const char *text, struct literal *out)
 static bool evaluate(const struct literal *literal, int shift, double *value)
 {
     char text[NUMBER_MAX + 16];
-    snprintf(text, sizeof text, "%.*se%d", (int)literal->length, literal->start,
-             literal->exponent + shift);
-    const double read = g_ascii_strtod(text, NULL);
+    char *end = NULL;
+    double read = g_ascii_strtod(literal->start, &end);
+    if (shift != 0 || end != literal->end) { /* as in 0x10, which is 0 and a unit */
+        snprintf(text, sizeof text, "%.*se%d", (int)literal->length, literal->start,
+                 literal->exponent + shift);
+        read = g_ascii_strtod(text, NULL);
+    }
     if (!isfinite(read)) {
         return false;
     }

@@ -275,11 +275,13 @@ bool gb_figures_curve_density(const struct gb_runset *set, size_t group,
                                  gb_runset_first(set, group)->directory, pressure_mpa));
 }
 
-/* Groups that differ in nothing but the diameter are one family. */
+/* Groups that differ in nothing but the diameter, and in how far and how finely they are
+ * pressed, are one family; another geometry or rate of loading is another one. */
 static size_t family_of(const struct gb_runset *set, size_t group)
 {
-    static const char *const may_differ[] = {"particles.diameter", "loading.",
-                                             "numerics.", "structure.base", NULL};
+    static const char *const may_differ[] = {
+        "particles.diameter", "loading.until",  "loading.unload_from", "loading.step",
+        "loading.record",     "structure.base", "numerics.",           NULL};
     for (size_t g = 0; g < group; g++) {
         if (gb_runset_difference(set, g, group, may_differ) == NULL) {
             return g;

@@ -58,6 +58,16 @@ static char *value_markup(const char *value)
     return safe;
 }
 
+static const char *short_form(const char *key)
+{
+    for (gsize k = 0; k < G_N_ELEMENTS(short_forms); k++) {
+        if (strcmp(short_forms[k].key, key) == 0) {
+            return short_forms[k].format;
+        }
+    }
+    return NULL;
+}
+
 /* "group.key = value" in short. */
 static void append_part(GString *label, const char *part, const char *except)
 {
@@ -66,13 +76,9 @@ static void append_part(GString *label, const char *part, const char *except)
         char *value = value_markup(sides[1]);
         const char *dot = strchr(sides[0], '.');
         g_string_append(label, label->len > 0 ? ", " : "");
-        gsize k = 0;
-        while (k < G_N_ELEMENTS(short_forms) &&
-               strcmp(short_forms[k].key, sides[0]) != 0) {
-            k++;
-        }
-        if (k < G_N_ELEMENTS(short_forms)) {
-            char **halves = g_strsplit(short_forms[k].format, "%s", 2);
+        const char *form = short_form(sides[0]);
+        if (form != NULL) {
+            char **halves = g_strsplit(form, "%s", 2);
             g_string_append_printf(label, "%s%s%s", halves[0], value, halves[1]);
             g_strfreev(halves);
         } else {
@@ -131,6 +137,23 @@ char *gb_figures_label(const struct gb_runset *set, size_t group, const char *ex
         use_title(label, set, group, except);
     }
     return g_string_free(label, FALSE);
+}
+
+char *gb_figures_label_axis(const char *key, const char *unit)
+{
+    const char *form = short_form(key);
+    const char *equals = form != NULL ? strstr(form, " = %s") : NULL;
+    const char *dot = strchr(key, '.');
+    char *symbol = equals != NULL ? g_strndup(form, (gsize)(equals - form))
+                                  : g_markup_escape_text(dot ? dot + 1 : key, -1);
+    char *value = g_strconcat("1 ", unit, NULL);
+    char *shown = value_markup(value);
+    char *label =
+        *unit ? g_strdup_printf("%s (%s)", symbol, shown + 2) : g_strdup(symbol);
+    g_free(shown);
+    g_free(value);
+    g_free(symbol);
+    return label;
 }
 
 size_t gb_figures_label_groups(struct gb_series *series, const struct gb_runset *set)

@@ -8,6 +8,10 @@
  * "group.key" left out (NULL: none).  g_free. */
 char *gb_figures_label(const struct gb_runset *set, size_t group, const char *except);
 
+/* The axis of a key "group.key" as the labels write it, with the unit of its numbers ("":
+ * none): "d (nm)".  g_free. */
+char *gb_figures_label_axis(const char *key, const char *unit);
+
 /* Notes which number is which group and run; runs of the largest group. */
 size_t gb_figures_label_groups(struct gb_series *series, const struct gb_runset *set);
 

@@ -175,6 +175,9 @@ bool gb_figures_sweep(struct gb_series *series, const struct gb_figures_input *i
     gb_series_note(series, "density where loading first reaches %g MPa", mpa);
     gb_series_say(series, "At %g MPa.", mpa);
     const char *name = g_ptr_array_index(series->names, 0); /* lives as the series */
-    gb_series_axes(series, name, name, "density", "relative density " RHO);
+    char *axis = gb_figures_label_axis(key, unit);
+    gb_series_axes(series, name, g_intern_string(axis), "density",
+                   "relative density " RHO);
+    g_free(axis);
     return good;
 }

@@ -1,28 +1,16 @@
 #include "run/crew.h"
 
-#include <errno.h>
 #include <math.h>
 #include <poll.h>
-#include <signal.h>
-#include <string.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "base/alloc.h"
 #include "run/ranks.h"
-
-struct worker {
-    pid_t pid; /* 0: idle */
-    int fd;    /* where its report comes from */
-    size_t ticket;
-    double since;
-};
+#include "run/worker.h"
 
 struct gb_crew {
     gb_crew_work *work;
-    struct worker *worker;
+    struct gb_worker *worker;
     struct pollfd *poll;
     size_t count, busy;
     struct gb_ranks *ranks; /* NULL: nobody else */
@@ -52,8 +40,12 @@ bool gb_crew_create(struct gb_crew **out, size_t workers, gb_crew_work *work,
     crew->worker = gb_alloc_array(workers, sizeof *crew->worker, err);
     crew->poll = crew->worker ? gb_alloc_array(workers, sizeof *crew->poll, err) : NULL;
     if (crew->poll == NULL) {
+        crew->count = 0;
         gb_crew_destroy(crew);
         return false;
+    }
+    for (size_t i = 0; i < workers; i++) {
+        crew->worker[i].fd = -1;
     }
     *out = crew;
     return true;
@@ -69,69 +61,17 @@ size_t gb_crew_busy(const struct gb_crew *crew)
     return crew->busy + crew->away;
 }
 
-/* SIGTERM stays blocked in a worker's process and is looked for between slices. */
-static bool is_asked_to_stop(void *data)
-{
-    sigset_t pending;
-    (void)data;
-    return sigpending(&pending) == 0 && sigismember(&pending, SIGTERM) == 1;
-}
-
-/* The worker's process; never returns.  The terminal's SIGINT reaches all processes: the
- * first one decides what it means and sends SIGTERM. */
-static void labour(gb_crew_work *work, const struct gb_params *params,
-                   const char *directory, pid_t parent, int fd)
-{
-    struct gb_error error = {0};
-    signal(SIGINT, SIG_IGN);
-    signal(SIGHUP, SIG_IGN);
-    (void)prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() == parent) { /* else it died before the line above */
-        (void)work(params, directory, is_asked_to_stop, NULL, &error);
-        (void)!write(fd, &error, sizeof error); /* below PIPE_BUF: whole or not at all */
-    }
-    _exit(0);
-}
-
-static struct worker *find_idle(struct gb_crew *crew)
-{
-    struct worker *worker = crew->worker;
-    while (worker->pid != 0) {
-        worker++;
-    }
-    return worker;
-}
-
 static bool give_here(struct gb_crew *crew, size_t ticket, const struct gb_params *params,
                       const char *directory, struct gb_error *err)
 {
-    int ends[2];
-    sigset_t term, before;
-    if (pipe(ends) != 0) {
-        return gb_error_set(err, GB_ERR_MACHINE, "no pipe to a worker: %s",
-                            strerror(errno));
+    size_t idle = 0;
+    while (crew->worker[idle].busy) {
+        idle++;
     }
-    struct worker *worker = find_idle(crew);
-    const pid_t parent = getpid();
-    sigemptyset(&term);
-    sigaddset(&term, SIGTERM);
-    sigprocmask(SIG_BLOCK, &term, &before); /* before it can be missed */
-    const pid_t pid = fork();
-    if (pid == 0) {
-        close(ends[0]);
-        labour(crew->work, params, directory, parent, ends[1]);
-    }
-    const int why = errno;
-    sigprocmask(SIG_SETMASK, &before, NULL);
-    close(ends[1]);
-    if (pid < 0) {
-        close(ends[0]);
-        return gb_error_set(err, GB_ERR_MACHINE, "no process for a worker: %s",
-                            strerror(why));
-    }
-    *worker = (struct worker){pid, ends[0], ticket, clock_s()};
-    crew->busy++;
-    return true;
+    const bool given = gb_worker_give(crew->worker, crew->count, idle, crew->work, ticket,
+                                      params, directory, err);
+    crew->busy += given;
+    return given;
 }
 
 bool gb_crew_give(struct gb_crew *crew, size_t ticket, const struct gb_params *params,
@@ -145,49 +85,19 @@ bool gb_crew_give(struct gb_crew *crew, size_t ticket, const struct gb_params *p
     return given;
 }
 
-static void tell_death(int status, struct gb_error *error)
-{
-    if (WIFSIGNALED(status)) {
-        gb_error_set(error, GB_ERR_MACHINE, "the process of the run was ended by %s",
-                     strsignal(WTERMSIG(status)));
-    } else {
-        gb_error_set(error, GB_ERR_MACHINE, "the process of the run left no report");
-    }
-}
-
-static void collect(struct gb_crew *crew, struct worker *worker,
-                    struct gb_crew_report *report)
-{
-    ssize_t got = 0;
-    int status = 0;
-    do {
-        got = read(worker->fd, &report->error, sizeof report->error);
-    } while (got < 0 && errno == EINTR);
-    close(worker->fd);
-    while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (got != (ssize_t)sizeof report->error) {
-        tell_death(status, &report->error);
-    }
-    report->ticket = worker->ticket;
-    report->lost = false;
-    report->seconds = clock_s() - worker->since;
-    *worker = (struct worker){0};
-    crew->busy--;
-}
-
 static bool take_here(struct gb_crew *crew, double seconds, struct gb_crew_report *report)
 {
     for (size_t i = 0; i < crew->count; i++) {
-        const struct worker *worker = &crew->worker[i];
-        crew->poll[i] = (struct pollfd){worker->pid != 0 ? worker->fd : -1, POLLIN, 0};
+        const struct gb_worker *worker = &crew->worker[i];
+        crew->poll[i] = (struct pollfd){worker->busy ? worker->fd : -1, POLLIN, 0};
     }
     if (poll(crew->poll, crew->count, (int)ceil(1e3 * seconds)) <= 0) {
         return false;
     }
     for (size_t i = 0; i < crew->count; i++) {
         if (crew->poll[i].revents != 0) {
-            collect(crew, &crew->worker[i], report);
+            gb_worker_take(&crew->worker[i], report);
+            crew->busy--;
             return true;
         }
     }
@@ -216,8 +126,8 @@ void gb_crew_stop(struct gb_crew *crew)
 {
     gb_ranks_stop(crew->away > 0 ? crew->ranks : NULL);
     for (size_t i = 0; i < crew->count; i++) {
-        if (crew->worker[i].pid != 0) {
-            kill(crew->worker[i].pid, SIGTERM);
+        if (crew->worker[i].busy) {
+            gb_worker_stop(&crew->worker[i]);
         }
     }
 }
@@ -233,6 +143,9 @@ void gb_crew_destroy(struct gb_crew *crew)
     }
     while (gb_crew_busy(crew) > 0) {
         (void)gb_crew_take(crew, 1.0, &report);
+    }
+    for (size_t i = 0; i < crew->count; i++) {
+        gb_worker_end(&crew->worker[i]);
     }
     gb_alloc_free(crew->worker);
     gb_alloc_free(crew->poll);

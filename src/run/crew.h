@@ -6,10 +6,11 @@
 
 #include "greenbody/params.h"
 
-/* Workers that do runs at once.  Each run has a process of its own: one that crashes or
- * is killed takes nothing with it, and libraries that know no threads (HDF5) are met by
- * one thread only.  The caller must not have started threads: its state is copied by
- * fork. */
+/* Workers that do runs at once, each a process that does one run after the other: what
+ * starting a process and its libraries costs is paid once.  One that crashes or is killed
+ * takes only its run with it, and another takes its place; libraries that know no threads
+ * (HDF5) are met by one thread only.  The caller must not have started threads: its state
+ * is copied by fork. */
 struct gb_crew;
 struct gb_ranks;
 
@@ -22,7 +23,7 @@ typedef bool gb_crew_work(const struct gb_params *params, const char *directory,
 struct gb_crew_report {
     size_t ticket;
     struct gb_error error; /* GB_OK: done; a process that died is GB_ERR_MACHINE */
-    double seconds;        /* of its process */
+    double seconds;        /* since it was given */
     bool lost;             /* not its fault: whoever did it is gone */
 };
 
@@ -38,7 +39,8 @@ size_t gb_crew_idle(const struct gb_crew *crew);
 /* Runs that were given and not yet reported. */
 size_t gb_crew_busy(const struct gb_crew *crew);
 
-/* Starts a run on an idle worker.  Errors: GB_ERR_MACHINE (no process, no pipe). */
+/* Starts a run on an idle worker.  Errors: GB_ERR_MACHINE (no process, no
+ * socket), GB_ERR_INPUT (the name of the directory is too long). */
 bool gb_crew_give(struct gb_crew *crew, size_t ticket, const struct gb_params *params,
                   const char *directory, struct gb_error *err);
 

@@ -29,16 +29,19 @@ enum { NUMBER_MAX = 32 };
 static void append_number(GString *row, double value)
 {
     char text[NUMBER_MAX];
+    char shorter[NUMBER_MAX];
     g_string_append_c(row, ',');
     if (!isfinite(value)) {
         return;
     }
-    const char *const format[] = {"%.15g", "%.16g", "%.17g"};
-    for (size_t k = 0; k < G_N_ELEMENTS(format); k++) {
-        g_ascii_formatd(text, sizeof text, format[k], value);
-        if (g_ascii_strtod(text, NULL) == value) {
-            break;
-        }
+    /* what 16 digits do not tell, 15 do not either */
+    g_ascii_formatd(text, sizeof text, "%.16g", value);
+    if (g_ascii_strtod(text, NULL) != value) {
+        g_ascii_formatd(text, sizeof text, "%.17g", value);
+    } else if (g_ascii_formatd(shorter, sizeof shorter, "%.15g", value) &&
+               g_ascii_strtod(shorter, NULL) == value) {
+        g_string_append(row, shorter);
+        return;
     }
     g_string_append(row, text);
 }
@@ -110,7 +113,8 @@ static bool write_curve_head(struct gb_rows *curve, const struct gb_params *para
     return ok;
 }
 
-/* Replaces a file whole: after a crash the old or the new one is there. */
+/* Replaces a file whole: after a crash the old or the new one is there, or none, if there
+ * was none. */
 static bool replace_file(const char *path, const char *text, size_t length,
                          struct gb_error *err)
 {
@@ -120,7 +124,9 @@ static bool replace_file(const char *path, const char *text, size_t length,
     }
     GError *failure = NULL;
     if (g_file_set_contents_full(path, text, (gssize)length,
-                                 G_FILE_SET_CONTENTS_CONSISTENT, 0666, &failure)) {
+                                 G_FILE_SET_CONTENTS_CONSISTENT |
+                                     G_FILE_SET_CONTENTS_ONLY_EXISTING,
+                                 0666, &failure)) {
         return true;
     }
     gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
@@ -166,7 +172,7 @@ bool gb_store_create(struct gb_store **out, const char *directory,
     if (!write_preset(directory, params, err) ||
         !gb_rows_open(&store->curve, directory, "curve.csv", err) ||
         !gb_rows_open(&store->events, directory, "events.log", err) ||
-        !write_curve_head(&store->curve, params, err) || !gb_store_sync(store, err)) {
+        !write_curve_head(&store->curve, params, err)) { /* synced with the first state */
         gb_store_discard(store);
         return false;
     }
