@@ -34,6 +34,7 @@ struct calibration {
     struct gb_labdata lab;
     struct gb_calibrate_problem problem;
     struct gb_calibrate_result result;
+    GString *rounds; /* what rounds.csv holds */
 };
 
 static const char *key_name(const struct gb_freekey *key, char *buffer, size_t size)
@@ -138,10 +139,43 @@ static bool simulate(const double *parameters, size_t points, int stage, double 
     return good;
 }
 
+static bool write_text(const char *out, const char *name, const GString *text,
+                       struct gb_error *err)
+{
+    char *path = g_build_filename(out, name, NULL);
+    const bool good = gb_file_replace(path, text->str, text->len, err);
+    g_free(path);
+    return good;
+}
+
+/* rounds.csv: a row for each, so that others can follow the fit.  Not worth stopping for.
+ */
+static void keep_round(const struct calibration *calibration, int stage, int round,
+                       const double *best, const double *half_width)
+{
+    GString *text = calibration->rounds;
+    char name[96];
+    if (text->len == 0) {
+        g_string_append(text, "cells,round");
+        for (size_t k = 0; k < calibration->keys.count; k++) {
+            key_name(&calibration->keys.key[k], name, sizeof name);
+            g_string_append_printf(text, ",%s,within_%s", name, name);
+        }
+        g_string_append_c(text, '\n');
+    }
+    g_string_append_printf(text, "%s,%d", stage == 0 ? "small" : "full", round);
+    for (size_t k = 0; k < calibration->keys.count; k++) {
+        g_string_append_printf(text, ",%.5g,%.3g", best[k], half_width[k]);
+    }
+    g_string_append_c(text, '\n');
+    (void)write_text(calibration->request->out, "rounds.csv", text, NULL);
+}
+
 static void told(int stage, int round, const double *best, const double *half_width,
                  void *context)
 {
     const struct calibration *calibration = context;
+    keep_round(calibration, stage, round, best, half_width);
     if (calibration->request->quiet) {
         return;
     }
@@ -153,16 +187,6 @@ static void told(int stage, int round, const double *best, const double *half_wi
                 half_width[k]);
     }
     fputc('\n', stderr);
-}
-
-static bool write_text(const char *out, const char *name, GString *text,
-                       struct gb_error *err)
-{
-    char *path = g_build_filename(out, name, NULL);
-    const bool good = gb_file_replace(path, text->str, text->len, err);
-    g_free(path);
-    g_string_free(text, TRUE);
-    return good;
 }
 
 /* calibration.csv: a row per key. */
@@ -223,9 +247,13 @@ static bool write_results(struct calibration *calibration, struct gb_error *err)
     char *path = g_build_filename(out, "calibrated.ini", NULL);
     const bool saved = gb_preset_save(calibration->preset, path, false, err);
     g_free(path);
-    return saved &&
-           write_text(out, "calibration.csv", parameter_table(calibration), err) &&
-           write_text(out, "fit.csv", fit_table(calibration), err);
+    GString *table = parameter_table(calibration);
+    GString *fit = fit_table(calibration);
+    const bool good = saved && write_text(out, "fit.csv", fit, err) &&
+                      write_text(out, "calibration.csv", table, err);
+    g_string_free(table, TRUE);
+    g_string_free(fit, TRUE);
+    return good;
 }
 
 static void report_keys(const struct calibration *calibration)
@@ -362,7 +390,8 @@ static const struct gb_options_page page = {
     "as "
     "particles.diameter_nm,\nwhere powders are fitted together.  The same command again "
     "goes "
-    "on where it was stopped.\nDIR gets calibration.csv, fit.csv, calibrated.ini and the "
+    "on where it was stopped.\nDIR gets rounds.csv as it goes, calibration.csv, fit.csv, "
+    "calibrated.ini and the "
     "runs.\n\n"
     "  greenbody calibrate p1-set1-uniaxial --data lab.csv --free "
     "contact.mu,contact.alpha --out fit"};
@@ -394,8 +423,10 @@ int gb_cmd_calibrate(int argc, char **argv)
     if (gb_options_parse(&page, entries, argc, argv, &words, &status) &&
         !gb_crowd_serve(&crowd, request.jobs, &status)) {
         calibration.ranks = crowd.ranks;
+        calibration.rounds = g_string_new(NULL);
         status = perform(&calibration, words, &err) ? 0 : gb_crowd_exit(&err);
         gb_ranks_destroy(crowd.ranks);
+        g_string_free(calibration.rounds, TRUE);
     }
     gb_calibrate_finish(&calibration.result);
     gb_labdata_finish(&calibration.lab);

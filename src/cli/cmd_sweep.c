@@ -14,6 +14,7 @@
 #include "cli/options.h"
 #include "measure/average.h"
 #include "run/axes.h"
+#include "run/cost.h"
 #include "run/ensemble.h"
 #include "run/reading.h"
 #include "run/sweeptable.h"
@@ -26,7 +27,7 @@ struct request {
     char **sets, **vary;
     char *out, *at, *target;
     gint replicas, jobs;
-    gboolean quiet;
+    gboolean quiet, yes;
 };
 
 struct sweep {
@@ -39,6 +40,7 @@ struct sweep {
     double target, target_pa;
     double *density; /* of every run at target_pa */
     bool *known;
+    char foretold[160]; /* "": nobody knows, or nothing is to be done */
 };
 
 static bool refuse_target(const char *text, struct gb_error *err)
@@ -132,6 +134,48 @@ static bool fill(struct sweep *sweep, const char *out, struct gb_error *err)
     return true;
 }
 
+/* Seconds of one core for what is still to be done; NaN: nobody knows. */
+static double missing_s(const struct sweep *sweep, size_t *runs)
+{
+    double seconds = 0.0;
+    *runs = 0;
+    for (size_t i = 0; i < sweep->ensemble.points * sweep->ensemble.replicas; i++) {
+        const struct gb_ensemble_run *run = &sweep->ensemble.run[i];
+        if (!run->ended) {
+            seconds += gb_cost_assumed_s(&run->params);
+            (*runs)++;
+        }
+    }
+    return seconds;
+}
+
+/* A digit too much in --replicas costs nothing to type.  Under mpirun nobody is asked:
+ * how many ranks there are, and that they are paid for, was somebody's decision. */
+static bool foretell(struct sweep *sweep, const struct request *request,
+                     struct gb_error *err)
+{
+    size_t runs = 0;
+    char total[48], each[48];
+    const double all_s = missing_s(sweep, &runs);
+    const size_t workers =
+        request->jobs > 0 ? (size_t)request->jobs : (size_t)g_get_num_processors();
+    const double wait_s = all_s / (double)MAX(MIN(workers, runs), 1);
+    if (runs == 0 || isnan(all_s) || sweep->crowd.ranks != NULL) {
+        return true;
+    }
+    gb_cost_duration(wait_s, total, sizeof total);
+    gb_cost_duration(all_s / (double)runs, each, sizeof each);
+    if (!request->yes && !gb_cost_unasked_s(wait_s)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "the sweep will take about %s: %zu runs of about %s, %zu at "
+                            "once; accepted with --yes",
+                            total, runs, each, workers);
+    }
+    snprintf(sweep->foretold, sizeof sweep->foretold,
+             "foretold: about %s, %zu runs of about %s", total, runs, each);
+    return true;
+}
+
 /* All that can be known to be wrong before anything is done. */
 static bool prepare(struct sweep *sweep, const struct request *request, char **words,
                     struct gb_error *err)
@@ -158,8 +202,8 @@ static bool prepare(struct sweep *sweep, const struct request *request, char **w
                             (size_t)request->replicas, err) &&
            fill(sweep, request->out, err) &&
            (!request->target || watch_target(sweep, err)) &&
-           gb_crowd_directory(request->out, err) &&
-           gb_ensemble_find_done(&sweep->ensemble, err);
+           gb_ensemble_find_done(&sweep->ensemble, err) &&
+           foretell(sweep, request, err) && gb_crowd_directory(request->out, err);
 }
 
 static bool write_table(const char *out, const char *name, GString *text,
@@ -204,6 +248,9 @@ static bool perform(struct sweep *sweep, const struct request *request, char **w
     if (!prepare(sweep, request, words, err)) {
         return false;
     }
+    if (!request->quiet && sweep->foretold[0] != '\0') {
+        fprintf(stderr, "%s\n", sweep->foretold);
+    }
     struct gb_error stopped = {0};
     const bool worked = gb_crowd_work(crowd, &sweep->ensemble, request->jobs, &stopped);
     if (!write_tables(sweep, request->out, err)) {
@@ -240,13 +287,20 @@ static const struct gb_options_page page = {
     "larger "
     "grid or\nmore replicas add to what is there.  A run that fails costs only itself.  "
     "Each run uses one\nthread unless numerics.threads is given.\n\n"
-    "Size effect (P1 Fig. 6):\n"
+    "Size effect (P1 Figs. 5 and 6), with bridges and by friction alone:\n"
     "  greenbody sweep p1-set2-9.7nm --vary 'particles.diameter=9.7;16;21;38 nm' "
     "--replicas 10 \\\n    --at '100 MPa' --out sizes\n"
-    "Geometry of loading (P1 Figs. 11-13):\n"
+    "  greenbody sweep p1-nobridge-9.7nm --vary 'particles.diameter=9.7;16;21;38 nm' "
+    "\\\n    --replicas 10 --set 'loading.until=105 MPa' --set 'loading.unload_from=100 "
+    "MPa' --out nobridge\n"
+    "  greenbody plot sizes --figure densification -o fig5.png\n"
+    "  greenbody plot sizes nobridge --figure size-effect -o fig6.png\n"
+    "Geometry of loading (P1 Figs. 11-14: figures unloading, continuum, lateral, "
+    "force-angle):\n"
     "  greenbody sweep p1-set1-uniaxial --vary "
     "'loading.geometry=uniaxial;biaxial;isotropic'"
-    " \\\n    --replicas 10 --out geometry"};
+    " \\\n    --replicas 10 --out geometry\n"
+    "  greenbody plot geometry --figure force-angle -o fig14.png"};
 
 int gb_cmd_sweep(int argc, char **argv)
 {
@@ -272,6 +326,8 @@ int gb_cmd_sweep(int argc, char **argv)
          "DIR"},
         {"jobs", 'j', 0, G_OPTION_ARG_INT, &request.jobs,
          "runs at once (one per processor)", "N"},
+        {"yes", 'y', 0, G_OPTION_ARG_NONE, &request.yes,
+         "begin also when it is foretold to take more than an hour", NULL},
         {"quiet", 'q', 0, G_OPTION_ARG_NONE, &request.quiet, "tell only what went wrong",
          NULL},
         {0}};

@@ -12,6 +12,7 @@ static const struct {
     {"contact.mu", "<i>\xce\xbc</i> = %s"},
     {"contact.alpha", "<i>\xce\xb1</i> = %s"},
     {"contact.bridge_length", "\xce\x94<i>r</i><sub>ch</sub> = %s"},
+    {"contact.shear_strength", "<i>\xcf\x83</i><sub>b</sub> = %s"},
     {"structure.density", "<i>\xcf\x81</i><sub>0</sub> = %s"},
     {"loading.geometry", "%s"},
     {"loading.rate", "<i>v</i> = %s"},

@@ -41,6 +41,10 @@ double gb_cost_rate_measured(const struct gb_experiment *experiment,
 double gb_cost_from_quick(const struct gb_params *full, const struct gb_params *quick,
                           double quick_s);
 
+/* Seconds that a run will take about on this machine, by what was measured on another:
+ * good to a factor of two or three.  NaN for dies. */
+double gb_cost_assumed_s(const struct gb_params *params);
+
 /* "9 s", "12 min", "8 h 52 min", "41 days".  Returns buffer. */
 char *gb_cost_duration(double seconds, char *buffer, size_t size);
 
@@ -49,5 +53,7 @@ char *gb_cost_line(const struct gb_cost *cost, char *buffer, size_t size);
 
 /* May it be run unasked?  Else GB_ERR_INPUT naming the cost and the option --yes. */
 bool gb_cost_unasked(const struct gb_cost *cost, struct gb_error *err);
+/* The same of anything that takes that long; NaN may. */
+bool gb_cost_unasked_s(double seconds);
 
 #endif

@@ -147,9 +147,32 @@ static bool has_file(const char *directory, const char *name)
     return there;
 }
 
+int gb_runset_compare(const char *a, const char *b)
+{
+    while (*a != '\0' && *b != '\0') {
+        if (g_ascii_isdigit(*a) && g_ascii_isdigit(*b)) {
+            char *a_end = NULL;
+            char *b_end = NULL;
+            const double x = g_ascii_strtod(a, &a_end);
+            const double y = g_ascii_strtod(b, &b_end);
+            if (x != y) {
+                return x < y ? -1 : 1;
+            }
+            a = a_end;
+            b = b_end;
+        } else if (*a != *b) {
+            break;
+        } else {
+            a++;
+            b++;
+        }
+    }
+    return strcmp(a, b);
+}
+
 static gint compare_paths(gconstpointer a, gconstpointer b)
 {
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
+    return gb_runset_compare(*(const char *const *)a, *(const char *const *)b);
 }
 
 void gb_runset_expand(GPtrArray *list, const char *directory)

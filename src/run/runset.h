@@ -24,6 +24,10 @@ struct gb_runset {
     size_t groups; /* numbered by their first run */
 };
 
+/* Order of names in which numbers count as numbers: 9.7nm before 16nm, 0.15 before 0.2.
+ */
+int gb_runset_compare(const char *a, const char *b);
+
 /* Adds (g_strdup) a run directory to a list, or, for a directory of many runs, those of
  * its runs that were done, by name.  A word that is neither is added as it is: reading it
  * tells what is wrong. */

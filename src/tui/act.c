@@ -2,6 +2,7 @@
 
 #include "tui/asks.h"
 #include "tui/life.h"
+#include "tui/many.h"
 
 static void change_focus(struct gb_screen *screen, int step)
 {
@@ -73,6 +74,12 @@ static bool act_everywhere(struct gb_app *app, enum gb_action action)
         return true;
     case GB_ACTION_REPORT:
         gb_asks_errand(app, "report", "report", "-report-", "");
+        return true;
+    case GB_ACTION_CELLS:
+        gb_many_ask_cells(app);
+        return true;
+    case GB_ACTION_FIT:
+        gb_many_ask_fit(app);
         return true;
     case GB_ACTION_COMMAND:
         gb_asks_command(app);

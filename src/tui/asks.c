@@ -6,6 +6,7 @@
 
 #include "run/quick.h"
 #include "tui/complete.h"
+#include "tui/many.h"
 #include "tui/repeat.h"
 #include "tui/saving.h"
 #include "tui/whatif.h"
@@ -214,7 +215,7 @@ void gb_asks_errand(struct gb_app *app, const char *what, const char *command,
         path = g_strdup_printf("%s%s%d%s", directory, middle, i, end);
     }
     const char *const words[] = {command, directory, "-o", path, NULL};
-    if (gb_errand_start(&session->errand, what, path, words, &err)) {
+    if (gb_errand_start(&session->errand, what, path, false, words, &err)) {
         gb_asks_tell(app, GB_STYLE_PLAIN,
                      "is being made: the events will say where it is");
     } else {
@@ -267,6 +268,12 @@ void gb_asks_answer(struct gb_app *app)
         break;
     case GB_DIALOG_FORK:
         fork_run(app);
+        break;
+    case GB_DIALOG_CELLS:
+        gb_many_cells(app);
+        break;
+    case GB_DIALOG_FIT:
+        gb_many_fit(app);
         break;
     case GB_DIALOG_COMMAND:
     case GB_DIALOG_HELP:

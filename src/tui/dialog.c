@@ -28,6 +28,10 @@ static const struct ask {
     {GB_DIALOG_FORK, "What if the run went on with ... (Esc back)",
      "key=value; several with semicolons between:", false},
     {GB_DIALOG_FIND, "Find a parameter (Esc back)", "Its name, or a part of it:", false},
+    {GB_DIALOG_CELLS, "More cells of this scene (Esc back)",
+     "How many; and until which error at a pressure:", false},
+    {GB_DIALOG_FIT, "Fit to the experiment (Esc back)",
+     "Up to 4 keys with commas, each may have =LOW:HIGH:", false},
 };
 
 static const struct ask *ask_of(const struct gb_dialog *dialog)
@@ -206,6 +210,8 @@ void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen)
     case GB_DIALOG_DATA:
     case GB_DIALOG_FORK:
     case GB_DIALOG_FIND:
+    case GB_DIALOG_CELLS:
+    case GB_DIALOG_FIT:
         draw_ask(dialog, screen);
         break;
     case GB_DIALOG_COMMAND:

@@ -68,6 +68,8 @@ static const struct gb_key table[] = {
     {{'t'}, "t", NULL, "take over the run that is attached", GB_ACTION_TAKE_OVER},
     {{'s'}, "s", NULL, "picture of the packing as last stored", GB_ACTION_PICTURE},
     {{'x'}, "x", NULL, "report on the run, a folder to hand in", GB_ACTION_REPORT},
+    {{'R'}, "R", NULL, "more cells of this scene: mean and band", GB_ACTION_CELLS},
+    {{'C'}, "C", NULL, "fit parameters to the experiment", GB_ACTION_FIT},
     {{'w'}, "w", "save", "save the parameters as a preset", GB_ACTION_SAVE},
     {{'o'}, "o", "open", "open a preset and run it", GB_ACTION_OPEN},
     {{'M'}, "M", NULL, "mouse on or off (Shift-drag selects text)", GB_ACTION_MOUSE},

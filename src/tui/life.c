@@ -117,4 +117,8 @@ void gb_life_farewell(const struct gb_session *session)
         fprintf(stderr, "greenbody: the run is kept; `greenbody resume %s` goes on\n",
                 directory);
     }
+    if (session->errand.pid != 0 && session->errand.talks) {
+        fprintf(stderr, "greenbody: %s go on in %s; `greenbody attach` shows them\n",
+                session->errand.what, session->errand.path);
+    }
 }

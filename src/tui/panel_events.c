@@ -1,5 +1,7 @@
 #include "tui/panels.h"
 
+#include <stdio.h>
+
 static int limit(int value, int most)
 {
     return value < 0 ? 0 : value > most ? most : value;
@@ -31,7 +33,12 @@ static int total_rows(const struct gb_panel_events *panel, const struct gb_paint
 void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *paint,
                           const struct gb_session *session, bool focus)
 {
-    gb_paint_title(paint, "Events", focus);
+    char title[GB_ERRAND_LINE + 32] = "Events";
+    if (session->errand.progress[0] != '\0') {
+        snprintf(title, sizeof title, "Events: %s, %s", session->errand.what,
+                 session->errand.progress);
+    }
+    gb_paint_title(paint, title, focus);
     panel->page = paint->rect.rows - 1;
     panel->back = limit(panel->back, farthest(panel, session));
     const int most = panel->page > 3 ? 3 : 1;

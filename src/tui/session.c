@@ -29,6 +29,7 @@ void gb_session_finish(struct gb_session *session)
     for (int i = 0; i < session->earlier_count; i++) {
         gb_earlier_drop(&session->earlier[i]);
     }
+    gb_band_finish(&session->band);
     gb_measured_destroy(session->measured);
     gb_choices_destroy(session->choices);
     gb_preset_destroy(session->opened);
@@ -372,19 +373,34 @@ static bool refresh_run(struct gb_session *session)
     return other_state;
 }
 
-bool gb_session_refresh(struct gb_session *session)
+/* News of the command beside the screen, and of the cells that it computes. */
+static bool refresh_errand(struct gb_session *session)
 {
     char text[GB_SNAPSHOT_EVENT];
+    bool some = false;
+    bool ended = false;
+    const bool live = session->errand.pid != 0;
+    enum gb_errand_news news = GB_ERRAND_NOTHING;
+    while ((news = gb_errand_poll(&session->errand, text, sizeof text)) !=
+           GB_ERRAND_NOTHING) {
+        if (news != GB_ERRAND_PROGRESS) {
+            gb_session_note(session, "%s", text);
+        }
+        some = true;
+        ended = news == GB_ERRAND_ENDED;
+    }
+    return (live && gb_band_refresh(&session->band, ended)) || some;
+}
+
+bool gb_session_refresh(struct gb_session *session)
+{
     bool ended = false;
     const int before = session->trial.state;
     const bool tried = gb_trial_refresh(&session->trial, session->frozen, &ended);
     session->waiting = session->waiting && session->trial.state == before;
     const bool ran = refresh_run(session);
     gb_whatif_refresh(session);
-    const bool made = gb_errand_poll(&session->errand, text, sizeof text);
-    if (made) {
-        gb_session_note(session, "%s", text);
-    }
+    const bool made = refresh_errand(session);
     if (ended) {
         end_trial(session);
     }

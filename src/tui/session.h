@@ -4,6 +4,7 @@
 #include "run/measured.h"
 #include "run/preset.h"
 #include "run/runner.h"
+#include "tui/band.h"
 #include "tui/choices.h"
 #include "tui/earlier.h"
 #include "tui/errand.h"
@@ -37,7 +38,8 @@ struct gb_session {
     size_t
         fork_at[GB_SESSION_FORKS]; /* points of the curve, one behind the last before */
     int forks;
-    struct gb_errand errand;      /* a picture or a report being made */
+    struct gb_errand errand;      /* a picture, a report, cells being made */
+    struct gb_band band;          /* mean of more cells */
     struct gb_measured *measured; /* an experiment over the plot, or NULL */
     struct gb_choices *choices;   /* a chart of numerical choices, or NULL */
     int runs;                     /* started so far */

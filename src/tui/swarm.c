@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "greenbody/snapshot.h"
 #include "measure/average.h"
 #include "phys/field.h"
@@ -22,7 +23,7 @@ static bool has_file(const char *directory, const char *name)
 
 static int compare(const void *a, const void *b)
 {
-    return strcmp(*(char *const *)a, *(char *const *)b);
+    return gb_runset_compare(*(char *const *)a, *(char *const *)b);
 }
 
 /* Directories of runs inside, by name; each to be freed. */
@@ -48,15 +49,82 @@ static GPtrArray *list_runs(const char *directory)
     return list;
 }
 
+/* A calibration keeps its runs in a folder. */
+static GPtrArray *list_all(const char *directory)
+{
+    GPtrArray *list = list_runs(directory);
+    if (list->len == 0) {
+        char *inside = g_build_filename(directory, "runs", NULL);
+        g_ptr_array_free(list, TRUE);
+        list = list_runs(inside);
+        g_free(inside);
+    }
+    return list;
+}
+
 bool gb_swarm_is(const char *directory)
 {
     if (has_file(directory, "preset.ini")) {
         return false;
     }
-    GPtrArray *list = list_runs(directory);
+    GPtrArray *list = list_all(directory);
     const bool is = list->len > 0;
     g_ptr_array_free(list, TRUE);
     return is;
+}
+
+/* "name value" of each cell. */
+static char *line_of(char **names, char **cells)
+{
+    GString *line = g_string_new(NULL);
+    for (size_t k = 0; cells[k] != NULL && names[k] != NULL; k++) {
+        g_string_append_printf(line, "%s%s %s", k > 0 ? "  " : "", names[k], cells[k]);
+    }
+    return g_string_free(line, FALSE);
+}
+
+/* The rows of a table of a calibration as lines. */
+static void add_lines(GPtrArray *lines, const char *directory, const char *name)
+{
+    char *path = g_build_filename(directory, name, NULL);
+    char *text = NULL;
+    char **names = NULL;
+    char **rows = g_file_get_contents(path, &text, NULL, NULL)
+                      ? g_strsplit(g_strchomp(text), "\n", -1)
+                      : NULL;
+    for (size_t i = 0; rows != NULL && rows[i] != NULL; i++) {
+        if (rows[i][0] == '#') {
+            continue;
+        }
+        char **cells = g_strsplit(rows[i], ",", -1);
+        if (names == NULL) {
+            names = cells; /* the header */
+        } else {
+            g_ptr_array_add(lines, line_of(names, cells));
+            g_strfreev(cells);
+        }
+    }
+    g_strfreev(rows);
+    g_strfreev(names);
+    g_free(text);
+    g_free(path);
+}
+
+/* The result, then the rounds that led there; NULL where nothing is fitted. */
+static char **read_fit(const char *directory)
+{
+    GPtrArray *lines = g_ptr_array_new();
+    char *runs = g_build_filename(directory, "runs", NULL);
+    add_lines(lines, directory, "calibration.csv");
+    add_lines(lines, directory, "rounds.csv");
+    if (lines->len == 0 && g_file_test(runs, G_FILE_TEST_IS_DIR)) {
+        g_ptr_array_add(lines, g_strdup("the first round is not done yet"));
+    }
+    g_free(runs);
+    const bool some = lines->len > 0;
+    g_ptr_array_add(lines, NULL);
+    char **list = (char **)g_ptr_array_free(lines, !some);
+    return some ? list : NULL;
 }
 
 static void read_states(struct gb_swarm *swarm, GPtrArray *list)
@@ -149,6 +217,28 @@ static size_t place_of(struct gb_swarm_key *key, const char *value)
     return key->count++;
 }
 
+static double number_of(const char *value)
+{
+    double number = NAN;
+    return gb_units_number(value, NULL, &number) ? number : (double)NAN;
+}
+
+/* Numbers of one unit in their order; words stay as they came. */
+static void sort_values(struct gb_swarm_key *key, size_t *place, size_t groups)
+{
+    for (size_t i = 1; i < key->count; i++) {
+        for (size_t k = i;
+             k > 0 && number_of(key->values[k]) < number_of(key->values[k - 1]); k--) {
+            char *kept = key->values[k];
+            key->values[k] = key->values[k - 1];
+            key->values[k - 1] = kept;
+            for (size_t g = 0; g < groups; g++) {
+                place[g] = place[g] == k ? k - 1 : place[g] == k - 1 ? k : place[g];
+            }
+        }
+    }
+}
+
 static void find_keys(struct gb_swarm *swarm, const struct gb_runset *set)
 {
     size_t count = 0;
@@ -164,6 +254,7 @@ static void find_keys(struct gb_swarm *swarm, const struct gb_runset *set)
         }
         if (key.count > 1 && swarm->keys++ < GB_SWARM_VARIED) {
             const size_t k = swarm->keys - 1;
+            sort_values(&key, place, set->groups);
             swarm->key[k] = key;
             for (size_t g = 0; g < set->groups; g++) {
                 swarm->group[g].place[k] = place[g];
@@ -198,8 +289,9 @@ static bool read_groups(struct gb_swarm *swarm, const GPtrArray *good,
 bool gb_swarm_read(struct gb_swarm *swarm, const char *directory, struct gb_error *err)
 {
     memset(swarm, 0, sizeof *swarm);
-    GPtrArray *list = list_runs(directory);
+    GPtrArray *list = list_all(directory);
     swarm->directory = g_strdup(directory);
+    swarm->fit = read_fit(directory);
     bool read = true;
     if (list->len == 0) {
         read = gb_error_set(err, GB_ERR_INPUT, "%s: there is no run in it", directory);
@@ -224,10 +316,20 @@ void gb_swarm_finish(struct gb_swarm *swarm)
     for (size_t k = 0; k < GB_SWARM_VARIED; k++) {
         g_strfreev(swarm->key[k].values);
     }
+    g_strfreev(swarm->fit);
     g_free(swarm->run);
     g_free(swarm->group);
     g_free(swarm->directory);
     memset(swarm, 0, sizeof *swarm);
+}
+
+static size_t groups_at(const struct gb_swarm *swarm, size_t level)
+{
+    size_t count = 0;
+    for (size_t g = 0; g < swarm->groups; g++) {
+        count += swarm->group[g].reached[level] == swarm->group[g].members;
+    }
+    return count;
 }
 
 size_t gb_swarm_level(const struct gb_swarm *swarm, double pressure_pa)
@@ -238,6 +340,9 @@ size_t gb_swarm_level(const struct gb_swarm *swarm, double pressure_pa)
             fabs(log(swarm->level_pa[best] / pressure_pa))) {
             best = k;
         }
+    }
+    for (size_t k = best; k > 0; k--) {
+        best = groups_at(swarm, k - 1) > groups_at(swarm, best) ? k - 1 : best;
     }
     return best;
 }

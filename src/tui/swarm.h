@@ -31,7 +31,7 @@ struct gb_swarm_group {
 /* A key of which the groups have several values. */
 struct gb_swarm_key {
     const struct gb_field *field;
-    char **values; /* as a preset would write them, in the order of the runs */
+    char **values; /* as a preset would write them; numbers in their order */
     size_t count;
 };
 
@@ -45,16 +45,18 @@ struct gb_swarm {
     double level_pa[GB_SWARM_LEVELS]; /* spaced evenly in the logarithm */
     struct gb_swarm_key key[GB_SWARM_VARIED];
     size_t keys; /* varied keys; more than GB_SWARM_VARIED: no map */
+    char **fit;  /* of a calibration: lines of what it has found so far; else NULL */
 };
 
-/* Whether a directory has runs in it and is none itself. */
+/* Whether a directory has runs in it, or in its folder `runs` as that of a calibration,
+ * and is none itself. */
 bool gb_swarm_is(const char *directory);
 
 /* Reads all of it.  Errors: GB_ERR_INPUT when there is no run that can be read. */
 bool gb_swarm_read(struct gb_swarm *swarm, const char *directory, struct gb_error *err);
 void gb_swarm_finish(struct gb_swarm *swarm); /* zeroed is fine */
 
-/* The level nearest to a pressure. */
+/* The level nearest to a pressure, or below it where more groups got there as a whole. */
 size_t gb_swarm_level(const struct gb_swarm *swarm, double pressure_pa);
 
 /* The group at these values of the two varied keys; NULL: there is none yet. */

@@ -23,10 +23,11 @@ enum {
     INK_RELAX = GB_PLOT_INK_SERIES + 2,
     INK_HOLD = GB_PLOT_INK_SERIES + 4,
     INK_TRIAL = GB_PLOT_INK_SERIES + 1,
-    INK_MEASURED = GB_PLOT_INK_SERIES + 3
+    INK_MEASURED = GB_PLOT_INK_SERIES + 3,
+    INK_BAND = GB_PLOT_INK_SERIES + 5
 };
 
-enum { STAGES = 3, ENTRIES = STAGES + 2 + GB_UNLOAD_MAX + GB_SESSION_EARLIER };
+enum { STAGES = 3, ENTRIES = STAGES + 3 + GB_UNLOAD_MAX + GB_SESSION_EARLIER };
 
 struct legend {
     struct gb_plot_entry entry[ENTRIES];
@@ -108,6 +109,12 @@ static bool trial_shown(const struct gb_panel_plot *panel,
            !(panel->hide_earlier && trial_behind(session));
 }
 
+static const struct gb_swarm_group *band_of(const struct gb_panel_plot *panel,
+                                            const struct gb_session *session)
+{
+    return panel->view == GB_VIEW_CURVE ? gb_band_group(&session->band) : NULL;
+}
+
 static struct ends find_ends(const struct gb_panel_plot *panel,
                              const struct gb_session *session)
 {
@@ -132,6 +139,10 @@ static struct ends find_ends(const struct gb_panel_plot *panel,
         for (size_t i = 0; x != NULL && i < earlier->count; i++) {
             extend(&ends, x[i], earlier->pressure_pa[i]);
         }
+    }
+    const struct gb_swarm_group *band = band_of(panel, session);
+    for (size_t k = 0; band != NULL && k < GB_SWARM_LEVELS; k++) {
+        extend(&ends, band->mean[k], session->band.swarm.level_pa[k]);
     }
     if (panel->log && ends.y[1] > 0.0) {
         ends.y[0] = fmax(ends.least_positive, ends.y[1] / decades_most);
@@ -372,6 +383,49 @@ static void draw_measured(struct gb_panel_plot *panel, const struct gb_session *
     add_entry(legend, &series, name);
 }
 
+/* `off` standard errors beside the mean of the cells. */
+static void draw_beside(struct gb_panel_plot *panel, const struct gb_session *session,
+                        double unit_pa, double off, struct gb_plot_series *series)
+{
+    const struct gb_swarm_group *group = band_of(panel, session);
+    double x[GB_SWARM_LEVELS];
+    double y[GB_SWARM_LEVELS];
+    for (size_t k = 0; k < GB_SWARM_LEVELS; k++) {
+        x[k] = group->mean[k] + (off != 0.0 ? off * group->error[k] : 0.0);
+        y[k] = session->band.swarm.level_pa[k] / unit_pa;
+    }
+    series->x = x;
+    series->y = y;
+    series->count = GB_SWARM_LEVELS;
+    gb_plot_line(&panel->plot, series);
+}
+
+/* Mean of more cells and its standard error on both sides. */
+static void draw_band(struct gb_panel_plot *panel, const struct gb_session *session,
+                      double unit_pa, struct legend *legend)
+{
+    const struct gb_band *band = &session->band;
+    const struct gb_swarm_group *group = band_of(panel, session);
+    char difference[GB_EARLIER_DIFFERENCE] = "";
+    char name[GB_PLOT_NAME];
+    if (group == NULL) {
+        return;
+    }
+    struct gb_plot_series edge = {.ink = GB_PLOT_INK_DIM};
+    struct gb_plot_series mean = {.ink = INK_BAND, .marker = 'R', .spacing = 8};
+    draw_beside(panel, session, unit_pa, -1.0, &edge);
+    draw_beside(panel, session, unit_pa, 1.0, &edge);
+    draw_beside(panel, session, unit_pa, 0.0, &mean);
+    if (session->runner != NULL &&
+        gb_earlier_differences(&band->params, gb_runner_params(session->runner)) > 0) {
+        gb_earlier_describe(&band->params, gb_runner_params(session->runner), difference,
+                            sizeof difference);
+    }
+    snprintf(name, sizeof name, "mean of %zu %s%s%.40s", group->members,
+             group->members == 1 ? "cell" : "cells", *difference ? ": " : "", difference);
+    add_entry(legend, &mean, name);
+}
+
 /* A letter where the run went on with other values. */
 static void draw_forks(struct gb_panel_plot *panel, const struct gb_session *session,
                        double unit_pa)
@@ -417,6 +471,7 @@ void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *se
         draw_earlier(panel, session, unit_pa, &legend);
     }
     draw_trial(panel, session, unit_pa, &legend);
+    draw_band(panel, session, unit_pa, &legend);
     draw_measured(panel, session, unit_pa, &legend);
     if (session->points > 0 && gb_panel_plot_reserve(panel, 2 * session->points + 1)) {
         draw_branches(panel, session, unit_pa, &legend);

@@ -43,7 +43,8 @@ static void draw_footer(const struct gb_watch *watch, const struct gb_paint *pai
     static const char *const hints[GB_WATCH_VIEWS] = {
         "1 curves  2 map  3 runs  v next  L log or linear  b glyphs  q quit",
         "1 curves  2 map  3 runs  v next  Left and Right pressure  q quit",
-        "1 curves  2 map  3 runs  v next  Up and Down scroll  q quit"};
+        "1 curves  2 map  3 runs  v next  Up and Down scroll  q quit",
+        "1 curves  2 map  3 runs  4 fit  v next  q quit"};
     gb_paint_cell(paint, paint->rect.rows - 1, 1, paint->rect.cols - 2, GB_STYLE_DIM,
                   hints[watch->view]);
 }
@@ -76,6 +77,19 @@ static void move_level(struct gb_watch *watch, int by)
     watch->level = (size_t)CLAMP(to, 0, GB_SWARM_LEVELS - 1);
 }
 
+/* Only a calibration has a fit. */
+static int views(const struct gb_watch *watch)
+{
+    return watch->swarm.fit != NULL ? GB_WATCH_VIEWS : GB_WATCH_FIT;
+}
+
+static void show_view(struct gb_watch *watch, int view)
+{
+    if (view < views(watch)) {
+        watch->view = (enum gb_watch_view)view;
+    }
+}
+
 /* True: leave. */
 static bool act(struct gb_watch *watch, struct gb_term *term, enum gb_action action)
 {
@@ -85,15 +99,16 @@ static bool act(struct gb_watch *watch, struct gb_term *term, enum gb_action act
     case GB_ACTION_VIEW_CURVE:
     case GB_ACTION_VIEW_HISTOGRAM:
     case GB_ACTION_VIEW_ROSE:
-        watch->view = (enum gb_watch_view)(action - GB_ACTION_VIEW_CURVE);
+    case GB_ACTION_VIEW_TIME:
+        show_view(watch, (int)action - GB_ACTION_VIEW_CURVE);
         break;
     case GB_ACTION_NEXT_VIEW:
     case GB_ACTION_NEXT_PANE:
-        watch->view = (watch->view + 1) % GB_WATCH_VIEWS;
+        show_view(watch, ((int)watch->view + 1) % views(watch));
         break;
     case GB_ACTION_PREVIOUS_VIEW:
     case GB_ACTION_PREVIOUS_PANE:
-        watch->view = (watch->view + GB_WATCH_VIEWS - 1) % GB_WATCH_VIEWS;
+        show_view(watch, ((int)watch->view + views(watch) - 1) % views(watch));
         break;
     case GB_ACTION_LEFT:
         move_level(watch, -1);
@@ -221,6 +236,7 @@ int gb_watch_run(const char *directory, const struct gb_settings *settings,
     gb_plot_init(&watch.plot);
     watch.glyphs = first_glyphs(term, settings);
     watch.level = gb_swarm_level(&watch.swarm, usual_pa);
+    watch.view = watch.swarm.fit != NULL ? GB_WATCH_FIT : GB_WATCH_CURVES;
     const int status = loop(&watch, term, &gone);
     if (gone) {
         gb_term_abandon(term);

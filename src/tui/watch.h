@@ -7,8 +7,14 @@
 #include "tui/swarm.h"
 
 /* The screen of many runs: their curves as means with bands, a map over two varied keys
- * at a pressure, the runs themselves.  It only reads. */
-enum gb_watch_view { GB_WATCH_CURVES, GB_WATCH_MAP, GB_WATCH_RUNS, GB_WATCH_VIEWS };
+ * at a pressure, the runs themselves, the fit of a calibration.  It only reads. */
+enum gb_watch_view {
+    GB_WATCH_CURVES,
+    GB_WATCH_MAP,
+    GB_WATCH_RUNS,
+    GB_WATCH_FIT, /* of a calibration */
+    GB_WATCH_VIEWS
+};
 
 struct gb_watch {
     struct gb_swarm swarm;

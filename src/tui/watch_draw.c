@@ -7,7 +7,14 @@
 #include "tui/panels.h"
 #include "tui/watch.h"
 
-enum { NAME_COLS = 14, CELL_COLS = 16, ENTRIES = 12, STATE_COL = 2, ERROR_COL = 22 };
+enum {
+    NAME_COLS = 14,
+    CELL_COLS = 16,
+    CELL_LEAST = 7,
+    ENTRIES = 12,
+    STATE_COL = 2,
+    ERROR_COL = 22
+};
 
 static void write_pressure(const struct gb_watch *watch, char *text, size_t size)
 {
@@ -112,9 +119,11 @@ static struct range range_of(const struct gb_watch *watch)
     return range;
 }
 
-/* "▓▓ 0.512 ±0.003": darker is denser, and the number says how dense. */
+/* "▓▓ 0.5120 +-30": darker is denser, and the number says how dense; "▓0.512" where there
+ * is less room. */
 static void draw_cell(const struct gb_watch *watch, const struct gb_paint *paint, int row,
-                      int col, const struct gb_swarm_group *group, struct range range)
+                      int col, int cols, const struct gb_swarm_group *group,
+                      struct range range)
 {
     static const char *const shades[] = {"\u2591", "\u2592", "\u2593", "\u2588"};
     char text[64] = "   ...";
@@ -125,12 +134,14 @@ static void draw_cell(const struct gb_watch *watch, const struct gb_paint *paint
                                 ? (mean - range.least) / (range.most - range.least)
                                 : 1.0;
         const char *shade = shades[(int)fmin(3.0, floor(4.0 * part))];
-        const int n = snprintf(text, sizeof text, "%s%s %.4f", shade, shade, mean);
-        if (isfinite(error)) {
+        const bool wide = cols >= CELL_COLS;
+        const int n = wide ? snprintf(text, sizeof text, "%s%s %.4f", shade, shade, mean)
+                           : snprintf(text, sizeof text, "%s%.3f", shade, mean);
+        if (isfinite(error) && wide) {
             snprintf(text + n, sizeof text - (size_t)n, " +-%.0f", 1e4 * error);
         }
     }
-    gb_paint_cell(paint, row, col, CELL_COLS, GB_STYLE_PLAIN, text);
+    gb_paint_cell(paint, row, col, cols, GB_STYLE_PLAIN, text);
 }
 
 static void draw_matrix(const struct gb_watch *watch, const struct gb_paint *paint)
@@ -138,20 +149,22 @@ static void draw_matrix(const struct gb_watch *watch, const struct gb_paint *pai
     const struct gb_swarm *swarm = &watch->swarm;
     const struct gb_swarm_key *across = &swarm->key[0], *down = &swarm->key[1];
     const struct range range = range_of(watch);
+    const int room = (paint->rect.cols - NAME_COLS - 1) / (int)across->count;
+    const int cols = room >= CELL_COLS ? CELL_COLS : MAX(room, CELL_LEAST);
     char text[128];
     snprintf(text, sizeof text, "%s.%s \u2192", across->field->group, across->field->key);
     gb_paint_text(paint, 3, NAME_COLS + 1, GB_STYLE_DIM, text);
     snprintf(text, sizeof text, "%s", down->field->key);
     gb_paint_cell(paint, 4, 1, NAME_COLS - 1, GB_STYLE_DIM, text);
     for (size_t i = 0; i < across->count; i++) {
-        gb_paint_cell(paint, 4, NAME_COLS + 1 + (int)i * CELL_COLS, CELL_COLS,
-                      GB_STYLE_BOLD, across->values[i]);
+        gb_paint_cell(paint, 4, NAME_COLS + 1 + (int)i * cols, cols - 1, GB_STYLE_BOLD,
+                      across->values[i]);
     }
     for (size_t j = 0; j < down->count; j++) {
         const int row = 5 + (int)j;
         gb_paint_cell(paint, row, 1, NAME_COLS - 1, GB_STYLE_BOLD, down->values[j]);
         for (size_t i = 0; i < across->count; i++) {
-            draw_cell(watch, paint, row, NAME_COLS + 1 + (int)i * CELL_COLS,
+            draw_cell(watch, paint, row, NAME_COLS + 1 + (int)i * cols, cols,
                       gb_swarm_at(swarm, i, j), range);
         }
     }
@@ -165,7 +178,7 @@ static void draw_list(const struct gb_watch *watch, const struct gb_paint *paint
         const struct gb_swarm_group *group = &watch->swarm.group[g];
         char name[80];
         name_group(group, name, sizeof name);
-        draw_cell(watch, paint, 3 + (int)g, 1, group, range);
+        draw_cell(watch, paint, 3 + (int)g, 1, CELL_COLS, group, range);
         gb_paint_text(paint, 3 + (int)g, CELL_COLS + 2, GB_STYLE_PLAIN, name);
     }
 }
@@ -202,11 +215,28 @@ static void draw_runs(struct gb_watch *watch, const struct gb_paint *paint)
     }
 }
 
+/* --- the fit ----------------------------------------------------------------------- */
+
+static void draw_fit(const struct gb_watch *watch, const struct gb_paint *paint)
+{
+    struct gb_rect rect = paint->rect;
+    rect.col += 1;
+    rect.cols -= 2;
+    const struct gb_paint inside = gb_paint_at(paint->term, rect);
+    int row = 1;
+    for (char **line = watch->swarm.fit; line != NULL && *line != NULL; line++) {
+        const int left = rect.rows - row;
+        const int rows = left > 0 ? gb_paint_wrapped(&inside, left, *line) : 0;
+        gb_paint_wrap(&inside, row, rows, GB_STYLE_PLAIN, *line);
+        row += rows;
+    }
+}
+
 void gb_watch_draw(struct gb_watch *watch, const struct gb_paint *paint)
 {
     static const char *const titles[GB_WATCH_VIEWS] = {
         "1 Pressure against density, means and their standard errors",
-        "2 Density over what was varied", "3 Runs"};
+        "2 Density over what was varied", "3 Runs", "4 Fit"};
     gb_paint_title(paint, titles[watch->view], true);
     switch (watch->view) {
     case GB_WATCH_CURVES:
@@ -217,6 +247,9 @@ void gb_watch_draw(struct gb_watch *watch, const struct gb_paint *paint)
         break;
     case GB_WATCH_RUNS:
         draw_runs(watch, paint);
+        break;
+    case GB_WATCH_FIT:
+        draw_fit(watch, paint);
         break;
     case GB_WATCH_VIEWS:
         break;

@@ -59,5 +59,50 @@ shows "shows the map" 'density at'
 is "in ASCII" until_true is_ascii
 leaves "closes, too"
 
+# --- more cells and a fit, started from the workbench
+start default particles.count=100 loading.until=10MPa loading.unload_from=
+shows "the workbench opens" '✓ done'
+keys C
+shows "a fit needs an experiment" 'needs an experiment over the plot'
+keys R
+shows "R asks how many cells" 'More cells of this scene'
+keys C-u
+keys -l 'three'
+keys Enter
+shows "which is a number" 'accepted: 2 to 1000 cells'
+keys C-u
+keys -l '3'
+keys Enter
+shows "their mean lies over the plot" 'mean of 3 cells'
+told "the events say where they are" 'cells: computed in'
+printf 'p_MPa,density,density_error\n5,0.26,0.01\n10,0.28,0.01\n' >"$here/lab.csv"
+keys e
+shows "e asks for an experiment" 'Experiment over the plot'
+keys -l "$here/lab.csv"
+keys Enter
+shows "which lies over the plot" 'experiment, misfit'
+keys C
+shows "C asks for the keys" 'Fit to the experiment'
+keys C-u
+keys -l 'contact.nu'
+keys Enter
+told "an unknown key is refused by name" 'contact.nu: accepted'
+keys C
+keys C-u
+keys -l 'contact.mu=0.05:0.4'
+keys Enter
+told "how far the fit is" 'round 1'
+fitted() {
+    [ -s "$(find "$here/state" -name calibration.csv)" ]
+}
+is "it ends with a table" until_true fitted
+leaves "closes"
+fit=$(dirname "$(find "$here/state" -name calibration.csv)")
+start attach "$fit"
+shows "attach shows the fit" 'key contact.mu'
+keys 3
+shows "and its runs" 'full_1_mu-'
+leaves "closes in the end"
+
 echo "1..$tests"
 exit "$bad"
