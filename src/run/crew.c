@@ -15,10 +15,15 @@ struct gb_crew {
     size_t count, busy;
     struct gb_ranks *ranks; /* NULL: nobody else */
     size_t away;            /* runs that other ranks do */
+    double stirred;         /* when a run was given or reported last */
 };
 
-/* With other ranks, longest time between two looks for what they send. */
-static const double letters_every_s = 0.002;
+/* Nothing wakes a rank when a letter comes: it looks from time to time, ever more seldom
+ * the longer nothing happens.  A run of a second waits for a hundredth of it at most to
+ * be reported, and looking takes less than that of a processor. */
+static const double letters_least_s = 0.002;
+static const double letters_most_s = 0.1;
+static const double letters_share = 0.02;
 
 static double clock_s(void)
 {
@@ -51,6 +56,12 @@ bool gb_crew_create(struct gb_crew **out, size_t workers, gb_crew_work *work,
     return true;
 }
 
+double gb_crew_patience(const struct gb_crew *crew)
+{
+    const double calm = letters_share * (clock_s() - crew->stirred);
+    return fmin(fmax(calm, letters_least_s), letters_most_s);
+}
+
 size_t gb_crew_idle(const struct gb_crew *crew)
 {
     return crew->count - crew->busy + gb_ranks_idle(crew->ranks);
@@ -77,6 +88,7 @@ static bool give_here(struct gb_crew *crew, size_t ticket, const struct gb_param
 bool gb_crew_give(struct gb_crew *crew, size_t ticket, const struct gb_params *params,
                   const char *directory, struct gb_error *err)
 {
+    crew->stirred = clock_s();
     if (crew->busy < crew->count) {
         return give_here(crew, ticket, params, directory, err);
     }
@@ -98,6 +110,7 @@ static bool take_here(struct gb_crew *crew, double seconds, struct gb_crew_repor
         if (crew->poll[i].revents != 0) {
             gb_worker_take(&crew->worker[i], report);
             crew->busy--;
+            crew->stirred = clock_s();
             return true;
         }
     }
@@ -113,9 +126,10 @@ bool gb_crew_take(struct gb_crew *crew, double seconds, struct gb_crew_report *r
     do {
         if (gb_ranks_take(crew->ranks, report)) {
             crew->away--;
+            crew->stirred = clock_s();
             return true;
         }
-        if (take_here(crew, letters_every_s, report)) {
+        if (take_here(crew, gb_crew_patience(crew), report)) {
             return true;
         }
     } while (clock_s() < until);

@@ -34,6 +34,9 @@ bool gb_crew_create(struct gb_crew **out, size_t workers, gb_crew_work *work,
 /* Ends what is still running and waits for it.  NULL is fine. */
 void gb_crew_destroy(struct gb_crew *crew);
 
+/* How long to wait for a report before looking for what other ranks send, s. */
+double gb_crew_patience(const struct gb_crew *crew);
+
 /* Workers without a run. */
 size_t gb_crew_idle(const struct gb_crew *crew);
 /* Runs that were given and not yet reported. */

@@ -24,9 +24,6 @@ static const double lost_after_s = 20.0;
 static const double missing_after_s = 8.0;
 /* The first rank may be busy reading what is there. */
 static const double orphan_after_s = 600.0;
-/* Longest time a rank waits for a report of its crew before it looks for letters. */
-static const double serve_wait_s = 0.002;
-
 /* A run on its way to a rank. */
 struct letter {
     MPI_Request request;
@@ -257,7 +254,7 @@ bool gb_ranks_serve(struct gb_ranks *ranks, struct gb_crew *crew, size_t workers
     MPI_Send(&capacity, (int)sizeof capacity, MPI_BYTE, 0, TAG_HELLO, MPI_COMM_WORLD);
     while (open_letters(ranks, crew, &heard)) {
         struct gb_crew_report report;
-        if (gb_crew_take(crew, serve_wait_s, &report)) {
+        if (gb_crew_take(crew, gb_crew_patience(crew), &report)) {
             MPI_Send(&report, (int)sizeof report, MPI_BYTE, 0, TAG_REPORT,
                      MPI_COMM_WORLD);
         }

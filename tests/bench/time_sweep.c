@@ -20,7 +20,7 @@
 #include "run/solo.h"
 
 /* A block is long enough for the start of a program to be a small part of it. */
-enum { BLOCK = 100, RUNS = 1000, PARTICLES = 250, WORDS = 32 };
+enum { BLOCK = 500, RUNS = 1000, PARTICLES = 250, WORDS = 32 };
 
 /* Pressed to 100 MPa from here on. */
 static const char *const scene[] = {"structure.base=auto", "loading.until=100 MPa",
