@@ -229,6 +229,11 @@ const struct gb_tally *gb_world_tally(const struct gb_world *world)
     return &world->tally;
 }
 
+int gb_world_threads(const struct gb_world *world)
+{
+    return world->threads;
+}
+
 const double *gb_world_position(const struct gb_world *world)
 {
     return world->position;

@@ -47,6 +47,8 @@ struct gb_bodies gb_world_bodies(struct gb_world *world);
 const struct gb_cell *gb_world_cell(const struct gb_world *world);
 const struct gb_model *gb_world_model(const struct gb_world *world);
 const struct gb_tally *gb_world_tally(const struct gb_world *world);
+/* Threads that work on it. */
+int gb_world_threads(const struct gb_world *world);
 const double *gb_world_position(const struct gb_world *world);
 
 /* rms force (and torque over d, whichever is larger) over the force scale: the mean |f_n|

@@ -37,40 +37,98 @@ void gb_relax_fire_rest(struct gb_relax *relax, struct gb_relax_fire_state *fire
     *fire = (struct gb_relax_fire_state){tuning->step_first, tuning->mixing_first, 0};
 }
 
+/* The arrays are worked through in this many spans, whatever the number of threads, and
+ * summed in lanes that the compiler vectorises: the order of the sums is fixed. */
+enum { SPANS = 64, LANES = 8 };
+
 struct sums {
     double power, speed2, force2;
 };
 
-/* Sums over all six motions, in a fixed order. */
-static struct sums sum_up(const struct gb_relax *relax, const struct gb_bodies *b)
+/* One pass over all particles, span by span. */
+struct pass {
+    struct gb_bodies b;
+    double *v, *w;      /* velocities */
+    double keep, kick;  /* v = keep v + kick F */
+    double step, scale; /* x += step v */
+    struct sums sums[SPANS];
+    double speed2_most[SPANS];
+};
+
+/* The first of the numbers (three a particle) of a span. */
+static int64_t span_begin(const struct pass *pass, int span)
 {
-    const double *v = relax->vector[0], *w = relax->vector[1];
-    struct sums t = {0}, r = {0};
-    for (int64_t i = 0; i < 3 * b->count; i++) {
-        t.power += b->force[i] * v[i];
-        t.speed2 += v[i] * v[i];
-        t.force2 += b->force[i] * b->force[i];
-        r.power += b->torque[i] * w[i];
-        r.speed2 += w[i] * w[i];
-        r.force2 += b->torque[i] * b->torque[i];
-    }
-    return (struct sums){t.power + r.power, t.speed2 + inertia * r.speed2,
-                         t.force2 + r.force2 / inertia};
+    return 3 * (pass->b.count * span / SPANS);
 }
 
-static void step_back(const struct gb_relax *relax, const struct gb_bodies *b,
-                      double half)
+static void over_spans(struct pass *pass, int threads,
+                       void (*work)(struct pass *pass, int span))
 {
-    const double *v = relax->vector[0], *w = relax->vector[1];
-    for (int64_t i = 0; i < 3 * b->count; i++) {
-        b->position[i] -= half * v[i];
-        b->turn[i] -= half * w[i];
+    (void)threads;
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+    for (int s = 0; s < SPANS; s++) {
+        work(pass, s);
     }
 }
 
-static void adapt(struct gb_relax *relax, struct gb_relax_fire_state *fire,
-                  const struct gb_relax_fire_tuning *tuning, const struct gb_bodies *b,
-                  double power)
+static double lane_sum(const double lane[LANES])
+{
+    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
+           ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+}
+
+static struct sums sum_up(const double *force, const double *v, int64_t begin,
+                          int64_t end)
+{
+    double power[LANES] = {0}, speed2[LANES] = {0}, force2[LANES] = {0};
+    int64_t i = begin;
+    for (; i + LANES <= end; i += LANES) {
+        for (int l = 0; l < LANES; l++) {
+            power[l] += force[i + l] * v[i + l];
+            speed2[l] += v[i + l] * v[i + l];
+            force2[l] += force[i + l] * force[i + l];
+        }
+    }
+    for (; i < end; i++) {
+        power[0] += force[i] * v[i];
+        speed2[0] += v[i] * v[i];
+        force2[0] += force[i] * force[i];
+    }
+    return (struct sums){lane_sum(power), lane_sum(speed2), lane_sum(force2)};
+}
+
+static void sum_span(struct pass *pass, int span)
+{
+    const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
+    const struct sums t = sum_up(pass->b.force, pass->v, begin, end);
+    const struct sums r = sum_up(pass->b.torque, pass->w, begin, end);
+    pass->sums[span] = (struct sums){t.power + r.power, t.speed2 + inertia * r.speed2,
+                                     t.force2 + r.force2 / inertia};
+}
+
+/* Sums over all six motions. */
+static struct sums sum_all(struct pass *pass, int threads)
+{
+    struct sums sums = {0};
+    over_spans(pass, threads, sum_span);
+    for (int s = 0; s < SPANS; s++) {
+        sums.power += pass->sums[s].power;
+        sums.speed2 += pass->sums[s].speed2;
+        sums.force2 += pass->sums[s].force2;
+    }
+    return sums;
+}
+
+static void step_back(const struct pass *pass, double half)
+{
+    for (int64_t i = 0; i < 3 * pass->b.count; i++) {
+        pass->b.position[i] -= half * pass->v[i];
+        pass->b.turn[i] -= half * pass->w[i];
+    }
+}
+
+static void adapt(struct pass *pass, struct gb_relax_fire_state *fire,
+                  const struct gb_relax_fire_tuning *tuning, double power)
 {
     if (power > 0.0) {
         if (++fire->downhill > tuning->delay) {
@@ -80,7 +138,7 @@ static void adapt(struct gb_relax *relax, struct gb_relax_fire_state *fire,
         return;
     }
     if (fire->downhill > 0) {
-        step_back(relax, b, 0.5 * fire->step);
+        step_back(pass, 0.5 * fire->step);
     }
     /* also uphill right from a standstill: a step beyond sqrt(2)/omega would otherwise
      * stay as it is and blow the packing up */
@@ -89,16 +147,44 @@ static void adapt(struct gb_relax *relax, struct gb_relax_fire_state *fire,
     }
     fire->downhill = 0;
     fire->mixing = tuning->mixing_first;
-    const size_t bytes = 3 * (size_t)b->count * sizeof(double);
-    memset(relax->vector[0], 0, bytes);
-    memset(relax->vector[1], 0, bytes);
+    const size_t bytes = 3 * (size_t)pass->b.count * sizeof(double);
+    memset(pass->v, 0, bytes);
+    memset(pass->w, 0, bytes);
 }
 
-static double speed_most(const double *v, int64_t count)
+static void kick_span(struct pass *pass, int span)
+{
+    const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
+    const double keep = pass->keep, kick = pass->kick, turn = pass->kick / inertia;
+    for (int64_t i = begin; i < end; i++) {
+        pass->v[i] = keep * pass->v[i] + kick * pass->b.force[i];
+        pass->w[i] = keep * pass->w[i] + turn * pass->b.torque[i];
+    }
+    double most = 0.0;
+    for (int64_t i = begin; i < end; i += 3) {
+        const double speed2 = gb_vec_dot(pass->v + i, pass->v + i);
+        most = speed2 > most ? speed2 : most;
+    }
+    pass->speed2_most[span] = most;
+}
+
+static void move_span(struct pass *pass, int span)
+{
+    const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
+    const double step = pass->step, scale = pass->scale;
+    for (int64_t i = begin; i < end; i++) {
+        pass->v[i] *= scale;
+        pass->w[i] *= scale;
+        pass->b.position[i] += step * pass->v[i];
+        pass->b.turn[i] += step * pass->w[i];
+    }
+}
+
+static double speed_most(const struct pass *pass)
 {
     double most = 0.0;
-    for (int64_t i = 0; i < count; i++) {
-        most = fmax(most, gb_vec_dot(v + 3 * i, v + 3 * i));
+    for (int s = 0; s < SPANS; s++) {
+        most = fmax(most, pass->speed2_most[s]);
     }
     return sqrt(most);
 }
@@ -106,31 +192,24 @@ static double speed_most(const double *v, int64_t count)
 void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire,
                         const struct gb_relax_fire_tuning *tuning, struct gb_world *world)
 {
-    const struct gb_bodies b = gb_world_bodies(world);
-    double *v = relax->vector[0], *w = relax->vector[1];
-    const struct sums sums = sum_up(relax, &b);
-    adapt(relax, fire, tuning, &b, sums.power);
-    const double step = fire->step;
+    const int threads = gb_world_threads(world);
+    struct pass pass = {
+        .b = gb_world_bodies(world), .v = relax->vector[0], .w = relax->vector[1]};
+    const struct sums sums = sum_all(&pass, threads);
+    adapt(&pass, fire, tuning, sums.power);
     /* mixing needs the speed after the kick; the speed before differs by one step only
      * and saves a pass over the arrays */
     const bool rolling = fire->downhill > 0;
-    const double keep = rolling ? 1.0 - fire->mixing : 1.0;
     const double steer = rolling && sums.force2 > 0.0
                              ? fire->mixing * sqrt(sums.speed2 / sums.force2)
                              : 0.0;
-    const double kick = step + steer;
-    for (int64_t i = 0; i < 3 * b.count; i++) {
-        v[i] = keep * v[i] + kick * b.force[i];
-        w[i] = keep * w[i] + kick / inertia * b.torque[i];
-    }
-    const double farthest = step * speed_most(v, b.count);
-    const double scale = farthest > move_most ? move_most / farthest : 1.0;
-    for (int64_t i = 0; i < 3 * b.count; i++) {
-        v[i] *= scale;
-        w[i] *= scale;
-        b.position[i] += step * v[i];
-        b.turn[i] += step * w[i];
-    }
+    pass.keep = rolling ? 1.0 - fire->mixing : 1.0;
+    pass.step = fire->step;
+    pass.kick = fire->step + steer;
+    over_spans(&pass, threads, kick_span);
+    const double farthest = pass.step * speed_most(&pass);
+    pass.scale = farthest > move_most ? move_most / farthest : 1.0;
+    over_spans(&pass, threads, move_span);
 }
 
 static void start(struct gb_relax *relax, struct gb_world *world)
