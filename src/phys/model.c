@@ -63,29 +63,45 @@ static double by_fidelity(int fidelity, double fast, double balanced, double ref
     }
 }
 
-/* Tolerance and parts of a strain step: what is best for one relaxer is not for another.
- */
-static void pick_relaxation(struct gb_numerics *numerics, const struct gb_params *params)
+/* What is best for one relaxer is not for another. */
+static void pick_for_predict(struct gb_numerics *numerics, const struct gb_params *params,
+                             bool bridges, double *part)
 {
-    const bool predict = strcmp(numerics->relaxer, "predict") == 0;
-    const bool reference = params->fidelity == GB_FIDELITY_REFERENCE;
-    const double tolerance =
-        reference ? GB_TOLERANCE_REFERENCE
-        : predict ? GB_PREDICT_TOLERANCE
-                  : by_fidelity(params->fidelity, GB_TOLERANCE_FAST,
-                                GB_TOLERANCE_BALANCED, GB_TOLERANCE_REFERENCE);
-    const double part = reference ? GB_PART_REFERENCE
-                        : predict ? GB_PREDICT_PART
-                                  : params->strain_step;
-    numerics->tolerance = isfinite(params->tolerance) ? params->tolerance : tolerance;
+    const int axes = params->geometry == GB_GEOMETRY_ISOTROPIC ? params->dimension
+                     : params->geometry == GB_GEOMETRY_BIAXIAL ? 2
+                                                               : 1;
+    const bool fast = params->fidelity == GB_FIDELITY_FAST;
+    *part = (fast ? GB_PREDICT_PART_FAST : GB_PREDICT_PART_BALANCED) / sqrt(axes);
+    numerics->tolerance =
+        bridges ? (fast ? GB_PREDICT_TOLERANCE_FAST : GB_PREDICT_TOLERANCE_BALANCED)
+                : (fast ? GB_UNBRIDGED_TOLERANCE_FAST : GB_UNBRIDGED_TOLERANCE_BALANCED);
+}
+
+/* Tolerance and parts of a strain step. */
+static void pick_relaxation(struct gb_model *model, const struct gb_params *params)
+{
+    struct gb_numerics *numerics = &model->numerics;
+    double part = params->strain_step;
+    if (params->fidelity == GB_FIDELITY_REFERENCE) {
+        numerics->tolerance = GB_TOLERANCE_REFERENCE;
+        part = GB_PART_REFERENCE;
+    } else if (strcmp(numerics->relaxer, "predict") == 0) {
+        pick_for_predict(numerics, params, model->terms.bridges, &part);
+    } else {
+        numerics->tolerance = params->fidelity == GB_FIDELITY_FAST
+                                  ? GB_TOLERANCE_FAST
+                                  : GB_TOLERANCE_BALANCED;
+    }
+    numerics->tolerance =
+        isfinite(params->tolerance) ? params->tolerance : numerics->tolerance;
     const double most = isfinite(params->strain_part) ? params->strain_part : part;
     numerics->parts = (int)fmax(1.0, ceil(params->strain_step / most - 1e-9));
 }
 
-/* predict costs less and errs more with the strain. */
+/* predict costs a third; the reference is what it is measured against. */
 static const char *automatic_relaxer(const struct gb_params *params)
 {
-    return params->fidelity == GB_FIDELITY_FAST ? "predict" : "fire";
+    return params->fidelity == GB_FIDELITY_REFERENCE ? "fire" : "predict";
 }
 
 static void pick_numerics(struct gb_model *model, const struct gb_params *params)
@@ -94,7 +110,7 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
     const bool named = params->relaxer[0] && strcmp(params->relaxer, "auto") != 0;
     snprintf(numerics->relaxer, sizeof numerics->relaxer, "%s",
              named ? params->relaxer : automatic_relaxer(params));
-    pick_relaxation(numerics, params);
+    pick_relaxation(model, params);
     const double share = by_fidelity(params->fidelity, GB_CUTOFF_SHARE_FAST,
                                      GB_CUTOFF_SHARE_BALANCED, GB_CUTOFF_SHARE_REFERENCE);
     const double given = params->cutoff.relative
@@ -239,9 +255,11 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
         snprintf(
             buffer, size,
             "relaxer %s, strain steps in %d part%s, tolerance %g of the mean contact "
-            "force, at most %lld evaluations per part",
+            "force%s, at most %lld evaluations per part",
             numerics->relaxer, numerics->parts, numerics->parts == 1 ? "" : "s",
-            numerics->tolerance, (long long)numerics->max_evaluations);
+            numerics->tolerance,
+            strcmp(numerics->relaxer, "predict") == 0 ? " (less under light loads)" : "",
+            (long long)numerics->max_evaluations);
         return buffer;
     case 4:
         if (model->dimension == 2) {

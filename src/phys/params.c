@@ -294,11 +294,13 @@ static const struct gb_field fields[] = {
      .source = "P1 (15); numerical"},
     {"numerics", "tolerance", GB_FIELD_NUMBER, AT(tolerance), RANGE(1e-12, 0.1),
      AUTO(NAN), .fallback = "auto",
-     .meaning = "rms residual force over the force scale at which a step is relaxed",
+     .meaning = "rms residual force over the force scale at which a step is relaxed; "
+                "predict: a share of it under light loads",
      .source = "numerical"},
     {"numerics", "strain_part", GB_FIELD_NUMBER, AT(strain_part),
      .dimension = GB_DIM_FRACTION, RANGE(1e-6, 0.02), AUTO(NAN), .fallback = "auto",
-     .meaning = "largest strain relaxed at once: a strain step is taken in equal parts",
+     .meaning = "largest strain of an axis relaxed at once: a strain step is taken in "
+                "equal parts",
      .source = "numerical"},
     {"numerics", "cutoff", GB_FIELD_RELATIVE, AT(cutoff), .dimension = GB_DIM_LENGTH,
      .relative = "d", RANGE(1.0, 3.0), AUTO(NAN), .fallback = "auto",

@@ -94,22 +94,19 @@ double gb_cost_rate_assumed(const struct gb_params *params)
     return rate_of_core * threads_of(params);
 }
 
-/* Force sweeps over those of the quick cell, which is pressed with fidelity fast in steps
- * of 0.3 %.  Set II, 1000 particles, to 1 GPa: fast took 13.5 thousand in steps of 0.3 %
- * and of 0.1 %, balanced 17.7 and 31.3, reference 175 in steps of 0.1 %; unloading twice
- * adds 4 %. */
-static double sweeps_over_quick(const struct gb_params *full,
-                                const struct gb_params *quick)
+/* Force sweeps over those of the quick cell, which is pressed with fidelity fast.  Set
+ * II, 1000 particles, to 1 GPa: fast took 4.8 thousand in steps of 0.3 % and of 0.1 %,
+ * balanced 9.9 and 10.0, reference 174; unloading twice adds 5 %. */
+static double sweeps_over_quick(const struct gb_params *full)
 {
-    const double finer = fmax(quick->strain_step / full->strain_step, 1.0);
-    const double unloading = 1.0 + 0.02 * (double)full->unload_count;
+    const double unloading = 1.0 + 0.025 * (double)full->unload_count;
     switch (full->fidelity) {
     case GB_FIDELITY_FAST:
         return unloading;
     case GB_FIDELITY_REFERENCE:
-        return 7.5 * sqrt(finer) * unloading;
+        return 36.0 * unloading;
     default:
-        return 1.3 * sqrt(finer) * unloading;
+        return 2.1 * unloading;
     }
 }
 
@@ -120,7 +117,7 @@ double gb_cost_from_quick(const struct gb_params *full, const struct gb_params *
         return NAN;
     }
     const double particles = (double)full->count / (double)quick->count;
-    return quick_s * particles * sweeps_over_quick(full, quick) * threads_of(quick) /
+    return quick_s * particles * sweeps_over_quick(full) * threads_of(quick) /
            threads_of(full);
 }
 
@@ -136,11 +133,10 @@ static double density_assumed(const struct gb_params *params)
 /* Sweeps of the quick cell to 1 GPa, which goes from 0.24 to 0.54 here. */
 static double quasistatic_s(const struct gb_params *params)
 {
-    static const double quick_sweeps = 13.5e3, quick_step = 3e-3, quick_growth = 0.81;
-    const struct gb_params quick = {.strain_step = quick_step};
+    static const double quick_sweeps = 4.8e3, quick_growth = 0.81;
     const double growth =
         log(density_assumed(params) / gb_params_structure_density(params));
-    return quick_sweeps * sweeps_over_quick(params, &quick) * growth / quick_growth *
+    return quick_sweeps * sweeps_over_quick(params) * growth / quick_growth *
            (double)params->count * sweep_s / threads_of(params);
 }
 

@@ -106,6 +106,17 @@ static bool stalls(struct gb_relax *relax, struct gb_world *world)
     return relax->stalled;
 }
 
+/* Residual at which a relaxation is done.  Under light loads the residual is measured
+ * against the attraction, which says nothing of the pressure. */
+static double allowed(const struct gb_relax *relax, const struct gb_world *world)
+{
+    const struct gb_tally *tally = gb_world_tally(world);
+    const double carried = tally->normal_sum / (fmax(1.0, (double)tally->contacts) *
+                                                gb_world_model(world)->force_floor);
+    const double share = GB_LIGHT_RISE * carried;
+    return relax->tolerance * fmin(1.0, fmax(relax->method->light, share));
+}
+
 enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *world,
                                        int64_t max_evaluations, struct gb_error *err)
 {
@@ -120,7 +131,7 @@ enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *
         }
         relax->evaluations++;
         relax->residual = gb_world_residual(world);
-        if (relax->residual <= relax->tolerance) {
+        if (relax->residual <= allowed(relax, world)) {
             return GB_RELAX_DONE;
         }
         if (relax->evaluations >= relax->max_evaluations || stalls(relax, world)) {

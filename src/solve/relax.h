@@ -11,8 +11,9 @@
 /* Relaxation of a world to equilibrium: one table of methods, one stopping rule.
  *
  * The rule: gb_world_residual (rms force and torque over the mean contact force or
- * f_a(d)) at or below the tolerance.  A method only moves the particles after each
- * evaluation. */
+ * f_a(d)) at or below the tolerance, and below less of it where contacts carry less than
+ * they stick with (struct gb_relaxer, light).  A method only moves the particles after
+ * each evaluation. */
 struct gb_relax;
 struct gb_record;
 
@@ -25,6 +26,9 @@ struct gb_relaxer {
     const char *doc;
     size_t state_size; /* bytes of its state ... */
     int vectors;       /* ... and how many arrays of count x 3 doubles it needs */
+    /* Least share of the tolerance under light loads, where it falls with the mean
+     * contact force over f_a(d); 1: the tolerance holds everywhere. */
+    double light;
     void (*start)(struct gb_relax *relax, struct gb_world *world);
     void (*move)(struct gb_relax *relax, struct gb_world *world);
     /* What it remembers from one relaxation to the next, into a checkpoint or out of it;

@@ -227,6 +227,7 @@ const struct gb_relaxer gb_relax_fire = {
     .doc = "fast inertial relaxation of translations and rotations",
     .state_size = sizeof(struct gb_relax_fire_state),
     .vectors = 2,
+    .light = 1.0,
     .start = start,
     .move = move,
 };

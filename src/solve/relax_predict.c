@@ -10,6 +10,8 @@
 #include <string.h>
 
 #include "base/record.h"
+#include "base/vec.h"
+#include "phys/tolerances.h"
 #include "solve/relax_fire.h"
 
 const struct gb_relax_fire_tuning gb_relax_predict_tuning = {
@@ -24,9 +26,6 @@ const struct gb_relax_fire_tuning gb_relax_predict_tuning = {
 /* A strain step this much longer than the last one is another story, and so is one the
  * other way: nothing is foretold. */
 static const double share_most = 2.0;
-/* No particle is foretold to go or turn farther than this (d, rad) along an axis: those
- * that just fell into a hole will not do it again. */
-static const double foretold_most = 0.01;
 
 enum { PLACE = 2, TURNED = 3 }; /* vectors beside the velocities */
 
@@ -36,42 +35,57 @@ struct predict {
     double strain[3]; /* logarithmic, that it answers */
 };
 
-/* How much of the last answer the strain since then asks for. */
-static double share_of(struct predict *state, const double edge[3])
+/* Strain since the relaxation before, and how much of the last answer it asks for. */
+struct asked {
+    double share, size;
+};
+
+static struct asked ask(struct predict *state, const double edge[3])
 {
-    double along = 0.0, square = 0.0;
+    double along = 0.0, square = 0.0, size2 = 0.0;
     for (int k = 0; k < 3; k++) {
         const double now = state->edge[k] > 0.0 ? log(edge[k] / state->edge[k]) : 0.0;
         along += now * state->strain[k];
         square += state->strain[k] * state->strain[k];
+        size2 += now * now;
         state->strain[k] = now;
         state->edge[k] = edge[k];
     }
     const double share = square > 0.0 ? along / square : 0.0;
-    return share > 0.0 && share <= share_most ? share : 0.0;
+    return (struct asked){share > 0.0 && share <= share_most ? share : 0.0, sqrt(size2)};
 }
 
-static double bounded(double way)
+/* What is foretold of a way or a turn. */
+static void foretold(double way[3], struct asked asked)
 {
-    return fmax(-foretold_most, fmin(foretold_most, way));
+    const double length = asked.share * gb_vec_length(way);
+    const double most = GB_FORETOLD_MOST * asked.size;
+    const double factor = length > most ? most / length * asked.share : asked.share;
+    for (int c = 0; c < 3; c++) {
+        way[c] *= factor;
+    }
 }
 
 /* Places are remembered as shares of the edges: free of the affine motion, and of whole
  * edges where a particle was put back into the cell. */
 static void foretell(struct gb_relax *relax, const struct gb_bodies *b,
-                     const double edge[3], double share)
+                     const double edge[3], struct asked asked)
 {
-    double *place = relax->vector[PLACE], *turned = relax->vector[TURNED];
-    for (int64_t i = 0; i < 3 * b->count; i++) {
-        const double size = edge[i % 3];
-        const double now = b->position[i] / size;
-        const double went = now - place[i];
-        place[i] = now;
-        turned[i] = share > 0.0 ? bounded(share * turned[i]) : 0.0;
-        if (share > 0.0) {
-            b->position[i] += bounded(share * size * (went - round(went)));
-            b->turn[i] += turned[i];
+    for (int64_t i = 0; i < b->count; i++) {
+        double *place = relax->vector[PLACE] + 3 * i;
+        double *turned = relax->vector[TURNED] + 3 * i;
+        double *position = b->position + 3 * i;
+        double way[3];
+        for (int c = 0; c < 3; c++) {
+            const double now = position[c] / edge[c];
+            const double went = now - place[c];
+            way[c] = edge[c] * (went - round(went));
+            place[c] = now;
         }
+        foretold(way, asked);
+        foretold(turned, asked);
+        gb_vec_add(position, 1.0, way);
+        gb_vec_add(b->turn + 3 * i, 1.0, turned);
     }
 }
 
@@ -81,7 +95,7 @@ static void start(struct gb_relax *relax, struct gb_world *world)
     const struct gb_bodies b = gb_world_bodies(world);
     const double *edge = gb_world_cell(world)->edge;
     gb_relax_fire_rest(relax, &state->fire, &gb_relax_predict_tuning, world);
-    foretell(relax, &b, edge, share_of(state, edge));
+    foretell(relax, &b, edge, ask(state, edge));
 }
 
 static void move(struct gb_relax *relax, struct gb_world *world)
@@ -115,6 +129,7 @@ const struct gb_relaxer gb_relax_predict = {
     .doc = "fire from a prediction: on as in the last strain step, then relaxed",
     .state_size = sizeof(struct predict),
     .vectors = 4,
+    .light = GB_PREDICT_LIGHT,
     .start = start,
     .move = move,
     .record = record,

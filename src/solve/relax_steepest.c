@@ -115,6 +115,7 @@ const struct gb_relaxer gb_relax_steepest = {
     .doc = "displacements proportional to the forces, P1 (15): the reference",
     .state_size = sizeof(struct steepest),
     .vectors = 1,
+    .light = 1.0,
     .start = start,
     .move = move,
 };

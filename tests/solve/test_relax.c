@@ -1,8 +1,10 @@
 #include <glib.h>
 #include <math.h>
 
+#include "base/vec.h"
 #include "common/scene.h"
 #include "measure/observe.h"
+#include "phys/tolerances.h"
 #include "solve/guard.h"
 #include "solve/relax.h"
 
@@ -69,6 +71,9 @@ static int64_t pressed(const char *relaxer, double factor_z, double *contacts)
     struct gb_error err = {0};
     int64_t spent = 0;
     g_assert_true(gb_relax_create(&relax, &model, &err));
+    struct gb_relaxer even = *relax->method; /* the same rule for all under light loads */
+    even.light = 1.0;
+    relax->method = &even;
     for (int step = 0; step < 60; step++) {
         const double along = step < 50 ? factor_z : 1.0 / factor_z;
         const double factor[3] = {1.0, 1.0, along};
@@ -93,6 +98,88 @@ static void test_predict(void)
                    many, few);
     g_assert_cmpint(4 * few, <, 3 * many);
     g_assert_cmpfloat_with_epsilon(foretold, plain, 0.05);
+}
+
+/* Under light loads predict answers to a share of its tolerance, later to all of it. */
+static void test_light(void)
+{
+    const struct gb_params params =
+        scene_params("numerics.relaxer=predict", "numerics.tolerance=2e-2", NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    struct gb_relax *relax = NULL;
+    struct gb_error err = {0};
+    double first = 0.0, last = 0.0;
+    g_assert_true(gb_relax_create(&relax, &model, &err));
+    for (int step = 0; step < 140; step++) {
+        static const double factor[3] = {0.998, 0.998, 0.998};
+        gb_relax_start(relax, world);
+        g_assert_cmpint(gb_relax_advance(relax, world, 100000, &err), ==, GB_RELAX_DONE);
+        last = relax->residual;
+        first = step == 0 ? last : first;
+        gb_world_strain(world, factor);
+    }
+    g_assert_cmpfloat(first, <=, GB_PREDICT_LIGHT * 2e-2);
+    g_assert_cmpfloat(last, >, GB_PREDICT_LIGHT * 2e-2);
+    g_assert_cmpfloat(last, <=, 2e-2);
+    gb_relax_destroy(relax);
+    gb_world_destroy(world);
+}
+
+/* What is foretold of one particle keeps to the strain. */
+static void test_foretold(void)
+{
+    static const double factor[3] = {0.999, 1.0, 0.999};
+    const struct gb_params params = scene_params("numerics.relaxer=predict", NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    struct gb_relax *relax = NULL;
+    struct gb_error err = {0};
+    const size_t bytes = 3 * (size_t)model.count * sizeof(double);
+    double *before = g_malloc(bytes), farthest = 0.0;
+    g_assert_true(gb_relax_create(&relax, &model, &err));
+    for (int step = 0; step < 20; step++) {
+        gb_relax_start(relax, world);
+        g_assert_cmpint(gb_relax_advance(relax, world, 100000, &err), ==, GB_RELAX_DONE);
+        gb_world_strain(world, factor);
+        memcpy(before, gb_world_position(world), bytes);
+    }
+    gb_relax_start(relax, world);
+    for (int64_t i = 0; i < model.count; i++) {
+        gb_vec_add(before + 3 * i, -1.0, gb_world_position(world) + 3 * i);
+        farthest = fmax(farthest, gb_vec_length(before + 3 * i));
+    }
+    const double most = GB_FORETOLD_MOST * sqrt(2.0) * -log(0.999);
+    g_assert_cmpfloat_with_epsilon(farthest, most, 1e-9); /* somebody would go farther */
+    g_free(before);
+    gb_relax_destroy(relax);
+    gb_world_destroy(world);
+}
+
+/* What a scene gets where its preset leaves it open. */
+static void test_picked(void)
+{
+    static const struct {
+        const char *sets[2], *relaxer;
+        int parts;
+        double tolerance;
+    } row[] = {
+        {{"numerics.fidelity=fast", "loading.geometry=uniaxial"}, "predict", 1, 0.05},
+        {{"numerics.fidelity=balanced", "loading.geometry=uniaxial"}, "predict", 2, 0.03},
+        {{"loading.geometry=isotropic", "contact.bridge_length=1 d"}, "predict", 4, 0.02},
+        {{"loading.geometry=biaxial", "numerics.strain_part=0.1 %"}, "predict", 1, 0.03},
+        {{"numerics.fidelity=balanced", "numerics.relaxer=fire"}, "fire", 1, 0.01},
+        {{"numerics.fidelity=reference", "numerics.relaxer=auto"}, "fire", 5, 0.002},
+    };
+    for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
+        const struct gb_params params =
+            scene_params("loading.step=0.1 %", row[i].sets[0], row[i].sets[1], NULL);
+        const struct gb_model model = scene_model(&params);
+        g_test_message("row %zu", i);
+        g_assert_cmpstr(model.numerics.relaxer, ==, row[i].relaxer);
+        g_assert_cmpint(model.numerics.parts, ==, row[i].parts);
+        g_assert_cmpfloat_with_epsilon(model.numerics.tolerance, row[i].tolerance, 1e-12);
+    }
 }
 
 /* A slice never runs over, and slices of any length give the same bits. */
@@ -187,6 +274,9 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/relax/all", test_all);
     g_test_add_func("/relax/predict", test_predict);
+    g_test_add_func("/relax/light", test_light);
+    g_test_add_func("/relax/foretold", test_foretold);
+    g_test_add_func("/relax/picked", test_picked);
     g_test_add_func("/relax/slices", test_slices);
     g_test_add_func("/relax/exhausted", test_exhausted);
     g_test_add_func("/relax/unknown", test_unknown);
