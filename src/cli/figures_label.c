@@ -174,7 +174,14 @@ size_t gb_figures_label_groups(struct gb_series *series, const struct gb_runset 
 void gb_figures_label_note(struct gb_series *series, const struct gb_runset *set)
 {
     const size_t most = gb_figures_label_groups(series, set);
-    if (most > 1) {
+    size_t least = most;
+    for (size_t g = 0; g < set->groups; g++) {
+        least = MIN(least, gb_runset_members(set, g));
+    }
+    if (most > least) {
+        gb_series_say(series, "Means of %zu to %zu runs; bands and bars: standard error.",
+                      least, most);
+    } else if (most > 1) {
         gb_series_say(series, "Means of %zu runs; bands and bars: standard error.", most);
     }
 }
