@@ -222,17 +222,20 @@ bool gb_units_parse(const char *text, enum gb_dimension dimension, double *value
 {
     struct literal literal;
     double value = 0.0;
-    if (!scan(text, &literal) || !evaluate(&literal, 0, &value)) {
+    const bool read = scan(text, &literal);
+    const struct unit *unit =
+        read ? find_unit(skip_blanks(literal.end), dimension) : NULL;
+    if (unit && evaluate(&literal, unit->exponent, &value) &&
+        isfinite(value * unit->factor)) {
+        *value_si = value * unit->factor;
+        return true;
+    }
+    /* with its unit a number may fit that alone does not: "1e309 %" */
+    if (!read || !evaluate(&literal, 0, &value)) {
         return gb_error_set(err, GB_ERR_INPUT, "'%.60s' is not a number", text);
     }
-    const struct unit *unit = find_unit(skip_blanks(literal.end), dimension);
-    if (!unit || !evaluate(&literal, unit->exponent, &value) ||
-        !isfinite(value * unit->factor)) {
-        return gb_error_set(err, GB_ERR_INPUT, "'%.60s': units accepted: %s", text,
-                            gb_units_accepted(dimension));
-    }
-    *value_si = value * unit->factor;
-    return true;
+    return gb_error_set(err, GB_ERR_INPUT, "'%.60s': units accepted: %s", text,
+                        gb_units_accepted(dimension));
 }
 
 /* d.ddd times 10^exponent. */

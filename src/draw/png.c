@@ -154,6 +154,10 @@ static bool no_chunk(const char *path, const char *key, struct gb_error *err)
                         path, key);
 }
 
+/* A preset takes some kilobytes; what claims more would be given all the memory there is
+ * before it is read. */
+static const png_alloc_size_t text_most = 4 << 20;
+
 /* What must outlive the longjmp of libpng. */
 struct reader {
     png_structp png;
@@ -170,6 +174,8 @@ static bool find_text(struct reader *reader, const char *key)
         return false;
     }
     png_init_io(reader->png, reader->file);
+    png_set_chunk_malloc_max(reader->png, text_most);
+    png_set_benign_errors(reader->png, 0); /* or the limit is a warning only */
     png_read_info(reader->png, reader->info);
     png_get_text(reader->png, reader->info, &text, &count);
     for (int k = 0; k < count && reader->value == NULL; k++) {

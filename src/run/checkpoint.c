@@ -52,6 +52,9 @@ static const struct gb_record_member members[] = {
 #undef AT
 #undef POINT
 
+/* No run counts further. */
+static const int64_t step_most = INT64_C(1) << 53;
+
 enum { MEMBERS = sizeof members / sizeof members[0] };
 
 bool gb_checkpoint_known(const struct gb_params *params)
@@ -120,6 +123,9 @@ bool gb_checkpoint_load(struct gb_experiment *experiment, struct gb_record *reco
     if (!exchange(experiment, record, err)) {
         return false;
     }
+    if (experiment->step < 0 || experiment->step > step_most) {
+        return gb_error_set(err, GB_ERR_INPUT, "run/step: is out of range");
+    }
     for (int k = 0; k < 3; k++) {
         const double factor = experiment->factor[k];
         if (experiment->strain_due && !(factor > 0.1 && factor < 10.0)) {
@@ -134,7 +140,8 @@ bool gb_checkpoint_load(struct gb_experiment *experiment, struct gb_record *reco
 int64_t gb_checkpoint_step(const struct gb_record *record)
 {
     const struct gb_record_item *item = gb_record_find(record, "run/step");
-    return item && item->type == GB_RECORD_INT64 && item->rows == 1 && item->columns == 1
-               ? *(const int64_t *)item->data
-               : -1;
+    const bool is =
+        item && item->type == GB_RECORD_INT64 && item->rows == 1 && item->columns == 1;
+    const int64_t step = is ? *(const int64_t *)item->data : -1;
+    return step < 0 ? -1 : step;
 }

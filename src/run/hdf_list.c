@@ -67,10 +67,12 @@ static bool read_group(struct gb_hdf *file, const char *group, int depth,
         H5Gget_info_by_name(file->file, group, &info, H5P_DEFAULT) < 0) {
         return refuse(file, group, "is not a group", err);
     }
+    /* in the order of the file: sorted by name HDF5 1.10 frees what it has not read when
+     * a group claims more names than it has */
     for (hsize_t k = 0; k < info.nlinks; k++) {
         char child[GB_HDF_LIST_NAME], name[2 * GB_HDF_LIST_NAME];
         const ssize_t length =
-            H5Lget_name_by_idx(file->file, group, H5_INDEX_NAME, H5_ITER_INC, k, child,
+            H5Lget_name_by_idx(file->file, group, H5_INDEX_NAME, H5_ITER_NATIVE, k, child,
                                sizeof child, H5P_DEFAULT);
         if (length <= 0 || (size_t)length >= sizeof child) {
             return refuse(file, group, "has a name that is too long", err);

@@ -216,6 +216,14 @@ static void test_foreign(void)
         g_assert_nonnull(strstr(err.text, kept));
         g_strlcpy(record.item[k].name, kept, sizeof kept);
     }
+    int64_t *steps = gb_record_find(&record, "run/step")->data;
+    const int64_t wrong[] = {INT64_MIN, -1, INT64_MAX}, right = *steps;
+    for (size_t k = 0; k < G_N_ELEMENTS(wrong); k++) {
+        *steps = wrong[k];
+        g_assert_false(gb_experiment_resume(&loaded, &params, &record, &err));
+        g_assert_nonnull(strstr(err.text, "run/step"));
+    }
+    *steps = right;
     int32_t *pair = gb_record_find(&record, "world/pair")->data;
     pair[1] = 200;
     g_assert_false(gb_experiment_resume(&loaded, &params, &record, &err));
