@@ -119,6 +119,9 @@ void gb_series_say(struct gb_series *series, const char *format, ...)
 
 void gb_series_grow(struct gb_series *series, size_t rows)
 {
+    if (rows <= series->rows) {
+        return;
+    }
     for (guint k = 0; k < series->columns->len; k++) {
         double **column = (double **)&g_ptr_array_index(series->columns, k);
         *column = g_renew(double, *column, rows + 1);
@@ -126,7 +129,7 @@ void gb_series_grow(struct gb_series *series, size_t rows)
             (*column)[i] = NAN;
         }
     }
-    series->rows = MAX(series->rows, rows);
+    series->rows = rows;
 }
 
 static const double *column_at(const struct gb_series *series, int index, size_t from)

@@ -64,7 +64,7 @@ struct gb_series_curve *gb_series_draw(struct gb_series *series, const double *x
 void gb_series_say(struct gb_series *series, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Adds rows of NaN; columns given out before move. */
+/* Makes it at least so many rows, the new ones of NaN; columns given out before move. */
 void gb_series_grow(struct gb_series *series, size_t rows);
 
 /* The drawing, whose arrays belong to the series; *curves for g_free. */
