@@ -133,7 +133,10 @@ static void test_slab(void)
         double r = log_uniform(1e-8, 1e8);
         const double low = r * g_test_rand_double_range(-1.0, 1.0);
         const double high = low + (r - low) * log_uniform(1e-12, 1.0);
-        close_to(gb_ball_slab(r, low, high), quadrature(disc, &r, low, high), 1e-10);
+        /* next to the pole the quadrature's places are rounded to a part of r */
+        const double known = 4e-16 * r / (r - low);
+        close_to(gb_ball_slab(r, low, high), quadrature(disc, &r, low, high),
+                 1e-10 + known);
         close_to(gb_ball_slab(r, -high, -low), gb_ball_slab(r, low, high), 1e-13);
         /* the parts make the whole */
         close_to(gb_ball_slab(r, -INFINITY, low) + gb_ball_slab(r, low, high) +
