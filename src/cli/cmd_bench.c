@@ -14,8 +14,9 @@ static const struct gb_options_page page = {
     .summary =
         "Times the engine on this machine: the initial structure, and one force\n"
         "evaluation with its move (forces, torques, history, relaxer) on one core and\n"
-        "on all of them, at a coordination number of a pressed packing; the planar\n"
-        "dynamic scene of P2 at density 0.9; and the bed of P3 at 50 MPa in its die.",
+        "on all of them, at a coordination number of a pressed packing; a checkpoint\n"
+        "of it, written in TMPDIR; the planar dynamic scene of P2 at density 0.9; and\n"
+        "the bed of P3 at 50 MPa in its die.",
     .description =
         "Without a preset: 8000 particles of 9.7 nm with bridges (P1, set II).\n"
         "The times are medians of 15 batches of 24 evaluations.",
@@ -53,6 +54,11 @@ static void report(const struct gb_bench *bench, double planar,
         {"cores", bench->cores, ""},
         {"same bits on one and all cores", bench->same_bits, "(1: yes)"},
         {"memory", bench->bytes_per_particle, "bytes per particle"},
+        {"checkpoint", bench->state.bytes_per_particle, "bytes per particle"},
+        {"checkpoint, engine held", 1e3 * bench->state.held, "ms"},
+        {"checkpoint, processor beside it", 1e3 * bench->state.processor, "ms"},
+        {"checkpoint, written after", 1e3 * bench->state.written, "ms"},
+        {"  of this on the disk", 1e3 * bench->state.disk, "ms"},
         {"planar dynamic scene, one core", 1e-6 * planar, "million particle-steps per s"},
         {"die at coordination", die->coordination, ""},
         {"die, Hertz, one core", 1e6 * die->hertz, "us per particle-step"},

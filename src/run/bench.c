@@ -119,10 +119,11 @@ static bool time_on(const struct gb_model *model, int threads,
     return done;
 }
 
-static bool measure(struct gb_bench *bench, const struct gb_model *model,
+static bool measure(struct gb_bench *bench, const struct gb_params *params,
                     struct gb_world *world, struct gb_relax *relax, double coordination,
                     struct gb_error *err)
 {
+    const struct gb_model *model = gb_world_model(world);
     struct gb_world_copy *copy = NULL;
     struct gb_contact_counts counts;
     uint64_t one = 0, all = 0;
@@ -137,7 +138,8 @@ static bool measure(struct gb_bench *bench, const struct gb_model *model,
         done = time_on(model, 1, copy, gb_world_position(world), &bench->evaluation_s,
                        &one, err) &&
                time_on(model, bench->cores, copy, gb_world_position(world),
-                       &bench->evaluation_all_s, &all, err);
+                       &bench->evaluation_all_s, &all, err) &&
+               gb_bench_state_run(&bench->state, params, copy, err);
         bench->same_bits = one == all;
     }
     gb_world_copy_destroy(copy);
@@ -155,7 +157,7 @@ bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
         gb_die_scene_absent(params, "the benchmark of one preset", err) &&
         gb_model_init(&model, params, err) && grow(&world, &model, &bench->grow_s, err) &&
         gb_relax_create(&relax, &model, err) && (gb_relax_start(relax, world), true) &&
-        measure(bench, &model, world, relax, coordination, err);
+        measure(bench, params, world, relax, coordination, err);
     gb_relax_destroy(relax);
     gb_world_destroy(world);
     return done;

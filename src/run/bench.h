@@ -6,6 +6,7 @@
 
 #include "greenbody/params.h"
 #include "greenbody/status.h"
+#include "run/bench_state.h"
 
 /* Speed of one scene, measured on this machine. */
 struct gb_bench {
@@ -17,12 +18,13 @@ struct gb_bench {
     int cores;
     bool same_bits; /* the same state after the timed evaluations on 1 and all cores */
     double bytes_per_particle;
+    struct gb_bench_state state; /* a checkpoint of the pressed packing */
 };
 
 /* Builds the packing of params, presses it in steps of 1 % until the coordination number
  * is reached, then times batches of force evaluations with the moves of the relaxer
- * between them, a strain step of 0.1 % before each batch as in a run.  Errors as of the
- * engine. */
+ * between them, a strain step of 0.1 % before each batch as in a run, and checkpoints of
+ * the pressed packing.  Errors as of the engine. */
 bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
                   double coordination, struct gb_error *err);
 
