@@ -172,7 +172,7 @@ static bool report(struct gb_pressing *run, struct gb_error *err)
     }
     if (status) {
         run->status_at = now;
-        return gb_store_status(gb_keep_store(run->keep), &run->shot, err);
+        return gb_keep_status(run->keep, &run->shot, err);
     }
     return true;
 }
@@ -253,12 +253,9 @@ static int exit_status(const struct gb_error *err)
 
 int gb_pressing_fail(struct gb_pressing *run, const struct gb_error *err)
 {
-    if (run->keep != NULL) {
-        run->shot.state = GB_RUN_FAILED;
-        run->shot.error = *err;
-        (void)gb_store_sync(gb_keep_store(run->keep), NULL);
-        (void)gb_store_status(gb_keep_store(run->keep), &run->shot, NULL);
-    }
+    run->shot.state = GB_RUN_FAILED;
+    run->shot.error = *err;
+    gb_keep_fail(run->keep, &run->shot);
     gb_progress_clear(&run->progress);
     (void)gb_options_fail(err);
     return exit_status(err);

@@ -326,6 +326,27 @@ bool gb_keep_tick(struct gb_keep *keep, double seconds, bool now, struct gb_erro
     return true;
 }
 
+bool gb_keep_status(struct gb_keep *keep, const struct gb_snapshot *snapshot,
+                    struct gb_error *err)
+{
+    return keep->writer
+               ? gb_writer_status(keep->writer,
+                                  gb_store_status_text(keep->store, snapshot), err)
+               : gb_store_status(keep->store, snapshot, err);
+}
+
+void gb_keep_fail(struct gb_keep *keep, const struct gb_snapshot *snapshot)
+{
+    struct gb_error ignored;
+    if (!keep) {
+        return;
+    }
+    /* a status that is still being written must not come after this one */
+    (void)(!keep->writer || gb_writer_wait(keep->writer, &ignored));
+    (void)gb_store_sync(keep->store, &ignored);
+    (void)gb_store_status(keep->store, snapshot, &ignored);
+}
+
 bool gb_keep_conclude(struct gb_keep *keep, const struct gb_snapshot *snapshot,
                       struct gb_error *err)
 {

@@ -50,6 +50,14 @@ bool gb_keep_event(struct gb_keep *keep, int64_t step, const char *text,
  * before it is written.  seconds: of the run. */
 bool gb_keep_tick(struct gb_keep *keep, double seconds, bool now, struct gb_error *err);
 
+/* Has status.json say what the snapshot says; returns before it is written. */
+bool gb_keep_status(struct gb_keep *keep, const struct gb_snapshot *snapshot,
+                    struct gb_error *err);
+
+/* Last words of a run whose results cannot be kept any more: rows and status, as far as
+ * they can be written.  The state stays the last one that was.  NULL is fine. */
+void gb_keep_fail(struct gb_keep *keep, const struct gb_snapshot *snapshot);
+
 /* The end, or a stop: the last state is on the disk when this returns. */
 bool gb_keep_conclude(struct gb_keep *keep, const struct gb_snapshot *snapshot,
                       struct gb_error *err);

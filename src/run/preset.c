@@ -9,6 +9,7 @@
 
 #include <glib.h>
 
+#include "base/file.h"
 #include "phys/sizetable.h"
 #include "run/keylines.h"
 
@@ -327,6 +328,10 @@ static bool update_text(struct gb_preset *preset, const char *path, bool complet
 static bool write_text(const GString *text, const char *path, struct gb_error *err)
 {
     GError *trouble = NULL;
+    if (!gb_file_may_write()) {
+        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
+                            g_strerror(errno));
+    }
     if (g_file_set_contents_full(path, text->str, (gssize)text->len,
                                  G_FILE_SET_CONTENTS_DURABLE |
                                      G_FILE_SET_CONTENTS_CONSISTENT,

@@ -326,6 +326,16 @@ bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *er
     return false;
 }
 
+bool gb_rundir_stands(const struct gb_rundir *dir, struct gb_error *err)
+{
+    struct stat ours;
+    struct stat named;
+    return (fstat(dir->lock, &ours) == 0 && stat(dir->path, &named) == 0 &&
+            ours.st_dev == named.st_dev && ours.st_ino == named.st_ino) ||
+           gb_error_set(err, GB_ERR_MACHINE,
+                        "%s: was moved or removed while the run wrote there", dir->path);
+}
+
 void gb_rundir_finish(struct gb_rundir *dir)
 {
     if (dir->lock >= 0) {

@@ -31,6 +31,10 @@ bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
  * process's own: one that was killed has left none. */
 bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *err);
 
+/* Is the directory still the one that was locked?  Errors: GB_ERR_MACHINE when it was
+ * moved, removed or replaced by another: files written by its name would be elsewhere. */
+bool gb_rundir_stands(const struct gb_rundir *dir, struct gb_error *err);
+
 /* Is a process writing there now? */
 bool gb_rundir_busy(const char *path);
 

@@ -68,7 +68,7 @@ void gb_runner_keep_tick(struct gb_runner_keep *kept, const struct gb_snapshot *
     bool good = gb_keep_tick(kept->keep, snapshot->seconds, now, &err);
     if (good && (now || snapshot->seconds - kept->status_at >= status_every_s)) {
         kept->status_at = snapshot->seconds;
-        good = gb_store_status(gb_keep_store(kept->keep), snapshot, &err);
+        good = gb_keep_status(kept->keep, snapshot, &err);
     }
     if (!good) {
         give_up(kept, &err);

@@ -94,7 +94,7 @@ static bool keep_due(struct solo *solo, struct gb_error *err)
     }
     solo->status_at = now;
     observe(solo, GB_RUN_RUNNING);
-    return gb_store_status(gb_keep_store(solo->keep), &solo->shot, err);
+    return gb_keep_status(solo->keep, &solo->shot, err);
 }
 
 static bool begin(struct solo *solo, const struct gb_params *params,
@@ -147,12 +147,9 @@ static bool conclude(struct solo *solo, const struct gb_error *stopped,
 
 static void give_up(struct solo *solo, const struct gb_error *err)
 {
-    if (solo->keep != NULL) {
-        solo->shot.state = GB_RUN_FAILED;
-        solo->shot.error = *err;
-        (void)gb_store_sync(gb_keep_store(solo->keep), NULL);
-        (void)gb_store_status(gb_keep_store(solo->keep), &solo->shot, NULL);
-    }
+    solo->shot.state = GB_RUN_FAILED;
+    solo->shot.error = *err;
+    gb_keep_fail(solo->keep, &solo->shot);
 }
 
 bool gb_solo_run(const struct gb_params *params, const char *directory,

@@ -299,7 +299,8 @@ bool gb_store_point(struct gb_store *store, const struct gb_point *point,
         append_die(row, point);
     }
     g_string_append_c(row, '\n');
-    const bool ok = gb_rows_append(&store->curve, row->str, err);
+    const bool ok = gb_rundir_stands(&store->dir, err) &&
+                    gb_rows_append(&store->curve, row->str, err);
     store->points += ok;
     g_string_free(row, TRUE);
     return ok;
@@ -410,8 +411,8 @@ static void add_progress(JsonBuilder *json, const struct gb_store *store,
     add_array(json, "rose", shot->rose, GB_SNAPSHOT_ROSE);
 }
 
-bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
-                     struct gb_error *err)
+char *gb_store_status_text(const struct gb_store *store,
+                           const struct gb_snapshot *snapshot)
 {
     JsonBuilder *json = json_builder_new();
     json_builder_begin_object(json);
@@ -426,11 +427,25 @@ bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
     JsonNode *root = json_builder_get_root(json);
     char *text = json_to_string(root, TRUE);
     char *whole = g_strconcat(text, "\n", NULL);
-    const bool ok = replace_file(store->status_path, whole, strlen(whole), err);
-    g_free(whole);
     g_free(text);
     json_node_unref(root);
     g_object_unref(json);
+    return whole;
+}
+
+bool gb_store_put_status(const struct gb_store *store, const char *text,
+                         struct gb_error *err)
+{
+    return gb_rundir_stands(&store->dir, err) &&
+           replace_file(store->status_path, text, strlen(text), err);
+}
+
+bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
+                     struct gb_error *err)
+{
+    char *text = gb_store_status_text(store, snapshot);
+    const bool ok = gb_store_put_status(store, text, err);
+    g_free(text);
     return ok;
 }
 
@@ -447,7 +462,8 @@ static void keep_before(const struct gb_store *store)
 bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
                     const struct gb_record *record, struct gb_error *err)
 {
-    if (!gb_rows_sync(&store->curve, err) || !gb_rows_sync(&store->events, err)) {
+    if (!gb_rundir_stands(&store->dir, err) || !gb_rows_sync(&store->curve, err) ||
+        !gb_rows_sync(&store->events, err)) {
         return false;
     }
     keep_before(store);

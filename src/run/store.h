@@ -11,7 +11,8 @@
 #include "run/state.h"
 
 /* A run directory (interface.md): preset.ini, curve.csv, events.log, status.json,
- * state.h5. Every file is either appended line by line or replaced atomically. */
+ * state.h5. Every file is either appended line by line or replaced atomically.  Once the
+ * directory is moved, removed or replaced nothing more is written: GB_ERR_MACHINE. */
 struct gb_store;
 
 /* Makes the directory.  An existing run directory is refused (GB_ERR_INPUT) unless force,
@@ -45,6 +46,12 @@ bool gb_store_event(struct gb_store *store, int64_t step, const char *text,
 /* Rewrites status.json. */
 bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
                      struct gb_error *err);
+/* The same in two parts: its text (g_free), and the file, which waits for the disk and
+ * may be written from the thread of gb_store_state. */
+char *gb_store_status_text(const struct gb_store *store,
+                           const struct gb_snapshot *snapshot);
+bool gb_store_put_status(const struct gb_store *store, const char *text,
+                         struct gb_error *err);
 /* Replaces state.h5; the one before becomes state-before.h5, from which
  * `greenbody verify` repeats the way to it.  Rows and events are on the disk first.  May
  * be called from another thread than the rest, one call at a time. */

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <time.h>
 
+#include <glib.h>
+
 #include "base/alloc.h"
 #include "run/state_record.h"
 
@@ -19,7 +21,9 @@ struct gb_writer {
     pthread_mutex_t mutex;
     pthread_cond_t change;
     bool busy, quit;
-    struct gb_error err; /* of the last one written */
+    bool telling;        /* a status is being written */
+    char *status;        /* ... and this one waits; NULL: none */
+    struct gb_error err; /* the first failure; nothing more is written then */
     double seconds;
 
     struct gb_record record[2];
@@ -43,27 +47,55 @@ static void write_one(const struct gb_writer *writer, const struct gb_record *re
     gb_state_destroy(state);
 }
 
+static void done(struct gb_writer *writer, const struct gb_error *err)
+{
+    if (writer->err.code == GB_OK) {
+        writer->err = *err;
+    }
+    pthread_cond_broadcast(&writer->change);
+}
+
+/* Both are called with the mutex and give it away while they write. */
+static void write_state(struct gb_writer *writer)
+{
+    const struct gb_record *record = &writer->record[1 - writer->own];
+    struct gb_error err = {0};
+    pthread_mutex_unlock(&writer->mutex);
+    const double from = clock_s();
+    write_one(writer, record, &err);
+    pthread_mutex_lock(&writer->mutex);
+    writer->seconds = clock_s() - from;
+    writer->busy = false;
+    done(writer, &err);
+}
+
+static void write_status(struct gb_writer *writer)
+{
+    char *text = g_steal_pointer(&writer->status);
+    struct gb_error err = {0};
+    writer->telling = true;
+    pthread_mutex_unlock(&writer->mutex);
+    (void)gb_store_put_status(writer->store, text, &err);
+    g_free(text);
+    pthread_mutex_lock(&writer->mutex);
+    writer->telling = false;
+    done(writer, &err);
+}
+
 static void *work(void *data)
 {
     struct gb_writer *writer = data;
     pthread_mutex_lock(&writer->mutex);
     for (;;) {
-        while (!writer->busy && !writer->quit) {
+        if (writer->busy) {
+            write_state(writer);
+        } else if (writer->status != NULL) {
+            write_status(writer);
+        } else if (writer->quit) {
+            break;
+        } else {
             pthread_cond_wait(&writer->change, &writer->mutex);
         }
-        if (!writer->busy) {
-            break;
-        }
-        const struct gb_record *record = &writer->record[1 - writer->own];
-        struct gb_error err = {0};
-        pthread_mutex_unlock(&writer->mutex);
-        const double from = clock_s();
-        write_one(writer, record, &err);
-        pthread_mutex_lock(&writer->mutex);
-        writer->seconds = clock_s() - from;
-        writer->err = err;
-        writer->busy = false;
-        pthread_cond_broadcast(&writer->change);
     }
     pthread_mutex_unlock(&writer->mutex);
     return NULL;
@@ -144,10 +176,26 @@ bool gb_writer_send(struct gb_writer *writer, struct gb_error *err)
     return ready;
 }
 
+bool gb_writer_status(struct gb_writer *writer, char *text, struct gb_error *err)
+{
+    pthread_mutex_lock(&writer->mutex);
+    const bool good = writer->err.code == GB_OK;
+    if (good) {
+        g_free(writer->status);
+        writer->status = text;
+        pthread_cond_broadcast(&writer->change);
+    } else {
+        g_free(text);
+        *err = writer->err;
+    }
+    pthread_mutex_unlock(&writer->mutex);
+    return good;
+}
+
 bool gb_writer_wait(struct gb_writer *writer, struct gb_error *err)
 {
     pthread_mutex_lock(&writer->mutex);
-    while (writer->busy) {
+    while (writer->busy || writer->telling || writer->status != NULL) {
         pthread_cond_wait(&writer->change, &writer->mutex);
     }
     const bool good = writer->err.code == GB_OK;

@@ -7,8 +7,8 @@
 #include "greenbody/model.h"
 #include "run/store.h"
 
-/* Writes states beside the engine: the engine fills a record, a thread of its own makes
- * the file of it.  The thread blocks all signals. */
+/* Writes states and status beside the engine: the engine fills a record, a thread of its
+ * own makes the file of it and waits for the disk.  The thread blocks all signals. */
 struct gb_writer;
 
 /* store, params and model must outlive the writer. */
@@ -25,10 +25,14 @@ struct gb_record *gb_writer_record(struct gb_writer *writer);
  * err when the last one is still being written; with err when writing it has failed. */
 bool gb_writer_send(struct gb_writer *writer, struct gb_error *err);
 
-/* Waits until nothing is being written; false and err when the last one has failed. */
+/* Has status.json replaced by text, which belongs to the writer from now on; a text that
+ * still waits gives way.  False with err when writing has failed before. */
+bool gb_writer_status(struct gb_writer *writer, char *text, struct gb_error *err);
+
+/* Waits until nothing is being written; false and err when writing has failed. */
 bool gb_writer_wait(struct gb_writer *writer, struct gb_error *err);
 
-/* Seconds that writing took the last time; 0 before the first. */
+/* Seconds that writing a state took the last time; 0 before the first. */
 double gb_writer_seconds(struct gb_writer *writer);
 
 #endif

@@ -1,56 +1,15 @@
 /* The k-th write and the k-th allocation fail, for every k until the run passes: one
  * clear line, nothing half written, and what was kept goes on to the undisturbed end. */
 #include <glib.h>
-#include <glib/gstdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "common/place.h"
 #include "common/scene.h"
-#include "run/checkpoint.h"
 #include "run/hdf_record.h"
-#include "run/keep.h"
+#include "run/runner.h"
 #include "run/solo.h"
-
-struct place {
-    char *folder, *directory, *state, *curve;
-};
-
-static struct place place_make(const char *name)
-{
-    struct place place;
-    place.folder = g_dir_make_tmp("greenbody-faults-XXXXXX", NULL);
-    g_assert_nonnull(place.folder);
-    place.directory = g_build_filename(place.folder, name, NULL);
-    place.state = g_build_filename(place.directory, "state.h5", NULL);
-    place.curve = g_build_filename(place.directory, "curve.csv", NULL);
-    return place;
-}
-
-static void place_clear(const struct place *place)
-{
-    GDir *dir = g_dir_open(place->directory, 0, NULL);
-    const char *name;
-    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
-        char *path = g_build_filename(place->directory, name, NULL);
-        g_unlink(path);
-        g_free(path);
-    }
-    if (dir != NULL) {
-        g_dir_close(dir);
-    }
-    g_rmdir(place->directory);
-}
-
-static void place_finish(struct place *place)
-{
-    place_clear(place);
-    g_assert_cmpint(g_rmdir(place->folder), ==, 0);
-    g_free(place->folder);
-    g_free(place->directory);
-    g_free(place->state);
-    g_free(place->curve);
-}
 
 static struct gb_params scene(void)
 {
@@ -58,24 +17,6 @@ static struct gb_params scene(void)
                         "loading.until=8 MPa", "loading.unload_from=3 MPa",
                         "loading.step=0.6 %", "numerics.tolerance=1e-2",
                         "output.checkpoint_every=0.1 s", "numerics.threads=1", NULL);
-}
-
-/* The rows without the last column, which is of the clock. */
-static char *rows_of(const struct place *place)
-{
-    char *text = NULL;
-    g_assert_true(g_file_get_contents(place->curve, &text, NULL, NULL));
-    char **lines = g_strsplit(text, "\n", -1);
-    for (int i = 0; lines[i] != NULL; i++) {
-        char *comma = lines[i][0] == '#' ? NULL : strrchr(lines[i], ',');
-        if (comma != NULL) {
-            *comma = '\0';
-        }
-    }
-    char *joined = g_strjoinv("\n", lines);
-    g_strfreev(lines);
-    g_free(text);
-    return joined;
 }
 
 /* What there is, is whole: rows end with a line, a state can be read. */
@@ -97,38 +38,6 @@ static void check_whole(const struct place *place)
     }
 }
 
-/* Goes on with what was kept, to the end. */
-static void finish_run(const struct place *place)
-{
-    struct gb_keep *keep = NULL;
-    struct gb_experiment *experiment = NULL;
-    struct gb_error err = {0};
-    struct gb_snapshot shot = {0};
-    if (!gb_keep_resume(&keep, &experiment, place->directory, &err)) {
-        g_error("%s", err.text);
-    }
-    if (experiment == NULL &&
-        !gb_experiment_create(&experiment, gb_keep_params(keep), NULL, NULL, &err)) {
-        g_error("%s", err.text);
-    }
-    enum gb_advance how = GB_ADVANCE_MORE;
-    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
-        char text[640];
-        how = gb_experiment_advance(experiment, 1000, &err);
-        while (gb_experiment_event(experiment, text, sizeof text)) {
-            g_assert_true(gb_keep_event(keep, 0, text, &err));
-        }
-        if (how == GB_ADVANCE_POINT) {
-            g_assert_true(
-                gb_keep_point(keep, experiment, gb_experiment_point(experiment), &err));
-        }
-    }
-    g_assert_cmpint(how, ==, GB_ADVANCE_DONE);
-    g_assert_true(gb_keep_conclude(keep, &shot, &err));
-    gb_keep_destroy(keep);
-    gb_experiment_destroy(experiment);
-}
-
 static void check_line(const struct gb_error *err, enum gb_status code)
 {
     g_assert_cmpint(err->code, ==, code);
@@ -142,7 +51,7 @@ static void test_writes(void)
     struct place place = place_make("run");
     struct gb_error err = {0};
     g_assert_true(gb_solo_run(&params, place.directory, NULL, NULL, &err));
-    char *whole = rows_of(&place);
+    char *whole = place_rows(&place);
     bool done = false;
     long k = 1;
     for (; !done; k++) {
@@ -158,8 +67,8 @@ static void test_writes(void)
         g_assert_nonnull(strstr(err.text, place.directory));
         check_whole(&place);
         if (g_file_test(place.directory, G_FILE_TEST_IS_DIR)) {
-            finish_run(&place);
-            char *rows = rows_of(&place);
+            place_go_on(&place);
+            char *rows = place_rows(&place);
             g_assert_cmpstr(rows, ==, whole);
             g_free(rows);
         }
@@ -193,10 +102,125 @@ static void test_memory(void)
     place_finish(&place);
 }
 
+/* What happens to a directory behind the back of its run, once it has points. */
+enum loss { MOVED, REPLACED, REMOVED };
+
+struct thief {
+    struct place place;
+    char *elsewhere;
+    enum loss loss;
+    bool done;
+};
+
+/* Looked at between slices; never cancels. */
+static bool steal(void *data)
+{
+    struct thief *thief = data;
+    const char *directory = thief->place.directory;
+    if (thief->done || place_points(&thief->place) < 3) {
+        return false;
+    }
+    thief->done = true;
+    g_assert_cmpint(g_rename(directory, thief->elsewhere), ==, 0);
+    if (thief->loss == REMOVED) {
+        place_remove(thief->elsewhere);
+    } else if (thief->loss == REPLACED) {
+        g_assert_cmpint(g_mkdir(directory, 0777), ==, 0);
+    }
+    return false;
+}
+
+static struct thief thief_make(enum loss loss)
+{
+    struct thief thief = {.place = place_make("run"), .loss = loss};
+    thief.elsewhere = g_build_filename(thief.place.folder, "elsewhere", NULL);
+    return thief;
+}
+
+static void thief_finish(struct thief *thief)
+{
+    place_remove(thief->elsewhere);
+    g_free(thief->elsewhere);
+    place_finish(&thief->place);
+}
+
+/* Nothing is written by the old name any more; what was moved goes on from its new one.
+ */
+static void check_lost(enum loss loss, const struct gb_params *params, const char *whole)
+{
+    struct thief thief = thief_make(loss);
+    struct place *place = &thief.place;
+    struct gb_error err = {0};
+    g_assert_false(gb_solo_run(params, place->directory, steal, &thief, &err));
+    check_line(&err, GB_ERR_MACHINE);
+    g_assert_nonnull(strstr(err.text, place->directory));
+    g_assert_nonnull(strstr(err.text, "was moved or removed"));
+    /* only a status that was on its way when the directory went may have come there */
+    char *status = g_build_filename(place->directory, "status.json", NULL);
+    g_unlink(status);
+    g_free(status);
+    g_assert_cmpint(g_rmdir(place->directory) == 0, ==, loss == REPLACED);
+    if (loss != REMOVED) {
+        g_assert_cmpint(g_rename(thief.elsewhere, place->directory), ==, 0);
+        check_whole(place);
+        place_go_on(place);
+        char *rows = place_rows(place);
+        g_assert_cmpstr(rows, ==, whole);
+        g_free(rows);
+    }
+    thief_finish(&thief);
+}
+
+static void test_lost(void)
+{
+    struct gb_params params = scene();
+    struct place place = place_make("run");
+    struct gb_error err = {0};
+    g_assert_true(gb_solo_run(&params, place.directory, NULL, NULL, &err));
+    char *whole = place_rows(&place);
+    place_finish(&place);
+    check_lost(MOVED, &params, whole);
+    check_lost(REMOVED, &params, whole);
+    params.checkpoint_every_s = 3600.0; /* none is on its way at that moment */
+    check_lost(REPLACED, &params, whole);
+    g_free(whole);
+}
+
+/* Behind a screen the run goes on without its directory, and says so once. */
+static void test_lost_watched(void)
+{
+    const struct gb_params params = scene();
+    struct thief thief = thief_make(MOVED);
+    struct gb_runner *runner = NULL;
+    struct gb_error err = {0};
+    char text[640];
+    int told = 0;
+    g_assert_true(gb_runner_create_in(&runner, &params, thief.place.directory, &err));
+    g_assert_true(gb_runner_send(runner, GB_COMMAND_PAUSE));
+    while (gb_runner_snapshot(runner, NULL)->state < GB_RUN_PAUSED) {
+        g_usleep(1000);
+    }
+    g_assert_cmpint(g_rename(thief.place.directory, thief.elsewhere), ==, 0);
+    g_assert_true(gb_runner_send(runner, GB_COMMAND_RESUME));
+    while (gb_runner_snapshot(runner, NULL)->state < GB_RUN_DONE) {
+        g_usleep(1000);
+    }
+    g_assert_cmpint(gb_runner_snapshot(runner, NULL)->state, ==, GB_RUN_DONE);
+    for (int64_t k = 0; gb_runner_event(runner, k, text, sizeof text); k++) {
+        told += strstr(text, "not kept any more") && strstr(text, "was moved or removed");
+    }
+    g_assert_cmpint(told, ==, 1);
+    g_assert_false(g_file_test(thief.place.directory, G_FILE_TEST_EXISTS));
+    gb_runner_destroy(runner);
+    thief_finish(&thief);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/faults/writes", test_writes);
     g_test_add_func("/faults/memory", test_memory);
+    g_test_add_func("/faults/lost", test_lost);
+    g_test_add_func("/faults/lost-watched", test_lost_watched);
     return g_test_run();
 }
