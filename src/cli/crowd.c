@@ -205,16 +205,19 @@ bool gb_crowd_verdict(const struct gb_ensemble *ensemble, const char *where,
                       struct gb_error *err)
 {
     const struct gb_ensemble_run *first = NULL;
+    enum gb_status code = GB_ERR_GUARD;
     size_t failed = 0;
     for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
         const struct gb_ensemble_run *run = &ensemble->run[i];
         if (run->ended && run->error.code != GB_OK) {
             first = first ? first : run;
+            /* a disk that is full is no matter of the scene */
+            code = run->error.code == GB_ERR_MACHINE ? GB_ERR_MACHINE : code;
             failed++;
         }
     }
     return failed == 0 ||
-           gb_error_set(err, GB_ERR_GUARD,
+           gb_error_set(err, code,
                         "%zu runs failed, listed in %.200s/runs.csv; the first: %.200s",
                         failed, where, first->error.text);
 }

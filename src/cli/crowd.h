@@ -32,8 +32,8 @@ bool gb_crowd_directory(const char *path, struct gb_error *err);
 bool gb_crowd_work(struct gb_crowd *crowd, struct gb_ensemble *ensemble, int jobs,
                    struct gb_error *err);
 
-/* True when every run that counts was done; else GB_ERR_GUARD with how many failed and
- * what the first one said. */
+/* True when every run that counts was done; else GB_ERR_GUARD (GB_ERR_MACHINE when the
+ * machine failed one) with how many failed and what the first one said. */
 bool gb_crowd_verdict(const struct gb_ensemble *ensemble, const char *where,
                       struct gb_error *err);
 

@@ -1,0 +1,61 @@
+#!/bin/bash
+# A clock of the day that jumps by days while runs are under way: nothing of a run goes by it.
+# Usage: clock.sh GREENBODY PRESET_FOLDER LEAP_CLOCK_SO
+. "$(dirname "$0")/folder.sh"
+
+leap=$3
+if ! LD_PRELOAD=$leap "$greenbody" --version >stdout 2>stderr; then
+    echo "1..0 # SKIP this program takes no other clock"
+    exit 0
+fi
+export TMUX_TMPDIR=$here
+trap 'tmux -L clock kill-server 2>/dev/null; rm -rf "$here"' EXIT
+
+# The rows without their seconds, the 14th column.
+rows() {
+    grep -v '^#' "$1/curve.csv" | cut -d, -f1-13
+}
+
+scene=(default particles.count=300 numerics.tolerance=3e-3 "loading.until=60 MPa"
+    loading.unload_from= "output.checkpoint_every=0.1 s")
+
+# shellcheck disable=SC2016  # for the inner shell
+days=$(LD_PRELOAD=$leap bash -c 'for _ in {1..50}; do printf "%(%F)T\n" -1; done' | sort -u |
+    wc -l)
+is 'the clock jumps' [ "$days" -gt 2 ]
+
+"$greenbody" run "${scene[@]}" --quiet --out straight >stdout 2>stderr
+is 'a run by a clock that goes' [ $? -eq 0 ]
+LD_PRELOAD=$leap "$greenbody" run "${scene[@]}" --out leaping >stdout 2>stderr
+is 'a run by one that jumps' [ $? -eq 0 ]
+rows straight >straight.rows
+rows leaping | cmp -s - straight.rows
+result 'same curve' $?
+grep -v '^#' leaping/curve.csv | sed 1d |
+    awk -F, '$14 < last || $14 > 3600 { bad = 1 } { last = $14 } END { exit bad || NR < 10 }'
+result 'its seconds only grow, and by as much as goes by' $?
+is 'checkpoints come in time' [ -s leaping/state-before.h5 ]
+# shellcheck disable=SC2016  # awk's own
+is 'status has a sane time' awk -F': ' \
+    '/"seconds" :/ { s = $2 + 0 } END { exit !(s > 0 && s < 3600) }' leaping/status.json
+
+cp -r leaping broken
+LD_PRELOAD=$leap "$greenbody" verify broken >stdout 2>stderr
+is 'verify repeats it' grep -qx equal stdout
+
+# --- the workbench, whose screen must go on -------------------------------------------------
+tmux -L clock -f /dev/null new-session -d -x 100 -y 30 \
+    "env LD_PRELOAD=$leap GB_PRESET_DIR=$presets XDG_STATE_HOME=$here/state $greenbody ${scene[0]} \
+    ${scene[1]} 'loading.until=60 MPa' loading.unload_from= 2>screen.err; sleep 100"
+for _ in $(seq 600); do
+    tmux -L clock capture-pane -p >screen 2>/dev/null
+    grep -q '100 % in' screen && break
+    sleep 0.1
+done
+cp screen stdout
+is 'the workbench shows its run to the end' grep -q '100 % in' screen
+grep -h '"state" : "done"' state/greenbody/runs/*/status.json >/dev/null
+result 'and it is kept' $?
+
+echo "1..$tests"
+exit $bad

@@ -1,0 +1,52 @@
+/* Preloaded (LD_PRELOAD): the clock of the day jumps a day forward or back every few times
+ * it is asked, as where somebody sets it.  The monotonic clock stays as it is. */
+#include <dlfcn.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <sys/time.h>
+#include <time.h>
+
+enum { DAY = 86400, CALLS = 7 };
+
+int clock_gettime(clockid_t id, struct timespec *now);
+int gettimeofday(struct timeval *restrict now, void *restrict zone);
+time_t time(time_t *now);
+
+static time_t jump(void)
+{
+    static atomic_uint calls;
+    static const time_t days[] = {0, 1, -1, 2, -2};
+    const unsigned k = atomic_fetch_add(&calls, 1) / CALLS;
+    return DAY * days[k % (sizeof days / sizeof days[0])];
+}
+
+int clock_gettime(clockid_t id, struct timespec *now)
+{
+    int (*real)(clockid_t, struct timespec *) = NULL;
+    *(void **)(void *)&real = dlsym(RTLD_NEXT, "clock_gettime");
+    const int result = real(id, now);
+    if (id == CLOCK_REALTIME || id == CLOCK_REALTIME_COARSE) {
+        now->tv_sec += jump();
+    }
+    return result;
+}
+
+int gettimeofday(struct timeval *restrict now, void *restrict zone)
+{
+    struct timespec precise;
+    (void)zone;
+    const int result = clock_gettime(CLOCK_REALTIME, &precise);
+    now->tv_sec = precise.tv_sec;
+    now->tv_usec = precise.tv_nsec / 1000;
+    return result;
+}
+
+time_t time(time_t *now)
+{
+    struct timespec precise;
+    (void)clock_gettime(CLOCK_REALTIME, &precise);
+    if (now != NULL) {
+        *now = precise.tv_sec;
+    }
+    return precise.tv_sec;
+}
