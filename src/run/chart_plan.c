@@ -117,15 +117,19 @@ static bool add_grid(GArray *choices, const struct gb_params *params,
                                        "loading.step=0.1 %",  "loading.step=0.2 %",
                                        "loading.step=0.5 %",  "loading.step=1 %"};
     static const char *const tolerance[] = {
-        "numerics.tolerance=0.05", "numerics.tolerance=0.02", "numerics.tolerance=0.01",
+        "numerics.tolerance=0.05",  "numerics.tolerance=0.03",
+        "numerics.tolerance=0.02",  "numerics.tolerance=0.01",
         "numerics.tolerance=0.005", "numerics.tolerance=0.002"};
+    static const char *const tight[] = {
+        "numerics.tolerance=1e-3", "numerics.tolerance=1e-4", "numerics.tolerance=1e-5"};
     for (int m = 0; gb_relax_table()[m] != NULL; m++) {
         const char *name = gb_relax_table()[m]->name;
         struct gb_params changed = *params;
         g_strlcpy(changed.relaxer, name, sizeof changed.relaxer);
         if (strcmp(name, "steepest") == 0) {
-            /* thousands of evaluations a step: once, where it is cheapest */
-            if (!add_assigned(choices, &changed, step[4], tolerance[0], err)) {
+            /* hundreds of evaluations a step: loose and coarse, and P1's own step */
+            if (!add_assigned(choices, &changed, step[4], tolerance[0], err) ||
+                !add_assigned(choices, &changed, step[2], tolerance[3], err)) {
                 return false;
             }
             continue;
@@ -136,6 +140,12 @@ static bool add_grid(GArray *choices, const struct gb_params *params,
                     return false;
                 }
                 drop_dear(choices);
+            }
+        }
+        /* what tightness alone brings */
+        for (size_t t = 0; t < G_N_ELEMENTS(tight); t++) {
+            if (!add_assigned(choices, &changed, step[5], tight[t], err)) {
+                return false;
             }
         }
     }
@@ -164,11 +174,11 @@ static bool add_cutoffs(GArray *choices, const struct gb_params *params,
     return true;
 }
 
-/* Half, double ... the particles, where the cell is wide enough. */
+/* From a quarter to eight times the particles, where the cell is wide enough. */
 static bool add_sizes(GArray *choices, const struct gb_params *params,
                       struct gb_error *err)
 {
-    static const double factor[] = {0.25, 0.5, 2.0};
+    static const double factor[] = {0.25, 0.5, 2.0, 4.0, 8.0};
     for (size_t k = 0; k < G_N_ELEMENTS(factor); k++) {
         struct gb_params changed = *params;
         struct gb_error narrow = {0};

@@ -21,7 +21,7 @@ struct gb_chart_plan {
  * vary       NULL-terminated "group.key=a,b,c" (loading.step: relaxed at once;
  * numerics.relaxer, tolerance, cutoff, time_step, step_error, particles.count): all
  * combinations, the rest as in the preset.  NULL: a plan by kind of scene: strain steps x
- * tolerances of each fast relaxer, a few cutoffs and cell sizes, P1's relaxer once.
+ * tolerances of each fast relaxer, a few cutoffs and cell sizes, P1's relaxer twice.
  * reference  NULL-terminated "group.key=value" that replace the numbers of the reference
  * pressures  "100 MPa; 1 GPa", or NULL: where the preset unloads, and where it ends
  * Errors: GB_ERR_INPUT. */
