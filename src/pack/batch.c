@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "pack/batch_2d.h"
 #include "pack/batch_3d.h"
+#include "pack/batch_far.h"
 #include "pack/simd.h"
 
 enum { PLANES_3D = 11, PLANES_2D = 5 };
@@ -89,35 +90,50 @@ INLINE double lane_total(const double *a, const double *b, int n)
     return lane_sum(lane);
 }
 
-INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepest,
-                        struct gb_tally *tally)
+/* Lanes behind the last pair count nothing; returns the number with them. */
+INLINE int pad_work(struct terms t, struct gb_batch *b)
 {
-    const int axes = t.planar ? 2 : 3;
     const int whole = (b->n + GB_LANES - 1) / GB_LANES * GB_LANES;
-    for (int k = b->n; k < whole; k++) { /* lanes without a pair count nothing */
-        b->normal[k] = b->sliding[k] = b->absorbed[k] = 0.0;
-        for (int c = 0; c < axes; c++) {
+    for (int k = b->n; k < whole; k++) {
+        b->absorbed[k] = 0.0;
+        for (int c = 0; c < (t.planar ? 2 : 3); c++) {
             b->force[c][k] = b->r[c][k] = 0.0;
         }
     }
-    int64_t contacts = 0;
-    double most = tally->deepest;
+    return whole;
+}
+
+/* Work taken up and virial of a batch; viscous scenes. */
+INLINE void tally_work(struct terms t, struct gb_batch *b, struct gb_tally *tally)
+{
+    const int whole = pad_work(t, b);
+    tally->absorbed += lane_total(b->absorbed, NULL, whole);
+    for (int c = 0; c < (t.planar ? 2 : 3); c++) {
+        tally->virial[t.planar ? 2 * c : c] += lane_total(b->force[c], b->r[c], whole);
+    }
+}
+
+INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepest,
+                        struct gb_tally *tally)
+{
+    const int whole = (b->n + GB_LANES - 1) / GB_LANES * GB_LANES;
+    for (int k = b->n; k < whole; k++) {
+        b->normal[k] = b->sliding[k] = 0.0;
+    }
+    double contacts = 0.0, most = tally->deepest;
+#pragma omp simd reduction(+ : contacts) reduction(max : most)
     for (int k = 0; k < b->n; k++) {
-        contacts += deepest[k] >= 0.0;
+        contacts += mask(deepest[k] >= 0.0); /* whole numbers: the same in any order */
         most = larger(b->overlap[k], most);
     }
-    tally->contacts += contacts;
+    tally->contacts += (int64_t)contacts;
     tally->deepest = most;
     tally->normal_sum += lane_total(b->normal, NULL, whole);
     if (t.friction) {
         tally->sliding += (int64_t)lane_total(b->sliding, NULL, whole);
     }
     if (t.viscous) {
-        tally->absorbed += lane_total(b->absorbed, NULL, whole);
-        for (int c = 0; c < axes; c++) {
-            tally->virial[t.planar ? 2 * c : c] +=
-                lane_total(b->force[c], b->r[c], whole);
-        }
+        tally_work(t, b, tally);
     }
 }
 
@@ -125,7 +141,7 @@ INLINE void stretch(const struct gb_model *model, struct terms t, struct gb_batc
                     struct gb_contacts *contacts, int64_t slot)
 {
     if (t.planar) {
-        stretch_2d(model, t, batch, contacts, slot);
+        advance_2d(model, t, batch, contacts, slot);
     } else {
         stretch_3d(model, t, batch, contacts, slot);
     }
@@ -134,9 +150,7 @@ INLINE void stretch(const struct gb_model *model, struct terms t, struct gb_batc
 INLINE void load(const struct gb_model *model, struct terms t, struct gb_batch *batch,
                  struct gb_contacts *contacts, int64_t slot)
 {
-    if (t.planar) {
-        load_2d(model, t, batch, contacts, slot);
-    } else {
+    if (!t.planar) {
         load_3d(model, t, batch, contacts, slot);
     }
 }
@@ -173,6 +187,16 @@ INLINE void load(const struct gb_model *model, struct terms t, struct gb_batch *
     {                                                                                    \
         const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
         tally_batch(t, batch, deepest, tally);                                           \
+    }                                                                                    \
+    attribute static void name##_attract(const struct gb_model *model,                   \
+                                         struct gb_batch *batch, double *last_distance,  \
+                                         double *last_pull, struct gb_tally *tally)      \
+    {                                                                                    \
+        const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
+        attract(model, t, batch, last_distance, last_pull);                              \
+        if (viscous_) {                                                                  \
+            tally_work(t, batch, tally);                                                 \
+        }                                                                                \
     }
 
 #define VARIANTS(width, attribute)                                                       \
@@ -191,7 +215,7 @@ INLINE void load(const struct gb_model *model, struct terms t, struct gb_batch *
 
 #define ROW(name)                                                                        \
     {                                                                                    \
-        name##_stretch, name##_load, name##_tally                                        \
+        name##_stretch, name##_load, name##_tally, name##_attract                        \
     }
 #define TABLE(width)                                                                     \
     {                                                                                    \
@@ -261,10 +285,13 @@ void gb_batch_advance(const struct gb_batch_kernel *kernel, const struct gb_mode
                       struct gb_batch *batch, struct gb_contacts *contacts, int64_t slot)
 {
     kernel->stretch(model, batch, contacts, slot);
+    if (model->dimension == 2) {
+        return; /* all in one pass */
+    }
     if (batch->failed > 0.0) {
         fail_bridges(model, batch, contacts->deepest + slot);
     }
-    if (batch->loose > 0.0 && model->slip.mu_pivot > 0.0 && model->dimension == 3) {
+    if (batch->loose > 0.0 && model->slip.mu_pivot > 0.0) {
         fill_moments(model, batch, contacts->deepest + slot);
     }
     kernel->load(model, batch, contacts, slot);

@@ -71,6 +71,7 @@ struct gb_batch {
  * cell counts.  Stored vectors are turned into the current tangent plane keeping their
  * length before the increment is added.  Source: P1 (1)-(12); viscous partners P2 (3). */
 struct gb_batch_kernel {
+    /* Two halves in 3D, between which bridges fail; in 2D the first does it all. */
     void (*stretch)(const struct gb_model *model, struct gb_batch *batch,
                     struct gb_contacts *contacts, int64_t slot);
     void (*load)(const struct gb_model *model, struct gb_batch *batch,
@@ -78,6 +79,10 @@ struct gb_batch_kernel {
     /* Adds a batch to a tally: lane by lane, then the lanes, whatever the vector width.
      */
     void (*tally)(struct gb_batch *batch, const double *deepest, struct gb_tally *tally);
+    /* Pairs across a gap: fills the forces.  In viscous scenes also takes and leaves
+     * distances and pulls (0: none yet) and adds work and virial to the tally. */
+    void (*attract)(const struct gb_model *model, struct gb_batch *batch,
+                    double *last_distance, double *last_pull, struct gb_tally *tally);
 };
 
 /* The variant for this scene and this processor; no variant pays for terms it leaves out.

@@ -46,16 +46,15 @@ INLINE double inverse_root(double x)
 INLINE double log_tail(double h, double s)
 {
     const double q = s * s;
-    double sum = 0.080820228059717655;
-    sum = sum * q + 0.044003692430723371;
-    sum = sum * q + 0.060005364047953563;
-    sum = sum * q + 0.066570721048274675;
-    sum = sum * q + 0.076927850324793115;
-    sum = sum * q + 0.090908947180664293;
-    sum = sum * q + 0.11111111358713932;
-    sum = sum * q + 0.14285714283554379;
-    sum = sum * q + 0.20000000000007292;
-    sum = sum * q + 0.33333333333333331;
+    /* pairs first and then pairs of these: a chain of ten would keep the vector units
+     * waiting */
+    const double q2 = q * q, q4 = q2 * q2;
+    const double p01 = 0.33333333333333331 + q * 0.20000000000007292;
+    const double p23 = 0.14285714283554379 + q * 0.11111111358713932;
+    const double p45 = 0.090908947180664293 + q * 0.076927850324793115;
+    const double p67 = 0.066570721048274675 + q * 0.060005364047953563;
+    const double p89 = 0.044003692430723371 + q * 0.080820228059717655;
+    const double sum = ((p01 + q2 * p23) + q4 * (p45 + q2 * p67)) + q4 * q4 * p89;
     return 2.0 * q * (1.0 - 0.5 * h + s * sum);
 }
 
@@ -104,6 +103,12 @@ INLINE double mask(bool condition)
     return condition ? 1.0 : 0.0;
 }
 
+/* x where the condition holds, else 0: one masked operation. */
+INLINE double where(bool condition, double x)
+{
+    return condition ? x : 0.0;
+}
+
 /* f_n along the normal: elastic line or rod law minus adhesion, or the pull across a gap.
  */
 struct normal {
@@ -114,22 +119,21 @@ struct normal {
 INLINE struct normal normal_force(const struct gb_model *model, double cutoff2,
                                   double deepest, double h, double r)
 {
-    const double live = mask(deepest >= 0.0), reached = mask(r * r < cutoff2);
     const double overlap = larger(h, 0.0);
     const double from = deepest > 0.0 ? deepest : overlap;
     /* one division for all: D = 1 / ((1 - h) (2 - h) s^3 q^2) */
     const double s = larger(r, 1.0) + model->dispersion.shift, q = s * s - 1.0;
     const double near = 1.0 - from, wide = 2.0 - from, gap = s * s * s * q * q;
     const double all = 1.0 / (near * wide * gap);
-    const double root = sqrt(from), tail = log_tail(from, from * (near * gap * all));
-    const double slope =
-        1.5 * model->rod.hertz * root + model->rod.rod * (from * (wide * gap * all));
-    const double force =
-        model->rod.hertz * from * root + model->rod.rod * tail - slope * (from - overlap);
+    const double root = sqrt(from), tail = log_tail(from, from * (near * gap) * all);
+    const double hertz = model->rod.hertz * root;
+    const double slope = 1.5 * hertz + model->rod.rod * (from * (wide * gap)) * all;
+    const double force = hertz * from + model->rod.rod * tail - slope * (from - overlap);
     const double pull = model->dispersion.strength * (near * wide * all);
-    return (struct normal){
-        live * force, live * slope,
-        live * (force - model->adhesion) - (1.0 - live) * reached * pull, root};
+    const double touching = force - model->adhesion;
+    const double apart = where(r * r < cutoff2, -pull);
+    /* without a contact the overlap is none, and so are force and slope */
+    return (struct normal){force, slope, deepest >= 0.0 ? touching : apart, root};
 }
 
 /* Radius of the springs from its square; mostly half the root that is there already. */

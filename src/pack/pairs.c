@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "pack/simd.h"
 #include "phys/tolerances.h"
 
 /* Neighbours one particle may have within the reach: a dense packing has about a dozen.
@@ -65,6 +66,7 @@ void gb_pairs_finish(struct gb_pairs *pairs)
 {
     list_finish(&pairs->near);
     list_finish(&pairs->far);
+    gb_alloc_free(pairs->first);
     gb_alloc_free(pairs->head);
     gb_alloc_free(pairs->next);
     gb_alloc_free(pairs->built_at);
@@ -327,6 +329,27 @@ static bool fill_pairs(struct gb_pairs *pairs, const struct grid *grid,
     return true;
 }
 
+/* The first particles of the near pairs. */
+static bool name_first(struct gb_pairs *pairs, struct gb_error *err)
+{
+    const struct gb_pair_list *near = &pairs->near;
+    if (pairs->first_capacity < near->capacity) {
+        gb_alloc_free(pairs->first);
+        pairs->first_capacity = 0;
+        pairs->first = gb_alloc_array((size_t)near->capacity, sizeof *pairs->first, err);
+        if (!pairs->first) {
+            return false;
+        }
+        pairs->first_capacity = near->capacity;
+    }
+    for (int64_t i = 0; i < pairs->count; i++) {
+        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
+            pairs->first[k] = (int32_t)i;
+        }
+    }
+    return true;
+}
+
 /* The transposed list, by counting. */
 static void transpose(struct gb_pair_list *list, int64_t count)
 {
@@ -365,7 +388,8 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
         .cell = cell, .position = position, .shift = (const double(*)[3])shift};
     grid_shape(&grid, reach, pairs->count);
     const struct bounds bounds = {(1.0 + skin) * (1.0 + skin), reach * reach};
-    if (!grid_fill(pairs, &grid, err) || !fill_pairs(pairs, &grid, bounds, err)) {
+    if (!grid_fill(pairs, &grid, err) || !fill_pairs(pairs, &grid, bounds, err) ||
+        !name_first(pairs, err)) {
         return false;
     }
     transpose(&pairs->near, pairs->count);
@@ -377,19 +401,36 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
     return true;
 }
 
+/* Largest squared way beside the affine motion; total: their sum, not finite when one is
+ * not. */
+GB_SIMD_LOOP void travel_loop(const double *restrict position,
+                              const double *restrict built_at, const double stretch[3],
+                              int64_t count, double *restrict total,
+                              double *restrict most)
+{
+    const double sx = stretch[0], sy = stretch[1], sz = stretch[2];
+    double sum = 0.0, longest = 0.0;
+#pragma omp simd reduction(+ : sum) reduction(max : longest)
+    for (int64_t i = 0; i < count; i++) {
+        const double x = position[3 * i] - built_at[3 * i] * sx;
+        const double y = position[3 * i + 1] - built_at[3 * i + 1] * sy;
+        const double z = position[3 * i + 2] - built_at[3 * i + 2] * sz;
+        const double way2 = x * x + y * y + z * z;
+        longest = way2 > longest ? way2 : longest;
+        sum += way2;
+    }
+    *total = sum;
+    *most = longest;
+}
+GB_SIMD_WIDTHS(travel,
+               (const double *position, const double *built_at, const double stretch[3],
+                int64_t count, double *total, double *most),
+               (position, built_at, stretch, count, total, most))
+
 double gb_pairs_travel(const struct gb_pairs *pairs, const double *position)
 {
-    double most = 0.0, total = 0.0;
-    for (int64_t i = 0; i < pairs->count; i++) {
-        double sum = 0.0;
-        for (int k = 0; k < 3; k++) {
-            const double home = pairs->built_at[3 * i + k] * pairs->stretch[k];
-            const double move = position[3 * i + k] - home;
-            sum += move * move;
-        }
-        most = sum > most ? sum : most;
-        total += sum;
-    }
+    double total = 0.0, most = 0.0;
+    travel(position, pairs->built_at, pairs->stretch, pairs->count, &total, &most);
     return isfinite(total) ? sqrt(most) : (double)NAN; /* comparisons pass NaN by */
 }
 

@@ -24,6 +24,8 @@ struct gb_pair_list {
 struct gb_pairs {
     int64_t count; /* particles */
     struct gb_pair_list near, far;
+    int32_t *first; /* of each near pair, for loops that need not know where i changes */
+    int64_t first_capacity;
     int32_t *head, *next; /* scratch of the grid: where its cells begin, what is there */
     int64_t head_capacity;
     /* of the last build, from which the same lists can be built again: */

@@ -31,4 +31,37 @@ static inline int gb_simd_width(int widest)
 #endif
 }
 
+/* Defines `void name parameters` from the always-inlined `name_loop`, compiled once per
+ * width.  Only for loops whose results do not depend on the order of lanes. */
+#if defined(__x86_64__)
+#define GB_SIMD_WIDTHS(name, parameters, arguments)                                      \
+    GB_TARGET_512 static void name##_512 parameters                                      \
+    {                                                                                    \
+        name##_loop arguments;                                                           \
+    }                                                                                    \
+    GB_TARGET_256 static void name##_256 parameters                                      \
+    {                                                                                    \
+        name##_loop arguments;                                                           \
+    }                                                                                    \
+    static void name parameters                                                          \
+    {                                                                                    \
+        const int width = gb_simd_width(0);                                              \
+        if (width == 512) {                                                              \
+            name##_512 arguments;                                                        \
+        } else if (width == 256) {                                                       \
+            name##_256 arguments;                                                        \
+        } else {                                                                         \
+            name##_loop arguments;                                                       \
+        }                                                                                \
+    }
+#else
+#define GB_SIMD_WIDTHS(name, parameters, arguments)                                      \
+    static void name parameters                                                          \
+    {                                                                                    \
+        name##_loop arguments;                                                           \
+    }
+#endif
+
+#define GB_SIMD_LOOP static inline __attribute__((always_inline))
+
 #endif

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "pack/simd.h"
 #include "pack/world_private.h"
 
 int64_t gb_sweep_blocks(int64_t count)
@@ -10,103 +11,51 @@ int64_t gb_sweep_blocks(int64_t count)
     return (count + GB_SWEEP_BLOCK - 1) / GB_SWEEP_BLOCK;
 }
 
-/* Attraction across a gap: force on the first particle. */
-static void gap_force(const struct gb_model *model, const double r[3], double squared,
-                      double force[3])
-{
-    const double distance = sqrt(squared);
-    const double pull = gb_law_dispersion_force(&model->dispersion, distance) / distance;
-    for (int k = 0; k < 3; k++) {
-        force[k] = -pull * r[k];
-    }
-}
-
-/* The work that a pull takes up since the last evaluation. */
-static double far_work(double last[2], double distance, double pull)
-{
-    const double work =
-        last[0] > 0.0 ? 0.5 * (last[1] + pull) * (distance - last[0]) : 0.0;
-    last[0] = distance;
-    last[1] = pull;
-    return work;
-}
-
-/* The far pairs of particle i. */
-static void sweep_far(struct gb_world *world, int64_t i, double cutoff2,
-                      struct gb_tally *tally)
-{
-    const struct gb_pair_list *far = &world->pairs.far;
-    double *force = world->force + 3 * i;
-    for (int64_t k = far->start[i]; k < far->start[i + 1]; k++) {
-        double r[3];
-        double *pull = world->pull + 3 * k;
-        const double squared = gb_world_arm_of(world, far, i, k, r);
-        pull[0] = pull[1] = pull[2] = 0.0;
-        if (squared < cutoff2) {
-            gap_force(world->model, r, squared, pull);
-            gb_vec_add(force, 1.0, pull);
-            for (int c = 0; c < 3; c++) {
-                tally->virial[c] += pull[c] * r[c];
-            }
-        }
-        if (world->far_last) {
-            tally->absorbed +=
-                far_work(world->far_last[k], sqrt(squared), gb_vec_length(pull));
-        }
-    }
-}
-
 /* Pairs of particle i within a batch that begins at slot: index behind the last one. */
-static int stop_of(const struct gb_pair_list *near, const struct gb_batch *batch,
+static int stop_of(const struct gb_pair_list *list, const struct gb_batch *batch,
                    int64_t slot, int64_t i)
 {
-    const int64_t stop = near->start[i + 1] - slot;
+    const int64_t stop = list->start[i + 1] - slot;
     return stop < batch->n ? (int)stop : batch->n;
 }
 
-/* Loads a batch: arms and turns of pairs [slot, slot + n); i is the first particle. */
+/* Loads a batch: arms and turns of pairs [slot, slot + n). */
 static void fill_batch(const struct gb_world *world, struct gb_batch *restrict batch,
-                       int64_t slot, int64_t i)
+                       int64_t slot)
 {
-    const struct gb_pair_list *near = &world->pairs.near;
-    const int32_t *other = near->other + slot;
-    const uint8_t *image = near->image + slot;
+    const struct gb_pairs *pairs = &world->pairs;
+    const int32_t *first = pairs->first + slot, *other = pairs->near.other + slot;
+    const uint8_t *image = pairs->near.image + slot;
     const double *position = world->position, *turn = world->turn;
-    for (int k = 0; k < batch->n; i++) {
-        const int stop = stop_of(near, batch, slot, i);
-        const double *x = position + 3 * i, *w = turn + 3 * i;
-        const double xi[3] = {x[0], x[1], x[2]}, ti[3] = {w[0], w[1], w[2]};
-        for (; k < stop; k++) {
-            const double *xj = position + 3 * (int64_t)other[k];
-            const double *tj = turn + 3 * (int64_t)other[k];
-            const double *shift = world->shift[image[k]];
-            for (int c = 0; c < 3; c++) {
-                batch->r[c][k] = xi[c] - xj[c] + shift[c];
-                batch->turn_sum[c][k] = ti[c] + tj[c];
-                batch->turn_difference[c][k] = ti[c] - tj[c];
-            }
+    const int n = batch->n;
+    for (int k = 0; k < n; k++) {
+        const int64_t i = 3 * (int64_t)first[k], j = 3 * (int64_t)other[k];
+        const double *shift = world->shift[image[k]];
+        for (int c = 0; c < 3; c++) {
+            const double ti = turn[i + c], tj = turn[j + c];
+            batch->r[c][k] = position[i + c] - position[j + c] + shift[c];
+            batch->turn_sum[c][k] = ti + tj;
+            batch->turn_difference[c][k] = ti - tj;
         }
     }
 }
 
 static void fill_batch_2d(const struct gb_world *world, struct gb_batch *restrict batch,
-                          int64_t slot, int64_t i)
+                          int64_t slot)
 {
-    const struct gb_pair_list *near = &world->pairs.near;
-    for (int k = 0; k < batch->n; i++) {
-        const int stop = stop_of(near, batch, slot, i);
-        const double *xi = world->position + 3 * i;
-        const double ti = world->turn[3 * i + 1];
-        for (; k < stop; k++) {
-            const int64_t j = near->other[slot + k];
-            const double *xj = world->position + 3 * j;
-            const double *shift = world->shift[near->image[slot + k]];
-            const double tj = world->turn[3 * j + 1];
-            batch->r[0][k] = xi[0] - xj[0] + shift[0];
-            batch->r[1][k] = xi[2] - xj[2] + shift[2];
-            batch->turn_sum[0][k] = ti + tj;
-            batch->turn_difference[0][k] = ti - tj;
-        }
+    const struct gb_pairs *pairs = &world->pairs;
+    const int32_t *first = pairs->first + slot, *other = pairs->near.other + slot;
+    const uint8_t *image = pairs->near.image + slot;
+    const double *position = world->position, *turn = world->turn;
+    const int n = batch->n;
+    for (int k = 0; k < n; k++) {
+        const int64_t i = 3 * (int64_t)first[k], j = 3 * (int64_t)other[k];
+        const double *shift = world->shift[image[k]];
+        const double ti = turn[i + 1], tj = turn[j + 1];
+        batch->r[0][k] = position[i] - position[j] + shift[0];
+        batch->r[1][k] = position[i + 2] - position[j + 2] + shift[2];
+        batch->turn_sum[0][k] = ti + tj;
+        batch->turn_difference[0][k] = ti - tj;
     }
 }
 
@@ -170,35 +119,101 @@ static void sweep_near(struct gb_world *world, int64_t begin, int64_t end, doubl
         while (slot >= start[i + 1]) {
             i++;
         }
-        (planar ? fill_batch_2d : fill_batch)(world, &batch, slot, i);
+        (planar ? fill_batch_2d : fill_batch)(world, &batch, slot);
         gb_batch_advance(&world->kernel, world->model, &batch, &world->contacts, slot);
         (planar ? spill_batch_2d : spill_batch)(world, &batch, slot, i);
         world->kernel.tally(&batch, world->contacts.deepest + slot, tally);
     }
 }
 
+/* Arms of far pairs [slot, slot + n); i is the first particle. */
+static void fill_far(const struct gb_world *world, struct gb_batch *restrict batch,
+                     int64_t slot, int64_t i)
+{
+    const struct gb_pair_list *far = &world->pairs.far;
+    const int up = world->model->dimension == 2 ? 1 : 2;
+    for (int k = 0; k < batch->n; i++) {
+        const int stop = stop_of(far, batch, slot, i);
+        const double *x = world->position + 3 * i;
+        const double xi[3] = {x[0], x[1], x[2]};
+        for (; k < stop; k++) {
+            const double *xj = world->position + 3 * (int64_t)far->other[slot + k];
+            const double *shift = world->shift[far->image[slot + k]];
+            batch->r[0][k] = xi[0] - xj[0] + shift[0];
+            batch->r[1][k] = xi[1] - xj[1] + shift[1];
+            batch->r[up][k] = xi[2] - xj[2] + shift[2];
+        }
+    }
+}
+
+static void spill_far(struct gb_world *world, const struct gb_batch *restrict batch,
+                      int64_t slot, int64_t i)
+{
+    const struct gb_pair_list *far = &world->pairs.far;
+    const bool planar = world->model->dimension == 2;
+    double *restrict pull = world->pull + 3 * slot;
+    for (int k = 0; k < batch->n; i++) {
+        const int stop = stop_of(far, batch, slot, i);
+        double *force = world->force + 3 * i;
+        double f[3] = {force[0], force[1], force[2]};
+        for (; k < stop; k++, pull += 3) {
+            f[0] += pull[0] = batch->force[0][k];
+            f[1] += pull[1] = planar ? 0.0 : batch->force[1][k];
+            f[2] += pull[2] = batch->force[planar ? 1 : 2][k];
+        }
+        for (int c = 0; c < 3; c++) {
+            force[c] = f[c];
+        }
+    }
+}
+
+/* The far pairs of particles [begin, end). */
+static void sweep_far(struct gb_world *world, int64_t begin, int64_t end, double cutoff2,
+                      struct gb_tally *tally)
+{
+    const int64_t *start = world->pairs.far.start;
+    struct gb_batch batch;
+    batch.cutoff2 = cutoff2;
+    int64_t i = begin;
+    for (int64_t slot = start[begin]; slot < start[end]; slot += batch.n) {
+        const int64_t left = start[end] - slot;
+        batch.n = left < GB_BATCH ? (int)left : GB_BATCH;
+        while (slot >= start[i + 1]) {
+            i++;
+        }
+        fill_far(world, &batch, slot, i);
+        world->kernel.attract(world->model, &batch,
+                              world->far_distance ? world->far_distance + slot : NULL,
+                              world->far_distance ? world->far_pull + slot : NULL, tally);
+        spill_far(world, &batch, slot, i);
+    }
+}
+
+static int64_t block_end(const struct gb_world *world, int64_t b)
+{
+    const int64_t end = (b + 1) * GB_SWEEP_BLOCK;
+    return end < world->count ? end : world->count;
+}
+
 static void sweep_block(struct gb_world *world, int64_t b)
 {
     const double cutoff =
         world->model->terms.attraction ? world->model->numerics.cutoff : 0.0;
-    const int64_t begin = b * GB_SWEEP_BLOCK;
-    const int64_t end =
-        begin + GB_SWEEP_BLOCK < world->count ? begin + GB_SWEEP_BLOCK : world->count;
+    const int64_t begin = b * GB_SWEEP_BLOCK, end = block_end(world, b);
     struct gb_tally tally = {0};
     const size_t bytes = 3 * (size_t)(end - begin) * sizeof(double);
     memset(world->force + 3 * begin, 0, bytes);
     memset(world->torque + 3 * begin, 0, bytes);
     sweep_near(world, begin, end, cutoff * cutoff, &tally);
-    for (int64_t i = begin; i < end; i++) {
-        sweep_far(world, i, cutoff * cutoff, &tally);
-    }
+    sweep_far(world, begin, end, cutoff * cutoff, &tally);
     world->block[b].tally = tally;
 }
 
 /* Adds what the near pairs of others do to particle j, in slot order. */
-static void collect_near(const struct gb_world *world, int64_t j, double *restrict force,
-                         double *restrict torque)
+static void collect_near(struct gb_world *world, int64_t j)
 {
+    double *restrict force = world->force + 3 * j, *restrict torque =
+                                                       world->torque + 3 * j;
     const struct gb_pair_list *near = &world->pairs.near;
     const int32_t *slot = near->in_slot;
     for (int64_t in = near->in_start[j]; in < near->in_start[j + 1]; in++) {
@@ -210,9 +225,10 @@ static void collect_near(const struct gb_world *world, int64_t j, double *restri
     }
 }
 
-static void collect_near_2d(const struct gb_world *world, int64_t j,
-                            double *restrict force, double *restrict torque)
+static void collect_near_2d(struct gb_world *world, int64_t j)
 {
+    double *restrict force = world->force + 3 * j, *restrict torque =
+                                                       world->torque + 3 * j;
     const struct gb_pair_list *near = &world->pairs.near;
     for (int64_t in = near->in_start[j]; in < near->in_start[j + 1]; in++) {
         const double *restrict row = world->wrench + 3 * (int64_t)near->in_slot[in];
@@ -233,24 +249,38 @@ static void collect_far(const struct gb_world *world, int64_t j, double *restric
     }
 }
 
+/* Sum of n squares, lane by lane: the same bits from every vector width. */
+GB_SIMD_LOOP void square_sum_loop(const double *restrict x, int64_t n,
+                                  double *restrict total)
+{
+    double lane[GB_LANES] = {0}, sum = 0.0;
+    int64_t k = 0;
+    for (; k + GB_LANES <= n; k += GB_LANES) {
+        for (int l = 0; l < GB_LANES; l++) {
+            lane[l] += x[k + l] * x[k + l];
+        }
+    }
+    for (; k < n; k++) {
+        sum += x[k] * x[k];
+    }
+    for (int l = 0; l < GB_LANES; l++) {
+        sum += lane[l];
+    }
+    *total = sum;
+}
+GB_SIMD_WIDTHS(square_sum, (const double *x, int64_t n, double *total), (x, n, total))
+
 static void collect_block(struct gb_world *world, int64_t b)
 {
-    double force2 = 0.0, torque2 = 0.0;
-    const int64_t end =
-        (b + 1) * GB_SWEEP_BLOCK < world->count ? (b + 1) * GB_SWEEP_BLOCK : world->count;
-    for (int64_t j = b * GB_SWEEP_BLOCK; j < end; j++) {
-        double f[3], t[3];
-        memcpy(f, world->force + 3 * j, sizeof f);
-        memcpy(t, world->torque + 3 * j, sizeof t);
-        (world->row == 6 ? collect_near : collect_near_2d)(world, j, f, t);
-        collect_far(world, j, f);
-        memcpy(world->force + 3 * j, f, sizeof f);
-        memcpy(world->torque + 3 * j, t, sizeof t);
-        force2 += gb_vec_dot(f, f);
-        torque2 += gb_vec_dot(t, t);
+    const bool planar = world->model->dimension == 2;
+    const int64_t begin = b * GB_SWEEP_BLOCK, end = block_end(world, b);
+    for (int64_t j = begin; j < end; j++) {
+        (planar ? collect_near_2d : collect_near)(world, j);
+        collect_far(world, j, world->force + 3 * j);
     }
-    world->block[b].force2 = force2;
-    world->block[b].torque2 = torque2;
+    const int64_t n = 3 * (end - begin);
+    square_sum(world->force + 3 * begin, n, &world->block[b].force2);
+    square_sum(world->torque + 3 * begin, n, &world->block[b].torque2);
 }
 
 static void add_tally(struct gb_tally *sum, const struct gb_tally *part)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "pack/simd.h"
 #include "pack/sweep.h"
 #include "pack/world_private.h"
 #include "phys/tolerances.h"
@@ -70,7 +71,8 @@ void gb_world_destroy(struct gb_world *world)
     gb_contacts_finish(&world->contacts);
     gb_alloc_free(world->wrench);
     gb_alloc_free(world->pull);
-    gb_alloc_free(world->far_last);
+    gb_alloc_free(world->far_distance);
+    gb_alloc_free(world->far_pull);
     gb_ledger_finish(&world->ledger);
     gb_ledger_finish(&world->spare);
     gb_pairs_finish(&world->pairs);
@@ -94,14 +96,16 @@ bool gb_world_reserve(struct gb_world *world, struct gb_error *err)
     if (far > world->far_room) {
         const bool moving = world->model->kind == GB_KIND_DYNAMIC;
         gb_alloc_free(world->pull);
-        gb_alloc_free(world->far_last);
+        gb_alloc_free(world->far_distance);
+        gb_alloc_free(world->far_pull);
         world->far_room = 0;
-        world->far_last = NULL;
+        world->far_distance = world->far_pull = NULL;
         world->pull = gb_alloc_array(3 * (size_t)far, sizeof *world->pull, err);
         if (moving) {
-            world->far_last = gb_alloc_array((size_t)far, sizeof *world->far_last, err);
+            world->far_distance = gb_alloc_array((size_t)far, sizeof(double), err);
+            world->far_pull = gb_alloc_array((size_t)far, sizeof(double), err);
         }
-        if (!world->pull || (moving && !world->far_last)) {
+        if (!world->pull || (moving && (!world->far_distance || !world->far_pull))) {
             return false;
         }
         world->far_room = far;
@@ -124,9 +128,9 @@ static bool rebuild(struct gb_world *world, const struct gb_ledger *ledger,
     }
     gb_pairs_shifts(&world->cell, world->shift);
     gb_ledger_read(ledger, world);
-    if (world->far_last) {
-        memset(world->far_last, 0,
-               (size_t)world->pairs.far.pair_count * sizeof *world->far_last);
+    if (world->far_distance) {
+        memset(world->far_distance, 0,
+               (size_t)world->pairs.far.pair_count * sizeof *world->far_distance);
     }
     world->listed = true;
     world->rebuilds++;
@@ -195,16 +199,26 @@ void gb_world_set_step(struct gb_world *world, double time_step)
     world->damp = world->model->dynamics.viscous / time_step;
 }
 
+GB_SIMD_LOOP void scale_loop(double *restrict position, const double factor[3],
+                             int64_t count)
+{
+    const double x = factor[0], y = factor[1], z = factor[2];
+#pragma omp simd
+    for (int64_t i = 0; i < count; i++) {
+        position[3 * i] *= x;
+        position[3 * i + 1] *= y;
+        position[3 * i + 2] *= z;
+    }
+}
+GB_SIMD_WIDTHS(scale, (double *position, const double factor[3], int64_t count),
+               (position, factor, count))
+
 void gb_world_strain(struct gb_world *world, const double factor[3])
 {
     for (int k = 0; k < 3; k++) {
         world->cell.edge[k] *= factor[k];
     }
-    for (int64_t i = 0; i < world->count; i++) {
-        for (int k = 0; k < 3; k++) {
-            world->position[3 * i + k] *= factor[k];
-        }
-    }
+    scale(world->position, factor, world->count);
     gb_pairs_strain(&world->pairs, factor);
 }
 

