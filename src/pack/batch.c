@@ -71,29 +71,39 @@ void gb_contacts_clear(struct gb_contacts *contacts, int64_t slot)
     contacts->deepest[slot] = -1.0;
 }
 
-INLINE double lane_sum(const double lane[GB_LANES])
+INLINE double lane_sum(const double *lane)
 {
     return ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
            ((lane[4] + lane[5]) + (lane[6] + lane[7]));
 }
 
-/* Adds the products of two arrays (times 1 where b is NULL) over whole groups of lanes.
+/* Lanes that a batch is filled up to: two groups, so that no sum waits for the last one.
  */
+INLINE int whole_lanes(int n)
+{
+    return (n + 2 * GB_LANES - 1) / (2 * GB_LANES) * (2 * GB_LANES);
+}
+
+/* Adds the products of two arrays (times 1 where b is NULL) over whole lanes. */
 INLINE double lane_total(const double *a, const double *b, int n)
 {
-    double lane[GB_LANES] = {0};
-    for (int k = 0; k < n; k += GB_LANES) {
+    double even[GB_LANES] = {0}, odd[GB_LANES] = {0};
+    for (int k = 0; k < n; k += 2 * GB_LANES) {
         for (int l = 0; l < GB_LANES; l++) {
-            lane[l] += b ? a[k + l] * b[k + l] : a[k + l];
+            even[l] += b ? a[k + l] * b[k + l] : a[k + l];
+        }
+        for (int l = 0; l < GB_LANES; l++) {
+            const int m = k + GB_LANES + l;
+            odd[l] += b ? a[m] * b[m] : a[m];
         }
     }
-    return lane_sum(lane);
+    return lane_sum(even) + lane_sum(odd);
 }
 
 /* Lanes behind the last pair count nothing; returns the number with them. */
 INLINE int pad_work(struct terms t, struct gb_batch *b)
 {
-    const int whole = (b->n + GB_LANES - 1) / GB_LANES * GB_LANES;
+    const int whole = whole_lanes(b->n);
     for (int k = b->n; k < whole; k++) {
         b->absorbed[k] = 0.0;
         for (int c = 0; c < (t.planar ? 2 : 3); c++) {
@@ -116,7 +126,7 @@ INLINE void tally_work(struct terms t, struct gb_batch *b, struct gb_tally *tall
 INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepest,
                         struct gb_tally *tally)
 {
-    const int whole = (b->n + GB_LANES - 1) / GB_LANES * GB_LANES;
+    const int whole = whole_lanes(b->n);
     for (int k = b->n; k < whole; k++) {
         b->normal[k] = b->sliding[k] = 0.0;
     }

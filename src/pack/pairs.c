@@ -33,9 +33,11 @@ static bool list_init(struct gb_pair_list *list, int64_t count, struct gb_error 
 
 static void list_drop_pairs(struct gb_pair_list *list)
 {
+    gb_alloc_free(list->first);
     gb_alloc_free(list->other);
     gb_alloc_free(list->image);
     gb_alloc_free(list->in_slot);
+    list->first = NULL;
     list->other = NULL;
     list->image = NULL;
     list->in_slot = NULL;
@@ -66,7 +68,6 @@ void gb_pairs_finish(struct gb_pairs *pairs)
 {
     list_finish(&pairs->near);
     list_finish(&pairs->far);
-    gb_alloc_free(pairs->first);
     gb_alloc_free(pairs->head);
     gb_alloc_free(pairs->next);
     gb_alloc_free(pairs->built_at);
@@ -272,20 +273,24 @@ static bool reserve(struct gb_pair_list *list, int64_t need, struct gb_error *er
     }
     const size_t room = (size_t)(need + need / 16 + CROWD);
     const size_t used = (size_t)list->pair_count;
+    int32_t *first = gb_alloc_array(room, sizeof *first, err);
     int32_t *other = gb_alloc_array(room, sizeof *other, err);
     uint8_t *image = gb_alloc_array(room, sizeof *image, err);
     int32_t *in_slot = gb_alloc_array(room, sizeof *in_slot, err);
-    if (!other || !image || !in_slot) {
+    if (!first || !other || !image || !in_slot) {
+        gb_alloc_free(first);
         gb_alloc_free(other);
         gb_alloc_free(image);
         gb_alloc_free(in_slot);
         return false;
     }
     if (used > 0) {
+        memcpy(first, list->first, used * sizeof *first);
         memcpy(other, list->other, used * sizeof *other);
         memcpy(image, list->image, used * sizeof *image);
     }
     list_drop_pairs(list);
+    list->first = first;
     list->other = other;
     list->image = image;
     list->in_slot = in_slot;
@@ -293,8 +298,9 @@ static bool reserve(struct gb_pair_list *list, int64_t need, struct gb_error *er
     return true;
 }
 
-static void append(struct gb_pair_list *list, struct neighbour found)
+static void append(struct gb_pair_list *list, int64_t i, struct neighbour found)
 {
+    list->first[list->pair_count] = (int32_t)i;
     list->other[list->pair_count] = found.other;
     list->image[list->pair_count++] = found.image;
 }
@@ -321,32 +327,11 @@ static bool fill_pairs(struct gb_pairs *pairs, const struct grid *grid,
             return false;
         }
         for (int k = 0; k < n; k++) {
-            append(found[k].near ? near : far, found[k]);
+            append(found[k].near ? near : far, i, found[k]);
         }
     }
     near->start[pairs->count] = near->pair_count;
     far->start[pairs->count] = far->pair_count;
-    return true;
-}
-
-/* The first particles of the near pairs. */
-static bool name_first(struct gb_pairs *pairs, struct gb_error *err)
-{
-    const struct gb_pair_list *near = &pairs->near;
-    if (pairs->first_capacity < near->capacity) {
-        gb_alloc_free(pairs->first);
-        pairs->first_capacity = 0;
-        pairs->first = gb_alloc_array((size_t)near->capacity, sizeof *pairs->first, err);
-        if (!pairs->first) {
-            return false;
-        }
-        pairs->first_capacity = near->capacity;
-    }
-    for (int64_t i = 0; i < pairs->count; i++) {
-        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            pairs->first[k] = (int32_t)i;
-        }
-    }
     return true;
 }
 
@@ -388,8 +373,7 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
         .cell = cell, .position = position, .shift = (const double(*)[3])shift};
     grid_shape(&grid, reach, pairs->count);
     const struct bounds bounds = {(1.0 + skin) * (1.0 + skin), reach * reach};
-    if (!grid_fill(pairs, &grid, err) || !fill_pairs(pairs, &grid, bounds, err) ||
-        !name_first(pairs, err)) {
+    if (!grid_fill(pairs, &grid, err) || !fill_pairs(pairs, &grid, bounds, err)) {
         return false;
     }
     transpose(&pairs->near, pairs->count);

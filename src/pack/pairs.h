@@ -13,6 +13,7 @@ struct gb_pair_list {
     int64_t pair_count;
     int64_t capacity; /* pairs the arrays can hold */
     int64_t *start;   /* particles + 1 */
+    int32_t *first;   /* i of each pair, for loops that need not know where i changes */
     int32_t *other;
     uint8_t *image;    /* which periodic image of other is meant; see gb_pairs_shifts */
     int64_t *in_start; /* particles + 1: pairs in which j is the second particle ... */
@@ -24,8 +25,6 @@ struct gb_pair_list {
 struct gb_pairs {
     int64_t count; /* particles */
     struct gb_pair_list near, far;
-    int32_t *first; /* of each near pair, for loops that need not know where i changes */
-    int64_t first_capacity;
     int32_t *head, *next; /* scratch of the grid: where its cells begin, what is there */
     int64_t head_capacity;
     /* of the last build, from which the same lists can be built again: */

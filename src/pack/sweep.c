@@ -23,9 +23,9 @@ static int stop_of(const struct gb_pair_list *list, const struct gb_batch *batch
 static void fill_batch(const struct gb_world *world, struct gb_batch *restrict batch,
                        int64_t slot)
 {
-    const struct gb_pairs *pairs = &world->pairs;
-    const int32_t *first = pairs->first + slot, *other = pairs->near.other + slot;
-    const uint8_t *image = pairs->near.image + slot;
+    const struct gb_pair_list *near = &world->pairs.near;
+    const int32_t *first = near->first + slot, *other = near->other + slot;
+    const uint8_t *image = near->image + slot;
     const double *position = world->position, *turn = world->turn;
     const int n = batch->n;
     for (int k = 0; k < n; k++) {
@@ -43,9 +43,9 @@ static void fill_batch(const struct gb_world *world, struct gb_batch *restrict b
 static void fill_batch_2d(const struct gb_world *world, struct gb_batch *restrict batch,
                           int64_t slot)
 {
-    const struct gb_pairs *pairs = &world->pairs;
-    const int32_t *first = pairs->first + slot, *other = pairs->near.other + slot;
-    const uint8_t *image = pairs->near.image + slot;
+    const struct gb_pair_list *near = &world->pairs.near;
+    const int32_t *first = near->first + slot, *other = near->other + slot;
+    const uint8_t *image = near->image + slot;
     const double *position = world->position, *turn = world->turn;
     const int n = batch->n;
     for (int k = 0; k < n; k++) {
@@ -126,44 +126,36 @@ static void sweep_near(struct gb_world *world, int64_t begin, int64_t end, doubl
     }
 }
 
-/* Arms of far pairs [slot, slot + n); i is the first particle. */
+/* Arms of far pairs [slot, slot + n). */
 static void fill_far(const struct gb_world *world, struct gb_batch *restrict batch,
-                     int64_t slot, int64_t i)
+                     int64_t slot)
 {
     const struct gb_pair_list *far = &world->pairs.far;
-    const int up = world->model->dimension == 2 ? 1 : 2;
-    for (int k = 0; k < batch->n; i++) {
-        const int stop = stop_of(far, batch, slot, i);
-        const double *x = world->position + 3 * i;
-        const double xi[3] = {x[0], x[1], x[2]};
-        for (; k < stop; k++) {
-            const double *xj = world->position + 3 * (int64_t)far->other[slot + k];
-            const double *shift = world->shift[far->image[slot + k]];
-            batch->r[0][k] = xi[0] - xj[0] + shift[0];
-            batch->r[1][k] = xi[1] - xj[1] + shift[1];
-            batch->r[up][k] = xi[2] - xj[2] + shift[2];
-        }
+    const int32_t *first = far->first + slot, *other = far->other + slot;
+    const uint8_t *image = far->image + slot;
+    const int up = world->model->dimension == 2 ? 1 : 2, n = batch->n;
+    for (int k = 0; k < n; k++) {
+        const double *xi = world->position + 3 * (int64_t)first[k];
+        const double *xj = world->position + 3 * (int64_t)other[k];
+        const double *shift = world->shift[image[k]];
+        batch->r[0][k] = xi[0] - xj[0] + shift[0];
+        batch->r[1][k] = xi[1] - xj[1] + shift[1];
+        batch->r[up][k] = xi[2] - xj[2] + shift[2];
     }
 }
 
 static void spill_far(struct gb_world *world, const struct gb_batch *restrict batch,
-                      int64_t slot, int64_t i)
+                      int64_t slot)
 {
-    const struct gb_pair_list *far = &world->pairs.far;
+    const int32_t *first = world->pairs.far.first + slot;
     const bool planar = world->model->dimension == 2;
+    const int n = batch->n;
     double *restrict pull = world->pull + 3 * slot;
-    for (int k = 0; k < batch->n; i++) {
-        const int stop = stop_of(far, batch, slot, i);
-        double *force = world->force + 3 * i;
-        double f[3] = {force[0], force[1], force[2]};
-        for (; k < stop; k++, pull += 3) {
-            f[0] += pull[0] = batch->force[0][k];
-            f[1] += pull[1] = planar ? 0.0 : batch->force[1][k];
-            f[2] += pull[2] = batch->force[planar ? 1 : 2][k];
-        }
-        for (int c = 0; c < 3; c++) {
-            force[c] = f[c];
-        }
+    for (int k = 0; k < n; k++, pull += 3) {
+        double *restrict force = world->force + 3 * (int64_t)first[k];
+        force[0] += pull[0] = batch->force[0][k];
+        force[1] += pull[1] = planar ? 0.0 : batch->force[1][k];
+        force[2] += pull[2] = batch->force[planar ? 1 : 2][k];
     }
 }
 
@@ -174,18 +166,14 @@ static void sweep_far(struct gb_world *world, int64_t begin, int64_t end, double
     const int64_t *start = world->pairs.far.start;
     struct gb_batch batch;
     batch.cutoff2 = cutoff2;
-    int64_t i = begin;
     for (int64_t slot = start[begin]; slot < start[end]; slot += batch.n) {
         const int64_t left = start[end] - slot;
         batch.n = left < GB_BATCH ? (int)left : GB_BATCH;
-        while (slot >= start[i + 1]) {
-            i++;
-        }
-        fill_far(world, &batch, slot, i);
+        fill_far(world, &batch, slot);
         world->kernel.attract(world->model, &batch,
                               world->far_distance ? world->far_distance + slot : NULL,
                               world->far_distance ? world->far_pull + slot : NULL, tally);
-        spill_far(world, &batch, slot, i);
+        spill_far(world, &batch, slot);
     }
 }
 

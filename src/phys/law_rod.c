@@ -66,6 +66,28 @@ double gb_law_rod_stiffness(const struct gb_law_rod *law, double h)
     return 1.5 * law->hertz * sqrt(h) + law->rod * h / (1.0 - h);
 }
 
+/* Integral of -(x + ln(1 - x)) from 0 to h: sum h^(k+1) / (k (k+1)), k >= 2. */
+static double log_tail_integral(double h)
+{
+    static const double even[] = {1.0 / 6.0,   1.0 / 20.0,  1.0 / 42.0, 1.0 / 72.0,
+                                  1.0 / 110.0, 1.0 / 156.0, 1.0 / 210.0};
+    static const double odd[] = {1.0 / 12.0, 1.0 / 30.0,  1.0 / 56.0,
+                                 1.0 / 90.0, 1.0 / 132.0, 1.0 / 182.0};
+    if (h > series_border) {
+        return h - 0.5 * h * h + (1.0 - h) * log1p(-h);
+    }
+    /* two chains side by side: curve.csv asks for this at every contact */
+    const double h2 = h * h;
+    double a = even[6], b = odd[5];
+    for (int k = 5; k >= 0; k--) {
+        a = a * h2 + even[k];
+    }
+    for (int k = 4; k >= 0; k--) {
+        b = b * h2 + odd[k];
+    }
+    return (a + b * h) * h2 * h;
+}
+
 double gb_law_rod_energy(const struct gb_law_rod *law, double h)
 {
     if (h <= 0.0) {
@@ -74,16 +96,7 @@ double gb_law_rod_energy(const struct gb_law_rod *law, double h)
     if (h >= 1.0) {
         return INFINITY;
     }
-    /* integral of -(x + ln(1 - x)): sum h^(k+1) / (k (k+1)), k >= 2 */
-    double tail = h - 0.5 * h * h + (1.0 - h) * log1p(-h);
-    if (h <= series_border) {
-        double sum = 0.0;
-        for (int k = SERIES_TERMS; k >= 2; k--) {
-            sum = sum * h + 1.0 / (k * (k + 1));
-        }
-        tail = sum * h * h * h;
-    }
-    return 0.4 * law->hertz * h * h * sqrt(h) + law->rod * tail;
+    return 0.4 * law->hertz * h * h * sqrt(h) + law->rod * log_tail_integral(h);
 }
 
 double gb_law_rod_moment(const struct gb_law_rod *law, double h)
