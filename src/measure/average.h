@@ -32,9 +32,9 @@ size_t gb_average_values(const double *values, size_t count, double *mean, doubl
  * those that are NaN are left out.  NaN with fewer than two. */
 double gb_average_jackknife(const double *without, size_t count);
 
-/* Mean and standard error at every place of a grid: row r of `rows` (count x size) is one curve.  At a
- * place where some curves have no value, only those that have one count, unless `all`:
- * then there is none.  NULL for error is fine. */
+/* Mean and standard error at every place of a grid: row r of `rows` (count x size) is one
+ * curve.  At a place where some curves have no value, only those that have one count,
+ * unless `all`: then there is none.  NULL for error is fine. */
 void gb_average_rows(const double *rows, size_t count, size_t size, bool all,
                      double *mean, double *error);
 

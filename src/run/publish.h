@@ -41,7 +41,7 @@ enum gb_command_kind {
     GB_COMMAND_RESUME,
     GB_COMMAND_STOP,
     GB_COMMAND_WATCH,  /* take pictures of the packing from now on */
-    GB_COMMAND_FORK,  /* hand over the state at the next point of the loading */
+    GB_COMMAND_FORK,   /* hand over the state at the next point of the loading */
     GB_COMMAND_YIELD,  /* stand aside for another engine: no event, no change of state */
     GB_COMMAND_TAKE_UP /* ... and go on */
 };
