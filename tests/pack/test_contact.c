@@ -356,6 +356,7 @@ static void test_planar(void)
     a.cutoff2 = b.cutoff2 = 1.44;
     a.damp = b.damp = 0.2;
     double x = 0.4, z = 0.89;
+    int slid = 0;
     for (int i = 0; i < 3000; i++) {
         x += g_rand_double_range(random, -2e-4, 2e-4);
         z += g_rand_double_range(random, -2e-4, 2e-4);
@@ -375,7 +376,11 @@ static void test_planar(void)
         g_assert_cmpfloat_with_epsilon(a.torque_j[1][0], b.torque_j[0][0], 1e-9);
         g_assert_cmpfloat(a.force[1][0], ==, 0.0);
         g_assert_cmpfloat_with_epsilon(a.absorbed[0], b.absorbed[0], 1e-11);
+        g_assert_cmpfloat(a.sliding[0], ==, b.sliding[0]);
+        slid += a.sliding[0] > 0.0;
     }
+    g_assert_cmpint(slid, >, 100);
+    g_assert_cmpint(slid, <, 2900);
     g_rand_free(random);
     gb_contacts_finish(&ca);
     gb_contacts_finish(&cb);
