@@ -17,12 +17,21 @@ void gb_asks_tell(struct gb_app *app, enum gb_style style, const char *text)
     app->screen.message.style = style;
 }
 
+/* What a key was refused with stays until the next key, whatever comes of itself. */
+static bool refuses(const struct gb_message *message)
+{
+    return message->text[0] != '\0' &&
+           (message->style == GB_STYLE_WARN || message->style == GB_STYLE_BAD);
+}
+
 static void begin_run(struct gb_app *app)
 {
     struct gb_error err = {0};
     if (gb_session_start(&app->screen.session, &err)) {
         app->screen.plot.cursor_on = false;
-        app->screen.message.text[0] = '\0';
+        if (!refuses(&app->screen.message)) {
+            app->screen.message.text[0] = '\0';
+        }
     } else {
         gb_asks_tell(app, GB_STYLE_BAD, err.text);
         gb_session_note(&app->screen.session, "not started: %s", err.text);
@@ -57,8 +66,11 @@ void gb_asks_follow(struct gb_app *app)
         return;
     }
     if (gb_session_costly(&app->screen.session, question, sizeof question)) {
-        gb_asks_tell(app, GB_STYLE_WARN,
-                     "the full cell takes long: r tells how long and asks");
+        static const char text[] = "the full cell takes long: r tells how long and asks";
+        gb_session_note(&app->screen.session, "%s", text);
+        if (!refuses(&app->screen.message)) {
+            gb_asks_tell(app, GB_STYLE_WARN, text);
+        }
     } else {
         begin_run(app);
     }
@@ -156,15 +168,18 @@ void gb_asks_fork(struct gb_app *app)
 {
     struct gb_screen *screen = &app->screen;
     char text[GB_PARAMS_VALUE_MAX + 64];
-    if (!gb_session_run_is_live(&screen->session)) {
-        gb_asks_tell(app, GB_STYLE_WARN, "a what-if needs a run under way: r starts one");
-        return;
-    }
-    if (gb_runner_params(screen->session.runner)->kind != GB_KIND_QUASISTATIC) {
+    const struct gb_runner *run = screen->session.runner;
+    const struct gb_params *params =
+        run != NULL ? gb_runner_params(run) : gb_session_params(&screen->session);
+    if (params->kind != GB_KIND_QUASISTATIC) {
         gb_asks_tell(
             app, GB_STYLE_WARN,
             "a what-if goes on from an equilibrium, which only quasi-static runs "
             "have: change the parameter and r starts anew");
+        return;
+    }
+    if (!gb_session_run_is_live(&screen->session)) {
+        gb_asks_tell(app, GB_STYLE_WARN, "a what-if needs a run under way: r starts one");
         return;
     }
     gb_panel_params_quote(&screen->params, &screen->session, text, sizeof text);
@@ -258,6 +273,7 @@ void gb_asks_answer(struct gb_app *app)
         break;
     case GB_DIALOG_COSTLY:
         gb_dialog_close(&app->screen.dialog);
+        app->screen.message.text[0] = '\0';
         begin_run(app);
         break;
     case GB_DIALOG_DATA:

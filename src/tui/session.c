@@ -91,12 +91,18 @@ static bool trial_is_of(const struct gb_session *session, const struct gb_params
            gb_earlier_differences(&session->trial.asked, params) == 0;
 }
 
+/* The run has the parameters of the quick cell: it followed, or r did not wait for that.
+ */
+static bool full_is_started(const struct gb_session *session)
+{
+    return session->runner != NULL &&
+           trial_is_of(session, gb_runner_params(session->runner));
+}
+
 /* A quick curve has done its work once the full run of its scene has been started. */
 static void keep_trial(struct gb_session *session)
 {
-    const struct gb_runner *run = session->runner;
-    if (session->trial.runner != NULL &&
-        (run == NULL || !trial_is_of(session, gb_runner_params(run)))) {
+    if (session->trial.runner != NULL && !full_is_started(session)) {
         keep(session, &session->trial.asked, session->trial.runner, true);
     }
 }
@@ -246,10 +252,13 @@ static void end_trial(struct gb_session *session)
         gb_session_note(session, "quick cell: %s", now->error.text);
         return;
     }
-    const bool works =
-        gb_session_run_is_live(session) && session->now.seconds > replaced_most_s;
     gb_session_note(session, "quick cell of %lld: whole curve in %.1f s",
                     (long long)gb_runner_params(trial->runner)->count, now->seconds);
+    if (full_is_started(session)) {
+        return;
+    }
+    const bool works =
+        gb_session_run_is_live(session) && session->now.seconds > replaced_most_s;
     note_foretold(session);
     /* a pause that came too late for the quick cell is one all the same */
     session->due = session->follow && !works && !session->pause_wanted;
