@@ -108,7 +108,7 @@ is "--batch does what run does" until_true grep -qs '"done"' "$here/batch/status
 shows "and leaves" 'status=0'
 
 # --- what libraries write to standard error
-keys C-u "clear; sh -c 'echo \$\$ >$here/pid; exec $greenbody $small particles.count=3000'" Enter
+keys C-u "clear; sh -c 'echo \$\$ >$here/pid; exec $greenbody $long'" Enter
 shows "opens" 'Parameters'
 shows "computes" '▶'
 echo 'driver: no such thing' >>"/proc/$(cat "$here/pid")/fd/2"
@@ -122,6 +122,8 @@ until_true has_prompt
 with='TERM=xterm-256color' start "$small"
 shows "opens" 'Parameters'
 shows "and is done" '✓ done'
+keys a
+shows "the marks of an edit stay while the full cell waits" 'waits for r'
 keys g
 is "focus reaches the contacts" go_to mu
 click 5 "$(row_of '^ normal')"

@@ -98,7 +98,7 @@ idle() { # pid
 }
 
 # takes far longer than any of what is done with it
-scene="default particles.count=1000 numerics.tolerance=1e-3 loading.step=0.01% \
+scene="default particles.count=1000 numerics.tolerance=1e-3 loading.step=0.002% \
 output.checkpoint_every=0.5s numerics.fidelity=reference"
 
 lives_on() { # name

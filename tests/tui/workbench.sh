@@ -7,8 +7,6 @@ full_cell_runs() {
     screen | head -n 1 | grep -q '▶ running'
 }
 
-# Takes far longer than any of what is done with it.
-long='default particles.count=6000 loading.step=0.02% numerics.fidelity=reference'
 runs=$here/state/greenbody/runs
 
 open_terminal
@@ -27,26 +25,39 @@ is "state is shown" has 'State'
 is "events are shown" has 'Events'
 
 # --- editing
+# By itself the full cell follows in a second or two, and the marks of an edit are gone: where
+# those are looked at it waits.
+shows "its run comes to its end" '✓ done'
+keys a
+shows "a lets the full cell wait for r" 'the full cell waits for r'
 keys g
 is "focus reaches mu" go_to mu
 keys Enter C-u abc Enter
 shows "a bad value is refused with the reason" 'contact.mu = abc: accepted'
-keys C-u 0.3 Enter
-shows "a good value is marked" '^\*mu  *0\.3'
+keys C-u 0.2 Enter
+shows "a good value is marked" '^\*mu  *0\.2'
 shows "what applies when is said" 'the quick cell answers'
 shows "a quick cell answers" 'q quick cell'
+told "behind it the full one waits" 'r starts the full cell'
+keys a
+shows "a lets it follow by itself" 'the full cell follows'
+keys Enter C-u 0.3 Enter
 is "the full cell follows" until_true [ -e "$runs/default-2/curve.csv" ]
 grows "the new curve grows"
 told "which is told among the events" 'run 2 started'
-shows "the earlier run is named by what differed" 'a mu 0\.1'
+shows "the earlier run is named by what differed" 'b mu 0\.1'
+shows "and the quick cell before it" 'a quick: mu 0\.2'
 keys r
 is "r starts anew" until_true [ -e "$runs/default-3/curve.csv" ]
 keys Enter C-u 0.25 Escape
 shows "Esc leaves the value" '^ mu  *0\.3'
+keys a
+shows "a lets the full cell wait again" 'the full cell waits for r'
 keys +
 shows "+ turns it up" '^[*]mu  *0\.32'
 keys -
 shows "- turns it down again" '^ mu  *0\.3 '
+keys a
 shows "a run comes to its end" '✓ done'
 
 # --- an idle screen sends nothing
@@ -186,6 +197,9 @@ shows "the stage is told" 'stage  *[a-z]'
 shows "energies have a unit" 'work  *[0-9.]* [a-z]*J'
 keys f
 shows "a what-if is refused with the reason" 'only quasi-static runs'
+hides "its quick cell comes to its end behind it" '▶ quick cell'
+is "the refusal stays" has 'only quasi-static runs'
+is "and so does the run that r started" has_not 'same parameters'
 keys 4
 shows "4 shows pressure against time" '4 Pressure against time'
 shows "in nanoseconds" 't, ns'
