@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "measure/observe.h"
+#include "pack/curve.h"
 #include "pack/departure.h"
 #include "pack/grow.h"
 #include "phys/changes.h"
@@ -51,8 +52,10 @@ static bool grow_world(struct gb_experiment *experiment, bool (*cancelled)(void 
     struct gb_grow grow = gb_grow_of(model);
     grow.cancelled = cancelled;
     grow.data = data;
-    const bool done = gb_grow_place(&grow, position, err) &&
-                      gb_world_create(&experiment->world, model, position, err);
+    const bool done =
+        gb_grow_place(&grow, position, err) &&
+        gb_curve_sort(position, model->count, model->dimension, model->edges, err) &&
+        gb_world_create(&experiment->world, model, position, err);
     gb_alloc_free(position);
     return done;
 }
@@ -531,11 +534,12 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
 static void copy_pairs(const struct gb_world *world, struct gb_state *state)
 {
     const struct gb_pair_list *near = &gb_world_pairs(world)->near;
-    const double *deepest = gb_world_contacts(world)->deepest;
+    const struct gb_contacts *contacts = gb_world_contacts(world);
     int64_t line = 0;
     for (int64_t i = 0; i < state->count; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            if (deepest[k] < 0.0) {
+            const double deepest = gb_contacts_deepest(contacts, k);
+            if (deepest < 0.0) {
                 continue;
             }
             double r[3];
@@ -545,7 +549,7 @@ static void copy_pairs(const struct gb_world *world, struct gb_state *state)
             double *force = state->pair_force + 3 * line;
             gb_world_force(world, k, force);
             state->pair_normal[line] = gb_vec_dot(force, r) / gb_vec_length(r);
-            state->pair_bridged[line++] = deepest[k] > 0.0;
+            state->pair_bridged[line++] = deepest > 0.0;
         }
     }
 }

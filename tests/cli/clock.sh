@@ -54,6 +54,10 @@ for _ in $(seq 600); do
 done
 cp screen stdout
 is 'the workbench shows its run to the end' grep -q '100 % in' screen
+for _ in $(seq 600); do # written beside the screen
+    grep -hq '"state" : "done"' state/greenbody/runs/*/status.json && break
+    sleep 0.1
+done
 grep -h '"state" : "done"' state/greenbody/runs/*/status.json >/dev/null
 result 'and it is kept' $?
 

@@ -120,7 +120,7 @@ static void test_bridges(void)
 {
     check(
         pressing("contact.mu=0.1", "loading.geometry=uniaxial", "numerics.relaxer=fire"),
-        3, 60);
+        3, 50);
 }
 
 static void test_every_point(void)
