@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/vec.h"
+#include "pack/simd.h"
 #include "solve/relax_fire.h"
 
 static const double grow = 1.1;
@@ -77,31 +78,35 @@ static double lane_sum(const double lane[LANES])
            ((lane[4] + lane[5]) + (lane[6] + lane[7]));
 }
 
-static struct sums sum_up(const double *force, const double *v, int64_t begin,
-                          int64_t end)
+GB_SIMD_LOOP void sum_up_loop(const double *restrict force, const double *restrict v,
+                              int64_t count, struct sums *sums)
 {
     double power[LANES] = {0}, speed2[LANES] = {0}, force2[LANES] = {0};
-    int64_t i = begin;
-    for (; i + LANES <= end; i += LANES) {
+    int64_t i = 0;
+    for (; i + LANES <= count; i += LANES) {
         for (int l = 0; l < LANES; l++) {
             power[l] += force[i + l] * v[i + l];
             speed2[l] += v[i + l] * v[i + l];
             force2[l] += force[i + l] * force[i + l];
         }
     }
-    for (; i < end; i++) {
+    for (; i < count; i++) {
         power[0] += force[i] * v[i];
         speed2[0] += v[i] * v[i];
         force2[0] += force[i] * force[i];
     }
-    return (struct sums){lane_sum(power), lane_sum(speed2), lane_sum(force2)};
+    *sums = (struct sums){lane_sum(power), lane_sum(speed2), lane_sum(force2)};
 }
+GB_SIMD_WIDTHS(sum_up,
+               (const double *force, const double *v, int64_t count, struct sums *sums),
+               (force, v, count, sums))
 
 static void sum_span(struct pass *pass, int span)
 {
     const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
-    const struct sums t = sum_up(pass->b.force, pass->v, begin, end);
-    const struct sums r = sum_up(pass->b.torque, pass->w, begin, end);
+    struct sums t, r;
+    sum_up(pass->b.force + begin, pass->v + begin, end - begin, &t);
+    sum_up(pass->b.torque + begin, pass->w + begin, end - begin, &r);
     pass->sums[span] = (struct sums){t.power + r.power, t.speed2 + inertia * r.speed2,
                                      t.force2 + r.force2 / inertia};
 }
@@ -152,14 +157,25 @@ static void adapt(struct pass *pass, struct gb_relax_fire_state *fire,
     memset(pass->w, 0, bytes);
 }
 
+/* v = keep v + kick F. */
+GB_SIMD_LOOP void kick_all_loop(double *restrict v, const double *restrict force,
+                            int64_t count, double keep, double kick)
+{
+#pragma omp simd
+    for (int64_t i = 0; i < count; i++) {
+        v[i] = keep * v[i] + kick * force[i];
+    }
+}
+GB_SIMD_WIDTHS(kick_all,
+               (double *v, const double *force, int64_t count, double keep, double kick),
+               (v, force, count, keep, kick))
+
 static void kick_span(struct pass *pass, int span)
 {
     const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
-    const double keep = pass->keep, kick = pass->kick, turn = pass->kick / inertia;
-    for (int64_t i = begin; i < end; i++) {
-        pass->v[i] = keep * pass->v[i] + kick * pass->b.force[i];
-        pass->w[i] = keep * pass->w[i] + turn * pass->b.torque[i];
-    }
+    kick_all(pass->v + begin, pass->b.force + begin, end - begin, pass->keep, pass->kick);
+    kick_all(pass->w + begin, pass->b.torque + begin, end - begin, pass->keep,
+             pass->kick / inertia);
     double most = 0.0;
     for (int64_t i = begin; i < end; i += 3) {
         const double speed2 = gb_vec_dot(pass->v + i, pass->v + i);
@@ -168,16 +184,27 @@ static void kick_span(struct pass *pass, int span)
     pass->speed2_most[span] = most;
 }
 
+/* x += step v. */
+GB_SIMD_LOOP void move_all_loop(double *restrict x, const double *restrict v, int64_t count,
+                            double step)
+{
+#pragma omp simd
+    for (int64_t i = 0; i < count; i++) {
+        x[i] += step * v[i];
+    }
+}
+GB_SIMD_WIDTHS(move_all, (double *x, const double *v, int64_t count, double step),
+               (x, v, count, step))
+
 static void move_span(struct pass *pass, int span)
 {
     const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
-    const double step = pass->step, scale = pass->scale;
-    for (int64_t i = begin; i < end; i++) {
-        pass->v[i] *= scale;
-        pass->w[i] *= scale;
-        pass->b.position[i] += step * pass->v[i];
-        pass->b.turn[i] += step * pass->w[i];
+    for (int64_t i = begin; pass->scale < 1.0 && i < end; i++) { /* seldom */
+        pass->v[i] *= pass->scale;
+        pass->w[i] *= pass->scale;
     }
+    move_all(pass->b.position + begin, pass->v + begin, end - begin, pass->step);
+    move_all(pass->b.turn + begin, pass->w + begin, end - begin, pass->step);
 }
 
 static double speed_most(const struct pass *pass)
