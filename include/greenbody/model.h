@@ -26,6 +26,7 @@ struct gb_numerics {
     double cutoff;    /* d; attraction is dropped beyond */
     double skin;      /* d; margin of the neighbour list */
     int threads;
+    bool single;             /* single precision in the sweep */
     int64_t max_evaluations; /* per strain step */
 };
 

@@ -29,6 +29,7 @@ enum gb_geometry {
     GB_GEOMETRY_DIE
 };
 enum gb_ramp { GB_RAMP_AUTO, GB_RAMP_LINEAR, GB_RAMP_QUADRATIC };
+enum gb_precision { GB_PRECISION_AUTO, GB_PRECISION_DOUBLE, GB_PRECISION_SINGLE };
 enum gb_fidelity { GB_FIDELITY_FAST, GB_FIDELITY_BALANCED, GB_FIDELITY_REFERENCE };
 enum gb_on_hangup { GB_ON_HANGUP_DETACH, GB_ON_HANGUP_STOP };
 
@@ -137,6 +138,7 @@ struct gb_params {
     double tolerance;
     double strain_part; /* largest strain relaxed at once */
     struct gb_relative cutoff;
+    int precision; /* enum gb_precision */
     int64_t threads;
     int64_t max_evaluations;      /* per strain step */
     struct gb_relative time_step; /* dynamic scenes; NaN: auto */

@@ -35,7 +35,9 @@ void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
             add_pair(world, near, i, k, force, pressure);
         }
         for (int64_t k = far->start[i]; k < far->start[i + 1]; k++) {
-            add_pair(world, far, i, k, gb_world_pulls(world) + 3 * k, pressure);
+            double force[3];
+            gb_world_pull(world, k, force);
+            add_pair(world, far, i, k, force, pressure);
         }
     }
     const double volume = gb_cell_volume(gb_world_cell(world));
@@ -59,15 +61,18 @@ static double spring_energy(const struct gb_model *model,
                             const struct gb_contacts *contacts, int64_t k, double h)
 {
     const struct gb_law_slip *slip = &model->slip;
-    const double deepest = contacts->deepest[k];
+    const double deepest = gb_contacts_deepest(contacts, k);
     const double a = deepest > 0.0 ? gb_law_bridge_radius(&model->bridge, deepest, h)
                                    : 0.5 * sqrt(h > 0.0 ? h : 0.0);
     double shear2 = 0.0, roll2 = 0.0;
-    for (int c = 0; c < 3 && contacts->shear[c]; c++) {
-        shear2 += contacts->shear[c][k] * contacts->shear[c][k];
-        roll2 += contacts->roll[c][k] * contacts->roll[c][k];
+    for (int c = 0; c < (model->dimension == 3 ? 3 : 1); c++) {
+        const double shear = gb_contacts_value(contacts, contacts->shear[c], k);
+        const double roll = gb_contacts_value(contacts, contacts->roll[c], k);
+        shear2 += shear * shear;
+        roll2 += roll * roll;
     }
-    const double pivot = contacts->pivot ? contacts->pivot[k] : 0.0;
+    const double pivot =
+        model->dimension == 3 ? gb_contacts_value(contacts, contacts->pivot, k) : 0.0;
     return 0.5 / slip->motion *
            (gb_law_slip_shear_stiffness(slip, a) * shear2 +
             gb_law_slip_roll_stiffness(slip, a) * roll2 +
@@ -88,8 +93,9 @@ double gb_observe_elastic(const struct gb_world *world)
             double r[3];
             gb_world_arm(world, &pairs->near, i, k, r);
             const double length = gb_vec_length(r);
-            if (contacts->deepest[k] >= 0.0) {
-                sum += normal_energy(model, contacts->deepest[k], 1.0 - length) +
+            if (gb_contacts_touch(contacts, k)) {
+                const double deepest = gb_contacts_deepest(contacts, k);
+                sum += normal_energy(model, deepest, 1.0 - length) +
                        spring_energy(model, contacts, k, 1.0 - length);
             }
             if (length < cutoff) {
@@ -112,13 +118,13 @@ double gb_observe_elastic(const struct gb_world *world)
 static int contacts_of(const struct gb_world *world, int64_t i)
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
-    const double *deepest = gb_world_contacts(world)->deepest;
+    const struct gb_contacts *contacts = gb_world_contacts(world);
     int n = 0;
     for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-        n += deepest[k] >= 0.0;
+        n += gb_contacts_touch(contacts, k);
     }
     for (int64_t in = pairs->in_start[i]; in < pairs->in_start[i + 1]; in++) {
-        n += deepest[pairs->in_slot[in]] >= 0.0;
+        n += gb_contacts_touch(contacts, pairs->in_slot[in]);
     }
     return n;
 }
@@ -128,7 +134,7 @@ void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts 
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
-    const double *deepest = gb_world_contacts(world)->deepest;
+    const struct gb_contacts *contacts = gb_world_contacts(world);
     *counts = (struct gb_contact_counts){0};
     for (int b = 0; share && b < bins; b++) {
         share[b] = 0.0;
@@ -144,8 +150,9 @@ void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts 
         }
     }
     for (int64_t k = 0; k < pairs->pair_count; k++) {
-        counts->contacts += deepest[k] >= 0.0;
-        counts->bridged += deepest[k] > 0.0;
+        const double deepest = gb_contacts_deepest(contacts, k);
+        counts->contacts += deepest >= 0.0;
+        counts->bridged += deepest > 0.0;
     }
     counts->coordination = 2.0 * (double)counts->contacts / (double)count;
 }
@@ -154,14 +161,14 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
-    const double *deepest = gb_world_contacts(world)->deepest;
+    const struct gb_contacts *contacts = gb_world_contacts(world);
     enum { BINS_MOST = 360 };
     double sum[BINS_MOST] = {0};
     int64_t hits[BINS_MOST] = {0};
     bins = bins < BINS_MOST ? bins : BINS_MOST;
     for (int64_t i = 0; i < count; i++) {
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-            if (deepest[k] >= 0.0) {
+            if (gb_contacts_touch(contacts, k)) {
                 double r[3];
                 gb_world_arm(world, pairs, i, k, r);
                 const double length = gb_vec_length(r);

@@ -1,202 +1,43 @@
-#include "pack/batch.h"
+#include "pack/batch_double.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/alloc.h"
 #include "pack/batch_2d.h"
 #include "pack/batch_3d.h"
 #include "pack/batch_far.h"
+#include "pack/batch_tally.h"
 #include "pack/simd.h"
 
-enum { PLANES_3D = 11, PLANES_2D = 5 };
-
-static void name_planes(struct gb_contacts *contacts, int vector, int spring,
-                        bool viscous)
-{
-    double **plane = contacts->plane;
-    contacts->deepest = *plane++;
-    for (int k = 0; k < spring; k++) {
-        contacts->shear[k] = *plane++;
-        contacts->roll[k] = *plane++;
-    }
-    contacts->pivot = vector == 3 ? *plane++ : NULL;
-    for (int k = 0; k < vector; k++) {
-        contacts->arm[k] = *plane++;
-    }
-    if (viscous) {
-        contacts->last_normal = *plane++;
-        contacts->last_shear = *plane++;
-        contacts->last_roll = *plane++;
-        contacts->last_pivot = vector == 3 ? *plane++ : NULL;
-    }
-}
-
-bool gb_contacts_init(struct gb_contacts *contacts, int dimension, bool viscous,
-                      int64_t room, struct gb_error *err)
-{
-    const bool solid = dimension == 3;
-    const int kept = solid ? PLANES_3D : PLANES_2D, last = viscous ? (solid ? 4 : 3) : 0;
-    const int64_t stride = (room + 7) / 8 * 8;
-    /* what is kept of a viscous scene is all: its copies go back into the middle of a
-     * motion */
-    *contacts =
-        (struct gb_contacts){.room = room,
-                             .planes = kept + last,
-                             .kept = viscous ? kept + last : kept - (solid ? 3 : 2)};
-    double *slab =
-        gb_alloc_array((size_t)contacts->planes * (size_t)stride, sizeof *slab, err);
-    if (!slab) {
-        *contacts = (struct gb_contacts){0};
-        return false;
-    }
-    for (int p = 0; p < contacts->planes; p++) {
-        contacts->plane[p] = slab + p * stride;
-    }
-    name_planes(contacts, solid ? 3 : 2, solid ? 3 : 1, viscous);
-    return true;
-}
-
-void gb_contacts_finish(struct gb_contacts *contacts)
-{
-    gb_alloc_free(contacts->plane[0]);
-    *contacts = (struct gb_contacts){0};
-}
-
-void gb_contacts_clear(struct gb_contacts *contacts, int64_t slot)
-{
-    for (int p = 0; p < contacts->planes; p++) {
-        contacts->plane[p][slot] = 0.0;
-    }
-    contacts->deepest[slot] = -1.0;
-}
-
-INLINE double lane_sum(const double *lane)
-{
-    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
-           ((lane[4] + lane[5]) + (lane[6] + lane[7]));
-}
-
-/* Lanes that a batch is filled up to: two groups, so that no sum waits for the last one.
- */
-INLINE int whole_lanes(int n)
-{
-    return (n + 2 * GB_LANES - 1) / (2 * GB_LANES) * (2 * GB_LANES);
-}
-
-/* Adds the products of two arrays (times 1 where b is NULL) over whole lanes. */
-INLINE double lane_total(const double *a, const double *b, int n)
-{
-    double even[GB_LANES] = {0}, odd[GB_LANES] = {0};
-    for (int k = 0; k < n; k += 2 * GB_LANES) {
-        for (int l = 0; l < GB_LANES; l++) {
-            even[l] += b ? a[k + l] * b[k + l] : a[k + l];
-        }
-        for (int l = 0; l < GB_LANES; l++) {
-            const int m = k + GB_LANES + l;
-            odd[l] += b ? a[m] * b[m] : a[m];
-        }
-    }
-    return lane_sum(even) + lane_sum(odd);
-}
-
-/* Lanes behind the last pair count nothing; returns the number with them. */
-INLINE int pad_work(struct terms t, struct gb_batch *b)
-{
-    const int whole = whole_lanes(b->n);
-    for (int k = b->n; k < whole; k++) {
-        b->absorbed[k] = 0.0;
-        for (int c = 0; c < (t.planar ? 2 : 3); c++) {
-            b->force[c][k] = b->r[c][k] = 0.0;
-        }
-    }
-    return whole;
-}
-
-/* Work taken up and virial of a batch; viscous scenes. */
-INLINE void tally_work(struct terms t, struct gb_batch *b, struct gb_tally *tally)
-{
-    const int whole = pad_work(t, b);
-    tally->absorbed += lane_total(b->absorbed, NULL, whole);
-    for (int c = 0; c < (t.planar ? 2 : 3); c++) {
-        tally->virial[t.planar ? 2 * c : c] += lane_total(b->force[c], b->r[c], whole);
-    }
-}
-
-INLINE void tally_batch(struct terms t, struct gb_batch *b, const double *deepest,
-                        struct gb_tally *tally)
-{
-    const int whole = whole_lanes(b->n);
-    for (int k = b->n; k < whole; k++) {
-        b->normal[k] = b->sliding[k] = 0.0;
-    }
-    double contacts = 0.0, most = tally->deepest;
-#pragma omp simd reduction(+ : contacts) reduction(max : most)
-    for (int k = 0; k < b->n; k++) {
-        contacts += mask(deepest[k] >= 0.0); /* whole numbers: the same in any order */
-        most = larger(b->overlap[k], most);
-    }
-    tally->contacts += (int64_t)contacts;
-    tally->deepest = most;
-    tally->normal_sum += lane_total(b->normal, NULL, whole);
-    if (t.friction) {
-        tally->sliding += (int64_t)lane_total(b->sliding, NULL, whole);
-    }
-    if (t.viscous) {
-        tally_work(t, b, tally);
-    }
-}
-
-INLINE void stretch(const struct gb_model *model, struct terms t, struct gb_batch *batch,
+INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batch *batch,
                     struct gb_contacts *contacts, int64_t slot)
 {
     if (t.planar) {
         advance_2d(model, t, batch, contacts, slot);
     } else {
-        stretch_3d(model, t, batch, contacts, slot);
-    }
-}
-
-INLINE void load(const struct gb_model *model, struct terms t, struct gb_batch *batch,
-                 struct gb_contacts *contacts, int64_t slot)
-{
-    if (!t.planar) {
-        load_3d(model, t, batch, contacts, slot);
+        advance_3d(model, t, batch, contacts, slot);
     }
 }
 
 /* Variants: planar or not, {normal only, friction, friction and bridges}, viscous or not.
  */
 #define VARIANT(name, attribute, planar_, friction_, bridges_, viscous_)                 \
-    attribute static void name##_stretch(const struct gb_model *model,                   \
+    attribute static void name##_advance(const struct gb_model *model,                   \
                                          struct gb_batch *batch,                         \
                                          struct gb_contacts *contacts, int64_t slot)     \
     {                                                                                    \
         const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
         const struct terms printed = {planar_, friction_, bridges_, viscous_, true};     \
         if (bridges_ && model->bridge.radius_current) {                                  \
-            stretch(model, printed, batch, contacts, slot);                              \
+            advance(model, printed, batch, contacts, slot);                              \
         } else {                                                                         \
-            stretch(model, t, batch, contacts, slot);                                    \
+            advance(model, t, batch, contacts, slot);                                    \
         }                                                                                \
     }                                                                                    \
-    attribute static void name##_load(const struct gb_model *model,                      \
-                                      struct gb_batch *batch,                            \
-                                      struct gb_contacts *contacts, int64_t slot)        \
-    {                                                                                    \
-        const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
-        const struct terms printed = {planar_, friction_, bridges_, viscous_, true};     \
-        if (bridges_ && model->bridge.radius_current) {                                  \
-            load(model, printed, batch, contacts, slot);                                 \
-        } else {                                                                         \
-            load(model, t, batch, contacts, slot);                                       \
-        }                                                                                \
-    }                                                                                    \
-    attribute static void name##_tally(struct gb_batch *batch, const double *deepest,    \
+    attribute static void name##_tally(struct gb_batch *batch,                           \
+                                       const struct gb_contacts *contacts, int64_t slot, \
                                        struct gb_tally *tally)                           \
     {                                                                                    \
         const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
-        tally_batch(t, batch, deepest, tally);                                           \
+        const double *deepest = (const double *)contacts->plane[contacts->deepest];      \
+        tally_batch(t, batch, deepest + slot, tally);                                    \
     }                                                                                    \
     attribute static void name##_attract(const struct gb_model *model,                   \
                                          struct gb_batch *batch, double *last_distance,  \
@@ -225,7 +66,7 @@ INLINE void load(const struct gb_model *model, struct terms t, struct gb_batch *
 
 #define ROW(name)                                                                        \
     {                                                                                    \
-        name##_stretch, name##_load, name##_tally, name##_attract                        \
+        name##_advance, name##_tally, name##_attract                                     \
     }
 #define TABLE(width)                                                                     \
     {                                                                                    \
@@ -263,46 +104,4 @@ struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest)
     const int viscous = model->kind == GB_KIND_DYNAMIC;
     const int planar = model->dimension == 2;
     return table_for(widest)[6 * planar + 3 * viscous + terms];
-}
-
-/* First moment of the contact pressure, M(a) of (9), for the pivoting cap of contacts
- * without a bridge.  Few contacts need it in scenes with bridges. */
-static void fill_moments(const struct gb_model *model, struct gb_batch *batch,
-                         const double *deepest)
-{
-    for (int k = 0; k < batch->n; k++) {
-        if (deepest[k] == 0.0) {
-            batch->moment[k] = gb_law_rod_moment(&model->rod, batch->overlap[k]);
-        }
-    }
-}
-
-/* A bridge whose shear or pivoting cap is reached shrinks to the present overlap, or is
- * gone; P1 below (5) and (11). */
-static void fail_bridges(const struct gb_model *model, struct gb_batch *batch,
-                         double *deepest)
-{
-    for (int k = 0; k < batch->n; k++) {
-        if (batch->fails[k] != 0.0) {
-            const bool stays = batch->overlap[k] > model->bridge.length;
-            deepest[k] = stays ? batch->overlap[k] : 0.0;
-            batch->loose += !stays;
-        }
-    }
-}
-
-void gb_batch_advance(const struct gb_batch_kernel *kernel, const struct gb_model *model,
-                      struct gb_batch *batch, struct gb_contacts *contacts, int64_t slot)
-{
-    kernel->stretch(model, batch, contacts, slot);
-    if (model->dimension == 2) {
-        return; /* all in one pass */
-    }
-    if (batch->failed > 0.0) {
-        fail_bridges(model, batch, contacts->deepest + slot);
-    }
-    if (batch->loose > 0.0 && model->slip.mu_pivot > 0.0) {
-        fill_moments(model, batch, contacts->deepest + slot);
-    }
-    kernel->load(model, batch, contacts, slot);
 }

@@ -1,6 +1,7 @@
 #ifndef GB_PACK_BATCH_2D_H
 #define GB_PACK_BATCH_2D_H
 
+#include "pack/batch_double.h"
 #include "pack/batch_laws.h"
 
 /* In the plane a spring is one number: the shear spring along (n_z, -n_x), which turns
@@ -46,16 +47,17 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
                        struct gb_batch *restrict b, struct gb_contacts *restrict c,
                        int64_t slot)
 {
-    double *restrict deepest = c->deepest + slot;
-    double *restrict ax = c->arm[0] + slot, *restrict az = c->arm[1] + slot;
-    double *restrict shear = c->shear[0] + slot, *restrict roll = c->roll[0] + slot;
-    double *restrict last_normal = t.viscous ? c->last_normal + slot : NULL;
-    double *restrict last_shear = t.viscous ? c->last_shear + slot : NULL;
-    double *restrict last_roll = t.viscous ? c->last_roll + slot : NULL;
+    double *restrict deepest = PLANE(c->deepest);
+    double *restrict ax = PLANE(c->arm[0]), *restrict az = PLANE(c->arm[1]);
+    double *restrict shear = PLANE(c->shear[0]), *restrict roll = PLANE(c->roll[0]);
+    double *restrict last_normal = t.viscous ? PLANE(c->last_normal) : NULL;
+    double *restrict last_shear = t.viscous ? PLANE(c->last_shear) : NULL;
+    double *restrict last_roll = t.viscous ? PLANE(c->last_roll) : NULL;
     const struct gb_law_slip slip = model->slip;
     const struct caps_2d caps = caps_2d(&slip, t);
     const double m = slip.motion, inverse_motion = 1.0 / m, length = model->bridge.length;
-    const double damp = b->damp, cutoff2 = b->cutoff2, adhesion = model->adhesion;
+    const struct normal_law law = normal_law(model, b->cutoff2);
+    const double damp = b->damp, adhesion = model->adhesion;
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
         const double rx = b->r[0][k], rz = b->r[1][k], before = deepest[k];
@@ -91,7 +93,7 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
         }
         deepest[k] = state;
         const bool held = t.bridges & (state > 0.0);
-        const struct normal f = normal_force(model, cutoff2, state, h, r);
+        const struct normal f = normal_force(&law, state, h, r);
         double fn = f.total, tangent = 0.0, opposed = 0.0, slides = 0.0, twice = 0.0;
         if (t.viscous) {
             const double arm2 = bx * bx + bz * bz;

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "pack/batch_double.h"
 #include "pack/batch_laws.h"
 #include "pack/bed_batch.h"
 

@@ -276,7 +276,7 @@ static bool reserve(struct gb_pair_list *list, int64_t need, struct gb_error *er
     int32_t *first = gb_alloc_array(room, sizeof *first, err);
     int32_t *other = gb_alloc_array(room, sizeof *other, err);
     uint8_t *image = gb_alloc_array(room, sizeof *image, err);
-    int32_t *in_slot = gb_alloc_array(room, sizeof *in_slot, err);
+    int32_t *in_slot = gb_alloc_array(room + GB_PAIR_LIST_SLACK, sizeof *in_slot, err);
     if (!first || !other || !image || !in_slot) {
         gb_alloc_free(first);
         gb_alloc_free(other);

@@ -7,6 +7,9 @@
 #include "greenbody/status.h"
 #include "pack/cell.h"
 
+/* Numbers behind the last one of in_slot that may be read: slots there are. */
+enum { GB_PAIR_LIST_SLACK = 8 };
+
 /* One half of the neighbour list: pairs (i, other[k]) with i < other[k] for k in
  * [start[i], start[i+1]), sorted by other within i; and its transpose. */
 struct gb_pair_list {

@@ -4,19 +4,12 @@
 #include <string.h>
 
 #include "pack/simd.h"
+#include "pack/sweep_single.h"
 #include "pack/world_private.h"
 
 int64_t gb_sweep_blocks(int64_t count)
 {
     return (count + GB_SWEEP_BLOCK - 1) / GB_SWEEP_BLOCK;
-}
-
-/* Pairs of particle i within a batch that begins at slot: index behind the last one. */
-static int stop_of(const struct gb_pair_list *list, const struct gb_batch *batch,
-                   int64_t slot, int64_t i)
-{
-    const int64_t stop = list->start[i + 1] - slot;
-    return stop < batch->n ? (int)stop : batch->n;
 }
 
 /* Loads a batch: arms and turns of pairs [slot, slot + n). */
@@ -65,7 +58,7 @@ static void spill_batch(struct gb_world *world, const struct gb_batch *restrict 
 {
     double *restrict row = world->wrench + 6 * slot;
     for (int k = 0; k < batch->n; i++) {
-        const int stop = stop_of(&world->pairs.near, batch, slot, i);
+        const int stop = gb_world_stop(&world->pairs.near, batch->n, slot, i);
         double *force = world->force + 3 * i, *torque = world->torque + 3 * i;
         double f[3] = {force[0], force[1], force[2]};
         double t[3] = {torque[0], torque[1], torque[2]};
@@ -88,7 +81,7 @@ static void spill_batch_2d(struct gb_world *world, const struct gb_batch *restri
 {
     double *restrict row = world->wrench + 3 * slot;
     for (int k = 0; k < batch->n; i++) {
-        const int stop = stop_of(&world->pairs.near, batch, slot, i);
+        const int stop = gb_world_stop(&world->pairs.near, batch->n, slot, i);
         double *force = world->force + 3 * i, *torque = world->torque + 3 * i;
         double fx = force[0], fz = force[2], t = torque[1];
         for (; k < stop; k++, row += 3) {
@@ -120,9 +113,9 @@ static void sweep_near(struct gb_world *world, int64_t begin, int64_t end, doubl
             i++;
         }
         (planar ? fill_batch_2d : fill_batch)(world, &batch, slot);
-        gb_batch_advance(&world->kernel, world->model, &batch, &world->contacts, slot);
+        world->kernel.advance(world->model, &batch, &world->contacts, slot);
         (planar ? spill_batch_2d : spill_batch)(world, &batch, slot, i);
-        world->kernel.tally(&batch, world->contacts.deepest + slot, tally);
+        world->kernel.tally(&batch, &world->contacts, slot, tally);
     }
 }
 
@@ -189,11 +182,15 @@ static void sweep_block(struct gb_world *world, int64_t b)
         world->model->terms.attraction ? world->model->numerics.cutoff : 0.0;
     const int64_t begin = b * GB_SWEEP_BLOCK, end = block_end(world, b);
     struct gb_tally tally = {0};
-    const size_t bytes = 3 * (size_t)(end - begin) * sizeof(double);
-    memset(world->force + 3 * begin, 0, bytes);
-    memset(world->torque + 3 * begin, 0, bytes);
-    sweep_near(world, begin, end, cutoff * cutoff, &tally);
-    sweep_far(world, begin, end, cutoff * cutoff, &tally);
+    if (world->in_single) {
+        gb_sweep_single_block(world, begin, end, cutoff * cutoff, &tally);
+    } else {
+        const size_t bytes = 3 * (size_t)(end - begin) * sizeof(double);
+        memset(world->force + 3 * begin, 0, bytes);
+        memset(world->torque + 3 * begin, 0, bytes);
+        sweep_near(world, begin, end, cutoff * cutoff, &tally);
+        sweep_far(world, begin, end, cutoff * cutoff, &tally);
+    }
     world->block[b].tally = tally;
 }
 
@@ -262,7 +259,11 @@ static void collect_block(struct gb_world *world, int64_t b)
 {
     const bool planar = world->model->dimension == 2;
     const int64_t begin = b * GB_SWEEP_BLOCK, end = block_end(world, b);
-    for (int64_t j = begin; j < end; j++) {
+    if (world->in_single) {
+        gb_sweep_single_collect(world, begin, end);
+    }
+    memset(world->turn + 3 * begin, 0, 3 * (size_t)(end - begin) * sizeof *world->turn);
+    for (int64_t j = begin; !world->in_single && j < end; j++) {
         (planar ? collect_near_2d : collect_near)(world, j);
         collect_far(world, j, world->force + 3 * j);
     }
@@ -287,8 +288,17 @@ void gb_sweep_run(struct gb_world *world)
 {
     gb_pairs_shifts(&world->cell, world->shift);
     const int64_t blocks = gb_sweep_blocks(world->count);
+    for (int c = 0; c < 3; c++) {
+        world->single.scale[c] = (float)(world->cell.edge[c] * 0x1p-32);
+    }
 #pragma omp parallel num_threads(world->threads) if (world->threads > 1)
     {
+#pragma omp for schedule(static)
+        for (int64_t b = 0; b < blocks; b++) {
+            if (world->in_single) {
+                gb_sweep_single_prepare(world, b * GB_SWEEP_BLOCK, block_end(world, b));
+            }
+        }
 #pragma omp for schedule(static)
         for (int64_t b = 0; b < blocks; b++) {
             sweep_block(world, b);

@@ -5,9 +5,9 @@
 
 struct gb_world;
 
-/* Forces and torques of a world whose list is fresh; histories advance.  Pairs are
- * computed in blocks of particles, then every particle collects its own in the order of
- * the list: the same bits for any number of threads. */
+/* Forces and torques of a world whose list is fresh; histories advance, turns are used
+ * up.  Pairs are computed in blocks of particles, then every particle collects its own in
+ * the order of the list: the same bits for any number of threads. */
 void gb_sweep_run(struct gb_world *world);
 
 /* Blocks that count particles make. */

@@ -41,6 +41,7 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
     world->threads = thread_count(model);
     world->kernel = gb_batch_pick(model, 0);
     world->row = model->dimension == 3 ? 6 : 3;
+    world->in_single = model->numerics.single;
     gb_cell_init(&world->cell, model->dimension, model->edges);
     world->position = gb_alloc_array(3 * n, sizeof(double), err);
     world->turn = gb_alloc_array(3 * n, sizeof(double), err);
@@ -49,7 +50,8 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
     world->block =
         gb_alloc_array((size_t)gb_sweep_blocks(world->count), sizeof *world->block, err);
     if (!world->position || !world->turn || !world->force || !world->torque ||
-        !world->block || !gb_pairs_init(&world->pairs, world->count, err)) {
+        !world->block || !gb_pairs_init(&world->pairs, world->count, err) ||
+        (world->in_single && !gb_single_init(&world->single, model, err))) {
         gb_world_destroy(world);
         return false;
     }
@@ -71,6 +73,7 @@ void gb_world_destroy(struct gb_world *world)
     gb_contacts_finish(&world->contacts);
     gb_alloc_free(world->wrench);
     gb_alloc_free(world->pull);
+    gb_single_finish(&world->single);
     gb_alloc_free(world->far_distance);
     gb_alloc_free(world->far_pull);
     gb_ledger_finish(&world->ledger);
@@ -79,33 +82,53 @@ void gb_world_destroy(struct gb_world *world)
     gb_alloc_free(world);
 }
 
+/* Where the forces of near and far pairs go. */
+static bool reserve_wrench(struct gb_world *world, int64_t room, struct gb_error *err)
+{
+    if (world->in_single) {
+        return gb_single_reserve_near(&world->single, room, err);
+    }
+    gb_alloc_free(world->wrench);
+    world->wrench =
+        gb_alloc_array((size_t)room * (size_t)world->row, sizeof *world->wrench, err);
+    return world->wrench != NULL;
+}
+
+static bool reserve_pull(struct gb_world *world, int64_t room, struct gb_error *err)
+{
+    if (world->in_single) {
+        return gb_single_reserve_far(&world->single, room, err);
+    }
+    gb_alloc_free(world->pull);
+    world->pull = gb_alloc_array(3 * (size_t)room, sizeof *world->pull, err);
+    return world->pull != NULL;
+}
+
 bool gb_world_reserve(struct gb_world *world, struct gb_error *err)
 {
     const int64_t near = world->pairs.near.capacity, far = world->pairs.far.capacity;
+    const bool moving = world->model->kind == GB_KIND_DYNAMIC;
     if (near > world->contacts.room) {
         gb_contacts_finish(&world->contacts);
-        gb_alloc_free(world->wrench);
-        world->wrench =
-            gb_alloc_array((size_t)near * (size_t)world->row, sizeof *world->wrench, err);
-        if (!world->wrench ||
-            !gb_contacts_init(&world->contacts, world->model->dimension,
-                              world->model->kind == GB_KIND_DYNAMIC, near, err)) {
+        if (!reserve_wrench(world, near, err) ||
+            !gb_contacts_init(&world->contacts, world->model->dimension, moving,
+                              world->in_single, near, err)) {
             return false;
         }
     }
     if (far > world->far_room) {
-        const bool moving = world->model->kind == GB_KIND_DYNAMIC;
-        gb_alloc_free(world->pull);
         gb_alloc_free(world->far_distance);
         gb_alloc_free(world->far_pull);
         world->far_room = 0;
         world->far_distance = world->far_pull = NULL;
-        world->pull = gb_alloc_array(3 * (size_t)far, sizeof *world->pull, err);
+        if (!reserve_pull(world, far, err)) {
+            return false;
+        }
         if (moving) {
             world->far_distance = gb_alloc_array((size_t)far, sizeof(double), err);
             world->far_pull = gb_alloc_array((size_t)far, sizeof(double), err);
         }
-        if (!world->pull || (moving && (!world->far_distance || !world->far_pull))) {
+        if (moving && (!world->far_distance || !world->far_pull)) {
             return false;
         }
         world->far_room = far;
@@ -189,7 +212,6 @@ bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
         return false;
     }
     gb_sweep_run(world);
-    memset(world->turn, 0, 3 * (size_t)world->count * sizeof *world->turn);
     world->evaluations++;
     return check_sweep(world, err);
 }
@@ -273,17 +295,35 @@ const struct gb_contacts *gb_world_contacts(const struct gb_world *world)
     return &world->contacts;
 }
 
+static void take_row(double to[3], const float *row)
+{
+    for (int c = 0; c < 3; c++) {
+        to[c] = (double)row[c];
+    }
+}
+
 void gb_world_force(const struct gb_world *world, int64_t k, double force[3])
 {
+    if (world->in_single) {
+        take_row(force, world->single.row[k]);
+        for (int c = 0; c < 3; c++) {
+            force[c] = -force[c];
+        }
+        return;
+    }
     const double *row = world->wrench + (int64_t)world->row * k;
     force[0] = row[0];
     force[1] = world->row == 6 ? row[1] : 0.0;
     force[2] = world->row == 6 ? row[2] : row[1];
 }
 
-const double *gb_world_pulls(const struct gb_world *world)
+void gb_world_pull(const struct gb_world *world, int64_t k, double force[3])
 {
-    return world->pull;
+    if (world->in_single) {
+        take_row(force, world->single.pull[k]);
+    } else {
+        memcpy(force, world->pull + 3 * k, 3 * sizeof *force);
+    }
 }
 
 void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list,
@@ -365,14 +405,15 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
 
 uint64_t gb_world_hash(const struct gb_world *world)
 {
+    const struct gb_contacts *contacts = &world->contacts;
     uint64_t hash = 14695981039346656037u;
     hash = hash_bytes(hash, world->cell.edge, sizeof world->cell.edge);
     hash = hash_bytes(hash, world->position,
                       3 * (size_t)world->count * sizeof *world->position);
     for (int64_t k = 0; world->listed && k < world->pairs.near.pair_count; k++) {
-        for (int p = 0; p < world->contacts.planes && world->contacts.deepest[k] >= 0.0;
-             p++) {
-            hash = hash_bytes(hash, &world->contacts.plane[p][k], sizeof(double));
+        for (int p = 0; p < contacts->planes && gb_contacts_touch(contacts, k); p++) {
+            const double value = gb_contacts_value(contacts, p, k);
+            hash = hash_bytes(hash, &value, sizeof value);
         }
     }
     return hash;

@@ -56,12 +56,11 @@ const double *gb_world_position(const struct gb_world *world);
 double gb_world_residual(const struct gb_world *world);
 
 /* The neighbour list and what belongs to its pairs, for measures: histories and forces of
- * the `near` ones, pulls (three doubles, force on the first particle) of the `far` ones.
- */
+ * the `near` ones, pulls of the `far` ones, both on the first particle. */
 const struct gb_pairs *gb_world_pairs(const struct gb_world *world);
 const struct gb_contacts *gb_world_contacts(const struct gb_world *world);
 void gb_world_force(const struct gb_world *world, int64_t k, double force[3]);
-const double *gb_world_pulls(const struct gb_world *world);
+void gb_world_pull(const struct gb_world *world, int64_t k, double force[3]);
 /* x_i - x_other of pair k of a list, as of the last evaluation. */
 void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list,
                   int64_t i, int64_t k, double r[3]);

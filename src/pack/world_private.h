@@ -3,6 +3,7 @@
 
 #include "base/vec.h"
 #include "pack/ledger.h"
+#include "pack/single.h"
 #include "pack/world.h"
 
 /* The inside of gb_world, for the files that work on it: world.c (owner), ledger.c
@@ -29,6 +30,8 @@ struct gb_world {
     struct gb_contacts contacts; /* one per near pair */
     double *wrench;              /* rows per near pair: force on i, torque on j */
     double damp;                 /* viscous time over time step */
+    bool in_single;              /* histories and forces of pairs are of float ... */
+    struct gb_single single;     /* ... and in these instead of wrench and pull */
     int row;                     /* doubles in a row: 6, in 2D 3 (x, z, about y) */
     int64_t far_room;
     double *pull; /* three per far pair: force on the first particle */
@@ -58,6 +61,14 @@ bool gb_world_copy_ensure(const struct gb_world *world, struct gb_world_copy **c
 /* Room for the contacts and pulls of the lists as they are; what was there is lost when
  * it grows. */
 bool gb_world_reserve(struct gb_world *world, struct gb_error *err);
+
+/* Pairs of particle i within n that begin at slot: index behind the last one. */
+static inline int gb_world_stop(const struct gb_pair_list *list, int n, int64_t slot,
+                                int64_t i)
+{
+    const int64_t stop = list->start[i + 1] - slot;
+    return stop < n ? (int)stop : n;
+}
 
 /* x_i - x_j of pair k of a list, nearest image; returns its square. */
 static inline double gb_world_arm_of(const struct gb_world *world,

@@ -50,22 +50,49 @@ static bool vectors(struct gb_world *world, struct gb_record *record, const char
                            err);
 }
 
+/* Histories are doubles in a record, whatever they are in memory. */
+static bool exchange_singles(struct gb_ledger *ledger, struct gb_record *record,
+                             const char *name, struct gb_error *err)
+{
+    const int64_t rows = ledger->count, count = rows * ledger->planes;
+    float *single = ledger->value;
+    if (!record->loading) {
+        struct gb_record_item *item =
+            gb_record_add(record, name, GB_RECORD_DOUBLE, rows, ledger->planes, "d", err);
+        double *to = item ? item->data : NULL;
+        for (int64_t k = 0; item && k < count; k++) {
+            to[k] = (double)single[k];
+        }
+        return item != NULL;
+    }
+    int64_t there = 0;
+    if (!gb_record_rows(record, name, GB_RECORD_DOUBLE, ledger->planes, &there, err)) {
+        return false;
+    }
+    const double *from = gb_record_find(record, name)->data;
+    for (int64_t k = 0; there == rows && k < count; k++) {
+        single[k] = (float)from[k];
+    }
+    return there == rows || wrong(name, err);
+}
+
 /* Touching pairs and their histories under two names. */
-static bool exchange_ledger(struct gb_ledger *ledger, int planes,
+static bool exchange_ledger(struct gb_ledger *ledger, int planes, bool single,
                             struct gb_record *record, const char *pairs,
                             const char *values, struct gb_error *err)
 {
     int64_t rows = ledger->count;
     if (record->loading &&
         (!gb_record_rows(record, pairs, GB_RECORD_INT32, 2, &rows, err) ||
-         !gb_ledger_reserve(ledger, rows, planes, err))) {
+         !gb_ledger_reserve(ledger, rows, planes, single, err))) {
         return false;
     }
     ledger->count = rows;
     return gb_record_array(record, pairs, GB_RECORD_INT32, rows, 2, "1", ledger->pair,
                            err) &&
-           gb_record_array(record, values, GB_RECORD_DOUBLE, rows, planes, "d",
-                           ledger->value, err);
+           (single ? exchange_singles(ledger, record, values, err)
+                   : gb_record_array(record, values, GB_RECORD_DOUBLE, rows, planes, "d",
+                                     ledger->value, err));
 }
 
 /* Sorted pairs of particles that there are. */
@@ -141,7 +168,7 @@ static bool fits(const struct gb_ledger *ledger, const struct gb_world *world)
     int64_t line = 0;
     for (int64_t i = 0; i < world->count; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            if (world->contacts.deepest[k] < 0.0) {
+            if (!gb_contacts_touch(&world->contacts, k)) {
                 continue;
             }
             if (line == ledger->count || ledger->pair[line][0] != i ||
@@ -159,13 +186,10 @@ static void put_history(const struct gb_ledger *ledger, struct gb_world *world)
 {
     int64_t line = 0;
     for (int64_t k = 0; k < world->pairs.near.pair_count; k++) {
-        if (world->contacts.deepest[k] < 0.0) {
+        if (!gb_contacts_touch(&world->contacts, k)) {
             continue;
         }
-        for (int p = 0; p < ledger->planes; p++) {
-            world->contacts.plane[p][k] = ledger->value[line * ledger->planes + p];
-        }
-        line++;
+        gb_ledger_give(ledger, line++, &world->contacts, k);
     }
 }
 
@@ -173,8 +197,8 @@ static bool load_contacts(struct gb_world *world, struct gb_record *record,
                           struct gb_error *err)
 {
     struct gb_ledger *ledger = &world->spare;
-    if (!exchange_ledger(ledger, world->contacts.kept, record, "world/pair",
-                         "world/history", err) ||
+    if (!exchange_ledger(ledger, world->contacts.kept, world->in_single, record,
+                         "world/pair", "world/history", err) ||
         !check_ledger(ledger, world->count, "world/pair", err)) {
         return false;
     }
@@ -220,7 +244,7 @@ static bool save_forces(const struct gb_world *world, struct gb_record *record,
                       "E d^2", err);
     double *force = item ? item->data : NULL;
     for (int64_t k = 0; item && k < world->pairs.near.pair_count; k++) {
-        if (world->contacts.deepest[k] >= 0.0) {
+        if (gb_contacts_touch(&world->contacts, k)) {
             gb_world_force(world, k, force);
             force += 3;
         }
@@ -236,8 +260,8 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
            vectors(world, record, "world/built_at", "d", world->pairs.built_at, err) &&
            gb_record_members(record, members, LENGTH(members), world, err) &&
            vectors(world, record, "world/position", "d", world->position, err) &&
-           exchange_ledger(ledger, world->contacts.kept, record, "world/pair",
-                           "world/history", err) &&
+           exchange_ledger(ledger, world->contacts.kept, world->in_single, record,
+                           "world/pair", "world/history", err) &&
            save_forces(world, record, err) &&
            vectors(world, record, "world/force", "E d^2", world->force, err) &&
            vectors(world, record, "world/torque", "E d^3", world->torque, err) &&
@@ -268,8 +292,8 @@ bool gb_world_record_copy(const struct gb_world *world, struct gb_world_copy **c
                            at->position, err) &&
            check_inside(&at->cell, at->position, at->count, 1.0, "branch/position",
                         err) &&
-           exchange_ledger(&at->ledger, world->contacts.kept, record, "branch/pair",
-                           "branch/history", err) &&
+           exchange_ledger(&at->ledger, world->contacts.kept, world->in_single, record,
+                           "branch/pair", "branch/history", err) &&
            check_ledger(&at->ledger, at->count, "branch/pair", err);
 }
 

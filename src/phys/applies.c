@@ -120,6 +120,7 @@ static const struct {
     {"numerics", "tolerance", quasistatic},
     {"numerics", "max_evaluations", quasistatic},
     {"numerics", "cutoff", rod},
+    {"numerics", "precision", quasistatic},
     {"numerics", "time_step", dynamic},
     {"numerics", "step_error", dynamic},
     {"numerics", "safety", die},

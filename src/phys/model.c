@@ -104,6 +104,16 @@ static const char *automatic_relaxer(const struct gb_params *params)
     return params->fidelity == GB_FIDELITY_REFERENCE ? "fire" : "predict";
 }
 
+/* Single precision halves memory and time; P1's own relaxer is kept as printed. */
+static bool pick_precision(const struct gb_model *model, const struct gb_params *params)
+{
+    return params->precision == GB_PRECISION_SINGLE ||
+           (params->precision == GB_PRECISION_AUTO && model->dimension == 3 &&
+            model->kind == GB_KIND_QUASISTATIC &&
+            strcmp(model->numerics.relaxer, "steepest") != 0 &&
+            model->numerics.tolerance >= GB_SINGLE_TOLERANCE_LEAST);
+}
+
 static void pick_numerics(struct gb_model *model, const struct gb_params *params)
 {
     struct gb_numerics *numerics = &model->numerics;
@@ -111,6 +121,7 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
     snprintf(numerics->relaxer, sizeof numerics->relaxer, "%s",
              named ? params->relaxer : automatic_relaxer(params));
     pick_relaxation(model, params);
+    numerics->single = pick_precision(model, params);
     const double share = by_fidelity(params->fidelity, GB_CUTOFF_SHARE_FAST,
                                      GB_CUTOFF_SHARE_BALANCED, GB_CUTOFF_SHARE_REFERENCE);
     const double given = params->cutoff.relative
@@ -203,6 +214,10 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
             "alpha or diameter, or a smaller material.epsilon",
             params->alpha, 1e9 * d, model->adhesion, GB_OVERLAP_MOST);
     }
+    if (params->precision == GB_PRECISION_SINGLE && params->dimension == 2) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "numerics.precision = single: accepted in 3D only");
+    }
     pick_numerics(model, params);
     const double reach = model->numerics.cutoff + model->numerics.skin;
     for (int k = 0; k < 3; k++) {
@@ -255,11 +270,11 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
         snprintf(
             buffer, size,
             "relaxer %s, strain steps in %d part%s, tolerance %g of the mean contact "
-            "force%s, at most %lld evaluations per part",
+            "force%s, at most %lld evaluations per part, %s precision",
             numerics->relaxer, numerics->parts, numerics->parts == 1 ? "" : "s",
             numerics->tolerance,
             strcmp(numerics->relaxer, "predict") == 0 ? " (less under light loads)" : "",
-            (long long)numerics->max_evaluations);
+            (long long)numerics->max_evaluations, numerics->single ? "single" : "double");
         return buffer;
     case 4:
         if (model->dimension == 2) {

@@ -26,6 +26,7 @@ static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", "di
 static const char *const ramps[] = {"auto", "linear", "quadratic", NULL};
 static const char *const hangups[] = {"detach", "stop", NULL};
 static const char *const fidelities[] = {"fast", "balanced", "reference", NULL};
+static const char *const precisions[] = {"auto", "double", "single", NULL};
 static const char *const relaxers[] = {"auto", "predict", "fire", "steepest", NULL};
 
 /* Member of gb_params, as offset and size. */
@@ -305,6 +306,12 @@ static const struct gb_field fields[] = {
     {"numerics", "cutoff", GB_FIELD_RELATIVE, AT(cutoff), .dimension = GB_DIM_LENGTH,
      .relative = "d", RANGE(1.0, 3.0), AUTO(NAN), .fallback = "auto",
      .meaning = "distance beyond which attraction is left out", .source = "numerical"},
+    {"numerics", "precision", GB_FIELD_CHOICE, AT(precision), .choices = precisions,
+     .fallback = "auto",
+     .meaning =
+         "of forces and contact histories; auto is single where the tolerance allows "
+         "it, in quasi-static scenes in 3D",
+     .source = "numerical"},
     {"numerics", "threads", GB_FIELD_INTEGER, AT(threads), RANGE(1.0, 1024.0), AUTO(-1.0),
      .fallback = "auto",
      .meaning = "threads of the force sweep; results do not depend on it",

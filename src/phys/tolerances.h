@@ -53,6 +53,10 @@
 #define GB_PREDICT_LIGHT 0.2
 #define GB_LIGHT_RISE    3.0
 
+/* Tightest tolerance at which numerics.precision = auto is single.  Rounding leaves a
+ * residual of 1e-5; tighter relaxations of a share of it would go round. */
+#define GB_SINGLE_TOLERANCE_LEAST 5e-3
+
 /* Largest strain relaxed at once at fidelity = reference, by any relaxer.  The error in
  * density at 100 MPa grows by 0.0015 for each 1e-3. */
 #define GB_PART_REFERENCE 2e-4

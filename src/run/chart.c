@@ -28,6 +28,7 @@ bool gb_chart_choice_of(struct gb_chart_choice *choice, const struct gb_params *
         .strain_step = dynamic ? (double)NAN : model.strain_step / model.numerics.parts,
         .tolerance = dynamic ? (double)NAN : model.numerics.tolerance,
         .cutoff = model.numerics.cutoff,
+        .single = model.numerics.single,
         .time_step =
             model.dynamics.time_step > 0.0 ? model.dynamics.time_step : (double)NAN,
         .step_error = dynamic && !(model.dynamics.time_step > 0.0)
@@ -54,6 +55,7 @@ void gb_chart_choose(struct gb_params *params, const struct gb_chart_choice *cho
         return;
     }
     g_strlcpy(params->relaxer, choice->relaxer, sizeof params->relaxer);
+    params->precision = choice->single ? GB_PRECISION_SINGLE : GB_PRECISION_DOUBLE;
     /* recorded as often as before, where the choice allows it */
     params->strain_part = choice->strain_step;
     params->strain_step = fmax(params->strain_step, choice->strain_step);
@@ -69,7 +71,7 @@ static bool same_number(double a, double b)
 bool gb_chart_same(const struct gb_chart_choice *a, const struct gb_chart_choice *b)
 {
     return strcmp(a->relaxer, b->relaxer) == 0 && a->count == b->count &&
-           same_number(a->strain_step, b->strain_step) &&
+           a->single == b->single && same_number(a->strain_step, b->strain_step) &&
            same_number(a->tolerance, b->tolerance) && same_number(a->cutoff, b->cutoff) &&
            same_number(a->time_step, b->time_step) &&
            same_number(a->step_error, b->step_error);
@@ -87,8 +89,9 @@ char *gb_chart_describe(const struct gb_chart_choice *choice, char *buffer, size
         snprintf(numbers, sizeof numbers, "time step by an error of %.4g %%",
                  100.0 * choice->step_error);
     }
-    snprintf(buffer, size, "%s, %s, cutoff %.4g d, %lld particles", choice->relaxer,
-             numbers, choice->cutoff, (long long)choice->count);
+    snprintf(buffer, size, "%s, %s, cutoff %.4g d, %s precision, %lld particles",
+             choice->relaxer, numbers, choice->cutoff,
+             choice->single ? "single" : "double", (long long)choice->count);
     return buffer;
 }
 

@@ -19,6 +19,7 @@ struct gb_chart_choice {
     int64_t count;
     double strain_step, tolerance; /* quasi-static; strain_step: relaxed at once */
     double cutoff;                 /* d */
+    bool single;                   /* precision */
     double time_step;              /* T; NaN in dynamic scenes: by step_error */
     double step_error;
 };
@@ -29,8 +30,15 @@ bool gb_chart_choice_of(struct gb_chart_choice *choice, const struct gb_params *
 /* Params with these choices; another count takes the shape of the cell along. */
 void gb_chart_choose(struct gb_params *params, const struct gb_chart_choice *choice);
 bool gb_chart_same(const struct gb_chart_choice *a, const struct gb_chart_choice *b);
-/* "fire, step 0.1 %, tolerance 0.02, cutoff 1.37 d, 1000 particles".  Returns buffer. */
+/* "fire, step 0.1 %, tolerance 0.02, cutoff 1.37 d, single precision, 1000 particles".
+ * Returns buffer. */
 char *gb_chart_describe(const struct gb_chart_choice *choice, char *buffer, size_t size);
+
+/* 32 or 64: of a number in its precision, as tables have it. */
+static inline double gb_chart_bits(const struct gb_chart_choice *choice)
+{
+    return choice->single ? 32.0 : 64.0;
+}
 
 struct gb_chart_run {
     struct gb_chart_choice choice;

@@ -16,19 +16,13 @@ enum { TEXT_MAX = 1024 };
 
 /* Keys whose values are in the choices or do not matter for the results. */
 static const char *const free_keys[] = {
-    "scene.title",
-    "structure.seed",
-    "loading.step",
-    "loading.unload_from",
-    "numerics.fidelity",
-    "numerics.relaxer",
-    "numerics.tolerance",
-    "numerics.cutoff",
-    "numerics.threads",
-    "numerics.time_step",
-    "numerics.step_error",
-    "numerics.strain_part",
-    NULL,
+    "scene.title",          "structure.seed",
+    "loading.step",         "loading.unload_from",
+    "numerics.fidelity",    "numerics.relaxer",
+    "numerics.tolerance",   "numerics.cutoff",
+    "numerics.precision",   "numerics.threads",
+    "numerics.time_step",   "numerics.step_error",
+    "numerics.strain_part", NULL,
 };
 
 /* The first key in which two scenes differ, or NULL. */
@@ -125,8 +119,8 @@ static void column_name(const struct gb_chart_log *log, const char *what, int k,
 }
 
 struct columns {
-    const double *count, *step, *tolerance, *cutoff, *time_step, *step_error, *seed,
-        *failed, *evaluations, *cpu_s;
+    const double *count, *step, *tolerance, *cutoff, *bits, *time_step, *step_error,
+        *seed, *failed, *evaluations, *cpu_s;
     const double *density[GB_CHART_PRESSURES], *coordination[GB_CHART_PRESSURES];
 };
 
@@ -141,6 +135,7 @@ static bool find_columns(const struct gb_chart_log *log, const struct gb_table *
         {"step", &c->step},
         {"tolerance", &c->tolerance},
         {"cutoff_d", &c->cutoff},
+        {"bits", &c->bits},
         {"time_step_T", &c->time_step},
         {"step_error", &c->step_error},
         {"seed", &c->seed},
@@ -177,6 +172,7 @@ static bool read_runs(struct gb_chart_log *log, struct gb_error *err)
                        .strain_step = c.step[i],
                        .tolerance = c.tolerance[i],
                        .cutoff = c.cutoff[i],
+                       .single = c.bits[i] < 64.0,
                        .time_step = c.time_step[i],
                        .step_error = c.step_error[i]},
             .seed = (uint64_t)c.seed[i],
@@ -209,10 +205,10 @@ static void add_row(const struct gb_chart_log *log, GString *text,
 {
     const struct gb_chart_choice *c = &run->choice;
     g_string_append(text, c->relaxer);
-    const double number[] = {(double)c->count,  c->strain_step,      c->tolerance,
-                             c->cutoff,         c->time_step,        c->step_error,
-                             (double)run->seed, (double)run->failed, run->evaluations,
-                             run->cpu_s};
+    const double number[] = {(double)c->count, c->strain_step,    c->tolerance,
+                             c->cutoff,        gb_chart_bits(c),  c->time_step,
+                             c->step_error,    (double)run->seed, (double)run->failed,
+                             run->evaluations, run->cpu_s};
     for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
         add_number(text, number[i]);
     }
@@ -225,11 +221,11 @@ static void add_row(const struct gb_chart_log *log, GString *text,
 
 static bool write_runs(const struct gb_chart_log *log, struct gb_error *err)
 {
-    GString *text =
-        g_string_new("# greenbody " GB_VERSION "\n"
-                     "# cells pressed for chart.csv; cpu_s: of the pressing, one thread\n"
-                     "relaxer,particles,step,tolerance,cutoff_d,time_step_T,step_error,"
-                     "seed,failed,evaluations,cpu_s");
+    GString *text = g_string_new(
+        "# greenbody " GB_VERSION "\n"
+        "# cells pressed for chart.csv; cpu_s: of the pressing, one thread\n"
+        "relaxer,particles,step,tolerance,cutoff_d,bits,time_step_T,step_error,"
+        "seed,failed,evaluations,cpu_s");
     for (int k = 0; k < log->plan->pressures; k++) {
         char name[48];
         column_name(log, "density", k, name, sizeof name);

@@ -20,8 +20,9 @@ static const double reference_time_step = 0.04;
 enum { CHOICES_MOST = 2000 };
 
 static const char *const varied[] = {
-    "loading.step",       "numerics.relaxer",    "numerics.tolerance", "numerics.cutoff",
-    "numerics.time_step", "numerics.step_error", "particles.count",    NULL,
+    "loading.step",        "numerics.relaxer",   "numerics.tolerance",
+    "numerics.cutoff",     "numerics.precision", "numerics.time_step",
+    "numerics.step_error", "particles.count",    NULL,
 };
 
 /* Adds what params choose, unless it is there already. */
@@ -174,6 +175,20 @@ static bool add_cutoffs(GArray *choices, const struct gb_params *params,
     return true;
 }
 
+/* The preset's numbers in both precisions, where both are to be had. */
+static bool add_precisions(GArray *choices, const struct gb_params *params,
+                           struct gb_error *err)
+{
+    struct gb_params changed = *params;
+    for (int p = GB_PRECISION_DOUBLE; p <= GB_PRECISION_SINGLE; p++) {
+        changed.precision = p;
+        if (params->dimension == 3 && !add(choices, &changed, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* From a quarter to eight times the particles, where the cell is wide enough. */
 static bool add_sizes(GArray *choices, const struct gb_params *params,
                       struct gb_error *err)
@@ -309,7 +324,7 @@ bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *para
         good = add_dynamic(choices, params, err) && add_sizes(choices, params, err);
     } else if (good) {
         good = add_grid(choices, params, err) && add_cutoffs(choices, params, err) &&
-               add_sizes(choices, params, err);
+               add_precisions(choices, params, err) && add_sizes(choices, params, err);
     }
     plan->choices = choices->len;
     plan->choice = (struct gb_chart_choice *)(void *)g_array_free(choices, FALSE);

@@ -217,7 +217,7 @@ static void add_head(GString *text, const struct gb_chart_plan *plan)
                                        "scatter",
                                        "coordination_error",
                                        "coordination_error_se"};
-    g_string_append(text, "relaxer,particles,step,tolerance,cutoff_d,time_step_T,"
+    g_string_append(text, "relaxer,particles,step,tolerance,cutoff_d,bits,time_step_T,"
                           "step_error,reference,seeds,failed,evaluations,cpu_s,bound,"
                           "noise_limited,front,chosen");
     for (int k = 0; k < plan->pressures; k++) {
@@ -233,21 +233,14 @@ static void add_row(GString *text, const struct gb_chart_row *row, bool referenc
                     int pressures)
 {
     const struct gb_chart_choice *c = &row->choice;
-    const double number[] = {(double)c->count,
-                             c->strain_step,
-                             c->tolerance,
-                             c->cutoff,
-                             c->time_step,
-                             c->step_error,
-                             (double)reference,
-                             row->seeds,
-                             row->failed,
-                             row->evaluations,
-                             row->cpu_s,
-                             row->bound,
-                             (double)row->noise_limited,
-                             (double)row->front,
-                             (double)row->chosen};
+    const double number[] = {(double)c->count,   c->strain_step,
+                             c->tolerance,       c->cutoff,
+                             gb_chart_bits(c),   c->time_step,
+                             c->step_error,      (double)reference,
+                             row->seeds,         row->failed,
+                             row->evaluations,   row->cpu_s,
+                             row->bound,         (double)row->noise_limited,
+                             (double)row->front, (double)row->chosen};
     g_string_append(text, c->relaxer);
     for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
         add_number(text, number[i]);

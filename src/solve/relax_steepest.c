@@ -48,18 +48,19 @@ double gb_relax_steepest_stiffest(const struct gb_world *world, double *sum)
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
-    const double *deepest = gb_world_contacts(world)->deepest;
+    const struct gb_contacts *contacts = gb_world_contacts(world);
     double most = 0.0;
     for (int64_t i = 0; i < count; i++) {
         sum[i] = 0.0;
     }
     for (int64_t i = 0; i < count; i++) {
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-            if (deepest[k] >= 0.0) {
+            if (gb_contacts_touch(contacts, k)) {
                 double r[3];
                 gb_world_arm(world, pairs, i, k, r);
                 const double stiffness = contact_stiffness(
-                    gb_world_model(world), deepest[k], 1.0 - gb_vec_length(r));
+                    gb_world_model(world), gb_contacts_deepest(contacts, k),
+                    1.0 - gb_vec_length(r));
                 sum[i] += stiffness;
                 sum[pairs->other[k]] += stiffness;
             }

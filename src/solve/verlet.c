@@ -100,7 +100,7 @@ double gb_verlet_frequency(const struct gb_world *world, double *scratch)
 {
     const struct gb_model *model = gb_world_model(world);
     const struct gb_pair_list *near = &gb_world_pairs(world)->near;
-    const double *deepest = gb_world_contacts(world)->deepest;
+    const struct gb_contacts *contacts = gb_world_contacts(world);
     /* mass-weighted: two masses, and two inertias on levers of half a diameter */
     const double shear_share = model->slip.motion * (2.0 + 0.5 / model->dynamics.inertia);
     for (int64_t i = 0; i < model->count; i++) {
@@ -108,16 +108,16 @@ double gb_verlet_frequency(const struct gb_world *world, double *scratch)
     }
     for (int64_t i = 0; i < model->count; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            if (deepest[k] < 0.0) {
+            const double deepest = gb_contacts_deepest(contacts, k);
+            if (deepest < 0.0) {
                 continue;
             }
             double r[3];
             gb_world_arm(world, near, i, k, r);
             const double h = 1.0 - gb_vec_length(r);
-            const double from = deepest[k] > 0.0 ? deepest[k] : h;
-            const double a = deepest[k] > 0.0
-                                 ? gb_law_bridge_radius(&model->bridge, from, h)
-                                 : 0.5 * sqrt(fmax(h, 0.0));
+            const double from = deepest > 0.0 ? deepest : h;
+            const double a = deepest > 0.0 ? gb_law_bridge_radius(&model->bridge, from, h)
+                                           : 0.5 * sqrt(fmax(h, 0.0));
             const double normal = 2.0 * gb_law_rod_stiffness(&model->rod, from);
             const double shear =
                 model->terms.friction

@@ -52,7 +52,7 @@ is 'nor other pressures' refused "$greenbody" chart mine.ini --at '30 MPa' --see
 
 is 'the choice goes into a copy' chart --allow 1 --out out --write copy.ini
 is 'that differs in its numbers only' sh -c "diff mine.ini copy.ini | grep '^[<>]' |
-    grep -vqE '^[<>] (step|strain_part|relaxer|tolerance|cutoff) = ' && exit 1; exit 0"
+    grep -vqE '^[<>] (step|strain_part|relaxer|tolerance|cutoff|precision) = ' && exit 1; exit 0"
 is 'and keeps the rest' grep -q '^title = mine  # kept' copy.ini
 is 'with the cheapest step' grep -q '^step = 1 %' copy.ini
 is 'a file that is somebody else'\''s is not replaced' refused "$greenbody" chart \

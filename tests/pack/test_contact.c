@@ -28,7 +28,7 @@ static void start(struct pair *pair, const struct gb_params *params, double h)
     memset(pair, 0, sizeof *pair);
     pair->model = scene_model(params);
     pair->kernel = gb_batch_pick(&pair->model, 0);
-    g_assert_true(gb_contacts_init(&pair->contacts, 3, false, 1, &err));
+    g_assert_true(gb_contacts_init(&pair->contacts, 3, false, false, 1, &err));
     gb_contacts_clear(&pair->contacts, 0);
     pair->batch.n = 1;
     pair->batch.cutoff2 = 1.44;
@@ -43,16 +43,18 @@ static void advance(struct pair *pair)
         pair->batch.turn_difference[c][0] = pair->turn_i[c] - pair->turn_j[c];
         pair->turn_i[c] = pair->turn_j[c] = 0.0;
     }
-    gb_batch_advance(&pair->kernel, &pair->model, &pair->batch, &pair->contacts, 0);
+    pair->kernel.advance(&pair->model, &pair->batch, &pair->contacts, 0);
     for (int c = 0; c < 3; c++) {
         pair->force[c] = pair->batch.force[c][0];
         pair->torque_i[c] = pair->batch.torque_i[c][0];
         pair->torque_j[c] = pair->batch.torque_j[c][0];
-        pair->contact.shear[c] = pair->contacts.shear[c][0];
-        pair->contact.roll[c] = pair->contacts.roll[c][0];
+        pair->contact.shear[c] =
+            gb_contacts_value(&pair->contacts, pair->contacts.shear[c], 0);
+        pair->contact.roll[c] =
+            gb_contacts_value(&pair->contacts, pair->contacts.roll[c], 0);
     }
-    pair->contact.deepest = pair->contacts.deepest[0];
-    pair->contact.pivot = pair->contacts.pivot[0];
+    pair->contact.deepest = gb_contacts_deepest(&pair->contacts, 0);
+    pair->contact.pivot = gb_contacts_value(&pair->contacts, pair->contacts.pivot, 0);
     pair->sliding += pair->batch.sliding[0] > 0.0;
 }
 
@@ -283,6 +285,19 @@ static void random_batch(GRand *random, struct gb_batch *batch)
     }
 }
 
+static void round_batch(const struct gb_batch *batch, struct gb_batch_single *single)
+{
+    single->n = batch->n;
+    single->cutoff2 = (float)batch->cutoff2;
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < batch->n; k++) {
+            single->r[c][k] = (float)batch->r[c][k];
+            single->turn_sum[c][k] = (float)batch->turn_sum[c][k];
+            single->turn_difference[c][k] = (float)batch->turn_difference[c][k];
+        }
+    }
+}
+
 static uint64_t walk(const struct gb_params *params, int width, int dimension,
                      bool viscous)
 {
@@ -292,7 +307,7 @@ static uint64_t walk(const struct gb_params *params, int width, int dimension,
     model.dimension = dimension;
     model.kind = viscous ? GB_KIND_DYNAMIC : GB_KIND_QUASISTATIC;
     const struct gb_batch_kernel kernel = gb_batch_pick(&model, width);
-    g_assert_true(gb_contacts_init(&contacts, dimension, viscous, 128, &err));
+    g_assert_true(gb_contacts_init(&contacts, dimension, viscous, false, 128, &err));
     for (int64_t k = 0; k < 128; k++) {
         gb_contacts_clear(&contacts, k);
     }
@@ -301,7 +316,7 @@ static uint64_t walk(const struct gb_params *params, int width, int dimension,
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
     for (int i = 0; i < 50; i++) {
         random_batch(random, &batch);
-        gb_batch_advance(&kernel, &model, &batch, &contacts, 3);
+        kernel.advance(&model, &batch, &contacts, 3);
         g_checksum_update(sum, (const guchar *)batch.force[0],
                           (gssize)((size_t)batch.n * sizeof(double)));
         g_checksum_update(sum, (const guchar *)batch.torque_i[0],
@@ -319,11 +334,14 @@ static uint64_t walk(const struct gb_params *params, int width, int dimension,
     return hash;
 }
 
+static const char *const terms[][2] = {
+    {"contact.mu=0.1", "contact.bridge_length=0.008 d"},
+    {"contact.mu=0.1", "contact.bridge_length=1 d"},
+    {"contact.mu=0", "contact.bridge_length=1 d"},
+};
+
 static void test_widths(void)
 {
-    const char *terms[][2] = {{"contact.mu=0.1", "contact.bridge_length=0.008 d"},
-                              {"contact.mu=0.1", "contact.bridge_length=1 d"},
-                              {"contact.mu=0", "contact.bridge_length=1 d"}};
     for (int t = 0; t < 3; t++) {
         const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
         for (int v = 0; v < 4; v++) {
@@ -332,6 +350,111 @@ static void test_widths(void)
             g_assert_cmpuint(walk(&params, 256, dimension, v > 1), ==, narrow);
             g_assert_cmpuint(walk(&params, 512, dimension, v > 1), ==, narrow);
         }
+    }
+}
+
+/* Single precision: the same bits for every vector width. */
+static uint64_t walk_single(const struct gb_params *params, int width)
+{
+    struct gb_model model = scene_model(params);
+    struct gb_contacts contacts;
+    struct gb_error err = {0};
+    const struct gb_batch_single_kernel kernel = gb_batch_single_pick(&model, width);
+    g_assert_true(gb_contacts_init(&contacts, 3, false, true, 128, &err));
+    for (int64_t k = 0; k < 128; k++) {
+        gb_contacts_clear(&contacts, k);
+    }
+    GRand *random = g_rand_new_with_seed(5);
+    static struct gb_batch batch;
+    static struct gb_batch_single single;
+    struct gb_tally tally = {0};
+    GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
+    for (int i = 0; i < 50; i++) {
+        random_batch(random, &batch);
+        round_batch(&batch, &single);
+        kernel.advance(&model, &single, &contacts, 3);
+        kernel.tally(&single, &contacts, 3, &tally);
+        g_checksum_update(sum, (const guchar *)single.force[0],
+                          (gssize)((size_t)batch.n * sizeof(float)));
+        g_checksum_update(sum, (const guchar *)single.torque_i[0],
+                          (gssize)((size_t)batch.n * sizeof(float)));
+        g_checksum_update(sum, (const guchar *)&tally, sizeof tally);
+        for (int p = 0; p < contacts.planes; p++) {
+            g_checksum_update(sum, (const guchar *)contacts.plane[p],
+                              128 * sizeof(float));
+        }
+    }
+    uint64_t hash = 0;
+    sscanf(g_checksum_get_string(sum), "%16" G_GINT64_MODIFIER "x", &hash);
+    g_checksum_free(sum);
+    g_rand_free(random);
+    gb_contacts_finish(&contacts);
+    return hash;
+}
+
+static void test_widths_single(void)
+{
+    for (int t = 0; t < 3; t++) {
+        const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
+        const uint64_t narrow = walk_single(&params, 128);
+        g_assert_cmpuint(walk_single(&params, 256), ==, narrow);
+        g_assert_cmpuint(walk_single(&params, 512), ==, narrow);
+    }
+}
+
+/* Pairs on the same small way in both precisions: forces and torques agree to what
+ * rounding leaves of an overlap, 1e-7 of the distance. */
+static void test_single(void)
+{
+    for (int t = 0; t < 3; t++) {
+        const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
+        struct gb_model model = scene_model(&params);
+        struct gb_contacts fine, coarse;
+        struct gb_error err = {0};
+        static struct gb_batch batch, step;
+        static struct gb_batch_single single;
+        const struct gb_batch_kernel kernel = gb_batch_pick(&model, 0);
+        const struct gb_batch_single_kernel other = gb_batch_single_pick(&model, 0);
+        g_assert_true(gb_contacts_init(&fine, 3, false, false, 128, &err) &&
+                      gb_contacts_init(&coarse, 3, false, true, 128, &err));
+        for (int64_t k = 0; k < 128; k++) {
+            gb_contacts_clear(&fine, k);
+            gb_contacts_clear(&coarse, k);
+        }
+        GRand *random = g_rand_new_with_seed(7);
+        random_batch(random, &batch);
+        int held = 0, slid = 0;
+        for (int i = 0; i < 200; i++) {
+            random_batch(random, &step);
+            for (int c = 0; c < 3; c++) {
+                for (int k = 0; k < batch.n; k++) {
+                    batch.r[c][k] += 2e-4 * step.r[c][k];
+                    batch.turn_sum[c][k] = 0.03 * step.turn_sum[c][k];
+                    batch.turn_difference[c][k] = 0.03 * step.turn_difference[c][k];
+                }
+            }
+            round_batch(&batch, &single);
+            kernel.advance(&model, &batch, &fine, 0);
+            other.advance(&model, &single, &coarse, 0);
+            for (int k = 0; k < batch.n; k++) {
+                for (int c = 0; c < 3; c++) {
+                    const double most = 3e-4 * model.adhesion;
+                    g_assert_cmpfloat_with_epsilon(batch.force[c][k],
+                                                   (double)single.force[c][k], most);
+                    g_assert_cmpfloat_with_epsilon(batch.torque_i[c][k],
+                                                   (double)single.torque_i[c][k], most);
+                    g_assert_cmpfloat_with_epsilon(batch.torque_j[c][k],
+                                                   (double)single.torque_j[c][k], most);
+                }
+                held += gb_contacts_deepest(&coarse, k) > 0.0;
+                slid += single.sliding[k] > 0.0F;
+            }
+        }
+        g_assert_true(t != 0 || held > 1000);
+        g_assert_true(t == 2 || slid > 100);
+        g_rand_free(random);
+        gb_contacts_finish(&fine);
+        gb_contacts_finish(&coarse);
     }
 }
 
@@ -347,8 +470,8 @@ static void test_planar(void)
     flat.dimension = 2;
     const struct gb_batch_kernel ka = gb_batch_pick(&solid, 0),
                                  kb = gb_batch_pick(&flat, 0);
-    g_assert_true(gb_contacts_init(&ca, 3, true, 1, &err) &&
-                  gb_contacts_init(&cb, 2, true, 1, &err));
+    g_assert_true(gb_contacts_init(&ca, 3, true, false, 1, &err) &&
+                  gb_contacts_init(&cb, 2, true, false, 1, &err));
     gb_contacts_clear(&ca, 0);
     gb_contacts_clear(&cb, 0);
     GRand *random = g_rand_new_with_seed(11);
@@ -368,8 +491,8 @@ static void test_planar(void)
         a.turn_sum[1][0] = b.turn_sum[0][0] = g_rand_double_range(random, -1e-3, 1e-3);
         a.turn_difference[1][0] = b.turn_difference[0][0] =
             g_rand_double_range(random, -1e-3, 1e-3);
-        gb_batch_advance(&ka, &solid, &a, &ca, 0);
-        gb_batch_advance(&kb, &flat, &b, &cb, 0);
+        ka.advance(&solid, &a, &ca, 0);
+        kb.advance(&flat, &b, &cb, 0);
         g_assert_cmpfloat_with_epsilon(a.force[0][0], b.force[0][0], 1e-9);
         g_assert_cmpfloat_with_epsilon(a.force[2][0], b.force[1][0], 1e-9);
         g_assert_cmpfloat_with_epsilon(a.torque_i[1][0], b.torque_i[0][0], 1e-9);
@@ -398,6 +521,8 @@ int main(int argc, char **argv)
     g_test_add_func("/contact/switches", test_switches);
     g_test_add_func("/contact/laws", test_laws);
     g_test_add_func("/contact/widths", test_widths);
+    g_test_add_func("/contact/widths-single", test_widths_single);
+    g_test_add_func("/contact/single", test_single);
     g_test_add_func("/contact/planar", test_planar);
     return g_test_run();
 }

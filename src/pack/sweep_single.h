@@ -1,0 +1,17 @@
+#ifndef GB_PACK_SWEEP_SINGLE_H
+#define GB_PACK_SWEEP_SINGLE_H
+
+#include <stdint.h>
+
+struct gb_tally;
+struct gb_world;
+
+/* The parts of gb_sweep_run in single precision, for particles [begin, end) of one block:
+ * where they are, the forces of their own pairs, and what the pairs of others add.  All
+ * blocks are through with a part before any begins the next. */
+void gb_sweep_single_prepare(struct gb_world *world, int64_t begin, int64_t end);
+void gb_sweep_single_block(struct gb_world *world, int64_t begin, int64_t end,
+                           double cutoff2, struct gb_tally *tally);
+void gb_sweep_single_collect(struct gb_world *world, int64_t begin, int64_t end);
+
+#endif
