@@ -28,7 +28,7 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t, BATCH *rest
         const real nx = rx * inverse, ny = ry * inverse, nz = rz * inverse;
         const real h = 1 - r, before = deepest[k];
         const bool live = squared < 1;
-        const real lasts = mask(live & (before >= 0));
+        const bool lasts = live & (before >= 0);
         const real state = t.bridges ? deepest_after(length, larger(before, 0), h) : 0;
         real now = live ? state : -1;
         b->unit[0][k] = nx;
@@ -56,22 +56,22 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t, BATCH *rest
             vy -= vn * ny;
             vz -= vn * nz;
             const real keep = keep_length(v2, vx * vx + vy * vy + vz * vz);
-            vx = lasts * (keep * vx + ux);
-            vy = lasts * (keep * vy + uy);
-            vz = lasts * (keep * vz + uz);
-            const real twist = lasts * (pivot[k] + m * dn);
+            vx = where(lasts, keep * vx + ux);
+            vy = where(lasts, keep * vy + uy);
+            vz = where(lasts, keep * vz + uz);
+            const real twist = where(lasts, pivot[k] + m * dn);
             sx[k] = vx;
             sy[k] = vy;
             sz[k] = vz;
             pivot[k] = twist;
             if (t.viscous) {
-                b->rate[0][k] = lasts * ux;
-                b->rate[1][k] = lasts * uy;
-                b->rate[2][k] = lasts * uz;
-                b->rate[3][k] = lasts * m * dn;
+                b->rate[0][k] = where(lasts, ux);
+                b->rate[1][k] = where(lasts, uy);
+                b->rate[2][k] = where(lasts, uz);
+                b->rate[3][k] = where(lasts, m * dn);
             }
             if (t.bridges) {
-                const real holds = lasts * mask(now > 0);
+                const bool holds = lasts & (now > 0);
                 real px = qx[k], py = qy[k], pz = qz[k];
                 const real p2 = px * px + py * py + pz * pz;
                 const real pn = px * nx + py * ny + pz * nz;
@@ -81,13 +81,13 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t, BATCH *rest
                 const real hold = keep_length(p2, px * px + py * py + pz * pz);
                 const real gx = m * (dx - dn * nx), gy = m * (dy - dn * ny);
                 const real gz = m * (dz - dn * nz);
-                qx[k] = holds * (hold * px + gx);
-                qy[k] = holds * (hold * py + gy);
-                qz[k] = holds * (hold * pz + gz);
+                qx[k] = where(holds, hold * px + gx);
+                qy[k] = where(holds, hold * py + gy);
+                qz[k] = where(holds, hold * pz + gz);
                 if (t.viscous) {
-                    b->rate[4][k] = holds * gx;
-                    b->rate[5][k] = holds * gy;
-                    b->rate[6][k] = holds * gz;
+                    b->rate[4][k] = where(holds, gx);
+                    b->rate[5][k] = where(holds, gy);
+                    b->rate[6][k] = where(holds, gz);
                 }
                 /* (5), (11): the cap of shear or pivoting is reached */
                 const real a2 = quarter * radius_square(t, length, now, h);
@@ -163,7 +163,7 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
         const real nx = b->unit[0][k], ny = b->unit[1][k], nz = b->unit[2][k];
         const real r = b->distance[k], h = b->overlap[k], state = deepest[k];
         const bool held = t.bridges & (state > 0);
-        const real live = mask(state >= 0);
+        const bool live = state >= 0;
         const struct normal f = normal_force(&law, state, h, r);
         real fn = f.total, taken = 0.0;
         if (t.viscous) {
@@ -176,7 +176,7 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
         real tx = 0.0, ty = 0.0, tz = 0.0, jx = 0.0, jy = 0.0, jz = 0.0;
         real slides = 0.0;
         if (t.friction) {
-            const real a2 = live * quarter * radius_square(t, length, state, h);
+            const real a2 = where(live, quarter * radius_square(t, length, state, h));
             const real a = radius(t, a2, live, f.root);
             const real from = larger(h, 0);
             const real ks = slip.shear * a, kp = slip.pivot * a2 * a;
@@ -238,7 +238,7 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
                 const real p2 = px * px + py * py + pz * pz;
                 const real roll2 = kr * kr * p2;
                 const bool rolls = roll2 > roll_cap * roll_cap;
-                const real hold = mask(held) * cut_to(t, roll_cap, roll2, rolls);
+                const real hold = where(held, cut_to(t, roll_cap, roll2, rolls));
                 px *= hold;
                 py *= hold;
                 pz *= hold;
@@ -252,7 +252,7 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
                     const real aft = px * gx + py * gy + pz * gz;
                     taken += inverse_motion * (half * (last_roll[k] * fore + kr * aft) +
                                                lag * kr * (gx * gx + gy * gy + gz * gz));
-                    last_roll[k] = mask(held) * kr;
+                    last_roll[k] = where(held, kr);
                     px += lag * gx;
                     py += lag * gy;
                     pz += lag * gz;
@@ -285,7 +285,7 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
         if (t.viscous) {
             b->absorbed[k] = taken;
         }
-        b->normal[k] = live * magnitude(f.elastic - law.adhesion);
+        b->normal[k] = where(live, magnitude(f.elastic - law.adhesion));
         b->sliding[k] = slides;
     }
 }

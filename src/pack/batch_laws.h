@@ -118,9 +118,9 @@ INLINE struct normal normal_force(const struct normal_law *law, real deepest, re
 }
 
 /* Radius of the springs from its square; mostly half the root that is there already. */
-INLINE real radius(struct terms t, real square, real live, real root_of_overlap)
+INLINE real radius(struct terms t, real square, bool live, real root_of_overlap)
 {
-    return t.printed ? root(larger(square, 0)) : live * (real)0.5 * root_of_overlap;
+    return t.printed ? root(larger(square, 0)) : where(live, (real)0.5 * root_of_overlap);
 }
 
 #endif
