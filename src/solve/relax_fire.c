@@ -49,9 +49,10 @@ struct sums {
 /* One pass over all particles, span by span. */
 struct pass {
     struct gb_bodies b;
-    double *v, *w;      /* velocities */
-    double keep, kick;  /* v = keep v + kick F */
-    double step, scale; /* x += step v */
+    double *v, *w;     /* velocities */
+    double keep, kick; /* v = keep v + kick F */
+    double step;       /* x += step v */
+    double scale;      /* what is kept of a step that goes too far */
     struct sums sums[SPANS];
     double speed2_most[SPANS];
 };
@@ -157,25 +158,30 @@ static void adapt(struct pass *pass, struct gb_relax_fire_state *fire,
     memset(pass->w, 0, bytes);
 }
 
-/* v = keep v + kick F. */
-GB_SIMD_LOOP void kick_all_loop(double *restrict v, const double *restrict force,
-                            int64_t count, double keep, double kick)
+/* v = keep v + kick F, x += step v. */
+GB_SIMD_LOOP void drive_loop(double *restrict x, double *restrict v,
+                             const double *restrict force, int64_t count, double keep,
+                             double kick, double step)
 {
 #pragma omp simd
     for (int64_t i = 0; i < count; i++) {
-        v[i] = keep * v[i] + kick * force[i];
+        const double speed = keep * v[i] + kick * force[i];
+        v[i] = speed;
+        x[i] += step * speed;
     }
 }
-GB_SIMD_WIDTHS(kick_all,
-               (double *v, const double *force, int64_t count, double keep, double kick),
-               (v, force, count, keep, kick))
+GB_SIMD_WIDTHS(drive,
+               (double *x, double *v, const double *force, int64_t count, double keep,
+                double kick, double step),
+               (x, v, force, count, keep, kick, step))
 
-static void kick_span(struct pass *pass, int span)
+static void drive_span(struct pass *pass, int span)
 {
     const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
-    kick_all(pass->v + begin, pass->b.force + begin, end - begin, pass->keep, pass->kick);
-    kick_all(pass->w + begin, pass->b.torque + begin, end - begin, pass->keep,
-             pass->kick / inertia);
+    drive(pass->b.position + begin, pass->v + begin, pass->b.force + begin, end - begin,
+          pass->keep, pass->kick, pass->step);
+    drive(pass->b.turn + begin, pass->w + begin, pass->b.torque + begin, end - begin,
+          pass->keep, pass->kick / inertia, pass->step);
     double most = 0.0;
     for (int64_t i = begin; i < end; i += 3) {
         const double speed2 = gb_vec_dot(pass->v + i, pass->v + i);
@@ -184,27 +190,17 @@ static void kick_span(struct pass *pass, int span)
     pass->speed2_most[span] = most;
 }
 
-/* x += step v. */
-GB_SIMD_LOOP void move_all_loop(double *restrict x, const double *restrict v, int64_t count,
-                            double step)
-{
-#pragma omp simd
-    for (int64_t i = 0; i < count; i++) {
-        x[i] += step * v[i];
-    }
-}
-GB_SIMD_WIDTHS(move_all, (double *x, const double *v, int64_t count, double step),
-               (x, v, count, step))
-
-static void move_span(struct pass *pass, int span)
+/* Takes back what was too far: seldom. */
+static void slow_span(struct pass *pass, int span)
 {
     const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
-    for (int64_t i = begin; pass->scale < 1.0 && i < end; i++) { /* seldom */
-        pass->v[i] *= pass->scale;
-        pass->w[i] *= pass->scale;
+    const double scale = pass->scale, back = (1.0 - scale) * pass->step;
+    for (int64_t i = begin; i < end; i++) {
+        pass->b.position[i] -= back * pass->v[i];
+        pass->b.turn[i] -= back * pass->w[i];
+        pass->v[i] *= scale;
+        pass->w[i] *= scale;
     }
-    move_all(pass->b.position + begin, pass->v + begin, end - begin, pass->step);
-    move_all(pass->b.turn + begin, pass->w + begin, end - begin, pass->step);
 }
 
 static double speed_most(const struct pass *pass)
@@ -233,10 +229,12 @@ void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire
     pass.keep = rolling ? 1.0 - fire->mixing : 1.0;
     pass.step = fire->step;
     pass.kick = fire->step + steer;
-    over_spans(&pass, threads, kick_span);
+    over_spans(&pass, threads, drive_span);
     const double farthest = pass.step * speed_most(&pass);
-    pass.scale = farthest > move_most ? move_most / farthest : 1.0;
-    over_spans(&pass, threads, move_span);
+    if (farthest > move_most) {
+        pass.scale = move_most / farthest;
+        over_spans(&pass, threads, slow_span);
+    }
 }
 
 static void start(struct gb_relax *relax, struct gb_world *world)
