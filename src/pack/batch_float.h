@@ -18,33 +18,33 @@
 
 typedef float real;
 
-/* As in batch_double.h; three iterations are enough here. */
-INLINE real inverse_root(real x)
+/* As in batch_double.h. */
+INLINE real root_guess(real x)
 {
-    const float half = 0.5F * x;
     uint32_t bits;
     float y;
     memcpy(&bits, &x, sizeof bits);
     bits = UINT32_C(0x5f3759df) - (bits >> 1);
     memcpy(&y, &bits, sizeof y);
-    y *= 1.5F - half * y * y;
-    y *= 1.5F - half * y * y;
-    y *= 1.5F - half * y * y;
     return y;
 }
 
-/* The same from below within 5e-6, for springs that are cut a hair below their caps. */
+INLINE real root_nearer(real y, real half)
+{
+    return y * (1.5F - half * y * y);
+}
+
+/* 1/sqrt(x) from below within 5e-6, for springs that are cut a hair below their caps. */
 INLINE real inverse_root_below(real x)
 {
     const float half = 0.5F * x;
-    uint32_t bits;
-    float y;
-    memcpy(&bits, &x, sizeof bits);
-    bits = UINT32_C(0x5f3759df) - (bits >> 1);
-    memcpy(&y, &bits, sizeof y);
-    y *= 1.5F - half * y * y;
-    y *= 1.5F - half * y * y;
-    return y;
+    return root_nearer(root_nearer(root_guess(x), half), half);
+}
+
+/* The same to the last digit but one. */
+INLINE real inverse_root(real x)
+{
+    return root_nearer(inverse_root_below(x), 0.5F * x);
 }
 
 INLINE real root(real x)

@@ -298,40 +298,60 @@ static void round_batch(const struct gb_batch *batch, struct gb_batch_single *si
     }
 }
 
+/* Contacts that do not touch yet. */
+static void open_contacts(struct gb_contacts *contacts, int dimension, bool viscous,
+                          bool single)
+{
+    struct gb_error err = {0};
+    g_assert_true(gb_contacts_init(contacts, dimension, viscous, single, 128, &err));
+    for (int64_t k = 0; k < 128; k++) {
+        gb_contacts_clear(contacts, k);
+    }
+}
+
+static void add_to_sum(GChecksum *sum, const void *numbers, size_t count, size_t size)
+{
+    g_checksum_update(sum, (const guchar *)numbers, (gssize)(count * size));
+}
+
+static void add_history(GChecksum *sum, const struct gb_contacts *contacts)
+{
+    for (int p = 0; p < contacts->planes; p++) {
+        add_to_sum(sum, contacts->plane[p], 128,
+                   contacts->single ? sizeof(float) : sizeof(double));
+    }
+}
+
+static uint64_t close_sum(GChecksum *sum)
+{
+    uint64_t hash = 0;
+    sscanf(g_checksum_get_string(sum), "%16" G_GINT64_MODIFIER "x", &hash);
+    g_checksum_free(sum);
+    return hash;
+}
+
 static uint64_t walk(const struct gb_params *params, int width, int dimension,
                      bool viscous)
 {
     struct gb_model model = scene_model(params);
     struct gb_contacts contacts;
-    struct gb_error err = {0};
     model.dimension = dimension;
     model.kind = viscous ? GB_KIND_DYNAMIC : GB_KIND_QUASISTATIC;
     const struct gb_batch_kernel kernel = gb_batch_pick(&model, width);
-    g_assert_true(gb_contacts_init(&contacts, dimension, viscous, false, 128, &err));
-    for (int64_t k = 0; k < 128; k++) {
-        gb_contacts_clear(&contacts, k);
-    }
+    open_contacts(&contacts, dimension, viscous, false);
     GRand *random = g_rand_new_with_seed(5);
     static struct gb_batch batch;
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
     for (int i = 0; i < 50; i++) {
         random_batch(random, &batch);
         kernel.advance(&model, &batch, &contacts, 3);
-        g_checksum_update(sum, (const guchar *)batch.force[0],
-                          (gssize)((size_t)batch.n * sizeof(double)));
-        g_checksum_update(sum, (const guchar *)batch.torque_i[0],
-                          (gssize)((size_t)batch.n * sizeof(double)));
-        for (int p = 0; p < contacts.planes; p++) {
-            g_checksum_update(sum, (const guchar *)contacts.plane[p],
-                              128 * sizeof(double));
-        }
+        add_to_sum(sum, batch.force[0], (size_t)batch.n, sizeof(double));
+        add_to_sum(sum, batch.torque_i[0], (size_t)batch.n, sizeof(double));
+        add_history(sum, &contacts);
     }
-    uint64_t hash = 0;
-    sscanf(g_checksum_get_string(sum), "%16" G_GINT64_MODIFIER "x", &hash);
-    g_checksum_free(sum);
     g_rand_free(random);
     gb_contacts_finish(&contacts);
-    return hash;
+    return close_sum(sum);
 }
 
 static const char *const terms[][2] = {
@@ -358,12 +378,8 @@ static uint64_t walk_single(const struct gb_params *params, int width)
 {
     struct gb_model model = scene_model(params);
     struct gb_contacts contacts;
-    struct gb_error err = {0};
     const struct gb_batch_single_kernel kernel = gb_batch_single_pick(&model, width);
-    g_assert_true(gb_contacts_init(&contacts, 3, false, true, 128, &err));
-    for (int64_t k = 0; k < 128; k++) {
-        gb_contacts_clear(&contacts, k);
-    }
+    open_contacts(&contacts, 3, false, true);
     GRand *random = g_rand_new_with_seed(5);
     static struct gb_batch batch;
     static struct gb_batch_single single;
@@ -374,22 +390,14 @@ static uint64_t walk_single(const struct gb_params *params, int width)
         round_batch(&batch, &single);
         kernel.advance(&model, &single, &contacts, 3);
         kernel.tally(&single, &contacts, 3, &tally);
-        g_checksum_update(sum, (const guchar *)single.force[0],
-                          (gssize)((size_t)batch.n * sizeof(float)));
-        g_checksum_update(sum, (const guchar *)single.torque_i[0],
-                          (gssize)((size_t)batch.n * sizeof(float)));
+        add_to_sum(sum, single.force[0], (size_t)batch.n, sizeof(float));
+        add_to_sum(sum, single.torque_i[0], (size_t)batch.n, sizeof(float));
         g_checksum_update(sum, (const guchar *)&tally, sizeof tally);
-        for (int p = 0; p < contacts.planes; p++) {
-            g_checksum_update(sum, (const guchar *)contacts.plane[p],
-                              128 * sizeof(float));
-        }
+        add_history(sum, &contacts);
     }
-    uint64_t hash = 0;
-    sscanf(g_checksum_get_string(sum), "%16" G_GINT64_MODIFIER "x", &hash);
-    g_checksum_free(sum);
     g_rand_free(random);
     gb_contacts_finish(&contacts);
-    return hash;
+    return close_sum(sum);
 }
 
 static void test_widths_single(void)
@@ -410,17 +418,12 @@ static void test_single(void)
         const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
         struct gb_model model = scene_model(&params);
         struct gb_contacts fine, coarse;
-        struct gb_error err = {0};
         static struct gb_batch batch, step;
         static struct gb_batch_single single;
         const struct gb_batch_kernel kernel = gb_batch_pick(&model, 0);
         const struct gb_batch_single_kernel other = gb_batch_single_pick(&model, 0);
-        g_assert_true(gb_contacts_init(&fine, 3, false, false, 128, &err) &&
-                      gb_contacts_init(&coarse, 3, false, true, 128, &err));
-        for (int64_t k = 0; k < 128; k++) {
-            gb_contacts_clear(&fine, k);
-            gb_contacts_clear(&coarse, k);
-        }
+        open_contacts(&fine, 3, false, false);
+        open_contacts(&coarse, 3, false, true);
         GRand *random = g_rand_new_with_seed(7);
         random_batch(random, &batch);
         int held = 0, slid = 0;
