@@ -8,9 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* GLib's message names its temporary file; the user knows only the path, so what is kept
- * is the reason after the last colon. */
-static const char *reason(const GError *error)
+/* What comes after the last colon. */
+const char *gb_file_reason(const GError *error)
 {
     const char *colon = strrchr(error->message, ':');
     return colon != NULL && colon[1] == ' ' ? colon + 2 : error->message;
@@ -71,7 +70,8 @@ bool gb_file_replace(const char *path, const void *data, size_t size,
     if (g_file_set_contents_full(path, data, (gssize)size, flags, 0666, &error)) {
         return true;
     }
-    gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path, reason(error));
+    gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
+                 gb_file_reason(error));
     g_error_free(error);
     return false;
 }

@@ -1,6 +1,7 @@
 #ifndef GB_BASE_FILE_H
 #define GB_BASE_FILE_H
 
+#include <glib.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -14,6 +15,9 @@
  * other than a regular file (a rename would turn /dev/null into one). */
 bool gb_file_replace(const char *path, const void *data, size_t size,
                      struct gb_error *err);
+
+/* Why GLib could not write a file, without the name of its temporary one. */
+const char *gb_file_reason(const GError *error);
 
 /* The checks of gb_file_replace that can be made before the work: path is absent or a
  * regular file, and its folder exists and can be written. */

@@ -7,6 +7,7 @@
 #include <glib.h>
 #include <json-glib/json-glib.h>
 
+#include "base/file.h"
 #include "run/preset.h"
 
 static void append_number(GString *text, double value, char end)
@@ -128,15 +129,7 @@ static bool write_file(const char *directory, const char *name, GString *text,
                        struct gb_error *err)
 {
     char *path = g_build_filename(directory, name, NULL);
-    GError *failure = NULL;
-    const bool written = g_file_set_contents_full(
-        path, text->str, (gssize)text->len,
-        G_FILE_SET_CONTENTS_CONSISTENT | G_FILE_SET_CONTENTS_DURABLE, 0666, &failure);
-    if (!written) {
-        gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
-                     failure->message);
-        g_error_free(failure);
-    }
+    const bool written = gb_file_replace(path, text->str, text->len, err);
     g_string_free(text, TRUE);
     g_free(path);
     return written;

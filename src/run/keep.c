@@ -276,11 +276,15 @@ bool gb_keep_point(struct gb_keep *keep, struct gb_experiment *experiment,
     if (!keep->writer) {
         return true;
     }
+    const struct gb_rundir *dir = gb_store_rundir(keep->store);
     struct gb_record *record = gb_writer_record(keep->writer);
     return gb_checkpoint_take(experiment, record, err) &&
            sign(keep, point->seconds, err) &&
-           gb_album_point(&keep->album, gb_store_directory(keep->store), point,
-                          gb_keep_points(keep), record, &keep->params, &keep->model, err);
+           gb_rundir_told(dir,
+                          gb_album_point(&keep->album, dir->held, point,
+                                         gb_keep_points(keep), record, &keep->params,
+                                         &keep->model, err),
+                          err);
 }
 
 bool gb_keep_adopt(struct gb_keep *keep, const struct gb_point *points, int64_t count,

@@ -341,7 +341,8 @@ static bool write_text(const GString *text, const char *path, struct gb_error *e
     const bool input = trouble->code == G_FILE_ERROR_NOENT ||
                        trouble->code == G_FILE_ERROR_NOTDIR ||
                        trouble->code == G_FILE_ERROR_ISDIR;
-    gb_error_set(err, input ? GB_ERR_INPUT : GB_ERR_MACHINE, "%s", trouble->message);
+    gb_error_set(err, input ? GB_ERR_INPUT : GB_ERR_MACHINE, "%s: cannot be written: %s",
+                 path, gb_file_reason(trouble));
     g_error_free(trouble);
     return false;
 }

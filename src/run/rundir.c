@@ -99,6 +99,22 @@ static int lock_directory(const char *path)
     return fd;
 }
 
+/* Opens and locks dir->path as lock_directory does, and holds on to it. */
+static bool hold(struct gb_rundir *dir)
+{
+    struct stat info;
+    dir->lock = lock_directory(dir->path);
+    if (dir->lock < 0) {
+        return false;
+    }
+    dir->held = g_strdup_printf("/proc/self/fd/%d", dir->lock);
+    if (stat(dir->held, &info) != 0) { /* no such file system here */
+        g_free(dir->held);
+        dir->held = g_strdup(dir->path);
+    }
+    return true;
+}
+
 static bool busy_error(const char *path, struct gb_error *err)
 {
     return gb_error_set(
@@ -276,8 +292,7 @@ bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
     if (!g_file_test(path, G_FILE_TEST_IS_DIR) && !make_missing(dir, err)) {
         goto fail;
     }
-    dir->lock = lock_directory(path);
-    if (dir->lock < 0) {
+    if (!hold(dir)) {
         (void)(errno == EWOULDBLOCK
                    ? busy_error(path, err)
                    : gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be opened: %s", path,
@@ -314,8 +329,8 @@ bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *er
         return gb_error_set(err, GB_ERR_INPUT,
                             "%s: no run directory, it has no preset.ini", path);
     }
-    *dir = (struct gb_rundir){.path = g_strdup(path), .lock = lock_directory(path)};
-    if (dir->lock >= 0) {
+    *dir = (struct gb_rundir){.path = g_strdup(path), .lock = -1};
+    if (hold(dir)) {
         return true;
     }
     (void)(errno == EWOULDBLOCK
@@ -336,19 +351,31 @@ bool gb_rundir_stands(const struct gb_rundir *dir, struct gb_error *err)
                         "%s: was moved or removed while the run wrote there", dir->path);
 }
 
+bool gb_rundir_told(const struct gb_rundir *dir, bool good, struct gb_error *err)
+{
+    if (good || err == NULL || !gb_rundir_stands(dir, err)) {
+        return good;
+    }
+    if (g_str_has_prefix(err->text, dir->held)) {
+        gb_error_set(err, err->code, "%s%s", dir->path, err->text + strlen(dir->held));
+    }
+    return false;
+}
+
 void gb_rundir_finish(struct gb_rundir *dir)
 {
     if (dir->lock >= 0) {
         close(dir->lock);
     }
     g_free(dir->made);
+    g_free(dir->held);
     g_free(dir->path);
     *dir = (struct gb_rundir){.lock = -1};
 }
 
 void gb_rundir_unmake(struct gb_rundir *dir)
 {
-    (void)clear_run(dir->path, NULL);
+    (void)clear_run(dir->held, NULL);
     if (dir->made != NULL) {
         remove_made(dir->path, dir->made);
     }

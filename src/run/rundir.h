@@ -11,6 +11,8 @@ struct gb_rundir {
     char *path;
     char *made; /* topmost directory that was created for it, NULL when path existed */
     int lock;   /* open directory, locked as long as the run is written */
+    char *held; /* another path to it, through the lock: it leads there even when the
+                   directory has another name by now.  Where the system has none: path */
 };
 
 /* Could a run begin at path?  Changes nothing, so that a wrong --out is told before
@@ -32,8 +34,12 @@ bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
 bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *err);
 
 /* Is the directory still the one that was locked?  Errors: GB_ERR_MACHINE when it was
- * moved, removed or replaced by another: files written by its name would be elsewhere. */
+ * moved, removed or replaced by another. */
 bool gb_rundir_stands(const struct gb_rundir *dir, struct gb_error *err);
+
+/* The result of writing a file by its held path; its error is told of the name that the
+ * user knows, or that the directory does not stand any more. */
+bool gb_rundir_told(const struct gb_rundir *dir, bool good, struct gb_error *err);
 
 /* Is a process writing there now? */
 bool gb_rundir_busy(const char *path);

@@ -130,7 +130,7 @@ static bool replace_file(const char *path, const char *text, size_t length,
         return true;
     }
     gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
-                 failure->message);
+                 gb_file_reason(failure));
     g_error_free(failure);
     return false;
 }
@@ -151,11 +151,14 @@ static bool write_preset(const char *directory, const struct gb_params *params,
     return ok;
 }
 
-static void name_files(struct gb_store *store, const char *directory)
+/* What is replaced is named by its held path: written by the other one it could land in a
+ * directory that has taken the name meanwhile. */
+static void name_files(struct gb_store *store)
 {
-    store->status_path = g_build_filename(directory, "status.json", NULL);
-    store->state_path = g_build_filename(directory, "state.h5", NULL);
-    store->before_path = g_build_filename(directory, "state-before.h5", NULL);
+    const char *held = store->dir.held;
+    store->status_path = g_build_filename(held, "status.json", NULL);
+    store->state_path = g_build_filename(held, "state.h5", NULL);
+    store->before_path = g_build_filename(held, "state-before.h5", NULL);
 }
 
 bool gb_store_create(struct gb_store **out, const char *directory,
@@ -168,7 +171,7 @@ bool gb_store_create(struct gb_store **out, const char *directory,
         g_free(store);
         return false;
     }
-    name_files(store, directory);
+    name_files(store);
     if (!write_preset(directory, params, err) ||
         !gb_rows_open(&store->curve, directory, "curve.csv", err) ||
         !gb_rows_open(&store->events, directory, "events.log", err) ||
@@ -230,7 +233,7 @@ bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
     store->kind = params->kind;
     store->dir = *dir;
     *dir = (struct gb_rundir){.lock = -1};
-    name_files(store, store->dir.path);
+    name_files(store);
     bool done;
     if (place == NULL) {
         done = begin_rows(store, params, err);
@@ -437,7 +440,8 @@ bool gb_store_put_status(const struct gb_store *store, const char *text,
                          struct gb_error *err)
 {
     return gb_rundir_stands(&store->dir, err) &&
-           replace_file(store->status_path, text, strlen(text), err);
+           gb_rundir_told(&store->dir,
+                          replace_file(store->status_path, text, strlen(text), err), err);
 }
 
 bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
@@ -467,7 +471,8 @@ bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
         return false;
     }
     keep_before(store);
-    return gb_state_write(state, record, store->state_path, err);
+    return gb_rundir_told(&store->dir,
+                          gb_state_write(state, record, store->state_path, err), err);
 }
 
 bool gb_store_sync(struct gb_store *store, struct gb_error *err)
@@ -478,6 +483,11 @@ bool gb_store_sync(struct gb_store *store, struct gb_error *err)
 const char *gb_store_directory(const struct gb_store *store)
 {
     return store->dir.path;
+}
+
+const struct gb_rundir *gb_store_rundir(const struct gb_store *store)
+{
+    return &store->dir;
 }
 
 char *gb_store_new_directory(const char *folder, const char *preset_path)

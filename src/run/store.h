@@ -38,6 +38,8 @@ void gb_store_destroy(struct gb_store *store); /* NULL is fine */
  * begin.  NULL is fine. */
 void gb_store_discard(struct gb_store *store);
 const char *gb_store_directory(const struct gb_store *store);
+/* For files that are not the store's own: written by its held path. */
+const struct gb_rundir *gb_store_rundir(const struct gb_store *store);
 
 bool gb_store_point(struct gb_store *store, const struct gb_point *point,
                     struct gb_error *err);

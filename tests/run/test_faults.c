@@ -8,6 +8,7 @@
 #include "common/place.h"
 #include "common/scene.h"
 #include "run/hdf_record.h"
+#include "run/rundir.h"
 #include "run/runner.h"
 #include "run/solo.h"
 
@@ -155,10 +156,6 @@ static void check_lost(enum loss loss, const struct gb_params *params, const cha
     check_line(&err, GB_ERR_MACHINE);
     g_assert_nonnull(strstr(err.text, place->directory));
     g_assert_nonnull(strstr(err.text, "was moved or removed"));
-    /* only a status that was on its way when the directory went may have come there */
-    char *status = g_build_filename(place->directory, "status.json", NULL);
-    g_unlink(status);
-    g_free(status);
     g_assert_cmpint(g_rmdir(place->directory) == 0, ==, loss == REPLACED);
     if (loss != REMOVED) {
         g_assert_cmpint(g_rename(thief.elsewhere, place->directory), ==, 0);
@@ -181,9 +178,44 @@ static void test_lost(void)
     place_finish(&place);
     check_lost(MOVED, &params, whole);
     check_lost(REMOVED, &params, whole);
-    params.checkpoint_every_s = 3600.0; /* none is on its way at that moment */
     check_lost(REPLACED, &params, whole);
     g_free(whole);
+}
+
+static char *read_text(const char *folder, const char *name)
+{
+    char *path = g_build_filename(folder, name, NULL);
+    char *text = NULL;
+    (void)g_file_get_contents(path, &text, NULL, NULL);
+    g_free(path);
+    return text;
+}
+
+/* What is on its way while another directory takes the name lands in the one it is of. */
+static void test_held(void)
+{
+    struct thief thief = thief_make(REPLACED);
+    struct gb_rundir dir = {.lock = -1};
+    struct gb_error err = {0};
+    g_assert_true(gb_rundir_make(&dir, thief.place.directory, false, &err));
+    char *path = g_build_filename(dir.held, "status.json", NULL);
+    g_assert_true(gb_rundir_told(&dir, gb_file_replace(path, "old", 3, &err), &err));
+    gb_file_fail_after(1);
+    g_assert_false(gb_rundir_told(&dir, gb_file_replace(path, "new", 3, &err), &err));
+    g_assert_true(g_str_has_prefix(err.text, thief.place.directory));
+    g_assert_cmpint(g_rename(thief.place.directory, thief.elsewhere), ==, 0);
+    g_assert_cmpint(g_mkdir(thief.place.directory, 0777), ==, 0);
+    g_assert_true(gb_file_replace(path, "new", 3, &err));
+    char *moved = read_text(thief.elsewhere, "status.json");
+    g_assert_cmpstr(moved, ==, "new");
+    g_assert_cmpint(g_rmdir(thief.place.directory), ==, 0);
+    gb_file_fail_after(1);
+    g_assert_false(gb_rundir_told(&dir, gb_file_replace(path, "no", 2, &err), &err));
+    g_assert_nonnull(strstr(err.text, "was moved or removed"));
+    g_free(moved);
+    g_free(path);
+    gb_rundir_finish(&dir);
+    thief_finish(&thief);
 }
 
 /* Behind a screen the run goes on without its directory, and says so once. */
@@ -221,6 +253,7 @@ int main(int argc, char **argv)
     g_test_add_func("/faults/writes", test_writes);
     g_test_add_func("/faults/memory", test_memory);
     g_test_add_func("/faults/lost", test_lost);
+    g_test_add_func("/faults/held", test_held);
     g_test_add_func("/faults/lost-watched", test_lost_watched);
     return g_test_run();
 }
