@@ -49,6 +49,12 @@ static int watch(const char *directory, struct gb_error *err)
             gb_progress_show(&progress, shot);
         }
     }
+    if (shot->error.code == GB_ERR_MACHINE) { /* not the run's own, which is told below */
+        *err = shot->error;
+        gb_progress_clear(&progress);
+        gb_runner_destroy(runner);
+        return gb_options_fail(err);
+    }
     gb_progress_say(&progress, "%s: density %.4f, p %.4g MPa, step %lld%s%s", directory,
                     shot->now.density, shot->now.p_pa / 1e6, (long long)shot->now.step,
                     shot->error.text[0] != '\0' ? ", " : "", shot->error.text);

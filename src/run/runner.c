@@ -473,6 +473,13 @@ static bool look(struct gb_runner *runner, double *changed)
     struct gb_follow_engine engine;
     struct gb_error err = {0};
     const char *directory = runner->kept.directory;
+    if (!g_file_test(directory, G_FILE_TEST_IS_DIR)) {
+        gb_error_set(&shown->error, GB_ERR_MACHINE,
+                     "%s: was moved or removed while it was shown", directory);
+        add_event(runner, shown->error.text);
+        shown->state = GB_RUN_FAILED;
+        return false;
+    }
     if (!gb_follow_status(directory, shown, &engine, &err) ||
         !gb_follow_curve(directory, &runner->params, runner->curve, &err)) {
         if (shown->error.code == GB_OK) {

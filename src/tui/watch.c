@@ -45,8 +45,10 @@ static void draw_footer(const struct gb_watch *watch, const struct gb_paint *pai
         "1 curves  2 map  3 runs  v next  Left and Right pressure  q quit",
         "1 curves  2 map  3 runs  v next  Up and Down scroll  q quit",
         "1 curves  2 map  3 runs  4 fit  v next  q quit"};
-    gb_paint_cell(paint, paint->rect.rows - 1, 1, paint->rect.cols - 2, GB_STYLE_DIM,
-                  hints[watch->view]);
+    const bool whole = watch->trouble.code == GB_OK;
+    gb_paint_cell(paint, paint->rect.rows - 1, 1, paint->rect.cols - 2,
+                  whole ? GB_STYLE_DIM : GB_STYLE_WARN,
+                  whole ? hints[watch->view] : watch->trouble.text);
 }
 
 static void draw(struct gb_watch *watch, struct gb_term *term)
@@ -145,20 +147,20 @@ static bool act(struct gb_watch *watch, struct gb_term *term, enum gb_action act
     return false;
 }
 
-/* What could not be read leaves what is shown; the next time may be better. */
-static bool reread(struct gb_watch *watch, struct gb_error *err)
+/* What could not be read leaves what is shown, with a word; the next time may be better.
+ */
+static void reread(struct gb_watch *watch)
 {
     struct gb_swarm fresh;
     char *directory = g_strdup(watch->swarm.directory);
-    const bool good = gb_swarm_read(&fresh, directory, err);
-    g_free(directory);
-    if (!good) {
+    watch->trouble = (struct gb_error){0};
+    if (gb_swarm_read(&fresh, directory, &watch->trouble)) {
+        gb_swarm_finish(&watch->swarm);
+        watch->swarm = fresh;
+    } else {
         gb_swarm_finish(&fresh);
-        return false;
     }
-    gb_swarm_finish(&watch->swarm);
-    watch->swarm = fresh;
-    return true;
+    g_free(directory);
 }
 
 /* -1: goes on; else the exit status. */
@@ -201,9 +203,8 @@ static int loop(struct gb_watch *watch, struct gb_term *term, bool *gone)
         status = handle(watch, term, &event);
         *gone = event.kind == GB_TERM_GONE;
         if (clock_s() >= due) {
-            struct gb_error err = {0};
             const double from = clock_s();
-            reread(watch, &err);
+            reread(watch);
             due = clock_s() + MAX(again_s, share * (clock_s() - from));
         }
         if (status < 0) {

@@ -18,6 +18,7 @@ enum gb_watch_view {
 
 struct gb_watch {
     struct gb_swarm swarm;
+    struct gb_error trouble; /* why it could not be read again; GB_OK: it could */
     enum gb_watch_view view;
     size_t level; /* pressure of the map */
     bool linear;  /* pressure axis */

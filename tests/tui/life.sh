@@ -2,35 +2,17 @@
 # The workbench loses its terminal, under tmux and under a bare pseudo-terminal: the engine
 # goes on, the rest is idle, attach shows the run and takes it over.
 # Usage: life.sh GREENBODY PRESET_FOLDER SAME_STATE TIMES
-set -u
-
-greenbody=$1
-presets=$2
+. "$(dirname "$0")/terminal.sh"
 same_state=$3
 times=$4
-socket=greenbody-life-$$
-here=$(mktemp -d) || exit 1
-tests=0
-bad=0
-deadline_s=120
 engine=
-
-export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
-export XDG_STATE_HOME="$here/state" LC_ALL=C.UTF-8 ENV=
-unset NO_COLOR COLORTERM TMUX LINES COLUMNS
-
-term() {
-    tmux -u -L "$socket" -f /dev/null "$@"
-}
 
 finish() {
     term kill-server 2>/dev/null
     [ -z "$engine" ] || kill -KILL "$engine" 2>/dev/null
     rm -rf "$here"
 }
-trap finish EXIT
 mkfifo "$here/input" || exit 1
-trap 'exit 1' HUP INT TERM
 
 result() { # name, 0 when good
     tests=$((tests + 1))
@@ -38,19 +20,10 @@ result() { # name, 0 when good
         echo "ok $tests $1"
     else
         echo "not ok $tests $1"
-        term capture-pane -p 2>/dev/null | sed 's/^/# /'
+        screen 2>/dev/null | sed 's/^/# /'
         sed 's/^/# /' "$run/status.json" "$run/events.log" 2>/dev/null
         bad=1
     fi
-}
-
-# command...: until it succeeds or the deadline is over
-until_true() {
-    local end=$(($(date +%s) + deadline_s))
-    while ! "$@"; do
-        [ "$(date +%s)" -lt "$end" ] || return 1
-        sleep 0.1
-    done
 }
 
 is() { # name, command...
@@ -78,10 +51,6 @@ pid() {
 
 gone() { # pid
     ! kill -0 "$1" 2>/dev/null
-}
-
-has() {
-    term capture-pane -p | grep -q -- "$1"
 }
 
 # Clock ticks the first thread, that of the screen, has taken.
@@ -188,6 +157,30 @@ before=$(rows)
 is 'run: HUP lets it go on' more_rows $((before + 3))
 is 'run: and is told among the events' grep -q 'the terminal is gone' "$run/events.log"
 ends run
+
+# --- the directory goes away --------------------------------------------------------------
+# shellcheck disable=SC2086  # words
+"$greenbody" run $scene --out "$run-2" 2>"$here/err" &
+engine=$!
+run=$run-2
+is 'lost: the run is kept' more_rows 3
+term new-session -d -x 100 -y 30 "$greenbody attach $run"
+is 'lost: attach shows it' has 'attached to'
+"$greenbody" attach "$run" >"$here/out" 2>"$here/attach" &
+watcher=$!
+is 'lost: without a screen, too' grep -q density "$here/attach"
+rm -rf "$run"
+wait $watcher
+[ $? -eq 3 ] && grep -q 'quiet-2: was moved or removed' "$here/attach"
+result 'lost: attach ends with a line and status 3' $?
+wait $engine
+[ $? -eq 3 ] && grep -q 'quiet-2: was moved or removed' "$here/err"
+result 'lost: so does the engine' $?
+is 'lost: the screen says it' has 'was moved or removed'
+is 'lost: and that it failed' has 'failed'
+engine=
+[ ! -e "$run" ]
+result 'lost: nothing comes there again' $?
 
 echo "1..$tests"
 exit $bad

@@ -59,6 +59,14 @@ shows "shows the map" 'density at'
 is "in ASCII" until_true is_ascii
 leaves "closes, too"
 
+cp -r "$here/map" "$here/lost"
+start attach "$here/lost"
+shows "a copy of it opens" 'means and their'
+rm -rf "$here/lost"
+shows "when it is removed, that is told" 'lost: '
+shows "over what was shown last" 'means and their'
+leaves "closes without it"
+
 # --- more cells and a fit, started from the workbench
 start default particles.count=100 loading.until=10MPa loading.unload_from=
 shows "the workbench opens" '✓ done'
