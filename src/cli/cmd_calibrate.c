@@ -34,7 +34,8 @@ struct calibration {
     struct gb_labdata lab;
     struct gb_calibrate_problem problem;
     struct gb_calibrate_result result;
-    GString *rounds; /* what rounds.csv holds */
+    GString *rounds;         /* what rounds.csv holds */
+    struct gb_error machine; /* the first run that the machine failed; GB_OK: none */
 };
 
 static const char *key_name(const struct gb_freekey *key, char *buffer, size_t size)
@@ -118,7 +119,7 @@ static void read_values(const struct calibration *calibration,
 static bool simulate(const double *parameters, size_t points, int stage, double *out,
                      void *context, struct gb_error *err)
 {
-    const struct calibration *calibration = context;
+    struct calibration *calibration = context;
     const struct request *request = calibration->request;
     const size_t data = calibration->lab.count;
     const size_t scenes = calibration->lab.scenes;
@@ -133,6 +134,9 @@ static bool simulate(const double *parameters, size_t points, int stage, double 
     for (size_t i = 0; good && i < ensemble.points * replicas; i++) {
         const struct gb_ensemble_run *run = &ensemble.run[i];
         const size_t point = run->point / scenes;
+        if (run->error.code == GB_ERR_MACHINE && calibration->machine.code == GB_OK) {
+            calibration->machine = run->error;
+        }
         read_values(calibration, run, out + (point * replicas + run->replica) * data);
     }
     gb_ensemble_finish(&ensemble);
@@ -367,8 +371,14 @@ static bool prepare(struct calibration *calibration, char **words, struct gb_err
 
 static bool perform(struct calibration *calibration, char **words, struct gb_error *err)
 {
-    if (!prepare(calibration, words, err) ||
-        !gb_calibrate_fit(&calibration->problem, &calibration->result, err)) {
+    if (!prepare(calibration, words, err)) {
+        return false;
+    }
+    if (!gb_calibrate_fit(&calibration->problem, &calibration->result, err)) {
+        /* runs are missing: a full disk is the reason, not the powder */
+        if (err->code == GB_ERR_GUARD && calibration->machine.code != GB_OK) {
+            *err = calibration->machine;
+        }
         return false;
     }
     const bool written = write_results(calibration, err);

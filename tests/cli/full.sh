@@ -88,15 +88,23 @@ if "$greenbody" snapshot whole -o trial.png >stdout 2>stderr; then
 fi
 ever_larger report true "$greenbody" report whole -o disk/report
 
-# A run that fails has its own line; the last one is of the whole.
-sweep() {
-    "$greenbody" sweep "${small[@]}" --vary "contact.mu=0.1;0.2" --replicas 1 -j 1 \
-        --out disk/sweep 2>lines
+# Of the commands that tell their progress the last line is the error.
+last_line() {
+    "$greenbody" "$@" 2>lines
     local status=$?
     tail -n 1 lines >&2
     return $status
 }
-ever_larger sweep true sweep
+ever_larger sweep true last_line sweep "${small[@]}" --vary "contact.mu=0.1;0.2" \
+    --replicas 1 -j 1 --out disk/sweep
+printf 'p_MPa,density,density_error\n5,0.26,0.01\n10,0.28,0.01\n' >lab.csv
+ever_larger calibrate true last_line calibrate "${small[@]}" particles.count=100 \
+    "loading.until=10 MPa" --data lab.csv --free contact.mu=0.05:0.4 --replicas 3 -j 1 --out disk/fit
+sed 's/^count = .*/count = 100/' "$GB_PRESET_DIR/default.ini" >mine.ini
+ever_larger chart true last_line chart mine.ini --seeds 2 --at '5 MPa' \
+    --vary 'numerics.tolerance=0.05,0.02' --reference 'loading.step=0.5 %' \
+    --out disk/chart
+ever_larger stability true "$greenbody" stability --out disk/stability
 
 echo "1..$tests"
 exit $bad
