@@ -80,13 +80,14 @@ int gb_cmd_workbench(int argc, char **argv)
     }
     struct gb_error err = {0};
     struct gb_preset *preset = NULL;
+    folder = folder != NULL ? folder : gb_life_folder();
     if (!gb_screening_settings(&screening, &settings, &err)) {
         status = gb_options_fail(&err);
         err.code = GB_OK;
     } else if (screening.diagnose) {
         gb_guess_print(stdout, STDOUT_FILENO, &settings);
+        gb_life_print_runs(stdout, folder);
     } else if (gb_options_scene(&preset, words, sets, false, &err)) {
-        folder = folder != NULL ? folder : gb_life_folder();
         status = gb_app_run(preset, folder, NULL, &settings, &err);
     }
     if (err.code != GB_OK) {

@@ -61,7 +61,7 @@ static void print_help(void)
     g_strfreev(presets);
     puts("\nOptions:\n"
          "  -h, --help     this page\n"
-         "  --diagnose     what the terminal is taken for\n"
+         "  --diagnose     what the terminal is taken for, and what the kept runs take\n"
          "  --batch        no workbench: what run does, also in a terminal\n"
          "  --color, --graph, --images, --mouse, --ascii, --slow\n"
          "                 of the workbench: see greenbody default --help\n"

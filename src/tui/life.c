@@ -3,6 +3,7 @@
 #include <glib.h>
 #include <signal.h>
 #include <stdio.h>
+#include <sys/stat.h>
 #include <time.h>
 
 #include "run/rundir.h"
@@ -13,6 +14,52 @@ enum { STATUS_SIGNAL = 128 };
 char *gb_life_folder(void)
 {
     return g_build_filename(g_get_user_state_dir(), "greenbody", "runs", NULL);
+}
+
+/* Bytes on the disk of all that lies there. */
+static int64_t bytes_of(const char *path)
+{
+    struct stat info;
+    if (lstat(path, &info) != 0) {
+        return 0;
+    }
+    int64_t bytes = (int64_t)info.st_blocks * 512; /* POSIX counts in these */
+    GDir *dir = S_ISDIR(info.st_mode) ? g_dir_open(path, 0, NULL) : NULL;
+    const char *name;
+    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+        char *inside = g_build_filename(path, name, NULL);
+        bytes += bytes_of(inside);
+        g_free(inside);
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    return bytes;
+}
+
+static int count_runs(const char *folder)
+{
+    int runs = 0;
+    GDir *dir = g_dir_open(folder, 0, NULL);
+    const char *name;
+    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+        char *preset = g_build_filename(folder, name, "preset.ini", NULL);
+        runs += g_file_test(preset, G_FILE_TEST_IS_REGULAR);
+        g_free(preset);
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    return runs;
+}
+
+void gb_life_print_runs(FILE *out, const char *folder)
+{
+    const int runs = count_runs(folder);
+    char *size = g_format_size((guint64)bytes_of(folder));
+    fprintf(out, "runs       %s: %d kept, %s on the disk; the program removes none\n",
+            folder, runs, size);
+    g_free(size);
 }
 
 char *gb_life_directory(const struct gb_session *session)

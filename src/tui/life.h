@@ -1,6 +1,8 @@
 #ifndef GB_TUI_LIFE_H
 #define GB_TUI_LIFE_H
 
+#include <stdio.h>
+
 #include "tui/panels.h"
 
 /* The life of a run beside its screen: the directory that keeps it, a terminal that goes
@@ -29,5 +31,9 @@ void gb_life_farewell(const struct gb_session *session);
 
 /* $XDG_STATE_HOME/greenbody/runs (g_free). */
 char *gb_life_folder(void);
+
+/* A line for --diagnose: how many runs are kept in the folder, and what they take of the
+ * disk.  Nothing removes them but the user. */
+void gb_life_print_runs(FILE *out, const char *folder);
 
 #endif

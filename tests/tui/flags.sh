@@ -38,9 +38,14 @@ row_of() {
 # --- without a screen
 "$greenbody" --diagnose >"$here/out" 2>&1
 is "--diagnose leaves with 0" [ $? -eq 0 ]
-for word in locale size terminal colours plots mouse images frames settings log; do
+for word in locale size terminal colours plots mouse images frames settings log runs; do
     is "--diagnose tells: $word" grep -q "^$word  " "$here/out"
 done
+is "--diagnose tells of no runs yet" grep -q 'runs: 0 kept, ' "$here/out"
+"$greenbody" run $small --quiet --out "$here/kept/one" && mkdir "$here/kept/other"
+"$greenbody" --diagnose --runs "$here/kept" >"$here/out" 2>&1
+is "--diagnose counts the runs that are kept" \
+    grep -q 'kept: 1 kept, [0-9.]*.*kB on the disk' "$here/out"
 TERM=dumb "$greenbody" --diagnose >"$here/out" 2>&1
 is "--diagnose of a dumb terminal" grep -q 'none: .*cannot place the cursor' "$here/out"
 TERM=xterm COLORTERM=truecolor "$greenbody" --diagnose >"$here/out" 2>&1
