@@ -99,7 +99,8 @@ ever_larger sweep true last_line sweep "${small[@]}" --vary "contact.mu=0.1;0.2"
     --replicas 1 -j 1 --out disk/sweep
 printf 'p_MPa,density,density_error\n5,0.26,0.01\n10,0.28,0.01\n' >lab.csv
 ever_larger calibrate true last_line calibrate "${small[@]}" particles.count=100 \
-    "loading.until=10 MPa" --data lab.csv --free contact.mu=0.05:0.4 --replicas 3 -j 1 --out disk/fit
+    "loading.until=10 MPa" --data lab.csv --free contact.mu=0.05:0.4 --replicas 3 -j 1 \
+    --out disk/fit
 sed 's/^count = .*/count = 100/' "$GB_PRESET_DIR/default.ini" >mine.ini
 ever_larger chart true last_line chart mine.ini --seeds 2 --at '5 MPa' \
     --vary 'numerics.tolerance=0.05,0.02' --reference 'loading.step=0.5 %' \

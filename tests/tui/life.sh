@@ -1,10 +1,9 @@
 #!/bin/bash
 # The workbench loses its terminal, under tmux and under a bare pseudo-terminal: the engine
 # goes on, the rest is idle, attach shows the run and takes it over.
-# Usage: life.sh GREENBODY PRESET_FOLDER SAME_STATE TIMES
+# Usage: life.sh GREENBODY PRESET_FOLDER TIMES
 . "$(dirname "$0")/terminal.sh"
-same_state=$3
-times=$4
+times=$3
 engine=
 
 finish() {

@@ -159,9 +159,13 @@ command -v tmux >/dev/null || {
     exit 1
 }
 
-# A terminal of 80 x 24 with a shell in it.
+# A terminal of 80 x 24 with a shell in it.  What is typed before the shell is up stands above
+# its first prompt, and the new prompt behind that one.
 open_terminal() {
     term new-session -d -x 80 -y 24 /bin/sh || exit 1
     keys "PS1='ready''> '" Enter
-    until_true has '^ready>'
+    until_true has 'ready>' || {
+        echo "Bail out! no shell in the terminal"
+        exit 1
+    }
 }
