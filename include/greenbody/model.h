@@ -9,6 +9,7 @@
 #include "phys/law_dispersion.h"
 #include "phys/law_rod.h"
 #include "phys/law_slip.h"
+#include "phys/sizes.h"
 
 /* Which terms the force sweep of this scene carries.  A scene pays only for what it uses.
  */
@@ -78,6 +79,10 @@ struct gb_model {
     double edges[3]; /* initial cell, d */
     double start_density;
     double r_meso;
+    bool sized;            /* particles of more than one size; else none of these: */
+    struct gb_sizes sizes; /* in m */
+    double least, largest; /* diameters, d; 1 */
+    double mean_cube;      /* of diameters, d^3; 1 */
     struct gb_terms terms;
     struct gb_law_rod rod;
     struct gb_law_bridge bridge;

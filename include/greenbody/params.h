@@ -221,6 +221,9 @@ double gb_params_bridge_length_m(const struct gb_params *params);
 double gb_params_shear_strength_pa(const struct gb_params *params);
 /* Median diameter of the log-normal law. */
 double gb_params_median_m(const struct gb_params *params);
+/* What "d" means in values of a preset and in reduced units: particles.diameter; where a
+ * quasi-static scene has sizes, their mean by number. */
+double gb_params_reference_m(const struct gb_params *params);
 /* sigma_0 of Hollomon's law; auto passes through the yield point.  Source: P3 section 4.
  */
 double gb_params_hollomon_pa(const struct gb_params *params);

@@ -72,8 +72,8 @@ static bool measure(struct gb_packing *packing, struct gb_error *err)
     if (packing->g == NULL ||
         !gb_structure_rdf(&cell, state->count, state->position, packing->r_max,
                           packing->bins, packing->g, err) ||
-        !gb_structure_connectivity(&cell, state->count, state->position, packing->reach,
-                                   &packing->connectivity, err)) {
+        !gb_structure_connectivity(&cell, state->count, state->position, state->radius,
+                                   packing->reach, &packing->connectivity, err)) {
         return false;
     }
     packing->g_end = gb_structure_rdf_end(state->dimension, packing->r_max, packing->bins,

@@ -4,12 +4,14 @@
 #include <string.h>
 
 #include "base/vec.h"
+#include "phys/law_unequal.h"
 
 double gb_observe_density(const struct gb_world *world)
 {
     const struct gb_model *model = gb_world_model(world);
     const double shape = model->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
-    return shape * (double)model->count / gb_cell_volume(gb_world_cell(world));
+    return shape * model->mean_cube * (double)model->count /
+           gb_cell_volume(gb_world_cell(world));
 }
 
 /* Adds f_i r_j of pair k of a list. */
@@ -46,24 +48,12 @@ void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
     }
 }
 
-/* Elastic energy of a contact along its normal: below h_min the area under the line
- * counts. */
-static double normal_energy(const struct gb_model *model, double deepest, double h)
-{
-    const double from = deepest > 0.0 ? deepest : h, back = from - h;
-    return gb_law_rod_energy(&model->rod, from) -
-           gb_law_rod_force(&model->rod, from) * back +
-           0.5 * gb_law_rod_stiffness(&model->rod, from) * back * back;
-}
-
-/* Energy in the springs; their loads act over the whole relative motion. */
+/* Energy in the springs of a contact of radius a; their loads act over the whole relative
+ * motion. */
 static double spring_energy(const struct gb_model *model,
-                            const struct gb_contacts *contacts, int64_t k, double h)
+                            const struct gb_contacts *contacts, int64_t k, double a)
 {
     const struct gb_law_slip *slip = &model->slip;
-    const double deepest = gb_contacts_deepest(contacts, k);
-    const double a = deepest > 0.0 ? gb_law_bridge_radius(&model->bridge, deepest, h)
-                                   : 0.5 * sqrt(h > 0.0 ? h : 0.0);
     double shear2 = 0.0, roll2 = 0.0;
     for (int c = 0; c < (model->dimension == 3 ? 3 : 1); c++) {
         const double shear = gb_contacts_value(contacts, contacts->shear[c], k);
@@ -79,36 +69,45 @@ static double spring_energy(const struct gb_model *model,
             gb_law_slip_pivot_stiffness(slip, a) * pivot * pivot);
 }
 
-double gb_observe_elastic(const struct gb_world *world)
+/* Energy of pair k of a list: attraction, and where it touches, along its normal (below
+ * h_min the area under the line counts) and in its springs. */
+static double pair_energy(const struct gb_world *world, const struct gb_pair_list *list,
+                          int64_t i, int64_t k)
 {
     const struct gb_model *model = gb_world_model(world);
-    const struct gb_pairs *pairs = gb_world_pairs(world);
     const struct gb_contacts *contacts = gb_world_contacts(world);
-    const double cutoff = model->terms.attraction ? model->numerics.cutoff : 0.0;
-    const double base =
-        cutoff > 0.0 ? gb_law_dispersion_energy(&model->dispersion, cutoff) : 0.0;
+    const bool near = list == &gb_world_pairs(world)->near;
+    struct gb_law_unequal law;
+    double r[3], sum = 0.0;
+    gb_world_arm(world, list, i, k, r);
+    gb_law_unequal_init(&law, model, gb_world_diameter(world, i),
+                        gb_world_diameter(world, list->other[k]));
+    const double length = gb_vec_length(r), h = law.span - length;
+    const double reach = law.span + model->numerics.cutoff - 1.0;
+    if (near && gb_contacts_touch(contacts, k)) {
+        const double deepest = gb_contacts_deepest(contacts, k);
+        const bool printed = deepest > 0.0 && model->bridge.radius_current;
+        const double wide = printed ? h + law.bridge_length : fmax(deepest, 0.0);
+        sum = gb_law_unequal_energy(&law, deepest, h) +
+              spring_energy(model, contacts, k,
+                            gb_law_unequal_radius(&law, deepest > 0.0 ? wide : h));
+    }
+    if (model->terms.attraction && length < reach) {
+        sum += gb_law_unequal_depth(&law, length) - gb_law_unequal_depth(&law, reach);
+    }
+    return sum;
+}
+
+double gb_observe_elastic(const struct gb_world *world)
+{
+    const struct gb_pairs *pairs = gb_world_pairs(world);
     double sum = 0.0;
-    for (int64_t i = 0; i < model->count; i++) {
+    for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
         for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
-            double r[3];
-            gb_world_arm(world, &pairs->near, i, k, r);
-            const double length = gb_vec_length(r);
-            if (gb_contacts_touch(contacts, k)) {
-                const double deepest = gb_contacts_deepest(contacts, k);
-                sum += normal_energy(model, deepest, 1.0 - length) +
-                       spring_energy(model, contacts, k, 1.0 - length);
-            }
-            if (length < cutoff) {
-                sum += gb_law_dispersion_energy(&model->dispersion, length) - base;
-            }
+            sum += pair_energy(world, &pairs->near, i, k);
         }
         for (int64_t k = pairs->far.start[i]; k < pairs->far.start[i + 1]; k++) {
-            double r[3];
-            gb_world_arm(world, &pairs->far, i, k, r);
-            const double length = gb_vec_length(r);
-            if (length < cutoff) {
-                sum += gb_law_dispersion_energy(&model->dispersion, length) - base;
-            }
+            sum += pair_energy(world, &pairs->far, i, k);
         }
     }
     return sum;

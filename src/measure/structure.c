@@ -180,21 +180,40 @@ static void join(struct node *nodes, int32_t i, int32_t j, const int image[3])
     }
 }
 
+/* Are they nearer than the reach, of two sizes: than its share of their diameters? */
+static bool is_neighbour(const struct gb_grid_hit *hit, int32_t i, double reach,
+                         const double *radius)
+{
+    const double span = radius ? reach * (radius[i] + radius[hit->index]) : reach;
+    return !radius || hit->square < span * span;
+}
+
+static double largest_of(const double *radius, int64_t count)
+{
+    double largest = 0.5;
+    for (int64_t i = 0; radius && i < count; i++) {
+        largest = fmax(largest, radius[i]);
+    }
+    return largest;
+}
+
 /* Joins all pairs within reach and counts neighbours on the way. */
-static void join_neighbours(const struct gb_grid *grid, double reach, struct node *nodes,
+static void join_neighbours(const struct gb_grid *grid, double reach,
+                            const double *radius, struct node *nodes,
                             struct gb_connectivity *out)
 {
+    const double most = 2.0 * largest_of(radius, grid->count) * reach;
     enum { LAST = sizeof(out->histogram) / sizeof(out->histogram[0]) - 1 };
     int64_t contacts = 0;
     for (int32_t i = 0; i < grid->count; i++) {
         struct gb_grid_ball ball;
         struct gb_grid_hit hit;
         int neighbours = 0;
-        gb_grid_ball_init(&ball, grid, grid->position + 3 * (int64_t)i, reach);
+        gb_grid_ball_init(&ball, grid, grid->position + 3 * (int64_t)i, most);
         while (gb_grid_ball_next(&ball, &hit)) {
             const bool self = hit.index == i && hit.image[0] == 0 && hit.image[1] == 0 &&
                               hit.image[2] == 0;
-            if (!self) {
+            if (!self && is_neighbour(&hit, i, reach, radius)) {
                 neighbours++;
                 join(nodes, i, (int32_t)hit.index, hit.image);
             }
@@ -221,7 +240,7 @@ static void count_clusters(const struct node *nodes, int64_t count,
 }
 
 bool gb_structure_connectivity(const struct gb_cell *cell, int64_t count,
-                               const double *position, double reach,
+                               const double *position, const double *radius, double reach,
                                struct gb_connectivity *out, struct gb_error *err)
 {
     memset(out, 0, sizeof(*out));
@@ -245,7 +264,7 @@ bool gb_structure_connectivity(const struct gb_cell *cell, int64_t count,
         nodes[i].parent = i;
         nodes[i].size = 1;
     }
-    join_neighbours(grid, reach, nodes, out);
+    join_neighbours(grid, reach, radius, nodes, out);
     count_clusters(nodes, count, out);
     gb_alloc_free(nodes);
     gb_grid_destroy(grid);

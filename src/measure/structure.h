@@ -32,10 +32,11 @@ struct gb_connectivity {
     int64_t histogram[16]; /* particles with 0, 1, ..., 15 or more neighbours */
 };
 
-/* Clusters of particles closer than reach, and whether the largest joins its own periodic
+/* Clusters of particles closer than reach (d; where radius is not NULL: in sums of two
+ * radii), and whether the largest joins its own periodic
  * images (union-find that carries image shifts). */
 bool gb_structure_connectivity(const struct gb_cell *cell, int64_t count,
-                               const double *position, double reach,
+                               const double *position, const double *radius, double reach,
                                struct gb_connectivity *out, struct gb_error *err);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/alloc.h"
 #include "pack/pour.h"
-#include "pack/sizes.h"
+#include "pack/deal.h"
 
 /* Density of the loosest filling for which an automatic height leaves room, with its
  * heap, and the densest one that a given height may ask for. */
@@ -41,7 +41,7 @@ static bool draw_radii(const struct gb_params *params, double *radius, double *v
 {
     struct gb_sizes sizes;
     if (!gb_sizes_init(&sizes, params, err) ||
-        !gb_sizes_draw(&sizes, params->count, params->seed, radius, err)) {
+        !gb_deal_sizes(&sizes, params->count, params->seed, radius, err)) {
         return false;
     }
     *volume = *largest = 0.0;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "pack/deal.h"
 #include "pack/grid.h"
 #include "pack/random.h"
 #include "pack/roll.h"
@@ -23,6 +24,10 @@ static const double ray_longest_2d = 40.0;
  * fill at most the strip, 3.9 (n + 1). */
 enum { CANDIDATES_MOST = 824 };
 
+/* Of unequal sizes the small ones are more; those beyond so many times that number, the
+ * last ones found, are not looked at. */
+enum { CANDIDATES_SIZED = 8 };
+
 /* Rays that find no place: after the first number another particle becomes the origin;
  * after the second, in a row, the structure counts as full. */
 enum { FAILURES_PER_ORIGIN = 64, FAILURES_MOST = 64 * 64 };
@@ -34,16 +39,31 @@ enum { RAYS_PER_POLL = 64 };
 struct candidate {
     int64_t j;
     double along;     /* of the place, from the origin of the ray */
-    double offset[3]; /* from j to the place; as long as r_eq */
+    double offset[3]; /* from j to the place; as long as they touch */
 };
 
 struct growth {
     const struct gb_grow *grow;
     struct gb_grid *grid;
+    double *diameter; /* d; NULL: all are equal */
     gsl_rng rng;
     struct candidate *candidates;
+    int room; /* for candidates */
     int64_t rays;
 };
+
+/* The particle that is to be placed next. */
+static struct gb_roll next_one(const struct growth *growth)
+{
+    struct gb_roll roll = {.grid = growth->grid, .r_eq = growth->grow->r_eq};
+    if (growth->diameter) {
+        roll.model = growth->grow->model;
+        roll.diameter = growth->diameter;
+        roll.own = growth->diameter[growth->grid->count];
+        roll.r_eq = 0.5 * (roll.own + roll.model->largest);
+    }
+    return roll;
+}
 
 static void random_direction(struct growth *growth, double direction[3])
 {
@@ -85,20 +105,23 @@ static int compare_candidates(const void *left, const void *right)
 
 /* All places on the far side of the particles that the ray passes within r_eq; overlaps
  * are not looked at yet.  Returns how many. */
-static int collect_candidates(struct growth *growth, const double origin[3],
-                              const double direction[3])
+static int collect_candidates(struct growth *growth, const struct gb_roll *roll,
+                              const double origin[3], const double direction[3])
 {
-    const double r_eq = growth->grow->r_eq;
     struct gb_grid_ray ray;
     struct gb_grid_hit hit;
     int count = 0;
-    gb_grid_ray_init(&ray, growth->grid, origin, direction, r_eq,
+    gb_grid_ray_init(&ray, growth->grid, origin, direction, roll->r_eq,
                      ray_length(growth, origin, direction));
-    while (count < CANDIDATES_MOST && gb_grid_ray_next(&ray, &hit)) {
+    while (count < growth->room && gb_grid_ray_next(&ray, &hit)) {
         const double across = fmax(0.0, hit.square - hit.along * hit.along);
+        const double touch = gb_roll_touch(roll, hit.index);
+        if (growth->diameter && across >= touch * touch) {
+            continue; /* the ray passes it by */
+        }
         struct candidate *candidate = &growth->candidates[count++];
         candidate->j = hit.index;
-        candidate->along = hit.along + sqrt(r_eq * r_eq - across);
+        candidate->along = hit.along + sqrt(touch * touch - across);
         for (int k = 0; k < 3; k++) {
             candidate->offset[k] = candidate->along * direction[k] - hit.r[k];
         }
@@ -134,14 +157,15 @@ static int count_neighbours(const struct growth *growth, const double place[3],
 /* The free place with the fewest neighbours, the farthest of several; NULL when the ray
  * has none.  The candidates come farthest first, so only fewer neighbours win, and one
  * neighbour (the particle touched) cannot be beaten. */
-static const struct candidate *choose_candidate(const struct growth *growth, int count)
+static const struct candidate *choose_candidate(const struct growth *growth,
+                                                const struct gb_roll *roll, int count)
 {
     const struct candidate *best = NULL;
     int fewest = INT32_MAX;
     for (int i = 0; i < count && fewest > 1; i++) {
         double place[3];
         place_of(growth, &growth->candidates[i], place);
-        if (gb_roll_overlaps(growth->grid, growth->grow->r_eq, place)) {
+        if (gb_roll_overlaps(roll, place)) {
             continue;
         }
         const int neighbours = count_neighbours(growth, place, fewest);
@@ -156,6 +180,7 @@ static const struct candidate *choose_candidate(const struct growth *growth, int
 /* One ray from particle `origin`; places a particle when it finds room. */
 static bool shoot(struct growth *growth, int64_t origin)
 {
+    const struct gb_roll roll = next_one(growth);
     double start[3], direction[3], place[3];
     memcpy(start, growth->grid->position + 3 * origin, sizeof(start));
     random_direction(growth, direction);
@@ -163,15 +188,14 @@ static bool shoot(struct growth *growth, int64_t origin)
     if (growth->grid->count == 1) {
         /* Nothing to roll onto: the second particle just touches the first. */
         for (int k = 0; k < 3; k++) {
-            place[k] = start[k] + growth->grow->r_eq * direction[k];
+            place[k] = start[k] + gb_roll_touch(&roll, 0) * direction[k];
         }
         gb_grid_insert(growth->grid, place);
         return true;
     }
-    const int count = collect_candidates(growth, start, direction);
-    const struct candidate *best = choose_candidate(growth, count);
-    if (!best ||
-        !gb_roll_onto(growth->grid, growth->grow->r_eq, best->j, best->offset, place)) {
+    const int count = collect_candidates(growth, &roll, start, direction);
+    const struct candidate *best = choose_candidate(growth, &roll, count);
+    if (!best || !gb_roll_onto(&roll, best->j, best->offset, place)) {
         return false;
     }
     gb_grid_insert(growth->grid, place);
@@ -180,8 +204,10 @@ static bool shoot(struct growth *growth, int64_t origin)
 
 static double density(const struct growth *growth, int64_t count)
 {
-    const double one = growth->grow->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
-    return one * (double)count / gb_cell_volume(&growth->grid->cell);
+    const struct gb_grow *grow = growth->grow;
+    const double one = grow->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
+    const double mean = grow->model ? grow->model->mean_cube : 1.0;
+    return one * mean * (double)count / gb_cell_volume(&growth->grid->cell);
 }
 
 static bool fill(struct growth *growth, struct gb_error *err)
@@ -256,10 +282,21 @@ struct gb_grow gb_grow_of(const struct gb_model *model)
         .dimension = model->dimension,
         .count = model->count,
         .edges = {model->edges[0], model->edges[1], model->edges[2]},
-        .r_eq = 1.0 - model->h_eq,
+        .r_eq = model->sized ? model->largest : 1.0 - model->h_eq,
+        .model = model->sized ? model : NULL,
         .r_meso = model->r_meso,
         .seed = model->seed,
     };
+}
+
+static bool deal(struct growth *growth, struct gb_error *err)
+{
+    if (!growth->grow->model) {
+        return true;
+    }
+    growth->diameter =
+        gb_alloc_array((size_t)growth->grow->count, sizeof *growth->diameter, err);
+    return growth->diameter && gb_deal_model(growth->grow->model, growth->diameter, err);
 }
 
 bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error *err)
@@ -274,7 +311,12 @@ bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error
     if (!gb_random_open(&growth.rng, grow->seed, err)) {
         return false;
     }
-    growth.candidates = gb_alloc_array(CANDIDATES_MOST, sizeof(struct candidate), err);
+    if (!deal(&growth, err)) {
+        goto close_rng;
+    }
+    growth.room = CANDIDATES_MOST * (growth.diameter ? CANDIDATES_SIZED : 1);
+    growth.candidates =
+        gb_alloc_array((size_t)growth.room, sizeof(struct candidate), err);
     if (!growth.candidates) {
         goto close_rng;
     }
@@ -291,6 +333,7 @@ bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error
 free_candidates:
     gb_alloc_free(growth.candidates);
 close_rng:
+    gb_alloc_free(growth.diameter);
     gb_random_close(&growth.rng);
     return done;
 }

@@ -14,9 +14,11 @@ struct gb_grow {
     int dimension;
     int64_t count;
     double edges[3]; /* d; y is 1 in 2D */
-    double r_eq;     /* distance of touching particles, d: 1 - h_eq */
+    double r_eq;     /* distance of touching particles, d: 1 - h_eq; of unequal sizes the
+                      * longest that can be */
     double r_meso;   /* d */
     uint64_t seed;
+    const struct gb_model *model;  /* of unequal sizes; else NULL */
     bool (*cancelled)(void *data); /* polled; NULL is fine */
     void *data;
 };

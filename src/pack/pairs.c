@@ -22,6 +22,7 @@ struct grid {
     int span_high[3];
     double inverse[3];
     const int32_t *begin, *order;
+    const double *diameter; /* NULL: all are 1 */
 };
 
 static bool list_init(struct gb_pair_list *list, int64_t count, struct gb_error *err)
@@ -53,7 +54,7 @@ static void list_finish(struct gb_pair_list *list)
 
 bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, struct gb_error *err)
 {
-    *pairs = (struct gb_pairs){.count = count};
+    *pairs = (struct gb_pairs){.count = count, .largest = 1.0};
     pairs->next = gb_alloc_array((size_t)count, sizeof *pairs->next, err);
     pairs->built_at = gb_alloc_array(3 * (size_t)count, sizeof *pairs->built_at, err);
     if (!pairs->next || !pairs->built_at || !list_init(&pairs->near, count, err) ||
@@ -181,10 +182,20 @@ struct neighbour {
     bool near;
 };
 
-/* Squared distances that bound the two lists. */
+/* Squared distances that bound the two lists, and how far they are from touching. */
 struct bounds {
     double near, far;
+    double skin, gap;
 };
+
+/* Bounds of a pair of unequal sizes. */
+static struct bounds bounds_of(const struct grid *grid, int64_t i, int32_t j,
+                               struct bounds most)
+{
+    const double span = 0.5 * (grid->diameter[i] + grid->diameter[j]);
+    const double near = span + most.skin, far = span + most.gap;
+    return (struct bounds){near * near, far * far, most.skin, most.gap};
+}
 
 static void insert_sorted(struct neighbour *list, int n, struct neighbour item)
 {
@@ -212,9 +223,13 @@ static int scan_cells(const struct grid *grid, int64_t i, int first, int last, i
             seen = nearest_image(grid->cell, x, y, &squared);
         }
         if (squared < bounds.far && grid->order[k] > i) {
-            insert_sorted(
-                list, n++,
-                (struct neighbour){grid->order[k], seen, squared < bounds.near});
+            const struct bounds own =
+                grid->diameter ? bounds_of(grid, i, grid->order[k], bounds) : bounds;
+            if (squared < own.far) {
+                insert_sorted(
+                    list, n++,
+                    (struct neighbour){grid->order[k], seen, squared < own.near});
+            }
         }
     }
     return n;
@@ -359,7 +374,7 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
                     const double *position, double cutoff, double skin,
                     struct gb_error *err)
 {
-    const double reach = cutoff + skin;
+    const double reach = pairs->largest - 1.0 + cutoff + skin;
     if (gb_cell_shortest(cell) < GB_EDGE_OVER_REACH * reach) {
         return gb_error_set(
             err, GB_ERR_GUARD,
@@ -369,10 +384,13 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
     }
     double shift[27][3];
     gb_pairs_shifts(cell, shift);
-    struct grid grid = {
-        .cell = cell, .position = position, .shift = (const double(*)[3])shift};
+    struct grid grid = {.cell = cell,
+                        .position = position,
+                        .shift = (const double(*)[3])shift,
+                        .diameter = pairs->diameter};
     grid_shape(&grid, reach, pairs->count);
-    const struct bounds bounds = {(1.0 + skin) * (1.0 + skin), reach * reach};
+    const struct bounds bounds = {(1.0 + skin) * (1.0 + skin), reach * reach, skin,
+                                  cutoff - 1.0 + skin};
     if (!grid_fill(pairs, &grid, err) || !fill_pairs(pairs, &grid, bounds, err)) {
         return false;
     }
@@ -423,7 +441,7 @@ bool gb_pairs_fresh(const struct gb_pairs *pairs, double travel, double cutoff,
 {
     /* Two particles at the cutoff now were at most cutoff (1 + strain) + 2 travel apart.
      */
-    return 2.0 * travel < skin - cutoff * pairs->strain;
+    return 2.0 * travel < skin - (pairs->largest - 1.0 + cutoff) * pairs->strain;
 }
 
 void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3])

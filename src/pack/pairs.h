@@ -27,6 +27,10 @@ struct gb_pair_list {
  * are in `near` and carry a contact record; `far` ones can only attract across a gap. */
 struct gb_pairs {
     int64_t count; /* particles */
+    /* Sizes, kept by the caller: a pair touches at the mean of its diameters, and skin
+     * and cutoff - 1 are counted from there.  NULL: at 1. */
+    const double *diameter;
+    double largest; /* of them; else 1 */
     struct gb_pair_list near, far;
     int32_t *head, *next; /* scratch of the grid: where its cells begin, what is there */
     int64_t head_capacity;

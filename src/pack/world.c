@@ -7,8 +7,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "pack/deal.h"
 #include "pack/simd.h"
 #include "pack/sweep.h"
+#include "pack/sweep_sized.h"
 #include "pack/world_private.h"
 #include "phys/tolerances.h"
 
@@ -28,6 +30,17 @@ static int thread_count(const struct gb_model *model)
 #endif
 }
 
+static bool take_sizes(struct gb_world *world, struct gb_error *err)
+{
+    if (!world->model->sized) {
+        return true;
+    }
+    world->diameter = gb_alloc_array((size_t)world->count, sizeof *world->diameter, err);
+    world->pairs.diameter = world->diameter;
+    world->pairs.largest = world->model->largest;
+    return world->diameter && gb_deal_model(world->model, world->diameter, err);
+}
+
 bool gb_world_create(struct gb_world **out, const struct gb_model *model,
                      const double *position, struct gb_error *err)
 {
@@ -40,7 +53,7 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
     world->count = model->count;
     world->threads = thread_count(model);
     world->kernel = gb_batch_pick(model, 0);
-    world->row = model->dimension == 3 ? 6 : 3;
+    world->row = model->sized ? GB_SIZED_ROW : model->dimension == 3 ? 6 : 3;
     world->in_single = model->numerics.single;
     gb_cell_init(&world->cell, model->dimension, model->edges);
     world->position = gb_alloc_array(3 * n, sizeof(double), err);
@@ -51,7 +64,8 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
         gb_alloc_array((size_t)gb_sweep_blocks(world->count), sizeof *world->block, err);
     if (!world->position || !world->turn || !world->force || !world->torque ||
         !world->block || !gb_pairs_init(&world->pairs, world->count, err) ||
-        (world->in_single && !gb_single_init(&world->single, model, err))) {
+        (world->in_single && !gb_single_init(&world->single, model, err)) ||
+        !take_sizes(world, err)) {
         gb_world_destroy(world);
         return false;
     }
@@ -65,6 +79,7 @@ void gb_world_destroy(struct gb_world *world)
     if (!world) {
         return;
     }
+    gb_alloc_free(world->diameter);
     gb_alloc_free(world->position);
     gb_alloc_free(world->turn);
     gb_alloc_free(world->force);
@@ -211,7 +226,7 @@ bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
     if (!ensure_list(world, err)) {
         return false;
     }
-    gb_sweep_run(world);
+    (world->diameter ? gb_sweep_sized_run : gb_sweep_run)(world);
     world->evaluations++;
     return check_sweep(world, err);
 }
@@ -275,6 +290,11 @@ const double *gb_world_position(const struct gb_world *world)
     return world->position;
 }
 
+double gb_world_diameter(const struct gb_world *world, int64_t i)
+{
+    return world->diameter ? world->diameter[i] : 1.0;
+}
+
 double gb_world_residual(const struct gb_world *world)
 {
     const double mean = world->tally.contacts > 0
@@ -313,8 +333,8 @@ void gb_world_force(const struct gb_world *world, int64_t k, double force[3])
     }
     const double *row = world->wrench + (int64_t)world->row * k;
     force[0] = row[0];
-    force[1] = world->row == 6 ? row[1] : 0.0;
-    force[2] = world->row == 6 ? row[2] : row[1];
+    force[1] = world->row >= 6 ? row[1] : 0.0;
+    force[2] = world->row >= 6 ? row[2] : row[1];
 }
 
 void gb_world_pull(const struct gb_world *world, int64_t k, double force[3])

@@ -20,7 +20,8 @@ struct gb_world;
 struct gb_bodies {
     int64_t count;
     double *position;
-    double *turn;        /* rotation since the last evaluation; consumed by it */
+    double *turn;        /* rotation since the last evaluation; consumed by it; in scenes
+                          * of unequal sizes times the diameter, and torques over it */
     const double *force; /* of the last evaluation */
     const double *torque;
 };
@@ -50,6 +51,8 @@ const struct gb_tally *gb_world_tally(const struct gb_world *world);
 /* Threads that work on it. */
 int gb_world_threads(const struct gb_world *world);
 const double *gb_world_position(const struct gb_world *world);
+/* Of particle i, d. */
+double gb_world_diameter(const struct gb_world *world, int64_t i);
 
 /* rms force (and torque over d, whichever is larger) over the force scale: the mean |f_n|
  * of the contacts or f_a(d), whichever is larger (without adhesion: a small floor). */

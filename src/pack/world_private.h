@@ -24,6 +24,7 @@ struct gb_world {
     struct gb_cell cell;
     int64_t count;
     double *position, *turn, *force, *torque; /* count x 3 */
+    double *diameter;                         /* d; NULL: all are 1 */
     struct gb_pairs pairs;
     double shift[27][3]; /* of the periodic images, as of the last evaluation */
     struct gb_batch_kernel kernel;

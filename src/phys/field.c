@@ -45,7 +45,7 @@ static double reference(const struct gb_field *field, const struct gb_params *pa
     case 'T':
         return gb_params_unit_time_s(params);
     default:
-        return params->diameter_m;
+        return gb_params_reference_m(params);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "phys/die_scene.h"
 #include "phys/dynamics.h"
+#include "phys/law_unequal.h"
 #include "phys/tolerances.h"
 
 struct normal_laws {
@@ -109,7 +110,7 @@ static bool pick_precision(const struct gb_model *model, const struct gb_params 
 {
     return params->precision == GB_PRECISION_SINGLE ||
            (params->precision == GB_PRECISION_AUTO && model->dimension == 3 &&
-            model->kind == GB_KIND_QUASISTATIC &&
+            !model->sized && model->kind == GB_KIND_QUASISTATIC &&
             strcmp(model->numerics.relaxer, "steepest") != 0 &&
             model->numerics.tolerance >= GB_SINGLE_TOLERANCE_LEAST);
 }
@@ -126,7 +127,7 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
                                      GB_CUTOFF_SHARE_BALANCED, GB_CUTOFF_SHARE_REFERENCE);
     const double given = params->cutoff.relative
                              ? params->cutoff.value
-                             : params->cutoff.value / params->diameter_m;
+                             : params->cutoff.value / model->metre_per_length;
     numerics->cutoff = isfinite(given) && given > 0.0
                            ? given
                            : gb_law_dispersion_reach(&model->dispersion, share);
@@ -143,7 +144,7 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
 
 static void freeze_laws(struct gb_model *model, const struct gb_params *params)
 {
-    const double d = params->diameter_m, young = params->young_pa;
+    const double d = model->metre_per_length, young = params->young_pa;
     gb_law_rod_init(&model->rod, params->poisson);
     gb_law_dispersion_init(&model->dispersion, params->n_d0_cubed,
                            params->epsilon_j / (young * d * d * d), params->alpha,
@@ -179,10 +180,42 @@ static void freeze_programme(struct gb_model *model, const struct gb_params *par
     }
 }
 
+/* The sizes of the powder; one of them in every scene but those of gb_sizes_apply. */
+static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
+                         struct gb_error *err)
+{
+    const double d = model->metre_per_length;
+    model->least = model->largest = model->mean_cube = 1.0;
+    model->sized = gb_sizes_apply(params);
+    if (!model->sized) {
+        return true;
+    }
+    if (!gb_sizes_init(&model->sizes, params, err)) {
+        return false;
+    }
+    model->mean_cube = gb_sizes_moment(&model->sizes, 3) / (d * d * d);
+    gb_sizes_ends(&model->sizes, params->count, &model->least, &model->largest);
+    model->least /= d;
+    model->largest /= d;
+    return true;
+}
+
+/* Equilibrium of the pair that adhesion presses deepest: of the smallest particles. */
+static double deepest_rest(const struct gb_model *model)
+{
+    struct gb_law_unequal law;
+    if (!model->sized) {
+        return equilibrium_overlap(&model->rod, model->adhesion);
+    }
+    gb_law_unequal_init(&law, model, model->least, model->least);
+    const double share = gb_law_unequal_rest(&law) / law.span;
+    return share < GB_OVERLAP_MOST ? share : (double)NAN;
+}
+
 bool gb_model_init(struct gb_model *model, const struct gb_params *params,
                    struct gb_error *err)
 {
-    const double d = params->diameter_m;
+    const double d = gb_params_reference_m(params);
     *model = (struct gb_model){
         .kind = params->kind,
         .dimension = params->dimension,
@@ -196,16 +229,19 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .dynamics = gb_dynamics_of(params),
         .die = gb_die_scene_of(params),
     };
+    if (!freeze_sizes(model, params, err)) {
+        return false;
+    }
     freeze_laws(model, params);
     if (params->kind == GB_KIND_DIE) { /* no cell, and laws of its own beside these */
         return true;
     }
     gb_params_cell(params, model->edges);
     const double shape = params->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
-    model->start_density = (double)params->count * shape /
+    model->start_density = (double)params->count * model->mean_cube * shape /
                            (model->edges[0] * model->edges[1] * model->edges[2]);
     freeze_programme(model, params);
-    model->h_eq = equilibrium_overlap(&model->rod, model->adhesion);
+    model->h_eq = deepest_rest(model);
     if (!isfinite(model->h_eq)) {
         return gb_error_set(
             err, GB_ERR_INPUT,
@@ -214,12 +250,15 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
             "alpha or diameter, or a smaller material.epsilon",
             params->alpha, 1e9 * d, model->adhesion, GB_OVERLAP_MOST);
     }
-    if (params->precision == GB_PRECISION_SINGLE && params->dimension == 2) {
+    if (params->precision == GB_PRECISION_SINGLE &&
+        (params->dimension == 2 || model->sized)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "numerics.precision = single: accepted in 3D only");
+                            "numerics.precision = single: accepted in 3D with particles "
+                            "of one size only");
     }
     pick_numerics(model, params);
-    const double reach = model->numerics.cutoff + model->numerics.skin;
+    const double reach =
+        model->numerics.cutoff + model->numerics.skin + model->largest - 1.0;
     for (int k = 0; k < 3; k++) {
         const bool periodic = params->dimension == 3 || k != 1;
         if (periodic && model->edges[k] < GB_EDGE_OVER_REACH * reach) {

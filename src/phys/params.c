@@ -13,6 +13,7 @@
 #include "phys/field.h"
 #include "phys/law_storakers.h"
 #include "phys/marks.h"
+#include "phys/sizes.h"
 #include "phys/sizetable.h"
 
 static const char *const kinds[] = {"quasistatic", "dynamic", "die", NULL};
@@ -462,7 +463,8 @@ double gb_params_bridge_length_m(const struct gb_params *params)
 double gb_params_shear_strength_pa(const struct gb_params *params)
 {
     if (isnan(params->shear_strength.value)) {
-        const bool bridges = gb_params_bridge_length_m(params) < params->diameter_m;
+        const bool bridges =
+            gb_params_bridge_length_m(params) < gb_params_reference_m(params);
         return (bridges ? strength_bridged : strength_unlimited) * params->young_pa;
     }
     return gb_field_absolute(gb_params_find("contact", "shear_strength"), params);
@@ -500,24 +502,41 @@ double gb_params_time_step_s(const struct gb_params *params)
     return gb_field_absolute(gb_params_find("numerics", "time_step"), params);
 }
 
+double gb_params_reference_m(const struct gb_params *params)
+{
+    struct gb_sizes sizes;
+    return gb_sizes_apply(params) && gb_sizes_init(&sizes, params, NULL)
+               ? gb_sizes_moment(&sizes, 1)
+               : params->diameter_m;
+}
+
+/* Mean of (diameter/d)^3. */
+static double mean_cube(const struct gb_params *params)
+{
+    struct gb_sizes sizes;
+    return gb_sizes_apply(params) && gb_sizes_init(&sizes, params, NULL)
+               ? gb_sizes_moment(&sizes, 3) / pow(gb_sizes_moment(&sizes, 1), 3.0)
+               : 1.0;
+}
+
 /* Base of the initial cell in diameters.  auto in 3D: P1's 18 d for 8000 particles at
  * density 0.24 and the same aspect ratio for other volumes. */
 static double base_edge(const struct gb_params *params, double volume)
 {
     if (params->base.relative && params->base.value == 0.0) {
-        const double share =
-            (double)params->count / 8000.0 * (0.24 / gb_params_structure_density(params));
+        const double share = (double)params->count * mean_cube(params) / 8000.0 *
+                             (0.24 / gb_params_structure_density(params));
         return params->dimension == 2 ? sqrt(volume) : 18.0 * cbrt(share);
     }
     return params->base.relative ? params->base.value
-                                 : params->base.value / params->diameter_m;
+                                 : params->base.value / gb_params_reference_m(params);
 }
 
 void gb_params_cell(const struct gb_params *params, double edges[3])
 {
     const double particle = params->dimension == 2 ? M_PI / 4.0 : M_PI / 6.0;
-    const double volume =
-        (double)params->count * particle / gb_params_structure_density(params);
+    const double volume = (double)params->count * mean_cube(params) * particle /
+                          gb_params_structure_density(params);
     const double base = base_edge(params, volume);
     edges[0] = base;
     edges[1] = params->dimension == 2 ? 1.0 : base;
@@ -539,6 +558,18 @@ bool gb_params_check_fields(const struct gb_params *params, struct gb_error *err
     return true;
 }
 
+/* Of the diameters of the particles. */
+static double largest_over_mean(const struct gb_params *params)
+{
+    struct gb_sizes sizes;
+    double least = 1.0, largest = 1.0;
+    if (!gb_sizes_apply(params) || !gb_sizes_init(&sizes, params, NULL)) {
+        return 1.0;
+    }
+    gb_sizes_ends(&sizes, params->count, &least, &largest);
+    return largest / gb_sizes_moment(&sizes, 1);
+}
+
 /* Two particles must meet through one periodic image only: an edge has room for twice the
  * reach of the neighbour list. */
 static bool check_cell(const struct gb_params *params, struct gb_error *err)
@@ -548,8 +579,9 @@ static bool check_cell(const struct gb_params *params, struct gb_error *err)
     if (!isnan(params->cutoff.value)) {
         const double cutoff =
             gb_field_absolute(gb_params_find("numerics", "cutoff"), params);
-        reach = fmax(reach, cutoff / params->diameter_m);
+        reach = fmax(reach, cutoff / gb_params_reference_m(params));
     }
+    reach += largest_over_mean(params) - 1.0;
     double edges[3];
     gb_params_cell(params, edges);
     for (int k = 0; k < 3; k++) {

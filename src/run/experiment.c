@@ -54,7 +54,9 @@ static bool grow_world(struct gb_experiment *experiment, bool (*cancelled)(void 
     grow.data = data;
     const bool done =
         gb_grow_place(&grow, position, err) &&
-        gb_curve_sort(position, model->count, model->dimension, model->edges, err) &&
+        /* sizes belong to the places as they were grown */
+        (model->sized ||
+         gb_curve_sort(position, model->count, model->dimension, model->edges, err)) &&
         gb_world_create(&experiment->world, model, position, err);
     gb_alloc_free(position);
     return done;
@@ -572,7 +574,7 @@ static bool world_state(const struct gb_experiment *experiment, struct gb_state 
         memcpy(state->position + 3 * i, gb_world_position(world) + 3 * i,
                3 * sizeof(double));
         gb_cell_wrap(gb_world_cell(world), state->position + 3 * i);
-        state->radius[i] = 0.5;
+        state->radius[i] = 0.5 * gb_world_diameter(world, i);
     }
     copy_pairs(world, state);
     measure(experiment, &state->point);

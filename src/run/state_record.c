@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "pack/cell.h"
+#include "pack/deal.h"
 
 /* What is taken out of the record as it is. */
 static bool take(const struct gb_record *record, const char *name,
@@ -196,6 +197,7 @@ bool gb_state_record(struct gb_state **out, const struct gb_record *record,
     if (!take(record, "world/edge", GB_RECORD_DOUBLE, 1, 3, state->cell, err) ||
         !take(record, "world/position", GB_RECORD_DOUBLE, count, 3, state->position,
               err) ||
+        !gb_deal_model(model, state->radius, err) ||
         !take(record, "world/pair", GB_RECORD_INT32, pairs, 2, state->pair, err) ||
         !take(record, "world/pair_force", GB_RECORD_DOUBLE, pairs, 3, state->pair_force,
               err) ||
@@ -207,7 +209,7 @@ bool gb_state_record(struct gb_state **out, const struct gb_record *record,
     gb_cell_init(&cell, model->dimension, state->cell);
     for (int64_t i = 0; i < count; i++) {
         gb_cell_wrap(&cell, state->position + 3 * i);
-        state->radius[i] = 0.5;
+        state->radius[i] *= 0.5;
     }
     fill_pairs(state, &cell, history);
     fill_header(state, params, model);

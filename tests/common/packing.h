@@ -62,7 +62,8 @@ static inline struct gb_connectivity packing_contacts(const struct packing *pack
     struct gb_error err = {0};
     const double reach = packing->grow.r_eq < 1.0 ? 1.0 : 1.0 + 1e-9;
     g_assert_true(gb_structure_connectivity(&packing->cell, packing->grow.count,
-                                            packing->position, reach, &found, &err));
+                                            packing->position, NULL, reach, &found,
+                                            &err));
     return found;
 }
 

@@ -99,7 +99,7 @@ static struct gb_connectivity connect(const struct gb_cell *cell, int64_t count,
 {
     struct gb_connectivity found;
     struct gb_error err = {0};
-    g_assert_true(gb_structure_connectivity(cell, count, position, reach, &found, &err));
+    g_assert_true(gb_structure_connectivity(cell, count, position, NULL, reach, &found, &err));
     return found;
 }
 
@@ -235,7 +235,7 @@ static void test_memory(void)
         struct gb_connectivity found;
         gb_alloc_fail_after(k);
         done = gb_structure_rdf(&cell, 2, position, 4.0, 4, g, &err) &&
-               gb_structure_connectivity(&cell, 2, position, 1.1, &found, &err);
+               gb_structure_connectivity(&cell, 2, position, NULL, 1.1, &found, &err);
         gb_alloc_fail_after(0);
         g_assert_true(done || err.code == GB_ERR_MEMORY);
         g_assert_cmpuint(gb_alloc_bytes(), ==, held);

@@ -7,7 +7,7 @@
 #include <glib.h>
 
 #include "pack/sift.h"
-#include "pack/sizes.h"
+#include "pack/deal.h"
 
 enum { COUNTS = 3, KINDS = 4, REPEATS = 5 };
 
@@ -28,7 +28,7 @@ static void p3_sizes(int64_t count, double *diameter)
     if (!gb_params_assign(&params, "particles.table=" GB_TEST_PRESETS "/nial-sizes.csv",
                           &err) ||
         !gb_sizes_init(&sizes, &params, &err) ||
-        !gb_sizes_draw(&sizes, count, 1, diameter, &err)) {
+        !gb_deal_sizes(&sizes, count, 1, diameter, &err)) {
         g_error("%s", err.text);
     }
     for (int64_t i = 0; i < count; i++) {

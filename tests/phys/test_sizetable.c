@@ -199,12 +199,11 @@ static void test_check(void)
 static void test_params(void)
 {
     static const char *const cases[][4] = {
-        {"particles.distribution=lognormal", NULL, NULL,
-         "particles.distribution = lognormal: accepted mono with scene.kind = "
-         "quasistatic "
-         "or dynamic"},
-        {"particles.distribution=table", "particles.table=number: 1 um 1", NULL,
-         "particles.distribution = table: accepted mono"},
+        {"particles.distribution=lognormal", "scene.kind=dynamic", NULL,
+         "particles.distribution = lognormal: accepted mono with scene.kind = dynamic or "
+         "scene.dimension = 2"},
+        {"particles.distribution=table", "particles.table=number: 1 um 1",
+         "scene.dimension=2", "particles.distribution = table: accepted mono"},
         {"particles.distribution=table", NULL, NULL, "particles.table: empty"},
         {"particles.distribution=lognormal", "particles.median=14 nm",
          "particles.least=14 nm", "particles.least = 14 nm: accepted below the median"},

@@ -150,6 +150,16 @@ static void test_quasistatic(void)
     check(&params);
 }
 
+static void test_sizes(void)
+{
+    const struct gb_params params =
+        scene_params("particles.distribution=lognormal", "particles.sigma=0.25",
+                     "particles.largest=14 nm", "particles.count=120",
+                     "loading.until=20 MPa", "loading.unload_from=12 MPa",
+                     "loading.step=1 %", "numerics.tolerance=3e-2", NULL);
+    check(&params);
+}
+
 static void test_dynamic(void)
 {
     const struct gb_params params = scene_params(
@@ -172,6 +182,7 @@ int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/same/cell/quasistatic", test_quasistatic);
+    g_test_add_func("/same/cell/sizes", test_sizes);
     g_test_add_func("/same/cell/dynamic", test_dynamic);
     g_test_add_func("/same/die", test_die);
     return g_test_run();

@@ -1,13 +1,9 @@
-#include "pack/sizes.h"
+#include "phys/sizes.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
-#include "pack/random.h"
 #include "phys/sizetable.h"
-
-/* Sets the shuffle apart from other uses of the same seed. */
-static const uint64_t shuffle_stream = 0x73697a6573; /* "sizes" */
 
 /* Probability of a standard normal between a and b, without loss in either tail. */
 static double between(double a, double b)
@@ -37,6 +33,12 @@ static void freeze_table(struct gb_sizes *sizes, const struct gb_sizetable *tabl
 static double cut_at(const struct gb_sizes *sizes, double diameter_m, double uncut)
 {
     return isnan(diameter_m) ? uncut : log(diameter_m / sizes->median_m) / sizes->sigma;
+}
+
+bool gb_sizes_apply(const struct gb_params *params)
+{
+    return params->kind == GB_KIND_QUASISTATIC &&
+           params->distribution != GB_DISTRIBUTION_MONO;
 }
 
 bool gb_sizes_init(struct gb_sizes *sizes, const struct gb_params *params,
@@ -107,25 +109,7 @@ static void fill_table(const struct gb_sizes *sizes, int64_t count, double *diam
     }
 }
 
-static bool shuffle(int64_t count, uint64_t seed, double *diameter_m,
-                    struct gb_error *err)
-{
-    gsl_rng random;
-    if (!gb_random_open(&random, seed ^ shuffle_stream, err)) {
-        return false;
-    }
-    for (int64_t i = count - 1; i > 0; i--) {
-        const int64_t j = (int64_t)gsl_rng_uniform_int(&random, (unsigned long)(i + 1));
-        const double kept = diameter_m[i];
-        diameter_m[i] = diameter_m[j];
-        diameter_m[j] = kept;
-    }
-    gb_random_close(&random);
-    return true;
-}
-
-bool gb_sizes_draw(const struct gb_sizes *sizes, int64_t count, uint64_t seed,
-                   double *diameter_m, struct gb_error *err)
+void gb_sizes_fill(const struct gb_sizes *sizes, int64_t count, double *diameter_m)
 {
     if (sizes->distribution == GB_DISTRIBUTION_LOGNORMAL) {
         fill_lognormal(sizes, count, diameter_m);
@@ -135,9 +119,24 @@ bool gb_sizes_draw(const struct gb_sizes *sizes, int64_t count, uint64_t seed,
         for (int64_t i = 0; i < count; i++) {
             diameter_m[i] = sizes->median_m;
         }
-        return true;
     }
-    return shuffle(count, seed, diameter_m, err);
+}
+
+void gb_sizes_ends(const struct gb_sizes *sizes, int64_t count, double *least,
+                   double *largest)
+{
+    const double n = (double)count,
+                 probability = between(sizes->z_least, sizes->z_largest) / n;
+    *least = *largest = sizes->median_m;
+    if (sizes->distribution == GB_DISTRIBUTION_LOGNORMAL) {
+        const double low = quantile(sizes, 1.0 / n),
+                     high = quantile(sizes, 1.0 - 1.0 / n);
+        *least = stratum_diameter(sizes, sizes->z_least, low, probability);
+        *largest = stratum_diameter(sizes, high, sizes->z_largest, probability);
+    } else if (sizes->distribution == GB_DISTRIBUTION_TABLE) {
+        *least = sizes->diameter_m[0];
+        *largest = sizes->diameter_m[sizes->rows - 1];
+    }
 }
 
 double gb_sizes_moment(const struct gb_sizes *sizes, int power)

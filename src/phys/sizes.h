@@ -1,5 +1,5 @@
-#ifndef GB_PACK_SIZES_H
-#define GB_PACK_SIZES_H
+#ifndef GB_PHYS_SIZES_H
+#define GB_PHYS_SIZES_H
 
 #include "greenbody/params.h"
 
@@ -21,19 +21,25 @@ struct gb_sizes {
     double below[GB_SIZES_MAX]; /* share by number up to and with this row; last: 1 */
 };
 
+/* Is it a scene of nanoparticles of more than one size?  (Beds in a die draw their own.)
+ */
+bool gb_sizes_apply(const struct gb_params *params);
+
 /* Errors: those of gb_params_check about sizes (GB_ERR_INPUT). */
 bool gb_sizes_init(struct gb_sizes *sizes, const struct gb_params *params,
                    struct gb_error *err);
 
-/* The sizes of `count` particles, shuffled.  lognormal: each stratum is represented by
+/* The sizes of `count` particles, ascending.  lognormal: each stratum is represented by
  * the diameter of its mean volume, so that the volume of the powder is exact for every
- * count. table: the row in which the middle of the stratum lies, so that only sizes of
+ * count.  table: the row in which the middle of the stratum lies, so that only sizes of
  * the table come up, each within one particle of its share.
  *
- * diameter_m   count values
- * Errors: GB_ERR_MEMORY.  Same sizes, count and seed: same bits. */
-bool gb_sizes_draw(const struct gb_sizes *sizes, int64_t count, uint64_t seed,
-                   double *diameter_m, struct gb_error *err);
+ * diameter_m   count values */
+void gb_sizes_fill(const struct gb_sizes *sizes, int64_t count, double *diameter_m);
+
+/* The least and the largest of them, m. */
+void gb_sizes_ends(const struct gb_sizes *sizes, int64_t count, double *least,
+                   double *largest);
 
 /* Mean of d^power by number, m^power; the law's own, not that of a draw. */
 double gb_sizes_moment(const struct gb_sizes *sizes, int power);

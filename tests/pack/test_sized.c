@@ -1,0 +1,441 @@
+#include <glib.h>
+#include <math.h>
+
+#include "base/vec.h"
+#include "common/scene.h"
+#include "measure/observe.h"
+#include "phys/law_unequal.h"
+#include "phys/tolerances.h"
+
+/* Contacts of unequal spheres: their laws, and the sweep over packings of many sizes. */
+
+#define LOGNORMAL "particles.distribution=lognormal", "particles.median=9.7 nm"
+
+static struct gb_model model_of(const char *more)
+{
+    const struct gb_params params = scene_params(LOGNORMAL, "particles.sigma=0.3",
+                                                 "particles.largest=20 nm", more, NULL);
+    return scene_model(&params);
+}
+
+static void close_to(double a, double b, double share)
+{
+    g_assert_cmpfloat(fabs(a - b), <=, share * fmax(fabs(a), fabs(b)));
+}
+
+/* Between equal spheres of one d they are P1's. */
+static void test_equal(void)
+{
+    const struct gb_model model = model_of(NULL);
+    struct gb_law_unequal law;
+    gb_law_unequal_init(&law, &model, 1.0, 1.0);
+    for (double h = 1e-4; h < 0.4; h *= 1.7) {
+        double slope;
+        close_to(gb_law_unequal_elastic(&law, 0.0, h, &slope),
+                 gb_law_rod_force(&model.rod, h), 1e-14);
+        close_to(slope, gb_law_rod_stiffness(&model.rod, h), 1e-14);
+        close_to(gb_law_unequal_elastic(&law, h, 0.7 * h, NULL),
+                 gb_law_bridge_force(&model.rod, h, 0.7 * h), 1e-12);
+        close_to(gb_law_unequal_energy(&law, 0.0, h), gb_law_rod_energy(&model.rod, h),
+                 1e-14);
+        close_to(gb_law_unequal_moment(&law, h), gb_law_rod_moment(&model.rod, h), 1e-14);
+        close_to(gb_law_unequal_radius(&law, h), 0.5 * sqrt(h), 1e-14);
+    }
+    for (double r = 0.95; r < 1.6; r += 0.01) {
+        close_to(gb_law_unequal_pull(&law, r),
+                 gb_law_dispersion_force(&model.dispersion, r), 1e-12);
+        close_to(gb_law_unequal_depth(&law, r),
+                 gb_law_dispersion_energy(&model.dispersion, r), 1e-9);
+    }
+}
+
+/* A pair does not know the unit of length: equal spheres of 2 d are P1's of that size. */
+static void test_scale(void)
+{
+    const struct gb_params twice =
+        scene_params("particles.diameter=19.4 nm", "contact.bridge_length=0.008 d", NULL);
+    const struct gb_model own = scene_model(&twice);
+    const struct gb_params once = scene_params(NULL);
+    const struct gb_model model = scene_model(&once);
+    struct gb_law_unequal law;
+    gb_law_unequal_init(&law, &model, 2.0, 2.0);
+    for (double h = 1e-3; h < 0.3; h *= 2.0) {
+        close_to(gb_law_unequal_elastic(&law, 0.0, 2.0 * h, NULL),
+                 4.0 * gb_law_rod_force(&own.rod, h), 1e-13);
+        close_to(gb_law_unequal_moment(&law, 2.0 * h),
+                 8.0 * gb_law_rod_moment(&own.rod, h), 1e-13);
+        close_to(gb_law_unequal_pull(&law, 2.0 * (1.0 + h)),
+                 4.0 * gb_law_dispersion_force(&own.dispersion, 1.0 + h), 1e-12);
+    }
+    close_to(gb_law_unequal_rest(&law), 2.0 * own.h_eq, 1e-12);
+    close_to(law.bridge_length, 2.0 * own.bridge.length, 1e-14);
+}
+
+static const double sizes[][2] = {{0.5, 1.9}, {1.9, 0.5}, {0.8, 0.9}, {0.4, 0.4}};
+
+/* Forces are slopes of energies; who is first does not matter. */
+static void test_potential(void)
+{
+    const struct gb_model model = model_of(NULL);
+    for (size_t s = 0; s < G_N_ELEMENTS(sizes); s++) {
+        struct gb_law_unequal law, other;
+        gb_law_unequal_init(&law, &model, sizes[s][0], sizes[s][1]);
+        gb_law_unequal_init(&other, &model, sizes[s][1], sizes[s][0]);
+        const double step = 1e-5 * law.span;
+        for (double h = 1e-3; h < 0.3; h *= 2.0) {
+            const double from = h * law.span;
+            const double slope = (gb_law_unequal_energy(&law, 0.0, from + step) -
+                                  gb_law_unequal_energy(&law, 0.0, from - step)) /
+                                 (2.0 * step);
+            const double force = gb_law_unequal_elastic(&law, 0.0, from, NULL);
+            close_to(slope, force, 1e-4);
+            g_assert_cmpfloat(force, ==, gb_law_unequal_elastic(&other, 0.0, from, NULL));
+        }
+        for (double gap = 0.01; gap < 0.5; gap *= 2.0) {
+            const double r = (1.0 + gap) * law.span;
+            const double slope = (gb_law_unequal_depth(&law, r + step) -
+                                  gb_law_unequal_depth(&law, r - step)) /
+                                 (2.0 * step);
+            close_to(slope, gb_law_unequal_pull(&law, r), 1e-5);
+        }
+        const double rest = gb_law_unequal_rest(&law);
+        close_to(gb_law_unequal_elastic(&law, 0.0, rest, NULL), law.adhesion, 1e-12);
+    }
+}
+
+/* Small overlaps are Hertz', by the reduced radius; near a much larger sphere (3) is
+ * Hamaker's sphere before a wall, A d^3/(16 D)... of which the leading term is A d/(12
+ * s^2) with the gap s. */
+static void test_limits(void)
+{
+    const struct gb_model model = model_of(NULL);
+    struct gb_law_unequal law;
+    gb_law_unequal_init(&law, &model, 0.5, 2.0);
+    const double h = 1e-7, reduced = 0.25 * 1.0 / 1.25;
+    close_to(gb_law_unequal_elastic(&law, 0.0, h, NULL),
+             4.0 * model.rod.hertz * 0.5 * sqrt(reduced) * pow(h, 1.5), 2e-3);
+    close_to(gb_law_unequal_radius(&law, h), sqrt(reduced * h), 1e-13);
+    gb_law_unequal_init(&law, &model, 1.0, 1e5);
+    const double alpha_d0 = model.dispersion.shift, gap = 0.01;
+    const double hamaker = 6.0 * model.dispersion.strength;
+    close_to(gb_law_unequal_pull(&law, law.span + gap),
+             hamaker / (12.0 * (gap + alpha_d0) * (gap + alpha_d0)),
+             4.0 * (gap + alpha_d0));
+}
+
+static void squeeze(struct gb_world *world)
+{
+    const double factor[3] = {1.0, 1.0, 0.998};
+    gb_world_strain(world, factor);
+}
+
+static void drift(struct gb_world *world, double k)
+{
+    const struct gb_bodies b = gb_world_bodies(world);
+    for (int64_t i = 0; i < 3 * b.count; i++) {
+        b.position[i] += k * b.force[i];
+        b.turn[i] += k * b.torque[i];
+    }
+}
+
+static void press(struct gb_world *world, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        squeeze(world);
+        for (int k = 0; k < 20; k++) {
+            scene_evaluate(world);
+            drift(world, 1.5);
+        }
+    }
+    scene_evaluate(world);
+}
+
+static double largest_of(const double *v, int64_t count)
+{
+    double most = 0.0;
+    for (int64_t i = 0; i < 3 * count; i++) {
+        most = fmax(most, fabs(v[i]));
+    }
+    return most;
+}
+
+/* A table of one size goes through the sweep of many and gives what that of one does:
+ * forces, torques and histories to rounding, over bridges, friction and none. */
+static void test_one_size(void)
+{
+    static const char *const scenes[][2] = {
+        {"contact.mu=0.1", "contact.alpha=0.24"},
+        {"contact.bridge_length=1 d", "contact.mu=0.4"},
+        {"contact.bridge_radius=current", "contact.relative_motion=full"},
+        {"contact.bridge_length=1 d", "contact.mu=0"},
+        {"material.epsilon=0 kB", "contact.mu=0.1"}};
+    for (size_t s = 0; s < G_N_ELEMENTS(scenes); s++) {
+        const struct gb_params plain =
+            scene_params(scenes[s][0], scenes[s][1], "numerics.precision=double", NULL);
+        const struct gb_params table =
+            scene_params(scenes[s][0], scenes[s][1], "particles.distribution=table",
+                         "particles.table=number: 9.7 nm 1", NULL);
+        const struct gb_model one = scene_model(&plain), many = scene_model(&table);
+        double *position = scene_positions(&one);
+        struct gb_world *world[2];
+        struct gb_error err = {0};
+        g_assert_true(gb_world_create(&world[0], &one, position, &err));
+        g_assert_true(gb_world_create(&world[1], &many, position, &err));
+        gb_alloc_free(position);
+        press(world[0], 4);
+        press(world[1], 4);
+        const struct gb_bodies a = gb_world_bodies(world[0]);
+        const struct gb_bodies b = gb_world_bodies(world[1]);
+        const double force = largest_of(a.force, a.count);
+        const double torque = fmax(largest_of(a.torque, a.count), force);
+        for (int64_t i = 0; i < 3 * a.count; i++) {
+            g_assert_cmpfloat(fabs(a.position[i] - b.position[i]), <, 1e-8);
+            g_assert_cmpfloat(fabs(a.force[i] - b.force[i]), <, 1e-5 * force);
+            g_assert_cmpfloat(fabs(a.torque[i] - b.torque[i]), <, 1e-5 * torque);
+        }
+        const struct gb_tally *first = gb_world_tally(world[0]);
+        const struct gb_tally *second = gb_world_tally(world[1]);
+        g_assert_cmpint(first->contacts, >, one.count);
+        g_assert_cmpint(first->contacts, ==, second->contacts);
+        g_assert_cmpint(first->sliding, ==, second->sliding);
+        close_to(first->normal_sum, second->normal_sum, 1e-6);
+        close_to(first->deepest, second->deepest, 1e-6);
+        close_to(gb_world_residual(world[0]), gb_world_residual(world[1]), 1e-5);
+        close_to(gb_observe_elastic(world[0]), gb_observe_elastic(world[1]), 1e-6);
+        close_to(gb_observe_density(world[0]), gb_observe_density(world[1]), 1e-12);
+        gb_world_destroy(world[0]);
+        gb_world_destroy(world[1]);
+    }
+}
+
+/* Moments about a point are balanced as forces are: the sum of x x F and of the moments
+ * (torque times diameter) is what neighbours over the borders take, and with all pairs'
+ * arms it is none: each pair alone is balanced. */
+static void check_balance(const struct gb_world *world)
+{
+    const struct gb_pairs *pairs = gb_world_pairs(world);
+    double torque[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0}, size = 0.0;
+    const struct gb_bodies b = gb_world_bodies((struct gb_world *)world);
+    double force[3] = {0.0, 0.0, 0.0};
+    for (int64_t i = 0; i < b.count; i++) {
+        gb_vec_add(torque, gb_world_diameter(world, i), b.torque + 3 * i);
+        gb_vec_add(force, 1.0, b.force + 3 * i);
+        size += gb_vec_length(b.force + 3 * i);
+    }
+    for (int64_t i = 0; i < b.count; i++) {
+        for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
+            double r[3], f[3];
+            gb_world_arm(world, &pairs->near, i, k, r);
+            gb_world_force(world, k, f);
+            for (int c = 0; c < 3; c++) {
+                const int u = (c + 1) % 3, v = (c + 2) % 3;
+                moment[c] += r[u] * f[v] - r[v] * f[u];
+            }
+            size += gb_vec_length(f);
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        g_assert_cmpfloat(fabs(force[c]), <, 1e-12 * size);
+        g_assert_cmpfloat(fabs(torque[c] + moment[c]), <, 1e-11 * size);
+    }
+    g_assert_cmpfloat(gb_vec_length(moment), >, 1e-8 * size); /* there are some */
+}
+
+/* Sizes as drawn, no overlaps at the start beyond the equilibrium of each pair, every
+ * particle touching two; momentum, angular momentum and the neighbour lists. */
+static void test_packing(void)
+{
+    const struct gb_params params =
+        scene_params(LOGNORMAL, "particles.sigma=0.3", "particles.largest=20 nm",
+                     "particles.count=400", NULL);
+    const struct gb_model model = scene_model(&params);
+    g_assert_true(model.sized);
+    struct gb_world *world = scene_world(&model);
+    scene_evaluate(world);
+    struct gb_contact_counts counts;
+    gb_observe_contacts(world, &counts, NULL, 0, NULL);
+    g_assert_cmpfloat(counts.coordination, >, 3.9);
+    g_assert_cmpint(counts.rattlers, ==, 0);
+    g_assert_cmpfloat(gb_observe_density(world), >, 0.2399);
+    g_assert_cmpfloat(gb_observe_density(world), <, 0.2401);
+    double cube = 0.0, sum = 0.0;
+    for (int64_t i = 0; i < model.count; i++) {
+        const double d = gb_world_diameter(world, i);
+        sum += d;
+        cube += d * d * d;
+        g_assert_cmpfloat(d, >=, model.least);
+        g_assert_cmpfloat(d, <=, model.largest);
+    }
+    close_to(sum / (double)model.count, 1.0, 1e-3);
+    close_to(cube / (double)model.count, model.mean_cube, 1e-9);
+    /* nothing moves at the start: every contact is at its equilibrium */
+    g_assert_cmpfloat(gb_world_residual(world), <, 1.0);
+    for (int i = 0; i < 5; i++) {
+        press(world, 3);
+        check_balance(world);
+    }
+    gb_world_destroy(world);
+}
+
+static double pull_of(const struct gb_world *world, int64_t k)
+{
+    double f[3];
+    gb_world_pull(world, k, f);
+    return gb_vec_length(f);
+}
+
+/* The lists hold what a scan of all pairs finds. */
+static void test_lists(void)
+{
+    const struct gb_model model = model_of("particles.count=300");
+    struct gb_world *world = scene_world(&model);
+    press(world, 3);
+    const double *x = gb_world_position(world);
+    int64_t touching = 0, pulling = 0;
+    for (int64_t i = 0; i < model.count; i++) {
+        for (int64_t j = 0; j < i; j++) {
+            double r[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
+                           x[3 * i + 2] - x[3 * j + 2]};
+            gb_cell_nearest(gb_world_cell(world), r);
+            const double gap = gb_vec_length(r) - 0.5 * (gb_world_diameter(world, i) +
+                                                         gb_world_diameter(world, j));
+            touching += gap < 0.0;
+            pulling += gap >= 0.0 && gap < model.numerics.cutoff - 1.0;
+        }
+    }
+    const struct gb_pairs *pairs = gb_world_pairs(world);
+    int64_t pulled = 0;
+    for (int64_t k = 0; k < pairs->far.pair_count; k++) {
+        pulled += pull_of(world, k) > 0.0;
+    }
+    for (int64_t k = 0; k < pairs->near.pair_count; k++) {
+        double f[3];
+        gb_world_force(world, k, f);
+        pulled +=
+            !gb_contacts_touch(gb_world_contacts(world), k) && gb_vec_length(f) > 0.0;
+    }
+    g_assert_cmpint(gb_world_tally(world)->contacts, ==, touching);
+    g_assert_cmpint(pulled, ==, pulling);
+    gb_world_destroy(world);
+}
+
+static void test_threads(void)
+{
+    uint64_t hash = 0;
+    for (int threads = 1; threads <= 4; threads++) {
+        struct gb_model model = model_of("particles.count=300");
+        model.numerics.threads = threads;
+        struct gb_world *world = scene_world(&model);
+        press(world, 3);
+        g_assert_true(threads == 1 || gb_world_hash(world) == hash);
+        hash = gb_world_hash(world);
+        gb_world_destroy(world);
+    }
+}
+
+/* Two spheres of 0.6 and 1.7 d: pressed and pulled back, the force is the law's, over the
+ * bridge and after it has been peeled. */
+static struct gb_world *pair(struct gb_model *model, double d[2])
+{
+    const struct gb_params params =
+        scene_params("particles.distribution=table",
+                     "particles.table=number: 6 nm 0.5; 17 nm 0.5", NULL);
+    *model = scene_model(&params);
+    model->count = 2;
+    model->edges[0] = model->edges[1] = model->edges[2] = 12.0;
+    struct gb_world *world = NULL;
+    struct gb_error err = {0};
+    const double position[6] = {5.0, 5.0, 5.0, 5.0, 5.0, 8.0};
+    g_assert_true(gb_world_create(&world, model, position, &err));
+    d[0] = gb_world_diameter(world, 0);
+    d[1] = gb_world_diameter(world, 1);
+    return world;
+}
+
+static void test_pair(void)
+{
+    struct gb_model model;
+    struct gb_law_unequal law;
+    double d[2], deepest = 0.0;
+    struct gb_world *world = pair(&model, d);
+    gb_law_unequal_init(&law, &model, d[0], d[1]);
+    const struct gb_bodies b = gb_world_bodies(world);
+    static const double path[] = {0.5,   0.05,  -0.005, -0.02, -0.05,
+                                  -0.04, -0.03, -0.01,  0.01,  -0.005};
+    for (size_t s = 0; s < G_N_ELEMENTS(path); s++) {
+        const double h = -path[s] * law.span;
+        b.position[5] = 5.0 + law.span - h;
+        scene_evaluate(world);
+        struct gb_law_bridge bridge = model.bridge;
+        bridge.length = law.bridge_length;
+        deepest = gb_law_bridge_deepest(&bridge, deepest, h);
+        const double reach = model.numerics.cutoff - 1.0;
+        const double expected =
+            h > 0.0      ? gb_law_unequal_elastic(&law, deepest, h, NULL) - law.adhesion
+            : -h < reach ? -gb_law_unequal_pull(&law, law.span - h)
+                         : 0.0;
+        close_to(b.force[5], expected, 1e-9);
+        g_assert_cmpfloat(b.force[2], ==, -b.force[5]);
+        g_assert_cmpfloat(b.force[0], ==, 0.0);
+    }
+    gb_world_destroy(world);
+}
+
+/* The same pair sheared: the force is the spring's, of half the way, and the moments are
+ * those of its lever arms. */
+static void test_pair_shear(void)
+{
+    struct gb_model model;
+    struct gb_law_unequal law;
+    double d[2];
+    struct gb_world *world = pair(&model, d);
+    gb_law_unequal_init(&law, &model, d[0], d[1]);
+    const struct gb_bodies b = gb_world_bodies(world);
+    const double h = 0.03 * law.span, r = law.span - h, roll = 1e-5;
+    b.position[5] = 5.0 + r;
+    scene_evaluate(world);
+    /* both roll about y the same way: the surfaces slide by r_i w + r_j w = r w */
+    b.turn[1] = roll * d[0];
+    b.turn[4] = roll * d[1];
+    scene_evaluate(world);
+    const double a = gb_law_unequal_radius(&law, h);
+    const double shear =
+        gb_law_slip_shear_stiffness(&model.slip, a) * model.slip.motion * r * roll;
+    close_to(fabs(b.force[0]), shear, 1e-6);
+    close_to(b.force[0], -b.force[3], 1e-12);
+    /* of rolling there is nothing: they turn alike */
+    close_to(fabs(b.torque[1]) * d[0], shear * r * d[0] / (d[0] + d[1]), 1e-6);
+    close_to(fabs(b.torque[4]) * d[1], shear * r * d[1] / (d[0] + d[1]), 1e-6);
+    g_assert_cmpfloat(b.torque[1] * roll, <, 0.0); /* against the turn */
+    /* against each other: no sliding of surfaces that roll off, but the bridge bends */
+    struct gb_world *other = pair(&model, d);
+    const struct gb_bodies o = gb_world_bodies(other);
+    o.position[5] = 5.0 + r;
+    scene_evaluate(other);
+    o.turn[1] = roll * d[1] / (d[0] + d[1]) * d[0];
+    o.turn[4] = -roll * d[0] / (d[0] + d[1]) * d[1];
+    scene_evaluate(other);
+    const double bend =
+        gb_law_slip_roll_stiffness(&model.slip, a) * model.slip.motion * roll;
+    g_assert_cmpfloat(fabs(o.force[0]), <, 1e-9 * shear);
+    close_to(fabs(o.torque[1]) * d[0], bend, 1e-6);
+    close_to(o.torque[1] * d[0], -o.torque[4] * d[1], 1e-9);
+    gb_world_destroy(world);
+    gb_world_destroy(other);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/sized/equal", test_equal);
+    g_test_add_func("/sized/scale", test_scale);
+    g_test_add_func("/sized/potential", test_potential);
+    g_test_add_func("/sized/limits", test_limits);
+    g_test_add_func("/sized/pair", test_pair);
+    g_test_add_func("/sized/pair-shear", test_pair_shear);
+    g_test_add_func("/sized/one-size", test_one_size);
+    g_test_add_func("/sized/packing", test_packing);
+    g_test_add_func("/sized/lists", test_lists);
+    g_test_add_func("/sized/threads", test_threads);
+    return g_test_run();
+}
