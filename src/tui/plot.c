@@ -1,7 +1,9 @@
 #include "tui/plot.h"
 
 #include <glib.h>
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -56,6 +58,7 @@ bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyph
     plot->cols = cells > 0 ? cols : 0;
     plot->glyphs = glyphs;
     plot->log_x = false;
+    plot->foot = 0;
     for (size_t i = 0; i < cells; i++) {
         plot->cell[i] = (struct gb_plot_cell){' ', GB_PLOT_INK_NONE, false, 0};
         plot->dots[i] = 0;
@@ -160,7 +163,7 @@ static int limit(int value, int least, int most)
 void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_ends[2],
                   bool log_y, const char *x_label, const char *y_label)
 {
-    const int rows = plot->rows - 2;
+    const int rows = plot->rows - 2 - plot->foot;
     gb_plot_axis_fit(&plot->y, y_ends[0], y_ends[1], log_y, limit(rows / 2 + 1, 2, 10));
     const int left = widest_tick(&plot->y) + 1;
     const int cols = plot->cols - left;
@@ -288,42 +291,143 @@ void gb_plot_cursor(struct gb_plot *plot, double x, double y)
     put(plot, row, col, line_char(plot, 0x253c, '+'), GB_PLOT_INK_CURSOR);
 }
 
-/* Cells of a box that are taken. */
-static int taken(const struct gb_plot *plot, int row, int col, int rows, int cols)
+/* A legend on its way to its place. */
+struct box {
+    int rows, columns; /* of entries */
+    int width;         /* of an entry */
+    int row, col;
+    int taken; /* cells under it */
+};
+
+static int box_cols(const struct box *box)
 {
+    return box->columns * box->width + (box->columns - 1) * 2;
+}
+
+/* Cells of a box that are taken; counts no further than enough. */
+static int taken(const struct gb_plot *plot, const struct box *box, int enough)
+{
+    const int cols = box_cols(box);
     int sum = 0;
-    for (int r = row; r < row + rows; r++) {
-        for (int c = col; c < col + cols; c++) {
+    for (int r = box->row; r < box->row + box->rows; r++) {
+        for (int c = box->col; c < box->col + cols && sum < enough; c++) {
             sum += plot->cell[r * plot->cols + c].ch != ' ';
         }
     }
     return sum;
 }
 
-void gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int count)
+/* Moves the box to a place where it covers less than so far. */
+static void try_place(const struct gb_plot *plot, struct box *box, int row, int col)
 {
-    const int rows = plot->field_rows < 5 ? 0 : MIN(count, plot->field_rows - 2);
+    struct box there = *box;
+    there.row = row;
+    there.col = col;
+    there.taken = taken(plot, &there, box->taken);
+    if (there.taken < box->taken) {
+        *box = there;
+    }
+}
+
+/* Left above the curves or right below them, where they seldom are, else anywhere. */
+static void find_place(const struct gb_plot *plot, struct box *box)
+{
+    const int bottom = plot->top + plot->field_rows - 1 - box->rows;
+    const int right = plot->left + plot->field_cols - box_cols(box);
+    box->taken = INT_MAX;
+    try_place(plot, box, plot->top + 1, plot->left + 1);
+    try_place(plot, box, bottom, right);
+    for (int row = plot->top + 1; row <= bottom; row++) {
+        for (int col = plot->left + 1; col <= right && box->taken > 0; col++) {
+            try_place(plot, box, row, col);
+        }
+    }
+}
+
+/* A box for so many entries that covers nothing, in one column or more; false when there
+ * is none. */
+static bool find_free(const struct gb_plot *plot, struct box *box, int entries)
+{
+    for (box->columns = 1; box->columns <= 3; box->columns++) {
+        box->rows = (entries + box->columns - 1) / box->columns;
+        if (box->rows > plot->field_rows - 2 || box_cols(box) > plot->field_cols - 1) {
+            continue;
+        }
+        find_place(plot, box);
+        if (box->taken == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Columns of entries below a plot. */
+static int foot_columns(const struct gb_plot *plot, int width)
+{
+    return MAX(1, (plot->cols + 2) / (width + 2));
+}
+
+/* Where so many entries stand: in the foot if there is one, where nothing is, or where
+ * they hide least.  Returns how many fit. */
+static int arrange(const struct gb_plot *plot, struct box *box, int count)
+{
+    if (plot->foot > 0) {
+        box->rows = plot->foot;
+        box->row = plot->rows - plot->foot;
+        box->columns = foot_columns(plot, box->width);
+        return MIN(count, box->rows * box->columns);
+    }
+    if (!find_free(plot, box, count)) {
+        box->columns = 1;
+        box->rows = MIN(count, plot->field_rows - 2);
+        find_place(plot, box);
+    }
+    return MIN(count, box->rows * box->columns);
+}
+
+static void write_entry(struct gb_plot *plot, int row, int col, int width,
+                        const struct gb_plot_entry *entry)
+{
+    char name[GB_PLOT_NAME];
+    g_utf8_strncpy(name, entry->name, (gsize)(width - 2));
+    put(plot, row, col, entry->marker ? mark_char(plot, entry->marker) : ' ', entry->ink);
+    put(plot, row, col + 1, ' ', GB_PLOT_INK_NONE);
+    gb_plot_text(plot, row, col + 2, entry->ink, name);
+}
+
+static int entry_width(const struct gb_plot *plot, const struct gb_plot_entry *entry,
+                       int count)
+{
     int width = 0;
-    for (int i = 0; i < rows; i++) {
+    for (int i = 0; i < count; i++) {
         width = MAX(width, 2 + (int)g_utf8_strlen(entry[i].name, -1));
     }
-    width = MIN(width, 2 * plot->field_cols / 3);
-    if (rows <= 0 || width < 4) {
-        return;
+    return MIN(width, 2 * plot->field_cols / 3);
+}
+
+int gb_plot_foot_for(const struct gb_plot *plot, const struct gb_plot_entry *entry,
+                     int count)
+{
+    const int columns = foot_columns(plot, entry_width(plot, entry, count));
+    return MIN((count + columns - 1) / columns, plot->rows / 3);
+}
+
+bool gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int count)
+{
+    struct box box = {.width = entry_width(plot, entry, count)};
+    if (count <= 0 || plot->field_rows < 5 || box.width < 4) {
+        return count <= 0;
     }
-    const int bottom = plot->top + plot->field_rows - 1 - rows;
-    const int right = plot->left + plot->field_cols - width;
-    const bool at_top = taken(plot, plot->top + 1, plot->left + 1, rows, width) <=
-                        taken(plot, bottom, right, rows, width);
-    const int row = at_top ? plot->top + 1 : bottom;
-    const int col = at_top ? plot->left + 1 : right;
-    for (int i = 0; i < rows; i++) {
-        char name[GB_PLOT_NAME];
-        g_utf8_strncpy(name, entry[i].name, (gsize)(width - 2));
-        put(plot, row + i, col, mark_char(plot, entry[i].marker), entry[i].ink);
-        put(plot, row + i, col + 1, ' ', GB_PLOT_INK_NONE);
-        gb_plot_text(plot, row + i, col + 2, entry[i].ink, name);
+    const int shown = arrange(plot, &box, count);
+    for (int i = 0; i < shown; i++) {
+        struct gb_plot_entry more = {.ink = GB_PLOT_INK_DIM};
+        snprintf(more.name, sizeof more.name, "and %d more", count - shown + 1);
+        const bool whole = i + 1 < shown || shown == count;
+        write_entry(plot, box.row + i % box.rows,
+                    box.col + i / box.rows * (box.width + 2), box.width,
+                    whole ? &entry[i] : &more);
     }
+    return shown == count && box.taken == 0;
 }
 
 char *gb_plot_dump(const struct gb_plot *plot)

@@ -57,6 +57,7 @@ struct gb_plot {
     int field_rows, field_cols;
     enum gb_plot_glyphs glyphs;
     bool log_x; /* of the axes to come; resizing clears it */
+    int foot;   /* rows below the axes to come, for the legend; resizing clears it */
     struct gb_plot_axis x, y;
     struct gb_plot_cell *cell; /* rows x cols */
     uint8_t *dots;             /* rows x cols: bits of the raster */
@@ -87,9 +88,14 @@ void gb_plot_cursor(struct gb_plot *plot, double x, double y);
 /* Text inside the picture, cut at its edge.  UTF-8. */
 void gb_plot_text(struct gb_plot *plot, int row, int col, int ink, const char *text);
 
-/* One line per entry, in the corner of the field where it hides least: top left or bottom
- * right.  Call it after the lines.  What does not fit is left out, the last first. */
-void gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int count);
+/* What the lines mean: in the foot, if there is one, else where no line is (top left,
+ * bottom right or anywhere, in up to three columns), else where it hides least.  The last
+ * entries that do not fit are counted.  Call it after the lines.  False when it hides
+ * something or leaves something out. */
+bool gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int count);
+/* Rows that a foot takes for them; a third of the plot at most. */
+int gb_plot_foot_for(const struct gb_plot *plot, const struct gb_plot_entry *entry,
+                     int count);
 
 /* The picture as UTF-8 lines without trailing blanks; g_free. */
 char *gb_plot_dump(const struct gb_plot *plot);

@@ -11,7 +11,7 @@ enum {
     NAME_COLS = 14,
     CELL_COLS = 16,
     CELL_LEAST = 7,
-    ENTRIES = 12,
+    ENTRIES = 64,
     STATE_COL = 2,
     ERROR_COL = 22
 };
@@ -68,21 +68,19 @@ static void name_group(const struct gb_swarm_group *group, char *name, size_t si
              group->members, group->members == 1 ? "cell" : "cells");
 }
 
-static void draw_curves(struct gb_watch *watch, const struct gb_paint *paint)
+/* All groups and the legend, which stands in `foot` rows below if there are any; false
+ * when it is not whole.  *needed: rows that it takes below. */
+static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
+                        const double x[2], const double y[2], int foot, int *needed)
 {
     const struct gb_swarm *swarm = &watch->swarm;
     struct gb_plot_entry entry[ENTRIES];
-    double x[2], y[2];
     int entries = 0;
     if (!gb_plot_resize(&watch->plot, paint->rect.rows - 1, paint->rect.cols - 2,
                         (enum gb_plot_glyphs)watch->glyphs, NULL)) {
-        return;
+        return true;
     }
-    find_ends(watch, x, y);
-    if (!(x[1] > x[0])) {
-        gb_paint_text(paint, 2, 2, GB_STYLE_PLAIN, "no curve has got to 1 MPa yet");
-        return;
-    }
+    watch->plot.foot = foot;
     gb_plot_axes(&watch->plot, x, y, !watch->linear, "density", "p, MPa");
     for (size_t g = 0; g < swarm->groups; g++) { /* bands below */
         draw_curve(watch, &swarm->group[g], -1.0, GB_PLOT_INK_DIM, 0);
@@ -98,7 +96,22 @@ static void draw_curves(struct gb_watch *watch, const struct gb_paint *paint)
             entries++;
         }
     }
-    gb_plot_legend(&watch->plot, entry, entries);
+    *needed = gb_plot_foot_for(&watch->plot, entry, entries);
+    return gb_plot_legend(&watch->plot, entry, entries);
+}
+
+static void draw_curves(struct gb_watch *watch, const struct gb_paint *paint)
+{
+    double x[2], y[2];
+    int foot = 0;
+    find_ends(watch, x, y);
+    if (!(x[1] > x[0])) {
+        gb_paint_text(paint, 2, 2, GB_STYLE_PLAIN, "no curve has got to 1 MPa yet");
+        return;
+    }
+    if (!draw_groups(watch, paint, x, y, 0, &foot)) { /* no room between the curves */
+        (void)draw_groups(watch, paint, x, y, foot, &foot);
+    }
     gb_paint_plot(paint, 1, 1, &watch->plot);
 }
 

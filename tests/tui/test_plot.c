@@ -64,6 +64,28 @@ static const char golden_legend[] = "1000+ p, MPa                    |     .*\n"
                                     "    +------+----------+----------+------\n"
                                     "          0.3        0.4        0.5\n";
 
+static const char golden_crowd[] =
+    "1000+ p, MPa                    .:' .: .:' .:'..' .:' .: .:' .:'..' .:' .:\n"
+    "    |                        ..:'..' .:'..''.:'..:'..' .:'..''.:'..:'..'\n"
+    "    |                      .:* .:o..# .:+ .^'.:v .:@..* .:o .#'.:+ .:^\n"
+    "    |                    .''.:' .:'..''.:' .''.:' .:'..''.:' .''.:'\n"
+    " 100+                 .:' .:'..' .:'..:'.:' .:'..' .:'..:'.:' .:'\n"
+    "    |               .*'.:o .#'..+'.^' .v'.:@ .*'..o'.#' .+'.:^\n"
+    "    |            .:' .:'.:''.:'..''.:' .:'.:''.:'..''.:' .:'\n"
+    "  10+          .''.:' .:'.:''.:' .''.:' .:'.:''.:' .''.:'\n"
+    "    |       .*' .o'.#' .+'.^''.v' .@'.*' .o'.#''.+' .^'\n"
+    "    |     .''.:' .:'..' .:' .''.:' .:'..' .:' .''.:'\n"
+    "    |  .:' .''.:''.:'..''.:' .''.:''.:'..''.:' .''\n"
+    "   1+*:' o' #:' +''^:' v:' @' *:' o''#:' +:' ^'                        density\n"
+    "    ++--------+--------+--------+--------+--------+--------+--------+--------+\n"
+    "   0.25     0.30     0.35     0.40     0.45     0.50     0.55     0.60    0.65\n"
+    "* alpha = 0.10, mu = 0.0, 2 cells  @ alpha = 0.20, mu = 0.2, 2 cells\n"
+    "o alpha = 0.10, mu = 0.1, 2 cells  * alpha = 0.20, mu = 0.3, 2 cells\n"
+    "# alpha = 0.10, mu = 0.2, 2 cells  o alpha = 0.30, mu = 0.0, 2 cells\n"
+    "+ alpha = 0.10, mu = 0.3, 2 cells  # alpha = 0.30, mu = 0.1, 2 cells\n"
+    "^ alpha = 0.20, mu = 0.0, 2 cells  + alpha = 0.30, mu = 0.2, 2 cells\n"
+    "v alpha = 0.20, mu = 0.1, 2 cells  ^ alpha = 0.30, mu = 0.3, 2 cells\n";
+
 static const char golden_bars[] = "40┤ %           ███\n"
                                   "  │             ███ ▇▇▇\n"
                                   "  │             ███ ███\n"
@@ -145,6 +167,73 @@ static void test_legend_and_cursor(void)
     gb_plot_legend(&plot, entry, 2);
     gb_plot_cursor(&plot, xs[80], ys[80]);
     check_text(&plot, golden_legend);
+}
+
+/* Curves of a sweep over two parameters, which fan out over the whole field. */
+static void draw_fan(struct gb_plot *plot, struct gb_plot_entry *entry, int count,
+                     int foot)
+{
+    plot->foot = foot;
+    const double x_ends[2] = {0.25, 0.65}, y_ends[2] = {1.0, 1000.0};
+    double x[POINTS], y[POINTS];
+    gb_plot_axes(plot, x_ends, y_ends, true, "density", "p, MPa");
+    for (int g = 0; g < count; g++) {
+        for (int i = 0; i < POINTS; i++) {
+            y[i] = pow(10.0, 3.0 * i / (POINTS - 1));
+            x[i] = 0.25 + 0.02 * g * 12 / count + 0.16 * i / (POINTS - 1);
+        }
+        const int ink = GB_PLOT_INK_SERIES + g % GB_PLOT_COLOURS, marker = 1 + g % 7;
+        gb_plot_line(plot, &(struct gb_plot_series){.x = x,
+                                                    .y = y,
+                                                    .count = POINTS,
+                                                    .ink = ink,
+                                                    .marker = marker,
+                                                    .spacing = 8});
+        entry[g] = (struct gb_plot_entry){.ink = ink, .marker = marker};
+        g_snprintf(entry[g].name, GB_PLOT_NAME, "alpha = %.2f, mu = %.1f, 2 cells",
+                   0.1 * (1 + g / 4), 0.1 * (g % 4));
+    }
+}
+
+/* The fan with its legend as a view draws it: in a foot where there is no other room. */
+static bool draw_whole(struct gb_plot *plot, int count, int foot, size_t *covered)
+{
+    struct gb_plot_entry entry[24];
+    const int rows = plot->rows, cols = plot->cols;
+    g_assert_true(gb_plot_resize(plot, rows, cols, GB_PLOT_ASCII, NULL));
+    draw_fan(plot, entry, count, foot);
+    const size_t cells = (size_t)rows * (size_t)cols;
+    struct gb_plot_cell *before = g_memdup2(plot->cell, cells * sizeof *plot->cell);
+    const bool whole = gb_plot_legend(plot, entry, count);
+    *covered = 0;
+    for (size_t c = 0; c < cells; c++) {
+        *covered += before[c].ch != ' ' && before[c].ch != plot->cell[c].ch;
+    }
+    g_free(before);
+    const int needed = gb_plot_foot_for(plot, entry, count);
+    return whole || foot > 0 ? whole : draw_whole(plot, count, needed, covered);
+}
+
+/* However many curves there are, the legend covers none of them, and says what it leaves
+ * out. */
+static void test_crowded_legend(void)
+{
+    size_t covered = 0;
+    for (int count = 1; count <= 24; count++) {
+        for (int rows = 12; rows <= 22; rows += 5) {
+            struct gb_plot plot = plot_of(rows, 78, GB_PLOT_ASCII);
+            const bool whole = draw_whole(&plot, count, 0, &covered);
+            char *text = gb_plot_dump(&plot);
+            g_assert_cmpuint(covered, ==, 0);
+            g_assert_nonnull(strstr(text, "alpha = 0.10, mu = 0.0, 2 cells"));
+            g_assert_true(whole || strstr(text, " more") != NULL);
+            g_free(text);
+            gb_plot_finish(&plot);
+        }
+    }
+    struct gb_plot plot = plot_of(20, 78, GB_PLOT_ASCII);
+    g_assert_true(draw_whole(&plot, 12, 0, &covered));
+    check_text(&plot, golden_crowd);
 }
 
 static void test_bars(void)
@@ -296,6 +385,7 @@ int main(int argc, char **argv)
     g_test_add_func("/tui/plot/ascii", test_ascii);
     g_test_add_func("/tui/plot/log", test_log);
     g_test_add_func("/tui/plot/legend-and-cursor", test_legend_and_cursor);
+    g_test_add_func("/tui/plot/crowded-legend", test_crowded_legend);
     g_test_add_func("/tui/plot/bars", test_bars);
     g_test_add_func("/tui/plot/clipping", test_clipping);
     g_test_add_func("/tui/plot/nan-breaks", test_nan_breaks);
