@@ -10,6 +10,7 @@
 #include <json-glib/json-glib.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "run/preset.h"
 #include "run/rows.h"
 #include "run/rundir.h"
@@ -22,28 +23,15 @@ struct gb_store {
     int64_t points;
 };
 
-enum { NUMBER_MAX = 32 };
-
 /* ",value" with the fewest digits that read back the same; only "," where there is none.
  */
 static void append_number(GString *row, double value)
 {
-    char text[NUMBER_MAX];
-    char shorter[NUMBER_MAX];
+    char text[GB_NUMBER_MAX];
     g_string_append_c(row, ',');
-    if (!isfinite(value)) {
-        return;
+    if (isfinite(value)) {
+        g_string_append(row, gb_number_write(value, text));
     }
-    /* what 16 digits do not tell, 15 do not either */
-    g_ascii_formatd(text, sizeof text, "%.16g", value);
-    if (g_ascii_strtod(text, NULL) != value) {
-        g_ascii_formatd(text, sizeof text, "%.17g", value);
-    } else if (g_ascii_formatd(shorter, sizeof shorter, "%.15g", value) &&
-               g_ascii_strtod(shorter, NULL) == value) {
-        g_string_append(row, shorter);
-        return;
-    }
-    g_string_append(row, text);
 }
 
 /* Adds text without the characters that would break a line. */
@@ -283,8 +271,8 @@ static void append_die(GString *row, const struct gb_point *point)
 bool gb_store_point(struct gb_store *store, const struct gb_point *point,
                     struct gb_error *err)
 {
-    char branch[NUMBER_MAX];
-    char seconds[NUMBER_MAX];
+    char branch[GB_NUMBER_MAX];
+    char seconds[GB_NUMBER_MAX];
     GString *row = g_string_new(gb_curve_branch_name(point, branch, sizeof branch));
     g_string_append_printf(row, ",%" PRId64, point->step);
     const double before[] = {point->density,     point->px_pa / 1e6, point->py_pa / 1e6,

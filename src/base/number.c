@@ -1,0 +1,143 @@
+#include "base/number.h"
+
+#include <float.h>
+#include <glib.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+/* The fast way needs numbers of 64 bits between double and decimal: 17 digits have 57. */
+#if LDBL_MANT_DIG >= 64
+enum { FAST = 1 };
+#else
+enum { FAST = 0 };
+#endif
+
+enum { DIGITS = 17, POWER_MOST = 27 }; /* 5^27 is the last power of 63 bits or less */
+
+/* 10^power, exact. */
+static long double power_of_ten(int power)
+{
+    static const long double ten[POWER_MOST + 1] = {
+        1e0L,  1e1L,  1e2L,  1e3L,  1e4L,  1e5L,  1e6L,  1e7L,  1e8L,  1e9L,
+        1e10L, 1e11L, 1e12L, 1e13L, 1e14L, 1e15L, 1e16L, 1e17L, 1e18L, 1e19L,
+        1e20L, 1e21L, 1e22L, 1e23L, 1e24L, 1e25L, 1e26L, 1e27L};
+    return ten[power];
+}
+
+static long double scale(long double value, int power)
+{
+    return power >= 0 ? value * power_of_ten(power) : value / power_of_ten(-power);
+}
+
+enum answer { NO, YES, UNSURE };
+
+/* Does digits x 10^power read as value?  One correctly rounded operation of 64 bits says
+ * so, unless it lies so near to the middle of two doubles that rounding twice could
+ * differ. */
+static enum answer reads_as(uint64_t digits, int power, double value)
+{
+    const long double near = scale((long double)digits, power);
+    const double read = (double)near;
+    const long double off = near - (long double)read; /* exact */
+    const double next = nextafter(read, off > 0.0L ? INFINITY : 0.0);
+    const long double half = 0.5L * fabsl((long double)next - (long double)read);
+    if (read != value && next != value) {
+        return NO;
+    }
+    if (fabsl(off) >= half * (1.0L - 0x1p-8L)) {
+        return UNSURE;
+    }
+    return read == value ? YES : NO;
+}
+
+/* Digits of a positive number with the power of the last one; how many there are, or 0
+ * when the slow way has to be gone. */
+static int find_digits(double value, uint64_t *digits, int *power)
+{
+    int exponent = (int)floor(log10(value));
+    if (exponent < -10 || exponent > 40) {
+        return 0;
+    }
+    *power = exponent - (DIGITS - 1);
+    const long double whole = scale((long double)value, -*power);
+    if (!(whole >= 1e16L && whole < 1e17L)) { /* log10 was off by a hair */
+        return 0;
+    }
+    for (int more = 2; more >= 0; more--) {
+        const uint64_t some = (uint64_t)roundl(whole / power_of_ten(more));
+        const enum answer answer = reads_as(some, *power + more, value);
+        if (answer != NO) {
+            *digits = some;
+            *power += more;
+            return answer == YES ? DIGITS - more : 0;
+        }
+    }
+    return 0;
+}
+
+static char *put(char *to, const char *from, int count, char fill)
+{
+    for (int k = 0; k < count; k++) {
+        *to++ = from ? from[k] : fill;
+    }
+    return to;
+}
+
+/* As %g does: powers of ten below -4 or beyond the digits are written as such. */
+static void lay_out(const char *digit, int count, int exponent, int precision, char *to)
+{
+    const bool plain = exponent >= -4 && exponent < precision;
+    const int before = !plain ? 1 : MIN(count, MAX(exponent + 1, 0)); /* the point */
+    to = before > 0 ? put(to, digit, before, 0) : put(to, NULL, 1, '0');
+    to = put(to, NULL, plain && exponent >= count ? exponent + 1 - count : 0, '0');
+    if (count > before) {
+        *to++ = '.';
+        to = put(to, NULL, plain && exponent < 0 ? -exponent - 1 : 0, '0');
+        to = put(to, digit + before, count - before, 0);
+    }
+    *to = '\0';
+    if (!plain) {
+        g_snprintf(to, 8, "e%c%02d", exponent < 0 ? '-' : '+', ABS(exponent));
+    }
+}
+
+static char *write_slowly(double value, char *buffer)
+{
+    for (int digits = DIGITS - 2; digits <= DIGITS; digits++) {
+        char format[8];
+        g_snprintf(format, sizeof format, "%%.%dg", digits);
+        g_ascii_formatd(buffer, GB_NUMBER_MAX, format, value);
+        if (g_ascii_strtod(buffer, NULL) == value) {
+            break;
+        }
+    }
+    return buffer;
+}
+
+char *gb_number_write(double value, char buffer[GB_NUMBER_MAX])
+{
+    char digit[DIGITS + 3];
+    uint64_t digits = 0;
+    int power = 0;
+    const int precision =
+        FAST && isnormal(value) ? find_digits(fabs(value), &digits, &power) : 0;
+    if (precision == 0) {
+        return write_slowly(value, buffer);
+    }
+    int count = 0;
+    for (uint64_t rest = digits; rest > 0; rest /= 10) {
+        count++;
+    }
+    const int exponent = power + count - 1;
+    for (uint64_t rest = digits, k = (uint64_t)count; k > 0; rest /= 10) {
+        digit[--k] = (char)('0' + rest % 10);
+    }
+    while (count > 1 && digit[count - 1] == '0') {
+        count--;
+    }
+    buffer[0] = '-';
+    lay_out(digit, count, exponent, precision, buffer + (value < 0.0));
+    return buffer;
+}
