@@ -168,7 +168,8 @@ is 'lost: attach shows it' has 'attached to'
 "$greenbody" attach "$run" >"$here/out" 2>"$here/attach" &
 watcher=$!
 is 'lost: without a screen, too' grep -q density "$here/attach"
-rm -rf "$run"
+mv "$run" "$here/gone" # at once: rm alone may find what is written meanwhile
+until_true rm -rf "$here/gone"
 wait $watcher
 [ $? -eq 3 ] && grep -q 'quiet-2: was moved or removed' "$here/attach"
 result 'lost: attach ends with a line and status 3' $?
