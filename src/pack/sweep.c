@@ -284,6 +284,25 @@ static void add_tally(struct gb_tally *sum, const struct gb_tally *part)
     sum->deepest = fmax(sum->deepest, part->deepest);
 }
 
+/* All blocks, by the threads of the team that calls it; without one, by the caller. */
+static void run_blocks(struct gb_world *world, int64_t blocks)
+{
+#pragma omp for schedule(static)
+    for (int64_t b = 0; b < blocks; b++) {
+        if (world->in_single) {
+            gb_sweep_single_prepare(world, b * GB_SWEEP_BLOCK, block_end(world, b));
+        }
+    }
+#pragma omp for schedule(static)
+    for (int64_t b = 0; b < blocks; b++) {
+        sweep_block(world, b);
+    }
+#pragma omp for schedule(static)
+    for (int64_t b = 0; b < blocks; b++) {
+        collect_block(world, b);
+    }
+}
+
 void gb_sweep_run(struct gb_world *world)
 {
     gb_pairs_shifts(&world->cell, world->shift);
@@ -291,22 +310,11 @@ void gb_sweep_run(struct gb_world *world)
     for (int c = 0; c < 3; c++) {
         world->single.scale[c] = (float)(world->cell.edge[c] * 0x1p-32);
     }
-#pragma omp parallel num_threads(world->threads) if (world->threads > 1)
-    {
-#pragma omp for schedule(static)
-        for (int64_t b = 0; b < blocks; b++) {
-            if (world->in_single) {
-                gb_sweep_single_prepare(world, b * GB_SWEEP_BLOCK, block_end(world, b));
-            }
-        }
-#pragma omp for schedule(static)
-        for (int64_t b = 0; b < blocks; b++) {
-            sweep_block(world, b);
-        }
-#pragma omp for schedule(static)
-        for (int64_t b = 0; b < blocks; b++) {
-            collect_block(world, b);
-        }
+    if (world->threads > 1) {
+#pragma omp parallel num_threads(world->threads)
+        run_blocks(world, blocks);
+    } else { /* a team of one would wait for itself */
+        run_blocks(world, blocks);
     }
     struct gb_sweep_block sum = {0};
     for (int64_t b = 0; b < blocks; b++) {

@@ -63,13 +63,23 @@ static int64_t span_begin(const struct pass *pass, int span)
     return 3 * (pass->b.count * span / SPANS);
 }
 
+/* All spans, by the threads of the team that calls it; without one, by the caller. */
+static void work_spans(struct pass *pass, void (*work)(struct pass *pass, int span))
+{
+#pragma omp for schedule(static)
+    for (int s = 0; s < SPANS; s++) {
+        work(pass, s);
+    }
+}
+
 static void over_spans(struct pass *pass, int threads,
                        void (*work)(struct pass *pass, int span))
 {
-    (void)threads;
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (int s = 0; s < SPANS; s++) {
-        work(pass, s);
+    if (threads > 1) {
+#pragma omp parallel num_threads(threads)
+        work_spans(pass, work);
+    } else { /* a team of one would wait for itself */
+        work_spans(pass, work);
     }
 }
 
