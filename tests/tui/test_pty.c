@@ -49,11 +49,14 @@ static void become_program(char **words)
     _exit(127);
 }
 
+/* At fidelity = reference, so that no engine is through with its run while the screen is
+ * looked at. */
 static void open_program(struct child *child, int rows, int cols, const char *setting)
 {
     struct winsize size = {.ws_row = (unsigned short)rows,
                            .ws_col = (unsigned short)cols};
-    char *words[] = {g_strdup(program), g_strdup("default"), g_strdup(setting), NULL};
+    char *words[] = {g_strdup(program), g_strdup("default"), g_strdup(setting),
+                     g_strdup("numerics.fidelity=reference"), NULL};
     memset(child, 0, sizeof *child);
     child->pid = forkpty(&child->fd, NULL, NULL, &size);
     g_assert_cmpint(child->pid, >=, 0);
@@ -61,7 +64,7 @@ static void open_program(struct child *child, int rows, int cols, const char *se
         become_program(words);
     }
     tcgetattr(child->fd, &child->before);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         g_free(words[i]);
     }
 }
