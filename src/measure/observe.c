@@ -69,31 +69,47 @@ static double spring_energy(const struct gb_model *model,
             gb_law_slip_pivot_stiffness(slip, a) * pivot * pivot);
 }
 
+/* The laws of a pair, and where its attraction is cut off. */
+struct bond {
+    struct gb_law_unequal law;
+    double reach, base; /* energy at the reach */
+};
+
+static struct bond bond_of(const struct gb_model *model, double first, double second)
+{
+    struct bond bond;
+    gb_law_unequal_init(&bond.law, model, first, second);
+    bond.reach = bond.law.span + model->numerics.cutoff - 1.0;
+    bond.base = gb_law_unequal_depth(&bond.law, bond.reach);
+    return bond;
+}
+
 /* Energy of pair k of a list: attraction, and where it touches, along its normal (below
- * h_min the area under the line counts) and in its springs. */
+ * h_min the area under the line counts) and in its springs.  equal: the bond of all pairs
+ * where particles have one size. */
 static double pair_energy(const struct gb_world *world, const struct gb_pair_list *list,
-                          int64_t i, int64_t k)
+                          int64_t i, int64_t k, const struct bond *equal)
 {
     const struct gb_model *model = gb_world_model(world);
     const struct gb_contacts *contacts = gb_world_contacts(world);
     const bool near = list == &gb_world_pairs(world)->near;
-    struct gb_law_unequal law;
+    const struct bond bond = model->sized
+                                 ? bond_of(model, gb_world_diameter(world, i),
+                                           gb_world_diameter(world, list->other[k]))
+                                 : *equal;
     double r[3], sum = 0.0;
     gb_world_arm(world, list, i, k, r);
-    gb_law_unequal_init(&law, model, gb_world_diameter(world, i),
-                        gb_world_diameter(world, list->other[k]));
-    const double length = gb_vec_length(r), h = law.span - length;
-    const double reach = law.span + model->numerics.cutoff - 1.0;
+    const double length = gb_vec_length(r), h = bond.law.span - length;
     if (near && gb_contacts_touch(contacts, k)) {
         const double deepest = gb_contacts_deepest(contacts, k);
         const bool printed = deepest > 0.0 && model->bridge.radius_current;
-        const double wide = printed ? h + law.bridge_length : fmax(deepest, 0.0);
-        sum = gb_law_unequal_energy(&law, deepest, h) +
+        const double wide = printed ? h + bond.law.bridge_length : fmax(deepest, 0.0);
+        sum = gb_law_unequal_energy(&bond.law, deepest, h) +
               spring_energy(model, contacts, k,
-                            gb_law_unequal_radius(&law, deepest > 0.0 ? wide : h));
+                            gb_law_unequal_radius(&bond.law, deepest > 0.0 ? wide : h));
     }
-    if (model->terms.attraction && length < reach) {
-        sum += gb_law_unequal_depth(&law, length) - gb_law_unequal_depth(&law, reach);
+    if (model->terms.attraction && length < bond.reach) {
+        sum += gb_law_unequal_depth(&bond.law, length) - bond.base;
     }
     return sum;
 }
@@ -101,13 +117,14 @@ static double pair_energy(const struct gb_world *world, const struct gb_pair_lis
 double gb_observe_elastic(const struct gb_world *world)
 {
     const struct gb_pairs *pairs = gb_world_pairs(world);
+    const struct bond equal = bond_of(gb_world_model(world), 1.0, 1.0);
     double sum = 0.0;
     for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
         for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
-            sum += pair_energy(world, &pairs->near, i, k);
+            sum += pair_energy(world, &pairs->near, i, k, &equal);
         }
         for (int64_t k = pairs->far.start[i]; k < pairs->far.start[i + 1]; k++) {
-            sum += pair_energy(world, &pairs->far, i, k);
+            sum += pair_energy(world, &pairs->far, i, k, &equal);
         }
     }
     return sum;

@@ -9,7 +9,7 @@
 #include "pack/batch.h"
 #include "pack/cell.h"
 
-/* What a sweep in single precision works on: a quarter of the memory traffic of doubles.
+/* What a sweep in single precision works on: half the memory traffic of doubles.
  *
  * Places are whole numbers, 2^32 to an edge: exact to 5e-9 d in a cell of 20 d, where a
  * float would leave 1e-6, and the difference of two, wrapping around, is that to the

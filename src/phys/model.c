@@ -105,12 +105,17 @@ static const char *automatic_relaxer(const struct gb_params *params)
     return params->fidelity == GB_FIDELITY_REFERENCE ? "fire" : "predict";
 }
 
+/* Scenes whose sweep there is in single precision: no viscous forces, no plane. */
+static bool bears_single(const struct gb_model *model)
+{
+    return model->kind == GB_KIND_QUASISTATIC && model->dimension == 3 && !model->sized;
+}
+
 /* Single precision halves memory and time; P1's own relaxer is kept as printed. */
 static bool pick_precision(const struct gb_model *model, const struct gb_params *params)
 {
     return params->precision == GB_PRECISION_SINGLE ||
-           (params->precision == GB_PRECISION_AUTO && model->dimension == 3 &&
-            !model->sized && model->kind == GB_KIND_QUASISTATIC &&
+           (params->precision == GB_PRECISION_AUTO && bears_single(model) &&
             strcmp(model->numerics.relaxer, "steepest") != 0 &&
             model->numerics.tolerance >= GB_SINGLE_TOLERANCE_LEAST);
 }
@@ -232,6 +237,12 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
     if (!freeze_sizes(model, params, err)) {
         return false;
     }
+    if (params->precision == GB_PRECISION_SINGLE && !bears_single(model)) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "numerics.precision = single: accepted in quasi-static scenes "
+            "in 3D with particles of one size only");
+    }
     freeze_laws(model, params);
     if (params->kind == GB_KIND_DIE) { /* no cell, and laws of its own beside these */
         return true;
@@ -249,12 +260,6 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
             "%.3g E d^2 presses pairs deeper than %g d; accepted: a larger "
             "alpha or diameter, or a smaller material.epsilon",
             params->alpha, 1e9 * d, model->adhesion, GB_OVERLAP_MOST);
-    }
-    if (params->precision == GB_PRECISION_SINGLE &&
-        (params->dimension == 2 || model->sized)) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "numerics.precision = single: accepted in 3D with particles "
-                            "of one size only");
     }
     pick_numerics(model, params);
     const double reach =

@@ -3,13 +3,7 @@
 # 3, one line that names the file, and nothing half written; what was there before is whole.
 # The disk is a small one in memory, in a name space of its own.
 # Usage: full.sh GREENBODY PRESET_FOLDER
-if [ -z "${GB_TEST_INSIDE:-}" ]; then
-    if ! unshare -rm sh -c 'mount -t tmpfs -o size=64k none /mnt' 2>/dev/null; then
-        echo "1..0 # SKIP no disk of our own can be mounted here"
-        exit 0
-    fi
-    GB_TEST_INSIDE=1 exec unshare -rm bash "$0" "$@"
-fi
+. "$(dirname "$0")/../common/own_disk.sh"
 . "$(dirname "$0")/folder.sh"
 
 mkdir disk || exit 1

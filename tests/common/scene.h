@@ -72,4 +72,28 @@ static inline void scene_evaluate(struct gb_world *world)
     }
 }
 
+static inline void scene_squeeze(struct gb_world *world, double step)
+{
+    const double factor[3] = {1.0, 1.0, 1.0 - step};
+    gb_world_strain(world, factor);
+}
+
+/* A crude but deterministic motion along the forces, k times as far as they are large, so
+ * many times after each squeeze. */
+static inline void scene_press(struct gb_world *world, int steps, int moves, double k)
+{
+    const struct gb_bodies b = gb_world_bodies(world);
+    for (int s = 0; s < steps; s++) {
+        scene_squeeze(world, 0.002);
+        for (int m = 0; m < moves; m++) {
+            scene_evaluate(world);
+            for (int64_t i = 0; i < 3 * b.count; i++) {
+                b.position[i] += k * b.force[i];
+                b.turn[i] += k * b.torque[i];
+            }
+        }
+    }
+    scene_evaluate(world);
+}
+
 #endif

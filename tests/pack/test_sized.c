@@ -123,33 +123,6 @@ static void test_limits(void)
              4.0 * (gap + alpha_d0));
 }
 
-static void squeeze(struct gb_world *world)
-{
-    const double factor[3] = {1.0, 1.0, 0.998};
-    gb_world_strain(world, factor);
-}
-
-static void drift(struct gb_world *world, double k)
-{
-    const struct gb_bodies b = gb_world_bodies(world);
-    for (int64_t i = 0; i < 3 * b.count; i++) {
-        b.position[i] += k * b.force[i];
-        b.turn[i] += k * b.torque[i];
-    }
-}
-
-static void press(struct gb_world *world, int steps)
-{
-    for (int i = 0; i < steps; i++) {
-        squeeze(world);
-        for (int k = 0; k < 20; k++) {
-            scene_evaluate(world);
-            drift(world, 1.5);
-        }
-    }
-    scene_evaluate(world);
-}
-
 static double largest_of(const double *v, int64_t count)
 {
     double most = 0.0;
@@ -182,8 +155,8 @@ static void test_one_size(void)
         g_assert_true(gb_world_create(&world[0], &one, position, &err));
         g_assert_true(gb_world_create(&world[1], &many, position, &err));
         gb_alloc_free(position);
-        press(world[0], 4);
-        press(world[1], 4);
+        scene_press(world[0], 4, 20, 1.5);
+        scene_press(world[1], 4, 20, 1.5);
         const struct gb_bodies a = gb_world_bodies(world[0]);
         const struct gb_bodies b = gb_world_bodies(world[1]);
         const double force = largest_of(a.force, a.count);
@@ -271,7 +244,7 @@ static void test_packing(void)
     /* nothing moves at the start: every contact is at its equilibrium */
     g_assert_cmpfloat(gb_world_residual(world), <, 1.0);
     for (int i = 0; i < 5; i++) {
-        press(world, 3);
+        scene_press(world, 3, 20, 1.5);
         check_balance(world);
     }
     gb_world_destroy(world);
@@ -289,7 +262,7 @@ static void test_lists(void)
 {
     const struct gb_model model = model_of("particles.count=300");
     struct gb_world *world = scene_world(&model);
-    press(world, 3);
+    scene_press(world, 3, 20, 1.5);
     const double *x = gb_world_position(world);
     int64_t touching = 0, pulling = 0;
     for (int64_t i = 0; i < model.count; i++) {
@@ -326,7 +299,7 @@ static void test_threads(void)
         struct gb_model model = model_of("particles.count=300");
         model.numerics.threads = threads;
         struct gb_world *world = scene_world(&model);
-        press(world, 3);
+        scene_press(world, 3, 20, 1.5);
         g_assert_true(threads == 1 || gb_world_hash(world) == hash);
         hash = gb_world_hash(world);
         gb_world_destroy(world);

@@ -19,34 +19,6 @@ static const struct precision precisions[] = {
     {"numerics.precision=single", 1e-7, 1e-7, 1e-3, 2e-5},
 };
 
-static void squeeze(struct gb_world *world, double step)
-{
-    const double factor[3] = {1.0, 1.0, 1.0 - step};
-    gb_world_strain(world, factor);
-}
-
-/* A crude but deterministic motion along the forces. */
-static void drift(struct gb_world *world, double k)
-{
-    const struct gb_bodies b = gb_world_bodies(world);
-    for (int64_t i = 0; i < 3 * b.count; i++) {
-        b.position[i] += k * b.force[i];
-        b.turn[i] += k * b.torque[i];
-    }
-}
-
-static void press(struct gb_world *world, int steps)
-{
-    for (int i = 0; i < steps; i++) {
-        squeeze(world, 0.002);
-        for (int k = 0; k < 30; k++) {
-            scene_evaluate(world);
-            drift(world, 2.0);
-        }
-    }
-    scene_evaluate(world);
-}
-
 static int64_t brute_pairs(const struct gb_world *world, double reach)
 {
     const double *x = gb_world_position(world);
@@ -109,7 +81,7 @@ static void test_momentum(const void *data)
     const struct gb_model model = scene_model(&params);
     struct gb_world *world = scene_world(&model);
     for (int i = 0; i < 10; i++) {
-        press(world, 3);
+        scene_press(world, 3, 30, 2.0);
         double force[3], largest;
         sum_forces(world, force, &largest);
         g_assert_cmpfloat(gb_vec_length(force), <,
@@ -152,7 +124,7 @@ static void test_gradient(const void *data)
                      "contact.mu_pivot=0", NULL);
     const struct gb_model model = scene_model(&params);
     struct gb_world *world = scene_world(&model);
-    press(world, 5);
+    scene_press(world, 5, 30, 2.0);
     const struct gb_bodies b = gb_world_bodies(world);
     const double step = 1e-5;
     for (int64_t i = 0; i < b.count; i += 17) {
@@ -170,9 +142,9 @@ static void test_gradient(const void *data)
     double pressure[3][3];
     gb_observe_pressure(world, pressure);
     const double volume = gb_cell_volume(gb_world_cell(world));
-    squeeze(world, step);
+    scene_squeeze(world, step);
     const double squeezed = energy(world);
-    squeeze(world, -2.0 * step);
+    scene_squeeze(world, -2.0 * step);
     const double widened = energy(world);
     g_assert_cmpfloat_with_epsilon(pressure[2][2],
                                    (squeezed - widened) / (2.0 * step * volume),
@@ -192,7 +164,7 @@ static void test_skin(const void *data)
         struct gb_model model = scene_model(&params);
         model.numerics.skin = 0.02 * (1 << s);
         struct gb_world *world = scene_world(&model);
-        press(world, 12);
+        scene_press(world, 12, 30, 2.0);
         gb_observe_pressure(world, pressure[s]);
         rebuilds[s] = gb_world_rebuilds(world);
         gb_world_destroy(world);
@@ -217,7 +189,7 @@ static void test_threads(const void *data)
         struct gb_model model = scene_model(&params);
         model.numerics.threads = threads;
         struct gb_world *world = scene_world(&model);
-        press(world, 3);
+        scene_press(world, 3, 30, 2.0);
         const uint64_t hash = gb_world_hash(world);
         first = threads == 1 ? hash : first;
         g_assert_cmpuint(hash, ==, first);
@@ -235,12 +207,12 @@ static void test_copy(const void *data)
     struct gb_world_copy *copy = NULL;
     struct gb_error err = {0};
     uint64_t hash[2];
-    press(world, 5);
+    scene_press(world, 5, 30, 2.0);
     g_assert_true(gb_world_save(world, &copy, &err));
     for (int i = 0; i < 2; i++) {
-        press(world, 4);
+        scene_press(world, 4, 30, 2.0);
         g_assert_true(gb_world_restore(world, copy, &err));
-        press(world, 4);
+        scene_press(world, 4, 30, 2.0);
         hash[i] = gb_world_hash(world);
     }
     g_assert_cmpuint(hash[0], ==, hash[1]);
@@ -351,6 +323,33 @@ static void test_lattice(const void *data)
     gb_world_destroy(world);
 }
 
+/* Single precision where there is no sweep for it is refused, whoever asks; auto is
+ * double there, and where a tolerance is too tight. */
+static void test_precision(void)
+{
+    const char *const without[] = {"scene.kind=dynamic", "scene.kind=die",
+                                   "scene.dimension=2",
+                                   "particles.distribution=lognormal"};
+    for (size_t i = 0; i < G_N_ELEMENTS(without); i++) {
+        struct gb_params params = scene_params("particles.count=1000", without[i], NULL);
+        struct gb_model model;
+        struct gb_error err = {0};
+        params.precision = GB_PRECISION_SINGLE;
+        g_assert_false(gb_model_init(&model, &params, &err));
+        g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+        g_assert_nonnull(strstr(err.text, "numerics.precision = single"));
+        params.precision = GB_PRECISION_AUTO;
+        if (!gb_model_init(&model, &params, &err)) {
+            g_error("%s: %s", without[i], err.text);
+        }
+        g_assert_false(model.numerics.single);
+    }
+    const struct gb_params loose = scene_params("numerics.tolerance=0.01", NULL);
+    const struct gb_params tight = scene_params("numerics.tolerance=0.001", NULL);
+    g_assert_true(scene_model(&loose).numerics.single);
+    g_assert_false(scene_model(&tight).numerics.single);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -369,6 +368,7 @@ int main(int argc, char **argv)
     g_test_add_func("/world/small-cell", test_small_cell);
     g_test_add_data_func("/world/memory", &precisions[0], test_memory);
     g_test_add_data_func("/world/memory-single", &precisions[1], test_memory);
+    g_test_add_func("/world/precision", test_precision);
     g_test_add_data_func("/world/lattice", &precisions[0], test_lattice);
     g_test_add_data_func("/world/lattice-single", &precisions[1], test_lattice);
     return g_test_run();

@@ -112,7 +112,7 @@ static struct gb_params pressing(const char *contact, const char *geometry,
                                  const char *relaxer)
 {
     return scene_params("loading.until=30 MPa", "loading.unload_from=8 MPa; 20 MPa",
-                        "loading.step=0.5 %", "numerics.tolerance=1e-2", contact,
+                        "loading.step=0.4 %", "numerics.tolerance=1e-2", contact,
                         geometry, relaxer, NULL);
 }
 
@@ -120,7 +120,7 @@ static void test_bridges(void)
 {
     check(
         pressing("contact.mu=0.1", "loading.geometry=uniaxial", "numerics.relaxer=fire"),
-        3, 50);
+        3, 60);
 }
 
 static void test_every_point(void)

@@ -2,13 +2,7 @@
 # A preset saved from the workbench where the disk is full: the reason is told, an older one
 # stays as it was, and with room again the same dialog saves.
 # Usage: disk.sh GREENBODY PRESET_FOLDER
-if [ -z "${GB_TEST_INSIDE:-}" ]; then
-    if ! unshare -rm sh -c 'mount -t tmpfs -o size=64k none /mnt' 2>/dev/null; then
-        echo "1..0 # SKIP no disk of our own can be mounted here"
-        exit 0
-    fi
-    GB_TEST_INSIDE=1 exec unshare -rm bash "$0" "$@"
-fi
+. "$(dirname "$0")/../common/own_disk.sh"
 . "$(dirname "$0")/terminal.sh"
 saved=$here/config/greenbody/presets
 
