@@ -70,12 +70,16 @@ static uint64_t key_of(const double x[3], int dimension, double longest)
     return gb_curve_index(cell, n, BITS);
 }
 
-bool gb_curve_sort(double *position, int64_t count, int dimension, const double edges[3],
-                   struct gb_error *err)
+bool gb_curve_sort(const struct gb_model *model, double *position, struct gb_error *err)
 {
-    const double flat = fmax(edges[0], edges[2]);
-    const double longest = dimension == 3 ? fmax(flat, edges[1]) : flat;
+    const int dimension = model->dimension;
+    const int64_t count = model->count;
+    const double flat = fmax(model->edges[0], model->edges[2]);
+    const double longest = dimension == 3 ? fmax(flat, model->edges[1]) : flat;
     const size_t n = (size_t)count;
+    if (model->sized) {
+        return true;
+    }
     struct entry *order = gb_alloc_array(n, sizeof *order, err);
     double *sorted = gb_alloc_array(3 * n, sizeof *sorted, err);
     const bool room = order && sorted;

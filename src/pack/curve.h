@@ -4,17 +4,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "greenbody/model.h"
 #include "greenbody/status.h"
 
-/* Numbers particles along a Hilbert curve, so that neighbours in space are neighbours in
- * memory: every sweep reads and adds to both particles of a pair.
+/* Numbers the particles of a model along a Hilbert curve, so that neighbours in space are
+ * neighbours in memory: every sweep reads and adds to both particles of a pair. Particles
+ * of unequal sizes keep their order, in which the sizes are dealt out.
  *
  * position   count x 3, d; put into the new order
- * dimension  3, or 2 for the x-z plane
- * edges      of the cell (d); y is passed over in 2D
  * Errors: GB_ERR_MEMORY.  Particles of one cell of the curve keep their order. */
-bool gb_curve_sort(double *position, int64_t count, int dimension, const double edges[3],
-                   struct gb_error *err);
+bool gb_curve_sort(const struct gb_model *model, double *position, struct gb_error *err);
 
 /* Where the curve of 2^bits cells an edge comes through a cell, 0 to 2^(n bits) - 1;
  * cells that follow each other share a face.

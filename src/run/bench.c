@@ -50,10 +50,8 @@ static bool grow(struct gb_world **world, const struct gb_model *model, double *
     const gint64 start = g_get_monotonic_time();
     const bool done = gb_grow_place(&order, position, err);
     *seconds = seconds_since(start);
-    const bool made =
-        done &&
-        gb_curve_sort(position, model->count, model->dimension, model->edges, err) &&
-        gb_world_create(world, model, position, err);
+    const bool made = done && gb_curve_sort(model, position, err) &&
+                      gb_world_create(world, model, position, err);
     gb_alloc_free(position);
     return made;
 }

@@ -52,12 +52,9 @@ static bool grow_world(struct gb_experiment *experiment, bool (*cancelled)(void 
     struct gb_grow grow = gb_grow_of(model);
     grow.cancelled = cancelled;
     grow.data = data;
-    const bool done =
-        gb_grow_place(&grow, position, err) &&
-        /* sizes belong to the places as they were grown */
-        (model->sized ||
-         gb_curve_sort(position, model->count, model->dimension, model->edges, err)) &&
-        gb_world_create(&experiment->world, model, position, err);
+    const bool done = gb_grow_place(&grow, position, err) &&
+                      gb_curve_sort(model, position, err) &&
+                      gb_world_create(&experiment->world, model, position, err);
     gb_alloc_free(position);
     return done;
 }

@@ -53,20 +53,22 @@ enum { COUNT = 4096 };
 static void test_sort(void)
 {
     const size_t count = COUNT;
-    const double edges[3] = {16.0, 16.0, 32.0};
+    struct gb_model model = {.count = COUNT, .edges = {16.0, 16.0, 32.0}};
     static double position[3 * COUNT], before[3 * COUNT];
     struct gb_error err = {0};
     GRand *random = g_rand_new_with_seed(3);
     for (int dimension = 2; dimension <= 3; dimension++) {
+        model.dimension = dimension;
         for (int i = 0; i < COUNT; i++) {
             for (int c = 0; c < 3; c++) {
-                position[3 * i + c] = dimension == 2 && c == 1
-                                          ? 0.0
-                                          : g_rand_double_range(random, 0.0, edges[c]);
+                position[3 * i + c] =
+                    dimension == 2 && c == 1
+                        ? 0.0
+                        : g_rand_double_range(random, 0.0, model.edges[c]);
             }
         }
         memcpy(before, position, sizeof before);
-        g_assert_true(gb_curve_sort(position, COUNT, dimension, edges, &err));
+        g_assert_true(gb_curve_sort(&model, position, &err));
         double way = 0.0;
         for (int i = 1; i < COUNT; i++) {
             double squared = 0.0;
@@ -83,17 +85,26 @@ static void test_sort(void)
         qsort(before, count, 3 * sizeof(double), by_place);
         g_assert_true(memcmp(position, before, sizeof before) == 0);
     }
+    /* sizes are dealt out in the order in which particles were grown */
+    model.sized = true;
+    memcpy(before, position, sizeof before);
+    for (int c = 0; c < 3; c++) { /* the last one first, which a sort would undo */
+        position[c] = before[3 * COUNT - 3 + c];
+    }
+    memcpy(before, position, sizeof before);
+    g_assert_true(gb_curve_sort(&model, position, &err));
+    g_assert_true(memcmp(position, before, sizeof before) == 0);
     g_rand_free(random);
 }
 
 static void test_memory(void)
 {
     double position[3] = {0.0, 0.0, 0.0};
-    const double edges[3] = {1.0, 1.0, 1.0};
+    const struct gb_model model = {.count = 1, .dimension = 3, .edges = {1.0, 1.0, 1.0}};
     for (int k = 1; k <= 2; k++) {
         struct gb_error err = {0};
         gb_alloc_fail_after(k);
-        g_assert_false(gb_curve_sort(position, 1, 3, edges, &err));
+        g_assert_false(gb_curve_sort(&model, position, &err));
         gb_alloc_fail_after(0);
         g_assert_cmpint(err.code, ==, GB_ERR_MEMORY);
     }
