@@ -1,10 +1,12 @@
 /* The k-th write and the k-th allocation fail, for every k until the run passes: one
- * clear line, nothing half written, and what was kept goes on to the undisturbed end. */
+ * clear line, nothing half written, and what was kept goes on to the undisturbed end.
+ * With "-m slow" in every kind of run, else in one. */
 #include <glib.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "common/die.h"
 #include "common/place.h"
 #include "common/scene.h"
 #include "run/hdf_record.h"
@@ -18,6 +20,33 @@ static struct gb_params scene(void)
                         "loading.until=8 MPa", "loading.unload_from=3 MPa",
                         "loading.step=0.6 %", "numerics.tolerance=1e-2",
                         "output.checkpoint_every=0.1 s", "numerics.threads=1", NULL);
+}
+
+static struct gb_params scene_of_sizes(void)
+{
+    return scene_params("particles.distribution=lognormal", "particles.sigma=0.25",
+                        "particles.largest=14 nm", "particles.count=80",
+                        "structure.base=5.5 d", "loading.until=20 MPa",
+                        "loading.unload_from=12 MPa", "loading.step=1 %",
+                        "numerics.tolerance=3e-2", "output.checkpoint_every=0.1 s",
+                        "numerics.threads=1", NULL);
+}
+
+static struct gb_params scene_in_motion(void)
+{
+    return scene_params("scene.kind=dynamic", "scene.dimension=2", "particles.count=60",
+                        "contact.mu=0.5", "loading.geometry=isotropic",
+                        "loading.rate=6.8e9 1/s", "loading.relax=0.001 ns",
+                        "loading.hold=0.001 ns", "loading.record_time=0.0005 ns",
+                        "loading.record=1 %", "loading.until=density = 0.56",
+                        "output.checkpoint_every=0.1 s", "numerics.threads=1", NULL);
+}
+
+static struct gb_params scene_in_die(void)
+{
+    return die_params("particles.count=20", "loading.until=10 MPa",
+                      "loading.record_pressure=1 MPa", "output.checkpoint_every=0.1 s",
+                      "numerics.threads=1", NULL);
 }
 
 /* What there is, is whole: rows end with a line, a state can be read. */
@@ -41,14 +70,15 @@ static void check_whole(const struct place *place)
 
 static void check_line(const struct gb_error *err, enum gb_status code)
 {
-    g_assert_cmpint(err->code, ==, code);
+    if (err->code != code) {
+        g_error("%s", err->text);
+    }
     g_assert_cmpstr(err->text, !=, "");
     g_assert_null(strchr(err->text, '\n'));
 }
 
-static void test_writes(void)
+static void fail_writes(struct gb_params params)
 {
-    const struct gb_params params = scene();
     struct place place = place_make("run");
     struct gb_error err = {0};
     g_assert_true(gb_solo_run(&params, place.directory, NULL, NULL, &err));
@@ -75,18 +105,27 @@ static void test_writes(void)
         }
     }
     g_assert_cmpint(k, >, 20);
+    g_test_message("%ld writes failed, one at a time", k - 1);
     g_free(whole);
     place_finish(&place);
 }
 
-static void test_memory(void)
+static void test_writes(void)
 {
-    const struct gb_params params = scene();
+    fail_writes(scene());
+    if (g_test_slow()) {
+        fail_writes(scene_of_sizes());
+        fail_writes(scene_in_motion());
+        fail_writes(scene_in_die());
+    }
+}
+
+static void fail_allocations(struct gb_params params)
+{
     struct place place = place_make("run");
     bool done = false;
-    long k = 1, tried = 0;
-    /* every one of the first, which make all there is; then ever wider steps */
-    for (; !done; k += k > 150 ? k / 20 : 1, tried++) {
+    long k = 1;
+    for (; !done; k++) {
         struct gb_error err = {0};
         const size_t before = gb_alloc_bytes();
         place_clear(&place);
@@ -99,8 +138,19 @@ static void test_memory(void)
         check_whole(&place);
         g_assert_cmpuint(gb_alloc_bytes(), ==, before);
     }
-    g_assert_cmpint(tried, >, 60);
+    g_assert_cmpint(k, >, 60);
+    g_test_message("%ld allocations failed, one at a time", k - 2);
     place_finish(&place);
+}
+
+static void test_memory(void)
+{
+    fail_allocations(scene());
+    if (g_test_slow()) {
+        fail_allocations(scene_of_sizes());
+        fail_allocations(scene_in_motion());
+        fail_allocations(scene_in_die());
+    }
 }
 
 /* What happens to a directory behind the back of its run, once it has points. */
