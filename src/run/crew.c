@@ -4,6 +4,8 @@
 #include <poll.h>
 #include <time.h>
 
+#include <glib.h>
+
 #include "base/alloc.h"
 #include "run/ranks.h"
 #include "run/worker.h"
@@ -12,7 +14,9 @@ struct gb_crew {
     gb_crew_work *work;
     struct gb_worker *worker;
     struct pollfd *poll;
-    size_t count, busy;
+    size_t count;           /* runs pressed at once */
+    size_t places;          /* workers: as many again may be keeping theirs */
+    size_t busy, keeping;   /* workers with a run; those of them that only keep it */
     struct gb_ranks *ranks; /* NULL: nobody else */
     size_t away;            /* runs that other ranks do */
     double stirred;         /* when a run was given or reported last */
@@ -21,7 +25,7 @@ struct gb_crew {
 /* Nothing wakes a rank when a letter comes: it looks from time to time, ever more seldom
  * the longer nothing happens.  A run of a second waits for a hundredth of it at most to
  * be reported, and looking takes less than that of a processor. */
-static const double letters_least_s = 0.002;
+static const double letters_least_s = 0.01;
 static const double letters_most_s = 0.1;
 static const double letters_share = 0.02;
 
@@ -40,16 +44,19 @@ bool gb_crew_create(struct gb_crew **out, size_t workers, gb_crew_work *work,
         return false;
     }
     crew->work = work;
+    crew->stirred = clock_s();
     crew->ranks = ranks;
     crew->count = workers;
-    crew->worker = gb_alloc_array(workers, sizeof *crew->worker, err);
-    crew->poll = crew->worker ? gb_alloc_array(workers, sizeof *crew->poll, err) : NULL;
+    crew->places = 2 * workers;
+    crew->worker = gb_alloc_array(crew->places, sizeof *crew->worker, err);
+    crew->poll =
+        crew->worker ? gb_alloc_array(crew->places, sizeof *crew->poll, err) : NULL;
     if (crew->poll == NULL) {
-        crew->count = 0;
+        crew->places = 0;
         gb_crew_destroy(crew);
         return false;
     }
-    for (size_t i = 0; i < workers; i++) {
+    for (size_t i = 0; i < crew->places; i++) {
         crew->worker[i].fd = -1;
     }
     *out = crew;
@@ -62,9 +69,24 @@ double gb_crew_patience(const struct gb_crew *crew)
     return fmin(fmax(calm, letters_least_s), letters_most_s);
 }
 
+/* Runs that may begin here, where those that are only being kept do not count. */
+static size_t room_here(const struct gb_crew *crew)
+{
+    const size_t pressing = crew->busy - crew->keeping;
+    const size_t room = crew->count > pressing ? crew->count - pressing : 0;
+    return MIN(room, crew->places - crew->busy);
+}
+
 size_t gb_crew_idle(const struct gb_crew *crew)
 {
-    return crew->count - crew->busy + gb_ranks_idle(crew->ranks);
+    return (crew->count > crew->busy ? crew->count - crew->busy : 0) +
+           gb_ranks_idle(crew->ranks);
+}
+
+size_t gb_crew_ahead(const struct gb_crew *crew, size_t waiting)
+{
+    const bool many = waiting > crew->count + gb_ranks_workers(crew->ranks);
+    return room_here(crew) + (many ? gb_ranks_ahead(crew->ranks) : 0);
 }
 
 size_t gb_crew_busy(const struct gb_crew *crew)
@@ -79,8 +101,8 @@ static bool give_here(struct gb_crew *crew, size_t ticket, const struct gb_param
     while (crew->worker[idle].busy) {
         idle++;
     }
-    const bool given = gb_worker_give(crew->worker, crew->count, idle, crew->work, ticket,
-                                      params, directory, err);
+    const bool given = gb_worker_give(crew->worker, crew->places, idle, crew->work,
+                                      ticket, params, directory, err);
     crew->busy += given;
     return given;
 }
@@ -89,7 +111,7 @@ bool gb_crew_give(struct gb_crew *crew, size_t ticket, const struct gb_params *p
                   const char *directory, struct gb_error *err)
 {
     crew->stirred = clock_s();
-    if (crew->busy < crew->count) {
+    if (room_here(crew) > 0) {
         return give_here(crew, ticket, params, directory, err);
     }
     const bool given = gb_ranks_give(crew->ranks, ticket, params, directory, err);
@@ -97,21 +119,30 @@ bool gb_crew_give(struct gb_crew *crew, size_t ticket, const struct gb_params *p
     return given;
 }
 
+/* What worker i has to say; true for a report. */
+static bool hear(struct gb_crew *crew, size_t i, struct gb_crew_report *report)
+{
+    const bool kept = crew->worker[i].keeping;
+    const bool ended = gb_worker_take(&crew->worker[i], report);
+    crew->stirred = clock_s();
+    crew->busy -= ended;
+    crew->keeping -= ended && kept;
+    crew->keeping += !ended && !kept;
+    return ended;
+}
+
 static bool take_here(struct gb_crew *crew, double seconds, struct gb_crew_report *report)
 {
-    for (size_t i = 0; i < crew->count; i++) {
+    for (size_t i = 0; i < crew->places; i++) {
         const struct gb_worker *worker = &crew->worker[i];
         crew->poll[i] = (struct pollfd){worker->busy ? worker->fd : -1, POLLIN, 0};
     }
-    if (poll(crew->poll, crew->count, (int)ceil(1e3 * seconds)) <= 0) {
+    if (poll(crew->poll, crew->places, (int)ceil(1e3 * seconds)) <= 0) {
         return false;
     }
-    for (size_t i = 0; i < crew->count; i++) {
+    for (size_t i = 0; i < crew->places; i++) {
         if (crew->poll[i].revents != 0) {
-            gb_worker_take(&crew->worker[i], report);
-            crew->busy--;
-            crew->stirred = clock_s();
-            return true;
+            return hear(crew, i, report);
         }
     }
     return false;
@@ -120,6 +151,7 @@ static bool take_here(struct gb_crew *crew, double seconds, struct gb_crew_repor
 bool gb_crew_take(struct gb_crew *crew, double seconds, struct gb_crew_report *report)
 {
     const double until = clock_s() + seconds;
+    const double stirred = crew->stirred;
     if (crew->ranks == NULL) {
         return take_here(crew, seconds, report);
     }
@@ -132,14 +164,14 @@ bool gb_crew_take(struct gb_crew *crew, double seconds, struct gb_crew_report *r
         if (take_here(crew, gb_crew_patience(crew), report)) {
             return true;
         }
-    } while (clock_s() < until);
+    } while (crew->stirred <= stirred && clock_s() < until);
     return false;
 }
 
 void gb_crew_stop(struct gb_crew *crew)
 {
     gb_ranks_stop(crew->away > 0 ? crew->ranks : NULL);
-    for (size_t i = 0; i < crew->count; i++) {
+    for (size_t i = 0; i < crew->places; i++) {
         if (crew->worker[i].busy) {
             gb_worker_stop(&crew->worker[i]);
         }
@@ -158,7 +190,7 @@ void gb_crew_destroy(struct gb_crew *crew)
     while (gb_crew_busy(crew) > 0) {
         (void)gb_crew_take(crew, 1.0, &report);
     }
-    for (size_t i = 0; i < crew->count; i++) {
+    for (size_t i = 0; i < crew->places; i++) {
         gb_worker_end(&crew->worker[i]);
     }
     gb_alloc_free(crew->worker);

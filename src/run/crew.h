@@ -14,10 +14,16 @@
 struct gb_crew;
 struct gb_ranks;
 
-/* Does one run in a worker's process.  cancelled is to be polled. */
+/* Whom a run answers to; NULL members are nobody. */
+struct gb_crew_boss {
+    bool (*cancelled)(void *data); /* polled between slices: true ends the run */
+    void (*pressed)(void *data);   /* told once, when all that is left is to keep it */
+    void *data;
+};
+
+/* Does one run in a worker's process. */
 typedef bool gb_crew_work(const struct gb_params *params, const char *directory,
-                          bool (*cancelled)(void *data), void *data,
-                          struct gb_error *err);
+                          const struct gb_crew_boss *boss, struct gb_error *err);
 
 /* What became of a run. */
 struct gb_crew_report {
@@ -39,16 +45,21 @@ double gb_crew_patience(const struct gb_crew *crew);
 
 /* Workers without a run. */
 size_t gb_crew_idle(const struct gb_crew *crew);
+/* Runs that may be given now although nobody is idle, so that nobody waits: beside each
+ * one that is only being kept, and for each worker of another rank as the next, as long
+ * as more of them wait than there are workers. */
+size_t gb_crew_ahead(const struct gb_crew *crew, size_t waiting);
 /* Runs that were given and not yet reported. */
 size_t gb_crew_busy(const struct gb_crew *crew);
 
-/* Starts a run on an idle worker.  Errors: GB_ERR_MACHINE (no process, no
- * socket), GB_ERR_INPUT (the name of the directory is too long). */
+/* Gives a run to an idle worker, or to whom it may be given ahead.  Errors:
+ * GB_ERR_MACHINE (no process, no socket), GB_ERR_INPUT (the name of the directory is too
+ * long). */
 bool gb_crew_give(struct gb_crew *crew, size_t ticket, const struct gb_params *params,
                   const char *directory, struct gb_error *err);
 
-/* Waits up to seconds for a report; false when there was none.  A signal may end the wait
- * early. */
+/* Waits up to seconds for a report; false when there was none.  A signal, or a worker
+ * that only keeps its run from now on, ends the wait early. */
 bool gb_crew_take(struct gb_crew *crew, double seconds, struct gb_crew_report *report);
 
 /* Asks all runs to stop; they still report. */

@@ -85,12 +85,22 @@ static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, size_t *fr
     return NULL;
 }
 
-/* Gives runs to idle workers; false when none can be started. */
+/* Runs that can be given now.  Where those that end may be enough nothing is begun ahead
+ * of need. */
+static size_t room(const struct gb_ensemble *ensemble, const struct gb_crew *crew,
+                   size_t from)
+{
+    const size_t idle = gb_crew_idle(crew);
+    const size_t waiting = ensemble->points * ensemble->replicas - from;
+    return idle > 0 || ensemble->enough != NULL ? idle : gb_crew_ahead(crew, waiting);
+}
+
+/* Gives runs to workers; false when none can be started. */
 static bool give(struct gb_ensemble *ensemble, struct gb_crew *crew, size_t *from,
                  struct gb_error *err)
 {
     struct gb_ensemble_run *run = NULL;
-    while (gb_crew_idle(crew) > 0 && (run = next_run(ensemble, from)) != NULL) {
+    while (room(ensemble, crew, *from) > 0 && (run = next_run(ensemble, from)) != NULL) {
         const size_t ticket = (size_t)(run - ensemble->run);
         if (!gb_crew_give(crew, ticket, &run->params, run->directory, err)) {
             return gb_crew_busy(crew) > 0; /* with fewer workers then */

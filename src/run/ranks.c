@@ -25,13 +25,15 @@ static const double missing_after_s = 8.0;
 /* The first rank may be busy reading what is there. */
 static const double orphan_after_s = 600.0;
 /* A run on its way to a rank. */
+struct parcel {
+    uint64_t ticket;
+    struct gb_params params;
+    char directory[DIRECTORY_MAX];
+};
+
 struct letter {
     MPI_Request request;
-    struct parcel {
-        uint64_t ticket;
-        struct gb_params params;
-        char directory[DIRECTORY_MAX];
-    } parcel;
+    struct parcel parcel;
 };
 
 /* What the first rank knows of another. */
@@ -47,6 +49,7 @@ struct gb_ranks {
     int index, count;
     struct member *member; /* of the first rank: count, its own unused */
     GPtrArray *letters;    /* not yet gone */
+    GQueue *hand;          /* of the others: struct parcel, for workers that are busy */
     double beaten;
     bool any_lost;
     int byte; /* content of letters that are but a tag */
@@ -80,6 +83,7 @@ bool gb_ranks_create(struct gb_ranks **out, struct gb_error *err)
     MPI_Comm_rank(MPI_COMM_WORLD, &ranks->index);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks->count);
     ranks->letters = g_ptr_array_new_with_free_func(g_free);
+    ranks->hand = g_queue_new();
     ranks->member = g_new0(struct member, (gsize)ranks->count);
     for (int r = 0; r < ranks->count; r++) {
         ranks->member[r].tickets = g_array_new(FALSE, FALSE, sizeof(size_t));
@@ -198,6 +202,7 @@ void gb_ranks_destroy(struct gb_ranks *ranks)
     for (int r = 0; r < ranks->count; r++) {
         g_array_unref(ranks->member[r].tickets);
     }
+    g_queue_free_full(ranks->hand, g_free);
     g_free(ranks->member);
     g_free(ranks);
 }
@@ -209,29 +214,45 @@ bool gb_ranks_is_first(const struct gb_ranks *ranks)
 
 /* --- the others ------------------------------------------------------------------ */
 
+static void send_report(const struct gb_crew_report *report)
+{
+    MPI_Send(report, (int)sizeof *report, MPI_BYTE, 0, TAG_REPORT, MPI_COMM_WORLD);
+}
+
+/* What waits in the hand goes to workers that are free, or nobody does it any more. */
+static void give_on(struct gb_ranks *ranks, struct gb_crew *crew, bool stopping)
+{
+    while (!g_queue_is_empty(ranks->hand) && (stopping || gb_crew_ahead(crew, 0) > 0)) {
+        struct gb_crew_report report = {0};
+        struct parcel *parcel = g_queue_pop_head(ranks->hand);
+        report.ticket = parcel->ticket;
+        if (stopping) {
+            gb_error_set(&report.error, GB_ERR_CANCELLED, "stopped before it began");
+            send_report(&report);
+        } else if (!gb_crew_give(crew, parcel->ticket, &parcel->params, parcel->directory,
+                                 &report.error)) {
+            send_report(&report);
+        }
+        g_free(parcel);
+    }
+}
+
 /* Everything that has come; false when it is time to go. */
-static bool open_letters(struct gb_ranks *ranks, struct gb_crew *crew, double *heard)
+static bool open_letters(struct gb_ranks *ranks, double *heard, bool *stopping)
 {
     MPI_Status status;
     while (has_letter(&status)) {
-        struct parcel parcel;
         *heard = clock_s();
-        if (status.MPI_TAG != TAG_WORK) {
-            receive(&ranks->byte, sizeof ranks->byte, &status);
-            if (status.MPI_TAG == TAG_STOP) {
-                gb_crew_stop(crew);
-            } else if (status.MPI_TAG == TAG_QUIT) {
-                return false;
-            }
+        if (status.MPI_TAG == TAG_WORK) {
+            struct parcel *parcel = g_new0(struct parcel, 1);
+            receive(parcel, sizeof *parcel, &status);
+            g_queue_push_tail(ranks->hand, parcel);
             continue;
         }
-        struct gb_crew_report report = {0};
-        receive(&parcel, sizeof parcel, &status);
-        if (!gb_crew_give(crew, parcel.ticket, &parcel.params, parcel.directory,
-                          &report.error)) {
-            report.ticket = parcel.ticket;
-            MPI_Send(&report, (int)sizeof report, MPI_BYTE, 0, TAG_REPORT,
-                     MPI_COMM_WORLD);
+        receive(&ranks->byte, sizeof ranks->byte, &status);
+        *stopping |= status.MPI_TAG == TAG_STOP;
+        if (status.MPI_TAG == TAG_QUIT) {
+            return false;
         }
     }
     return true;
@@ -249,20 +270,21 @@ bool gb_ranks_serve(struct gb_ranks *ranks, struct gb_crew *crew, size_t workers
                     bool (*cancelled)(void *data), void *data, struct gb_error *err)
 {
     double heard = clock_s();
-    bool stopping = false;
+    bool told = false, stopping = false, stopped = false;
     const uint64_t capacity = workers;
     MPI_Send(&capacity, (int)sizeof capacity, MPI_BYTE, 0, TAG_HELLO, MPI_COMM_WORLD);
-    while (open_letters(ranks, crew, &heard)) {
+    while (open_letters(ranks, &heard, &told)) {
         struct gb_crew_report report;
-        if (gb_crew_take(crew, gb_crew_patience(crew), &report)) {
-            MPI_Send(&report, (int)sizeof report, MPI_BYTE, 0, TAG_REPORT,
-                     MPI_COMM_WORLD);
-        }
-        beat(ranks);
-        if (!stopping && cancelled(data)) {
-            stopping = true;
+        stopping = stopping || cancelled(data);
+        give_on(ranks, crew, told || stopping);
+        if ((told || stopping) && !stopped) {
+            stopped = true;
             gb_crew_stop(crew);
         }
+        if (gb_crew_take(crew, gb_crew_patience(crew), &report)) {
+            send_report(&report);
+        }
+        beat(ranks);
         if (clock_s() - heard > orphan_after_s) {
             ranks->any_lost = true;
             return gb_error_set(err, GB_ERR_MACHINE,
@@ -277,29 +299,59 @@ bool gb_ranks_serve(struct gb_ranks *ranks, struct gb_crew *crew, size_t workers
 
 /* --- the first one --------------------------------------------------------------- */
 
-static bool is_idle(const struct member *member)
+/* Runs that it may be given before it has `most` of them. */
+static size_t room(const struct member *member, size_t most)
 {
-    return !member->lost && member->tickets->len < member->capacity;
+    return member->lost || member->tickets->len >= most ? 0 : most - member->tickets->len;
+}
+
+size_t gb_ranks_workers(const struct gb_ranks *ranks)
+{
+    size_t workers = 0;
+    for (int r = 1; ranks != NULL && r < ranks->count; r++) {
+        workers += ranks->member[r].lost ? 0 : ranks->member[r].capacity;
+    }
+    return workers;
 }
 
 size_t gb_ranks_idle(const struct gb_ranks *ranks)
 {
     size_t idle = 0;
     for (int r = 1; ranks != NULL && r < ranks->count; r++) {
-        const struct member *member = &ranks->member[r];
-        idle += is_idle(member) ? member->capacity - member->tickets->len : 0;
+        idle += room(&ranks->member[r], ranks->member[r].capacity);
     }
     return idle;
+}
+
+size_t gb_ranks_ahead(const struct gb_ranks *ranks)
+{
+    size_t ahead = 0;
+    for (int r = 1; ranks != NULL && r < ranks->count; r++) {
+        ahead += room(&ranks->member[r], 2 * ranks->member[r].capacity);
+    }
+    return ahead;
+}
+
+/* Who takes the next run: somebody idle, else somebody who has none in hand; 0: nobody.
+ */
+static int choose(const struct gb_ranks *ranks)
+{
+    int ahead = 0;
+    for (int r = 1; r < ranks->count; r++) {
+        const struct member *member = &ranks->member[r];
+        if (room(member, member->capacity) > 0) {
+            return r;
+        }
+        ahead = ahead == 0 && room(member, 2 * member->capacity) > 0 ? r : ahead;
+    }
+    return ahead;
 }
 
 bool gb_ranks_give(struct gb_ranks *ranks, size_t ticket, const struct gb_params *params,
                    const char *directory, struct gb_error *err)
 {
-    int to = 1;
-    while (to < ranks->count && !is_idle(&ranks->member[to])) {
-        to++;
-    }
-    if (to == ranks->count || strlen(directory) >= DIRECTORY_MAX) {
+    const int to = choose(ranks);
+    if (to == 0 || strlen(directory) >= DIRECTORY_MAX) {
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: no rank takes it", directory);
     }
     struct letter *letter = g_new0(struct letter, 1);
@@ -417,7 +469,19 @@ bool gb_ranks_serve(struct gb_ranks *ranks, struct gb_crew *crew, size_t workers
     return gb_error_set(err, GB_ERR_INPUT, "built without Open MPI");
 }
 
+size_t gb_ranks_workers(const struct gb_ranks *ranks)
+{
+    (void)ranks;
+    return 0;
+}
+
 size_t gb_ranks_idle(const struct gb_ranks *ranks)
+{
+    (void)ranks;
+    return 0;
+}
+
+size_t gb_ranks_ahead(const struct gb_ranks *ranks)
 {
     (void)ranks;
     return 0;

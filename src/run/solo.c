@@ -18,8 +18,7 @@ static const double status_every_s = 1.5;
 enum { EVENT_MAX = 640 };
 
 struct solo {
-    bool (*cancelled)(void *data);
-    void *data;
+    struct gb_crew_boss boss;
     struct gb_keep *keep;
     struct gb_experiment *experiment;
     struct gb_pace pace;
@@ -43,7 +42,7 @@ static double elapsed(const struct solo *solo)
 static bool is_cancelled(void *data)
 {
     const struct solo *solo = data;
-    return solo->cancelled != NULL && solo->cancelled(solo->data);
+    return solo->boss.cancelled != NULL && solo->boss.cancelled(solo->boss.data);
 }
 
 static void observe(struct solo *solo, enum gb_run_state state)
@@ -142,6 +141,9 @@ static bool conclude(struct solo *solo, const struct gb_error *stopped,
 {
     observe(solo, stopped->code == GB_OK ? GB_RUN_DONE : GB_RUN_STOPPED);
     solo->shot.error = *stopped;
+    if (solo->boss.pressed != NULL) {
+        solo->boss.pressed(solo->boss.data);
+    }
     return gb_keep_conclude(solo->keep, &solo->shot, err);
 }
 
@@ -153,9 +155,9 @@ static void give_up(struct solo *solo, const struct gb_error *err)
 }
 
 bool gb_solo_run(const struct gb_params *params, const char *directory,
-                 bool (*cancelled)(void *data), void *data, struct gb_error *err)
+                 const struct gb_crew_boss *boss, struct gb_error *err)
 {
-    struct solo solo = {.cancelled = cancelled, .data = data};
+    struct solo solo = {.boss = boss != NULL ? *boss : (struct gb_crew_boss){0}};
     struct gb_error stopped = {0};
     struct gb_error failure = {0};
     const bool kept = begin(&solo, params, directory, &failure) &&

@@ -4,18 +4,19 @@
 #include <stdbool.h>
 
 #include "greenbody/params.h"
+#include "run/crew.h"
 
 /* One run from the first particle to the last file, without a screen: what each of the
  * many runs of a sweep is. */
 
 /* Runs params into directory; an old run there is replaced.
  *
- * cancelled  polled with its data between slices; true ends the run (NULL is fine)
+ * boss   whom it answers to (NULL: nobody)
  * True when the programme came to its end.  Errors: GB_ERR_GUARD and
  * GB_ERR_NOT_CONVERGED (results kept), GB_ERR_CANCELLED (points kept), GB_ERR_INPUT,
  * GB_ERR_MACHINE, GB_ERR_MEMORY; status.json says the same where there is one. */
 bool gb_solo_run(const struct gb_params *params, const char *directory,
-                 bool (*cancelled)(void *data), void *data, struct gb_error *err);
+                 const struct gb_crew_boss *boss, struct gb_error *err);
 
 /* Is a run of these parameters there, done to its end?  Title, threads and [output] may
  * differ: they change no result.

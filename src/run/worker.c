@@ -46,17 +46,25 @@ static bool await(int fd, struct parcel *parcel)
     return got > (ssize_t)sizeof parcel->params;
 }
 
+/* One byte: a report is longer. */
+static void tell_pressed(void *data)
+{
+    const int *fd = data;
+    (void)!send(*fd, "", 1, MSG_NOSIGNAL);
+}
+
 /* Never returns.  The terminal's SIGINT reaches all processes: the first one decides what
  * it means and sends SIGTERM. */
 static void labour(gb_crew_work *work, pid_t parent, int fd)
 {
     struct parcel *parcel = gb_alloc_array(1, sizeof *parcel, NULL);
+    const struct gb_crew_boss boss = {is_asked_to_stop, tell_pressed, &fd};
     signal(SIGINT, SIG_IGN);
     signal(SIGHUP, SIG_IGN);
     (void)prctl(PR_SET_PDEATHSIG, SIGTERM);
     while (parcel != NULL && getppid() == parent && await(fd, parcel)) {
         struct gb_error error = {0};
-        (void)work(&parcel->params, parcel->directory, is_asked_to_stop, NULL, &error);
+        (void)work(&parcel->params, parcel->directory, &boss, &error);
         (void)!send(fd, &error, sizeof error, MSG_NOSIGNAL);
     }
     _exit(0);
@@ -168,16 +176,21 @@ static void tell_death(int status, struct gb_error *error)
     }
 }
 
-void gb_worker_take(struct gb_worker *worker, struct gb_crew_report *report)
+bool gb_worker_take(struct gb_worker *worker, struct gb_crew_report *report)
 {
     ssize_t got = 0;
     do {
         got = recv(worker->fd, &report->error, sizeof report->error, 0);
     } while (got < 0 && errno == EINTR);
+    if (got == 1) {
+        worker->keeping = true;
+        return false;
+    }
     report->ticket = worker->ticket;
     report->lost = false;
     report->seconds = clock_s() - worker->since;
     worker->busy = false;
+    worker->keeping = false;
     if (got != (ssize_t)sizeof report->error) {
         close(worker->fd);
         tell_death(await_end(worker), &report->error);
@@ -185,6 +198,7 @@ void gb_worker_take(struct gb_worker *worker, struct gb_crew_report *report)
     } else if (worker->stopped) {
         gb_worker_end(worker);
     }
+    return true;
 }
 
 void gb_worker_stop(struct gb_worker *worker)

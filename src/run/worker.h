@@ -14,6 +14,7 @@ struct gb_worker {
     pid_t pid; /* 0: none yet */
     int fd;    /* where runs go to and reports come from; -1 */
     bool busy, stopped;
+    bool keeping; /* busy, but its run is pressed and only being kept */
     size_t ticket;
     double since; /* s, of the monotonic clock */
 };
@@ -27,8 +28,8 @@ bool gb_worker_give(struct gb_worker *worker, size_t count, size_t index,
                     const char *directory, struct gb_error *err);
 
 /* The report of a busy worker whose fd has something to read, or the end of its process.
- */
-void gb_worker_take(struct gb_worker *worker, struct gb_crew_report *report);
+ * False when it was no more than the word that its run is pressed. */
+bool gb_worker_take(struct gb_worker *worker, struct gb_crew_report *report);
 
 /* Asks the run of a busy worker to stop; it still reports.  Its process does no other run
  * after that. */

@@ -96,7 +96,7 @@ static void press_all(struct gb_params params, const char *folder, int first, in
         char *out = folder ? g_strdup_printf("%s/%d", folder, first + k) : NULL;
         if (out == NULL) {
             press(&params);
-        } else if (!gb_solo_run(&params, out, NULL, NULL, &err)) {
+        } else if (!gb_solo_run(&params, out, NULL, &err)) {
             fail(err.text);
         }
         g_free(out);

@@ -47,7 +47,7 @@ static void run(const char *directory, const char *marks)
 {
     const struct gb_params params = scene(marks);
     struct gb_error err = {0};
-    if (!gb_solo_run(&params, directory, NULL, NULL, &err)) {
+    if (!gb_solo_run(&params, directory, NULL, &err)) {
         g_error("%s", err.text);
     }
 }

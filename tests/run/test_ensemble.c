@@ -36,12 +36,11 @@ static bool put(struct gb_store *store, int branch, double density, double p_pa)
 
 /* What gb_solo_run leaves, without an engine. */
 static bool stand_in(const struct gb_params *params, const char *directory,
-                     bool (*cancelled)(void *data), void *data, struct gb_error *err)
+                     const struct gb_crew_boss *boss, struct gb_error *err)
 {
     struct gb_store *store = NULL;
     struct gb_snapshot shot = {.state = GB_RUN_DONE};
-    (void)cancelled;
-    (void)data;
+    (void)boss;
     if (!gb_store_create(&store, directory, params, true, err)) {
         return false;
     }
@@ -61,7 +60,7 @@ static bool stand_in(const struct gb_params *params, const char *directory,
 
 /* Every third replica fails in another way. */
 static bool unreliable(const struct gb_params *params, const char *directory,
-                       bool (*cancelled)(void *data), void *data, struct gb_error *err)
+                       const struct gb_crew_boss *boss, struct gb_error *err)
 {
     switch (params->seed % 6) {
     case 2:
@@ -71,16 +70,16 @@ static bool unreliable(const struct gb_params *params, const char *directory,
         return gb_error_set(err, GB_ERR_GUARD, "overlap of 0.6 d, \"too much\"");
     default:
         g_usleep(2000 * (params->seed * 5 % 7)); /* another order of ending */
-        return stand_in(params, directory, cancelled, data, err);
+        return stand_in(params, directory, boss, err);
     }
 }
 
 static bool endless(const struct gb_params *params, const char *directory,
-                    bool (*cancelled)(void *data), void *data, struct gb_error *err)
+                    const struct gb_crew_boss *boss, struct gb_error *err)
 {
     (void)params;
     (void)directory;
-    while (!cancelled(data)) {
+    while (!boss->cancelled(boss->data)) {
         g_usleep(1000);
     }
     return gb_error_set(err, GB_ERR_CANCELLED, "stopped");
@@ -366,6 +365,61 @@ static void test_cancel(void)
     gb_ensemble_finish(&ensemble);
 }
 
+static char *name_of(const char *what, uint64_t seed)
+{
+    return g_strdup_printf("%s/%s-%d", folder, what, (int)seed);
+}
+
+static bool exists(const char *what, uint64_t seed)
+{
+    char *path = name_of(what, seed);
+    const bool found = g_file_test(path, G_FILE_TEST_EXISTS);
+    g_free(path);
+    return found;
+}
+
+static void leave(const char *what, uint64_t seed)
+{
+    char *path = name_of(what, seed);
+    g_assert_true(g_file_set_contents(path, "", 0, NULL));
+    g_free(path);
+}
+
+/* While a run is kept the next one is pressed, never two: each is kept until the next one
+ * begins, and none may begin before. */
+static bool relay(const struct gb_params *params, const char *directory,
+                  const struct gb_crew_boss *boss, struct gb_error *err)
+{
+    const uint64_t seed = params->seed;
+    if (seed > 1 && !exists("pressed", seed - 1)) {
+        return gb_error_set(err, GB_ERR_MACHINE, "two at once");
+    }
+    leave("begun", seed);
+    g_usleep(20000); /* for another one that should not begin */
+    leave("pressed", seed);
+    boss->pressed(boss->data);
+    while (seed < 4 && !exists("begun", seed + 1)) {
+        g_usleep(1000);
+    }
+    return stand_in(params, directory, boss, err);
+}
+
+static void test_keeping(void)
+{
+    struct gb_axes axes = {0};
+    struct gb_ensemble ensemble;
+    struct gb_error err = {0};
+    add(&axes, "contact.mu=0.1");
+    make(&ensemble, &axes, 4, "keeping");
+    g_assert_true(work(&ensemble, 1, relay, NULL, &err));
+    for (size_t i = 0; i < 4; i++) {
+        g_assert_true(ensemble.run[i].ended);
+        g_assert_cmpstr(ensemble.run[i].error.text, ==, "");
+    }
+    gb_ensemble_finish(&ensemble);
+    gb_axes_finish(&axes);
+}
+
 /* Three of the first replicas are enough. */
 static bool three(const struct gb_ensemble *ensemble, size_t point, void *data)
 {
@@ -456,6 +510,7 @@ int main(int argc, char **argv)
     g_test_add_func("/ensemble/failures", test_failures);
     g_test_add_func("/ensemble/restart", test_restart);
     g_test_add_func("/ensemble/cancel", test_cancel);
+    g_test_add_func("/ensemble/keeping", test_keeping);
     g_test_add_func("/ensemble/enough", test_enough);
     const int status = g_test_run();
     remove_all(folder);

@@ -23,8 +23,8 @@ static bool has_points(void *data)
 static void run_plainly(const struct gb_params *params, struct place *place, bool resumed)
 {
     struct gb_error err = {0};
-    const bool done =
-        gb_solo_run(params, place->directory, resumed ? has_points : NULL, place, &err);
+    const struct gb_crew_boss boss = {.cancelled = has_points, .data = place};
+    const bool done = gb_solo_run(params, place->directory, resumed ? &boss : NULL, &err);
     if (done == resumed) {
         g_error("%s", err.text);
     }
