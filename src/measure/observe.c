@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/vec.h"
+#include "pack/virial.h"
 #include "phys/law_unequal.h"
 
 double gb_observe_density(const struct gb_world *world)
@@ -14,35 +15,10 @@ double gb_observe_density(const struct gb_world *world)
            gb_cell_volume(gb_world_cell(world));
 }
 
-/* Adds f_i r_j of pair k of a list. */
-static void add_pair(const struct gb_world *world, const struct gb_pair_list *list,
-                     int64_t i, int64_t k, const double force[3], double sum[3][3])
-{
-    double r[3];
-    gb_world_arm(world, list, i, k, r);
-    for (int a = 0; a < 3; a++) {
-        gb_vec_add(sum[a], force[a], r);
-    }
-}
-
 void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
 {
-    const struct gb_pair_list *near = &gb_world_pairs(world)->near;
-    const struct gb_pair_list *far = &gb_world_pairs(world)->far;
-    memset(pressure, 0, 9 * sizeof(double));
-    for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
-        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            double force[3];
-            gb_world_force(world, k, force);
-            add_pair(world, near, i, k, force, pressure);
-        }
-        for (int64_t k = far->start[i]; k < far->start[i + 1]; k++) {
-            double force[3];
-            gb_world_pull(world, k, force);
-            add_pair(world, far, i, k, force, pressure);
-        }
-    }
     const double volume = gb_cell_volume(gb_world_cell(world));
+    gb_virial_sum(world, pressure);
     for (int a = 0; a < 3; a++) {
         gb_vec_scale(pressure[a], 1.0 / volume);
     }
@@ -145,32 +121,49 @@ static int contacts_of(const struct gb_world *world, int64_t i)
     return n;
 }
 
+/* Shares of particles with n contacts, the last bin for those with more. */
+static void share_out(const struct gb_world *world, double *share, int bins)
+{
+    const int64_t count = gb_world_model(world)->count;
+    for (int b = 0; b < bins; b++) {
+        share[b] = 0.0;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        const int n = contacts_of(world, i);
+        share[n < bins ? n : bins - 1] += 1.0 / (double)count;
+    }
+}
+
 void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts *counts,
                          double *share, int bins, int32_t *each)
 {
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
     const struct gb_contacts *contacts = gb_world_contacts(world);
-    *counts = (struct gb_contact_counts){0};
-    for (int b = 0; share && b < bins; b++) {
-        share[b] = 0.0;
-    }
+    const int threads = gb_world_threads(world);
+    int64_t touching = 0, bridged = 0, rattlers = 0;
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)          \
+    reduction(+ : touching, bridged, rattlers)
     for (int64_t i = 0; i < count; i++) {
         const int n = contacts_of(world, i);
-        counts->rattlers += n < 2;
-        if (share) {
-            share[n < bins ? n : bins - 1] += 1.0 / (double)count;
-        }
+        rattlers += n < 2;
         if (each) {
             each[i] = n;
         }
+        for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
+            const double deepest = gb_contacts_deepest(contacts, k);
+            touching += deepest >= 0.0;
+            bridged += deepest > 0.0;
+        }
     }
-    for (int64_t k = 0; k < pairs->pair_count; k++) {
-        const double deepest = gb_contacts_deepest(contacts, k);
-        counts->contacts += deepest >= 0.0;
-        counts->bridged += deepest > 0.0;
+    if (share) {
+        share_out(world, share, bins);
     }
-    counts->coordination = 2.0 * (double)counts->contacts / (double)count;
+    *counts = (struct gb_contact_counts){.contacts = touching,
+                                         .bridged = bridged,
+                                         .rattlers = rattlers,
+                                         .coordination =
+                                             2.0 * (double)touching / (double)count};
 }
 
 void gb_observe_rose(const struct gb_world *world, int bins, double *mean)

@@ -1,12 +1,14 @@
 #include "pack/ledger.h"
 
 #include "base/alloc.h"
+#include "pack/share.h"
 #include "pack/world_private.h"
 
 void gb_ledger_finish(struct gb_ledger *ledger)
 {
     gb_alloc_free(ledger->pair);
     gb_alloc_free(ledger->value);
+    gb_alloc_free(ledger->from);
     *ledger = (struct gb_ledger){0};
 }
 
@@ -17,7 +19,8 @@ bool gb_ledger_reserve(struct gb_ledger *ledger, int64_t need, int planes, bool 
         single == ledger->single) {
         return true;
     }
-    gb_ledger_finish(ledger);
+    gb_alloc_free(ledger->pair);
+    gb_alloc_free(ledger->value);
     const size_t room = (size_t)(need + need / 16 + 16);
     ledger->pair = gb_alloc_array(room, sizeof *ledger->pair, err);
     ledger->value = gb_alloc_array(room * (size_t)planes,
@@ -32,10 +35,12 @@ bool gb_ledger_reserve(struct gb_ledger *ledger, int64_t need, int planes, bool 
     return true;
 }
 
-static int64_t count_touching(const struct gb_world *world)
+/* Touching pairs of the particles begin .. end - 1. */
+static int64_t count_touching(const struct gb_world *world, int64_t begin, int64_t end)
 {
+    const int64_t *start = world->pairs.near.start;
     int64_t touching = 0;
-    for (int64_t k = 0; world->listed && k < world->pairs.near.pair_count; k++) {
+    for (int64_t k = start[begin]; k < start[end]; k++) {
         touching += gb_contacts_touch(&world->contacts, k);
     }
     return touching;
@@ -74,28 +79,63 @@ void gb_ledger_give(const struct gb_ledger *ledger, int64_t line,
     }
 }
 
-bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, bool whole,
-                     struct gb_error *err)
+/* Those of the particles begin .. end - 1, from a line on. */
+static void write_down(struct gb_ledger *ledger, const struct gb_world *world,
+                       int64_t begin, int64_t end, int64_t line)
 {
     const struct gb_pair_list *near = &world->pairs.near;
-    const struct gb_contacts *contacts = &world->contacts;
-    const int planes = world->listed ? whole ? contacts->planes : contacts->kept : 1;
-    if (!gb_ledger_reserve(ledger, count_touching(world), planes, world->in_single,
-                           err)) {
-        return false;
-    }
-    int64_t line = 0;
-    for (int64_t i = 0; world->listed && i < world->count; i++) {
+    for (int64_t i = begin; i < end; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            if (!gb_contacts_touch(contacts, k)) {
+            if (!gb_contacts_touch(&world->contacts, k)) {
                 continue;
             }
             ledger->pair[line][0] = (int32_t)i;
             ledger->pair[line][1] = near->other[k];
-            take_values(ledger, line++, contacts, k);
+            take_values(ledger, line++, &world->contacts, k);
         }
     }
-    ledger->count = line;
+}
+
+/* One line more than there are threads. */
+static bool reserve_shares(struct gb_ledger *ledger, int threads, struct gb_error *err)
+{
+    if (threads != ledger->threads || !ledger->from) {
+        gb_alloc_free(ledger->from);
+        ledger->from = gb_alloc_array((size_t)threads + 1, sizeof *ledger->from, err);
+        ledger->threads = threads;
+    }
+    return ledger->from != NULL;
+}
+
+bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, bool whole,
+                     struct gb_error *err)
+{
+    const struct gb_contacts *contacts = &world->contacts;
+    const int planes = world->listed ? whole ? contacts->planes : contacts->kept : 1;
+    const int threads = world->listed ? world->threads : 0;
+    const int64_t count = world->count;
+    if (!reserve_shares(ledger, threads, err)) {
+        return false;
+    }
+    int64_t *line = ledger->from;
+    line[0] = 0;
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
+    for (int t = 0; t < threads; t++) {
+        line[t + 1] = count_touching(world, gb_share(count, t, threads),
+                                     gb_share(count, t + 1, threads));
+    }
+    for (int t = 0; t < threads; t++) {
+        line[t + 1] += line[t];
+    }
+    if (!gb_ledger_reserve(ledger, line[threads], planes, world->in_single, err)) {
+        return false;
+    }
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
+    for (int t = 0; t < threads; t++) {
+        write_down(ledger, world, gb_share(count, t, threads),
+                   gb_share(count, t + 1, threads), line[t]);
+    }
+    ledger->count = line[threads];
     return true;
 }
 
@@ -122,12 +162,28 @@ static void ledger_put(const struct gb_ledger *ledger, int64_t line,
     }
 }
 
+/* The first line of particle i or one behind it. */
+static int64_t find_line(const struct gb_ledger *ledger, int64_t i)
+{
+    int64_t low = 0, high = ledger->count;
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        if (ledger->pair[middle][0] < i) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
 /* Both are sorted alike. */
-void gb_ledger_read(const struct gb_ledger *ledger, struct gb_world *world)
+static void read_back(const struct gb_ledger *ledger, struct gb_world *world,
+                      int64_t begin, int64_t end)
 {
     const struct gb_pair_list *near = &world->pairs.near;
-    int64_t line = 0;
-    for (int64_t i = 0; i < world->count; i++) {
+    int64_t line = find_line(ledger, begin);
+    for (int64_t i = begin; i < end; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
             const int32_t j = near->other[k];
             while (line < ledger->count &&
@@ -142,5 +198,15 @@ void gb_ledger_read(const struct gb_ledger *ledger, struct gb_world *world)
                 gb_contacts_clear(&world->contacts, k);
             }
         }
+    }
+}
+
+void gb_ledger_read(const struct gb_ledger *ledger, struct gb_world *world)
+{
+    const int threads = world->threads;
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
+    for (int t = 0; t < threads; t++) {
+        read_back(ledger, world, gb_share(world->count, t, threads),
+                  gb_share(world->count, t + 1, threads));
     }
 }

@@ -16,7 +16,9 @@ struct gb_ledger {
     int planes; /* values a line holds: all planes of the contacts, or those kept */
     int32_t (*pair)[2];
     bool single;
-    void *value; /* capacity x planes, double or (single) float */
+    void *value;   /* capacity x planes, double or (single) float */
+    int64_t *from; /* scratch: where the lines of each thread begin */
+    int threads;
 };
 
 void gb_ledger_finish(struct gb_ledger *ledger);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "pack/share.h"
 #include "pack/simd.h"
 #include "phys/tolerances.h"
 
@@ -280,74 +281,157 @@ static int scan_particle(const struct grid *grid, int64_t i, struct bounds bound
     return n;
 }
 
-/* Room for `need` pairs; keeps those already in the list. */
+/* Room for `need` pairs; what was there is lost. */
 static bool reserve(struct gb_pair_list *list, int64_t need, struct gb_error *err)
 {
     if (need <= list->capacity) {
         return true;
     }
     const size_t room = (size_t)(need + need / 16 + CROWD);
-    const size_t used = (size_t)list->pair_count;
-    int32_t *first = gb_alloc_array(room, sizeof *first, err);
-    int32_t *other = gb_alloc_array(room, sizeof *other, err);
-    uint8_t *image = gb_alloc_array(room, sizeof *image, err);
-    int32_t *in_slot = gb_alloc_array(room + GB_PAIR_LIST_SLACK, sizeof *in_slot, err);
-    if (!first || !other || !image || !in_slot) {
-        gb_alloc_free(first);
-        gb_alloc_free(other);
-        gb_alloc_free(image);
-        gb_alloc_free(in_slot);
+    list_drop_pairs(list);
+    list->first = gb_alloc_array(room, sizeof *list->first, err);
+    list->other = gb_alloc_array(room, sizeof *list->other, err);
+    list->image = gb_alloc_array(room, sizeof *list->image, err);
+    list->in_slot = gb_alloc_array(room + GB_PAIR_LIST_SLACK, sizeof *list->in_slot, err);
+    if (!list->first || !list->other || !list->image || !list->in_slot) {
+        list_drop_pairs(list);
         return false;
     }
-    if (used > 0) {
-        memcpy(first, list->first, used * sizeof *first);
-        memcpy(other, list->other, used * sizeof *other);
-        memcpy(image, list->image, used * sizeof *image);
-    }
-    list_drop_pairs(list);
-    list->first = first;
-    list->other = other;
-    list->image = image;
-    list->in_slot = in_slot;
     list->capacity = (int64_t)room;
     return true;
 }
 
-static void append(struct gb_pair_list *list, int64_t i, struct neighbour found)
+/* Particles begin .. end - 1 with all their neighbours, found by one thread. */
+struct stretch {
+    int64_t begin, end;
+    struct neighbour *found; /* particle after particle, sorted within each */
+    int64_t count, room;
+    int64_t near, far; /* of these so many each; then where they go in the lists */
+    struct gb_error err;
+};
+
+static bool make_room(struct stretch *stretch)
 {
-    list->first[list->pair_count] = (int32_t)i;
-    list->other[list->pair_count] = found.other;
-    list->image[list->pair_count++] = found.image;
+    if (stretch->count + CROWD < stretch->room) {
+        return true;
+    }
+    const int64_t room = 2 * stretch->room + 16 * CROWD;
+    struct neighbour *found = gb_alloc_array((size_t)room, sizeof *found, &stretch->err);
+    if (!found) {
+        return false;
+    }
+    if (stretch->count > 0) {
+        memcpy(found, stretch->found, (size_t)stretch->count * sizeof *found);
+    }
+    gb_alloc_free(stretch->found);
+    stretch->found = found;
+    stretch->room = room;
+    return true;
 }
 
-/* Fills both lists, particle by particle. */
-static bool fill_pairs(struct gb_pairs *pairs, const struct grid *grid,
-                       struct bounds bounds, struct gb_error *err)
+/* Leaves in start[i + 1] of both lists how many particle i has. */
+static bool scan_stretch(struct gb_pairs *pairs, const struct grid *grid,
+                         struct bounds bounds, struct stretch *stretch)
 {
-    struct neighbour found[CROWD + 1];
-    struct gb_pair_list *near = &pairs->near, *far = &pairs->far;
-    near->pair_count = far->pair_count = 0;
-    for (int64_t i = 0; i < pairs->count; i++) {
-        near->start[i] = near->pair_count;
-        far->start[i] = far->pair_count;
-        const int n = scan_particle(grid, i, bounds, found);
+    for (int64_t i = stretch->begin; i < stretch->end; i++) {
+        if (!make_room(stretch)) {
+            return false;
+        }
+        const struct neighbour *found = stretch->found + stretch->count;
+        const int n = scan_particle(grid, i, bounds, stretch->found + stretch->count);
         if (n >= CROWD) {
-            return gb_error_set(err, GB_ERR_GUARD,
+            return gb_error_set(&stretch->err, GB_ERR_GUARD,
                                 "particle %lld has %d or more neighbours within %.3g d: "
                                 "the packing has collapsed",
                                 (long long)i, n, sqrt(bounds.far));
         }
-        if (!reserve(near, near->pair_count + n, err) ||
-            !reserve(far, far->pair_count + n, err)) {
-            return false;
-        }
+        int near = 0;
         for (int k = 0; k < n; k++) {
-            append(found[k].near ? near : far, i, found[k]);
+            near += found[k].near;
         }
+        pairs->near.start[i + 1] = near;
+        pairs->far.start[i + 1] = n - near;
+        stretch->near += near;
+        stretch->far += n - near;
+        stretch->count += n;
     }
-    near->start[pairs->count] = near->pair_count;
-    far->start[pairs->count] = far->pair_count;
     return true;
+}
+
+static void append(struct gb_pair_list *list, int64_t i, int64_t k,
+                   const struct neighbour *found)
+{
+    list->first[k] = (int32_t)i;
+    list->other[k] = found->other;
+    list->image[k] = found->image;
+}
+
+/* Into the lists, each from its place on. */
+static void place_stretch(struct gb_pairs *pairs, const struct stretch *stretch)
+{
+    const struct neighbour *found = stretch->found;
+    int64_t near = stretch->near, far = stretch->far;
+    for (int64_t i = stretch->begin; i < stretch->end; i++) {
+        int64_t n = pairs->near.start[i + 1] + pairs->far.start[i + 1];
+        for (; n > 0; n--, found++) {
+            if (found->near) {
+                append(&pairs->near, i, near++, found);
+            } else {
+                append(&pairs->far, i, far++, found);
+            }
+        }
+        pairs->near.start[i + 1] = near;
+        pairs->far.start[i + 1] = far;
+    }
+}
+
+/* Where each stretch goes, and room for all of them. */
+static bool line_up(struct gb_pairs *pairs, struct stretch *stretch, int threads,
+                    struct gb_error *err)
+{
+    int64_t near = 0, far = 0;
+    for (int t = 0; t < threads; t++) {
+        if (stretch[t].err.code != GB_OK) {
+            return gb_error_set(err, stretch[t].err.code, "%s", stretch[t].err.text);
+        }
+        const int64_t own_near = stretch[t].near, own_far = stretch[t].far;
+        stretch[t].near = near;
+        stretch[t].far = far;
+        near += own_near;
+        far += own_far;
+    }
+    pairs->near.start[0] = pairs->far.start[0] = 0;
+    pairs->near.pair_count = near;
+    pairs->far.pair_count = far;
+    return reserve(&pairs->near, near, err) && reserve(&pairs->far, far, err);
+}
+
+/* Fills both lists, the same ones for any number of threads. */
+static bool fill_pairs(struct gb_pairs *pairs, const struct grid *grid,
+                       struct bounds bounds, int threads, struct gb_error *err)
+{
+    struct stretch *stretch = gb_alloc_array((size_t)threads, sizeof *stretch, err);
+    if (!stretch) {
+        return false;
+    }
+    for (int t = 0; t < threads; t++) {
+        stretch[t].begin = gb_share(pairs->count, t, threads);
+        stretch[t].end = gb_share(pairs->count, t + 1, threads);
+    }
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
+    for (int t = 0; t < threads; t++) {
+        (void)scan_stretch(pairs, grid, bounds, &stretch[t]);
+    }
+    const bool good = line_up(pairs, stretch, threads, err);
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
+    for (int t = 0; t < threads; t++) {
+        if (good) {
+            place_stretch(pairs, &stretch[t]);
+        }
+        gb_alloc_free(stretch[t].found);
+    }
+    gb_alloc_free(stretch);
+    return good;
 }
 
 /* The transposed list, by counting. */
@@ -371,7 +455,7 @@ static void transpose(struct gb_pair_list *list, int64_t count)
 }
 
 bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
-                    const double *position, double cutoff, double skin,
+                    const double *position, double cutoff, double skin, int threads,
                     struct gb_error *err)
 {
     const double reach = pairs->largest - 1.0 + cutoff + skin;
@@ -391,11 +475,14 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
     grid_shape(&grid, reach, pairs->count);
     const struct bounds bounds = {(1.0 + skin) * (1.0 + skin), reach * reach, skin,
                                   cutoff - 1.0 + skin};
-    if (!grid_fill(pairs, &grid, err) || !fill_pairs(pairs, &grid, bounds, err)) {
+    if (!grid_fill(pairs, &grid, err) ||
+        !fill_pairs(pairs, &grid, bounds, threads, err)) {
         return false;
     }
-    transpose(&pairs->near, pairs->count);
-    transpose(&pairs->far, pairs->count);
+#pragma omp parallel for num_threads(2) schedule(static, 1) if (threads > 1)
+    for (int l = 0; l < 2; l++) {
+        transpose(l == 0 ? &pairs->near : &pairs->far, pairs->count);
+    }
     memcpy(pairs->built_at, position, 3 * (size_t)pairs->count * sizeof *position);
     memcpy(pairs->built_edge, cell->edge, sizeof pairs->built_edge);
     pairs->stretch[0] = pairs->stretch[1] = pairs->stretch[2] = 1.0;
@@ -429,10 +516,12 @@ GB_SIMD_WIDTHS(travel,
                 int64_t count, double *total, double *most),
                (position, built_at, stretch, count, total, most))
 
-double gb_pairs_travel(const struct gb_pairs *pairs, const double *position)
+double gb_pairs_travel(const struct gb_pairs *pairs, const double *position,
+                       int64_t begin, int64_t end)
 {
     double total = 0.0, most = 0.0;
-    travel(position, pairs->built_at, pairs->stretch, pairs->count, &total, &most);
+    travel(position + 3 * begin, pairs->built_at + 3 * begin, pairs->stretch, end - begin,
+           &total, &most);
     return isfinite(total) ? sqrt(most) : (double)NAN; /* comparisons pass NaN by */
 }
 

@@ -44,16 +44,18 @@ struct gb_pairs {
 bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, struct gb_error *err);
 void gb_pairs_finish(struct gb_pairs *pairs);
 
-/* Builds both lists for positions inside the cell, out to cutoff + skin.  Errors:
+/* Builds both lists for positions inside the cell, out to cutoff + skin, on so many
+ * threads; what was in them is lost.  Errors:
  * GB_ERR_MEMORY, GB_ERR_GUARD when the cell has become too small for the reach or
  * particles crowd. */
 bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
-                    const double *position, double cutoff, double skin,
+                    const double *position, double cutoff, double skin, int threads,
                     struct gb_error *err);
 
-/* Longest way a particle has come since the build, beside the affine motion; NaN when a
- * position is not finite. */
-double gb_pairs_travel(const struct gb_pairs *pairs, const double *position);
+/* Longest way that one of the particles begin .. end - 1 has come since the build, beside
+ * the affine motion; NaN when a position is not finite. */
+double gb_pairs_travel(const struct gb_pairs *pairs, const double *position,
+                       int64_t begin, int64_t end);
 
 /* False when, after that travel, a pair may be missing or in the wrong list: motion and
  * strain since the build have used up the skin. */

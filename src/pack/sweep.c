@@ -284,14 +284,47 @@ static void add_tally(struct gb_tally *sum, const struct gb_tally *part)
     sum->deepest = fmax(sum->deepest, part->deepest);
 }
 
-/* All blocks, by the threads of the team that calls it; without one, by the caller. */
+bool gb_sweep_fresh(const struct gb_world *world, double travel)
+{
+    const struct gb_numerics *numerics = &world->model->numerics;
+    return isfinite(travel) &&
+           gb_pairs_fresh(&world->pairs, travel, numerics->cutoff, numerics->skin);
+}
+
+static double longest_travel(const struct gb_world *world, int64_t blocks)
+{
+    double longest = 0.0;
+    for (int64_t b = 0; b < blocks; b++) {
+        const double travel = world->block[b].travel;
+        if (!(travel <= longest)) {
+            longest = travel;
+        }
+        if (isnan(travel)) {
+            break;
+        }
+    }
+    return longest;
+}
+
+static void prepare_block(struct gb_world *world, int64_t b)
+{
+    const int64_t begin = b * GB_SWEEP_BLOCK, end = block_end(world, b);
+    world->block[b].travel = gb_pairs_travel(&world->pairs, world->position, begin, end);
+    if (world->in_single) {
+        gb_sweep_single_prepare(world, begin, end);
+    }
+}
+
+/* All blocks, by the threads of the team that calls it; without one, by the caller.  All
+ * of them see alike whether the list is fresh. */
 static void run_blocks(struct gb_world *world, int64_t blocks)
 {
 #pragma omp for schedule(static)
     for (int64_t b = 0; b < blocks; b++) {
-        if (world->in_single) {
-            gb_sweep_single_prepare(world, b * GB_SWEEP_BLOCK, block_end(world, b));
-        }
+        prepare_block(world, b);
+    }
+    if (!gb_sweep_fresh(world, longest_travel(world, blocks))) {
+        return;
     }
 #pragma omp for schedule(static)
     for (int64_t b = 0; b < blocks; b++) {
@@ -303,7 +336,7 @@ static void run_blocks(struct gb_world *world, int64_t blocks)
     }
 }
 
-void gb_sweep_run(struct gb_world *world)
+bool gb_sweep_run(struct gb_world *world, double *travel)
 {
     gb_pairs_shifts(&world->cell, world->shift);
     const int64_t blocks = gb_sweep_blocks(world->count);
@@ -316,6 +349,10 @@ void gb_sweep_run(struct gb_world *world)
     } else { /* a team of one would wait for itself */
         run_blocks(world, blocks);
     }
+    *travel = longest_travel(world, blocks);
+    if (!gb_sweep_fresh(world, *travel)) {
+        return false;
+    }
     struct gb_sweep_block sum = {0};
     for (int64_t b = 0; b < blocks; b++) {
         sum.force2 += world->block[b].force2;
@@ -325,4 +362,5 @@ void gb_sweep_run(struct gb_world *world)
     world->tally = sum.tally;
     world->force_rms = sqrt(sum.force2 / (double)world->count);
     world->torque_rms = sqrt(sum.torque2 / (double)world->count);
+    return true;
 }

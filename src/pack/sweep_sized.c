@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "pack/sweep.h"
 #include "pack/world_private.h"
 #include "phys/law_unequal.h"
 
@@ -298,8 +299,12 @@ static double rms(const double *vector, int64_t count)
     return sqrt(sum / (double)count);
 }
 
-void gb_sweep_sized_run(struct gb_world *world)
+bool gb_sweep_sized_run(struct gb_world *world, double *travel)
 {
+    *travel = gb_pairs_travel(&world->pairs, world->position, 0, world->count);
+    if (!gb_sweep_fresh(world, *travel)) {
+        return false;
+    }
     const int64_t near = world->pairs.near.pair_count, far = world->pairs.far.pair_count;
     gb_pairs_shifts(&world->cell, world->shift);
 #pragma omp parallel num_threads(world->threads) if (world->threads > 1)
@@ -316,4 +321,5 @@ void gb_sweep_sized_run(struct gb_world *world)
     sum_up(world);
     world->force_rms = rms(world->force, world->count);
     world->torque_rms = rms(world->torque, world->count);
+    return true;
 }

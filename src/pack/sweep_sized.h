@@ -1,6 +1,8 @@
 #ifndef GB_PACK_SWEEP_SIZED_H
 #define GB_PACK_SWEEP_SIZED_H
 
+#include <stdbool.h>
+
 struct gb_world;
 
 /* Doubles per near pair: its row, and what it adds to the tally. */
@@ -16,6 +18,6 @@ enum { GB_SIZED_ROW = 12 };
  * needs to know nothing of sizes.  The surfaces of two particles meet where their
  * centres' distance is divided as their diameters are, so the force of a pair is balanced
  * and its moments are, about any point. */
-void gb_sweep_sized_run(struct gb_world *world);
+bool gb_sweep_sized_run(struct gb_world *world, double *travel);
 
 #endif

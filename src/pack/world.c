@@ -154,13 +154,15 @@ bool gb_world_reserve(struct gb_world *world, struct gb_error *err)
 static bool rebuild(struct gb_world *world, const struct gb_ledger *ledger,
                     struct gb_error *err)
 {
+    const int threads = world->threads;
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
     for (int64_t i = 0; i < world->count; i++) {
         gb_cell_wrap(&world->cell, world->position + 3 * i);
     }
     world->listed = false;
     const struct gb_numerics *numerics = &world->model->numerics;
     if (!gb_pairs_build(&world->pairs, &world->cell, world->position, numerics->cutoff,
-                        numerics->skin, err) ||
+                        numerics->skin, threads, err) ||
         !gb_world_reserve(world, err)) {
         return false;
     }
@@ -173,22 +175,6 @@ static bool rebuild(struct gb_world *world, const struct gb_ledger *ledger,
     world->listed = true;
     world->rebuilds++;
     return true;
-}
-
-static bool ensure_list(struct gb_world *world, struct gb_error *err)
-{
-    const struct gb_numerics *numerics = &world->model->numerics;
-    const double travel = gb_pairs_travel(&world->pairs, world->position);
-    if (!isfinite(travel)) {
-        return gb_error_set(err, GB_ERR_GUARD,
-                            "a particle's place is not a finite number");
-    }
-    if (world->listed &&
-        gb_pairs_fresh(&world->pairs, travel, numerics->cutoff, numerics->skin)) {
-        return true;
-    }
-    return gb_ledger_write(&world->ledger, world, true, err) &&
-           rebuild(world, &world->ledger, err);
 }
 
 static int64_t first_bad_particle(const struct gb_world *world)
@@ -221,12 +207,28 @@ static bool check_sweep(const struct gb_world *world, struct gb_error *err)
     return true;
 }
 
+static bool sweep(struct gb_world *world, double *travel)
+{
+    return (world->diameter ? gb_sweep_sized_run : gb_sweep_run)(world, travel);
+}
+
 bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
 {
-    if (!ensure_list(world, err)) {
-        return false;
+    double travel = 0.0;
+    if (!world->listed) {
+        travel = gb_pairs_travel(&world->pairs, world->position, 0, world->count);
     }
-    (world->diameter ? gb_sweep_sized_run : gb_sweep_run)(world);
+    if (!world->listed || !sweep(world, &travel)) {
+        if (!isfinite(travel)) {
+            return gb_error_set(err, GB_ERR_GUARD,
+                                "a particle's place is not a finite number");
+        }
+        if (!gb_ledger_write(&world->ledger, world, true, err) ||
+            !rebuild(world, &world->ledger, err)) {
+            return false;
+        }
+        (void)sweep(world, &travel); /* nothing has come any way */
+    }
     world->evaluations++;
     return check_sweep(world, err);
 }
@@ -315,35 +317,14 @@ const struct gb_contacts *gb_world_contacts(const struct gb_world *world)
     return &world->contacts;
 }
 
-static void take_row(double to[3], const float *row)
-{
-    for (int c = 0; c < 3; c++) {
-        to[c] = (double)row[c];
-    }
-}
-
 void gb_world_force(const struct gb_world *world, int64_t k, double force[3])
 {
-    if (world->in_single) {
-        take_row(force, world->single.row[k]);
-        for (int c = 0; c < 3; c++) {
-            force[c] = -force[c];
-        }
-        return;
-    }
-    const double *row = world->wrench + (int64_t)world->row * k;
-    force[0] = row[0];
-    force[1] = world->row >= 6 ? row[1] : 0.0;
-    force[2] = world->row >= 6 ? row[2] : row[1];
+    gb_world_force_of(world, k, force);
 }
 
 void gb_world_pull(const struct gb_world *world, int64_t k, double force[3])
 {
-    if (world->in_single) {
-        take_row(force, world->single.pull[k]);
-    } else {
-        memcpy(force, world->pull + 3 * k, 3 * sizeof *force);
-    }
+    gb_world_pull_of(world, k, force);
 }
 
 void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list,

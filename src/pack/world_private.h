@@ -17,6 +17,7 @@ enum { GB_SWEEP_BLOCK = 128 };
 struct gb_sweep_block {
     struct gb_tally tally;
     double force2, torque2;
+    double travel; /* longest way since the list was built */
 };
 
 struct gb_world {
@@ -83,6 +84,31 @@ static inline double gb_world_arm_of(const struct gb_world *world,
         r[c] = xi[c] - xj[c] + shift[c];
     }
     return gb_vec_dot(r, r);
+}
+
+/* Force of near pair k on its first particle, and of far pair k. */
+static inline void gb_world_force_of(const struct gb_world *world, int64_t k,
+                                     double force[3])
+{
+    if (world->in_single) { /* kept for the second one */
+        for (int c = 0; c < 3; c++) {
+            force[c] = -(double)world->single.row[k][c];
+        }
+        return;
+    }
+    const double *row = world->wrench + (int64_t)world->row * k;
+    force[0] = row[0];
+    force[1] = world->row >= 6 ? row[1] : 0.0;
+    force[2] = world->row >= 6 ? row[2] : row[1];
+}
+
+static inline void gb_world_pull_of(const struct gb_world *world, int64_t k,
+                                    double force[3])
+{
+    for (int c = 0; c < 3; c++) {
+        force[c] =
+            world->in_single ? (double)world->single.pull[k][c] : world->pull[3 * k + c];
+    }
 }
 
 #endif

@@ -150,7 +150,7 @@ static bool load_lists(struct gb_world *world, struct gb_record *record,
         !check_inside(&built, world->position, world->count, 0.0, "world/built_at",
                       err) ||
         !gb_pairs_build(&world->pairs, &built, world->position, numerics->cutoff,
-                        numerics->skin, err) ||
+                        numerics->skin, world->threads, err) ||
         !gb_world_reserve(world, err)) {
         return false;
     }

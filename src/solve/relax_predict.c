@@ -69,8 +69,9 @@ static void foretold(double way[3], struct asked asked)
 /* Places are remembered as shares of the edges: free of the affine motion, and of whole
  * edges where a particle was put back into the cell. */
 static void foretell(struct gb_relax *relax, const struct gb_bodies *b,
-                     const double edge[3], struct asked asked)
+                     const double edge[3], struct asked asked, int threads)
 {
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
     for (int64_t i = 0; i < b->count; i++) {
         double *place = relax->vector[PLACE] + 3 * i;
         double *turned = relax->vector[TURNED] + 3 * i;
@@ -95,7 +96,7 @@ static void start(struct gb_relax *relax, struct gb_world *world)
     const struct gb_bodies b = gb_world_bodies(world);
     const double *edge = gb_world_cell(world)->edge;
     gb_relax_fire_rest(relax, &state->fire, &gb_relax_predict_tuning, world);
-    foretell(relax, &b, edge, ask(state, edge));
+    foretell(relax, &b, edge, ask(state, edge), gb_world_threads(world));
 }
 
 static void move(struct gb_relax *relax, struct gb_world *world)
