@@ -12,6 +12,9 @@
  * Also the slack of the lists. */
 enum { CROWD = 256 };
 
+/* Most have no more. */
+enum { FEW = 32 };
+
 struct grid {
     const struct gb_cell *cell;
     const double *position;
@@ -198,14 +201,35 @@ static struct bounds bounds_of(const struct grid *grid, int64_t i, int32_t j,
     return (struct bounds){near * near, far * far, most.skin, most.gap};
 }
 
-static void insert_sorted(struct neighbour *list, int n, struct neighbour item)
+/* Ascending by the other particle.  Each one's place is how many come before it, counted
+ * without a branch: nobody could foretell them. */
+static void sort_few(struct neighbour *list, int n)
 {
-    int k = n;
-    while (k > 0 && list[k - 1].other > item.other) {
-        list[k] = list[k - 1];
-        k--;
+    struct neighbour found[FEW];
+    int32_t other[FEW];
+    memcpy(found, list, (size_t)n * sizeof *list);
+    for (int k = 0; k < FEW; k++) {
+        other[k] = k < n ? found[k].other : INT32_MAX;
     }
-    list[k] = item;
+    for (int k = 0; k < n; k++) {
+        int before = 0;
+        for (int l = 0; l < FEW; l++) {
+            before += other[l] < other[k];
+        }
+        list[before] = found[k];
+    }
+}
+
+static void sort_many(struct neighbour *list, int n)
+{
+    for (int l = 1; l < n; l++) {
+        const struct neighbour item = list[l];
+        int k = l;
+        for (; k > 0 && list[k - 1].other > item.other; k--) {
+            list[k] = list[k - 1];
+        }
+        list[k] = item;
+    }
 }
 
 /* Members of the grid cells first .. last that come after i and lie within the bounds;
@@ -223,15 +247,11 @@ static int scan_cells(const struct grid *grid, int64_t i, int first, int last, i
         if (!grid->plain) {
             seen = nearest_image(grid->cell, x, y, &squared);
         }
-        if (squared < bounds.far && grid->order[k] > i) {
-            const struct bounds own =
-                grid->diameter ? bounds_of(grid, i, grid->order[k], bounds) : bounds;
-            if (squared < own.far) {
-                insert_sorted(
-                    list, n++,
-                    (struct neighbour){grid->order[k], seen, squared < own.near});
-            }
-        }
+        const int32_t other = grid->order[k];
+        const struct bounds own =
+            grid->diameter ? bounds_of(grid, i, other, bounds) : bounds;
+        list[n] = (struct neighbour){other, seen, squared < own.near};
+        n += (squared < own.far) & (other > i);
     }
     return n;
 }
@@ -278,6 +298,7 @@ static int scan_particle(const struct grid *grid, int64_t i, struct bounds bound
                          bounds, list, n);
         }
     }
+    (n <= FEW ? sort_few : sort_many)(list, n);
     return n;
 }
 
