@@ -140,10 +140,9 @@ void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts 
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
     const struct gb_contacts *contacts = gb_world_contacts(world);
-    const int threads = gb_world_threads(world);
     int64_t touching = 0, bridged = 0, rattlers = 0;
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)          \
-    reduction(+ : touching, bridged, rattlers)
+#pragma omp parallel for num_threads(gb_world_threads(world)) schedule(static)          \
+    if (gb_world_threads(world) > 1) reduction(+ : touching, bridged, rattlers)
     for (int64_t i = 0; i < count; i++) {
         const int n = contacts_of(world, i);
         rattlers += n < 2;

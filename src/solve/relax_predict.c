@@ -68,14 +68,16 @@ static void foretold(double way[3], struct asked asked)
 
 /* Places are remembered as shares of the edges: free of the affine motion, and of whole
  * edges where a particle was put back into the cell. */
-static void foretell(struct gb_relax *relax, const struct gb_bodies *b,
-                     const double edge[3], struct asked asked, int threads)
+static void foretell(struct gb_relax *relax, struct gb_world *world, struct asked asked)
 {
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
-    for (int64_t i = 0; i < b->count; i++) {
+    const struct gb_bodies b = gb_world_bodies(world);
+    const double *edge = gb_world_cell(world)->edge;
+#pragma omp parallel for num_threads(gb_world_threads(world))                            \
+    schedule(static) if (gb_world_threads(world) > 1)
+    for (int64_t i = 0; i < b.count; i++) {
         double *place = relax->vector[PLACE] + 3 * i;
         double *turned = relax->vector[TURNED] + 3 * i;
-        double *position = b->position + 3 * i;
+        double *position = b.position + 3 * i;
         double way[3];
         for (int c = 0; c < 3; c++) {
             const double now = position[c] / edge[c];
@@ -86,17 +88,15 @@ static void foretell(struct gb_relax *relax, const struct gb_bodies *b,
         foretold(way, asked);
         foretold(turned, asked);
         gb_vec_add(position, 1.0, way);
-        gb_vec_add(b->turn + 3 * i, 1.0, turned);
+        gb_vec_add(b.turn + 3 * i, 1.0, turned);
     }
 }
 
 static void start(struct gb_relax *relax, struct gb_world *world)
 {
     struct predict *state = relax->state;
-    const struct gb_bodies b = gb_world_bodies(world);
-    const double *edge = gb_world_cell(world)->edge;
     gb_relax_fire_rest(relax, &state->fire, &gb_relax_predict_tuning, world);
-    foretell(relax, &b, edge, ask(state, edge), gb_world_threads(world));
+    foretell(relax, world, ask(state, gb_world_cell(world)->edge));
 }
 
 static void move(struct gb_relax *relax, struct gb_world *world)
