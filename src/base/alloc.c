@@ -53,9 +53,9 @@ void gb_alloc_free(void *memory)
     free(head);
 }
 
-void gb_alloc_fail_after(long k)
+long gb_alloc_fail_after(long k)
 {
-    atomic_store(&fail_countdown, k);
+    return atomic_exchange(&fail_countdown, k);
 }
 
 size_t gb_alloc_bytes(void)

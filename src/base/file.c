@@ -18,9 +18,9 @@ const char *gb_file_reason(const GError *error)
 /* The only mutable state of this file: the test hook. */
 static _Atomic long fail_countdown;
 
-void gb_file_fail_after(long k)
+long gb_file_fail_after(long k)
 {
-    atomic_store(&fail_countdown, k);
+    return atomic_exchange(&fail_countdown, k);
 }
 
 bool gb_file_may_write(void)

@@ -28,7 +28,8 @@ bool gb_file_check_target(const char *path, struct gb_error *err);
 bool gb_file_may_write(void);
 
 /* Test hook: the k-th write from now on fails as on a full disk (k = 1 is the next one);
- * 0 switches the hook off.  Thread-safe. */
-void gb_file_fail_after(long k);
+ * 0 switches the hook off.  Returns how many were left before: 0 when it has struck.
+ * Thread-safe. */
+long gb_file_fail_after(long k);
 
 #endif

@@ -112,8 +112,8 @@ bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, boo
 {
     const struct gb_contacts *contacts = &world->contacts;
     const int planes = world->listed ? whole ? contacts->planes : contacts->kept : 1;
-    const int threads = world->listed ? world->threads : 0;
-    const int64_t count = world->count;
+    const int threads = world->listed ? world->threads : 1;
+    const int64_t count = world->listed ? world->count : 0;
     if (!reserve_shares(ledger, threads, err)) {
         return false;
     }

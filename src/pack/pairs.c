@@ -500,7 +500,7 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
         !fill_pairs(pairs, &grid, bounds, threads, err)) {
         return false;
     }
-#pragma omp parallel for num_threads(2) schedule(static, 1) if (threads > 1)
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
     for (int l = 0; l < 2; l++) {
         transpose(l == 0 ? &pairs->near : &pairs->far, pairs->count);
     }
@@ -509,6 +509,19 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
     pairs->stretch[0] = pairs->stretch[1] = pairs->stretch[2] = 1.0;
     pairs->strain = 0.0;
     return true;
+}
+
+static void list_clear(struct gb_pair_list *list, int64_t count)
+{
+    memset(list->start, 0, ((size_t)count + 1) * sizeof *list->start);
+    memset(list->in_start, 0, ((size_t)count + 1) * sizeof *list->in_start);
+    list->pair_count = 0;
+}
+
+void gb_pairs_clear(struct gb_pairs *pairs)
+{
+    list_clear(&pairs->near, pairs->count);
+    list_clear(&pairs->far, pairs->count);
 }
 
 /* Largest squared way beside the affine motion; total: their sum, not finite when one is

@@ -52,6 +52,9 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
                     const double *position, double cutoff, double skin, int threads,
                     struct gb_error *err);
 
+/* Lists without a pair, as nothing else is safe to read where a build has failed. */
+void gb_pairs_clear(struct gb_pairs *pairs);
+
 /* Longest way that one of the particles begin .. end - 1 has come since the build, beside
  * the affine motion; NaN when a position is not finite. */
 double gb_pairs_travel(const struct gb_pairs *pairs, const double *position,

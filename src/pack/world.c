@@ -164,6 +164,7 @@ static bool rebuild(struct gb_world *world, const struct gb_ledger *ledger,
     if (!gb_pairs_build(&world->pairs, &world->cell, world->position, numerics->cutoff,
                         numerics->skin, threads, err) ||
         !gb_world_reserve(world, err)) {
+        gb_pairs_clear(&world->pairs);
         return false;
     }
     gb_pairs_shifts(&world->cell, world->shift);

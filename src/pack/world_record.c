@@ -152,6 +152,7 @@ static bool load_lists(struct gb_world *world, struct gb_record *record,
         !gb_pairs_build(&world->pairs, &built, world->position, numerics->cutoff,
                         numerics->skin, world->threads, err) ||
         !gb_world_reserve(world, err)) {
+        gb_pairs_clear(&world->pairs);
         return false;
     }
     const struct gb_ledger none = {0};

@@ -13,7 +13,8 @@
 struct gb_crew {
     gb_crew_work *work;
     struct gb_worker *worker;
-    struct pollfd *poll;
+    struct pollfd *poll; /* of those with a run, and which they are: */
+    size_t *polled;
     size_t count;           /* runs pressed at once */
     size_t places;          /* workers: as many again may be keeping theirs */
     size_t busy, keeping;   /* workers with a run; those of them that only keep it */
@@ -49,9 +50,9 @@ bool gb_crew_create(struct gb_crew **out, size_t workers, gb_crew_work *work,
     crew->count = workers;
     crew->places = 2 * workers;
     crew->worker = gb_alloc_array(crew->places, sizeof *crew->worker, err);
-    crew->poll =
-        crew->worker ? gb_alloc_array(crew->places, sizeof *crew->poll, err) : NULL;
-    if (crew->poll == NULL) {
+    crew->poll = gb_alloc_array(crew->places, sizeof *crew->poll, err);
+    crew->polled = gb_alloc_array(crew->places, sizeof *crew->polled, err);
+    if (crew->worker == NULL || crew->poll == NULL || crew->polled == NULL) {
         crew->places = 0;
         gb_crew_destroy(crew);
         return false;
@@ -111,7 +112,8 @@ bool gb_crew_give(struct gb_crew *crew, size_t ticket, const struct gb_params *p
                   const char *directory, struct gb_error *err)
 {
     crew->stirred = clock_s();
-    if (room_here(crew) > 0) {
+    const bool idle = crew->busy < crew->count;
+    if (idle || (room_here(crew) > 0 && gb_ranks_idle(crew->ranks) == 0)) {
         return give_here(crew, ticket, params, directory, err);
     }
     const bool given = gb_ranks_give(crew->ranks, ticket, params, directory, err);
@@ -133,16 +135,19 @@ static bool hear(struct gb_crew *crew, size_t i, struct gb_crew_report *report)
 
 static bool take_here(struct gb_crew *crew, double seconds, struct gb_crew_report *report)
 {
+    size_t count = 0; /* no more than there are open files, or poll refuses */
     for (size_t i = 0; i < crew->places; i++) {
-        const struct gb_worker *worker = &crew->worker[i];
-        crew->poll[i] = (struct pollfd){worker->busy ? worker->fd : -1, POLLIN, 0};
+        if (crew->worker[i].busy) {
+            crew->poll[count] = (struct pollfd){crew->worker[i].fd, POLLIN, 0};
+            crew->polled[count++] = i;
+        }
     }
-    if (poll(crew->poll, crew->places, (int)ceil(1e3 * seconds)) <= 0) {
+    if (poll(crew->poll, count, (int)ceil(1e3 * seconds)) <= 0) {
         return false;
     }
-    for (size_t i = 0; i < crew->places; i++) {
-        if (crew->poll[i].revents != 0) {
-            return hear(crew, i, report);
+    for (size_t k = 0; k < count; k++) {
+        if (crew->poll[k].revents != 0) {
+            return hear(crew, crew->polled[k], report);
         }
     }
     return false;
@@ -195,5 +200,6 @@ void gb_crew_destroy(struct gb_crew *crew)
     }
     gb_alloc_free(crew->worker);
     gb_alloc_free(crew->poll);
+    gb_alloc_free(crew->polled);
     gb_alloc_free(crew);
 }

@@ -72,12 +72,17 @@ static bool is_settled(const struct gb_ensemble *ensemble, size_t point)
     return ensemble->enough != NULL && ensemble->enough(ensemble, point, ensemble->data);
 }
 
+/* Runs to be given: none before `from`, so many of them. */
+struct queue {
+    size_t from, waiting;
+};
+
 /* The next run to be given, in the order of the list; NULL when there is none now. */
-static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, size_t *from)
+static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, struct queue *queue)
 {
     const size_t runs = ensemble->points * ensemble->replicas;
-    for (; *from < runs; (*from)++) {
-        struct gb_ensemble_run *run = &ensemble->run[*from];
+    for (; queue->from < runs; queue->from++) {
+        struct gb_ensemble_run *run = &ensemble->run[queue->from];
         if (!run->ended && !run->given && !is_settled(ensemble, run->point)) {
             return run;
         }
@@ -88,24 +93,25 @@ static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, size_t *fr
 /* Runs that can be given now.  Where those that end may be enough nothing is begun ahead
  * of need. */
 static size_t room(const struct gb_ensemble *ensemble, const struct gb_crew *crew,
-                   size_t from)
+                   size_t waiting)
 {
     const size_t idle = gb_crew_idle(crew);
-    const size_t waiting = ensemble->points * ensemble->replicas - from;
     return idle > 0 || ensemble->enough != NULL ? idle : gb_crew_ahead(crew, waiting);
 }
 
 /* Gives runs to workers; false when none can be started. */
-static bool give(struct gb_ensemble *ensemble, struct gb_crew *crew, size_t *from,
+static bool give(struct gb_ensemble *ensemble, struct gb_crew *crew, struct queue *queue,
                  struct gb_error *err)
 {
     struct gb_ensemble_run *run = NULL;
-    while (room(ensemble, crew, *from) > 0 && (run = next_run(ensemble, from)) != NULL) {
+    while (room(ensemble, crew, queue->waiting) > 0 &&
+           (run = next_run(ensemble, queue)) != NULL) {
         const size_t ticket = (size_t)(run - ensemble->run);
         if (!gb_crew_give(crew, ticket, &run->params, run->directory, err)) {
             return gb_crew_busy(crew) > 0; /* with fewer workers then */
         }
         run->given = true;
+        queue->waiting--;
     }
     return true;
 }
@@ -118,7 +124,7 @@ static void tell(const struct gb_ensemble *ensemble,
     }
 }
 
-static void take(struct gb_ensemble *ensemble, struct gb_crew *crew, size_t *from,
+static void take(struct gb_ensemble *ensemble, struct gb_crew *crew, struct queue *queue,
                  const struct gb_ensemble_watch *watch)
 {
     struct gb_crew_report report;
@@ -129,7 +135,8 @@ static void take(struct gb_ensemble *ensemble, struct gb_crew *crew, size_t *fro
     struct gb_ensemble_run *run = &ensemble->run[report.ticket];
     if (report.lost) { /* somebody else may do it */
         run->given = false;
-        *from = MIN(*from, report.ticket);
+        queue->from = MIN(queue->from, report.ticket);
+        queue->waiting++;
         tell(ensemble, watch, NULL);
         return;
     }
@@ -142,19 +149,22 @@ static void take(struct gb_ensemble *ensemble, struct gb_crew *crew, size_t *fro
 bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_crew *crew,
                       const struct gb_ensemble_watch *watch, struct gb_error *err)
 {
-    size_t from = 0;
+    struct queue queue = {0};
     bool stopping = false;
     bool good = true;
+    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
+        queue.waiting += !ensemble->run[i].ended;
+    }
     while (true) {
         if (!stopping && watch->cancelled != NULL && watch->cancelled(watch->data)) {
             stopping = true;
             gb_crew_stop(crew);
         }
-        good = good && (stopping || give(ensemble, crew, &from, err));
+        good = good && (stopping || give(ensemble, crew, &queue, err));
         if (gb_crew_busy(crew) == 0) {
             break;
         }
-        take(ensemble, crew, &from, watch);
+        take(ensemble, crew, &queue, watch);
     }
     return good && (!stopping || gb_error_set(err, GB_ERR_CANCELLED,
                                               "stopped; the same command does what is "

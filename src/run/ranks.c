@@ -219,15 +219,27 @@ static void send_report(const struct gb_crew_report *report)
     MPI_Send(report, (int)sizeof *report, MPI_BYTE, 0, TAG_REPORT, MPI_COMM_WORLD);
 }
 
-/* What waits in the hand goes to workers that are free, or nobody does it any more. */
-static void give_on(struct gb_ranks *ranks, struct gb_crew *crew, bool stopping)
+/* Why a rank does no more runs: the first one said so, which ends them for all, or it was
+ * itself asked to end; then others may do them. */
+enum stop { GOING, TOLD, LEAVING };
+
+static void send_capacity(size_t workers)
 {
-    while (!g_queue_is_empty(ranks->hand) && (stopping || gb_crew_ahead(crew, 0) > 0)) {
+    const uint64_t capacity = workers;
+    MPI_Send(&capacity, (int)sizeof capacity, MPI_BYTE, 0, TAG_HELLO, MPI_COMM_WORLD);
+}
+
+/* What waits in the hand goes to workers that are free, or back. */
+static void give_on(struct gb_ranks *ranks, struct gb_crew *crew, enum stop stop)
+{
+    while (!g_queue_is_empty(ranks->hand) &&
+           (stop != GOING || gb_crew_ahead(crew, 0) > 0)) {
         struct gb_crew_report report = {0};
         struct parcel *parcel = g_queue_pop_head(ranks->hand);
         report.ticket = parcel->ticket;
-        if (stopping) {
+        if (stop != GOING) {
             gb_error_set(&report.error, GB_ERR_CANCELLED, "stopped before it began");
+            report.lost = stop == LEAVING;
             send_report(&report);
         } else if (!gb_crew_give(crew, parcel->ticket, &parcel->params, parcel->directory,
                                  &report.error)) {
@@ -238,7 +250,7 @@ static void give_on(struct gb_ranks *ranks, struct gb_crew *crew, bool stopping)
 }
 
 /* Everything that has come; false when it is time to go. */
-static bool open_letters(struct gb_ranks *ranks, double *heard, bool *stopping)
+static bool open_letters(struct gb_ranks *ranks, double *heard, enum stop *stop)
 {
     MPI_Status status;
     while (has_letter(&status)) {
@@ -250,7 +262,9 @@ static bool open_letters(struct gb_ranks *ranks, double *heard, bool *stopping)
             continue;
         }
         receive(&ranks->byte, sizeof ranks->byte, &status);
-        *stopping |= status.MPI_TAG == TAG_STOP;
+        if (status.MPI_TAG == TAG_STOP) {
+            *stop = TOLD;
+        }
         if (status.MPI_TAG == TAG_QUIT) {
             return false;
         }
@@ -270,18 +284,23 @@ bool gb_ranks_serve(struct gb_ranks *ranks, struct gb_crew *crew, size_t workers
                     bool (*cancelled)(void *data), void *data, struct gb_error *err)
 {
     double heard = clock_s();
-    bool told = false, stopping = false, stopped = false;
-    const uint64_t capacity = workers;
-    MPI_Send(&capacity, (int)sizeof capacity, MPI_BYTE, 0, TAG_HELLO, MPI_COMM_WORLD);
-    while (open_letters(ranks, &heard, &told)) {
+    enum stop stop = GOING;
+    bool stopped = false, leaving = false;
+    send_capacity(workers);
+    while (open_letters(ranks, &heard, &stop)) {
         struct gb_crew_report report;
-        stopping = stopping || cancelled(data);
-        give_on(ranks, crew, told || stopping);
-        if ((told || stopping) && !stopped) {
+        if (!leaving && cancelled(data)) {
+            leaving = true;
+            stop = stop == GOING ? LEAVING : stop;
+            send_capacity(0); /* before what is given back, or it would come again */
+        }
+        give_on(ranks, crew, stop);
+        if (stop != GOING && !stopped) {
             stopped = true;
             gb_crew_stop(crew);
         }
         if (gb_crew_take(crew, gb_crew_patience(crew), &report)) {
+            report.lost = stop == LEAVING && report.error.code == GB_ERR_CANCELLED;
             send_report(&report);
         }
         beat(ranks);
@@ -294,7 +313,7 @@ bool gb_ranks_serve(struct gb_ranks *ranks, struct gb_crew *crew, size_t workers
     }
     /* what the first rank knows of missing ranks */
     ranks->any_lost = ranks->byte != 0;
-    return !stopping || gb_error_set(err, GB_ERR_CANCELLED, "stopped");
+    return !leaving || gb_error_set(err, GB_ERR_CANCELLED, "stopped");
 }
 
 /* --- the first one --------------------------------------------------------------- */

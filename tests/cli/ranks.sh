@@ -33,25 +33,30 @@ sweep --at 5 --out out
 is 'wrong input ends all ranks with its status' [ $? -eq 2 ]
 is 'told once' [ "$(grep -c '^greenbody: ' stderr)" -eq 1 ]
 
-# --- a killed rank -----------------------------------------------------------------------
-# shellcheck disable=SC2086
-$ranks -np 2 "$greenbody" sweep $scene --set 'loading.until=10 MPa' \
-    --set particles.count=400 --vary 'contact.mu=0.1;0.3' --replicas 4 --out killed \
-    >stdout 2>stderr &
-mpirun=$!
-while [ "$(find . -path './killed/*/status.json' | wc -l)" -lt 2 ]; do
-    kill -0 $mpirun || break
-    sleep 0.1
-done
-for pid in $(pgrep -P $mpirun); do
-    if tr '\0' '\n' <"/proc/$pid/environ" | grep -qx OMPI_COMM_WORLD_RANK=1; then
-        kill -KILL "$pid"
-        killed=$pid
-    fi
-done
-wait $mpirun
-is 'a rank was killed' [ -n "${killed:-}" ]
-is 'all runs are done by the others' [ "$(grep -c ',done,$' killed/runs.csv)" -eq 8 ]
+# --- a rank that is killed, and one that is asked to end ------------------------------------
+without() { # directory, signal that ends the second rank while both work
+    # shellcheck disable=SC2086
+    $ranks -np 2 "$greenbody" sweep $scene --set 'loading.until=10 MPa' \
+        --set particles.count=400 --vary 'contact.mu=0.1;0.3' --replicas 4 --out "$1" \
+        >stdout 2>stderr &
+    mpirun=$!
+    while [ "$(find . -path "./$1/*/status.json" | wc -l)" -lt 2 ]; do
+        kill -0 $mpirun || break
+        sleep 0.1
+    done
+    ended=
+    for pid in $(pgrep -P $mpirun); do
+        if tr '\0' '\n' <"/proc/$pid/environ" | grep -qx OMPI_COMM_WORLD_RANK=1; then
+            kill "-$2" "$pid"
+            ended=$pid
+        fi
+    done
+    wait $mpirun
+    is "$2: a rank was met" [ -n "$ended" ]
+    is "$2: all runs are done by the others" [ "$(grep -c ',done,$' "$1/runs.csv")" -eq 8 ]
+}
+without killed KILL
+without asked TERM
 
 echo "1..$tests"
 exit $bad

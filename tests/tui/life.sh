@@ -48,6 +48,17 @@ pid() {
     sed -n 's/.*"pid" : \([0-9]*\).*/\1/p' "$run/status.json"
 }
 
+# The status is written beside the engine: the first rows may be there before it.
+other_pid() { # than
+    [ -n "$(pid 2>/dev/null)" ] && [ "$(pid)" != "$1" ]
+}
+
+# The engine of the run, which is not that one.
+find_engine() { # pid
+    until_true other_pid "$1"
+    engine=$(pid)
+}
+
 gone() { # pid
     ! kill -0 "$1" 2>/dev/null
 }
@@ -70,7 +81,6 @@ scene="default particles.count=1000 numerics.tolerance=1e-3 loading.step=0.002% 
 output.checkpoint_every=0.5s numerics.fidelity=reference"
 
 lives_on() { # name
-    engine=$(pid)
     local before
     before=$(rows)
     is "$1: the engine goes on" more_rows $((before + 3))
@@ -92,6 +102,7 @@ under_tmux() {
     run=$here/state/greenbody/runs/default-1
     term new-session -d -x 100 -y 30 "$greenbody $scene"
     is 'tmux: the run is kept' more_rows 3
+    find_engine ''
     term kill-server
     lives_on tmux
 }
@@ -104,6 +115,7 @@ under_pty() {
         <>"$here/input" >/dev/null 2>&1) &
     terminal=$!
     is 'pty: the run is kept' more_rows 3
+    find_engine ''
     kill -KILL $terminal
     wait $terminal 2>/dev/null
     lives_on pty
@@ -122,7 +134,7 @@ for _ in $(seq "$times"); do
     term send-keys t
     is 'taken over: its engine ends' gone "$before"
     is 'and goes on here' has 'resumed from the checkpoint'
-    engine=$(pid)
+    find_engine "$before"
     at=$(rows)
     is 'with more rows' more_rows $((at + 2))
     term kill-server
@@ -135,7 +147,9 @@ rm -rf "$here/state"
 run=$here/state/greenbody/runs/default-1
 term new-session -d -x 100 -y 30 "$greenbody $scene output.on_hangup=stop"
 is 'stop: the run is kept' more_rows 3
-stopped=$(pid)
+find_engine ''
+stopped=$engine
+engine=
 term kill-server
 is 'stop: the engine ends with its terminal' gone "$stopped"
 status_is stopped && [ -s "$run/state.h5" ]
