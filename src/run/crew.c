@@ -26,7 +26,7 @@ struct gb_crew {
 /* Nothing wakes a rank when a letter comes: it looks from time to time, ever more seldom
  * the longer nothing happens.  A run of a second waits for a hundredth of it at most to
  * be reported, and looking takes less than that of a processor. */
-static const double letters_least_s = 0.01;
+static const double letters_least_s = 0.02;
 static const double letters_most_s = 0.1;
 static const double letters_share = 0.02;
 
