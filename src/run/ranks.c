@@ -396,7 +396,9 @@ static void look_after(struct gb_ranks *ranks)
     for (int r = 1; r < ranks->count; r++) {
         struct member *member = &ranks->member[r];
         int gone = 1;
-        if (member->capacity > 0 && now - member->heard > lost_after_s &&
+        /* one that takes leave may still owe reports */
+        const bool counts = member->capacity > 0 || member->tickets->len > 0;
+        if (counts && now - member->heard > lost_after_s &&
             now - ranks->beaten < lost_after_s) { /* else it was we who slept */
             member->lost = true;
             ranks->any_lost = true;

@@ -32,11 +32,16 @@ bool gb_ranks_serve(struct gb_ranks *ranks, struct gb_crew *crew, size_t workers
 
 /* The rest is for the first one; NULL has nobody.
  *
- * workers, idle   of the others; those of them without a run
+ * workers  of the others; idle: those of them without a run
+ *
  * ahead  runs that they may have in hand while they are busy, one for each worker
- * give   errors: GB_ERR_INPUT (a directory whose name is too long), GB_ERR_MEMORY
- * take   a report that has come, without waiting; a rank that was not heard of for long
- * is lost, and so are its runs stop   asks all runs to stop */
+ *
+ * give  errors: GB_ERR_INPUT (a directory whose name is too long), GB_ERR_MEMORY
+ *
+ * take  a report that has come, without waiting; a rank that was not heard of for long is
+ * lost, and so are its runs
+ *
+ * stop  asks all runs to stop */
 size_t gb_ranks_workers(const struct gb_ranks *ranks);
 size_t gb_ranks_idle(const struct gb_ranks *ranks);
 size_t gb_ranks_ahead(const struct gb_ranks *ranks);

@@ -34,7 +34,26 @@ is 'wrong input ends all ranks with its status' [ $? -eq 2 ]
 is 'told once' [ "$(grep -c '^greenbody: ' stderr)" -eq 1 ]
 
 # --- a rank that is killed, and one that is asked to end ------------------------------------
-without() { # directory, signal that ends the second rank while both work
+killed_at_once() {
+    kill -KILL "$1"
+}
+
+asked() {
+    kill -TERM "$1"
+}
+
+# As by a batch system: asked, then killed before its runs have answered.
+asked_then_killed() {
+    workers=$(pgrep -P "$1")
+    # shellcheck disable=SC2086  # a list
+    kill -STOP $workers
+    asked "$1"
+    sleep 1
+    # shellcheck disable=SC2086
+    kill -KILL "$1" $workers
+}
+
+without() { # directory, what ends the second rank while both work
     # shellcheck disable=SC2086
     $ranks -np 2 "$greenbody" sweep $scene --set 'loading.until=10 MPa' \
         --set particles.count=400 --vary 'contact.mu=0.1;0.3' --replicas 4 --out "$1" \
@@ -47,7 +66,7 @@ without() { # directory, signal that ends the second rank while both work
     ended=
     for pid in $(pgrep -P $mpirun); do
         if tr '\0' '\n' <"/proc/$pid/environ" | grep -qx OMPI_COMM_WORLD_RANK=1; then
-            kill "-$2" "$pid"
+            "$2" "$pid"
             ended=$pid
         fi
     done
@@ -55,8 +74,9 @@ without() { # directory, signal that ends the second rank while both work
     is "$2: a rank was met" [ -n "$ended" ]
     is "$2: all runs are done by the others" [ "$(grep -c ',done,$' "$1/runs.csv")" -eq 8 ]
 }
-without killed KILL
-without asked TERM
+without killed killed_at_once
+without left asked
+without lost asked_then_killed
 
 echo "1..$tests"
 exit $bad
