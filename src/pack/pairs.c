@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "pack/pairs_grid.h"
 #include "pack/share.h"
 #include "pack/simd.h"
 #include "phys/tolerances.h"
@@ -16,15 +17,11 @@ enum { CROWD = 256 };
 enum { FEW = 32 };
 
 struct grid {
+    struct gb_pairs_grid shape;
     const struct gb_cell *cell;
     const double *position;
     double (*sorted)[3]; /* places, grid cell by grid cell: begin[c] .. begin[c + 1] */
     const double (*shift)[3];
-    bool plain;      /* which image is meant follows from the grid cells */
-    int n[3];        /* grid cells along each axis */
-    int span_low[3]; /* neighbouring cells to visit: span_low .. span_high */
-    int span_high[3];
-    double inverse[3];
     const int32_t *begin, *order;
     const double *diameter; /* NULL: all are 1 */
 };
@@ -89,35 +86,11 @@ void gb_pairs_shifts(const struct gb_cell *cell, double shift[27][3])
     }
 }
 
-static int clamp(int value, int low, int high)
+static int home_of(const struct grid *grid, int64_t i)
 {
-    return value < low ? low : value > high ? high : value;
-}
-
-static int grid_index(const struct grid *grid, const double x[3])
-{
-    int c[3];
-    for (int k = 0; k < 3; k++) {
-        c[k] = clamp((int)(x[k] * grid->inverse[k]), 0, grid->n[k] - 1);
-    }
-    return (c[2] * grid->n[1] + c[1]) * grid->n[0] + c[0];
-}
-
-/* About one particle per grid cell at most, however dilute the packing. */
-static void grid_shape(struct grid *grid, double reach, int64_t count)
-{
-    const int most = (int)fmax(1.0, ceil(cbrt((double)count)) * 2.0);
-    grid->plain = true;
-    for (int k = 0; k < 3; k++) {
-        const double edge = grid->cell->edge[k];
-        grid->n[k] =
-            grid->cell->periodic[k] ? clamp((int)(edge / reach), 1, most * 8) : 1;
-        grid->inverse[k] = grid->n[k] / edge;
-        /* with one or two cells along an axis, -1 and +1 are the same cell */
-        grid->span_low[k] = grid->n[k] > 2 ? -1 : 0;
-        grid->span_high[k] = grid->n[k] > 1 ? 1 : 0;
-        grid->plain = grid->plain && (grid->n[k] > 2 || !grid->cell->periodic[k]);
-    }
+    int home[3];
+    gb_pairs_grid_home(&grid->shape, grid->position + 3 * i, home);
+    return gb_pairs_grid_index(&grid->shape, home);
 }
 
 /* Sorts the particles by grid cells, ascending within each. */
@@ -126,13 +99,13 @@ static void grid_sort(struct gb_pairs *pairs, const struct grid *grid, int64_t c
     int32_t *begin = pairs->head, *order = pairs->next;
     memset(begin, 0, ((size_t)cells + 1) * sizeof *begin);
     for (int64_t i = 0; i < pairs->count; i++) {
-        begin[grid_index(grid, grid->position + 3 * i)]++;
+        begin[home_of(grid, i)]++;
     }
     for (int64_t c = 1; c <= cells; c++) {
         begin[c] += begin[c - 1];
     }
     for (int64_t i = pairs->count - 1; i >= 0; i--) {
-        const int32_t at = --begin[grid_index(grid, grid->position + 3 * i)];
+        const int32_t at = --begin[home_of(grid, i)];
         order[at] = (int32_t)i;
         memcpy(grid->sorted[at], grid->position + 3 * i, sizeof *grid->sorted);
     }
@@ -140,7 +113,7 @@ static void grid_sort(struct gb_pairs *pairs, const struct grid *grid, int64_t c
 
 static bool grid_fill(struct gb_pairs *pairs, struct grid *grid, struct gb_error *err)
 {
-    const int64_t cells = (int64_t)grid->n[0] * grid->n[1] * grid->n[2];
+    const int64_t cells = (int64_t)grid->shape.n[0] * grid->shape.n[1] * grid->shape.n[2];
     if (cells + 1 > pairs->head_capacity) {
         gb_alloc_free(pairs->head);
         pairs->head_capacity = 0;
@@ -156,28 +129,6 @@ static bool grid_fill(struct gb_pairs *pairs, struct grid *grid, struct gb_error
     grid->begin = pairs->head;
     grid->order = pairs->next;
     return true;
-}
-
-/* Nearest image of x_i - x_j; returns its index and the squared distance. */
-static uint8_t nearest_image(const struct gb_cell *cell, const double *xi,
-                             const double *xj, double *squared)
-{
-    int image = 0, weight = 1;
-    double sum = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double r = xi[k] - xj[k];
-        int s = 0;
-        if (cell->periodic[k]) {
-            const double half = 0.5 * cell->edge[k];
-            s = r > half ? -1 : r < -half ? 1 : 0;
-            r += s * cell->edge[k];
-        }
-        sum += r * r;
-        image += (s + 1) * weight;
-        weight *= 3;
-    }
-    *squared = sum;
-    return (uint8_t)image;
 }
 
 struct neighbour {
@@ -244,8 +195,8 @@ static int scan_cells(const struct grid *grid, int64_t i, int first, int last, i
                              x[2] - y[2] + shift[2]};
         double squared = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
         uint8_t seen = (uint8_t)image;
-        if (!grid->plain) {
-            seen = nearest_image(grid->cell, x, y, &squared);
+        if (!grid->shape.plain) {
+            seen = gb_pairs_grid_image(grid->cell, x, y, &squared);
         }
         const int32_t other = grid->order[k];
         const struct bounds own =
@@ -266,12 +217,12 @@ static int image_digit(int place, int n)
 static int scan_row(const struct grid *grid, int64_t i, int home, int row, int image,
                     struct bounds bounds, struct neighbour *list, int n)
 {
-    const int cells = grid->n[0];
-    if (grid->plain && cells > 2 && home > 0 && home < cells - 1) {
+    const int cells = grid->shape.n[0];
+    if (grid->shape.plain && cells > 2 && home > 0 && home < cells - 1) {
         return scan_cells(grid, i, row + home - 1, row + home + 1, image + 1, bounds,
                           list, n);
     }
-    for (int u = grid->span_low[0]; u <= grid->span_high[0]; u++) {
+    for (int u = grid->shape.span_low[0]; u <= grid->shape.span_high[0]; u++) {
         const int c = row + (home + u + cells) % cells;
         n = scan_cells(grid, i, c, c, image + image_digit(home + u, cells), bounds, list,
                        n);
@@ -283,18 +234,16 @@ static int scan_row(const struct grid *grid, int64_t i, int home, int row, int i
 static int scan_particle(const struct grid *grid, int64_t i, struct bounds bounds,
                          struct neighbour *list)
 {
+    const struct gb_pairs_grid *shape = &grid->shape;
     int home[3], n = 0;
-    for (int k = 0; k < 3; k++) {
-        home[k] =
-            clamp((int)(grid->position[3 * i + k] * grid->inverse[k]), 0, grid->n[k] - 1);
-    }
-    for (int w = grid->span_low[2]; w <= grid->span_high[2]; w++) {
-        const int cw = (home[2] + w + grid->n[2]) % grid->n[2];
-        for (int v = grid->span_low[1]; v <= grid->span_high[1]; v++) {
-            const int cv = (home[1] + v + grid->n[1]) % grid->n[1];
-            const int image = 9 * image_digit(home[2] + w, grid->n[2]) +
-                              3 * image_digit(home[1] + v, grid->n[1]);
-            n = scan_row(grid, i, home[0], (cw * grid->n[1] + cv) * grid->n[0], image,
+    gb_pairs_grid_home(shape, grid->position + 3 * i, home);
+    for (int w = shape->span_low[2]; w <= shape->span_high[2]; w++) {
+        const int cw = (home[2] + w + shape->n[2]) % shape->n[2];
+        for (int v = shape->span_low[1]; v <= shape->span_high[1]; v++) {
+            const int cv = (home[1] + v + shape->n[1]) % shape->n[1];
+            const int image = 9 * image_digit(home[2] + w, shape->n[2]) +
+                              3 * image_digit(home[1] + v, shape->n[1]);
+            n = scan_row(grid, i, home[0], (cw * shape->n[1] + cv) * shape->n[0], image,
                          bounds, list, n);
         }
     }
@@ -493,7 +442,7 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
                         .position = position,
                         .shift = (const double(*)[3])shift,
                         .diameter = pairs->diameter};
-    grid_shape(&grid, reach, pairs->count);
+    gb_pairs_grid_init(&grid.shape, cell, reach, pairs->count);
     const struct bounds bounds = {(1.0 + skin) * (1.0 + skin), reach * reach, skin,
                                   cutoff - 1.0 + skin};
     if (!grid_fill(pairs, &grid, err) ||
@@ -504,6 +453,7 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
     for (int l = 0; l < 2; l++) {
         transpose(l == 0 ? &pairs->near : &pairs->far, pairs->count);
     }
+    pairs->grid = grid.shape;
     memcpy(pairs->built_at, position, 3 * (size_t)pairs->count * sizeof *position);
     memcpy(pairs->built_edge, cell->edge, sizeof pairs->built_edge);
     pairs->stretch[0] = pairs->stretch[1] = pairs->stretch[2] = 1.0;
@@ -557,14 +507,6 @@ double gb_pairs_travel(const struct gb_pairs *pairs, const double *position,
     travel(position + 3 * begin, pairs->built_at + 3 * begin, pairs->stretch, end - begin,
            &total, &most);
     return isfinite(total) ? sqrt(most) : (double)NAN; /* comparisons pass NaN by */
-}
-
-bool gb_pairs_fresh(const struct gb_pairs *pairs, double travel, double cutoff,
-                    double skin)
-{
-    /* Two particles at the cutoff now were at most cutoff (1 + strain) + 2 travel apart.
-     */
-    return 2.0 * travel < skin - (pairs->largest - 1.0 + cutoff) * pairs->strain;
 }
 
 void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3])

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "pack/cell.h"
+#include "pack/pairs_grid.h"
 
 /* Numbers behind the last one of in_slot that may be read: slots there are. */
 enum { GB_PAIR_LIST_SLACK = 8 };
@@ -32,9 +32,11 @@ struct gb_pairs {
     const double *diameter;
     double largest; /* of them; else 1 */
     struct gb_pair_list near, far;
-    int32_t *head, *next; /* scratch of the grid: where its cells begin, what is there */
+    /* of the last build: who was where, grid cell by grid cell: next[head[c]] ... */
+    struct gb_pairs_grid grid;
+    int32_t *head, *next;
     int64_t head_capacity;
-    /* of the last build, from which the same lists can be built again: */
+    /* and what the same lists can be built from again */
     double *built_at; /* count x 3: positions */
     double built_edge[3];
     double stretch[3]; /* affine scaling of the cell since */
@@ -59,11 +61,6 @@ void gb_pairs_clear(struct gb_pairs *pairs);
  * the affine motion; NaN when a position is not finite. */
 double gb_pairs_travel(const struct gb_pairs *pairs, const double *position,
                        int64_t begin, int64_t end);
-
-/* False when, after that travel, a pair may be missing or in the wrong list: motion and
- * strain since the build have used up the skin. */
-bool gb_pairs_fresh(const struct gb_pairs *pairs, double travel, double cutoff,
-                    double skin);
 
 /* Takes note that the cell and all positions were scaled. */
 void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3]);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "pack/simd.h"
+#include "pack/strays.h"
 #include "pack/sweep_single.h"
 #include "pack/world_private.h"
 
@@ -284,13 +285,6 @@ static void add_tally(struct gb_tally *sum, const struct gb_tally *part)
     sum->deepest = fmax(sum->deepest, part->deepest);
 }
 
-bool gb_sweep_fresh(const struct gb_world *world, double travel)
-{
-    const struct gb_numerics *numerics = &world->model->numerics;
-    return isfinite(travel) &&
-           gb_pairs_fresh(&world->pairs, travel, numerics->cutoff, numerics->skin);
-}
-
 static double longest_travel(const struct gb_world *world, int64_t blocks)
 {
     double longest = 0.0;
@@ -315,17 +309,64 @@ static void prepare_block(struct gb_world *world, int64_t b)
     }
 }
 
+/* Where somebody of the block has strayed: are they still in the list? */
+static void doubt_block(struct gb_world *world, int64_t b)
+{
+    struct gb_sweep_block *block = &world->block[b];
+    block->unlisted = gb_strays_judge(world, block->travel) != GB_STRAYS_FRESH &&
+                      !gb_strays_listed(world, b * GB_SWEEP_BLOCK, block_end(world, b));
+}
+
+static bool any_unlisted(const struct gb_world *world, int64_t blocks)
+{
+    for (int64_t b = 0; b < blocks; b++) {
+        if (world->block[b].unlisted) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* By all threads of a team or by one; every one of them gets the same answer. */
+static bool list_holds(struct gb_world *world, int64_t blocks)
+{
+    const enum gb_strays_list list =
+        gb_strays_judge(world, longest_travel(world, blocks));
+    if (list != GB_STRAYS_DOUBTED) {
+        return list == GB_STRAYS_FRESH;
+    }
+#pragma omp for schedule(static)
+    for (int64_t b = 0; b < blocks; b++) {
+        doubt_block(world, b);
+    }
+    return !any_unlisted(world, blocks);
+}
+
+bool gb_sweep_list_holds(struct gb_world *world, double *travel)
+{
+    const int64_t blocks = gb_sweep_blocks(world->count);
+    for (int64_t b = 0; b < blocks; b++) {
+        world->block[b].travel =
+            gb_pairs_travel(&world->pairs, world->position, b * GB_SWEEP_BLOCK,
+                            block_end(world, b));
+    }
+    *travel = longest_travel(world, blocks);
+    return list_holds(world, blocks);
+}
+
 /* All blocks, by the threads of the team that calls it; without one, by the caller.  All
- * of them see alike whether the list is fresh. */
-static void run_blocks(struct gb_world *world, int64_t blocks)
+ * of them see alike whether the list still holds. */
+static void run_blocks(struct gb_world *world, int64_t blocks, bool *holds)
 {
 #pragma omp for schedule(static)
     for (int64_t b = 0; b < blocks; b++) {
         prepare_block(world, b);
     }
-    if (!gb_sweep_fresh(world, longest_travel(world, blocks))) {
+    if (!list_holds(world, blocks)) {
         return;
     }
+#pragma omp single nowait
+    *holds = true;
 #pragma omp for schedule(static)
     for (int64_t b = 0; b < blocks; b++) {
         sweep_block(world, b);
@@ -343,14 +384,15 @@ bool gb_sweep_run(struct gb_world *world, double *travel)
     for (int c = 0; c < 3; c++) {
         world->single.scale[c] = (float)(world->cell.edge[c] * 0x1p-32);
     }
+    bool holds = false;
     if (world->threads > 1) {
 #pragma omp parallel num_threads(world->threads)
-        run_blocks(world, blocks);
+        run_blocks(world, blocks, &holds);
     } else { /* a team of one would wait for itself */
-        run_blocks(world, blocks);
+        run_blocks(world, blocks, &holds);
     }
     *travel = longest_travel(world, blocks);
-    if (!gb_sweep_fresh(world, *travel)) {
+    if (!holds) {
         return false;
     }
     struct gb_sweep_block sum = {0};

@@ -6,16 +6,16 @@
 
 struct gb_world;
 
-/* Forces and torques of a world whose list is fresh; histories advance, turns are used
- * up.  Where it is not, nothing is done and the answer is false.  Pairs are computed in
+/* Forces and torques of a world whose list still holds; histories advance, turns are used
+ * up.  Where it does not, nothing is done and the answer is false.  Pairs are computed in
  * blocks of particles, then every particle collects its own in the order of the list: the
  * same bits for any number of threads.
  *
  * travel   longest way since the list was built; NaN when a place is not finite */
 bool gb_sweep_run(struct gb_world *world, double *travel);
 
-/* After such a way, is the list of the world still good? */
-bool gb_sweep_fresh(const struct gb_world *world, double travel);
+/* Is every pair where it belongs in the list of the world? */
+bool gb_sweep_list_holds(struct gb_world *world, double *travel);
 
 /* Blocks that count particles make. */
 int64_t gb_sweep_blocks(int64_t count);

@@ -301,8 +301,7 @@ static double rms(const double *vector, int64_t count)
 
 bool gb_sweep_sized_run(struct gb_world *world, double *travel)
 {
-    *travel = gb_pairs_travel(&world->pairs, world->position, 0, world->count);
-    if (!gb_sweep_fresh(world, *travel)) {
+    if (!gb_sweep_list_holds(world, travel)) {
         return false;
     }
     const int64_t near = world->pairs.near.pair_count, far = world->pairs.far.pair_count;

@@ -18,6 +18,7 @@ struct gb_sweep_block {
     struct gb_tally tally;
     double force2, torque2;
     double travel; /* longest way since the list was built */
+    bool unlisted; /* a pair of one that strayed is not where it belongs in the list */
 };
 
 struct gb_world {

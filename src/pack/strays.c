@@ -1,0 +1,124 @@
+#include "pack/strays.h"
+
+#include <math.h>
+
+#include "pack/world_private.h"
+
+/* Of so many particles one may stray: looking at them costs a little of a sweep then. */
+enum { STRAYS_SHARE = 32 };
+
+/* Pairs count as touching, or within the cutoff, this much too early (d): a sweep in
+ * single precision sees distances to a little less. */
+static const double hair = 1e-6;
+
+/* What two particles at the cutoff may still come nearer, or apart, before one list or
+ * the other misses them. */
+static double margin_of(const struct gb_world *world, double *reach)
+{
+    const struct gb_numerics *numerics = &world->model->numerics;
+    *reach = world->pairs.largest - 1.0 + numerics->cutoff;
+    return numerics->skin - *reach * world->pairs.strain - 2.0 * hair;
+}
+
+/* Two at the reach now were at most reach (1 + strain) + both ways apart; nearer than
+ * reach + skin they are in a list.  Up to `whole` for one alone, places of the build at
+ * most that far from the present place of a stray hold everybody it can meet. */
+enum gb_strays_list gb_strays_judge(const struct gb_world *world, double travel)
+{
+    double reach;
+    const double margin = margin_of(world, &reach);
+    const double whole = margin / (1.0 + world->pairs.strain);
+    if (2.0 * travel < margin) {
+        return GB_STRAYS_FRESH;
+    }
+    return travel < whole ? GB_STRAYS_DOUBTED : GB_STRAYS_STALE;
+}
+
+static bool holds(const struct gb_pair_list *list, int64_t i, int64_t j)
+{
+    const int64_t low = i < j ? i : j, high = i < j ? j : i;
+    for (int64_t k = list->start[low]; k < list->start[low + 1]; k++) {
+        if (list->other[k] == high) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Is the pair in the list that its distance asks for? */
+static bool pair_listed(const struct gb_world *world, int64_t i, int64_t j)
+{
+    const double *d = world->diameter;
+    const double touch = (d ? 0.5 * (d[i] + d[j]) : 1.0) + hair;
+    const double reach = touch + world->model->numerics.cutoff - 1.0;
+    double squared;
+    (void)gb_pairs_grid_image(&world->cell, world->position + 3 * i,
+                              world->position + 3 * j, &squared);
+    if (squared >= reach * reach) {
+        return true;
+    }
+    return holds(&world->pairs.near, i, j) ||
+           (squared >= touch * touch && holds(&world->pairs.far, i, j));
+}
+
+/* Where particle i would have been at the build had only the cell been strained since. */
+static void home_at_build(const struct gb_world *world, int64_t i, int home[3])
+{
+    struct gb_cell built = world->cell;
+    double x[3];
+    for (int k = 0; k < 3; k++) {
+        built.edge[k] = world->pairs.built_edge[k];
+        x[k] = world->position[3 * i + k] / world->pairs.stretch[k];
+    }
+    gb_cell_wrap(&built, x);
+    gb_pairs_grid_home(&world->pairs.grid, x, home);
+}
+
+static bool cell_listed(const struct gb_world *world, int64_t i, const int home[3])
+{
+    const struct gb_pairs *pairs = &world->pairs;
+    const int cell = gb_pairs_grid_index(&pairs->grid, home);
+    for (int32_t k = pairs->head[cell]; k < pairs->head[cell + 1]; k++) {
+        const int64_t j = pairs->next[k];
+        if (j != i && !pair_listed(world, i, j)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool stray_listed(const struct gb_world *world, int64_t i)
+{
+    const struct gb_pairs_grid *grid = &world->pairs.grid;
+    int home[3], at[3], step[3];
+    home_at_build(world, i, home);
+    for (step[2] = grid->span_low[2]; step[2] <= grid->span_high[2]; step[2]++) {
+        for (step[1] = grid->span_low[1]; step[1] <= grid->span_high[1]; step[1]++) {
+            for (step[0] = grid->span_low[0]; step[0] <= grid->span_high[0]; step[0]++) {
+                for (int k = 0; k < 3; k++) {
+                    at[k] = (home[k] + step[k] + grid->n[k]) % grid->n[k];
+                }
+                if (!cell_listed(world, i, at)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+bool gb_strays_listed(const struct gb_world *world, int64_t begin, int64_t end)
+{
+    int64_t strays = 0;
+    for (int64_t i = begin; i < end; i++) {
+        const double travel = gb_pairs_travel(&world->pairs, world->position, i, i + 1);
+        if (gb_strays_judge(world, travel) != GB_STRAYS_FRESH) {
+            strays++;
+            if (STRAYS_SHARE * strays > end - begin + STRAYS_SHARE ||
+                !stray_listed(world, i)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
