@@ -21,17 +21,34 @@ static double margin_of(const struct gb_world *world, double *reach)
 }
 
 /* Two at the reach now were at most reach (1 + strain) + both ways apart; nearer than
- * reach + skin they are in a list.  Up to `whole` for one alone, places of the build at
- * most that far from the present place of a stray hold everybody it can meet. */
-enum gb_strays_list gb_strays_judge(const struct gb_world *world, double travel)
+ * reach + skin they are in a list. */
+static double half_margin(const struct gb_world *world)
 {
     double reach;
-    const double margin = margin_of(world, &reach);
-    const double whole = margin / (1.0 + world->pairs.strain);
-    if (2.0 * travel < margin) {
+    return 0.5 * margin_of(world, &reach);
+}
+
+/* Whoever has not come further than this is found, by a stray that looks for him, in the
+ * grid cells beside the one that it would have been in itself at the build; up to `far`,
+ * in the next ones but one. */
+struct sight {
+    double near, far;
+};
+
+static struct sight sight_of(const struct gb_world *world)
+{
+    double reach;
+    const double margin = margin_of(world, &reach), strain = 1.0 + world->pairs.strain;
+    const double wide = reach + world->model->numerics.skin;
+    return (struct sight){margin / strain, (margin + wide) / strain};
+}
+
+enum gb_strays_list gb_strays_judge(const struct gb_world *world, double travel)
+{
+    if (travel < half_margin(world)) {
         return GB_STRAYS_FRESH;
     }
-    return travel < whole ? GB_STRAYS_DOUBTED : GB_STRAYS_STALE;
+    return travel < sight_of(world).far ? GB_STRAYS_DOUBTED : GB_STRAYS_STALE;
 }
 
 static bool holds(const struct gb_pair_list *list, int64_t i, int64_t j)
@@ -87,21 +104,24 @@ static bool cell_listed(const struct gb_world *world, int64_t i, const int home[
     return true;
 }
 
-static bool stray_listed(const struct gb_world *world, int64_t i)
+/* Those in `span` grid cells each way. */
+static bool stray_listed(const struct gb_world *world, int64_t i, int span)
 {
     const struct gb_pairs_grid *grid = &world->pairs.grid;
-    int home[3], at[3], step[3];
+    int home[3], at[3], low[3], high[3];
     home_at_build(world, i, home);
-    for (step[2] = grid->span_low[2]; step[2] <= grid->span_high[2]; step[2]++) {
-        for (step[1] = grid->span_low[1]; step[1] <= grid->span_high[1]; step[1]++) {
-            for (step[0] = grid->span_low[0]; step[0] <= grid->span_high[0]; step[0]++) {
-                for (int k = 0; k < 3; k++) {
-                    at[k] = (home[k] + step[k] + grid->n[k]) % grid->n[k];
-                }
-                if (!cell_listed(world, i, at)) {
-                    return false;
-                }
-            }
+    for (int k = 0; k < 3; k++) { /* all of them once, where there are few */
+        low[k] = grid->n[k] > 2 * span ? -span : 0;
+        high[k] = grid->n[k] > 2 * span ? span : grid->n[k] - 1;
+    }
+    const int row = high[0] - low[0] + 1, plane = row * (high[1] - low[1] + 1);
+    for (int c = 0; c < plane * (high[2] - low[2] + 1); c++) {
+        const int step[3] = {c % row, c % plane / row, c / plane};
+        for (int k = 0; k < 3; k++) {
+            at[k] = (home[k] + low[k] + step[k] + grid->n[k]) % grid->n[k];
+        }
+        if (!cell_listed(world, i, at)) {
+            return false;
         }
     }
     return true;
@@ -109,15 +129,18 @@ static bool stray_listed(const struct gb_world *world, int64_t i)
 
 bool gb_strays_listed(const struct gb_world *world, int64_t begin, int64_t end)
 {
+    const double fresh = half_margin(world), near = sight_of(world).near;
     int64_t strays = 0;
     for (int64_t i = begin; i < end; i++) {
         const double travel = gb_pairs_travel(&world->pairs, world->position, i, i + 1);
-        if (gb_strays_judge(world, travel) != GB_STRAYS_FRESH) {
-            strays++;
-            if (STRAYS_SHARE * strays > end - begin + STRAYS_SHARE ||
-                !stray_listed(world, i)) {
-                return false;
-            }
+        if (travel < fresh) {
+            continue;
+        }
+        strays++;
+        /* two that went far are found by each other, others by the one that did */
+        if (STRAYS_SHARE * strays > end - begin + STRAYS_SHARE ||
+            !stray_listed(world, i, travel < near ? 1 : 2)) {
+            return false;
         }
     }
     return true;
