@@ -13,7 +13,7 @@ struct gb_world;
 
 /* After so long a way at most, what is the list of a world? */
 enum gb_strays_list {
-    GB_STRAYS_FRESH,  /* good: nobody strayed */
+    GB_STRAYS_FRESH,   /* good: nobody strayed */
     GB_STRAYS_DOUBTED, /* good if gb_strays_listed says so of all particles */
     GB_STRAYS_STALE,
 };

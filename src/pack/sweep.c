@@ -235,26 +235,49 @@ static void collect_far(const struct gb_world *world, int64_t j, double *restric
     }
 }
 
-/* Sum of n squares, lane by lane: the same bits from every vector width. */
-GB_SIMD_LOOP void square_sum_loop(const double *restrict x, int64_t n,
-                                  double *restrict total)
+/* Sum of n products, lane by lane: the same bits from every vector width. */
+GB_SIMD_LOOP void product_sum_loop(const double *restrict a, const double *restrict b,
+                                   int64_t n, double *restrict total)
 {
     double lane[GB_LANES] = {0}, sum = 0.0;
     int64_t k = 0;
     for (; k + GB_LANES <= n; k += GB_LANES) {
         for (int l = 0; l < GB_LANES; l++) {
-            lane[l] += x[k + l] * x[k + l];
+            lane[l] += a[k + l] * b[k + l];
         }
     }
     for (; k < n; k++) {
-        sum += x[k] * x[k];
+        sum += a[k] * b[k];
     }
     for (int l = 0; l < GB_LANES; l++) {
         sum += lane[l];
     }
     *total = sum;
 }
-GB_SIMD_WIDTHS(square_sum, (const double *x, int64_t n, double *total), (x, n, total))
+GB_SIMD_WIDTHS(product_sum, (const double *a, const double *b, int64_t n, double *total),
+               (a, b, n, total))
+
+void gb_sweep_sum(const struct gb_world *world, int64_t begin, int64_t end,
+                  struct gb_world_sums *sums)
+{
+    const double *force = world->force + 3 * begin, *torque = world->torque + 3 * begin;
+    const int64_t n = 3 * (end - begin);
+    double moving = 0.0, turning = 0.0;
+    product_sum(force, force, n, &sums->force2);
+    product_sum(torque, torque, n, &sums->torque2);
+    if (world->velocity) {
+        product_sum(force, world->velocity + 3 * begin, n, &moving);
+        product_sum(torque, world->spin + 3 * begin, n, &turning);
+    }
+    sums->power = moving + turning;
+}
+
+void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums)
+{
+    world->sums = *sums;
+    world->force_rms = sqrt(sums->force2 / (double)world->count);
+    world->torque_rms = sqrt(sums->torque2 / (double)world->count);
+}
 
 static void collect_block(struct gb_world *world, int64_t b)
 {
@@ -268,9 +291,7 @@ static void collect_block(struct gb_world *world, int64_t b)
         (planar ? collect_near_2d : collect_near)(world, j);
         collect_far(world, j, world->force + 3 * j);
     }
-    const int64_t n = 3 * (end - begin);
-    square_sum(world->force + 3 * begin, n, &world->block[b].force2);
-    square_sum(world->torque + 3 * begin, n, &world->block[b].torque2);
+    gb_sweep_sum(world, begin, end, &world->block[b].sums);
 }
 
 static void add_tally(struct gb_tally *sum, const struct gb_tally *part)
@@ -346,9 +367,8 @@ bool gb_sweep_list_holds(struct gb_world *world, double *travel)
 {
     const int64_t blocks = gb_sweep_blocks(world->count);
     for (int64_t b = 0; b < blocks; b++) {
-        world->block[b].travel =
-            gb_pairs_travel(&world->pairs, world->position, b * GB_SWEEP_BLOCK,
-                            block_end(world, b));
+        world->block[b].travel = gb_pairs_travel(&world->pairs, world->position,
+                                                 b * GB_SWEEP_BLOCK, block_end(world, b));
     }
     *travel = longest_travel(world, blocks);
     return list_holds(world, blocks);
@@ -397,12 +417,12 @@ bool gb_sweep_run(struct gb_world *world, double *travel)
     }
     struct gb_sweep_block sum = {0};
     for (int64_t b = 0; b < blocks; b++) {
-        sum.force2 += world->block[b].force2;
-        sum.torque2 += world->block[b].torque2;
+        sum.sums.force2 += world->block[b].sums.force2;
+        sum.sums.torque2 += world->block[b].sums.torque2;
+        sum.sums.power += world->block[b].sums.power;
         add_tally(&sum.tally, &world->block[b].tally);
     }
     world->tally = sum.tally;
-    world->force_rms = sqrt(sum.force2 / (double)world->count);
-    world->torque_rms = sqrt(sum.torque2 / (double)world->count);
+    gb_sweep_conclude(world, &sum.sums);
     return true;
 }

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 struct gb_world;
+struct gb_world_sums;
 
 /* Forces and torques of a world whose list still holds; histories advance, turns are used
  * up.  Where it does not, nothing is done and the answer is false.  Pairs are computed in
@@ -16,6 +17,11 @@ bool gb_sweep_run(struct gb_world *world, double *travel);
 
 /* Is every pair where it belongs in the list of the world? */
 bool gb_sweep_list_holds(struct gb_world *world, double *travel);
+
+/* Sums over particles begin .. end - 1, and those over all of them into the world. */
+void gb_sweep_sum(const struct gb_world *world, int64_t begin, int64_t end,
+                  struct gb_world_sums *sums);
+void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums);
 
 /* Blocks that count particles make. */
 int64_t gb_sweep_blocks(int64_t count);

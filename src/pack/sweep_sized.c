@@ -290,15 +290,6 @@ static void sum_up(struct gb_world *world)
     world->tally = tally;
 }
 
-static double rms(const double *vector, int64_t count)
-{
-    double sum = 0.0;
-    for (int64_t i = 0; i < 3 * count; i++) {
-        sum += vector[i] * vector[i];
-    }
-    return sqrt(sum / (double)count);
-}
-
 bool gb_sweep_sized_run(struct gb_world *world, double *travel)
 {
     if (!gb_sweep_list_holds(world, travel)) {
@@ -318,7 +309,8 @@ bool gb_sweep_sized_run(struct gb_world *world, double *travel)
         }
     }
     sum_up(world);
-    world->force_rms = rms(world->force, world->count);
-    world->torque_rms = rms(world->torque, world->count);
+    struct gb_world_sums sums;
+    gb_sweep_sum(world, 0, world->count, &sums);
+    gb_sweep_conclude(world, &sums);
     return true;
 }

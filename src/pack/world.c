@@ -234,6 +234,21 @@ bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
     return check_sweep(world, err);
 }
 
+bool gb_world_evaluate_along(struct gb_world *world, const double *velocity,
+                             const double *spin, struct gb_error *err)
+{
+    world->velocity = velocity;
+    world->spin = spin;
+    const bool done = gb_world_evaluate(world, err);
+    world->velocity = world->spin = NULL;
+    return done;
+}
+
+const struct gb_world_sums *gb_world_sums(const struct gb_world *world)
+{
+    return &world->sums;
+}
+
 void gb_world_set_step(struct gb_world *world, double time_step)
 {
     world->damp = world->model->dynamics.viscous / time_step;

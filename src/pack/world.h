@@ -38,6 +38,18 @@ void gb_world_destroy(struct gb_world *world); /* NULL is fine */
  * restore a copy. */
 bool gb_world_evaluate(struct gb_world *world, struct gb_error *err);
 
+/* The same, and the power of the forces along these velocities (count x 3 each), of the
+ * particles and of their turns. */
+bool gb_world_evaluate_along(struct gb_world *world, const double *velocity,
+                             const double *spin, struct gb_error *err);
+
+/* Sums over the particles, of the last evaluation. */
+struct gb_world_sums {
+    double force2, torque2; /* squares */
+    double power;           /* along the velocities it was given; else 0 */
+};
+const struct gb_world_sums *gb_world_sums(const struct gb_world *world);
+
 /* Dynamic scenes: the time that lies between evaluations, for the viscous forces. */
 void gb_world_set_step(struct gb_world *world, double time_step);
 

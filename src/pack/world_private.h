@@ -16,7 +16,7 @@ enum { GB_SWEEP_BLOCK = 128 };
 /* Sums over one block of particles. */
 struct gb_sweep_block {
     struct gb_tally tally;
-    double force2, torque2;
+    struct gb_world_sums sums;
     double travel; /* longest way since the list was built */
     bool unlisted; /* a pair of one that strayed is not where it belongs in the list */
 };
@@ -46,6 +46,9 @@ struct gb_world {
     int threads;
     struct gb_tally tally;
     double force_rms, torque_rms;
+    struct gb_world_sums sums;
+    /* of the evaluation under way: what its power is asked along; NULL: nothing */
+    const double *velocity, *spin;
     bool listed; /* the pair list exists */
     int64_t evaluations, rebuilds;
 };

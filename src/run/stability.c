@@ -106,31 +106,40 @@ static bool run_verlet(const struct gb_stability_scene *scene, double step,
     return done;
 }
 
-/* Any relaxer: moves and evaluations in turn, from the disturbed scene. */
+/* Moves and evaluations of a relaxer in turn, from the disturbed scene; data begins with
+ * the struct gb_relax. */
 static bool run_moves(const struct gb_stability_scene *scene,
                       void (*move)(void *data, struct gb_world *world), void *data,
                       double *growth, struct gb_error *err)
 {
+    struct gb_relax *relax = data;
     disturb(scene);
-    bool done = gb_world_evaluate(scene->world, err);
+    bool done = gb_relax_evaluate(relax, scene->world, err);
     const double first = unrest(scene);
     for (int i = 0; i < STEPS && done && *growth < grown; i++) {
         move(data, scene->world);
-        done = gb_world_evaluate(scene->world, err);
+        done = gb_relax_evaluate(relax, scene->world, err);
         *growth = fmax(*growth, unrest(scene) / first);
     }
     return done;
 }
 
+/* Steepest held at one step. */
+struct held_steepest {
+    struct gb_relax relax;
+    double step;
+};
+
 static void move_steepest(void *data, struct gb_world *world)
 {
-    gb_relax_steepest_step(world, *(double *)data);
+    gb_relax_steepest_step(world, ((struct held_steepest *)data)->step);
 }
 
 static bool run_steepest(const struct gb_stability_scene *scene, double step,
                          double *growth, struct gb_error *err)
 {
-    return run_moves(scene, move_steepest, &step, growth, err);
+    struct held_steepest steepest = {{.method = &gb_relax_steepest}, step};
+    return run_moves(scene, move_steepest, &steepest, growth, err);
 }
 
 /* FIRE held at one step. */
@@ -143,14 +152,14 @@ struct held_fire {
 static void move_fire(void *data, struct gb_world *world)
 {
     struct held_fire *fire = data;
-    gb_relax_fire_move(&fire->relax, &fire->state, &fire->tuning, world);
+    gb_relax_fire_move(&fire->relax, &fire->state, &fire->tuning, world, NULL);
 }
 
 static bool run_held(const struct gb_stability_scene *scene, double step,
                      const struct gb_relax_fire_tuning *tuning, double *growth,
                      struct gb_error *err)
 {
-    struct held_fire fire = {.tuning = *tuning};
+    struct held_fire fire = {.relax.method = &gb_relax_fire, .tuning = *tuning};
     fire.tuning.step_first = fire.tuning.step_most = step;
     fire.tuning.shrink = 1.0;
     const size_t n = 3 * (size_t)scene->model.count;

@@ -117,6 +117,14 @@ static double allowed(const struct gb_relax *relax, const struct gb_world *world
     return relax->tolerance * fmin(1.0, fmax(relax->method->light, share));
 }
 
+bool gb_relax_evaluate(struct gb_relax *relax, struct gb_world *world,
+                       struct gb_error *err)
+{
+    return relax->method->moving
+               ? gb_world_evaluate_along(world, relax->vector[0], relax->vector[1], err)
+               : gb_world_evaluate(world, err);
+}
+
 enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *world,
                                        int64_t max_evaluations, struct gb_error *err)
 {
@@ -126,7 +134,7 @@ enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *
             relax->method->move(relax, world);
             relax->iterations++;
         }
-        if (!gb_world_evaluate(world, err)) {
+        if (!gb_relax_evaluate(relax, world, err)) {
             return GB_RELAX_FAILED;
         }
         relax->evaluations++;

@@ -26,6 +26,7 @@ struct gb_relaxer {
     const char *doc;
     size_t state_size; /* bytes of its state ... */
     int vectors;       /* ... and how many arrays of count x 3 doubles it needs */
+    bool moving; /* the first two are velocities, of the particles and of their turns */
     /* Least share of the tolerance under light loads, where it falls with the mean
      * contact force over f_a(d); 1: the tolerance holds everywhere. */
     double light;
@@ -69,6 +70,11 @@ void gb_relax_destroy(struct gb_relax *relax); /* NULL is fine */
 /* Begins a relaxation, after the cell was strained: the particles are at rest, but may be
  * moved to where they are expected. */
 void gb_relax_start(struct gb_relax *relax, struct gb_world *world);
+
+/* One evaluation: gb_world_sums then tells the power along the velocities, where the
+ * method has any. */
+bool gb_relax_evaluate(struct gb_relax *relax, struct gb_world *world,
+                       struct gb_error *err);
 
 /* At most max_evaluations force evaluations of it.  It always ends right after an
  * evaluation, so forces, histories and positions belong together. */

@@ -7,7 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/vec.h"
 #include "pack/simd.h"
 #include "solve/relax_fire.h"
 
@@ -35,25 +34,23 @@ void gb_relax_fire_rest(struct gb_relax *relax, struct gb_relax_fire_state *fire
     const size_t bytes = 3 * (size_t)gb_world_model(world)->count * sizeof(double);
     memset(relax->vector[0], 0, bytes);
     memset(relax->vector[1], 0, bytes);
-    *fire = (struct gb_relax_fire_state){tuning->step_first, tuning->mixing_first, 0};
+    *fire = (struct gb_relax_fire_state){.step = tuning->step_first,
+                                         .mixing = tuning->mixing_first};
 }
 
 /* The arrays are worked through in this many spans, whatever the number of threads, and
  * summed in lanes that the compiler vectorises: the order of the sums is fixed. */
 enum { SPANS = 64, LANES = 8 };
 
-struct sums {
-    double power, speed2, force2;
-};
-
 /* One pass over all particles, span by span. */
 struct pass {
     struct gb_bodies b;
-    double *v, *w;     /* velocities */
-    double keep, kick; /* v = keep v + kick F */
-    double step;       /* x += step v */
-    double scale;      /* what is kept of a step that goes too far */
-    struct sums sums[SPANS];
+    double *v, *w;           /* velocities */
+    double *turned;          /* turns are added up here; NULL: nowhere */
+    double keep, kick, back; /* x -= back v, v = keep v + kick F ... */
+    double step;             /* ... x += step v */
+    double scale;            /* what is kept of a step that goes too far */
+    double speed2[SPANS];    /* of v and, with their inertia, of w */
     double speed2_most[SPANS];
 };
 
@@ -83,121 +80,107 @@ static void over_spans(struct pass *pass, int threads,
     }
 }
 
-static double lane_sum(const double lane[LANES])
-{
-    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
-           ((lane[4] + lane[5]) + (lane[6] + lane[7]));
-}
-
-GB_SIMD_LOOP void sum_up_loop(const double *restrict force, const double *restrict v,
-                              int64_t count, struct sums *sums)
-{
-    double power[LANES] = {0}, speed2[LANES] = {0}, force2[LANES] = {0};
-    int64_t i = 0;
-    for (; i + LANES <= count; i += LANES) {
-        for (int l = 0; l < LANES; l++) {
-            power[l] += force[i + l] * v[i + l];
-            speed2[l] += v[i + l] * v[i + l];
-            force2[l] += force[i + l] * force[i + l];
-        }
-    }
-    for (; i < count; i++) {
-        power[0] += force[i] * v[i];
-        speed2[0] += v[i] * v[i];
-        force2[0] += force[i] * force[i];
-    }
-    *sums = (struct sums){lane_sum(power), lane_sum(speed2), lane_sum(force2)};
-}
-GB_SIMD_WIDTHS(sum_up,
-               (const double *force, const double *v, int64_t count, struct sums *sums),
-               (force, v, count, sums))
-
-static void sum_span(struct pass *pass, int span)
-{
-    const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
-    struct sums t, r;
-    sum_up(pass->b.force + begin, pass->v + begin, end - begin, &t);
-    sum_up(pass->b.torque + begin, pass->w + begin, end - begin, &r);
-    pass->sums[span] = (struct sums){t.power + r.power, t.speed2 + inertia * r.speed2,
-                                     t.force2 + r.force2 / inertia};
-}
-
-/* Sums over all six motions. */
-static struct sums sum_all(struct pass *pass, int threads)
-{
-    struct sums sums = {0};
-    over_spans(pass, threads, sum_span);
-    for (int s = 0; s < SPANS; s++) {
-        sums.power += pass->sums[s].power;
-        sums.speed2 += pass->sums[s].speed2;
-        sums.force2 += pass->sums[s].force2;
-    }
-    return sums;
-}
-
-static void step_back(const struct pass *pass, double half)
-{
-    for (int64_t i = 0; i < 3 * pass->b.count; i++) {
-        pass->b.position[i] -= half * pass->v[i];
-        pass->b.turn[i] -= half * pass->w[i];
-    }
-}
-
-static void adapt(struct pass *pass, struct gb_relax_fire_state *fire,
-                  const struct gb_relax_fire_tuning *tuning, double power)
+/* Lengthens or shortens the step, as the motion goes downhill or not; returns how far, in
+ * units of the velocities, the motion has to go back.  Uphill right from a standstill the
+ * step shrinks, too: one beyond sqrt(2)/omega would otherwise stay as it is and blow the
+ * packing up. */
+static double adapt(struct gb_relax_fire_state *fire,
+                    const struct gb_relax_fire_tuning *tuning, double power)
 {
     if (power > 0.0) {
         if (++fire->downhill > tuning->delay) {
             fire->step = fmin(fire->step * grow, tuning->step_most);
             fire->mixing *= tuning->mixing_decay;
         }
-        return;
+        return 0.0;
     }
-    if (fire->downhill > 0) {
-        step_back(pass, 0.5 * fire->step);
-    }
-    /* also uphill right from a standstill: a step beyond sqrt(2)/omega would otherwise
-     * stay as it is and blow the packing up */
+    const double back = fire->downhill > 0 ? 0.5 * fire->step : 0.0;
     if (power < 0.0) {
         fire->step *= tuning->shrink;
     }
     fire->downhill = 0;
     fire->mixing = tuning->mixing_first;
-    const size_t bytes = 3 * (size_t)pass->b.count * sizeof(double);
-    memset(pass->v, 0, bytes);
-    memset(pass->w, 0, bytes);
+    return back;
 }
 
-/* v = keep v + kick F, x += step v. */
+/* The four factors of a pass. */
+struct drive {
+    double keep, kick, back, step;
+};
+
+GB_SIMD_LOOP double drive_one(double *restrict x, double *restrict v, double force,
+                              struct drive by)
+{
+    const double before = *v, speed = by.keep * before + by.kick * force;
+    *v = speed;
+    *x += by.step * speed - by.back * before;
+    return speed * speed;
+}
+
+/* Returns in speed2 the sum of the squares of v afterwards. */
 GB_SIMD_LOOP void drive_loop(double *restrict x, double *restrict v,
-                             const double *restrict force, int64_t count, double keep,
-                             double kick, double step)
+                             const double *restrict force, int64_t count, struct drive by,
+                             double *restrict speed2)
+{
+    double lane[LANES] = {0};
+    int64_t i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        for (int l = 0; l < LANES; l++) {
+            lane[l] += drive_one(x + i + l, v + i + l, force[i + l], by);
+        }
+    }
+    for (; i < count; i++) {
+        lane[0] += drive_one(x + i, v + i, force[i], by);
+    }
+    *speed2 = ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
+              ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+}
+GB_SIMD_WIDTHS(drive,
+               (double *x, double *v, const double *force, int64_t count, struct drive by,
+                double *speed2),
+               (x, v, force, count, by, speed2))
+
+/* Largest squared speed of `count` particles. */
+GB_SIMD_LOOP void fastest_loop(const double *restrict v, int64_t count,
+                               double *restrict most)
+{
+    double fastest = 0.0;
+#pragma omp simd reduction(max : fastest)
+    for (int64_t i = 0; i < count; i++) {
+        const double x = v[3 * i], y = v[3 * i + 1], z = v[3 * i + 2];
+        const double speed2 = x * x + y * y + z * z;
+        fastest = speed2 > fastest ? speed2 : fastest;
+    }
+    *most = fastest;
+}
+GB_SIMD_WIDTHS(fastest, (const double *v, int64_t count, double *most), (v, count, most))
+
+GB_SIMD_LOOP void add_up_loop(double *restrict sum, const double *restrict more,
+                              int64_t count)
 {
 #pragma omp simd
     for (int64_t i = 0; i < count; i++) {
-        const double speed = keep * v[i] + kick * force[i];
-        v[i] = speed;
-        x[i] += step * speed;
+        sum[i] += more[i];
     }
 }
-GB_SIMD_WIDTHS(drive,
-               (double *x, double *v, const double *force, int64_t count, double keep,
-                double kick, double step),
-               (x, v, force, count, keep, kick, step))
+GB_SIMD_WIDTHS(add_up, (double *sum, const double *more, int64_t count),
+               (sum, more, count))
 
 static void drive_span(struct pass *pass, int span)
 {
     const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
+    const struct drive way = {pass->keep, pass->kick, pass->back, pass->step};
+    const struct drive turn = {pass->keep, pass->kick / inertia, pass->back, pass->step};
+    double moving, turning;
     drive(pass->b.position + begin, pass->v + begin, pass->b.force + begin, end - begin,
-          pass->keep, pass->kick, pass->step);
+          way, &moving);
+    fastest(pass->v + begin, (end - begin) / 3, &pass->speed2_most[span]);
     drive(pass->b.turn + begin, pass->w + begin, pass->b.torque + begin, end - begin,
-          pass->keep, pass->kick / inertia, pass->step);
-    double most = 0.0;
-    for (int64_t i = begin; i < end; i += 3) {
-        const double speed2 = gb_vec_dot(pass->v + i, pass->v + i);
-        most = speed2 > most ? speed2 : most;
+          turn, &turning);
+    if (pass->turned) {
+        add_up(pass->turned + begin, pass->b.turn + begin, end - begin);
     }
-    pass->speed2_most[span] = most;
+    pass->speed2[span] = moving + inertia * turning;
 }
 
 /* Takes back what was too far: seldom. */
@@ -206,11 +189,16 @@ static void slow_span(struct pass *pass, int span)
     const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
     const double scale = pass->scale, back = (1.0 - scale) * pass->step;
     for (int64_t i = begin; i < end; i++) {
+        const double turn = back * pass->w[i];
         pass->b.position[i] -= back * pass->v[i];
-        pass->b.turn[i] -= back * pass->w[i];
+        pass->b.turn[i] -= turn;
         pass->v[i] *= scale;
         pass->w[i] *= scale;
+        if (pass->turned) {
+            pass->turned[i] -= turn;
+        }
     }
+    pass->speed2[span] *= scale * scale;
 }
 
 static double speed_most(const struct pass *pass)
@@ -223,20 +211,23 @@ static double speed_most(const struct pass *pass)
 }
 
 void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire,
-                        const struct gb_relax_fire_tuning *tuning, struct gb_world *world)
+                        const struct gb_relax_fire_tuning *tuning, struct gb_world *world,
+                        double *turned)
 {
     const int threads = gb_world_threads(world);
-    struct pass pass = {
-        .b = gb_world_bodies(world), .v = relax->vector[0], .w = relax->vector[1]};
-    const struct sums sums = sum_all(&pass, threads);
-    adapt(&pass, fire, tuning, sums.power);
+    const struct gb_world_sums *sums = gb_world_sums(world);
+    const double force2 = sums->force2 + sums->torque2 / inertia;
+    struct pass pass = {.b = gb_world_bodies(world),
+                        .v = relax->vector[0],
+                        .w = relax->vector[1],
+                        .turned = turned};
+    pass.back = adapt(fire, tuning, sums->power);
     /* mixing needs the speed after the kick; the speed before differs by one step only
      * and saves a pass over the arrays */
     const bool rolling = fire->downhill > 0;
-    const double steer = rolling && sums.force2 > 0.0
-                             ? fire->mixing * sqrt(sums.speed2 / sums.force2)
-                             : 0.0;
-    pass.keep = rolling ? 1.0 - fire->mixing : 1.0;
+    const double steer =
+        rolling && force2 > 0.0 ? fire->mixing * sqrt(fire->speed2 / force2) : 0.0;
+    pass.keep = rolling ? 1.0 - fire->mixing : 0.0;
     pass.step = fire->step;
     pass.kick = fire->step + steer;
     over_spans(&pass, threads, drive_span);
@@ -244,6 +235,10 @@ void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire
     if (farthest > move_most) {
         pass.scale = move_most / farthest;
         over_spans(&pass, threads, slow_span);
+    }
+    fire->speed2 = 0.0;
+    for (int s = 0; s < SPANS; s++) {
+        fire->speed2 += pass.speed2[s];
     }
 }
 
@@ -254,7 +249,7 @@ static void start(struct gb_relax *relax, struct gb_world *world)
 
 static void move(struct gb_relax *relax, struct gb_world *world)
 {
-    gb_relax_fire_move(relax, relax->state, &gb_relax_fire_plain, world);
+    gb_relax_fire_move(relax, relax->state, &gb_relax_fire_plain, world, NULL);
 }
 
 const struct gb_relaxer gb_relax_fire = {
@@ -262,6 +257,7 @@ const struct gb_relaxer gb_relax_fire = {
     .doc = "fast inertial relaxation of translations and rotations",
     .state_size = sizeof(struct gb_relax_fire_state),
     .vectors = 2,
+    .moving = true,
     .light = 1.0,
     .start = start,
     .move = move,

@@ -7,6 +7,8 @@
  * relaxation, everything else here. */
 struct gb_relax_fire_state {
     double step, mixing;
+    double
+        speed2; /* sum of squares of the velocities, those of turns with their inertia */
     int downhill;
 };
 
@@ -24,9 +26,10 @@ extern const struct gb_relax_fire_tuning gb_relax_fire_plain, gb_relax_predict_t
 void gb_relax_fire_rest(struct gb_relax *relax, struct gb_relax_fire_state *fire,
                         const struct gb_relax_fire_tuning *tuning,
                         const struct gb_world *world);
-/* One move. */
+/* One move, after gb_relax_evaluate.  turned: count x 3, to which the turns are added
+ * that the next evaluation will use up; NULL: to nothing. */
 void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire,
-                        const struct gb_relax_fire_tuning *tuning,
-                        struct gb_world *world);
+                        const struct gb_relax_fire_tuning *tuning, struct gb_world *world,
+                        double *turned);
 
 #endif

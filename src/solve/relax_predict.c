@@ -102,12 +102,8 @@ static void start(struct gb_relax *relax, struct gb_world *world)
 static void move(struct gb_relax *relax, struct gb_world *world)
 {
     struct predict *state = relax->state;
-    const struct gb_bodies b = gb_world_bodies(world);
-    double *turned = relax->vector[TURNED];
-    gb_relax_fire_move(relax, &state->fire, &gb_relax_predict_tuning, world);
-    for (int64_t i = 0; i < 3 * b.count; i++) {
-        turned[i] += b.turn[i]; /* since the evaluation, which consumed the rest */
-    }
+    gb_relax_fire_move(relax, &state->fire, &gb_relax_predict_tuning, world,
+                       relax->vector[TURNED]);
 }
 
 static bool record(struct gb_relax *relax, int64_t count, struct gb_record *record,
@@ -130,6 +126,7 @@ const struct gb_relaxer gb_relax_predict = {
     .doc = "fire from a prediction: on as in the last strain step, then relaxed",
     .state_size = sizeof(struct predict),
     .vectors = 4,
+    .moving = true,
     .light = GB_PREDICT_LIGHT,
     .start = start,
     .move = move,

@@ -69,7 +69,7 @@ static void test_runaway(void)
     struct gb_error err = {0};
     g_assert_true(gb_stability_scene_init(&scene, GB_STABILITY_LATTICE,
                                           GB_STABILITY_BRIDGE, GB_RELAX_INERTIA, &err));
-    struct gb_relax relax = {0};
+    struct gb_relax relax = {.method = &gb_relax_fire};
     struct gb_relax_fire_state state;
     struct gb_relax_fire_tuning tuning = gb_relax_predict_tuning;
     tuning.step_first = 3.0;
@@ -87,10 +87,10 @@ static void test_runaway(void)
     gb_relax_fire_rest(&relax, &state, &tuning, scene.world);
     double residual = 0.0, most = 0.0;
     for (int i = 0; i < 400; i++) {
-        g_assert_true(gb_world_evaluate(scene.world, &err));
+        g_assert_true(gb_relax_evaluate(&relax, scene.world, &err));
         residual = gb_world_residual(scene.world);
         most = fmax(most, residual);
-        gb_relax_fire_move(&relax, &state, &tuning, scene.world);
+        gb_relax_fire_move(&relax, &state, &tuning, scene.world, NULL);
     }
     g_assert_cmpfloat(residual, <, 1e-4 * most);
     gb_alloc_free(relax.vector[0]);
