@@ -152,6 +152,154 @@ static void test_gradient(const void *data)
     gb_world_destroy(world);
 }
 
+static bool listed(const struct gb_pair_list *list, int64_t i, int64_t j)
+{
+    for (int64_t k = list->start[i]; k < list->start[i + 1]; k++) {
+        if (list->other[k] == j) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Every pair within the cutoff is in a list, every one that touches in that of the near
+ * ones. */
+static void check_listed(const struct gb_world *world)
+{
+    const struct gb_pairs *pairs = gb_world_pairs(world);
+    const double *x = gb_world_position(world);
+    const double gap = gb_world_model(world)->numerics.cutoff - 1.0;
+    for (int64_t j = 0; j < pairs->count; j++) {
+        for (int64_t i = 0; i < j; i++) {
+            double r[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
+                           x[3 * i + 2] - x[3 * j + 2]};
+            gb_cell_nearest(gb_world_cell(world), r);
+            const double distance = gb_vec_length(r);
+            const double touch =
+                0.5 * (gb_world_diameter(world, i) + gb_world_diameter(world, j));
+            const bool near = listed(&pairs->near, i, j);
+            g_assert_true(near || distance >= touch);
+            g_assert_true(near || distance >= touch + gap || listed(&pairs->far, i, j));
+        }
+    }
+}
+
+/* A few run through the others, up to the whole reach of the list and beyond: no pair is
+ * missed, and yet the list outlives many that ran further than half its margin. */
+static void test_strays(void)
+{
+    const char *scene[][3] = {{"particles.count=150", "structure.seed=3", NULL},
+                              {"particles.count=600", "structure.seed=4", NULL},
+                              {"scene.dimension=2", "particles.count=300", NULL},
+                              {"particles.distribution=lognormal", "particles.sigma=0.2",
+                               "particles.count=400"}};
+    const double paces[] = {0.01, 0.06, 0.15};
+    for (int s = 0; s < 12; s++) {
+        const char *const *keys = scene[s / 3];
+        const double pace = paces[s % 3];
+        const struct gb_params params = scene_params(keys[0], keys[1], keys[2], NULL);
+        const struct gb_model model = scene_model(&params);
+        struct gb_world *world = scene_world(&model);
+        const struct gb_bodies b = gb_world_bodies(world);
+        GRand *dice = g_rand_new_with_seed((guint32)s);
+        int outlived = 0;
+        scene_evaluate(world);
+        for (int step = 0; step < 200; step++) {
+            if (step % 20 == 19) {
+                scene_squeeze(world, 0.002);
+            }
+            for (int64_t i = 0; i < b.count; i++) {
+                const double way = i % 41 == 0 ? pace : 1e-4;
+                for (int k = 0; k < 3; k++) {
+                    const bool flat = model.dimension == 2 && k == 1;
+                    b.position[3 * i + k] +=
+                        flat ? 0.0 : way * g_rand_double_range(dice, -0.5, 1.0);
+                }
+            }
+            const int64_t before = gb_world_rebuilds(world);
+            const double travel =
+                gb_pairs_travel(gb_world_pairs(world), b.position, 0, b.count);
+            struct gb_error err = {0};
+            if (!gb_world_evaluate(world, &err)) { /* ran into another: go on */
+                g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
+            }
+            outlived +=
+                gb_world_rebuilds(world) == before && 2.0 * travel >= model.numerics.skin;
+            check_listed(world);
+        }
+        g_assert_cmpint(gb_world_rebuilds(world), >, 1);
+        g_assert_cmpint(outlived, >, 0);
+        g_rand_free(dice);
+        gb_world_destroy(world);
+    }
+}
+
+/* Two alone in the void fly at each other from afar, while the cell is strained: the list
+ * they are not in lasts until they come within the cutoff. */
+static void test_meeting(void)
+{
+    const struct gb_params params = scene_params("particles.count=90", NULL);
+    struct gb_model model = scene_model(&params);
+    GRand *dice = g_rand_new_with_seed(7);
+    int outlived = 0, met = 0;
+    for (int trial = 0; trial < 400; trial++) {
+        double x[90][3], unit[3];
+        struct gb_error err = {0};
+        struct gb_world *world = NULL;
+        for (int k = 0; k < 3; k++) {
+            model.edges[k] = g_rand_double_range(dice, 6.0, 12.0);
+            /* often along an edge, where the grid cells end soonest */
+            unit[k] = pow(g_rand_double_range(dice, -1.0, 1.0), 9.0);
+            x[0][k] = g_rand_double_range(dice, 0.0, model.edges[k]);
+        }
+        const double length = gb_vec_length(unit);
+        const double far = g_rand_double_range(dice, 1.4, 3.6);
+        for (int k = 0; k < 3; k++) {
+            unit[k] /= length;
+            x[1][k] = x[0][k] + far * unit[k];
+            for (int i = 2; i < 90; i++) { /* one on another, so out of the way */
+                x[i][k] = x[0][k] + 0.5 * model.edges[k];
+            }
+        }
+        for (int i = 0; i < 90; i++) {
+            gb_cell_wrap(
+                &(struct gb_cell){{model.edges[0], model.edges[1], model.edges[2]},
+                                  {true, true, true}},
+                x[i]);
+        }
+        g_assert_true(gb_world_create(&world, &model, x[0], &err));
+        const double pace = trial % 2 ? 0.03 : g_rand_double_range(dice, 0.0, 0.06);
+        const struct gb_bodies b = gb_world_bodies(world);
+        for (int step = 0; step < 100; step++) {
+            const int64_t before = gb_world_rebuilds(world);
+            (void)gb_world_evaluate(world, &err); /* the others overlap */
+            double r[3] = {b.position[0] - b.position[3], b.position[1] - b.position[4],
+                           b.position[2] - b.position[5]};
+            gb_cell_nearest(gb_world_cell(world), r);
+            const struct gb_pairs *pairs = gb_world_pairs(world);
+            const double distance = gb_vec_length(r);
+            const bool near = listed(&pairs->near, 0, 1);
+            g_assert_true(near || distance >= 1.0);
+            g_assert_true(near || distance >= model.numerics.cutoff ||
+                          listed(&pairs->far, 0, 1));
+            if (distance < 1.0) {
+                met++;
+                break;
+            }
+            outlived += gb_world_rebuilds(world) == before && step * 0.03 > 0.1;
+            for (int k = 0; k < 3; k++) {
+                b.position[k] += pace * unit[k];
+                b.position[3 + k] -= (0.06 - pace) * unit[k];
+            }
+            scene_squeeze(world, trial % 3 == 0 ? 0.001 : trial % 3 == 1 ? -0.002 : 0.0);
+        }
+        gb_world_destroy(world);
+    }
+    g_rand_free(dice);
+    g_assert_cmpint(met, ==, 400);
+    g_assert_cmpint(outlived, >, 400);
+}
+
 /* The skin decides when lists are rebuilt, never what comes out: histories are carried
  * over. */
 static void test_skin(const void *data)
@@ -354,6 +502,8 @@ int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/world/pairs", test_pairs);
+    g_test_add_func("/world/strays", test_strays);
+    g_test_add_func("/world/meeting", test_meeting);
     g_test_add_data_func("/world/momentum", &precisions[0], test_momentum);
     g_test_add_data_func("/world/momentum-single", &precisions[1], test_momentum);
     g_test_add_data_func("/world/gradient", &precisions[0], test_gradient);
