@@ -51,12 +51,15 @@ enum gb_strays_list gb_strays_judge(const struct gb_world *world, double travel)
     return travel < sight_of(world).far ? GB_STRAYS_DOUBTED : GB_STRAYS_STALE;
 }
 
-static bool holds(const struct gb_pair_list *list, int64_t i, int64_t j)
+/* In the list, and with the image that is the nearest one now. */
+static bool holds(const struct gb_world *world, const struct gb_pair_list *list,
+                  int64_t i, int64_t j, double squared)
 {
     const int64_t low = i < j ? i : j, high = i < j ? j : i;
     for (int64_t k = list->start[low]; k < list->start[low + 1]; k++) {
+        double r[3];
         if (list->other[k] == high) {
-            return true;
+            return gb_world_arm_of(world, list, low, k, r) <= squared + hair;
         }
     }
     return false;
@@ -68,14 +71,17 @@ static bool pair_listed(const struct gb_world *world, int64_t i, int64_t j)
     const double *d = world->diameter;
     const double touch = (d ? 0.5 * (d[i] + d[j]) : 1.0) + hair;
     const double reach = touch + world->model->numerics.cutoff - 1.0;
-    double squared;
-    (void)gb_pairs_grid_image(&world->cell, world->position + 3 * i,
-                              world->position + 3 * j, &squared);
+    double r[3];
+    for (int k = 0; k < 3; k++) {
+        r[k] = world->position[3 * i + k] - world->position[3 * j + k];
+    }
+    gb_cell_nearest(&world->cell, r);
+    const double squared = gb_vec_dot(r, r);
     if (squared >= reach * reach) {
         return true;
     }
-    return holds(&world->pairs.near, i, j) ||
-           (squared >= touch * touch && holds(&world->pairs.far, i, j));
+    return holds(world, &world->pairs.near, i, j, squared) ||
+           (squared >= touch * touch && holds(world, &world->pairs.far, i, j, squared));
 }
 
 /* Where particle i would have been at the build had only the cell been strained since. */

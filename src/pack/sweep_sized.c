@@ -292,11 +292,11 @@ static void sum_up(struct gb_world *world)
 
 bool gb_sweep_sized_run(struct gb_world *world, double *travel)
 {
+    gb_pairs_shifts(&world->cell, world->shift);
     if (!gb_sweep_list_holds(world, travel)) {
         return false;
     }
     const int64_t near = world->pairs.near.pair_count, far = world->pairs.far.pair_count;
-    gb_pairs_shifts(&world->cell, world->shift);
 #pragma omp parallel num_threads(world->threads) if (world->threads > 1)
     {
 #pragma omp for schedule(static) nowait
