@@ -4,6 +4,7 @@
 /* Rows of numbers in a register, and four of them turned into columns and back: particles
  * lie in memory one by one, the laws take contacts side by side. */
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -51,9 +52,63 @@ GB_ROW_INLINE void gb_row_columns(const gb_row row[4], float *x, float *y, float
     gb_row_store(z, __builtin_shufflevector(high01, high23, 0, 1, 4, 5));
 }
 
-/* Adds row number l to a sum if l < n: without a branch, which a processor would guess
- * wrong where every particle has another number of neighbours. */
-GB_ROW_INLINE void gb_row_add_if(gb_row_pair *sum, const float *row, int l, int n)
+/* Back: rows of three columns; their fourth numbers are 0. */
+GB_ROW_INLINE void gb_row_of_columns(const float *x, const float *y, const float *z,
+                                     gb_row row[4])
+{
+    const gb_row none = {0.0F}, xs = gb_row_load(x), ys = gb_row_load(y);
+    const gb_row zs = gb_row_load(z);
+    const gb_row xy = __builtin_shufflevector(xs, ys, 0, 4, 1, 5);
+    const gb_row yx = __builtin_shufflevector(xs, ys, 2, 6, 3, 7);
+    const gb_row z0 = __builtin_shufflevector(zs, none, 0, 4, 1, 5);
+    const gb_row z1 = __builtin_shufflevector(zs, none, 2, 6, 3, 7);
+    row[0] = __builtin_shufflevector(xy, z0, 0, 1, 4, 5);
+    row[1] = __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
+    row[2] = __builtin_shufflevector(yx, z1, 0, 1, 4, 5);
+    row[3] = __builtin_shufflevector(yx, z1, 2, 3, 6, 7);
+}
+
+/* Adds a row to what is there, or, where `there` is false, puts it in its place: without
+ * a branch, which a processor would guess wrong. */
+GB_ROW_INLINE void gb_row_add(float *to, gb_row row)
+{
+    gb_row_store(to, gb_row_load(to) + row);
+}
+
+GB_ROW_INLINE void gb_row_add_if(float *to, bool there, gb_row row)
+{
+    const int32_t all = -(int32_t)there;
+    gb_row_int bits;
+    gb_row kept;
+    memcpy(&bits, to, sizeof bits);
+    bits &= (gb_row_int){all, all, all, all};
+    memcpy(&kept, &bits, sizeof kept);
+    gb_row_store(to, kept + row);
+}
+
+/* The same for rows of eight. */
+GB_ROW_INLINE void gb_row_pair_add(float *to, gb_row_pair row)
+{
+    gb_row_pair sum;
+    memcpy(&sum, to, sizeof sum);
+    sum += row;
+    memcpy(to, &sum, sizeof sum);
+}
+
+GB_ROW_INLINE void gb_row_pair_add_if(float *to, bool there, gb_row_pair row)
+{
+    const int32_t all = -(int32_t)there;
+    gb_row_int_pair bits;
+    gb_row_pair sum;
+    memcpy(&bits, to, sizeof bits);
+    bits &= (gb_row_int_pair){all, all, all, all, all, all, all, all};
+    memcpy(&sum, &bits, sizeof sum);
+    sum += row;
+    memcpy(to, &sum, sizeof sum);
+}
+
+/* Adds row number l to a sum if l < n, again without a branch. */
+GB_ROW_INLINE void gb_row_sum_if(gb_row_pair *sum, const float *row, int l, int n)
 {
     const gb_row_int_pair ns = {n, n, n, n, n, n, n, n}, ls = {l, l, l, l, l, l, l, l};
     gb_row_int_pair bits;

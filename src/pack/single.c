@@ -1,6 +1,35 @@
 #include "pack/single.h"
 
 #include "base/alloc.h"
+#include "pack/sweep.h"
+
+/* Numbers in a row of each list. */
+enum { NEAR_ROW = 8, FAR_ROW = 4 };
+
+static bool outward_init(struct gb_single_outward *out, int64_t count,
+                         struct gb_error *err)
+{
+    out->start =
+        gb_alloc_array((size_t)gb_sweep_blocks(count) + 1, sizeof *out->start, err);
+    out->in_start = gb_alloc_array((size_t)count + 1, sizeof *out->in_start, err);
+    return out->start && out->in_start;
+}
+
+static void outward_drop_rows(struct gb_single_outward *out)
+{
+    gb_alloc_free(out->in_row);
+    gb_alloc_free(out->row);
+    out->in_row = NULL;
+    out->row = NULL;
+    out->room = 0;
+}
+
+static void outward_finish(struct gb_single_outward *out)
+{
+    gb_alloc_free(out->start);
+    gb_alloc_free(out->in_start);
+    outward_drop_rows(out);
+}
 
 bool gb_single_init(struct gb_single *single, const struct gb_model *model,
                     struct gb_error *err)
@@ -9,30 +38,110 @@ bool gb_single_init(struct gb_single *single, const struct gb_model *model,
     single->kernel = gb_batch_single_pick(model, 0);
     single->spot = gb_alloc_array(n, sizeof *single->spot, err);
     single->total = gb_alloc_array(n, sizeof *single->total, err);
-    return single->spot && single->total;
+    return single->spot && single->total &&
+           outward_init(&single->near, model->count, err) &&
+           outward_init(&single->far, model->count, err);
 }
 
 void gb_single_finish(struct gb_single *single)
 {
     gb_alloc_free(single->spot);
     gb_alloc_free(single->total);
-    gb_alloc_free(single->row);
-    gb_alloc_free(single->pull);
+    gb_alloc_free(single->push[0]);
+    gb_alloc_free(single->pull[0]);
+    outward_finish(&single->near);
+    outward_finish(&single->far);
     *single = (struct gb_single){0};
 }
 
-bool gb_single_reserve_near(struct gb_single *single, int64_t room, struct gb_error *err)
+/* Counts the rows, block by block and by the particle that collects them. */
+static void count_rows(struct gb_single_outward *out, const struct gb_pair_list *list,
+                       int64_t count)
 {
-    gb_alloc_free(single->row);
-    single->row = gb_alloc_array((size_t)room, sizeof *single->row, err);
-    return single->row != NULL;
+    int64_t rows = 0;
+    memset(out->in_start, 0, ((size_t)count + 1) * sizeof *out->in_start);
+    for (int64_t b = 0; b < gb_sweep_blocks(count); b++) {
+        const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(count, b);
+        out->start[b] = rows;
+        for (int64_t k = list->start[begin]; k < list->start[end]; k++) {
+            const int32_t j = list->other[k];
+            const bool leaves = j >= end;
+            out->in_start[j + 1] += leaves;
+            rows += leaves;
+        }
+    }
+    out->start[gb_sweep_blocks(count)] = rows;
+    for (int64_t j = 0; j < count; j++) {
+        out->in_start[j + 1] += out->in_start[j];
+    }
 }
 
-bool gb_single_reserve_far(struct gb_single *single, int64_t room, struct gb_error *err)
+/* Who collects which row; leaves in_start as it was. */
+static void deal_rows(struct gb_single_outward *out, const struct gb_pair_list *list,
+                      int64_t count)
 {
-    gb_alloc_free(single->pull);
-    single->pull = gb_alloc_array((size_t)room, sizeof *single->pull, err);
-    return single->pull != NULL;
+    int32_t row = 0, *in = out->in_start;
+    for (int64_t b = 0; b < gb_sweep_blocks(count); b++) {
+        const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(count, b);
+        for (int64_t k = list->start[begin]; k < list->start[end]; k++) {
+            if (list->other[k] >= end) {
+                out->in_row[in[list->other[k]]++] = row++;
+            }
+        }
+    }
+    for (int64_t j = count; j > 0; j--) {
+        in[j] = in[j - 1];
+    }
+    in[0] = 0;
+}
+
+static bool outward_take(struct gb_single_outward *out, const struct gb_pair_list *list,
+                         int64_t count, int width, struct gb_error *err)
+{
+    count_rows(out, list, count);
+    const int64_t rows = out->start[gb_sweep_blocks(count)];
+    if (rows >= out->room) {
+        const size_t room = (size_t)(rows + rows / 16 + 64);
+        outward_drop_rows(out);
+        out->in_row = gb_alloc_array(room + GB_PAIR_LIST_SLACK, sizeof *out->in_row, err);
+        out->row = gb_alloc_array(room * (size_t)width, sizeof *out->row, err);
+        if (!out->in_row || !out->row) {
+            outward_drop_rows(out);
+            return false;
+        }
+        out->room = (int64_t)room;
+    }
+    deal_rows(out, list, count);
+    return true;
+}
+
+/* Three arrays of `room`. */
+static bool reserve_forces(float *force[3], int64_t *had, int64_t room,
+                           struct gb_error *err)
+{
+    if (room <= *had) {
+        return true;
+    }
+    const size_t stride = (size_t)(room + 15) / 16 * 16;
+    gb_alloc_free(force[0]);
+    *had = 0;
+    force[0] = gb_alloc_array(3 * stride, sizeof *force[0], err);
+    if (!force[0]) {
+        return false;
+    }
+    force[1] = force[0] + stride;
+    force[2] = force[1] + stride;
+    *had = room;
+    return true;
+}
+
+bool gb_single_take_lists(struct gb_single *single, const struct gb_pairs *pairs,
+                          struct gb_error *err)
+{
+    return reserve_forces(single->push, &single->push_room, pairs->near.capacity, err) &&
+           reserve_forces(single->pull, &single->pull_room, pairs->far.capacity, err) &&
+           outward_take(&single->near, &pairs->near, pairs->count, NEAR_ROW, err) &&
+           outward_take(&single->far, &pairs->far, pairs->count, FAR_ROW, err);
 }
 
 void gb_single_arm(const struct gb_cell *cell, const double xi[3], const double xj[3],

@@ -8,6 +8,7 @@
 #include "greenbody/status.h"
 #include "pack/batch.h"
 #include "pack/cell.h"
+#include "pack/pairs.h"
 
 /* What a sweep in single precision works on: half the memory traffic of doubles.
  *
@@ -19,22 +20,36 @@ struct gb_spot {
     float turn[4]; /* since the last evaluation */
 };
 
+/* Pairs of a list whose second particle lies in a later block than the first: they leave
+ * rows, which the block of the second one collects; all others add to their particles at
+ * once. */
+struct gb_single_outward {
+    int64_t *start;    /* blocks + 1: the rows of each block, in the order of its pairs */
+    int32_t *in_start; /* particles + 1: the rows that a particle collects ... */
+    int32_t *in_row; /* ... ascending; as many again as GB_PAIR_LIST_SLACK may be read */
+    float *row;
+    int64_t room; /* rows */
+};
+
 struct gb_single {
     struct gb_batch_single_kernel kernel;
     struct gb_spot *spot; /* one a particle */
-    float (*total)[8];    /* one a particle: force and torque from its own pairs */
-    float (*row)[8];      /* one a near pair: force and torque on j */
-    float (*pull)[4];     /* one a far pair: force on the first particle */
-    float scale[3];       /* d in a unit of place, as of the last evaluation */
+    float (*total)[8];    /* one a particle: force and torque so far */
+    struct gb_single_outward near,
+        far;                  /* rows of 8: force and torque on j; of 4: force */
+    float *push[3], *pull[3]; /* force on i of every near and of every far pair */
+    int64_t push_room, pull_room;
+    float scale[3]; /* d in a unit of place, as of the last evaluation */
 };
 
 bool gb_single_init(struct gb_single *single, const struct gb_model *model,
                     struct gb_error *err);
 void gb_single_finish(struct gb_single *single);
 
-/* Room for so many pairs; what was there is lost.  On failure there may be none. */
-bool gb_single_reserve_near(struct gb_single *single, int64_t room, struct gb_error *err);
-bool gb_single_reserve_far(struct gb_single *single, int64_t room, struct gb_error *err);
+/* Room for what the pairs of new lists leave, and which of them reach out of their block.
+ * On failure nothing may be evaluated. */
+bool gb_single_take_lists(struct gb_single *single, const struct gb_pairs *pairs,
+                          struct gb_error *err);
 
 /* Where position x (d) along an edge (d) is. */
 static inline int32_t gb_single_place(double x, double units_per_d)

@@ -8,11 +8,6 @@
 #include "pack/sweep_single.h"
 #include "pack/world_private.h"
 
-int64_t gb_sweep_blocks(int64_t count)
-{
-    return (count + GB_SWEEP_BLOCK - 1) / GB_SWEEP_BLOCK;
-}
-
 /* Loads a batch: arms and turns of pairs [slot, slot + n). */
 static void fill_batch(const struct gb_world *world, struct gb_batch *restrict batch,
                        int64_t slot)
@@ -171,20 +166,14 @@ static void sweep_far(struct gb_world *world, int64_t begin, int64_t end, double
     }
 }
 
-static int64_t block_end(const struct gb_world *world, int64_t b)
-{
-    const int64_t end = (b + 1) * GB_SWEEP_BLOCK;
-    return end < world->count ? end : world->count;
-}
-
 static void sweep_block(struct gb_world *world, int64_t b)
 {
     const double cutoff =
         world->model->terms.attraction ? world->model->numerics.cutoff : 0.0;
-    const int64_t begin = b * GB_SWEEP_BLOCK, end = block_end(world, b);
+    const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(world->count, b);
     struct gb_tally tally = {0};
     if (world->in_single) {
-        gb_sweep_single_block(world, begin, end, cutoff * cutoff, &tally);
+        gb_sweep_single_block(world, b, cutoff * cutoff, &tally);
     } else {
         const size_t bytes = 3 * (size_t)(end - begin) * sizeof(double);
         memset(world->force + 3 * begin, 0, bytes);
@@ -282,7 +271,7 @@ void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums)
 static void collect_block(struct gb_world *world, int64_t b)
 {
     const bool planar = world->model->dimension == 2;
-    const int64_t begin = b * GB_SWEEP_BLOCK, end = block_end(world, b);
+    const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(world->count, b);
     if (world->in_single) {
         gb_sweep_single_collect(world, begin, end);
     }
@@ -323,7 +312,7 @@ static double longest_travel(const struct gb_world *world, int64_t blocks)
 
 static void prepare_block(struct gb_world *world, int64_t b)
 {
-    const int64_t begin = b * GB_SWEEP_BLOCK, end = block_end(world, b);
+    const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(world->count, b);
     world->block[b].travel = gb_pairs_travel(&world->pairs, world->position, begin, end);
     if (world->in_single) {
         gb_sweep_single_prepare(world, begin, end);
@@ -334,8 +323,9 @@ static void prepare_block(struct gb_world *world, int64_t b)
 static void doubt_block(struct gb_world *world, int64_t b)
 {
     struct gb_sweep_block *block = &world->block[b];
-    block->unlisted = gb_strays_judge(world, block->travel) != GB_STRAYS_FRESH &&
-                      !gb_strays_listed(world, b * GB_SWEEP_BLOCK, block_end(world, b));
+    block->unlisted =
+        gb_strays_judge(world, block->travel) != GB_STRAYS_FRESH &&
+        !gb_strays_listed(world, b * GB_SWEEP_BLOCK, gb_sweep_block_end(world->count, b));
 }
 
 static bool any_unlisted(const struct gb_world *world, int64_t blocks)
@@ -367,8 +357,9 @@ bool gb_sweep_list_holds(struct gb_world *world, double *travel)
 {
     const int64_t blocks = gb_sweep_blocks(world->count);
     for (int64_t b = 0; b < blocks; b++) {
-        world->block[b].travel = gb_pairs_travel(&world->pairs, world->position,
-                                                 b * GB_SWEEP_BLOCK, block_end(world, b));
+        world->block[b].travel =
+            gb_pairs_travel(&world->pairs, world->position, b * GB_SWEEP_BLOCK,
+                            gb_sweep_block_end(world->count, b));
     }
     *travel = longest_travel(world, blocks);
     return list_holds(world, blocks);

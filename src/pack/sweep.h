@@ -23,7 +23,20 @@ void gb_sweep_sum(const struct gb_world *world, int64_t begin, int64_t end,
                   struct gb_world_sums *sums);
 void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums);
 
-/* Blocks that count particles make. */
-int64_t gb_sweep_blocks(int64_t count);
+/* Particles whose tallies are summed as one: a fixed block, so that the order of the
+ * sums, and with it every bit, does not depend on the number of threads. */
+enum { GB_SWEEP_BLOCK = 256 };
+
+/* Blocks that count particles make, and where block b ends. */
+static inline int64_t gb_sweep_blocks(int64_t count)
+{
+    return (count + GB_SWEEP_BLOCK - 1) / GB_SWEEP_BLOCK;
+}
+
+static inline int64_t gb_sweep_block_end(int64_t count, int64_t b)
+{
+    const int64_t end = (b + 1) * GB_SWEEP_BLOCK;
+    return end < count ? end : count;
+}
 
 #endif

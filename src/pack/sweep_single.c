@@ -8,12 +8,13 @@
 #include "pack/simd.h"
 #include "pack/world_private.h"
 
-/* Rows of eight: force and torque on a particle. */
-enum { WRENCH = 8, TORQUE = 4 };
+/* Rows of eight: force and torque on a particle; of four: a pull. */
+enum { WRENCH = 8, TORQUE = 4, PULL = 4 };
 
-/* Pairs of one particle that are looked at together: few have more, none pays much for
+/* Rows of one particle that are looked at together: few have more, none pays much for
  * those it has not. */
-enum { AT_ONCE = GB_PAIR_LIST_SLACK };
+enum { AT_ONCE = 4 };
+_Static_assert((int)AT_ONCE <= (int)GB_PAIR_LIST_SLACK, "lists are long enough");
 
 void gb_sweep_single_prepare(struct gb_world *world, int64_t begin, int64_t end)
 {
@@ -74,146 +75,180 @@ GB_ROW_INLINE void fill_batch(const struct gb_single *single,
     }
 }
 
-/* Columns of forces, times a sign, and torques as rows. */
-GB_ROW_INLINE void spill_wrench(float (*force)[GB_BATCH], float (*torque)[GB_BATCH],
-                                int n, float sign, float (*restrict to)[WRENCH])
+/* Where what acts on a particle goes: on the second one of a pair, too, while that lies
+ * before `end`, else into the next row. */
+struct way_out {
+    float (*total)[WRENCH];
+    float *row;
+    int32_t end;
+};
+
+static struct way_out way_out(const struct gb_world *world,
+                              const struct gb_single_outward *out, int width, int64_t b)
 {
-    gb_row low[3], high[3];
-    gb_row_pair row[4];
+    return (struct way_out){world->single.total, out->row + width * out->start[b],
+                            (int32_t)gb_sweep_block_end(world->count, b)};
+}
+
+/* Rows of force and torque for both particles of four pairs. */
+GB_ROW_INLINE void wrench_rows(const struct gb_batch_single *batch, int k,
+                               gb_row_pair on_first[4], gb_row_pair on_other[4])
+{
+    gb_row force[3], against[3], first[3], other[3];
+    for (int c = 0; c < 3; c++) {
+        force[c] = gb_row_load(batch->force[c] + k);
+        against[c] = -force[c];
+        first[c] = gb_row_load(batch->torque_i[c] + k);
+        other[c] = gb_row_load(batch->torque_j[c] + k);
+    }
+    gb_row_rows(force, first, on_first);
+    gb_row_rows(against, other, on_other);
+}
+
+/* Gives `count` pairs (at most four) of a list to their particles, from place k of a
+ * batch on, pair by pair: sums have the order of the list. */
+GB_ROW_INLINE struct way_out give_four(const struct gb_batch_single *batch,
+                                       const int32_t *first, const int32_t *other, int k,
+                                       int count, struct way_out out)
+{
+    gb_row_pair on_first[4], on_other[4];
+    wrench_rows(batch, k, on_first, on_other);
+    for (int l = 0; l < count; l++) {
+        const int32_t i = first[k + l], j = other[k + l];
+        const bool here = j < out.end;
+        gb_row_pair_add(out.total[i], on_first[l]);
+        gb_row_pair_add_if(here ? out.total[j] : out.row, here, on_other[l]);
+        out.row += here ? 0 : WRENCH;
+    }
+    return out;
+}
+
+/* Unloads a batch. */
+GB_ROW_INLINE struct way_out spill_batch(const struct gb_batch_single *batch,
+                                         const int32_t *first, const int32_t *other,
+                                         struct way_out out)
+{
     int k = 0;
-    for (; k + 4 <= n; k += 4) {
-        for (int c = 0; c < 3; c++) {
-            low[c] = sign * gb_row_load(force[c] + k);
-            high[c] = gb_row_load(torque[c] + k);
-        }
-        gb_row_rows(low, high, row);
-        for (int l = 0; l < 4; l++) {
-            memcpy(to[k + l], &row[l], sizeof row[l]);
-        }
+    for (; k + 4 <= batch->n; k += 4) {
+        out = give_four(batch, first, other, k, 4, out);
     }
-    for (; k < n; k++) {
-        for (int c = 0; c < 3; c++) {
-            to[k][c] = sign * force[c][k];
-            to[k][TORQUE + c] = torque[c][k];
-        }
-        to[k][3] = to[k][TORQUE + 3] = 0.0F;
-    }
+    return k < batch->n ? give_four(batch, first, other, k, batch->n - k, out) : out;
 }
 
-/* Unloads a batch: leaves rows for the second particles, adds to the first ones. */
-GB_ROW_INLINE void spill_batch(struct gb_world *world,
-                               struct gb_batch_single *restrict batch, int64_t slot,
-                               int64_t i)
+/* Forces on the first particles, for measures. */
+GB_ROW_INLINE void keep_forces(float *const to[3], const struct gb_batch_single *batch,
+                               int64_t slot)
 {
-    float own[GB_BATCH + AT_ONCE][WRENCH];
-    spill_wrench(batch->force, batch->torque_j, batch->n, -1.0F,
-                 world->single.row + slot);
-    spill_wrench(batch->force, batch->torque_i, batch->n, 1.0F, own);
-    for (int k = 0; k < batch->n; i++) {
-        const int stop = gb_world_stop(&world->pairs.near, batch->n, slot, i);
-        gb_row_pair sum, other = {0.0F};
-        memcpy(&sum, world->single.total[i], sizeof sum);
-        for (; k < stop; k += AT_ONCE) {
-            for (int l = 0; l < AT_ONCE; l += 2) { /* in two chains: adding takes time */
-                gb_row_add_if(&sum, own[k + l], l, stop - k);
-                gb_row_add_if(&other, own[k + l + 1], l + 1, stop - k);
-            }
-        }
-        k = stop;
-        sum += other;
-        memcpy(world->single.total[i], &sum, sizeof sum);
+    for (int c = 0; c < 3; c++) {
+        memcpy(to[c] + slot, batch->force[c], (size_t)batch->n * sizeof *batch->force[c]);
     }
 }
 
-GB_ROW_INLINE void sweep_near(struct gb_world *world, int64_t begin, int64_t end,
-                              float cutoff2, struct gb_tally *tally)
+GB_ROW_INLINE void sweep_near(struct gb_world *world, int64_t b, float cutoff2,
+                              struct gb_tally *tally)
 {
     const struct gb_pair_list *near = &world->pairs.near;
     const struct gb_batch_single_kernel *kernel = &world->single.kernel;
+    const int64_t stop = near->start[gb_sweep_block_end(world->count, b)];
+    struct way_out out = way_out(world, &world->single.near, WRENCH, b);
     struct gb_batch_single batch;
     batch.cutoff2 = cutoff2;
     batch.damp = 0.0F;
-    int64_t i = begin;
-    for (int64_t slot = near->start[begin]; slot < near->start[end]; slot += batch.n) {
-        const int64_t left = near->start[end] - slot;
-        batch.n = left < GB_BATCH ? (int)left : GB_BATCH;
-        while (slot >= near->start[i + 1]) {
-            i++;
-        }
+    for (int64_t slot = near->start[b * GB_SWEEP_BLOCK]; slot < stop; slot += batch.n) {
+        batch.n = stop - slot < GB_BATCH ? (int)(stop - slot) : GB_BATCH;
         fill_batch(&world->single, near, &batch, slot, true);
         kernel->advance(world->model, &batch, &world->contacts, slot);
-        spill_batch(world, &batch, slot, i);
+        out = spill_batch(&batch, near->first + slot, near->other + slot, out);
+        keep_forces(world->single.push, &batch, slot);
         kernel->tally(&batch, &world->contacts, slot, tally);
     }
 }
 
-GB_ROW_INLINE void sweep_far(struct gb_world *world, int64_t begin, int64_t end,
-                             float cutoff2)
+/* As give_four, for pulls. */
+GB_ROW_INLINE struct way_out pull_four(const struct gb_batch_single *batch,
+                                       const int32_t *first, const int32_t *other, int k,
+                                       int count, struct way_out out)
+{
+    gb_row pull[4];
+    gb_row_of_columns(batch->force[0] + k, batch->force[1] + k, batch->force[2] + k,
+                      pull);
+    for (int l = 0; l < count; l++) {
+        const int32_t i = first[k + l], j = other[k + l];
+        const bool here = j < out.end;
+        gb_row_add(out.total[i], pull[l]);
+        gb_row_add_if(here ? out.total[j] : out.row, here, -pull[l]);
+        out.row += here ? 0 : PULL;
+    }
+    return out;
+}
+
+GB_ROW_INLINE struct way_out spill_far(const struct gb_batch_single *batch,
+                                       const int32_t *first, const int32_t *other,
+                                       struct way_out out)
+{
+    int k = 0;
+    for (; k + 4 <= batch->n; k += 4) {
+        out = pull_four(batch, first, other, k, 4, out);
+    }
+    return k < batch->n ? pull_four(batch, first, other, k, batch->n - k, out) : out;
+}
+
+GB_ROW_INLINE void sweep_far(struct gb_world *world, int64_t b, float cutoff2)
 {
     const struct gb_pair_list *far = &world->pairs.far;
+    const int64_t stop = far->start[gb_sweep_block_end(world->count, b)];
+    struct way_out out = way_out(world, &world->single.far, PULL, b);
     struct gb_batch_single batch;
     batch.cutoff2 = cutoff2;
-    for (int64_t slot = far->start[begin]; slot < far->start[end]; slot += batch.n) {
-        const int64_t left = far->start[end] - slot;
-        batch.n = left < GB_BATCH ? (int)left : GB_BATCH;
+    for (int64_t slot = far->start[b * GB_SWEEP_BLOCK]; slot < stop; slot += batch.n) {
+        batch.n = stop - slot < GB_BATCH ? (int)(stop - slot) : GB_BATCH;
         fill_batch(&world->single, far, &batch, slot, false);
         world->single.kernel.attract(world->model, &batch);
-        float(*restrict pull)[4] = world->single.pull + slot;
-        for (int k = 0; k < batch.n; k++) {
-            const gb_row one = {batch.force[0][k], batch.force[1][k], batch.force[2][k],
-                                0.0F};
-            float *total = world->single.total[far->first[slot + k]];
-            gb_row_store(pull[k], one);
-            gb_row_store(total, gb_row_load(total) + one);
-        }
+        out = spill_far(&batch, far->first + slot, far->other + slot, out);
+        keep_forces(world->single.pull, &batch, slot);
     }
 }
 
-GB_SIMD_LOOP void sweep_block_loop(struct gb_world *world, int64_t begin, int64_t end,
-                                   float cutoff2, struct gb_tally *tally)
+GB_SIMD_LOOP void sweep_block_loop(struct gb_world *world, int64_t b, float cutoff2,
+                                   struct gb_tally *tally)
 {
+    const int64_t begin = b * GB_SWEEP_BLOCK;
     memset(world->single.total[begin], 0,
-           (size_t)(end - begin) * sizeof *world->single.total);
-    sweep_near(world, begin, end, cutoff2, tally);
-    sweep_far(world, begin, end, cutoff2);
+           (size_t)(gb_sweep_block_end(world->count, b) - begin) *
+               sizeof *world->single.total);
+    sweep_near(world, b, cutoff2, tally);
+    sweep_far(world, b, cutoff2);
 }
 GB_SIMD_WIDTHS(sweep_block,
-               (struct gb_world * world, int64_t begin, int64_t end, float cutoff2,
+               (struct gb_world * world, int64_t b, float cutoff2,
                 struct gb_tally *tally),
-               (world, begin, end, cutoff2, tally))
+               (world, b, cutoff2, tally))
 
-void gb_sweep_single_block(struct gb_world *world, int64_t begin, int64_t end,
-                           double cutoff2, struct gb_tally *tally)
+void gb_sweep_single_block(struct gb_world *world, int64_t b, double cutoff2,
+                           struct gb_tally *tally)
 {
-    sweep_block(world, begin, end, (float)cutoff2, tally);
+    sweep_block(world, b, (float)cutoff2, tally);
 }
 
-/* What near pairs of others do to particle j, added to sum. */
-GB_ROW_INLINE void collect_near(const struct gb_single *single,
-                                const struct gb_pair_list *near, int64_t j,
+/* What near pairs of earlier blocks do to particle j, added to sum. */
+GB_ROW_INLINE void collect_near(const struct gb_single_outward *near, int64_t j,
                                 gb_row_pair *sum)
 {
-    const int64_t stop = near->in_start[j + 1];
-    gb_row_pair other = {0.0F};
-    for (int64_t in = near->in_start[j]; in < stop; in += AT_ONCE) {
-        const int32_t *slot = near->in_slot + in;
-        const int n = (int)(stop - in);
-        for (int l = 0; l < AT_ONCE; l += 2) {
-            gb_row_add_if(sum, single->row[slot[l]], l, n);
-            gb_row_add_if(&other, single->row[slot[l + 1]], l + 1, n);
+    const int32_t stop = near->in_start[j + 1];
+    for (int32_t in = near->in_start[j]; in < stop; in += AT_ONCE) {
+        const int32_t *row = near->in_row + in;
+        for (int l = 0; l < AT_ONCE; l++) {
+            gb_row_sum_if(sum, near->row + WRENCH * (int64_t)row[l], l, stop - in);
         }
     }
-    *sum += other;
 }
 
-/* The pulls of others on it. */
-GB_ROW_INLINE gb_row collect_far(const struct gb_single *single,
-                                 const struct gb_pair_list *far, int64_t j)
+/* The pulls. */
+GB_ROW_INLINE gb_row collect_far(const struct gb_single_outward *far, int64_t j)
 {
-    const int64_t stop = far->in_start[j + 1];
     gb_row sum = {0.0F};
-    for (int64_t in = far->in_start[j]; in < stop; in++) {
-        sum += gb_row_load(single->pull[far->in_slot[in]]);
+    for (int32_t in = far->in_start[j]; in < far->in_start[j + 1]; in++) {
+        sum += gb_row_load(far->row + PULL * (int64_t)far->in_row[in]);
     }
     return sum;
 }
@@ -224,10 +259,10 @@ GB_SIMD_LOOP void collect_loop(struct gb_world *world, int64_t begin, int64_t en
     for (int64_t j = begin; j < end; j++) {
         gb_row_pair sum;
         memcpy(&sum, single->total[j], sizeof sum);
-        collect_near(single, &world->pairs.near, j, &sum);
-        const gb_row pull = collect_far(single, &world->pairs.far, j);
+        collect_near(&single->near, j, &sum);
+        const gb_row pull = collect_far(&single->far, j);
         for (int c = 0; c < 3; c++) {
-            world->force[3 * j + c] = (double)(sum[c] - pull[c]);
+            world->force[3 * j + c] = (double)(sum[c] + pull[c]);
             world->torque[3 * j + c] = (double)sum[TORQUE + c];
         }
     }

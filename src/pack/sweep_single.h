@@ -6,12 +6,12 @@
 struct gb_tally;
 struct gb_world;
 
-/* The parts of gb_sweep_run in single precision, for particles [begin, end) of one block:
- * where they are, the forces of their own pairs, and what the pairs of others add.  All
- * blocks are through with a part before any begins the next. */
+/* The parts of gb_sweep_run in single precision, for particles [begin, end), or block b:
+ * where they are, the forces of their own pairs, and what the pairs of earlier blocks
+ * add. All blocks are through with a part before any begins the next. */
 void gb_sweep_single_prepare(struct gb_world *world, int64_t begin, int64_t end);
-void gb_sweep_single_block(struct gb_world *world, int64_t begin, int64_t end,
-                           double cutoff2, struct gb_tally *tally);
+void gb_sweep_single_block(struct gb_world *world, int64_t b, double cutoff2,
+                           struct gb_tally *tally);
 void gb_sweep_single_collect(struct gb_world *world, int64_t begin, int64_t end);
 
 #endif

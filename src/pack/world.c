@@ -101,7 +101,7 @@ void gb_world_destroy(struct gb_world *world)
 static bool reserve_wrench(struct gb_world *world, int64_t room, struct gb_error *err)
 {
     if (world->in_single) {
-        return gb_single_reserve_near(&world->single, room, err);
+        return true;
     }
     gb_alloc_free(world->wrench);
     world->wrench =
@@ -112,7 +112,7 @@ static bool reserve_wrench(struct gb_world *world, int64_t room, struct gb_error
 static bool reserve_pull(struct gb_world *world, int64_t room, struct gb_error *err)
 {
     if (world->in_single) {
-        return gb_single_reserve_far(&world->single, room, err);
+        return true;
     }
     gb_alloc_free(world->pull);
     world->pull = gb_alloc_array(3 * (size_t)room, sizeof *world->pull, err);
@@ -148,7 +148,7 @@ bool gb_world_reserve(struct gb_world *world, struct gb_error *err)
         }
         world->far_room = far;
     }
-    return true;
+    return !world->in_single || gb_single_take_lists(&world->single, &world->pairs, err);
 }
 
 static bool rebuild(struct gb_world *world, const struct gb_ledger *ledger,

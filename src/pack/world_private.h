@@ -4,14 +4,11 @@
 #include "base/vec.h"
 #include "pack/ledger.h"
 #include "pack/single.h"
+#include "pack/sweep.h"
 #include "pack/world.h"
 
 /* The inside of gb_world, for the files that work on it: world.c (owner), ledger.c
  * (histories across rebuilds), sweep.c (forces), world_record.c (checkpoints). */
-
-/* Particles whose tallies are summed as one: a fixed block, so that the order of the
- * sums, and with it every bit, does not depend on the number of threads. */
-enum { GB_SWEEP_BLOCK = 128 };
 
 /* Sums over one block of particles. */
 struct gb_sweep_block {
@@ -94,9 +91,9 @@ static inline double gb_world_arm_of(const struct gb_world *world,
 static inline void gb_world_force_of(const struct gb_world *world, int64_t k,
                                      double force[3])
 {
-    if (world->in_single) { /* kept for the second one */
+    if (world->in_single) {
         for (int c = 0; c < 3; c++) {
-            force[c] = -(double)world->single.row[k][c];
+            force[c] = (double)world->single.push[c][k];
         }
         return;
     }
@@ -111,7 +108,7 @@ static inline void gb_world_pull_of(const struct gb_world *world, int64_t k,
 {
     for (int c = 0; c < 3; c++) {
         force[c] =
-            world->in_single ? (double)world->single.pull[k][c] : world->pull[3 * k + c];
+            world->in_single ? (double)world->single.pull[c][k] : world->pull[3 * k + c];
     }
 }
 
