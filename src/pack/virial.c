@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "pack/share.h"
+#include "pack/simd.h"
 #include "pack/world_private.h"
 
 /* Sums of so many parts of the particles, added in their order: the same bits for any
@@ -16,22 +17,72 @@ static void add(double sum[3][3], const double force[3], const double r[3])
     }
 }
 
+/* Near pairs [begin, end) in single precision: forces and arms as the sweep left them,
+ * lane by lane. */
+GB_SIMD_LOOP void sum_single_loop(const struct gb_world *world, int64_t begin,
+                                  int64_t end, double sum[3][3])
+{
+    const struct gb_contacts *contacts = &world->contacts;
+    for (int a = 0; a < 3; a++) {
+        const float *restrict force = world->single.push[a];
+        for (int b = 0; b < 3; b++) {
+            const float *restrict arm = contacts->plane[contacts->arm[b]];
+            double lane[GB_LANES] = {0}, all = 0.0;
+            int64_t k = begin;
+            for (; k + GB_LANES <= end; k += GB_LANES) {
+                for (int l = 0; l < GB_LANES; l++) {
+                    lane[l] += (double)force[k + l] * (double)arm[k + l];
+                }
+            }
+            for (; k < end; k++) {
+                all += (double)force[k] * (double)arm[k];
+            }
+            for (int l = 0; l < GB_LANES; l++) {
+                all += lane[l];
+            }
+            sum[a][b] += all;
+        }
+    }
+}
+GB_SIMD_WIDTHS(sum_single,
+               (const struct gb_world *world, int64_t begin, int64_t end,
+                double sum[3][3]),
+               (world, begin, end, sum))
+
+static void sum_near(const struct gb_world *world, int64_t i, double sum[3][3])
+{
+    const struct gb_pair_list *near = &world->pairs.near;
+    double force[3], r[3];
+    for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
+        gb_world_arm_of(world, near, i, k, r);
+        gb_world_force_of(world, k, force);
+        add(sum, force, r);
+    }
+}
+
+static void sum_far(const struct gb_world *world, int64_t i, double sum[3][3])
+{
+    const struct gb_pair_list *far = &world->pairs.far;
+    double force[3], r[3];
+    for (int64_t k = far->start[i]; k < far->start[i + 1]; k++) {
+        gb_world_arm_of(world, far, i, k, r);
+        gb_world_pull_of(world, k, force);
+        add(sum, force, r);
+    }
+}
+
 static void sum_part(const struct gb_world *world, int64_t begin, int64_t end,
                      double sum[3][3])
 {
-    const struct gb_pair_list *near = &world->pairs.near, *far = &world->pairs.far;
-    double force[3], r[3];
+    const int64_t *start = world->pairs.near.start;
+    if (world->in_single) {
+        sum_single(world, start[begin], start[end], sum);
+    }
     for (int64_t i = begin; i < end; i++) {
-        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            gb_world_arm_of(world, near, i, k, r);
-            gb_world_force_of(world, k, force);
-            add(sum, force, r);
+        if (!world->in_single) {
+            sum_near(world, i, sum);
         }
-        for (int64_t k = far->start[i]; k < far->start[i + 1]; k++) {
-            gb_world_arm_of(world, far, i, k, r);
-            gb_world_pull_of(world, k, force);
-            add(sum, force, r);
-        }
+        sum_far(world, i, sum);
     }
 }
 
