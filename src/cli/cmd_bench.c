@@ -91,17 +91,77 @@ static bool report_terms(const struct gb_params *params, double coordination,
     return true;
 }
 
+enum { SIZES_MOST = 16 };
+
+/* "1000, 8000": 2 to 16 numbers of particles. */
+static bool read_sizes(const char *text, int64_t *count, size_t *sizes,
+                       struct gb_error *err)
+{
+    char **parts = g_strsplit(text, ",", SIZES_MOST + 1);
+    bool good = g_strv_length(parts) >= 2 && g_strv_length(parts) <= SIZES_MOST;
+    *sizes = 0;
+    for (char **part = parts; *part && good; part++) {
+        good = g_ascii_string_to_signed(g_strstrip(*part), 10, 10, 10000000,
+                                        &count[*sizes], NULL) &&
+               (*sizes == 0 || count[*sizes] > count[*sizes - 1]);
+        ++*sizes;
+    }
+    g_strfreev(parts);
+    return good || gb_error_set(err, GB_ERR_INPUT,
+                                "--sizes %s: accepted 2 to %d growing numbers of "
+                                "particles from 10 to 10000000, with commas between",
+                                text, SIZES_MOST);
+}
+
+/* How the cost of an evaluation grows with the size of the cell. */
+static bool report_sizes(const struct gb_params *params, const char *text,
+                         double coordination, gboolean csv, struct gb_error *err)
+{
+    int64_t count[SIZES_MOST];
+    double particles[SIZES_MOST], one[SIZES_MOST], all[SIZES_MOST];
+    size_t sizes = 0;
+    if (!read_sizes(text, count, &sizes, err)) {
+        return false;
+    }
+    puts(csv ? "particles,coordination,one_core_us,all_cores_us,bytes"
+             : " particles   coordination   one core   all cores, us   bytes a particle");
+    for (size_t i = 0; i < sizes; i++) {
+        struct gb_params sized = *params;
+        struct gb_bench_size size;
+        sized.count = count[i];
+        if (!gb_bench_size_run(&size, &sized, coordination, err)) {
+            return false;
+        }
+        particles[i] = (double)count[i];
+        one[i] = size.evaluation_s;
+        all[i] = size.evaluation_all_s;
+        const double micro = 1e6 / particles[i];
+        printf(csv ? "%.0f,%.4g,%.5g,%.5g,%.5g\n"
+                   : "%10.0f   %12.4g   %8.4g   %13.4g   %16.4g\n",
+               particles[i], size.coordination, micro * one[i], micro * all[i],
+               size.bytes_per_particle);
+        fflush(stdout);
+    }
+    printf(csv ? "exponent,,%.4f,%.4f,\n"
+               : "cost grows with the power   %11.3f   %13.3f\n",
+           gb_bench_exponent(particles, one, sizes),
+           gb_bench_exponent(particles, all, sizes));
+    return true;
+}
+
 int gb_cmd_bench(int argc, char **argv)
 {
     gboolean csv = FALSE, terms = FALSE;
     double coordination = 6.0;
-    char **sets = NULL, **words = NULL;
+    char **sets = NULL, **words = NULL, *sizes = NULL;
     const GOptionEntry entries[] = {
         {"csv", 0, 0, G_OPTION_ARG_NONE, &csv, "print CSV", NULL},
         {"coordination", 0, 0, G_OPTION_ARG_DOUBLE, &coordination,
          "press until this coordination number", "6"},
         {"terms", 0, 0, G_OPTION_ARG_NONE, &terms,
          "what each term of the contact laws costs instead", NULL},
+        {"sizes", 0, 0, G_OPTION_ARG_STRING, &sizes,
+         "cells of so many particles instead, and how the cost grows", "1000,8000,64000"},
         GB_OPTIONS_SET(&sets),
         {0},
     };
@@ -128,6 +188,8 @@ int gb_cmd_bench(int argc, char **argv)
         double planar = 0.0;
         if (terms) {
             done = report_terms(params, coordination, csv, &err);
+        } else if (sizes) {
+            done = report_sizes(params, sizes, coordination, csv, &err);
         } else if ((done = gb_bench_run(&bench, params, coordination, &err) &&
                            gb_bench_planar(&planar, &err) &&
                            gb_bench_die_run(&die, &err))) {
@@ -137,5 +199,6 @@ int gb_cmd_bench(int argc, char **argv)
     gb_preset_destroy(preset);
     g_strfreev(words);
     g_strfreev(sets);
+    g_free(sizes);
     return done ? 0 : gb_options_fail(&err);
 }

@@ -121,48 +121,105 @@ static bool time_on(const struct gb_model *model, int threads,
     return done;
 }
 
-static bool measure(struct gb_bench *bench, const struct gb_params *params,
-                    struct gb_world *world, struct gb_relax *relax, double coordination,
-                    struct gb_error *err)
+/* A packing that was pressed, and what it is timed with. */
+struct pressed {
+    struct gb_model model;
+    struct gb_world *world;
+    struct gb_world_copy *copy;
+    double grow_s, coordination;
+    size_t bytes; /* held by world and relaxer */
+};
+
+static bool make_pressed(struct pressed *pressed, const struct gb_params *params,
+                         double coordination, struct gb_error *err)
 {
-    const struct gb_model *model = gb_world_model(world);
-    struct gb_world_copy *copy = NULL;
+    struct gb_relax *relax = NULL;
     struct gb_contact_counts counts;
-    uint64_t one = 0, all = 0;
-    bool done =
-        press(world, relax, coordination, err) && gb_world_save(world, &copy, err);
+    const size_t before = gb_alloc_bytes();
+    *pressed = (struct pressed){0};
+    const bool done = gb_die_scene_absent(params, "the benchmark of one preset", err) &&
+                      gb_model_init(&pressed->model, params, err) &&
+                      grow(&pressed->world, &pressed->model, &pressed->grow_s, err) &&
+                      gb_relax_create(&relax, &pressed->model, err) &&
+                      (gb_relax_start(relax, pressed->world), true) &&
+                      press(pressed->world, relax, coordination, err) &&
+                      gb_world_save(pressed->world, &pressed->copy, err);
     if (done) {
-        gb_observe_contacts(world, &counts, NULL, 0, NULL);
-        bench->coordination = counts.coordination;
-        bench->density = gb_observe_density(world);
-        bench->bytes_per_particle = (double)gb_alloc_bytes() / (double)model->count;
-        bench->cores = (int)g_get_num_processors();
-        done = time_on(model, 1, copy, gb_world_position(world), &bench->evaluation_s,
-                       &one, err) &&
-               time_on(model, bench->cores, copy, gb_world_position(world),
-                       &bench->evaluation_all_s, &all, err) &&
-               gb_bench_state_run(&bench->state, params, copy, err);
-        bench->same_bits = one == all;
+        gb_observe_contacts(pressed->world, &counts, NULL, 0, NULL);
+        pressed->coordination = counts.coordination;
+        pressed->bytes = gb_alloc_bytes() - before;
     }
-    gb_world_copy_destroy(copy);
+    gb_relax_destroy(relax);
+    return done;
+}
+
+static void finish_pressed(struct pressed *pressed)
+{
+    gb_world_copy_destroy(pressed->copy);
+    gb_world_destroy(pressed->world);
+}
+
+/* On one core and on all of them; did both come to the same bits? */
+static bool time_cores(const struct pressed *pressed, double *one, double *all,
+                       bool *same_bits, struct gb_error *err)
+{
+    const double *position = gb_world_position(pressed->world);
+    uint64_t hash_one = 0, hash_all = 0;
+    const bool done =
+        time_on(&pressed->model, 1, pressed->copy, position, one, &hash_one, err) &&
+        time_on(&pressed->model, (int)g_get_num_processors(), pressed->copy, position,
+                all, &hash_all, err);
+    *same_bits = hash_one == hash_all;
     return done;
 }
 
 bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
                   double coordination, struct gb_error *err)
 {
-    struct gb_model model;
-    struct gb_world *world = NULL;
-    struct gb_relax *relax = NULL;
-    *bench = (struct gb_bench){0};
-    const bool done =
-        gb_die_scene_absent(params, "the benchmark of one preset", err) &&
-        gb_model_init(&model, params, err) && grow(&world, &model, &bench->grow_s, err) &&
-        gb_relax_create(&relax, &model, err) && (gb_relax_start(relax, world), true) &&
-        measure(bench, params, world, relax, coordination, err);
-    gb_relax_destroy(relax);
-    gb_world_destroy(world);
+    struct pressed pressed;
+    *bench = (struct gb_bench){.cores = (int)g_get_num_processors()};
+    const bool done = make_pressed(&pressed, params, coordination, err) &&
+                      time_cores(&pressed, &bench->evaluation_s, &bench->evaluation_all_s,
+                                 &bench->same_bits, err) &&
+                      gb_bench_state_run(&bench->state, params, pressed.copy, err);
+    if (done) {
+        bench->grow_s = pressed.grow_s;
+        bench->coordination = pressed.coordination;
+        bench->density = gb_observe_density(pressed.world);
+        bench->bytes_per_particle = (double)pressed.bytes / (double)params->count;
+    }
+    finish_pressed(&pressed);
     return done;
+}
+
+bool gb_bench_size_run(struct gb_bench_size *size, const struct gb_params *params,
+                       double coordination, struct gb_error *err)
+{
+    struct pressed pressed;
+    bool same_bits = false;
+    const bool done = make_pressed(&pressed, params, coordination, err) &&
+                      time_cores(&pressed, &size->evaluation_s, &size->evaluation_all_s,
+                                 &same_bits, err);
+    size->coordination = pressed.coordination;
+    size->bytes_per_particle = (double)pressed.bytes / (double)params->count;
+    finish_pressed(&pressed);
+    return done && (same_bits || gb_error_set(err, GB_ERR_GUARD,
+                                              "other bits on one core than on all"));
+}
+
+double gb_bench_exponent(const double *count, const double *cost, size_t n)
+{
+    double along = 0.0, square = 0.0, mean_x = 0.0, mean_y = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        mean_x += log(count[i]) / (double)n;
+        mean_y += log(cost[i]) / (double)n;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const double x = log(count[i]) - mean_x;
+        along += x * (log(cost[i]) - mean_y);
+        square += x * x;
+    }
+    return along / square;
 }
 
 /* What a packing is timed without; a friction law without friction has no bridges. */
@@ -223,21 +280,14 @@ bool gb_bench_terms(struct gb_bench_term term[GB_BENCH_TERMS],
                     const struct gb_params *params, double coordination,
                     struct gb_error *err)
 {
-    struct gb_model model;
-    struct gb_world *world = NULL;
-    struct gb_relax *relax = NULL;
-    double grown = 0.0;
-    bool done = gb_die_scene_absent(params, "the benchmark of one preset", err) &&
-                gb_model_init(&model, params, err) && grow(&world, &model, &grown, err) &&
-                gb_relax_create(&relax, &model, err) &&
-                (gb_relax_start(relax, world), true) &&
-                press(world, relax, coordination, err);
+    struct pressed pressed;
+    bool done = make_pressed(&pressed, params, coordination, err);
     for (int i = 0; i < GB_BENCH_TERMS && done; i++) {
         term[i].name = variants[i].name;
-        done = time_variant(world, params, &variants[i], &term[i].evaluation_s, err);
+        done =
+            time_variant(pressed.world, params, &variants[i], &term[i].evaluation_s, err);
     }
-    gb_relax_destroy(relax);
-    gb_world_destroy(world);
+    finish_pressed(&pressed);
     return done;
 }
 

@@ -28,6 +28,19 @@ struct gb_bench {
 bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
                   double coordination, struct gb_error *err);
 
+/* How the cost grows with the size of the cell: the packing of params, of its own count,
+ * timed as by gb_bench_run. */
+struct gb_bench_size {
+    double coordination;
+    double evaluation_s, evaluation_all_s; /* as above */
+    double bytes_per_particle;
+};
+bool gb_bench_size_run(struct gb_bench_size *size, const struct gb_params *params,
+                       double coordination, struct gb_error *err);
+
+/* b of cost ~ count^b, by least squares of the logarithms over n sizes (2 or more). */
+double gb_bench_exponent(const double *count, const double *cost, size_t n);
+
 /* What each term of the sweep costs: the same pressed packing timed with fewer of them.
  */
 enum { GB_BENCH_TERMS = 5 };

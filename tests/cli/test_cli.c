@@ -387,6 +387,34 @@ static void test_bench_terms(void)
     }
 }
 
+/* A row for every size, and the power between them. */
+static void test_bench_sizes(void)
+{
+    struct result result = call("bench --sizes=150,300,600 --csv --coordination 4.2");
+    g_assert_cmpint(result.status, ==, 0);
+    char **lines = g_strsplit(g_strchomp(result.out), "\n", -1);
+    g_assert_cmpuint(g_strv_length(lines), ==, 5);
+    g_assert_true(g_str_has_prefix(lines[1], "150,"));
+    g_assert_true(g_str_has_prefix(lines[3], "600,"));
+    g_assert_true(g_str_has_prefix(lines[4], "exponent,,"));
+    const double power = g_ascii_strtod(lines[4] + strlen("exponent,,"), NULL);
+    g_assert_cmpfloat(power, >, 0.3);
+    g_assert_cmpfloat(power, <, 2.0);
+    g_strfreev(lines);
+    program_finish(&result);
+    const char *const wrong[] = {"1000",      "1000,x", "1000,1000",
+                                 "2000,1000", "5,1000", ","};
+    for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
+        char *words = g_strconcat("bench --sizes=", wrong[i], NULL);
+        result = call(words);
+        g_assert_cmpint(result.status, ==, 2);
+        g_assert_cmpstr(result.out, ==, "");
+        g_assert_nonnull(strstr(result.err, "growing numbers of particles"));
+        program_finish(&result);
+        g_free(words);
+    }
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -398,6 +426,7 @@ int main(int argc, char **argv)
     g_test_add_func("/cli/refused", test_refused);
     g_test_add_func("/cli/fine", test_fine);
     g_test_add_func("/cli/bench-terms", test_bench_terms);
+    g_test_add_func("/cli/bench-sizes", test_bench_sizes);
     g_test_add_func("/cli/values", test_values);
     g_test_add_func("/cli/path", test_path);
     g_test_add_func("/cli/plastic-path", test_plastic_path);
