@@ -15,7 +15,7 @@ void gb_cell_nearest(const struct gb_cell *cell, double r[3])
 {
     for (int k = 0; k < 3; k++) {
         if (cell->periodic[k]) {
-            r[k] -= cell->edge[k] * rint(r[k] / cell->edge[k]);
+            r[k] -= cell->edge[k] * gb_cell_whole(r[k] / cell->edge[k]);
         }
     }
 }

@@ -10,6 +10,14 @@ struct gb_cell {
     bool periodic[3];
 };
 
+/* The whole number nearest to x, |x| < 2^51, the even one of two.  The sum has no digits
+ * left behind the point; the C library's functions would be called number by number. */
+static inline double gb_cell_whole(double x)
+{
+    const double large = 0x1.8p52;
+    return (x + large) - large;
+}
+
 void gb_cell_init(struct gb_cell *cell, int dimension, const double edge[3]);
 /* Nearest image of the difference r (in place). */
 void gb_cell_nearest(const struct gb_cell *cell, double r[3]);

@@ -16,7 +16,7 @@ struct gb_departure gb_departure_since(const struct gb_world *world,
             /* shares of the edges are free of the affine motion */
             const double share = world->position[3 * i + k] / edge -
                                  copy->position[3 * i + k] / copy->cell.edge[k];
-            const double way = edge * (share - round(share));
+            const double way = edge * (share - gb_cell_whole(share));
             square += way * way;
         }
         if (square > most) {

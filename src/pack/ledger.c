@@ -1,5 +1,7 @@
 #include "pack/ledger.h"
 
+#include <string.h>
+
 #include "base/alloc.h"
 #include "pack/share.h"
 #include "pack/world_private.h"
@@ -114,6 +116,7 @@ bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, boo
     const int planes = world->listed ? whole ? contacts->planes : contacts->kept : 1;
     const int threads = world->listed ? world->threads : 1;
     const int64_t count = world->listed ? world->count : 0;
+    ledger->state = 0;
     if (!reserve_shares(ledger, threads, err)) {
         return false;
     }
@@ -136,6 +139,24 @@ bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, boo
                    gb_share(count, t + 1, threads), line[t]);
     }
     ledger->count = line[threads];
+    ledger->state = world->state;
+    return true;
+}
+
+bool gb_ledger_copy(struct gb_ledger *to, const struct gb_ledger *from,
+                    struct gb_error *err)
+{
+    if (!gb_ledger_reserve(to, from->count, from->planes, from->single, err)) {
+        return false;
+    }
+    const size_t value = from->single ? sizeof(float) : sizeof(double);
+    const size_t lines = (size_t)from->count;
+    to->count = from->count;
+    to->state = from->state;
+    if (lines > 0) {
+        memcpy(to->pair, from->pair, lines * sizeof *to->pair);
+        memcpy(to->value, from->value, lines * (size_t)from->planes * value);
+    }
     return true;
 }
 
@@ -203,6 +224,7 @@ static void read_back(const struct gb_ledger *ledger, struct gb_world *world,
 
 void gb_ledger_read(const struct gb_ledger *ledger, struct gb_world *world)
 {
+    world->state++;
     const int threads = world->threads;
 #pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
     for (int t = 0; t < threads; t++) {

@@ -17,6 +17,7 @@ struct gb_ledger {
     int32_t (*pair)[2];
     bool single;
     void *value;   /* capacity x planes, double or (single) float */
+    int64_t state; /* of the world, that it tells of: world->state; 0: none */
     int64_t *from; /* scratch: where the lines of each thread begin */
     int threads;
 };
@@ -30,6 +31,10 @@ bool gb_ledger_reserve(struct gb_ledger *ledger, int64_t need, int planes, bool 
 /* Writes down every touching pair of the world, in the order of its list. */
 bool gb_ledger_write(struct gb_ledger *ledger, const struct gb_world *world, bool whole,
                      struct gb_error *err);
+
+/* The same lines in another ledger. */
+bool gb_ledger_copy(struct gb_ledger *to, const struct gb_ledger *from,
+                    struct gb_error *err);
 
 /* One number of a line, and a line into the history of pair k. */
 double gb_ledger_value(const struct gb_ledger *ledger, int64_t line, int plane);

@@ -65,15 +65,13 @@ static bool holds(const struct gb_world *world, const struct gb_pair_list *list,
     return false;
 }
 
-/* Squared distance of nearest images.  The sum rounds to a whole number; no call. */
+/* Squared distance of nearest images. */
 static double nearest2(const struct gb_cell *cell, const double *xi, const double *xj)
 {
-    const double whole = 0x1.8p52;
     double squared = 0.0;
     for (int k = 0; k < 3; k++) {
-        const double r = xi[k] - xj[k];
-        const double edges = (r / cell->edge[k] + whole) - whole;
-        const double way = cell->periodic[k] ? r - cell->edge[k] * edges : r;
+        const double r = xi[k] - xj[k], edge = cell->edge[k];
+        const double way = cell->periodic[k] ? r - edge * gb_cell_whole(r / edge) : r;
         squared += way * way;
     }
     return squared;

@@ -46,7 +46,8 @@ struct gb_world {
     struct gb_world_sums sums;
     /* of the evaluation under way: what its power is asked along; NULL: nothing */
     const double *velocity, *spin;
-    bool listed; /* the pair list exists */
+    bool listed;   /* the pair list exists */
+    int64_t state; /* grows whenever a history may have changed */
     int64_t evaluations, rebuilds;
 };
 

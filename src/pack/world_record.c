@@ -186,6 +186,7 @@ static bool fits(const struct gb_ledger *ledger, const struct gb_world *world)
 static void put_history(const struct gb_ledger *ledger, struct gb_world *world)
 {
     int64_t line = 0;
+    world->state++;
     for (int64_t k = 0; k < world->pairs.near.pair_count; k++) {
         if (!gb_contacts_touch(&world->contacts, k)) {
             continue;

@@ -82,7 +82,7 @@ static void foretell(struct gb_relax *relax, struct gb_world *world, struct aske
         for (int c = 0; c < 3; c++) {
             const double now = position[c] / edge[c];
             const double went = now - place[c];
-            way[c] = edge[c] * (went - round(went));
+            way[c] = edge[c] * (went - gb_cell_whole(went));
             place[c] = now;
         }
         foretold(way, asked);
