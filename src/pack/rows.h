@@ -86,16 +86,16 @@ GB_ROW_INLINE void gb_row_add_if(float *to, bool there, gb_row row)
     gb_row_store(to, kept + row);
 }
 
-/* The same for rows of eight. */
-GB_ROW_INLINE void gb_row_pair_add(float *to, gb_row_pair row)
+/* The same for rows of eight; by address, as some compilers refuse them by value. */
+GB_ROW_INLINE void gb_row_pair_add(float *to, const gb_row_pair *row)
 {
     gb_row_pair sum;
     memcpy(&sum, to, sizeof sum);
-    sum += row;
+    sum += *row;
     memcpy(to, &sum, sizeof sum);
 }
 
-GB_ROW_INLINE void gb_row_pair_add_if(float *to, bool there, gb_row_pair row)
+GB_ROW_INLINE void gb_row_pair_add_if(float *to, bool there, const gb_row_pair *row)
 {
     const int32_t all = -(int32_t)there;
     gb_row_int_pair bits;
@@ -103,7 +103,7 @@ GB_ROW_INLINE void gb_row_pair_add_if(float *to, bool there, gb_row_pair row)
     memcpy(&bits, to, sizeof bits);
     bits &= (gb_row_int_pair){all, all, all, all, all, all, all, all};
     memcpy(&sum, &bits, sizeof sum);
-    sum += row;
+    sum += *row;
     memcpy(to, &sum, sizeof sum);
 }
 

@@ -116,8 +116,8 @@ GB_ROW_INLINE struct way_out give_four(const struct gb_batch_single *batch,
     for (int l = 0; l < count; l++) {
         const int32_t i = first[k + l], j = other[k + l];
         const bool here = j < out.end;
-        gb_row_pair_add(out.total[i], on_first[l]);
-        gb_row_pair_add_if(here ? out.total[j] : out.row, here, on_other[l]);
+        gb_row_pair_add(out.total[i], &on_first[l]);
+        gb_row_pair_add_if(here ? out.total[j] : out.row, here, &on_other[l]);
         out.row += here ? 0 : WRENCH;
     }
     return out;
