@@ -123,16 +123,37 @@ GB_ROW_INLINE struct way_out give_four(const struct gb_batch_single *batch,
     return out;
 }
 
-/* Unloads a batch. */
-GB_ROW_INLINE struct way_out spill_batch(const struct gb_batch_single *batch,
-                                         const int32_t *first, const int32_t *other,
-                                         struct way_out out)
+/* As give_four, for pulls. */
+GB_ROW_INLINE struct way_out pull_four(const struct gb_batch_single *batch,
+                                       const int32_t *first, const int32_t *other, int k,
+                                       int count, struct way_out out)
+{
+    gb_row pull[4];
+    gb_row_of_columns(batch->force[0] + k, batch->force[1] + k, batch->force[2] + k,
+                      pull);
+    for (int l = 0; l < count; l++) {
+        const int32_t i = first[k + l], j = other[k + l];
+        const bool here = j < out.end;
+        gb_row_add(out.total[i], pull[l]);
+        gb_row_add_if(here ? out.total[j] : out.row, here, -pull[l]);
+        out.row += here ? 0 : PULL;
+    }
+    return out;
+}
+
+typedef struct way_out give(const struct gb_batch_single *batch, const int32_t *first,
+                            const int32_t *other, int k, int count, struct way_out out);
+
+/* Unloads a batch, four pairs at a time. */
+GB_ROW_INLINE struct way_out spill(const struct gb_batch_single *batch,
+                                   const int32_t *first, const int32_t *other,
+                                   struct way_out out, give *four)
 {
     int k = 0;
     for (; k + 4 <= batch->n; k += 4) {
-        out = give_four(batch, first, other, k, 4, out);
+        out = four(batch, first, other, k, 4, out);
     }
-    return k < batch->n ? give_four(batch, first, other, k, batch->n - k, out) : out;
+    return k < batch->n ? four(batch, first, other, k, batch->n - k, out) : out;
 }
 
 /* Forces on the first particles, for measures. */
@@ -158,39 +179,10 @@ GB_ROW_INLINE void sweep_near(struct gb_world *world, int64_t b, float cutoff2,
         batch.n = stop - slot < GB_BATCH ? (int)(stop - slot) : GB_BATCH;
         fill_batch(&world->single, near, &batch, slot, true);
         kernel->advance(world->model, &batch, &world->contacts, slot);
-        out = spill_batch(&batch, near->first + slot, near->other + slot, out);
+        out = spill(&batch, near->first + slot, near->other + slot, out, give_four);
         keep_forces(world->single.push, &batch, slot);
         kernel->tally(&batch, &world->contacts, slot, tally);
     }
-}
-
-/* As give_four, for pulls. */
-GB_ROW_INLINE struct way_out pull_four(const struct gb_batch_single *batch,
-                                       const int32_t *first, const int32_t *other, int k,
-                                       int count, struct way_out out)
-{
-    gb_row pull[4];
-    gb_row_of_columns(batch->force[0] + k, batch->force[1] + k, batch->force[2] + k,
-                      pull);
-    for (int l = 0; l < count; l++) {
-        const int32_t i = first[k + l], j = other[k + l];
-        const bool here = j < out.end;
-        gb_row_add(out.total[i], pull[l]);
-        gb_row_add_if(here ? out.total[j] : out.row, here, -pull[l]);
-        out.row += here ? 0 : PULL;
-    }
-    return out;
-}
-
-GB_ROW_INLINE struct way_out spill_far(const struct gb_batch_single *batch,
-                                       const int32_t *first, const int32_t *other,
-                                       struct way_out out)
-{
-    int k = 0;
-    for (; k + 4 <= batch->n; k += 4) {
-        out = pull_four(batch, first, other, k, 4, out);
-    }
-    return k < batch->n ? pull_four(batch, first, other, k, batch->n - k, out) : out;
 }
 
 GB_ROW_INLINE void sweep_far(struct gb_world *world, int64_t b, float cutoff2)
@@ -204,7 +196,7 @@ GB_ROW_INLINE void sweep_far(struct gb_world *world, int64_t b, float cutoff2)
         batch.n = stop - slot < GB_BATCH ? (int)(stop - slot) : GB_BATCH;
         fill_batch(&world->single, far, &batch, slot, false);
         world->single.kernel.attract(world->model, &batch);
-        out = spill_far(&batch, far->first + slot, far->other + slot, out);
+        out = spill(&batch, far->first + slot, far->other + slot, out, pull_four);
         keep_forces(world->single.pull, &batch, slot);
     }
 }

@@ -49,24 +49,15 @@ GB_SIMD_WIDTHS(sum_single,
                 double sum[3][3]),
                (world, begin, end, sum))
 
-static void sum_near(const struct gb_world *world, int64_t i, double sum[3][3])
+/* Pairs of particle i in one list or the other. */
+static void sum_pairs(const struct gb_world *world, bool near, int64_t i,
+                      double sum[3][3])
 {
-    const struct gb_pair_list *near = &world->pairs.near;
+    const struct gb_pair_list *list = near ? &world->pairs.near : &world->pairs.far;
     double force[3], r[3];
-    for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-        gb_world_arm_of(world, near, i, k, r);
-        gb_world_force_of(world, k, force);
-        add(sum, force, r);
-    }
-}
-
-static void sum_far(const struct gb_world *world, int64_t i, double sum[3][3])
-{
-    const struct gb_pair_list *far = &world->pairs.far;
-    double force[3], r[3];
-    for (int64_t k = far->start[i]; k < far->start[i + 1]; k++) {
-        gb_world_arm_of(world, far, i, k, r);
-        gb_world_pull_of(world, k, force);
+    for (int64_t k = list->start[i]; k < list->start[i + 1]; k++) {
+        gb_world_arm_of(world, list, i, k, r);
+        (near ? gb_world_force_of : gb_world_pull_of)(world, k, force);
         add(sum, force, r);
     }
 }
@@ -80,9 +71,9 @@ static void sum_part(const struct gb_world *world, int64_t begin, int64_t end,
     }
     for (int64_t i = begin; i < end; i++) {
         if (!world->in_single) {
-            sum_near(world, i, sum);
+            sum_pairs(world, true, i, sum);
         }
-        sum_far(world, i, sum);
+        sum_pairs(world, false, i, sum);
     }
 }
 

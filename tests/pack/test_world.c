@@ -19,16 +19,21 @@ static const struct precision precisions[] = {
     {"numerics.precision=single", 1e-7, 1e-7, 1e-3, 2e-5},
 };
 
-static int64_t brute_pairs(const struct gb_world *world, double reach)
+static double distance_of(const struct gb_world *world, int64_t i, int64_t j)
 {
     const double *x = gb_world_position(world);
+    double r[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
+                   x[3 * i + 2] - x[3 * j + 2]};
+    gb_cell_nearest(gb_world_cell(world), r);
+    return gb_vec_length(r);
+}
+
+static int64_t brute_pairs(const struct gb_world *world, double reach)
+{
     int64_t found = 0;
     for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
         for (int64_t j = 0; j < i; j++) {
-            double r[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
-                           x[3 * i + 2] - x[3 * j + 2]};
-            gb_cell_nearest(gb_world_cell(world), r);
-            found += gb_vec_length(r) < reach;
+            found += distance_of(world, i, j) < reach;
         }
     }
     return found;
@@ -99,10 +104,7 @@ static double energy(const struct gb_world *world)
     double sum = 0.0;
     for (int64_t i = 0; i < model->count; i++) {
         for (int64_t j = 0; j < i; j++) {
-            double r[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
-                           x[3 * i + 2] - x[3 * j + 2]};
-            gb_cell_nearest(gb_world_cell(world), r);
-            const double distance = gb_vec_length(r);
+            const double distance = distance_of(world, i, j);
             if (distance < model->numerics.cutoff) {
                 sum +=
                     gb_law_rod_energy(&model->rod, 1.0 - distance) +
@@ -171,14 +173,10 @@ static bool listed(const struct gb_world *world, const struct gb_pair_list *list
 static void check_listed(const struct gb_world *world)
 {
     const struct gb_pairs *pairs = gb_world_pairs(world);
-    const double *x = gb_world_position(world);
     const double gap = gb_world_model(world)->numerics.cutoff - 1.0;
     for (int64_t j = 0; j < pairs->count; j++) {
         for (int64_t i = 0; i < j; i++) {
-            double r[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
-                           x[3 * i + 2] - x[3 * j + 2]};
-            gb_cell_nearest(gb_world_cell(world), r);
-            const double distance = gb_vec_length(r);
+            const double distance = distance_of(world, i, j);
             const double touch =
                 0.5 * (gb_world_diameter(world, i) + gb_world_diameter(world, j));
             const bool near = listed(world, &pairs->near, i, j, distance);
@@ -280,11 +278,8 @@ static void test_meeting(void)
         for (int step = 0; step < 100; step++) {
             const int64_t before = gb_world_rebuilds(world);
             (void)gb_world_evaluate(world, &err); /* the others overlap */
-            double r[3] = {b.position[0] - b.position[3], b.position[1] - b.position[4],
-                           b.position[2] - b.position[5]};
-            gb_cell_nearest(gb_world_cell(world), r);
             const struct gb_pairs *pairs = gb_world_pairs(world);
-            const double distance = gb_vec_length(r);
+            const double distance = distance_of(world, 0, 1);
             const bool near = listed(world, &pairs->near, 0, 1, distance);
             g_assert_true(near || distance >= 1.0);
             g_assert_true(near || distance >= model.numerics.cutoff ||
