@@ -100,7 +100,6 @@ static void test_momentum(const void *data)
 static double energy(const struct gb_world *world)
 {
     const struct gb_model *model = gb_world_model(world);
-    const double *x = gb_world_position(world);
     double sum = 0.0;
     for (int64_t i = 0; i < model->count; i++) {
         for (int64_t j = 0; j < i; j++) {
