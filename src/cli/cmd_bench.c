@@ -123,14 +123,17 @@ static bool report_sizes(const struct gb_params *params, const char *text,
     if (!read_sizes(text, count, &sizes, err)) {
         return false;
     }
-    puts(csv ? "particles,coordination,one_core_us,all_cores_us,bytes"
-             : " particles   coordination   one core   all cores, us   bytes a particle");
     for (size_t i = 0; i < sizes; i++) {
         struct gb_params sized = *params;
         struct gb_bench_size size;
         sized.count = count[i];
         if (!gb_bench_size_run(&size, &sized, coordination, err)) {
             return false;
+        }
+        if (i == 0) { /* nothing is begun where the scene is refused */
+            puts(csv ? "particles,coordination,one_core_us,all_cores_us,bytes"
+                     : " particles   coordination   one core   all cores, us   bytes a "
+                       "particle");
         }
         particles[i] = (double)count[i];
         one[i] = size.evaluation_s;
@@ -178,6 +181,9 @@ int gb_cmd_bench(int argc, char **argv)
     if (done && !(coordination > 0.0 && coordination < 12.0)) {
         done = gb_error_set(&err, GB_ERR_INPUT, "--coordination %g: accepted 0 to 12",
                             coordination);
+    }
+    if (done && terms && sizes) {
+        done = gb_error_set(&err, GB_ERR_INPUT, "--terms, --sizes: accepted one of them");
     }
     if (done) {
         struct gb_params *params = gb_preset_params(preset);

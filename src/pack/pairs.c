@@ -131,6 +131,28 @@ static bool grid_fill(struct gb_pairs *pairs, struct grid *grid, struct gb_error
     return true;
 }
 
+/* Nearest image of x_i - x_j; returns its index and the squared distance. */
+static uint8_t nearest_image(const struct gb_cell *cell, const double *xi,
+                             const double *xj, double *squared)
+{
+    int image = 0, weight = 1;
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        double r = xi[k] - xj[k];
+        int s = 0;
+        if (cell->periodic[k]) {
+            const double half = 0.5 * cell->edge[k];
+            s = r > half ? -1 : r < -half ? 1 : 0;
+            r += s * cell->edge[k];
+        }
+        sum += r * r;
+        image += (s + 1) * weight;
+        weight *= 3;
+    }
+    *squared = sum;
+    return (uint8_t)image;
+}
+
 struct neighbour {
     int32_t other;
     uint8_t image;
@@ -196,7 +218,7 @@ static int scan_cells(const struct grid *grid, int64_t i, int first, int last, i
         double squared = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
         uint8_t seen = (uint8_t)image;
         if (!grid->shape.plain) {
-            seen = gb_pairs_grid_image(grid->cell, x, y, &squared);
+            seen = nearest_image(grid->cell, x, y, &squared);
         }
         const int32_t other = grid->order[k];
         const struct bounds own =

@@ -29,24 +29,3 @@ void gb_pairs_grid_home(const struct gb_pairs_grid *grid, const double x[3], int
         home[k] = clamp((int)(x[k] * grid->inverse[k]), 0, grid->n[k] - 1);
     }
 }
-
-uint8_t gb_pairs_grid_image(const struct gb_cell *cell, const double *xi,
-                            const double *xj, double *squared)
-{
-    int image = 0, weight = 1;
-    double sum = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double r = xi[k] - xj[k];
-        int s = 0;
-        if (cell->periodic[k]) {
-            const double half = 0.5 * cell->edge[k];
-            s = r > half ? -1 : r < -half ? 1 : 0;
-            r += s * cell->edge[k];
-        }
-        sum += r * r;
-        image += (s + 1) * weight;
-        weight *= 3;
-    }
-    *squared = sum;
-    return (uint8_t)image;
-}

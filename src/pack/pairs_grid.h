@@ -29,9 +29,4 @@ static inline int gb_pairs_grid_index(const struct gb_pairs_grid *grid, const in
     return (home[2] * grid->n[1] + home[1]) * grid->n[0] + home[0];
 }
 
-/* Nearest image of x_i - x_j; returns its index (see gb_pairs_shifts) and the squared
- * distance. */
-uint8_t gb_pairs_grid_image(const struct gb_cell *cell, const double *xi,
-                            const double *xj, double *squared);
-
 #endif

@@ -33,11 +33,11 @@ struct gb_single_outward {
 
 struct gb_single {
     struct gb_batch_single_kernel kernel;
-    struct gb_spot *spot; /* one a particle */
-    float (*total)[8];    /* one a particle: force and torque so far */
-    struct gb_single_outward near,
-        far;                  /* rows of 8: force and torque on j; of 4: force */
-    float *push[3], *pull[3]; /* force on i of every near and of every far pair */
+    struct gb_spot *spot;          /* one a particle */
+    float (*total)[8];             /* one a particle: force and torque so far */
+    struct gb_single_outward near; /* rows of 8: force and torque on j */
+    struct gb_single_outward far;  /* of 4: force */
+    float *push[3], *pull[3];      /* force on i of every near and of every far pair */
     int64_t push_room, pull_room;
     float scale[3]; /* d in a unit of place, as of the last evaluation */
 };

@@ -9,8 +9,8 @@ struct gb_world_sums;
 
 /* Forces and torques of a world whose list still holds; histories advance, turns are used
  * up.  Where it does not, nothing is done and the answer is false.  Pairs are computed in
- * blocks of particles, then every particle collects its own in the order of the list: the
- * same bits for any number of threads.
+ * blocks of particles, then every particle collects what the pairs left for it in the
+ * order of the list: the same bits for any number of threads.
  *
  * travel   longest way since the list was built; NaN when a place is not finite */
 bool gb_sweep_run(struct gb_world *world, double *travel);
@@ -23,7 +23,8 @@ void gb_sweep_sum(const struct gb_world *world, int64_t begin, int64_t end,
                   struct gb_world_sums *sums);
 void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums);
 
-/* Particles whose tallies are summed as one: a fixed block, so that the order of the
+/* Particles whose tallies, and in single precision the forces of pairs among them, are
+ * summed as one: a fixed block, so that the order of the
  * sums, and with it every bit, does not depend on the number of threads. */
 enum { GB_SWEEP_BLOCK = 256 };
 

@@ -1,5 +1,6 @@
 #include "run/bench.h"
 
+#include <gsl/gsl_fit.h>
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
 #include <math.h>
@@ -209,17 +210,16 @@ bool gb_bench_size_run(struct gb_bench_size *size, const struct gb_params *param
 
 double gb_bench_exponent(const double *count, const double *cost, size_t n)
 {
-    double along = 0.0, square = 0.0, mean_x = 0.0, mean_y = 0.0;
+    double *x = g_new(double, n), *y = g_new(double, n);
+    double constant, power, cov00, cov01, cov11, square;
     for (size_t i = 0; i < n; i++) {
-        mean_x += log(count[i]) / (double)n;
-        mean_y += log(cost[i]) / (double)n;
+        x[i] = log(count[i]);
+        y[i] = log(cost[i]);
     }
-    for (size_t i = 0; i < n; i++) {
-        const double x = log(count[i]) - mean_x;
-        along += x * (log(cost[i]) - mean_y);
-        square += x * x;
-    }
-    return along / square;
+    gsl_fit_linear(x, 1, y, 1, n, &constant, &power, &cov00, &cov01, &cov11, &square);
+    g_free(x);
+    g_free(y);
+    return power;
 }
 
 /* What a packing is timed without; a friction law without friction has no bridges. */

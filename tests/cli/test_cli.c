@@ -402,6 +402,14 @@ static void test_bench_sizes(void)
     g_assert_cmpfloat(power, <, 2.0);
     g_strfreev(lines);
     program_finish(&result);
+    result = call("bench --terms --sizes=150,300");
+    g_assert_cmpint(result.status, ==, 2);
+    g_assert_nonnull(strstr(result.err, "--terms, --sizes"));
+    program_finish(&result);
+    result = call("bench p3-hertz-mu0 --sizes=150,300");
+    g_assert_cmpint(result.status, ==, 2);
+    g_assert_cmpstr(result.out, ==, "");
+    program_finish(&result);
     const char *const wrong[] = {"1000",      "1000,x", "1000,1000",
                                  "2000,1000", "5,1000", ","};
     for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
