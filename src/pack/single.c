@@ -3,9 +3,6 @@
 #include "base/alloc.h"
 #include "pack/sweep.h"
 
-/* Numbers in a row of each list. */
-enum { NEAR_ROW = 8, FAR_ROW = 4 };
-
 static bool outward_init(struct gb_single_outward *out, int64_t count,
                          struct gb_error *err)
 {
@@ -140,8 +137,9 @@ bool gb_single_take_lists(struct gb_single *single, const struct gb_pairs *pairs
 {
     return reserve_forces(single->push, &single->push_room, pairs->near.capacity, err) &&
            reserve_forces(single->pull, &single->pull_room, pairs->far.capacity, err) &&
-           outward_take(&single->near, &pairs->near, pairs->count, NEAR_ROW, err) &&
-           outward_take(&single->far, &pairs->far, pairs->count, FAR_ROW, err);
+           outward_take(&single->near, &pairs->near, pairs->count, GB_SINGLE_WRENCH,
+                        err) &&
+           outward_take(&single->far, &pairs->far, pairs->count, GB_SINGLE_PULL, err);
 }
 
 void gb_single_arm(const struct gb_cell *cell, const double xi[3], const double xj[3],

@@ -20,6 +20,10 @@ struct gb_spot {
     float turn[4]; /* since the last evaluation */
 };
 
+/* Numbers in a row: force and torque on a particle, each with a fourth number that is 0;
+ * a pull. */
+enum { GB_SINGLE_WRENCH = 8, GB_SINGLE_PULL = 4 };
+
 /* Pairs of a list whose second particle lies in a later block than the first: they leave
  * rows, which the block of the second one collects; all others add to their particles at
  * once. */
@@ -33,11 +37,11 @@ struct gb_single_outward {
 
 struct gb_single {
     struct gb_batch_single_kernel kernel;
-    struct gb_spot *spot;          /* one a particle */
-    float (*total)[8];             /* one a particle: force and torque so far */
-    struct gb_single_outward near; /* rows of 8: force and torque on j */
-    struct gb_single_outward far;  /* of 4: force */
-    float *push[3], *pull[3];      /* force on i of every near and of every far pair */
+    struct gb_spot *spot;             /* one a particle */
+    float (*total)[GB_SINGLE_WRENCH]; /* one a particle: force and torque so far */
+    struct gb_single_outward near;    /* rows: wrenches on j */
+    struct gb_single_outward far;     /* pulls on it */
+    float *push[3], *pull[3];         /* force on i of every near and of every far pair */
     int64_t push_room, pull_room;
     float scale[3]; /* d in a unit of place, as of the last evaluation */
 };

@@ -8,8 +8,8 @@
 #include "pack/simd.h"
 #include "pack/world_private.h"
 
-/* Rows of eight: force and torque on a particle; of four: a pull. */
-enum { WRENCH = 8, TORQUE = 4, PULL = 4 };
+/* Where the torque begins in a row of both. */
+enum { WRENCH = GB_SINGLE_WRENCH, PULL = GB_SINGLE_PULL, TORQUE = 4 };
 
 /* Rows of one particle that are looked at together: few have more, none pays much for
  * those it has not. */
