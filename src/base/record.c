@@ -112,25 +112,38 @@ static bool check_bools(const struct gb_record_item *item)
     return true;
 }
 
+/* The item if it has that shape, else NULL. */
+static const struct gb_record_item *item_to_load(const struct gb_record *record,
+                                                 const char *name,
+                                                 enum gb_record_type type, int64_t rows,
+                                                 int columns, struct gb_error *err)
+{
+    const struct gb_record_item *item = gb_record_find(record, name);
+    if (!check_shape(item, name, type, columns, err)) {
+        return NULL;
+    }
+    if (item->rows != rows) {
+        gb_error_set(err, GB_ERR_INPUT, "%s: has %lld rows instead of %lld", name,
+                     (long long)item->rows, (long long)rows);
+        return NULL;
+    }
+    if (!check_bools(item)) {
+        gb_error_set(err, GB_ERR_INPUT, "%s: is neither 0 nor 1", name);
+        return NULL;
+    }
+    return item;
+}
+
 static bool load(const struct gb_record *record, const char *name,
                  enum gb_record_type type, int64_t rows, int columns, void *data,
                  struct gb_error *err)
 {
-    const struct gb_record_item *item = gb_record_find(record, name);
-    if (!check_shape(item, name, type, columns, err)) {
-        return false;
-    }
-    if (item->rows != rows) {
-        return gb_error_set(err, GB_ERR_INPUT, "%s: has %lld rows instead of %lld", name,
-                            (long long)item->rows, (long long)rows);
-    }
-    if (!check_bools(item)) {
-        return gb_error_set(err, GB_ERR_INPUT, "%s: is neither 0 nor 1", name);
-    }
-    if (rows > 0) {
+    const struct gb_record_item *item =
+        item_to_load(record, name, type, rows, columns, err);
+    if (item && rows > 0) {
         memcpy(data, item->data, gb_record_bytes(item));
     }
-    return true;
+    return item != NULL;
 }
 
 bool gb_record_array(struct gb_record *record, const char *name, enum gb_record_type type,
@@ -149,6 +162,25 @@ bool gb_record_array(struct gb_record *record, const char *name, enum gb_record_
         memcpy(item->data, data, gb_record_bytes(item));
     }
     return true;
+}
+
+bool gb_record_singles(struct gb_record *record, const char *name, int64_t rows,
+                       int columns, const char *unit, float *data, struct gb_error *err)
+{
+    const int64_t count = rows * columns;
+    const bool loading = record->loading;
+    const struct gb_record_item *item =
+        loading ? item_to_load(record, name, GB_RECORD_DOUBLE, rows, columns, err)
+                : gb_record_add(record, name, GB_RECORD_DOUBLE, rows, columns, unit, err);
+    double *number = item ? item->data : NULL;
+    for (int64_t k = 0; item && k < count; k++) {
+        if (loading) {
+            data[k] = (float)number[k];
+        } else {
+            number[k] = (double)data[k];
+        }
+    }
+    return item != NULL;
 }
 
 bool gb_record_members(struct gb_record *record, const struct gb_record_member *table,

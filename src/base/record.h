@@ -61,6 +61,10 @@ bool gb_record_array(struct gb_record *record, const char *name, enum gb_record_
                      int64_t rows, int columns, const char *unit, void *data,
                      struct gb_error *err);
 
+/* The same for floats in memory, which are doubles in the record. */
+bool gb_record_singles(struct gb_record *record, const char *name, int64_t rows,
+                       int columns, const char *unit, float *data, struct gb_error *err);
+
 /* Rows of an array that is about to be loaded; its type and columns are checked. */
 bool gb_record_rows(const struct gb_record *record, const char *name,
                     enum gb_record_type type, int columns, int64_t *rows,

@@ -35,8 +35,11 @@ bool gb_single_init(struct gb_single *single, const struct gb_model *model,
     single->kernel = gb_batch_single_pick(model, 0);
     single->spot = gb_alloc_array(n, sizeof *single->spot, err);
     single->total = gb_alloc_array(n, sizeof *single->total, err);
-    return single->spot && single->total &&
-           outward_init(&single->near, model->count, err) &&
+    single->velocity = gb_alloc_array(3 * n + 1, sizeof *single->velocity, err);
+    single->spin = gb_alloc_array(3 * n + 1, sizeof *single->spin, err);
+    single->built = gb_alloc_array(3 * n, sizeof *single->built, err);
+    return single->spot && single->total && single->velocity && single->spin &&
+           single->built && outward_init(&single->near, model->count, err) &&
            outward_init(&single->far, model->count, err);
 }
 
@@ -44,6 +47,9 @@ void gb_single_finish(struct gb_single *single)
 {
     gb_alloc_free(single->spot);
     gb_alloc_free(single->total);
+    gb_alloc_free(single->velocity);
+    gb_alloc_free(single->spin);
+    gb_alloc_free(single->built);
     gb_alloc_free(single->push[0]);
     gb_alloc_free(single->pull[0]);
     outward_finish(&single->near);
@@ -132,9 +138,25 @@ static bool reserve_forces(float *force[3], int64_t *had, int64_t room,
     return true;
 }
 
+/* Places at the build. */
+static void take_built(struct gb_single *single, const struct gb_pairs *pairs)
+{
+    double units[3];
+    for (int c = 0; c < 3; c++) {
+        units[c] = 0x1p32 / pairs->built_edge[c];
+    }
+    for (int64_t i = 0; i < pairs->count; i++) {
+        for (int c = 0; c < 3; c++) {
+            single->built[3 * i + c] =
+                (uint32_t)gb_single_place(pairs->built_at[3 * i + c], units[c]);
+        }
+    }
+}
+
 bool gb_single_take_lists(struct gb_single *single, const struct gb_pairs *pairs,
                           struct gb_error *err)
 {
+    take_built(single, pairs);
     return reserve_forces(single->push, &single->push_room, pairs->near.capacity, err) &&
            reserve_forces(single->pull, &single->pull_room, pairs->far.capacity, err) &&
            outward_take(&single->near, &pairs->near, pairs->count, GB_SINGLE_WRENCH,

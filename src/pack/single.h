@@ -38,12 +38,17 @@ struct gb_single_outward {
 struct gb_single {
     struct gb_batch_single_kernel kernel;
     struct gb_spot *spot;             /* one a particle */
-    float (*total)[GB_SINGLE_WRENCH]; /* one a particle: force and torque so far */
+    float (*total)[GB_SINGLE_WRENCH]; /* one a particle: force and torque */
     struct gb_single_outward near;    /* rows: wrenches on j */
     struct gb_single_outward far;     /* pulls on it */
     float *push[3], *pull[3];         /* force on i of every near and of every far pair */
     int64_t push_room, pull_room;
     float scale[3]; /* d in a unit of place, as of the last evaluation */
+    /* Motion (pack/drive.h), count x 3 and a number more each. */
+    float *velocity, *spin;
+    uint32_t *built; /* places when the lists were built */
+    bool driven;     /* spots and ways are those of a drive that nobody evaluated yet */
+    bool narrow;     /* the last forces are in `total` only */
 };
 
 bool gb_single_init(struct gb_single *single, const struct gb_model *model,

@@ -272,11 +272,15 @@ static void collect_block(struct gb_world *world, int64_t b)
 {
     const bool planar = world->model->dimension == 2;
     const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(world->count, b);
-    if (world->in_single) {
-        gb_sweep_single_collect(world, begin, end);
+    if (!world->single.driven) {
+        memset(world->turn + 3 * begin, 0,
+               3 * (size_t)(end - begin) * sizeof *world->turn);
     }
-    memset(world->turn + 3 * begin, 0, 3 * (size_t)(end - begin) * sizeof *world->turn);
-    for (int64_t j = begin; !world->in_single && j < end; j++) {
+    if (world->in_single) {
+        gb_sweep_single_collect(world, begin, end, &world->block[b].sums);
+        return;
+    }
+    for (int64_t j = begin; j < end; j++) {
         (planar ? collect_near_2d : collect_near)(world, j);
         collect_far(world, j, world->force + 3 * j);
     }
@@ -369,9 +373,11 @@ bool gb_sweep_list_holds(struct gb_world *world, double *travel)
  * of them see alike whether the list still holds. */
 static void run_blocks(struct gb_world *world, int64_t blocks, bool *holds)
 {
+    if (!world->single.driven) { /* a drive has prepared them already */
 #pragma omp for schedule(static)
-    for (int64_t b = 0; b < blocks; b++) {
-        prepare_block(world, b);
+        for (int64_t b = 0; b < blocks; b++) {
+            prepare_block(world, b);
+        }
     }
     if (!list_holds(world, blocks)) {
         return;
@@ -414,6 +420,8 @@ bool gb_sweep_run(struct gb_world *world, double *travel)
         add_tally(&sum.tally, &world->block[b].tally);
     }
     world->tally = sum.tally;
+    world->single.driven = false;
+    world->single.narrow = world->in_single;
     gb_sweep_conclude(world, &sum.sums);
     return true;
 }

@@ -245,24 +245,65 @@ GB_ROW_INLINE gb_row collect_far(const struct gb_single_outward *far, int64_t j)
     return sum;
 }
 
-GB_SIMD_LOOP void collect_loop(struct gb_world *world, int64_t begin, int64_t end)
+GB_SIMD_LOOP void collect_loop(struct gb_world *world, int64_t begin, int64_t end,
+                               struct gb_world_sums *sums)
 {
     const struct gb_single *single = &world->single;
+    const gb_row none = {0.0F};
+    gb_row_pair squares = {0.0F};
+    gb_row power = {0.0F};
     for (int64_t j = begin; j < end; j++) {
         gb_row_pair sum;
         memcpy(&sum, single->total[j], sizeof sum);
         collect_near(&single->near, j, &sum);
         const gb_row pull = collect_far(&single->far, j);
-        for (int c = 0; c < 3; c++) {
-            world->force[3 * j + c] = (double)(sum[c] + pull[c]);
-            world->torque[3 * j + c] = (double)sum[TORQUE + c];
-        }
+        sum += __builtin_shufflevector(pull, none, 0, 1, 2, 3, 4, 5, 6, 7);
+        memcpy(single->total[j], &sum, sizeof sum);
+        squares += sum * sum;
+        /* the fourth number of a velocity is another's, that of a force is 0 */
+        const gb_row force = __builtin_shufflevector(sum, sum, 0, 1, 2, 3);
+        const gb_row torque = __builtin_shufflevector(sum, sum, 4, 5, 6, 7);
+        power += force * gb_row_load(single->velocity + 3 * j) +
+                 torque * gb_row_load(single->spin + 3 * j);
+    }
+    *sums = (struct gb_world_sums){0};
+    for (int c = 0; c < 3; c++) {
+        sums->force2 += (double)squares[c];
+        sums->torque2 += (double)squares[TORQUE + c];
+        sums->power += (double)power[c];
     }
 }
-GB_SIMD_WIDTHS(collect, (struct gb_world * world, int64_t begin, int64_t end),
-               (world, begin, end))
+GB_SIMD_WIDTHS(collect,
+               (struct gb_world * world, int64_t begin, int64_t end,
+                struct gb_world_sums *sums),
+               (world, begin, end, sums))
 
-void gb_sweep_single_collect(struct gb_world *world, int64_t begin, int64_t end)
+void gb_sweep_single_collect(struct gb_world *world, int64_t begin, int64_t end,
+                             struct gb_world_sums *sums)
 {
-    collect(world, begin, end);
+    collect(world, begin, end, sums);
+}
+
+void gb_sweep_single_widen(struct gb_world *world)
+{
+    if (!world->in_single || !world->single.narrow) {
+        return;
+    }
+    for (int64_t i = 0; i < world->count; i++) {
+        for (int c = 0; c < 3; c++) {
+            world->force[3 * i + c] = (double)world->single.total[i][c];
+            world->torque[3 * i + c] = (double)world->single.total[i][TORQUE + c];
+        }
+    }
+    world->single.narrow = false;
+}
+
+void gb_sweep_single_narrow(struct gb_world *world)
+{
+    for (int64_t i = 0; world->in_single && i < world->count; i++) {
+        for (int c = 0; c < 3; c++) {
+            world->single.total[i][c] = (float)world->force[3 * i + c];
+            world->single.total[i][TORQUE + c] = (float)world->torque[3 * i + c];
+        }
+    }
 }

@@ -5,6 +5,7 @@
 
 struct gb_tally;
 struct gb_world;
+struct gb_world_sums;
 
 /* The parts of gb_sweep_run in single precision, for particles [begin, end), or block b:
  * where they are, the forces of their own pairs, and what the pairs of earlier blocks
@@ -12,6 +13,11 @@ struct gb_world;
 void gb_sweep_single_prepare(struct gb_world *world, int64_t begin, int64_t end);
 void gb_sweep_single_block(struct gb_world *world, int64_t b, double cutoff2,
                            struct gb_tally *tally);
-void gb_sweep_single_collect(struct gb_world *world, int64_t begin, int64_t end);
+void gb_sweep_single_collect(struct gb_world *world, int64_t begin, int64_t end,
+                             struct gb_world_sums *sums);
+
+/* Forces and torques as doubles, for all but gb_world_drive; and back. */
+void gb_sweep_single_widen(struct gb_world *world);
+void gb_sweep_single_narrow(struct gb_world *world);
 
 #endif

@@ -10,6 +10,7 @@
 #include "pack/deal.h"
 #include "pack/simd.h"
 #include "pack/sweep.h"
+#include "pack/sweep_single.h"
 #include "pack/sweep_sized.h"
 #include "pack/world_private.h"
 #include "phys/tolerances.h"
@@ -169,6 +170,9 @@ static bool rebuild(struct gb_world *world, const struct gb_ledger *ledger,
     }
     gb_pairs_shifts(&world->cell, world->shift);
     gb_ledger_read(ledger, world);
+    for (int64_t b = 0; b < gb_sweep_blocks(world->count); b++) {
+        world->block[b].travel = 0.0; /* the ways of a drive under way end here */
+    }
     if (world->far_distance) {
         memset(world->far_distance, 0,
                (size_t)world->pairs.far.pair_count * sizeof *world->far_distance);
@@ -178,8 +182,9 @@ static bool rebuild(struct gb_world *world, const struct gb_ledger *ledger,
     return true;
 }
 
-static int64_t first_bad_particle(const struct gb_world *world)
+static int64_t first_bad_particle(struct gb_world *world)
 {
+    gb_sweep_single_widen(world);
     for (int64_t i = 0; i < world->count; i++) {
         for (int k = 0; k < 3; k++) {
             if (!isfinite(world->force[3 * i + k]) ||
@@ -191,7 +196,7 @@ static int64_t first_bad_particle(const struct gb_world *world)
     return -1;
 }
 
-static bool check_sweep(const struct gb_world *world, struct gb_error *err)
+static bool check_sweep(struct gb_world *world, struct gb_error *err)
 {
     if (!isfinite(world->force_rms) || !isfinite(world->torque_rms)) {
         return gb_error_set(err, GB_ERR_GUARD,
@@ -213,7 +218,7 @@ static bool sweep(struct gb_world *world, double *travel)
     return (world->diameter ? gb_sweep_sized_run : gb_sweep_run)(world, travel);
 }
 
-bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
+static bool evaluate(struct gb_world *world, struct gb_error *err)
 {
     double travel = 0.0;
     world->state++;
@@ -235,12 +240,19 @@ bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
     return check_sweep(world, err);
 }
 
+bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
+{
+    const bool done = evaluate(world, err);
+    gb_sweep_single_widen(world);
+    return done;
+}
+
 bool gb_world_evaluate_along(struct gb_world *world, const double *velocity,
                              const double *spin, struct gb_error *err)
 {
     world->velocity = velocity;
     world->spin = spin;
-    const bool done = gb_world_evaluate(world, err);
+    const bool done = evaluate(world, err);
     world->velocity = world->spin = NULL;
     return done;
 }
@@ -275,11 +287,13 @@ void gb_world_strain(struct gb_world *world, const double factor[3])
         world->cell.edge[k] *= factor[k];
     }
     scale(world->position, factor, world->count);
+    world->single.driven = false;
     gb_pairs_strain(&world->pairs, factor);
 }
 
 struct gb_bodies gb_world_bodies(struct gb_world *world)
 {
+    gb_sweep_single_widen(world);
     return (struct gb_bodies){world->count, world->position, world->turn, world->force,
                               world->torque};
 }
@@ -403,6 +417,7 @@ bool gb_world_restore(struct gb_world *world, const struct gb_world_copy *copy,
     world->cell = copy->cell;
     memcpy(world->position, copy->position, n * sizeof *world->position);
     memset(world->turn, 0, n * sizeof *world->turn);
+    world->single.driven = false;
     return rebuild(world, &copy->ledger, err);
 }
 

@@ -39,7 +39,8 @@ void gb_world_destroy(struct gb_world *world); /* NULL is fine */
 bool gb_world_evaluate(struct gb_world *world, struct gb_error *err);
 
 /* The same, and the power of the forces along these velocities (count x 3 each), of the
- * particles and of their turns. */
+ * particles and of their turns; in a world that drives (pack/drive.h) along its own.
+ * What gb_world_bodies told of the forces before has to be asked anew. */
 bool gb_world_evaluate_along(struct gb_world *world, const double *velocity,
                              const double *spin, struct gb_error *err);
 

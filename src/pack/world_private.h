@@ -16,6 +16,7 @@ struct gb_sweep_block {
     struct gb_world_sums sums;
     double travel; /* longest way since the list was built */
     bool unlisted; /* a pair of one that strayed is not where it belongs in the list */
+    double speed2, fastest2; /* of a drive: sum with inertia, and of who moves fastest */
 };
 
 struct gb_world {

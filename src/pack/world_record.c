@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "pack/sweep_single.h"
 #include "pack/world_private.h"
 
 #define AT(member) offsetof(struct gb_world, member)
@@ -50,32 +51,6 @@ static bool vectors(struct gb_world *world, struct gb_record *record, const char
                            err);
 }
 
-/* Histories are doubles in a record, whatever they are in memory. */
-static bool exchange_singles(struct gb_ledger *ledger, struct gb_record *record,
-                             const char *name, struct gb_error *err)
-{
-    const int64_t rows = ledger->count, count = rows * ledger->planes;
-    float *single = ledger->value;
-    if (!record->loading) {
-        struct gb_record_item *item =
-            gb_record_add(record, name, GB_RECORD_DOUBLE, rows, ledger->planes, "d", err);
-        double *to = item ? item->data : NULL;
-        for (int64_t k = 0; item && k < count; k++) {
-            to[k] = (double)single[k];
-        }
-        return item != NULL;
-    }
-    int64_t there = 0;
-    if (!gb_record_rows(record, name, GB_RECORD_DOUBLE, ledger->planes, &there, err)) {
-        return false;
-    }
-    const double *from = gb_record_find(record, name)->data;
-    for (int64_t k = 0; there == rows && k < count; k++) {
-        single[k] = (float)from[k];
-    }
-    return there == rows || wrong(name, err);
-}
-
 /* Touching pairs and their histories under two names. */
 static bool exchange_ledger(struct gb_ledger *ledger, int planes, bool single,
                             struct gb_record *record, const char *pairs,
@@ -90,9 +65,10 @@ static bool exchange_ledger(struct gb_ledger *ledger, int planes, bool single,
     ledger->count = rows;
     return gb_record_array(record, pairs, GB_RECORD_INT32, rows, 2, "1", ledger->pair,
                            err) &&
-           (single ? exchange_singles(ledger, record, values, err)
-                   : gb_record_array(record, values, GB_RECORD_DOUBLE, rows, planes, "d",
-                                     ledger->value, err));
+           (single
+                ? gb_record_singles(record, values, rows, planes, "d", ledger->value, err)
+                : gb_record_array(record, values, GB_RECORD_DOUBLE, rows, planes, "d",
+                                  ledger->value, err));
 }
 
 /* Sorted pairs of particles that there are. */
@@ -230,10 +206,13 @@ static bool load(struct gb_world *world, struct gb_record *record, struct gb_err
         return gb_error_set(err, GB_ERR_INPUT,
                             "world/built_at: does not fit the positions");
     }
-    return load_contacts(world, record, err) &&
-           vectors(world, record, "world/force", "E d^2", world->force, err) &&
-           vectors(world, record, "world/torque", "E d^3", world->torque, err) &&
-           gb_record_members(record, after, LENGTH(after), world, err);
+    if (!load_contacts(world, record, err) ||
+        !vectors(world, record, "world/force", "E d^2", world->force, err) ||
+        !vectors(world, record, "world/torque", "E d^3", world->torque, err)) {
+        return false;
+    }
+    gb_sweep_single_narrow(world);
+    return gb_record_members(record, after, LENGTH(after), world, err);
 }
 
 /* Whole force on the first particle of every touching pair: for pictures, no load needs
@@ -257,6 +236,7 @@ static bool save_forces(const struct gb_world *world, struct gb_record *record,
 static bool save(struct gb_world *world, struct gb_record *record, struct gb_error *err)
 {
     struct gb_ledger *ledger = &world->spare;
+    gb_sweep_single_widen(world);
     return gb_ledger_write(ledger, world, false, err) &&
            gb_record_members(record, before, LENGTH(before), world, err) &&
            vectors(world, record, "world/built_at", "d", world->pairs.built_at, err) &&

@@ -152,7 +152,7 @@ struct held_fire {
 static void move_fire(void *data, struct gb_world *world)
 {
     struct held_fire *fire = data;
-    gb_relax_fire_move(&fire->relax, &fire->state, &fire->tuning, world, NULL);
+    gb_relax_fire_move(&fire->relax, &fire->state, &fire->tuning, world);
 }
 
 static bool run_held(const struct gb_stability_scene *scene, double step,

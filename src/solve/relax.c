@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "pack/drive.h"
 #include "phys/tolerances.h"
 
 static const struct gb_relaxer *const table[] = {&gb_relax_predict, &gb_relax_fire,
@@ -35,6 +36,27 @@ static bool unknown_relaxer(const char *name, struct gb_error *err)
                         name, names);
 }
 
+/* What the method keeps of every particle.  Worlds that drive have velocities of their
+ * own, and turns as narrow as those. */
+static bool take_vectors(struct gb_relax *relax, const struct gb_model *model,
+                         struct gb_error *err)
+{
+    const struct gb_relaxer *method = relax->method;
+    const size_t numbers = 3 * (size_t)model->count;
+    const bool driven = method->moving && gb_world_will_drive(model);
+    bool whole = true;
+    for (int v = driven ? 2 : 0; v < method->vectors && whole; v++) {
+        if (driven && v == method->turned) {
+            relax->turned = gb_alloc_array(numbers, sizeof *relax->turned, err);
+            whole = relax->turned != NULL;
+        } else {
+            relax->vector[v] = gb_alloc_array(numbers, sizeof(double), err);
+            whole = relax->vector[v] != NULL;
+        }
+    }
+    return whole;
+}
+
 bool gb_relax_create(struct gb_relax **out, const struct gb_model *model,
                      struct gb_error *err)
 {
@@ -50,12 +72,7 @@ bool gb_relax_create(struct gb_relax **out, const struct gb_model *model,
     relax->tolerance = model->numerics.tolerance;
     relax->max_evaluations = model->numerics.max_evaluations;
     relax->state = gb_alloc_array(1, method->state_size, err);
-    bool whole = relax->state != NULL;
-    for (int v = 0; v < method->vectors && whole; v++) {
-        relax->vector[v] = gb_alloc_array(3 * (size_t)model->count, sizeof(double), err);
-        whole = relax->vector[v] != NULL;
-    }
-    if (!whole) {
+    if (!relax->state || !take_vectors(relax, model, err)) {
         gb_relax_destroy(relax);
         return false;
     }
@@ -69,6 +86,7 @@ void gb_relax_destroy(struct gb_relax *relax)
         return;
     }
     gb_alloc_free(relax->state);
+    gb_alloc_free(relax->turned);
     for (int v = 0; v < 4; v++) {
         gb_alloc_free(relax->vector[v]);
     }

@@ -26,7 +26,9 @@ struct gb_relaxer {
     const char *doc;
     size_t state_size; /* bytes of its state ... */
     int vectors;       /* ... and how many arrays of count x 3 doubles it needs */
-    bool moving; /* the first two are velocities, of the particles and of their turns */
+    bool moving; /* the first two are velocities, of the particles and of their turns ...
+                  */
+    int turned;  /* ... and to this one its turns are added; 0: to none */
     /* Least share of the tolerance under light loads, where it falls with the mean
      * contact force over f_a(d); 1: the tolerance holds everywhere. */
     double light;
@@ -45,7 +47,8 @@ const struct gb_relaxer *gb_relax_find(const char *name);
 struct gb_relax {
     const struct gb_relaxer *method;
     void *state;
-    double *vector[4]; /* count x 3 each */
+    double *vector[4]; /* count x 3 each; without those that a driven world keeps */
+    float *turned;     /* instead of vector[method->turned] in worlds that drive */
     double tolerance;
     int64_t max_evaluations;         /* per relaxation */
     int64_t iterations, evaluations; /* of the relaxation under way */

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "pack/drive.h"
 #include "pack/simd.h"
 #include "solve/relax_fire.h"
 
@@ -28,12 +29,15 @@ static const double inertia = GB_RELAX_INERTIA;
 static const double move_most = 0.01;
 
 void gb_relax_fire_rest(struct gb_relax *relax, struct gb_relax_fire_state *fire,
-                        const struct gb_relax_fire_tuning *tuning,
-                        const struct gb_world *world)
+                        const struct gb_relax_fire_tuning *tuning, struct gb_world *world)
 {
     const size_t bytes = 3 * (size_t)gb_world_model(world)->count * sizeof(double);
-    memset(relax->vector[0], 0, bytes);
-    memset(relax->vector[1], 0, bytes);
+    if (gb_world_drives(world)) {
+        gb_world_rest(world);
+    } else {
+        memset(relax->vector[0], 0, bytes);
+        memset(relax->vector[1], 0, bytes);
+    }
     *fire = (struct gb_relax_fire_state){.step = tuning->step_first,
                                          .mixing = tuning->mixing_first};
 }
@@ -210,36 +214,50 @@ static double speed_most(const struct pass *pass)
     return sqrt(most);
 }
 
-void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire,
-                        const struct gb_relax_fire_tuning *tuning, struct gb_world *world,
-                        double *turned)
+/* The motion of a world that does not drive itself; returns the squared speed. */
+static double drive_world(struct gb_relax *relax, struct gb_world *world,
+                          const struct gb_drive *by)
 {
     const int threads = gb_world_threads(world);
+    struct pass pass = {
+        .b = gb_world_bodies(world),
+        .v = relax->vector[0],
+        .w = relax->vector[1],
+        .turned = relax->method->turned ? relax->vector[relax->method->turned] : NULL,
+        .keep = by->keep,
+        .kick = by->kick,
+        .back = by->back,
+        .step = by->step};
+    over_spans(&pass, threads, drive_span);
+    const double farthest = pass.step * speed_most(&pass);
+    if (farthest > by->most) {
+        pass.scale = by->most / farthest;
+        over_spans(&pass, threads, slow_span);
+    }
+    double speed2 = 0.0;
+    for (int s = 0; s < SPANS; s++) {
+        speed2 += pass.speed2[s];
+    }
+    return speed2;
+}
+
+void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire,
+                        const struct gb_relax_fire_tuning *tuning, struct gb_world *world)
+{
     const struct gb_world_sums *sums = gb_world_sums(world);
     const double force2 = sums->force2 + sums->torque2 / inertia;
-    struct pass pass = {.b = gb_world_bodies(world),
-                        .v = relax->vector[0],
-                        .w = relax->vector[1],
-                        .turned = turned};
-    pass.back = adapt(fire, tuning, sums->power);
+    struct gb_drive drive = {.inertia = inertia, .most = move_most};
+    drive.back = adapt(fire, tuning, sums->power);
     /* mixing needs the speed after the kick; the speed before differs by one step only
      * and saves a pass over the arrays */
     const bool rolling = fire->downhill > 0;
     const double steer =
         rolling && force2 > 0.0 ? fire->mixing * sqrt(fire->speed2 / force2) : 0.0;
-    pass.keep = rolling ? 1.0 - fire->mixing : 0.0;
-    pass.step = fire->step;
-    pass.kick = fire->step + steer;
-    over_spans(&pass, threads, drive_span);
-    const double farthest = pass.step * speed_most(&pass);
-    if (farthest > move_most) {
-        pass.scale = move_most / farthest;
-        over_spans(&pass, threads, slow_span);
-    }
-    fire->speed2 = 0.0;
-    for (int s = 0; s < SPANS; s++) {
-        fire->speed2 += pass.speed2[s];
-    }
+    drive.keep = rolling ? 1.0 - fire->mixing : 0.0;
+    drive.step = fire->step;
+    drive.kick = fire->step + steer;
+    fire->speed2 = gb_world_drives(world) ? gb_world_drive(world, &drive, relax->turned)
+                                          : drive_world(relax, world, &drive);
 }
 
 static void start(struct gb_relax *relax, struct gb_world *world)
@@ -249,7 +267,7 @@ static void start(struct gb_relax *relax, struct gb_world *world)
 
 static void move(struct gb_relax *relax, struct gb_world *world)
 {
-    gb_relax_fire_move(relax, relax->state, &gb_relax_fire_plain, world, NULL);
+    gb_relax_fire_move(relax, relax->state, &gb_relax_fire_plain, world);
 }
 
 const struct gb_relaxer gb_relax_fire = {

@@ -25,11 +25,10 @@ extern const struct gb_relax_fire_tuning gb_relax_fire_plain, gb_relax_predict_t
 /* Brings the particles to rest. */
 void gb_relax_fire_rest(struct gb_relax *relax, struct gb_relax_fire_state *fire,
                         const struct gb_relax_fire_tuning *tuning,
-                        const struct gb_world *world);
-/* One move, after gb_relax_evaluate.  turned: count x 3, to which the turns are added
- * that the next evaluation will use up; NULL: to nothing. */
+                        struct gb_world *world);
+/* One move, after gb_relax_evaluate. */
 void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire,
-                        const struct gb_relax_fire_tuning *tuning, struct gb_world *world,
-                        double *turned);
+                        const struct gb_relax_fire_tuning *tuning,
+                        struct gb_world *world);
 
 #endif

@@ -66,6 +66,26 @@ static void foretold(double way[3], struct asked asked)
     }
 }
 
+/* The turn of particle i in the last relaxation, and what the next one begins with. */
+static void recall_turn(const struct gb_relax *relax, int64_t i, double turned[3])
+{
+    for (int c = 0; c < 3; c++) {
+        turned[c] = relax->turned ? (double)relax->turned[3 * i + c]
+                                  : relax->vector[TURNED][3 * i + c];
+    }
+}
+
+static void keep_turn(struct gb_relax *relax, int64_t i, const double turned[3])
+{
+    for (int c = 0; c < 3; c++) {
+        if (relax->turned) {
+            relax->turned[3 * i + c] = (float)turned[c];
+        } else {
+            relax->vector[TURNED][3 * i + c] = turned[c];
+        }
+    }
+}
+
 /* Places are remembered as shares of the edges: free of the affine motion, and of whole
  * edges where a particle was put back into the cell. */
 static void foretell(struct gb_relax *relax, struct gb_world *world, struct asked asked)
@@ -76,7 +96,7 @@ static void foretell(struct gb_relax *relax, struct gb_world *world, struct aske
     schedule(static) if (gb_world_threads(world) > 1)
     for (int64_t i = 0; i < b.count; i++) {
         double *place = relax->vector[PLACE] + 3 * i;
-        double *turned = relax->vector[TURNED] + 3 * i;
+        double turned[3];
         double *position = b.position + 3 * i;
         double way[3];
         for (int c = 0; c < 3; c++) {
@@ -85,8 +105,10 @@ static void foretell(struct gb_relax *relax, struct gb_world *world, struct aske
             way[c] = edge[c] * (went - gb_cell_whole(went));
             place[c] = now;
         }
+        recall_turn(relax, i, turned);
         foretold(way, asked);
         foretold(turned, asked);
+        keep_turn(relax, i, turned);
         gb_vec_add(position, 1.0, way);
         gb_vec_add(b.turn + 3 * i, 1.0, turned);
     }
@@ -102,8 +124,7 @@ static void start(struct gb_relax *relax, struct gb_world *world)
 static void move(struct gb_relax *relax, struct gb_world *world)
 {
     struct predict *state = relax->state;
-    gb_relax_fire_move(relax, &state->fire, &gb_relax_predict_tuning, world,
-                       relax->vector[TURNED]);
+    gb_relax_fire_move(relax, &state->fire, &gb_relax_predict_tuning, world);
 }
 
 static bool record(struct gb_relax *relax, int64_t count, struct gb_record *record,
@@ -117,8 +138,10 @@ static bool record(struct gb_relax *relax, int64_t count, struct gb_record *reco
                              relax->state, err) &&
            gb_record_array(record, "relax/place", GB_RECORD_DOUBLE, count, 3, "1",
                            relax->vector[PLACE], err) &&
-           gb_record_array(record, "relax/turned", GB_RECORD_DOUBLE, count, 3, "rad",
-                           relax->vector[TURNED], err);
+           (relax->turned ? gb_record_singles(record, "relax/turned", count, 3, "rad",
+                                              relax->turned, err)
+                          : gb_record_array(record, "relax/turned", GB_RECORD_DOUBLE,
+                                            count, 3, "rad", relax->vector[TURNED], err));
 }
 
 const struct gb_relaxer gb_relax_predict = {
@@ -127,6 +150,7 @@ const struct gb_relaxer gb_relax_predict = {
     .state_size = sizeof(struct predict),
     .vectors = 4,
     .moving = true,
+    .turned = TURNED,
     .light = GB_PREDICT_LIGHT,
     .start = start,
     .move = move,

@@ -90,7 +90,7 @@ static void test_runaway(void)
         g_assert_true(gb_relax_evaluate(&relax, scene.world, &err));
         residual = gb_world_residual(scene.world);
         most = fmax(most, residual);
-        gb_relax_fire_move(&relax, &state, &tuning, scene.world, NULL);
+        gb_relax_fire_move(&relax, &state, &tuning, scene.world);
     }
     g_assert_cmpfloat(residual, <, 1e-4 * most);
     gb_alloc_free(relax.vector[0]);

@@ -1,0 +1,250 @@
+/* Particles lie in memory as three numbers each, which vectors of any width take as they
+ * come; the sweep wants rows of four.  A block at a time is turned from one into the
+ * other in the cache. */
+#include "pack/drive.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "pack/rows.h"
+#include "pack/simd.h"
+#include "pack/world_private.h"
+
+/* Numbers of a block, and lanes that sums have whatever the vector width. */
+enum { NUMBERS = 3 * GB_SWEEP_BLOCK, LANES = 16 };
+
+/* One pass over all blocks. */
+struct pass {
+    float keep, back, step;
+    float kick, kick_turn;
+    float inertia;
+    bool again; /* changes the motion that was just made */
+    float *turned;
+    /* of the axis of every number of a block */
+    double units[NUMBERS];
+    float scale[NUMBERS];
+};
+
+/* A block on its way; rows of four may be read at the last particle. */
+struct scratch {
+    float force[NUMBERS + 1], torque[NUMBERS + 1];
+    float way[NUMBERS], turn[NUMBERS + 1];
+    float square[NUMBERS];
+    uint32_t place[NUMBERS + 1];
+};
+
+GB_SIMD_LOOP void take_forces(float (*total)[GB_SINGLE_WRENCH], int particles,
+                              struct scratch *restrict s)
+{
+    for (int i = 0; i < particles; i++) {
+        gb_row_store(s->force + 3 * i, gb_row_load(total[i]));
+        gb_row_store(s->torque + 3 * i, gb_row_load(total[i] + 4));
+    }
+}
+
+/* Velocities from forces, and how far they carry. */
+GB_SIMD_LOOP void speed_up(const struct pass *pass, float kick, int n,
+                           const float *restrict force, float *restrict v,
+                           float *restrict way, float *restrict square)
+{
+    const float keep = pass->keep, back = pass->back, step = pass->step;
+    for (int k = 0; k < n; k++) {
+        const float before = v[k], after = keep * before + kick * force[k];
+        v[k] = after;
+        way[k] = step * after - back * before;
+        square[k] = after * after;
+    }
+}
+
+GB_SIMD_LOOP double sum_of(const float *restrict number, int n)
+{
+    float lane[LANES] = {0.0F};
+    double sum = 0.0;
+    int k = 0;
+    for (; k + LANES <= n; k += LANES) {
+        for (int l = 0; l < LANES; l++) {
+            lane[l] += number[k + l];
+        }
+    }
+    for (; k < n; k++) {
+        sum += (double)number[k];
+    }
+    for (int l = 0; l < LANES; l++) {
+        sum += (double)lane[l];
+    }
+    return sum;
+}
+
+/* Largest sum of three numbers of a particle. */
+GB_SIMD_LOOP float most_of(const float *restrict number, int particles)
+{
+    float most = 0.0F;
+#pragma omp simd reduction(max : most)
+    for (int i = 0; i < particles; i++) {
+        const float sum = number[3 * i] + number[3 * i + 1] + number[3 * i + 2];
+        most = sum > most ? sum : most;
+    }
+    return most;
+}
+
+/* Positions, and the places that belong to them. */
+GB_SIMD_LOOP void go(const struct pass *pass, int n, const float *restrict way,
+                     double *restrict position, uint32_t *restrict place)
+{
+    for (int k = 0; k < n; k++) {
+        const double x = position[k] + (double)way[k];
+        position[k] = x;
+        place[k] = (uint32_t)gb_single_place(x, pass->units[k]);
+    }
+}
+
+GB_SIMD_LOOP void ways_since_build(const struct pass *pass, int n,
+                                   const uint32_t *restrict place,
+                                   const uint32_t *restrict built, float *restrict square)
+{
+    for (int k = 0; k < n; k++) {
+        const uint32_t wide = place[k] - built[k];
+        const float way = (float)(int32_t)wide * pass->scale[k];
+        square[k] = way * way;
+    }
+}
+
+GB_SIMD_LOOP void turn_on(const struct pass *pass, int n, const float *restrict way,
+                          float *restrict turn, float *restrict turned)
+{
+    for (int k = 0; k < n; k++) {
+        turn[k] = (pass->again ? turn[k] : 0.0F) + way[k];
+    }
+    for (int k = 0; turned && k < n; k++) {
+        turned[k] += way[k];
+    }
+}
+
+GB_SIMD_LOOP void take_turns(const struct gb_spot *spot, int particles,
+                             float *restrict turn)
+{
+    for (int i = 0; i < particles; i++) {
+        gb_row_store(turn + 3 * i, gb_row_load(spot[i].turn));
+    }
+}
+
+/* What stands beside the third number of a row is of no use, and does no harm. */
+GB_SIMD_LOOP void give_spots(const struct scratch *restrict s, int particles,
+                             struct gb_spot *restrict spot)
+{
+    for (int i = 0; i < particles; i++) {
+        memcpy(spot[i].place, s->place + 3 * i, sizeof spot[i].place);
+        memcpy(spot[i].turn, s->turn + 3 * i, sizeof spot[i].turn);
+    }
+}
+
+GB_SIMD_LOOP void drive_block_loop(struct gb_world *world, const struct pass *pass,
+                                   int64_t b)
+{
+    const int64_t begin = b * GB_SWEEP_BLOCK, at = 3 * begin;
+    const int particles = (int)(gb_sweep_block_end(world->count, b) - begin);
+    const int n = 3 * particles;
+    struct gb_single *single = &world->single;
+    struct gb_sweep_block *block = &world->block[b];
+    struct scratch s;
+    s.place[n] = 0;
+    s.turn[n] = 0.0F;
+    take_forces(single->total + begin, particles, &s);
+    speed_up(pass, pass->kick, n, s.force, single->velocity + at, s.way, s.square);
+    block->speed2 = sum_of(s.square, n);
+    block->fastest2 = (double)most_of(s.square, particles);
+    go(pass, n, s.way, world->position + at, s.place);
+    ways_since_build(pass, n, s.place, single->built + at, s.square);
+    block->travel = sqrt((double)most_of(s.square, particles));
+    if (pass->again) {
+        take_turns(single->spot + begin, particles, s.turn);
+    }
+    speed_up(pass, pass->kick_turn, n, s.torque, single->spin + at, s.way, s.square);
+    block->speed2 += (double)pass->inertia * sum_of(s.square, n);
+    turn_on(pass, n, s.way, s.turn, pass->turned ? pass->turned + at : NULL);
+    give_spots(&s, particles, single->spot + begin);
+    if (!isfinite(block->speed2)) { /* places wrap around: they can't tell */
+        block->travel = (double)NAN;
+    }
+}
+GB_SIMD_WIDTHS(drive_block, (struct gb_world * world, const struct pass *pass, int64_t b),
+               (world, pass, b))
+
+/* All blocks, by the threads of the team that calls it; without one, by the caller. */
+static void drive_blocks(struct gb_world *world, const struct pass *pass)
+{
+    const int64_t blocks = gb_sweep_blocks(world->count);
+#pragma omp for schedule(static)
+    for (int64_t b = 0; b < blocks; b++) {
+        drive_block(world, pass, b);
+    }
+}
+
+static void drive_all(struct gb_world *world, const struct pass *pass)
+{
+    if (world->threads > 1) {
+#pragma omp parallel num_threads(world->threads)
+        drive_blocks(world, pass);
+    } else { /* a team of one would wait for itself */
+        drive_blocks(world, pass);
+    }
+}
+
+/* Velocities that gb_world_drive left are scaled, and what they did is put right: seldom.
+ */
+static void slow_down(struct gb_world *world, struct pass *pass, float scale)
+{
+    pass->again = true;
+    pass->keep = scale;
+    pass->kick = pass->kick_turn = 0.0F;
+    pass->back = (1.0F - scale) * pass->step;
+    pass->step = 0.0F;
+    drive_all(world, pass);
+}
+
+bool gb_world_drives(const struct gb_world *world)
+{
+    return world->in_single;
+}
+
+bool gb_world_will_drive(const struct gb_model *model)
+{
+    return model->numerics.single;
+}
+
+void gb_world_rest(struct gb_world *world)
+{
+    const size_t bytes = 3 * (size_t)world->count * sizeof *world->single.velocity;
+    memset(world->single.velocity, 0, bytes);
+    memset(world->single.spin, 0, bytes);
+}
+
+double gb_world_drive(struct gb_world *world, const struct gb_drive *by, float *turned)
+{
+    struct pass pass = {.keep = (float)by->keep,
+                        .back = (float)by->back,
+                        .step = (float)by->step,
+                        .kick = (float)by->kick,
+                        .kick_turn = (float)(by->kick / by->inertia),
+                        .inertia = (float)by->inertia,
+                        .turned = turned};
+    for (int k = 0; k < NUMBERS; k++) {
+        pass.units[k] = gb_single_units(&world->cell, k % 3);
+        pass.scale[k] = (float)(world->cell.edge[k % 3] * 0x1p-32);
+    }
+    drive_all(world, &pass);
+    const int64_t blocks = gb_sweep_blocks(world->count);
+    double fastest2 = 0.0, speed2 = 0.0;
+    for (int64_t b = 0; b < blocks; b++) {
+        fastest2 = fmax(fastest2, world->block[b].fastest2);
+    }
+    const double farthest = by->step * sqrt(fastest2);
+    if (farthest > by->most) {
+        slow_down(world, &pass, (float)(by->most / farthest));
+    }
+    for (int64_t b = 0; b < blocks; b++) {
+        speed2 += world->block[b].speed2;
+    }
+    world->single.driven = true;
+    return speed2;
+}
