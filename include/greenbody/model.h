@@ -17,6 +17,7 @@ struct gb_terms {
     bool attraction;
     bool bridges;
     bool friction; /* shear and pivoting caps above zero, or bridges */
+    bool plain;    /* Hertz and Mindlin: friction in shear, and nothing else */
 };
 
 /* Numbers under [numerics] after fidelity has filled what the preset left open. */
@@ -84,6 +85,7 @@ struct gb_model {
     double least, largest; /* diameters, d; 1 */
     double mean_cube;      /* of diameters, d^3; 1 */
     struct gb_terms terms;
+    bool dry; /* grains without attraction, bridges and rods: contact.normal = hertz */
     struct gb_law_rod rod;
     struct gb_law_bridge bridge;
     struct gb_law_dispersion dispersion;

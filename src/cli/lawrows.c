@@ -316,6 +316,12 @@ bool gb_lawrows_print(const struct gb_lawrows_request *request,
         if (!gb_params_check(params, err) || !gb_model_init(&model, params, err)) {
             return false;
         }
+        if (model.dry) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "law %s: accepted contact.normal = rod; law hertz is "
+                                "that of dry grains",
+                                request->law->name);
+        }
         rows.input.model = &model;
         rows.diameter = 1.0;
         rows.metre = 1.0 / model.metre_per_length;

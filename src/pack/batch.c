@@ -23,8 +23,9 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
                                          struct gb_batch *batch,                         \
                                          struct gb_contacts *contacts, int64_t slot)     \
     {                                                                                    \
-        const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
-        const struct terms printed = {planar_, friction_, bridges_, viscous_, true};     \
+        const struct terms t = {planar_, friction_, bridges_, viscous_, false, false};   \
+        const struct terms printed = {planar_,  friction_, bridges_,                     \
+                                      viscous_, true,      false};                       \
         if (bridges_ && model->bridge.radius_current) {                                  \
             advance(model, printed, batch, contacts, slot);                              \
         } else {                                                                         \
@@ -35,7 +36,7 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
                                        const struct gb_contacts *contacts, int64_t slot, \
                                        struct gb_tally *tally)                           \
     {                                                                                    \
-        const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
+        const struct terms t = {planar_, friction_, bridges_, viscous_, false, false};   \
         const double *deepest = (const double *)contacts->plane[contacts->deepest];      \
         tally_batch(t, batch, deepest + slot, tally);                                    \
     }                                                                                    \
@@ -43,7 +44,7 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
                                          struct gb_batch *batch, double *last_distance,  \
                                          double *last_pull, struct gb_tally *tally)      \
     {                                                                                    \
-        const struct terms t = {planar_, friction_, bridges_, viscous_, false};          \
+        const struct terms t = {planar_, friction_, bridges_, viscous_, false, false};   \
         attract(model, t, batch, last_distance, last_pull);                              \
         if (viscous_) {                                                                  \
             tally_work(t, batch, tally);                                                 \

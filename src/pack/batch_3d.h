@@ -59,11 +59,13 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t, BATCH *rest
             vx = where(lasts, keep * vx + ux);
             vy = where(lasts, keep * vy + uy);
             vz = where(lasts, keep * vz + uz);
-            const real twist = where(lasts, pivot[k] + m * dn);
+            const real twist = t.plain ? 0 : where(lasts, pivot[k] + m * dn);
             sx[k] = vx;
             sy[k] = vy;
             sz[k] = vz;
-            pivot[k] = twist;
+            if (!t.plain) {
+                pivot[k] = twist;
+            }
             if (t.viscous) {
                 b->rate[0][k] = where(lasts, ux);
                 b->rate[1][k] = where(lasts, uy);
@@ -164,7 +166,7 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
         const real r = b->distance[k], h = b->overlap[k], state = deepest[k];
         const bool held = t.bridges & (state > 0);
         const bool live = state >= 0;
-        const struct normal f = normal_force(&law, state, h, r);
+        const struct normal f = normal_force(t, &law, state, h, r);
         real fn = f.total, taken = 0.0;
         if (t.viscous) {
             const real lag = damp * f.slope * b->rate[7][k];
@@ -184,18 +186,19 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
             const real twisting = half * a2 * a * slip.bond;
             const real cap = held ? strength : smaller(slip.mu * f.elastic, strength);
             const real moment =
-                MOMENT_FITTED
+                t.plain ? 0
+                : MOMENT_FITTED
                     ? from * from * (slip.plate + slip.rod * f.root * moment_tail(from))
                     : b->moment[k];
             const real turn_cap =
                 held ? twisting : smaller(slip.mu_pivot * moment, twisting);
-            real vx = sx[k], vy = sy[k], vz = sz[k], p = pivot[k];
+            real vx = sx[k], vy = sy[k], vz = sz[k], p = t.plain ? 0 : pivot[k];
             const real ox = vx, oy = vy, oz = vz, op = p;
             const real v2 = vx * vx + vy * vy + vz * vz;
             const real shear2 = ks * ks * v2, turn2 = kp * kp * p * p;
             const bool cut = shear2 > cap * cap, turned = turn2 > turn_cap * turn_cap;
             const real keep = cut_to(t, cap, shear2, cut);
-            const real stay = cut_to(t, turn_cap, turn2, turned);
+            const real stay = t.plain ? 0 : cut_to(t, turn_cap, turn2, turned);
             vx *= keep;
             vy *= keep;
             vz *= keep;
@@ -203,7 +206,9 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
             sx[k] = vx;
             sy[k] = vy;
             sz[k] = vz;
-            pivot[k] = p;
+            if (!t.plain) {
+                pivot[k] = p;
+            }
             slides = mask(cut);
             if (t.viscous) {
                 /* work over the step: the springs as they were, turned along, and as they

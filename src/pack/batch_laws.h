@@ -20,6 +20,7 @@
 struct terms {
     bool planar, friction, bridges, viscous;
     bool printed; /* a_ch follows the printed form at the current r */
+    bool plain;   /* Hertz and Mindlin: no rod, no attraction, nothing against pivoting */
 };
 
 INLINE real larger(real a, real b)
@@ -97,10 +98,15 @@ INLINE struct normal_law normal_law(const struct gb_model *model, real cutoff2)
     };
 }
 
-INLINE struct normal normal_force(const struct normal_law *law, real deepest, real h,
-                                  real r)
+INLINE struct normal normal_force(struct terms t, const struct normal_law *law,
+                                  real deepest, real h, real r)
 {
     const real overlap = larger(h, 0);
+    if (t.plain) {
+        const real half_width = root(overlap), hertz = law->hertz * half_width;
+        const real force = hertz * overlap;
+        return (struct normal){force, (real)1.5 * hertz, force, half_width};
+    }
     const real from = deepest > 0 ? deepest : overlap;
     /* one division for all: D = 1 / ((1 - h) (2 - h) s^3 q^2) */
     const real s = larger(r, 1) + law->shift, q = s * s - 1;

@@ -1,6 +1,6 @@
 /* Particles lie in memory as three numbers each, which vectors of any width take as they
- * come; the sweep wants rows of four.  A block at a time is turned from one into the
- * other in the cache. */
+ * come; the sweep wants rows of four.  A stretch of them at a time is turned from one
+ * into the other in the cache. */
 #include "pack/drive.h"
 
 #include <math.h>
@@ -10,8 +10,9 @@
 #include "pack/simd.h"
 #include "pack/world_private.h"
 
-/* Numbers of a block, and lanes that sums have whatever the vector width. */
-enum { NUMBERS = 3 * GB_SWEEP_BLOCK, LANES = 16 };
+/* Particles that are turned together, their numbers, and lanes that sums have whatever
+ * the vector width. */
+enum { STRETCH = 256, NUMBERS = 3 * STRETCH, LANES = 16 };
 
 /* One pass over all blocks. */
 struct pass {
@@ -20,12 +21,12 @@ struct pass {
     float inertia;
     bool again; /* changes the motion that was just made */
     float *turned;
-    /* of the axis of every number of a block */
+    /* of the axis of every number of a stretch */
     double units[NUMBERS];
     float scale[NUMBERS];
 };
 
-/* A block on its way; rows of four may be read at the last particle. */
+/* A stretch on its way; rows of four may be read at the last particle. */
 struct scratch {
     float force[NUMBERS + 1], torque[NUMBERS + 1];
     float way[NUMBERS], turn[NUMBERS + 1];
@@ -138,34 +139,52 @@ GB_SIMD_LOOP void give_spots(const struct scratch *restrict s, int particles,
     }
 }
 
-GB_SIMD_LOOP void drive_block_loop(struct gb_world *world, const struct pass *pass,
-                                   int64_t b)
+/* What is added up over the stretches of a block. */
+struct motion {
+    double speed2;           /* with inertia */
+    float fastest2, travel2; /* the largest ones */
+};
+
+GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
+                                int64_t begin, int particles, struct motion *motion)
 {
-    const int64_t begin = b * GB_SWEEP_BLOCK, at = 3 * begin;
-    const int particles = (int)(gb_sweep_block_end(world->count, b) - begin);
+    const int64_t at = 3 * begin;
     const int n = 3 * particles;
     struct gb_single *single = &world->single;
-    struct gb_sweep_block *block = &world->block[b];
     struct scratch s;
     s.place[n] = 0;
     s.turn[n] = 0.0F;
     take_forces(single->total + begin, particles, &s);
     speed_up(pass, pass->kick, n, s.force, single->velocity + at, s.way, s.square);
-    block->speed2 = sum_of(s.square, n);
-    block->fastest2 = (double)most_of(s.square, particles);
+    motion->speed2 += sum_of(s.square, n);
+    motion->fastest2 = fmaxf(motion->fastest2, most_of(s.square, particles));
     go(pass, n, s.way, world->position + at, s.place);
     ways_since_build(pass, n, s.place, single->built + at, s.square);
-    block->travel = sqrt((double)most_of(s.square, particles));
+    motion->travel2 = fmaxf(motion->travel2, most_of(s.square, particles));
     if (pass->again) {
         take_turns(single->spot + begin, particles, s.turn);
     }
     speed_up(pass, pass->kick_turn, n, s.torque, single->spin + at, s.way, s.square);
-    block->speed2 += (double)pass->inertia * sum_of(s.square, n);
+    motion->speed2 += (double)pass->inertia * sum_of(s.square, n);
     turn_on(pass, n, s.way, s.turn, pass->turned ? pass->turned + at : NULL);
     give_spots(&s, particles, single->spot + begin);
-    if (!isfinite(block->speed2)) { /* places wrap around: they can't tell */
-        block->travel = (double)NAN;
+}
+
+GB_SIMD_LOOP void drive_block_loop(struct gb_world *world, const struct pass *pass,
+                                   int64_t b)
+{
+    const int64_t end = gb_sweep_block_end(world->count, b);
+    struct gb_sweep_block *block = &world->block[b];
+    struct motion motion = {0};
+    int particles;
+    for (int64_t i = b * GB_SWEEP_BLOCK; i < end; i += particles) {
+        particles = end - i < STRETCH ? (int)(end - i) : STRETCH;
+        drive_stretch(world, pass, i, particles, &motion);
     }
+    block->speed2 = motion.speed2;
+    block->fastest2 = (double)motion.fastest2;
+    /* places wrap around and can't tell what is not finite */
+    block->travel = isfinite(motion.speed2) ? sqrt((double)motion.travel2) : (double)NAN;
 }
 GB_SIMD_WIDTHS(drive_block, (struct gb_world * world, const struct pass *pass, int64_t b),
                (world, pass, b))

@@ -33,11 +33,6 @@ static bool rod(const struct gb_params *params)
     return params->normal == GB_NORMAL_ROD;
 }
 
-static bool granular(const struct gb_params *params)
-{
-    return !rod(params);
-}
-
 static bool storakers(const struct gb_params *params)
 {
     return params->normal == GB_NORMAL_STORAKERS;
@@ -97,7 +92,7 @@ static const struct {
     {"contact", "bridge_radius", rod},
     {"contact", "relative_motion", rod},
     {"contact", "viscosity", dynamic},
-    {"contact", "damping", granular},
+    {"contact", "damping", die},
     {"contact", "shear_ratio", storakers},
     {"contact", "storakers", storakers},
     {"contact", "radius_i", never},

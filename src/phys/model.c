@@ -147,6 +147,21 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
         params->max_evaluations > 0 ? params->max_evaluations : GB_EVALUATIONS_MOST;
 }
 
+/* Hertz, Mindlin and Coulomb: the first term of (1), and (5) with its friction only;
+ * springs of half the relative motion with (5)'s stiffness are Mindlin's. */
+static void leave_dry_grains(struct gb_model *model)
+{
+    model->dry = true;
+    model->rod.rod = model->rod.pivot = 0.0;
+    model->dispersion.strength = model->dispersion.contact = 0.0;
+    model->adhesion = 0.0;
+    model->force_floor = gb_law_rod_force(&model->rod, GB_OVERLAP_FLOOR);
+    model->bridge.length = 1.0;
+    model->bridge.strength = model->slip.strength = GB_STRENGTH_OF_GRAINS;
+    model->slip.mu_pivot = 0.0;
+    model->slip.motion = 0.5;
+}
+
 static void freeze_laws(struct gb_model *model, const struct gb_params *params)
 {
     const double d = model->metre_per_length, young = params->young_pa;
@@ -166,9 +181,14 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
     gb_law_slip_init(&model->slip, params->poisson, params->mu, mu_pivot,
                      model->bridge.strength,
                      params->relative_motion == GB_MOTION_FULL ? 1.0 : 0.5);
+    if (params->kind != GB_KIND_DIE && params->normal == GB_NORMAL_HERTZ) {
+        leave_dry_grains(model);
+    }
     model->terms.attraction = model->adhesion > 0.0;
     model->terms.bridges = model->bridge.length < 1.0;
-    model->terms.friction = model->terms.bridges || params->mu > 0.0 || mu_pivot > 0.0;
+    model->terms.friction =
+        model->terms.bridges || params->mu > 0.0 || model->slip.mu_pivot > 0.0;
+    model->terms.plain = model->dry && model->terms.friction;
 }
 
 static void freeze_programme(struct gb_model *model, const struct gb_params *params)
@@ -289,20 +309,23 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
     switch (index) {
     case 0:
         snprintf(buffer, size, "bridges: %s",
-                 terms->bridges
-                     ? "carried"
-                     : "left out (contact.bridge_length is a diameter or more)");
+                 terms->bridges ? "carried"
+                 : model->dry   ? "left out (contact.normal = hertz)"
+                              : "left out (contact.bridge_length is a diameter or more)");
         return buffer;
     case 1:
         snprintf(buffer, size, "friction, pivoting and their history: %s",
-                 terms->friction ? "carried" : "left out (mu = 0, no bridges)");
+                 !terms->friction ? "left out (mu = 0, no bridges)"
+                 : model->dry     ? "carried, but for pivoting (contact.normal = hertz)"
+                                  : "carried");
         return buffer;
     case 2:
         snprintf(
             buffer, size,
             terms->attraction
                 ? "attraction: carried to %.3f d, where it is %.1e of its contact value"
-                : "attraction: left out (material.epsilon = 0)",
+            : model->dry ? "attraction: left out (contact.normal = hertz)"
+                         : "attraction: left out (material.epsilon = 0)",
             numerics->cutoff,
             gb_law_dispersion_force(&model->dispersion, numerics->cutoff) /
                 model->adhesion);

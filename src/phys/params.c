@@ -130,7 +130,8 @@ static const struct gb_field fields[] = {
 
     {"contact", "normal", GB_FIELD_CHOICE, AT(normal), .choices = normals,
      .fallback = "rod",
-     .meaning = "law of the normal force: rod model, or Hertz or Storakers in a die",
+     .meaning = "law of the normal force: rod model with attraction and bridges, or dry "
+                "grains: Hertz, in a die also Storakers",
      .source = "P1 (1); P3 (2), (16)"},
     {"contact", "alpha", GB_FIELD_NUMBER, AT(alpha), RANGE(0.05, 10.0),
      .fallback = "0.24", .meaning = "least gap in the dispersion law, in d0",
@@ -627,15 +628,23 @@ static bool check_programme(const struct gb_params *params, struct gb_error *err
 }
 
 /* Spheres and walls of a die press on each other by Hertz and Storakers; the periodic
- * cells of P1 and P2 carry the rod model. */
+ * cells of P1 and P2 carry the rod model, those at rest also dry grains of one size. */
 static bool check_normal(const struct gb_params *params, struct gb_error *err)
 {
-    if (params->kind != GB_KIND_DIE && params->normal != GB_NORMAL_ROD) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "contact.normal = %s: accepted rod with scene.kind = %s",
-                            normals[params->normal], kinds[params->kind]);
+    const bool still = params->kind == GB_KIND_QUASISTATIC;
+    if (params->normal == GB_NORMAL_ROD ||
+        (params->normal == GB_NORMAL_HERTZ && still && !gb_sizes_apply(params))) {
+        return true;
     }
-    return true;
+    if (params->normal == GB_NORMAL_HERTZ && still) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "contact.normal = hertz: accepted rod with "
+                            "particles.distribution = %s",
+                            distributions[params->distribution]);
+    }
+    return gb_error_set(
+        err, GB_ERR_INPUT, "contact.normal = %s: accepted rod%s with scene.kind = %s",
+        normals[params->normal], still ? " or hertz" : "", kinds[params->kind]);
 }
 
 bool gb_params_check(const struct gb_params *params, struct gb_error *err)

@@ -231,9 +231,8 @@ char *gb_sizetable_write(const struct gb_sizetable *table, char *buffer, size_t 
 /* The planes of 2D and the equations of motion know one diameter. */
 static bool check_scene(const struct gb_params *params, struct gb_error *err)
 {
-    const bool one_size =
-        params->kind == GB_KIND_DYNAMIC ||
-        (params->kind == GB_KIND_QUASISTATIC && params->dimension == 2);
+    const bool one_size = params->kind == GB_KIND_DYNAMIC ||
+                          (params->kind == GB_KIND_QUASISTATIC && params->dimension == 2);
     return !one_size || params->distribution == GB_DISTRIBUTION_MONO ||
            gb_error_set(err, GB_ERR_INPUT,
                         "particles.distribution = %s: accepted mono with scene.kind = "

@@ -61,6 +61,10 @@
  * density at 100 MPa grows by 0.0015 for each 1e-3. */
 #define GB_PART_REFERENCE 2e-4
 
+/* Shear strength of contacts without cement (E): none, but finite, so that it times nothing
+ * is nothing. */
+#define GB_STRENGTH_OF_GRAINS 1e6
+
 /* The force scale of the stopping rule never falls below f_e at this overlap (d): without
  * adhesion a loose packing carries no force at all, and a share of nothing cannot be
  * reached. At 1e-4 the floor is worth about 0.1 MPa in alumina. */

@@ -43,7 +43,7 @@ double gb_bench_exponent(const double *count, const double *cost, size_t n);
 
 /* What each term of the sweep costs: the same pressed packing timed with fewer of them.
  */
-enum { GB_BENCH_TERMS = 5 };
+enum { GB_BENCH_TERMS = 6 };
 struct gb_bench_term {
     const char *name;    /* "all terms", "without bridges", ... */
     double evaluation_s; /* median, one core; NaN where the scene has no such term */

@@ -34,7 +34,8 @@ bool gb_change_order(struct gb_experiment *experiment, struct gb_error *err)
 static bool same_terms(const struct gb_model *a, const struct gb_model *b)
 {
     return a->terms.attraction == b->terms.attraction &&
-           a->terms.bridges == b->terms.bridges && a->terms.friction == b->terms.friction;
+           a->terms.bridges == b->terms.bridges && a->terms.friction == b->terms.friction &&
+           a->dry == b->dry;
 }
 
 /* Everything that the next one has becomes the experiment's.  The world points to the

@@ -8,60 +8,14 @@
 #include <string.h>
 #include <time.h>
 
-#include <glib.h>
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
 
 #include "measure/survey.h"
 #include "solve/leap.h"
+#include "spheres.h"
 
 enum { STEPS = 100 };
-
-static bool fail(const char *what, const char *where)
-{
-    fprintf(stderr, "time_spheres: %s: %s\n", where, what);
-    return false;
-}
-
-/* Place, speed and spin of a sphere, in the order of the file's places. */
-struct sphere {
-    double x[3], v[3], w[3];
-};
-
-/* The rows of both sections carry the number of their sphere; all diameters have to be 1.
- */
-static bool read_spheres(const char *path, GArray *spheres)
-{
-    char *text = NULL;
-    if (!g_file_get_contents(path, &text, NULL, NULL)) {
-        return fail("cannot be read", path);
-    }
-    GHashTable *place_of = g_hash_table_new(g_direct_hash, g_direct_equal);
-    char **lines = g_strsplit(text, "\n", -1);
-    bool atoms = false, good = true;
-    for (char **line = lines; *line && good; line++) {
-        double n, a[6];
-        if (g_str_has_prefix(*line, "Atoms") || g_str_has_prefix(*line, "Velocities")) {
-            atoms = **line == 'A';
-        } else if (sscanf(*line, "%lf %lf %lf %lf %lf %lf %lf", &n, a, a + 1, a + 2,
-                          a + 3, a + 4, a + 5) == 7) {
-            void *key = GINT_TO_POINTER((int)n);
-            if (atoms) { /* type, diameter, density, place */
-                const struct sphere sphere = {.x = {a[3], a[4], a[5]}};
-                good = a[1] == 1.0 || fail("accepted: diameters of 1", path);
-                g_hash_table_insert(place_of, key, GINT_TO_POINTER((int)spheres->len));
-                g_array_append_val(spheres, sphere);
-            } else if (g_hash_table_contains(place_of, key)) {
-                const int i = GPOINTER_TO_INT(g_hash_table_lookup(place_of, key));
-                memcpy(g_array_index(spheres, struct sphere, i).v, a, sizeof a);
-            }
-        }
-    }
-    g_hash_table_destroy(place_of);
-    g_strfreev(lines);
-    g_free(text);
-    return good && (spheres->len > 0 || fail("holds no spheres", path));
-}
 
 /* Far from the walls of a wide die. */
 static bool settle(struct gb_bed **bed, const GArray *spheres, struct gb_error *err)
@@ -140,18 +94,19 @@ int main(int argc, char **argv)
 {
     struct gb_error err = {0};
     struct gb_bed *bed = NULL;
-    GArray *spheres = g_array_new(FALSE, FALSE, sizeof(struct sphere));
+    struct spheres spheres;
     const int batches = argc > 2 ? atoi(argv[2]) : 15;
+    g_set_prgname("time_spheres");
     if (argc < 2 || batches < 1) {
         fputs("usage: time_spheres FILE [BATCHES]\n", stderr);
         return 2;
     }
-    bool done = read_spheres(argv[1], spheres);
+    bool done = spheres_read(argv[1], &spheres);
     if (done) {
-        done = (settle(&bed, spheres, &err) && time_steps(bed, batches, &err)) ||
-               fail(err.text, argv[1]);
+        done = (settle(&bed, spheres.row, &err) && time_steps(bed, batches, &err)) ||
+               spheres_fail(err.text, argv[1]);
     }
     gb_bed_destroy(bed);
-    g_array_free(spheres, TRUE);
+    g_array_free(spheres.row, TRUE);
     return done ? 0 : 2;
 }

@@ -4,6 +4,7 @@
 #include "base/vec.h"
 #include "common/scene.h"
 #include "measure/observe.h"
+#include "phys/law_hertz.h"
 
 /* What a world is good for in each precision. */
 struct precision {
@@ -150,6 +151,103 @@ static void test_gradient(const void *data)
     g_assert_cmpfloat_with_epsilon(pressure[2][2],
                                    (squeezed - widened) / (2.0 * step * volume),
                                    precision->gradient);
+    gb_world_destroy(world);
+}
+
+/* The deepest contact that has its first particle well inside the cell. */
+static int64_t deepest_pair(const struct gb_world *world, int64_t *first)
+{
+    const struct gb_pair_list *near = &gb_world_pairs(world)->near;
+    int64_t best = -1;
+    double least = 1.0;
+    for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
+        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
+            const double distance = distance_of(world, i, near->other[k]);
+            if (distance < least) {
+                least = distance;
+                best = k;
+                *first = i;
+            }
+        }
+    }
+    return best;
+}
+
+/* Dry grains: Hertz along the normal, Coulomb's bound across it. */
+static void check_dry(const struct gb_world *world, const struct gb_law_hertz *law,
+                      double radius, double precision)
+{
+    const struct gb_pair_list *near = &gb_world_pairs(world)->near;
+    const double mu = gb_world_model(world)->slip.mu;
+    int64_t touching = 0, sliding = 0;
+    for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
+        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
+            double r[3], force[3];
+            gb_world_arm(world, near, i, k, r);
+            gb_world_force(world, k, force);
+            const double distance = gb_vec_length(r);
+            const double normal = gb_vec_dot(force, r) / distance;
+            const double hertz =
+                distance < 1.0 ? gb_law_hertz_force(law, radius, 1.0 - distance) : 0.0;
+            g_assert_cmpfloat_with_epsilon(normal, hertz, precision);
+            gb_vec_add(force, -normal / distance, r);
+            const double shear = gb_vec_length(force);
+            g_assert_cmpfloat(shear, <=, mu * hertz + precision);
+            touching += distance < 1.0;
+            sliding += hertz > 0.0 && shear > 0.99 * mu * hertz;
+        }
+    }
+    g_assert_cmpint(touching, >, 300);
+    g_assert_cmpint(sliding, >, 0);
+    g_assert_cmpint(sliding, <, touching);
+}
+
+/* A step across the normal from a state without springs: Mindlin. */
+static void check_mindlin(const struct gb_model *model, const double *position,
+                          const struct gb_law_hertz *law, double radius, double precision)
+{
+    struct gb_world *world = NULL;
+    struct gb_error err = {0};
+    g_assert_true(gb_world_create(&world, model, position, &err));
+    scene_evaluate(world);
+    int64_t i = 0;
+    const int64_t k = deepest_pair(world, &i);
+    double r[3], across[3], before[3], force[3];
+    gb_world_arm(world, &gb_world_pairs(world)->near, i, k, r);
+    const double distance = gb_vec_length(r), step = 1e-4;
+    const double axis[3] = {fabs(r[0]) < 0.5 ? 1.0 : 0.0, fabs(r[0]) < 0.5 ? 0.0 : 1.0,
+                            0.0};
+    gb_vec_cross(r, axis, across);
+    gb_world_force(world, k, before);
+    gb_vec_add(gb_world_bodies(world).position + 3 * i, step / gb_vec_length(across),
+               across);
+    scene_evaluate(world);
+    gb_world_force(world, k, force);
+    const double shear =
+        (gb_vec_dot(force, across) - gb_vec_dot(before, across)) / gb_vec_length(across);
+    const double expected =
+        -step * gb_law_hertz_shear(law, radius, 1.0 - distance) +
+        step * gb_law_hertz_force(law, radius, 1.0 - distance) / distance;
+    g_assert_cmpfloat_with_epsilon(shear, expected, precision * fabs(expected));
+    gb_world_destroy(world);
+}
+
+static void test_dry(const void *data)
+{
+    const struct precision *precision = data;
+    struct gb_params params =
+        scene_params(precision->setting, "contact.normal=hertz", "contact.mu=0.2", NULL);
+    struct gb_model model = scene_model(&params);
+    g_assert_false(model.terms.bridges || model.terms.attraction);
+    const struct gb_elastic elastic = {1.0, params.poisson};
+    struct gb_law_hertz law;
+    gb_law_hertz_init(&law, &elastic, &elastic);
+    const double radius = gb_law_hertz_radius(0.5, 0.5);
+    struct gb_world *world = scene_world(&model);
+    scene_press(world, 250, 20, 2.0);
+    check_dry(world, &law, radius, 100.0 * precision->gradient);
+    memcpy(model.edges, gb_world_cell(world)->edge, sizeof model.edges);
+    check_mindlin(&model, gb_world_position(world), &law, radius, 0.01);
     gb_world_destroy(world);
 }
 
@@ -509,6 +607,8 @@ int main(int argc, char **argv)
     g_test_add_data_func("/world/momentum-single", &precisions[1], test_momentum);
     g_test_add_data_func("/world/gradient", &precisions[0], test_gradient);
     g_test_add_data_func("/world/gradient-single", &precisions[1], test_gradient);
+    g_test_add_data_func("/world/dry", &precisions[0], test_dry);
+    g_test_add_data_func("/world/dry-single", &precisions[1], test_dry);
     g_test_add_data_func("/world/skin", &precisions[0], test_skin);
     g_test_add_data_func("/world/skin-single", &precisions[1], test_skin);
     g_test_add_data_func("/world/threads", &precisions[0], test_threads);

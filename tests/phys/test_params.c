@@ -213,8 +213,11 @@ static const struct check checks[] = {
     {{"structure.base=180 nm"}, {NULL}},
     {{"structure.base=20 nm"}, {"structure.base", "3 d"}},
     {{"numerics.cutoff=3 d", "particles.count=200"}, {"particles.count", "6 d"}},
-    {{"contact.normal=hertz"},
-     {"contact.normal = hertz: accepted rod", "scene.kind = quasistatic"}},
+    {{"contact.normal=hertz"}, {NULL}}, /* dry grains */
+    {{"contact.normal=hertz", "particles.distribution=lognormal"},
+     {"contact.normal = hertz: accepted rod", "particles.distribution = lognormal"}},
+    {{"contact.normal=storakers"},
+     {"contact.normal = storakers: accepted rod or hertz", "scene.kind = quasistatic"}},
     {{"contact.normal=storakers", "scene.kind=dynamic", "loading.until=density=0.9"},
      {"contact.normal = storakers: accepted rod", "scene.kind = dynamic"}},
     {{"contact.radius_j=wall", "material.yield_j=1 GPa"}, {NULL}},
