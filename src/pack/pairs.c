@@ -16,6 +16,10 @@ enum { CROWD = 256 };
 /* Most have no more. */
 enum { FEW = 32 };
 
+/* Pairs that lists may be amended by between two builds: some, and one for so many
+ * particles. */
+enum { AMENDED_LEAST = 64, AMENDED_SHARE = 256 };
+
 struct grid {
     struct gb_pairs_grid shape;
     const struct gb_cell *cell;
@@ -58,8 +62,11 @@ bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, struct gb_error *err)
     *pairs = (struct gb_pairs){.count = count, .largest = 1.0};
     pairs->next = gb_alloc_array((size_t)count, sizeof *pairs->next, err);
     pairs->built_at = gb_alloc_array(3 * (size_t)count, sizeof *pairs->built_at, err);
-    if (!pairs->next || !pairs->built_at || !list_init(&pairs->near, count, err) ||
-        !list_init(&pairs->far, count, err)) {
+    pairs->amended_most = AMENDED_LEAST + count / AMENDED_SHARE;
+    pairs->amended =
+        gb_alloc_array((size_t)pairs->amended_most, sizeof *pairs->amended, err);
+    if (!pairs->next || !pairs->built_at || !pairs->amended ||
+        !list_init(&pairs->near, count, err) || !list_init(&pairs->far, count, err)) {
         gb_pairs_finish(pairs);
         return false;
     }
@@ -73,6 +80,7 @@ void gb_pairs_finish(struct gb_pairs *pairs)
     gb_alloc_free(pairs->head);
     gb_alloc_free(pairs->next);
     gb_alloc_free(pairs->built_at);
+    gb_alloc_free(pairs->amended);
     *pairs = (struct gb_pairs){0};
 }
 
@@ -446,6 +454,14 @@ static void transpose(struct gb_pair_list *list, int64_t count)
     in[0] = 0;
 }
 
+void gb_pairs_transpose(struct gb_pairs *pairs, int threads)
+{
+#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
+    for (int l = 0; l < 2; l++) {
+        transpose(l == 0 ? &pairs->near : &pairs->far, pairs->count);
+    }
+}
+
 bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
                     const double *position, double cutoff, double skin, int threads,
                     struct gb_error *err)
@@ -471,10 +487,8 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
         !fill_pairs(pairs, &grid, bounds, threads, err)) {
         return false;
     }
-#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
-    for (int l = 0; l < 2; l++) {
-        transpose(l == 0 ? &pairs->near : &pairs->far, pairs->count);
-    }
+    gb_pairs_transpose(pairs, threads);
+    pairs->amended_count = 0;
     pairs->grid = grid.shape;
     memcpy(pairs->built_at, position, 3 * (size_t)pairs->count * sizeof *position);
     memcpy(pairs->built_edge, cell->edge, sizeof pairs->built_edge);
@@ -494,6 +508,7 @@ void gb_pairs_clear(struct gb_pairs *pairs)
 {
     list_clear(&pairs->near, pairs->count);
     list_clear(&pairs->far, pairs->count);
+    pairs->amended_count = 0;
 }
 
 /* Largest squared way beside the affine motion; total: their sum, not finite when one is

@@ -23,6 +23,12 @@ struct gb_pair_list {
     int32_t *in_slot;  /* ... as indices k, ascending */
 };
 
+/* A pair that was put into a list after it was built; see pack/amend.h. */
+struct gb_amendment {
+    int32_t first, other, image;
+    int32_t near; /* 1: into that list; 0: into `far` */
+};
+
 /* Verlet list.  Only pairs that can touch before the next build (nearer than 1 + skin)
  * are in `near` and carry a contact record; `far` ones can only attract across a gap. */
 struct gb_pairs {
@@ -41,6 +47,9 @@ struct gb_pairs {
     double built_edge[3];
     double stretch[3]; /* affine scaling of the cell since */
     double strain;     /* largest affine strain since */
+    /* pairs put in since, ascending */
+    struct gb_amendment *amended;
+    int64_t amended_count, amended_most;
 };
 
 bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, struct gb_error *err);
@@ -61,6 +70,9 @@ void gb_pairs_clear(struct gb_pairs *pairs);
  * the affine motion; NaN when a position is not finite. */
 double gb_pairs_travel(const struct gb_pairs *pairs, const double *position,
                        int64_t begin, int64_t end);
+
+/* The transposes of both lists, after pairs were put in or taken out. */
+void gb_pairs_transpose(struct gb_pairs *pairs, int threads);
 
 /* Takes note that the cell and all positions were scaled. */
 void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3]);

@@ -4,8 +4,10 @@
 
 #include "pack/world_private.h"
 
-/* Of so many particles one may stray: looking at them costs a little of a sweep then. */
-enum { STRAYS_SHARE = 32 };
+/* Some may stray, and one of so many particles: looking at them costs a little of a sweep
+ * then.  In one block of them more, as one spot may be busier than all others. */
+enum { STRAYS_ANYWAY = 16 };
+enum { STRAYS_SHARE = 128, STRAYS_SHARE_BLOCK = 8 };
 
 /* Pairs count as touching, or within the cutoff, this much too early (d): a sweep in
  * single precision sees distances to a little less. */
@@ -77,19 +79,30 @@ static double nearest2(const struct gb_cell *cell, const double *xi, const doubl
     return squared;
 }
 
+static void note(struct gb_strays_missing *missing, int64_t i, int64_t j, bool near)
+{
+    if (missing->count == GB_STRAYS_MISSING) {
+        missing->many = true;
+        return;
+    }
+    missing->pair[missing->count++] =
+        (struct gb_strays_pair){(int32_t)(i < j ? i : j), (int32_t)(i < j ? j : i), near};
+}
+
 /* Is the pair in the list that its distance asks for? */
-static bool pair_listed(const struct gb_world *world, int64_t i, int64_t j)
+static void look_at_pair(const struct gb_world *world, int64_t i, int64_t j,
+                         struct gb_strays_missing *missing)
 {
     const double *d = world->diameter;
     const double touch = (d ? 0.5 * (d[i] + d[j]) : 1.0) + hair;
     const double reach = touch + world->model->numerics.cutoff - 1.0;
     const double squared =
         nearest2(&world->cell, world->position + 3 * i, world->position + 3 * j);
-    if (squared >= reach * reach) {
-        return true;
+    const bool touches = squared < touch * touch;
+    if (squared < reach * reach && !holds(world, &world->pairs.near, i, j, squared) &&
+        (touches || !holds(world, &world->pairs.far, i, j, squared))) {
+        note(missing, i, j, touches);
     }
-    return holds(world, &world->pairs.near, i, j, squared) ||
-           (squared >= touch * touch && holds(world, &world->pairs.far, i, j, squared));
 }
 
 /* Where particle i would have been at the build had only the cell been strained since. */
@@ -105,21 +118,22 @@ static void home_at_build(const struct gb_world *world, int64_t i, int home[3])
     gb_pairs_grid_home(&world->pairs.grid, x, home);
 }
 
-static bool cell_listed(const struct gb_world *world, int64_t i, const int home[3])
+static void look_into_cell(const struct gb_world *world, int64_t i, const int home[3],
+                           struct gb_strays_missing *missing)
 {
     const struct gb_pairs *pairs = &world->pairs;
     const int cell = gb_pairs_grid_index(&pairs->grid, home);
     for (int32_t k = pairs->head[cell]; k < pairs->head[cell + 1]; k++) {
         const int64_t j = pairs->next[k];
-        if (j != i && !pair_listed(world, i, j)) {
-            return false;
+        if (j != i) {
+            look_at_pair(world, i, j, missing);
         }
     }
-    return true;
 }
 
 /* Those in `span` grid cells each way. */
-static bool stray_listed(const struct gb_world *world, int64_t i, int span)
+static void look_around(const struct gb_world *world, int64_t i, int span,
+                        struct gb_strays_missing *missing)
 {
     const struct gb_pairs_grid *grid = &world->pairs.grid;
     int home[3], at[3], low[3], high[3];
@@ -134,11 +148,8 @@ static bool stray_listed(const struct gb_world *world, int64_t i, int span)
         for (int k = 0; k < 3; k++) {
             at[k] = (home[k] + low[k] + step[k] + grid->n[k]) % grid->n[k];
         }
-        if (!cell_listed(world, i, at)) {
-            return false;
-        }
+        look_into_cell(world, i, at, missing);
     }
-    return true;
 }
 
 /* Squared way of particle i since the build, beside the affine motion. */
@@ -153,21 +164,25 @@ static double way2(const struct gb_pairs *pairs, const double *position, int64_t
     return square;
 }
 
-bool gb_strays_listed(const struct gb_world *world, int64_t begin, int64_t end)
+void gb_strays_look(const struct gb_world *world, int64_t begin, int64_t end,
+                    struct gb_strays_missing *missing)
 {
     const double fresh = half_margin(world), near = sight_of(world).near;
-    int64_t strays = 0;
-    for (int64_t i = begin; i < end; i++) {
+    *missing = (struct gb_strays_missing){0};
+    for (int64_t i = begin; i < end && !missing->many; i++) {
         const double square = way2(&world->pairs, world->position, i);
         if (square < fresh * fresh) {
             continue;
         }
-        strays++;
+        missing->strays++;
+        missing->many =
+            STRAYS_SHARE_BLOCK * (missing->strays - STRAYS_ANYWAY) > end - begin;
         /* two that went far are found by each other, others by the one that did */
-        if (STRAYS_SHARE * strays > end - begin + STRAYS_SHARE ||
-            !stray_listed(world, i, square < near * near ? 1 : 2)) {
-            return false;
-        }
+        look_around(world, i, square < near * near ? 1 : 2, missing);
     }
-    return true;
+}
+
+bool gb_strays_too_many(int64_t strays, int64_t particles)
+{
+    return STRAYS_SHARE * (strays - STRAYS_ANYWAY) > particles;
 }

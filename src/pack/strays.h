@@ -20,8 +20,26 @@ enum gb_strays_list {
 /* travel: of the particle that came furthest; NaN where a place is not finite */
 enum gb_strays_list gb_strays_judge(const struct gb_world *world, double travel);
 
-/* Are all pairs of the strays among particles begin .. end - 1 where they belong in the
- * list?  Also false where there are too many of them to look at. */
-bool gb_strays_listed(const struct gb_world *world, int64_t begin, int64_t end);
+/* A pair that the list it belongs into does not hold: first < other. */
+struct gb_strays_pair {
+    int32_t first, other;
+    bool near; /* into that list, else into `far` */
+};
+
+/* Those of a block of particles. */
+enum { GB_STRAYS_MISSING = 8 };
+struct gb_strays_missing {
+    bool many; /* there may be more, or there were too many strays to look at */
+    int strays, count;
+    struct gb_strays_pair pair[GB_STRAYS_MISSING];
+};
+
+/* Which pairs of the strays among particles begin .. end - 1 are not where they belong in
+ * the list? */
+void gb_strays_look(const struct gb_world *world, int64_t begin, int64_t end,
+                    struct gb_strays_missing *missing);
+
+/* Are so many strays among all particles more than a new list costs? */
+bool gb_strays_too_many(int64_t strays, int64_t particles);
 
 #endif

@@ -327,19 +327,25 @@ static void prepare_block(struct gb_world *world, int64_t b)
 static void doubt_block(struct gb_world *world, int64_t b)
 {
     struct gb_sweep_block *block = &world->block[b];
-    block->unlisted =
-        gb_strays_judge(world, block->travel) != GB_STRAYS_FRESH &&
-        !gb_strays_listed(world, b * GB_SWEEP_BLOCK, gb_sweep_block_end(world->count, b));
+    block->missing = (struct gb_strays_missing){0};
+    if (gb_strays_judge(world, block->travel) != GB_STRAYS_FRESH) {
+        gb_strays_look(world, b * GB_SWEEP_BLOCK, gb_sweep_block_end(world->count, b),
+                       &block->missing);
+    }
 }
 
-static bool any_unlisted(const struct gb_world *world, int64_t blocks)
+/* Does the list miss a pair, or is it too old to be looked after? */
+static bool any_missing(const struct gb_world *world, int64_t blocks)
 {
+    int64_t strays = 0;
     for (int64_t b = 0; b < blocks; b++) {
-        if (world->block[b].unlisted) {
+        const struct gb_strays_missing *missing = &world->block[b].missing;
+        if (missing->many || missing->count > 0) {
             return true;
         }
+        strays += missing->strays;
     }
-    return false;
+    return gb_strays_too_many(strays, world->count);
 }
 
 /* By all threads of a team or by one; every one of them gets the same answer. */
@@ -354,7 +360,7 @@ static bool list_holds(struct gb_world *world, int64_t blocks)
     for (int64_t b = 0; b < blocks; b++) {
         doubt_block(world, b);
     }
-    return !any_unlisted(world, blocks);
+    return !any_missing(world, blocks);
 }
 
 bool gb_sweep_list_holds(struct gb_world *world, double *travel)

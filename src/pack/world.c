@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "pack/amend.h"
 #include "pack/deal.h"
 #include "pack/simd.h"
 #include "pack/sweep.h"
@@ -225,11 +226,17 @@ static bool evaluate(struct gb_world *world, struct gb_error *err)
     if (!world->listed) {
         travel = gb_pairs_travel(&world->pairs, world->position, 0, world->count);
     }
-    if (!world->listed || !sweep(world, &travel)) {
-        if (!isfinite(travel)) {
-            return gb_error_set(err, GB_ERR_GUARD,
-                                "a particle's place is not a finite number");
-        }
+    bool swept = world->listed && sweep(world, &travel);
+    if (!swept && !isfinite(travel)) {
+        return gb_error_set(err, GB_ERR_GUARD,
+                            "a particle's place is not a finite number");
+    }
+    bool amended = !swept && world->listed;
+    if (amended && !gb_amend_lists(world, travel, &amended, err)) {
+        return false;
+    }
+    swept = swept || (amended && sweep(world, &travel));
+    if (!swept) {
         if (!gb_ledger_write(&world->ledger, world, true, err) ||
             !rebuild(world, &world->ledger, err)) {
             return false;

@@ -4,6 +4,7 @@
 #include "base/vec.h"
 #include "pack/ledger.h"
 #include "pack/single.h"
+#include "pack/strays.h"
 #include "pack/sweep.h"
 #include "pack/world.h"
 
@@ -14,8 +15,8 @@
 struct gb_sweep_block {
     struct gb_tally tally;
     struct gb_world_sums sums;
-    double travel; /* longest way since the list was built */
-    bool unlisted; /* a pair of one that strayed is not where it belongs in the list */
+    double travel;                    /* longest way since the list was built */
+    struct gb_strays_missing missing; /* where somebody has strayed */
     double speed2, fastest2; /* of a drive: sum with inertia, and of who moves fastest */
 };
 

@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "pack/amend.h"
 #include "pack/sweep_single.h"
 #include "pack/world_private.h"
 
@@ -111,6 +112,17 @@ static bool check_inside(const struct gb_cell *cell, const double *position,
     return true;
 }
 
+/* Pairs that the lists were amended by. */
+static const char amended[] = "world/amended";
+
+static bool load_amended(struct gb_world *world, struct gb_record *record,
+                         struct gb_error *err)
+{
+    int64_t rows = 0;
+    return gb_record_rows(record, amended, GB_RECORD_INT32, 4, &rows, err) &&
+           gb_amend_again(world, gb_record_find(record, amended)->data, rows, err);
+}
+
 /* The lists as they were, with no history. */
 static bool load_lists(struct gb_world *world, struct gb_record *record,
                        struct gb_error *err)
@@ -135,7 +147,7 @@ static bool load_lists(struct gb_world *world, struct gb_record *record,
     gb_pairs_shifts(&built, world->shift);
     gb_ledger_read(&none, world);
     world->listed = true;
-    return true;
+    return load_amended(world, record, err);
 }
 
 /* Every pair of the ledger must touch, and no other. */
@@ -240,6 +252,8 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
     return gb_ledger_write(ledger, world, false, err) &&
            gb_record_members(record, before, LENGTH(before), world, err) &&
            vectors(world, record, "world/built_at", "d", world->pairs.built_at, err) &&
+           gb_record_array(record, amended, GB_RECORD_INT32, world->pairs.amended_count,
+                           4, "1", world->pairs.amended, err) &&
            gb_record_members(record, members, LENGTH(members), world, err) &&
            vectors(world, record, "world/position", "d", world->position, err) &&
            exchange_ledger(ledger, world->contacts.kept, world->in_single, record,

@@ -7,7 +7,7 @@
 
 /* Raised whenever the members of a record change their meaning: a resumed run must be the
  * same run, so no other layout is read. */
-static const int32_t layout_number = 1;
+static const int32_t layout_number = 2;
 
 static const char group[] = "/checkpoint";
 

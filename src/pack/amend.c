@@ -1,0 +1,279 @@
+#include "pack/amend.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "pack/world_private.h"
+
+/* Where pairs go into a list, or come out of it: ascending, at most so many at once. */
+enum { PLACES = 256 };
+struct places {
+    int64_t at[PLACES]; /* slots before anything is moved */
+    const struct gb_amendment *pair[PLACES];
+    int count;
+};
+
+static int compare(const void *a, const void *b)
+{
+    const struct gb_amendment *x = a, *y = b;
+    return x->first != y->first ? (x->first > y->first) - (x->first < y->first)
+                                : (x->other > y->other) - (x->other < y->other);
+}
+
+/* First slot of the pair's first particle whose second one is not before the pair's. */
+static int64_t slot_of(const struct gb_pair_list *list, const struct gb_amendment *pair)
+{
+    int64_t k = list->start[pair->first];
+    while (k < list->start[pair->first + 1] && list->other[k] < pair->other) {
+        k++;
+    }
+    return k;
+}
+
+static bool holds(const struct gb_pair_list *list, const struct gb_amendment *pair)
+{
+    const int64_t k = slot_of(list, pair);
+    return k < list->start[pair->first + 1] && list->other[k] == pair->other;
+}
+
+/* Opens a gap at every place in an array of items of so many bytes. */
+static void open_gaps(void *array, size_t size, int64_t length,
+                      const struct places *places)
+{
+    char *byte = array;
+    int64_t end = length;
+    for (int p = places->count - 1; p >= 0; p--) {
+        const int64_t at = places->at[p];
+        memmove(byte + (size_t)(at + p + 1) * size, byte + (size_t)at * size,
+                (size_t)(end - at) * size);
+        end = at;
+    }
+}
+
+static void close_gaps(void *array, size_t size, int64_t length,
+                       const struct places *places)
+{
+    char *byte = array;
+    for (int p = 0; p < places->count; p++) {
+        const int64_t from = places->at[p] + 1;
+        const int64_t to = p + 1 < places->count ? places->at[p + 1] : length;
+        memmove(byte + (size_t)(from - p - 1) * size, byte + (size_t)from * size,
+                (size_t)(to - from) * size);
+    }
+}
+
+/* Moves the starts of all particles behind the places; by: +1 or -1. */
+static void shift_starts(struct gb_pair_list *list, int64_t particles,
+                         const struct places *places, int by)
+{
+    int p = 0;
+    for (int64_t i = 0; i <= particles; i++) {
+        while (p < places->count && places->pair[p]->first < i) {
+            p++;
+        }
+        list->start[i] += (int64_t)by * p;
+    }
+    list->pair_count += (int64_t)by * places->count;
+}
+
+static void move_list(struct gb_pair_list *list,
+                      void (*move)(void *, size_t, int64_t, const struct places *),
+                      const struct places *places)
+{
+    move(list->first, sizeof *list->first, list->pair_count, places);
+    move(list->other, sizeof *list->other, list->pair_count, places);
+    move(list->image, sizeof *list->image, list->pair_count, places);
+}
+
+static void put_in(struct gb_pair_list *list, int64_t particles,
+                   const struct places *places)
+{
+    move_list(list, open_gaps, places);
+    for (int p = 0; p < places->count; p++) {
+        const int64_t k = places->at[p] + p;
+        list->first[k] = places->pair[p]->first;
+        list->other[k] = places->pair[p]->other;
+        list->image[k] = (uint8_t)places->pair[p]->image;
+    }
+    shift_starts(list, particles, places, 1);
+}
+
+static void take_out(struct gb_pair_list *list, int64_t particles,
+                     const struct places *places)
+{
+    move_list(list, close_gaps, places);
+    shift_starts(list, particles, places, -1);
+}
+
+/* Gaps in the histories of the near pairs, filled with pairs that do not touch. */
+static void make_histories(struct gb_world *world, const struct places *places)
+{
+    struct gb_contacts *contacts = &world->contacts;
+    const int64_t length = world->pairs.near.pair_count;
+#pragma omp parallel for num_threads(world->threads)                                     \
+    schedule(static) if (world->threads > 1)
+    for (int p = 0; p < contacts->planes; p++) {
+        open_gaps(contacts->plane[p], sizeof(float), length, places);
+    }
+    for (int p = 0; p < places->count; p++) {
+        gb_contacts_clear(contacts, places->at[p] + p);
+    }
+}
+
+/* Image of the pair that is the nearest one now. */
+static int32_t nearest_image(const struct gb_world *world, int64_t i, int64_t j)
+{
+    int32_t image = 0, weight = 1;
+    for (int k = 0; k < 3; k++) {
+        const double edge = world->cell.edge[k];
+        const double r = world->position[3 * i + k] - world->position[3 * j + k];
+        const int32_t whole = -(int32_t)gb_cell_whole(r / edge);
+        if (whole < -1 || whole > 1) {
+            return -1;
+        }
+        image += weight * (whole + 1);
+        weight *= 3;
+    }
+    return image;
+}
+
+/* All that is missing, sorted, each pair once; false where there is too much of it. */
+static bool gather(const struct gb_world *world, struct gb_amendment missing[PLACES],
+                   int *count)
+{
+    int n = 0;
+    int64_t strays = 0;
+    for (int64_t b = 0; b < gb_sweep_blocks(world->count); b++) {
+        const struct gb_strays_missing *part = &world->block[b].missing;
+        strays += part->strays;
+        if (part->many || n + part->count > PLACES) {
+            return false;
+        }
+        for (int k = 0; k < part->count; k++) {
+            const struct gb_strays_pair *pair = &part->pair[k];
+            missing[n++] = (struct gb_amendment){
+                pair->first, pair->other, nearest_image(world, pair->first, pair->other),
+                pair->near};
+        }
+    }
+    qsort(missing, (size_t)n, sizeof *missing, compare);
+    *count = 0;
+    for (int k = 0; k < n; k++) {
+        if (*count == 0 || compare(&missing[*count - 1], &missing[k]) != 0) {
+            missing[(*count)++] = missing[k];
+        }
+    }
+    return !gb_strays_too_many(strays, world->count);
+}
+
+/* Sorts the changes by list; false where one makes no sense or room is out. */
+static bool plan(const struct gb_world *world, const struct gb_amendment *missing,
+                 int count, struct places *near, struct places *far,
+                 struct places *not_far)
+{
+    const struct gb_pairs *pairs = &world->pairs;
+    near->count = far->count = not_far->count = 0;
+    for (int k = 0; k < count; k++) {
+        const struct gb_amendment *pair = &missing[k];
+        const bool far_off = holds(&pairs->far, pair);
+        if (holds(&pairs->near, pair) || pair->image < 0 || (far_off && !pair->near)) {
+            return false; /* there, but with another image */
+        }
+        struct places *places = pair->near ? near : far;
+        places->at[places->count] =
+            slot_of(pair->near ? &pairs->near : &pairs->far, pair);
+        places->pair[places->count++] = pair;
+        if (far_off) {
+            not_far->at[not_far->count] = slot_of(&pairs->far, pair);
+            not_far->pair[not_far->count++] = pair;
+        }
+    }
+    return pairs->near.pair_count + near->count < pairs->near.capacity &&
+           pairs->far.pair_count + far->count < pairs->far.capacity;
+}
+
+/* Remembers them, sorted; one that was far becomes near. */
+static void remember(struct gb_pairs *pairs, const struct gb_amendment *missing,
+                     int count)
+{
+    for (int k = 0; k < count; k++) {
+        int64_t at = 0;
+        while (at < pairs->amended_count &&
+               compare(&pairs->amended[at], &missing[k]) < 0) {
+            at++;
+        }
+        if (at == pairs->amended_count || compare(&pairs->amended[at], &missing[k])) {
+            memmove(&pairs->amended[at + 1], &pairs->amended[at],
+                    (size_t)(pairs->amended_count - at) * sizeof *pairs->amended);
+            pairs->amended_count++;
+        }
+        pairs->amended[at] = missing[k];
+    }
+}
+
+/* Both lists, and all that goes with them, as planned. */
+static bool carry_out(struct gb_world *world, const struct places *near,
+                      const struct places *not_far, struct places *far,
+                      struct gb_error *err)
+{
+    struct gb_pairs *pairs = &world->pairs;
+    make_histories(world, near);
+    put_in(&pairs->near, world->count, near);
+    take_out(&pairs->far, world->count, not_far);
+    for (int p = 0; p < far->count; p++) {
+        far->at[p] = slot_of(&pairs->far, far->pair[p]);
+    }
+    put_in(&pairs->far, world->count, far);
+    gb_pairs_transpose(pairs, world->threads);
+    return gb_single_take_lists(&world->single, pairs, err);
+}
+
+bool gb_amend_lists(struct gb_world *world, double travel, bool *done,
+                    struct gb_error *err)
+{
+    struct gb_amendment missing[PLACES];
+    struct places near, far, not_far;
+    int count = 0;
+    *done = world->in_single && gb_strays_judge(world, travel) == GB_STRAYS_DOUBTED &&
+            gather(world, missing, &count) &&
+            world->pairs.amended_count + count <= world->pairs.amended_most &&
+            plan(world, missing, count, &near, &far, &not_far);
+    if (!*done) {
+        return true;
+    }
+    remember(&world->pairs, missing, count);
+    return carry_out(world, &near, &not_far, &far, err);
+}
+
+static bool sound(const struct gb_world *world, const struct gb_amendment *kept,
+                  int64_t count)
+{
+    for (int64_t k = 0; k < count; k++) {
+        const struct gb_amendment *pair = &kept[k];
+        if (pair->first < 0 || pair->other <= pair->first ||
+            pair->other >= world->count || pair->image < 0 || pair->image > 26 ||
+            (pair->near != 0 && pair->near != 1) ||
+            (k > 0 && compare(&kept[k - 1], pair) >= 0)) {
+            return false;
+        }
+    }
+    return count <= world->pairs.amended_most;
+}
+
+bool gb_amend_again(struct gb_world *world, const struct gb_amendment *kept,
+                    int64_t count, struct gb_error *err)
+{
+    struct places near, far, not_far;
+    bool good = (count == 0 || world->in_single) && sound(world, kept, count);
+    for (int64_t k = 0; k < count && good; k += PLACES) {
+        const int part = count - k < PLACES ? (int)(count - k) : PLACES;
+        good = plan(world, kept + k, part, &near, &far, &not_far);
+        if (good) {
+            remember(&world->pairs, kept + k, part);
+            if (!carry_out(world, &near, &not_far, &far, err)) {
+                return false;
+            }
+        }
+    }
+    return good || gb_error_set(err, GB_ERR_INPUT, "world/amended: is out of range");
+}
