@@ -289,6 +289,8 @@ void gb_sweep_single_widen(struct gb_world *world)
     if (!world->in_single || !world->single.narrow) {
         return;
     }
+#pragma omp parallel for num_threads(world->threads)                                     \
+    schedule(static) if (world->threads > 1)
     for (int64_t i = 0; i < world->count; i++) {
         for (int c = 0; c < 3; c++) {
             world->force[3 * i + c] = (double)world->single.total[i][c];

@@ -305,6 +305,12 @@ struct gb_bodies gb_world_bodies(struct gb_world *world)
                               world->torque};
 }
 
+struct gb_bodies gb_world_movable(struct gb_world *world)
+{
+    return (struct gb_bodies){
+        .count = world->count, .position = world->position, .turn = world->turn};
+}
+
 const struct gb_cell *gb_world_cell(const struct gb_world *world)
 {
     return &world->cell;

@@ -58,6 +58,8 @@ void gb_world_set_step(struct gb_world *world, double time_step);
 void gb_world_strain(struct gb_world *world, const double factor[3]);
 
 struct gb_bodies gb_world_bodies(struct gb_world *world);
+/* Positions and turns alone, which cost nothing to tell; forces and torques NULL. */
+struct gb_bodies gb_world_movable(struct gb_world *world);
 const struct gb_cell *gb_world_cell(const struct gb_world *world);
 const struct gb_model *gb_world_model(const struct gb_world *world);
 const struct gb_tally *gb_world_tally(const struct gb_world *world);

@@ -90,7 +90,7 @@ static void keep_turn(struct gb_relax *relax, int64_t i, const double turned[3])
  * edges where a particle was put back into the cell. */
 static void foretell(struct gb_relax *relax, struct gb_world *world, struct asked asked)
 {
-    const struct gb_bodies b = gb_world_bodies(world);
+    const struct gb_bodies b = gb_world_movable(world);
     const double *edge = gb_world_cell(world)->edge;
 #pragma omp parallel for num_threads(gb_world_threads(world))                            \
     schedule(static) if (gb_world_threads(world) > 1)
