@@ -147,6 +147,13 @@
 #define GB_POURED_FALL       0.1
 #define GB_POURED_UNBALANCED 0.2
 
+/* And the highest particle lies on others: its contacts bear this share of its weight at
+ * least.  The means above do not see one small particle that still falls, and it would be
+ * taken for the top of the powder: punch and height go by it.  One that falls bears 0,
+ * one at rest 1.  Smaller: one that slides down the wall passes.  Near 1: rest is not
+ * seen while the highest particle trembles. */
+#define GB_REST_BORNE 0.5
+
 /* Force on the floor over force on the punch: further from 1 than this, inertia carries
  * a part of the pressure and the point is not quasi-static. */
 #define GB_FLOOR_OVER_PUNCH_SLACK 0.05

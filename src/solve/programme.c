@@ -94,8 +94,22 @@ static enum gb_programme_outcome trip(struct gb_programme *programme, struct gb_
     return GB_PROGRAMME_MORE;
 }
 
-/* Mean kinetic energy against a fall, and resultant forces against those of the contacts.
- * Spin does not count: nothing slows a smooth sphere that turns where it lies. */
+/* Is the highest particle carried, or does it still fall? */
+static bool top_is_borne(const struct gb_bed *bed, double gravity)
+{
+    int64_t highest = 0;
+    double top = 0.0;
+    for (int64_t i = 0; i < bed->count; i++) {
+        const double reach = bed->place[i][2] + bed->place[i][3];
+        highest = reach > top ? i : highest;
+        top = fmax(reach, top);
+    }
+    return bed->force[highest][2] > GB_REST_BORNE * bed->mass[highest] * gravity;
+}
+
+/* Mean kinetic energy against a fall, resultant forces against those of the contacts, and
+ * what the top of the powder lies on.  Spin does not count: nothing slows a smooth sphere
+ * that turns where it lies. */
 static bool at_rest(const struct gb_programme *programme, const struct gb_bed *bed)
 {
     const bool pours = programme->now.stage == GB_PROGRAMME_POUR;
@@ -104,7 +118,8 @@ static bool at_rest(const struct gb_programme *programme, const struct gb_bed *b
     return gb_bed_kinetic(bed).moving <
                (pours ? GB_POURED_FALL : GB_REST_FALL) * weight &&
            gb_bed_unbalanced(bed, gravity) <
-               (pours ? GB_POURED_UNBALANCED : GB_REST_UNBALANCED);
+               (pours ? GB_POURED_UNBALANCED : GB_REST_UNBALANCED) &&
+           top_is_borne(bed, gravity);
 }
 
 static int64_t left_in_funnel(const struct gb_bed *bed)
