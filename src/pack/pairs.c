@@ -456,6 +456,7 @@ static void transpose(struct gb_pair_list *list, int64_t count)
 
 void gb_pairs_transpose(struct gb_pairs *pairs, int threads)
 {
+    (void)threads; /* without OpenMP */
 #pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
     for (int l = 0; l < 2; l++) {
         transpose(l == 0 ? &pairs->near : &pairs->far, pairs->count);
