@@ -209,7 +209,7 @@ static void drive_all(struct gb_world *world, const struct pass *pass)
     }
 }
 
-/* Velocities that gb_world_drive left are scaled, and what they did is put right: seldom.
+/* Velocities that gb_drive_move left are scaled, and what they did is put right: seldom.
  */
 static void slow_down(struct gb_world *world, struct pass *pass, float scale)
 {
@@ -221,24 +221,24 @@ static void slow_down(struct gb_world *world, struct pass *pass, float scale)
     drive_all(world, pass);
 }
 
-bool gb_world_drives(const struct gb_world *world)
+bool gb_drive_does(const struct gb_world *world)
 {
     return world->in_single;
 }
 
-bool gb_world_will_drive(const struct gb_model *model)
+bool gb_drive_will(const struct gb_model *model)
 {
     return model->numerics.single;
 }
 
-void gb_world_rest(struct gb_world *world)
+void gb_drive_rest(struct gb_world *world)
 {
     const size_t bytes = 3 * (size_t)world->count * sizeof *world->single.velocity;
     memset(world->single.velocity, 0, bytes);
     memset(world->single.spin, 0, bytes);
 }
 
-double gb_world_drive(struct gb_world *world, const struct gb_drive *by, float *turned)
+double gb_drive_move(struct gb_world *world, const struct gb_drive *by, float *turned)
 {
     struct pass pass = {.keep = (float)by->keep,
                         .back = (float)by->back,

@@ -17,17 +17,17 @@ struct gb_drive {
 };
 
 /* Does the world do that, and will that of a model? */
-bool gb_world_drives(const struct gb_world *world);
-bool gb_world_will_drive(const struct gb_model *model);
+bool gb_drive_does(const struct gb_world *world);
+bool gb_drive_will(const struct gb_model *model);
 
 /* All velocities to 0. */
-void gb_world_rest(struct gb_world *world);
+void gb_drive_rest(struct gb_world *world);
 
 /* One motion, by the forces of the last evaluation; the next one uses it up, and has to
  * follow before anything else moves the particles.  Returns the sum of the squared
  * velocities, those of turns with their inertia.
  *
  * turned   count x 3, to which the turns are added; NULL: to nothing */
-double gb_world_drive(struct gb_world *world, const struct gb_drive *by, float *turned);
+double gb_drive_move(struct gb_world *world, const struct gb_drive *by, float *turned);
 
 #endif

@@ -16,7 +16,7 @@ void gb_sweep_single_block(struct gb_world *world, int64_t b, double cutoff2,
 void gb_sweep_single_collect(struct gb_world *world, int64_t begin, int64_t end,
                              struct gb_world_sums *sums);
 
-/* Forces and torques as doubles, for all but gb_world_drive; and back. */
+/* Forces and torques as doubles, for all but gb_drive_move; and back. */
 void gb_sweep_single_widen(struct gb_world *world);
 void gb_sweep_single_narrow(struct gb_world *world);
 

@@ -234,7 +234,7 @@ static const struct variant variants[GB_BENCH_TERMS] = {
     {"without bridges", false, true, true, false},
     {"without friction and bridges", false, false, true, false},
     {"without attraction", true, true, false, false},
-    {"dry grains (Hertz, Mindlin)", false, true, false, true},
+    {"dry grains only", false, true, false, true},
     {"elastic spheres only", false, false, false, false},
 };
 

@@ -43,7 +43,7 @@ static bool take_vectors(struct gb_relax *relax, const struct gb_model *model,
 {
     const struct gb_relaxer *method = relax->method;
     const size_t numbers = 3 * (size_t)model->count;
-    const bool driven = method->moving && gb_world_will_drive(model);
+    const bool driven = method->moving && gb_drive_will(model);
     bool whole = true;
     for (int v = driven ? 2 : 0; v < method->vectors && whole; v++) {
         if (driven && v == method->turned) {

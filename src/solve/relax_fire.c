@@ -32,8 +32,8 @@ void gb_relax_fire_rest(struct gb_relax *relax, struct gb_relax_fire_state *fire
                         const struct gb_relax_fire_tuning *tuning, struct gb_world *world)
 {
     const size_t bytes = 3 * (size_t)gb_world_model(world)->count * sizeof(double);
-    if (gb_world_drives(world)) {
-        gb_world_rest(world);
+    if (gb_drive_does(world)) {
+        gb_drive_rest(world);
     } else {
         memset(relax->vector[0], 0, bytes);
         memset(relax->vector[1], 0, bytes);
@@ -256,8 +256,8 @@ void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire
     drive.keep = rolling ? 1.0 - fire->mixing : 0.0;
     drive.step = fire->step;
     drive.kick = fire->step + steer;
-    fire->speed2 = gb_world_drives(world) ? gb_world_drive(world, &drive, relax->turned)
-                                          : drive_world(relax, world, &drive);
+    fire->speed2 = gb_drive_does(world) ? gb_drive_move(world, &drive, relax->turned)
+                                        : drive_world(relax, world, &drive);
 }
 
 static void start(struct gb_relax *relax, struct gb_world *world)

@@ -370,7 +370,7 @@ static void test_bench_terms(void)
     static const struct {
         const char *words;
         int rows;
-    } scene[] = {{"bench --terms --csv particles.count=300 --coordination 4.2", 5},
+    } scene[] = {{"bench --terms --csv particles.count=300 --coordination 4.2", 6},
                  {"bench --terms --csv particles.count=300 --coordination 4.2 "
                   "material.epsilon=0J",
                   3}};
