@@ -47,11 +47,22 @@ static void mark_points(struct gb_series *series, const struct gb_model *model,
     mark(series, deep, normal_nn(model, deep, 0.0), "<i>C\xe2\x80\xb2</i>", false, true);
 }
 
+/* The model of a scene whose contacts are those of P1. */
+static bool freeze_rods(struct gb_model *model, const struct gb_params *scene,
+                        const char *figure, struct gb_error *err)
+{
+    if (!gb_model_init(model, scene, err)) {
+        return false;
+    }
+    return !model->dry ||
+           gb_error_set(err, GB_ERR_INPUT, "%s: accepted contact.normal = rod", figure);
+}
+
 bool gb_figures_law_contact(struct gb_series *series,
                             const struct gb_figures_input *input, struct gb_error *err)
 {
     struct gb_model model;
-    if (!gb_model_init(&model, input->scene, err)) {
+    if (!freeze_rods(&model, input->scene, "contact", err)) {
         return false;
     }
     if (!model.terms.bridges) {
@@ -95,7 +106,7 @@ bool gb_figures_law_strength(struct gb_series *series,
         struct gb_model model;
         struct gb_params scene = *input->scene;
         scene.bridge_length = (struct gb_relative){lengths[i], true};
-        if (!gb_model_init(&model, &scene, err)) {
+        if (!freeze_rods(&model, &scene, "bridge-strength", err)) {
             return false;
         }
         double *strength = gb_series_column(series, "strength_%g_GPa", lengths[i]);

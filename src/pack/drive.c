@@ -238,6 +238,19 @@ void gb_drive_rest(struct gb_world *world)
     memset(world->single.spin, 0, bytes);
 }
 
+/* The same three numbers again and again. */
+static void fill_axes(struct pass *pass, const struct gb_cell *cell)
+{
+    for (int c = 0; c < 3; c++) {
+        const double units = gb_single_units(cell, c);
+        const float scale = (float)(cell->edge[c] * 0x1p-32);
+        for (int k = c; k < NUMBERS; k += 3) {
+            pass->units[k] = units;
+            pass->scale[k] = scale;
+        }
+    }
+}
+
 double gb_drive_move(struct gb_world *world, const struct gb_drive *by, float *turned)
 {
     struct pass pass = {.keep = (float)by->keep,
@@ -247,10 +260,7 @@ double gb_drive_move(struct gb_world *world, const struct gb_drive *by, float *t
                         .kick_turn = (float)(by->kick / by->inertia),
                         .inertia = (float)by->inertia,
                         .turned = turned};
-    for (int k = 0; k < NUMBERS; k++) {
-        pass.units[k] = gb_single_units(&world->cell, k % 3);
-        pass.scale[k] = (float)(world->cell.edge[k % 3] * 0x1p-32);
-    }
+    fill_axes(&pass, &world->cell);
     drive_all(world, &pass);
     const int64_t blocks = gb_sweep_blocks(world->count);
     double fastest2 = 0.0, speed2 = 0.0;

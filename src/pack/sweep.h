@@ -24,8 +24,8 @@ void gb_sweep_sum(const struct gb_world *world, int64_t begin, int64_t end,
 void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums);
 
 /* Particles whose tallies, and in single precision the forces of pairs among them, are
- * summed as one: a fixed block, so that the order of the
- * sums, and with it every bit, does not depend on the number of threads. */
+ * summed as one: a fixed block, so that the order of the sums, and with it every bit,
+ * does not depend on the number of threads. */
 enum { GB_SWEEP_BLOCK = 1024 };
 
 /* Blocks that count particles make, and where block b ends. */

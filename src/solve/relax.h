@@ -26,9 +26,8 @@ struct gb_relaxer {
     const char *doc;
     size_t state_size; /* bytes of its state ... */
     int vectors;       /* ... and how many arrays of count x 3 doubles it needs */
-    bool moving; /* the first two are velocities, of the particles and of their turns ...
-                  */
-    int turned;  /* ... and to this one its turns are added; 0: to none */
+    bool moving; /* the first two are velocities, of the particles and of their turns */
+    int turned;  /* to this one the turns are added; 0: to none */
     /* Least share of the tolerance under light loads, where it falls with the mean
      * contact force over f_a(d); 1: the tolerance holds everywhere. */
     double light;
