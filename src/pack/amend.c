@@ -3,14 +3,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "pack/world_private.h"
 
-/* Where pairs go into a list, or come out of it: ascending, at most so many at once. */
-enum { PLACES = 256 };
+/* Where pairs go into a list, or come out of it, ascending. */
 struct places {
-    int64_t at[PLACES]; /* slots before anything is moved */
-    const struct gb_amendment *pair[PLACES];
+    int64_t *at; /* slots before anything is moved */
+    const struct gb_amendment **pair;
     int count;
+};
+
+/* What is to be done to the lists. */
+struct plan {
+    struct gb_amendment *missing; /* sorted */
+    int count;
+    struct places near, far, not_far;
 };
 
 static int compare(const void *a, const void *b)
@@ -137,93 +144,132 @@ static int32_t nearest_image(const struct gb_world *world, int64_t i, int64_t j)
     return image;
 }
 
-/* All that is missing, sorted, each pair once; false where there is too much of it. */
-static bool gather(const struct gb_world *world, struct gb_amendment missing[PLACES],
-                   int *count)
+static void plan_finish(struct plan *plan)
 {
-    int n = 0;
+    struct places *places[] = {&plan->near, &plan->far, &plan->not_far};
+    for (int l = 0; l < 3; l++) {
+        gb_alloc_free(places[l]->at);
+        gb_alloc_free(places[l]->pair);
+    }
+    gb_alloc_free(plan->missing);
+    *plan = (struct plan){0};
+}
+
+/* Room for so many pairs. */
+static bool plan_init(struct plan *plan, int64_t room, struct gb_error *err)
+{
+    *plan = (struct plan){0};
+    struct places *places[] = {&plan->near, &plan->far, &plan->not_far};
+    const size_t n = (size_t)room;
+    plan->missing = gb_alloc_array(n, sizeof *plan->missing, err);
+    bool good = plan->missing != NULL;
+    for (int l = 0; l < 3 && good; l++) {
+        places[l]->at = gb_alloc_array(n, sizeof *places[l]->at, err);
+        places[l]->pair = gb_alloc_array(n, sizeof *places[l]->pair, err);
+        good = places[l]->at && places[l]->pair;
+    }
+    if (!good) {
+        plan_finish(plan);
+    }
+    return good;
+}
+
+/* Is it known who is missing, and are they few enough?  How many may be. */
+static bool count_missing(const struct gb_world *world, int64_t *most)
+{
     int64_t strays = 0;
+    *most = 0;
     for (int64_t b = 0; b < gb_sweep_blocks(world->count); b++) {
         const struct gb_strays_missing *part = &world->block[b].missing;
         strays += part->strays;
-        if (part->many || n + part->count > PLACES) {
+        *most += part->count;
+        if (part->many) {
             return false;
         }
+    }
+    return *most > 0 && world->pairs.amended_count + *most <= world->pairs.amended_most &&
+           !gb_strays_too_many(strays, world->count);
+}
+
+/* All that is missing, sorted, each pair once. */
+static void gather(const struct gb_world *world, struct plan *plan)
+{
+    int n = 0;
+    for (int64_t b = 0; b < gb_sweep_blocks(world->count); b++) {
+        const struct gb_strays_missing *part = &world->block[b].missing;
         for (int k = 0; k < part->count; k++) {
             const struct gb_strays_pair *pair = &part->pair[k];
-            missing[n++] = (struct gb_amendment){
+            plan->missing[n++] = (struct gb_amendment){
                 pair->first, pair->other, nearest_image(world, pair->first, pair->other),
                 pair->near};
         }
     }
-    qsort(missing, (size_t)n, sizeof *missing, compare);
-    *count = 0;
+    qsort(plan->missing, (size_t)n, sizeof *plan->missing, compare);
     for (int k = 0; k < n; k++) {
-        if (*count == 0 || compare(&missing[*count - 1], &missing[k]) != 0) {
-            missing[(*count)++] = missing[k];
+        if (k == 0 || compare(&plan->missing[plan->count - 1], &plan->missing[k]) != 0) {
+            plan->missing[plan->count++] = plan->missing[k];
         }
     }
-    return !gb_strays_too_many(strays, world->count);
+}
+
+static void add_place(struct places *places, const struct gb_pair_list *list,
+                      const struct gb_amendment *pair)
+{
+    places->at[places->count] = slot_of(list, pair);
+    places->pair[places->count++] = pair;
 }
 
 /* Sorts the changes by list; false where one makes no sense or room is out. */
-static bool plan(const struct gb_world *world, const struct gb_amendment *missing,
-                 int count, struct places *near, struct places *far,
-                 struct places *not_far)
+static bool sort_out(const struct gb_world *world, struct plan *plan)
 {
     const struct gb_pairs *pairs = &world->pairs;
-    near->count = far->count = not_far->count = 0;
-    for (int k = 0; k < count; k++) {
-        const struct gb_amendment *pair = &missing[k];
+    for (int k = 0; k < plan->count; k++) {
+        const struct gb_amendment *pair = &plan->missing[k];
         const bool far_off = holds(&pairs->far, pair);
         if (holds(&pairs->near, pair) || pair->image < 0 || (far_off && !pair->near)) {
             return false; /* there, but with another image */
         }
-        struct places *places = pair->near ? near : far;
-        places->at[places->count] =
-            slot_of(pair->near ? &pairs->near : &pairs->far, pair);
-        places->pair[places->count++] = pair;
+        if (pair->near) {
+            add_place(&plan->near, &pairs->near, pair);
+        } else {
+            add_place(&plan->far, &pairs->far, pair);
+        }
         if (far_off) {
-            not_far->at[not_far->count] = slot_of(&pairs->far, pair);
-            not_far->pair[not_far->count++] = pair;
+            add_place(&plan->not_far, &pairs->far, pair);
         }
     }
-    return pairs->near.pair_count + near->count < pairs->near.capacity &&
-           pairs->far.pair_count + far->count < pairs->far.capacity;
+    return pairs->near.pair_count + plan->near.count < pairs->near.capacity &&
+           pairs->far.pair_count + plan->far.count < pairs->far.capacity;
 }
 
 /* Remembers them, sorted; one that was far becomes near. */
-static void remember(struct gb_pairs *pairs, const struct gb_amendment *missing,
-                     int count)
+static void remember(struct gb_pairs *pairs, const struct plan *plan)
 {
-    for (int k = 0; k < count; k++) {
-        int64_t at = 0;
-        while (at < pairs->amended_count &&
-               compare(&pairs->amended[at], &missing[k]) < 0) {
-            at++;
+    const size_t before = (size_t)pairs->amended_count, size = sizeof *pairs->amended;
+    for (int k = 0; k < plan->count; k++) {
+        struct gb_amendment *known =
+            bsearch(&plan->missing[k], pairs->amended, before, size, compare);
+        if (known) {
+            *known = plan->missing[k];
+        } else {
+            pairs->amended[pairs->amended_count++] = plan->missing[k];
         }
-        if (at == pairs->amended_count || compare(&pairs->amended[at], &missing[k])) {
-            memmove(&pairs->amended[at + 1], &pairs->amended[at],
-                    (size_t)(pairs->amended_count - at) * sizeof *pairs->amended);
-            pairs->amended_count++;
-        }
-        pairs->amended[at] = missing[k];
     }
+    qsort(pairs->amended, (size_t)pairs->amended_count, size, compare);
 }
 
 /* Both lists, and all that goes with them, as planned. */
-static bool carry_out(struct gb_world *world, const struct places *near,
-                      const struct places *not_far, struct places *far,
-                      struct gb_error *err)
+static bool carry_out(struct gb_world *world, struct plan *plan, struct gb_error *err)
 {
     struct gb_pairs *pairs = &world->pairs;
-    make_histories(world, near);
-    put_in(&pairs->near, world->count, near);
-    take_out(&pairs->far, world->count, not_far);
-    for (int p = 0; p < far->count; p++) {
-        far->at[p] = slot_of(&pairs->far, far->pair[p]);
+    remember(pairs, plan);
+    make_histories(world, &plan->near);
+    put_in(&pairs->near, world->count, &plan->near);
+    take_out(&pairs->far, world->count, &plan->not_far);
+    for (int p = 0; p < plan->far.count; p++) {
+        plan->far.at[p] = slot_of(&pairs->far, plan->far.pair[p]);
     }
-    put_in(&pairs->far, world->count, far);
+    put_in(&pairs->far, world->count, &plan->far);
     gb_pairs_transpose(pairs, world->threads);
     return gb_single_take_lists(&world->single, pairs, err);
 }
@@ -231,18 +277,21 @@ static bool carry_out(struct gb_world *world, const struct places *near,
 bool gb_amend_lists(struct gb_world *world, double travel, bool *done,
                     struct gb_error *err)
 {
-    struct gb_amendment missing[PLACES];
-    struct places near, far, not_far;
-    int count = 0;
+    int64_t most;
     *done = world->in_single && gb_strays_judge(world, travel) == GB_STRAYS_DOUBTED &&
-            gather(world, missing, &count) &&
-            world->pairs.amended_count + count <= world->pairs.amended_most &&
-            plan(world, missing, count, &near, &far, &not_far);
+            count_missing(world, &most);
     if (!*done) {
         return true;
     }
-    remember(&world->pairs, missing, count);
-    return carry_out(world, &near, &not_far, &far, err);
+    struct plan plan;
+    if (!plan_init(&plan, most, err)) {
+        return false;
+    }
+    gather(world, &plan);
+    *done = sort_out(world, &plan);
+    const bool good = !*done || carry_out(world, &plan, err);
+    plan_finish(&plan);
+    return good;
 }
 
 static bool sound(const struct gb_world *world, const struct gb_amendment *kept,
@@ -263,17 +312,21 @@ static bool sound(const struct gb_world *world, const struct gb_amendment *kept,
 bool gb_amend_again(struct gb_world *world, const struct gb_amendment *kept,
                     int64_t count, struct gb_error *err)
 {
-    struct places near, far, not_far;
-    bool good = (count == 0 || world->in_single) && sound(world, kept, count);
-    for (int64_t k = 0; k < count && good; k += PLACES) {
-        const int part = count - k < PLACES ? (int)(count - k) : PLACES;
-        good = plan(world, kept + k, part, &near, &far, &not_far);
-        if (good) {
-            remember(&world->pairs, kept + k, part);
-            if (!carry_out(world, &near, &not_far, &far, err)) {
-                return false;
-            }
-        }
+    if (count == 0) {
+        return true;
     }
-    return good || gb_error_set(err, GB_ERR_INPUT, "world/amended: is out of range");
+    struct plan plan = {0};
+    bool good = world->in_single && sound(world, kept, count);
+    if (good) {
+        if (!plan_init(&plan, count, err)) {
+            return false;
+        }
+        memcpy(plan.missing, kept, (size_t)count * sizeof *kept);
+        plan.count = (int)count;
+        good = sort_out(world, &plan);
+    }
+    const bool done = good && carry_out(world, &plan, err);
+    plan_finish(&plan);
+    return good ? done
+                : gb_error_set(err, GB_ERR_INPUT, "world/amended: is out of range");
 }

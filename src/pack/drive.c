@@ -177,7 +177,7 @@ GB_SIMD_LOOP void drive_block_loop(struct gb_world *world, const struct pass *pa
     struct gb_sweep_block *block = &world->block[b];
     struct motion motion = {0};
     int particles;
-    for (int64_t i = b * GB_SWEEP_BLOCK; i < end; i += particles) {
+    for (int64_t i = gb_sweep_block_begin(world->count, b); i < end; i += particles) {
         particles = end - i < STRETCH ? (int)(end - i) : STRETCH;
         drive_stretch(world, pass, i, particles, &motion);
     }

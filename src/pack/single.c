@@ -64,7 +64,8 @@ static void count_rows(struct gb_single_outward *out, const struct gb_pair_list 
     int64_t rows = 0;
     memset(out->in_start, 0, ((size_t)count + 1) * sizeof *out->in_start);
     for (int64_t b = 0; b < gb_sweep_blocks(count); b++) {
-        const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(count, b);
+        const int64_t begin = gb_sweep_block_begin(count, b),
+                      end = gb_sweep_block_end(count, b);
         out->start[b] = rows;
         for (int64_t k = list->start[begin]; k < list->start[end]; k++) {
             const int32_t j = list->other[k];
@@ -85,7 +86,8 @@ static void deal_rows(struct gb_single_outward *out, const struct gb_pair_list *
 {
     int32_t row = 0, *in = out->in_start;
     for (int64_t b = 0; b < gb_sweep_blocks(count); b++) {
-        const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(count, b);
+        const int64_t begin = gb_sweep_block_begin(count, b),
+                      end = gb_sweep_block_end(count, b);
         for (int64_t k = list->start[begin]; k < list->start[end]; k++) {
             if (list->other[k] >= end) {
                 out->in_row[in[list->other[k]]++] = row++;

@@ -27,7 +27,7 @@ struct gb_strays_pair {
 };
 
 /* Those of a block of particles. */
-enum { GB_STRAYS_MISSING = 8 };
+enum { GB_STRAYS_MISSING = 16 };
 struct gb_strays_missing {
     bool many; /* there may be more, or there were too many strays to look at */
     int strays, count;

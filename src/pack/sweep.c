@@ -170,7 +170,8 @@ static void sweep_block(struct gb_world *world, int64_t b)
 {
     const double cutoff =
         world->model->terms.attraction ? world->model->numerics.cutoff : 0.0;
-    const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(world->count, b);
+    const int64_t begin = gb_sweep_block_begin(world->count, b),
+                  end = gb_sweep_block_end(world->count, b);
     struct gb_tally tally = {0};
     if (world->in_single) {
         gb_sweep_single_block(world, b, cutoff * cutoff, &tally);
@@ -271,7 +272,8 @@ void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums)
 static void collect_block(struct gb_world *world, int64_t b)
 {
     const bool planar = world->model->dimension == 2;
-    const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(world->count, b);
+    const int64_t begin = gb_sweep_block_begin(world->count, b),
+                  end = gb_sweep_block_end(world->count, b);
     if (!world->single.driven) {
         memset(world->turn + 3 * begin, 0,
                3 * (size_t)(end - begin) * sizeof *world->turn);
@@ -316,7 +318,8 @@ static double longest_travel(const struct gb_world *world, int64_t blocks)
 
 static void prepare_block(struct gb_world *world, int64_t b)
 {
-    const int64_t begin = b * GB_SWEEP_BLOCK, end = gb_sweep_block_end(world->count, b);
+    const int64_t begin = gb_sweep_block_begin(world->count, b),
+                  end = gb_sweep_block_end(world->count, b);
     world->block[b].travel = gb_pairs_travel(&world->pairs, world->position, begin, end);
     if (world->in_single) {
         gb_sweep_single_prepare(world, begin, end);
@@ -329,8 +332,8 @@ static void doubt_block(struct gb_world *world, int64_t b)
     struct gb_sweep_block *block = &world->block[b];
     block->missing = (struct gb_strays_missing){0};
     if (gb_strays_judge(world, block->travel) != GB_STRAYS_FRESH) {
-        gb_strays_look(world, b * GB_SWEEP_BLOCK, gb_sweep_block_end(world->count, b),
-                       &block->missing);
+        gb_strays_look(world, gb_sweep_block_begin(world->count, b),
+                       gb_sweep_block_end(world->count, b), &block->missing);
     }
 }
 
@@ -367,9 +370,9 @@ bool gb_sweep_list_holds(struct gb_world *world, double *travel)
 {
     const int64_t blocks = gb_sweep_blocks(world->count);
     for (int64_t b = 0; b < blocks; b++) {
-        world->block[b].travel =
-            gb_pairs_travel(&world->pairs, world->position, b * GB_SWEEP_BLOCK,
-                            gb_sweep_block_end(world->count, b));
+        world->block[b].travel = gb_pairs_travel(&world->pairs, world->position,
+                                                 gb_sweep_block_begin(world->count, b),
+                                                 gb_sweep_block_end(world->count, b));
     }
     *travel = longest_travel(world, blocks);
     return list_holds(world, blocks);

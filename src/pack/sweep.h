@@ -24,19 +24,35 @@ void gb_sweep_sum(const struct gb_world *world, int64_t begin, int64_t end,
 void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums);
 
 /* Particles whose tallies, and in single precision the forces of pairs among them, are
- * summed as one: a fixed block, so that the order of the sums, and with it every bit,
- * does not depend on the number of threads. */
-enum { GB_SWEEP_BLOCK = 1024 };
+ * summed as one: in blocks that follow from their number alone, so that the order of the
+ * sums, and with it every bit, does not depend on the number of threads.  Larger blocks
+ * leave fewer pairs between two of them, smaller ones more of them to share. */
+enum { GB_SWEEP_BLOCK = 1024, GB_SWEEP_BLOCK_MOST = 4096, GB_SWEEP_BLOCKS_SHARED = 64 };
 
-/* Blocks that count particles make, and where block b ends. */
+static inline int64_t gb_sweep_block_size(int64_t count)
+{
+    int64_t size = GB_SWEEP_BLOCK;
+    while (size < GB_SWEEP_BLOCK_MOST && count >= 2 * size * GB_SWEEP_BLOCKS_SHARED) {
+        size *= 2;
+    }
+    return size;
+}
+
+/* Blocks that count particles make, and where block b begins and ends. */
 static inline int64_t gb_sweep_blocks(int64_t count)
 {
-    return (count + GB_SWEEP_BLOCK - 1) / GB_SWEEP_BLOCK;
+    const int64_t size = gb_sweep_block_size(count);
+    return (count + size - 1) / size;
+}
+
+static inline int64_t gb_sweep_block_begin(int64_t count, int64_t b)
+{
+    return b * gb_sweep_block_size(count);
 }
 
 static inline int64_t gb_sweep_block_end(int64_t count, int64_t b)
 {
-    const int64_t end = (b + 1) * GB_SWEEP_BLOCK;
+    const int64_t end = gb_sweep_block_begin(count, b + 1);
     return end < count ? end : count;
 }
 

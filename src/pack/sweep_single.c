@@ -194,7 +194,8 @@ GB_ROW_INLINE void sweep_near(struct gb_world *world, int64_t b, float cutoff2,
     struct gb_batch_single batch;
     batch.cutoff2 = cutoff2;
     batch.damp = 0.0F;
-    for (int64_t slot = near->start[b * GB_SWEEP_BLOCK]; slot < stop; slot += batch.n) {
+    for (int64_t slot = near->start[gb_sweep_block_begin(world->count, b)]; slot < stop;
+         slot += batch.n) {
         batch.n = stop - slot < GB_BATCH ? (int)(stop - slot) : GB_BATCH;
         fetch_ahead(world, near, slot + batch.n, stop - slot - batch.n);
         fill_batch(&world->single, near, &batch, slot, true);
@@ -212,7 +213,8 @@ GB_ROW_INLINE void sweep_far(struct gb_world *world, int64_t b, float cutoff2)
     struct way_out out = way_out(world, &world->single.far, PULL, b);
     struct gb_batch_single batch;
     batch.cutoff2 = cutoff2;
-    for (int64_t slot = far->start[b * GB_SWEEP_BLOCK]; slot < stop; slot += batch.n) {
+    for (int64_t slot = far->start[gb_sweep_block_begin(world->count, b)]; slot < stop;
+         slot += batch.n) {
         batch.n = stop - slot < GB_BATCH ? (int)(stop - slot) : GB_BATCH;
         fetch_ahead(world, far, slot + batch.n, stop - slot - batch.n);
         fill_batch(&world->single, far, &batch, slot, false);
@@ -225,7 +227,7 @@ GB_ROW_INLINE void sweep_far(struct gb_world *world, int64_t b, float cutoff2)
 GB_SIMD_LOOP void sweep_block_loop(struct gb_world *world, int64_t b, float cutoff2,
                                    struct gb_tally *tally)
 {
-    const int64_t begin = b * GB_SWEEP_BLOCK;
+    const int64_t begin = gb_sweep_block_begin(world->count, b);
     memset(world->single.total[begin], 0,
            (size_t)(gb_sweep_block_end(world->count, b) - begin) *
                sizeof *world->single.total);
