@@ -106,30 +106,14 @@ double gb_observe_elastic(const struct gb_world *world)
     return sum;
 }
 
-/* Contacts of particle i, from both lists. */
-static int contacts_of(const struct gb_world *world, int64_t i)
-{
-    const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
-    const struct gb_contacts *contacts = gb_world_contacts(world);
-    int n = 0;
-    for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-        n += gb_contacts_touch(contacts, k);
-    }
-    for (int64_t in = pairs->in_start[i]; in < pairs->in_start[i + 1]; in++) {
-        n += gb_contacts_touch(contacts, pairs->in_slot[in]);
-    }
-    return n;
-}
-
 /* Shares of particles with n contacts, the last bin for those with more. */
-static void share_out(const struct gb_world *world, double *share, int bins)
+static void share_out(const int32_t *degree, int64_t count, double *share, int bins)
 {
-    const int64_t count = gb_world_model(world)->count;
     for (int b = 0; b < bins; b++) {
         share[b] = 0.0;
     }
     for (int64_t i = 0; i < count; i++) {
-        const int n = contacts_of(world, i);
+        const int n = degree[i];
         share[n < bins ? n : bins - 1] += 1.0 / (double)count;
     }
 }
@@ -140,14 +124,14 @@ void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts 
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
     const struct gb_contacts *contacts = gb_world_contacts(world);
+    const int32_t *degree = gb_world_degrees(world);
     int64_t touching = 0, bridged = 0, rattlers = 0;
 #pragma omp parallel for num_threads(gb_world_threads(world)) schedule(static)          \
     if (gb_world_threads(world) > 1) reduction(+ : touching, bridged, rattlers)
     for (int64_t i = 0; i < count; i++) {
-        const int n = contacts_of(world, i);
-        rattlers += n < 2;
+        rattlers += degree[i] < 2;
         if (each) {
-            each[i] = n;
+            each[i] = degree[i];
         }
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
             const double deepest = gb_contacts_deepest(contacts, k);
@@ -156,7 +140,7 @@ void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts 
         }
     }
     if (share) {
-        share_out(world, share, bins);
+        share_out(degree, count, share, bins);
     }
     *counts = (struct gb_contact_counts){.contacts = touching,
                                          .bridged = bridged,

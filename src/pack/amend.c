@@ -258,6 +258,18 @@ static void remember(struct gb_pairs *pairs, const struct plan *plan)
     qsort(pairs->amended, (size_t)pairs->amended_count, size, compare);
 }
 
+/* Does one of the pairs reach out of its block? */
+static bool any_leaves(const struct places *places, int64_t count)
+{
+    const int64_t size = gb_sweep_block_size(count);
+    for (int p = 0; p < places->count; p++) {
+        if (places->pair[p]->first / size != places->pair[p]->other / size) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Both lists, and all that goes with them, as planned. */
 static bool carry_out(struct gb_world *world, struct plan *plan, struct gb_error *err)
 {
@@ -270,8 +282,10 @@ static bool carry_out(struct gb_world *world, struct plan *plan, struct gb_error
         plan->far.at[p] = slot_of(&pairs->far, plan->far.pair[p]);
     }
     put_in(&pairs->far, world->count, &plan->far);
-    gb_pairs_transpose(pairs, world->threads);
-    return gb_single_take_lists(&world->single, pairs, err);
+    const bool near_leaves = any_leaves(&plan->near, world->count);
+    const bool far_leaves =
+        any_leaves(&plan->far, world->count) || any_leaves(&plan->not_far, world->count);
+    return gb_single_amend(&world->single, pairs, near_leaves, far_leaves, err);
 }
 
 bool gb_amend_lists(struct gb_world *world, double travel, bool *done,

@@ -10,7 +10,7 @@
 #include "phys/tolerances.h"
 
 /* Neighbours one particle may have within the reach: a dense packing has about a dozen.
- * Also the slack of the lists. */
+ * Also the room that lists have left over. */
 enum { CROWD = 256 };
 
 /* Most have no more. */
@@ -30,11 +30,15 @@ struct grid {
     const double *diameter; /* NULL: all are 1 */
 };
 
-static bool list_init(struct gb_pair_list *list, int64_t count, struct gb_error *err)
+static bool list_init(struct gb_pair_list *list, int64_t count, bool one_way,
+                      struct gb_error *err)
 {
-    list->start = gb_alloc_array((size_t)count + 1, sizeof *list->start, err);
-    list->in_start = gb_alloc_array((size_t)count + 1, sizeof *list->in_start, err);
-    return list->start && list->in_start;
+    const size_t starts = (size_t)count + 1;
+    list->start = gb_alloc_array(starts, sizeof *list->start, err);
+    if (!one_way) {
+        list->in_start = gb_alloc_array(starts, sizeof *list->in_start, err);
+    }
+    return list->start && (one_way || list->in_start);
 }
 
 static void list_drop_pairs(struct gb_pair_list *list)
@@ -57,16 +61,18 @@ static void list_finish(struct gb_pair_list *list)
     list_drop_pairs(list);
 }
 
-bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, struct gb_error *err)
+bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, bool one_way,
+                   struct gb_error *err)
 {
-    *pairs = (struct gb_pairs){.count = count, .largest = 1.0};
+    *pairs = (struct gb_pairs){.count = count, .largest = 1.0, .one_way = one_way};
     pairs->next = gb_alloc_array((size_t)count, sizeof *pairs->next, err);
     pairs->built_at = gb_alloc_array(3 * (size_t)count, sizeof *pairs->built_at, err);
     pairs->amended_most = AMENDED_LEAST + count / AMENDED_SHARE;
     pairs->amended =
         gb_alloc_array((size_t)pairs->amended_most, sizeof *pairs->amended, err);
     if (!pairs->next || !pairs->built_at || !pairs->amended ||
-        !list_init(&pairs->near, count, err) || !list_init(&pairs->far, count, err)) {
+        !list_init(&pairs->near, count, one_way, err) ||
+        !list_init(&pairs->far, count, one_way, err)) {
         gb_pairs_finish(pairs);
         return false;
     }
@@ -282,7 +288,8 @@ static int scan_particle(const struct grid *grid, int64_t i, struct bounds bound
 }
 
 /* Room for `need` pairs; what was there is lost. */
-static bool reserve(struct gb_pair_list *list, int64_t need, struct gb_error *err)
+static bool reserve(struct gb_pair_list *list, int64_t need, bool one_way,
+                    struct gb_error *err)
 {
     if (need <= list->capacity) {
         return true;
@@ -292,8 +299,10 @@ static bool reserve(struct gb_pair_list *list, int64_t need, struct gb_error *er
     list->first = gb_alloc_array(room, sizeof *list->first, err);
     list->other = gb_alloc_array(room, sizeof *list->other, err);
     list->image = gb_alloc_array(room, sizeof *list->image, err);
-    list->in_slot = gb_alloc_array(room + GB_PAIR_LIST_SLACK, sizeof *list->in_slot, err);
-    if (!list->first || !list->other || !list->image || !list->in_slot) {
+    if (!one_way) {
+        list->in_slot = gb_alloc_array(room, sizeof *list->in_slot, err);
+    }
+    if (!list->first || !list->other || !list->image || !(one_way || list->in_slot)) {
         list_drop_pairs(list);
         return false;
     }
@@ -403,7 +412,8 @@ static bool line_up(struct gb_pairs *pairs, struct stretch *stretch, int threads
     pairs->near.start[0] = pairs->far.start[0] = 0;
     pairs->near.pair_count = near;
     pairs->far.pair_count = far;
-    return reserve(&pairs->near, near, err) && reserve(&pairs->far, far, err);
+    return reserve(&pairs->near, near, pairs->one_way, err) &&
+           reserve(&pairs->far, far, pairs->one_way, err);
 }
 
 /* Fills both lists, the same ones for any number of threads. */
@@ -454,7 +464,7 @@ static void transpose(struct gb_pair_list *list, int64_t count)
     in[0] = 0;
 }
 
-void gb_pairs_transpose(struct gb_pairs *pairs, int threads)
+static void transpose_both(struct gb_pairs *pairs, int threads)
 {
     (void)threads; /* without OpenMP */
 #pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
@@ -488,7 +498,9 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
         !fill_pairs(pairs, &grid, bounds, threads, err)) {
         return false;
     }
-    gb_pairs_transpose(pairs, threads);
+    if (!pairs->one_way) {
+        transpose_both(pairs, threads);
+    }
     pairs->amended_count = 0;
     pairs->grid = grid.shape;
     memcpy(pairs->built_at, position, 3 * (size_t)pairs->count * sizeof *position);
@@ -500,8 +512,11 @@ bool gb_pairs_build(struct gb_pairs *pairs, const struct gb_cell *cell,
 
 static void list_clear(struct gb_pair_list *list, int64_t count)
 {
-    memset(list->start, 0, ((size_t)count + 1) * sizeof *list->start);
-    memset(list->in_start, 0, ((size_t)count + 1) * sizeof *list->in_start);
+    const size_t starts = (size_t)count + 1;
+    memset(list->start, 0, starts * sizeof *list->start);
+    if (list->in_start) {
+        memset(list->in_start, 0, starts * sizeof *list->in_start);
+    }
     list->pair_count = 0;
 }
 

@@ -7,11 +7,9 @@
 #include "greenbody/status.h"
 #include "pack/pairs_grid.h"
 
-/* Numbers behind the last one of in_slot that may be read: slots there are. */
-enum { GB_PAIR_LIST_SLACK = 8 };
-
 /* One half of the neighbour list: pairs (i, other[k]) with i < other[k] for k in
- * [start[i], start[i+1]), sorted by other within i; and its transpose. */
+ * [start[i], start[i+1]), sorted by other within i; and its transpose, where anybody asks
+ * for it. */
 struct gb_pair_list {
     int64_t pair_count;
     int64_t capacity; /* pairs the arrays can hold */
@@ -38,6 +36,7 @@ struct gb_pairs {
     const double *diameter;
     double largest; /* of them; else 1 */
     struct gb_pair_list near, far;
+    bool one_way; /* without the transposes */
     /* of the last build: who was where, grid cell by grid cell: next[head[c]] ... */
     struct gb_pairs_grid grid;
     int32_t *head, *next;
@@ -52,7 +51,8 @@ struct gb_pairs {
     int64_t amended_count, amended_most;
 };
 
-bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, struct gb_error *err);
+bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, bool one_way,
+                   struct gb_error *err);
 void gb_pairs_finish(struct gb_pairs *pairs);
 
 /* Builds both lists for positions inside the cell, out to cutoff + skin, on so many
@@ -70,9 +70,6 @@ void gb_pairs_clear(struct gb_pairs *pairs);
  * the affine motion; NaN when a position is not finite. */
 double gb_pairs_travel(const struct gb_pairs *pairs, const double *position,
                        int64_t begin, int64_t end);
-
-/* The transposes of both lists, after pairs were put in or taken out. */
-void gb_pairs_transpose(struct gb_pairs *pairs, int threads);
 
 /* Takes note that the cell and all positions were scaled. */
 void gb_pairs_strain(struct gb_pairs *pairs, const double factor[3]);

@@ -108,7 +108,7 @@ static bool outward_take(struct gb_single_outward *out, const struct gb_pair_lis
     if (rows >= out->room) {
         const size_t room = (size_t)(rows + rows / 16 + 64);
         outward_drop_rows(out);
-        out->in_row = gb_alloc_array(room + GB_PAIR_LIST_SLACK, sizeof *out->in_row, err);
+        out->in_row = gb_alloc_array(room + GB_SINGLE_SLACK, sizeof *out->in_row, err);
         out->row = gb_alloc_array(room * (size_t)width, sizeof *out->row, err);
         if (!out->in_row || !out->row) {
             outward_drop_rows(out);
@@ -155,15 +155,22 @@ static void take_built(struct gb_single *single, const struct gb_pairs *pairs)
     }
 }
 
+bool gb_single_amend(struct gb_single *single, const struct gb_pairs *pairs, bool near,
+                     bool far, struct gb_error *err)
+{
+    return (!near || outward_take(&single->near, &pairs->near, pairs->count,
+                                  GB_SINGLE_WRENCH, err)) &&
+           (!far ||
+            outward_take(&single->far, &pairs->far, pairs->count, GB_SINGLE_PULL, err));
+}
+
 bool gb_single_take_lists(struct gb_single *single, const struct gb_pairs *pairs,
                           struct gb_error *err)
 {
     take_built(single, pairs);
     return reserve_forces(single->push, &single->push_room, pairs->near.capacity, err) &&
            reserve_forces(single->pull, &single->pull_room, pairs->far.capacity, err) &&
-           outward_take(&single->near, &pairs->near, pairs->count, GB_SINGLE_WRENCH,
-                        err) &&
-           outward_take(&single->far, &pairs->far, pairs->count, GB_SINGLE_PULL, err);
+           gb_single_amend(single, pairs, true, true, err);
 }
 
 void gb_single_arm(const struct gb_cell *cell, const double xi[3], const double xj[3],

@@ -24,13 +24,15 @@ struct gb_spot {
  * a pull. */
 enum { GB_SINGLE_WRENCH = 8, GB_SINGLE_PULL = 4 };
 
+enum { GB_SINGLE_SLACK = 8 };
+
 /* Pairs of a list whose second particle lies in a later block than the first: they leave
  * rows, which the block of the second one collects; all others add to their particles at
  * once. */
 struct gb_single_outward {
     int64_t *start;    /* blocks + 1: the rows of each block, in the order of its pairs */
     int32_t *in_start; /* particles + 1: the rows that a particle collects ... */
-    int32_t *in_row; /* ... ascending; as many again as GB_PAIR_LIST_SLACK may be read */
+    int32_t *in_row; /* ... ascending; GB_SINGLE_SLACK more may be read */
     float *row;
     int64_t room; /* rows */
 };
@@ -59,6 +61,11 @@ void gb_single_finish(struct gb_single *single);
  * On failure nothing may be evaluated. */
 bool gb_single_take_lists(struct gb_single *single, const struct gb_pairs *pairs,
                           struct gb_error *err);
+
+/* After lists were amended: which pairs reach out of their block in those that changed
+ * there.  Errors as above. */
+bool gb_single_amend(struct gb_single *single, const struct gb_pairs *pairs, bool near,
+                     bool far, struct gb_error *err);
 
 /* Where position x (d) along an edge (d) is. */
 static inline int32_t gb_single_place(double x, double units_per_d)

@@ -14,7 +14,7 @@ enum { WRENCH = GB_SINGLE_WRENCH, PULL = GB_SINGLE_PULL, TORQUE = 4 };
 /* Rows of one particle that are looked at together: few have more, none pays much for
  * those it has not. */
 enum { AT_ONCE = 4 };
-_Static_assert((int)AT_ONCE <= (int)GB_PAIR_LIST_SLACK, "lists are long enough");
+_Static_assert((int)AT_ONCE <= (int)GB_SINGLE_SLACK, "lists are long enough");
 
 void gb_sweep_single_prepare(struct gb_world *world, int64_t begin, int64_t end)
 {

@@ -64,8 +64,10 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
     world->torque = gb_alloc_array(3 * n, sizeof(double), err);
     world->block =
         gb_alloc_array((size_t)gb_sweep_blocks(world->count), sizeof *world->block, err);
-    if (!world->position || !world->turn || !world->force || !world->torque ||
-        !world->block || !gb_pairs_init(&world->pairs, world->count, err) ||
+    world->degree = gb_alloc_array(n, sizeof *world->degree, err);
+    if (!world->degree || !world->position || !world->turn || !world->force ||
+        !world->torque || !world->block ||
+        !gb_pairs_init(&world->pairs, world->count, world->in_single, err) ||
         (world->in_single && !gb_single_init(&world->single, model, err)) ||
         !take_sizes(world, err)) {
         gb_world_destroy(world);
@@ -87,6 +89,7 @@ void gb_world_destroy(struct gb_world *world)
     gb_alloc_free(world->force);
     gb_alloc_free(world->torque);
     gb_alloc_free(world->block);
+    gb_alloc_free(world->degree);
     gb_contacts_finish(&world->contacts);
     gb_alloc_free(world->wrench);
     gb_alloc_free(world->pull);
@@ -359,6 +362,18 @@ const struct gb_pairs *gb_world_pairs(const struct gb_world *world)
 const struct gb_contacts *gb_world_contacts(const struct gb_world *world)
 {
     return &world->contacts;
+}
+
+const int32_t *gb_world_degrees(const struct gb_world *world)
+{
+    const struct gb_pair_list *near = &world->pairs.near;
+    memset(world->degree, 0, (size_t)world->count * sizeof *world->degree);
+    for (int64_t k = 0; k < near->pair_count; k++) {
+        const int touches = gb_contacts_touch(&world->contacts, k);
+        world->degree[near->first[k]] += touches;
+        world->degree[near->other[k]] += touches;
+    }
+    return world->degree;
 }
 
 void gb_world_force(const struct gb_world *world, int64_t k, double force[3])

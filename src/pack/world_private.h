@@ -42,6 +42,7 @@ struct gb_world {
     struct gb_ledger ledger;
     struct gb_ledger spare; /* of checkpoints, which keep less */
     struct gb_sweep_block *block;
+    int32_t *degree; /* scratch of gb_world_degrees, one a particle */
     int threads;
     struct gb_tally tally;
     double force_rms, torque_rms;
