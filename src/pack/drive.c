@@ -13,6 +13,9 @@
 /* Particles that are turned together, their numbers, and lanes that sums have whatever
  * the vector width. */
 enum { STRETCH = 256, NUMBERS = 3 * STRETCH, LANES = 16 };
+_Static_assert((int)STRETCH % (int)GB_SINGLE_FLOCK == 0 &&
+                   (int)GB_SWEEP_BLOCK % (int)STRETCH == 0,
+               "no flock lies in two stretches, no stretch in two blocks");
 
 /* One pass over all blocks. */
 struct pass {
@@ -84,6 +87,19 @@ GB_SIMD_LOOP float most_of(const float *restrict number, int particles)
     for (int i = 0; i < particles; i++) {
         const float sum = number[3 * i] + number[3 * i + 1] + number[3 * i + 2];
         most = sum > most ? sum : most;
+    }
+    return most;
+}
+
+/* The same of every flock of them; returns the largest. */
+GB_SIMD_LOOP float flocks(const float *restrict number, int particles,
+                          float *restrict each)
+{
+    float most = 0.0F;
+    for (int i = 0; i < particles; i += GB_SINGLE_FLOCK) {
+        const int left = particles - i;
+        *each = most_of(number + 3 * i, left < GB_SINGLE_FLOCK ? left : GB_SINGLE_FLOCK);
+        most = fmaxf(most, *each++);
     }
     return most;
 }
@@ -160,7 +176,9 @@ GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
     motion->fastest2 = fmaxf(motion->fastest2, most_of(s.square, particles));
     go(pass, n, s.way, world->position + at, s.place);
     ways_since_build(pass, n, s.place, single->built + at, s.square);
-    motion->travel2 = fmaxf(motion->travel2, most_of(s.square, particles));
+    motion->travel2 =
+        fmaxf(motion->travel2,
+              flocks(s.square, particles, single->travel2 + begin / GB_SINGLE_FLOCK));
     if (pass->again) {
         take_turns(single->spot + begin, particles, s.turn);
     }

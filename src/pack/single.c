@@ -38,8 +38,11 @@ bool gb_single_init(struct gb_single *single, const struct gb_model *model,
     single->velocity = gb_alloc_array(3 * n + 1, sizeof *single->velocity, err);
     single->spin = gb_alloc_array(3 * n + 1, sizeof *single->spin, err);
     single->built = gb_alloc_array(3 * n, sizeof *single->built, err);
+    single->travel2 = gb_alloc_array((n + GB_SINGLE_FLOCK - 1) / GB_SINGLE_FLOCK,
+                                     sizeof *single->travel2, err);
     return single->spot && single->total && single->velocity && single->spin &&
-           single->built && outward_init(&single->near, model->count, err) &&
+           single->built && single->travel2 &&
+           outward_init(&single->near, model->count, err) &&
            outward_init(&single->far, model->count, err);
 }
 
@@ -50,6 +53,7 @@ void gb_single_finish(struct gb_single *single)
     gb_alloc_free(single->velocity);
     gb_alloc_free(single->spin);
     gb_alloc_free(single->built);
+    gb_alloc_free(single->travel2);
     gb_alloc_free(single->push[0]);
     gb_alloc_free(single->pull[0]);
     outward_finish(&single->near);

@@ -164,12 +164,23 @@ static double way2(const struct gb_pairs *pairs, const double *position, int64_t
     return square;
 }
 
+/* Does a flock begin here of which nobody strayed? */
+static bool flock_stays(const struct gb_world *world, int64_t i, double fresh)
+{
+    return world->single.driven && i % GB_SINGLE_FLOCK == 0 &&
+           (double)world->single.travel2[i / GB_SINGLE_FLOCK] < fresh * fresh;
+}
+
 void gb_strays_look(const struct gb_world *world, int64_t begin, int64_t end,
                     struct gb_strays_missing *missing)
 {
     const double fresh = half_margin(world), near = sight_of(world).near;
     *missing = (struct gb_strays_missing){0};
     for (int64_t i = begin; i < end && !missing->many; i++) {
+        if (flock_stays(world, i, fresh)) {
+            i += GB_SINGLE_FLOCK - 1;
+            continue;
+        }
         const double square = way2(&world->pairs, world->position, i);
         if (square < fresh * fresh) {
             continue;
