@@ -126,14 +126,23 @@ GB_SIMD_LOOP void ways_since_build(const struct pass *pass, int n,
     }
 }
 
+GB_SIMD_LOOP void add_to(float *restrict sum, const float *restrict number, int n)
+{
+    for (int k = 0; k < n; k++) {
+        sum[k] += number[k];
+    }
+}
+
 GB_SIMD_LOOP void turn_on(const struct pass *pass, int n, const float *restrict way,
                           float *restrict turn, float *restrict turned)
 {
-    for (int k = 0; k < n; k++) {
-        turn[k] = (pass->again ? turn[k] : 0.0F) + way[k];
+    if (pass->again) {
+        add_to(turn, way, n);
+    } else {
+        memcpy(turn, way, (size_t)n * sizeof *turn);
     }
-    for (int k = 0; turned && k < n; k++) {
-        turned[k] += way[k];
+    if (turned) {
+        add_to(turned, way, n);
     }
 }
 
