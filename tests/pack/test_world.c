@@ -1,9 +1,12 @@
 #include <glib.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/vec.h"
 #include "common/scene.h"
 #include "measure/observe.h"
+#include "pack/drive.h"
+#include "pack/world_private.h"
 #include "pack/world_record.h"
 #include "phys/law_hertz.h"
 
@@ -338,28 +341,119 @@ static void test_strays(void)
     }
 }
 
-/* Some run ahead until the list is amended, by a near pair and by a far one. */
+/* The same of a world that drives its particles itself: one in 41 at such a pace (d). */
+static void check_driven(double pace, int *outlived, int64_t *amended)
+{
+    const struct gb_params params =
+        scene_params("particles.count=600", "numerics.precision=single", NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    const struct gb_drive by = {.keep = 1.0, .step = 1.0, .inertia = 0.4, .most = 1.0};
+    const struct gb_pairs *pairs = gb_world_pairs(world);
+    GRand *dice = g_rand_new_with_seed(13);
+    scene_press(world, 100, 3, 2.0);
+    gb_drive_rest(world);
+    for (int step = 0; step < 200; step++) {
+        const int64_t before = gb_world_rebuilds(world);
+        for (int64_t k = 0; k < 3 * pairs->count; k++) {
+            const double way = k / 3 % 41 == 0 ? pace : 1e-4;
+            world->single.velocity[k] =
+                (float)(way * g_rand_double_range(dice, -0.5, 1.0));
+        }
+        gb_drive_move(world, &by, NULL);
+        const double travel =
+            gb_pairs_travel(pairs, gb_world_position(world), 0, pairs->count);
+        struct gb_error err = {0};
+        if (!gb_world_evaluate(world, &err)) { /* ran into another: go on */
+            g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
+        }
+        *outlived +=
+            gb_world_rebuilds(world) == before && 2.0 * travel >= model.numerics.skin;
+        *amended += pairs->amended_count;
+        check_listed(world);
+    }
+    g_rand_free(dice);
+    gb_world_destroy(world);
+}
+
+static void test_strays_driven(void)
+{
+    const double paces[] = {0.01, 0.06, 0.15};
+    int outlived = 0;
+    int64_t amended = 0;
+    for (int p = 0; p < 3; p++) {
+        check_driven(paces[p], &outlived, &amended);
+    }
+    g_assert_cmpint(outlived, >, 0);
+    g_assert_cmpint(amended, >, 0);
+}
+
+/* Blocks hold every particle once, whatever their size. */
+static void test_blocks(void)
+{
+    const int64_t counts[] = {1,      1024,   1025,   8000,    131071,
+                              131072, 131073, 262144, 1000000, 10000000};
+    for (size_t i = 0; i < G_N_ELEMENTS(counts); i++) {
+        const int64_t count = counts[i], blocks = gb_sweep_blocks(count);
+        int64_t end = 0;
+        for (int64_t b = 0; b < blocks; b++) {
+            g_assert_cmpint(gb_sweep_block_begin(count, b), ==, end);
+            g_assert_cmpint(gb_sweep_block_end(count, b), >, end);
+            end = gb_sweep_block_end(count, b);
+        }
+        g_assert_cmpint(end, ==, count);
+        g_assert_true(count < 131072 || blocks >= GB_SWEEP_BLOCKS_SHARED);
+    }
+}
+
+/* Contacts of every particle, against what its distances say. */
+static void test_degrees(gconstpointer data)
+{
+    const struct precision *precision = data;
+    const struct gb_params params = scene_params(precision->setting, NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    scene_press(world, 150, 10, 2.0);
+    const int32_t *degree = gb_world_degrees(world);
+    int64_t most = 0;
+    for (int64_t i = 0; i < model.count; i++) {
+        int touching = 0, hairs = 0;
+        for (int64_t j = 0; j < model.count; j++) {
+            const double gap = i == j ? 1.0 : distance_of(world, i, j) - 1.0;
+            touching += gap < 0.0;
+            hairs += fabs(gap) < 1e-6;
+        }
+        g_assert_cmpint(abs(degree[i] - touching), <=, hairs);
+        most = degree[i] > most ? degree[i] : most;
+    }
+    g_assert_cmpint(most, >, 3);
+    gb_world_destroy(world);
+}
+
+/* Some run ahead until the list is amended, by near pairs and by far ones, of each one at
+ * least of particles in two blocks. */
 static void stray_until_amended(struct gb_world *world)
 {
     const struct gb_pairs *pairs = gb_world_pairs(world);
     const struct gb_bodies b = gb_world_bodies(world);
     GRand *dice = g_rand_new_with_seed(11);
-    int near = 0;
-    for (int step = 0; step < 400 && (near == 0 || near == pairs->amended_count);
-         step++) {
+    int apart[2] = {0, 0};
+    for (int step = 0; step < 400 && (apart[0] == 0 || apart[1] == 0); step++) {
         for (int64_t i = 0; i < 3 * b.count; i++) {
             const double way = i / 3 % 199 == 0 ? 0.02 : 1e-4;
             b.position[i] += way * g_rand_double_range(dice, -0.5, 1.0);
         }
         scene_evaluate(world);
-        near = 0;
+        apart[0] = apart[1] = 0;
         for (int64_t k = 0; k < pairs->amended_count; k++) {
-            near += pairs->amended[k].near;
+            const struct gb_amendment *pair = &pairs->amended[k];
+            apart[pair->near] +=
+                pair->first / GB_SWEEP_BLOCK != pair->other / GB_SWEEP_BLOCK;
         }
     }
     g_rand_free(dice);
-    g_assert_cmpint(near, >, 0);
-    g_assert_cmpint(near, <, pairs->amended_count);
+    g_assert_cmpint(apart[0], >, 0);
+    g_assert_cmpint(apart[1], >, 0);
 }
 
 static void assert_same_lists(const struct gb_pair_list *a, const struct gb_pair_list *b)
@@ -377,7 +471,7 @@ static void assert_same_lists(const struct gb_pair_list *a, const struct gb_pair
 static void test_amended(void)
 {
     const struct gb_params params =
-        scene_params("particles.count=600", "numerics.precision=single", NULL);
+        scene_params("particles.count=2500", "numerics.precision=single", NULL);
     const struct gb_model model = scene_model(&params);
     struct gb_world *world = scene_world(&model), *fresh = NULL, *loaded = NULL;
     struct gb_world_copy *copy = NULL;
@@ -687,7 +781,11 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/world/pairs", test_pairs);
     g_test_add_func("/world/strays", test_strays);
+    g_test_add_func("/world/strays-driven", test_strays_driven);
     g_test_add_func("/world/amended", test_amended);
+    g_test_add_func("/world/blocks", test_blocks);
+    g_test_add_data_func("/world/degrees", &precisions[0], test_degrees);
+    g_test_add_data_func("/world/degrees-single", &precisions[1], test_degrees);
     g_test_add_func("/world/meeting", test_meeting);
     g_test_add_data_func("/world/momentum", &precisions[0], test_momentum);
     g_test_add_data_func("/world/momentum-single", &precisions[1], test_momentum);
