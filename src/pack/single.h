@@ -24,6 +24,7 @@ struct gb_spot {
  * a pull. */
 enum { GB_SINGLE_WRENCH = 8, GB_SINGLE_PULL = 4 };
 
+/* Numbers behind the last one of in_row that may be read. */
 enum { GB_SINGLE_SLACK = 8 };
 
 /* Neighbours in memory whose ways are looked at together; as many fit into a block. */
@@ -35,7 +36,7 @@ enum { GB_SINGLE_FLOCK = 32 };
 struct gb_single_outward {
     int64_t *start;    /* blocks + 1: the rows of each block, in the order of its pairs */
     int32_t *in_start; /* particles + 1: the rows that a particle collects ... */
-    int32_t *in_row;   /* ... ascending; GB_SINGLE_SLACK more may be read */
+    int32_t *in_row;   /* ... ascending */
     float *row;
     int64_t room; /* rows */
 };
@@ -52,10 +53,9 @@ struct gb_single {
     /* Motion (pack/drive.h), count x 3 and a number more each. */
     float *velocity, *spin;
     uint32_t *built; /* places when the lists were built */
-    float
-        *travel2; /* of every flock, the longest way since, squared; of the last drive */
-    bool driven;  /* spots and ways are those of a drive that nobody evaluated yet */
-    bool narrow;  /* the last forces are in `total` only */
+    float *travel2;  /* longest way since, squared, of every flock; by the last drive */
+    bool driven;     /* spots and ways are those of a drive that nobody evaluated yet */
+    bool narrow;     /* the last forces are in `total` only */
 };
 
 bool gb_single_init(struct gb_single *single, const struct gb_model *model,

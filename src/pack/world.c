@@ -236,6 +236,7 @@ static bool evaluate(struct gb_world *world, struct gb_error *err)
     }
     bool amended = !swept && world->listed;
     if (amended && !gb_amend_lists(world, travel, &amended, err)) {
+        world->listed = false;
         return false;
     }
     swept = swept || (amended && sweep(world, &travel));

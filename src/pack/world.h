@@ -76,7 +76,8 @@ double gb_world_residual(const struct gb_world *world);
 /* The neighbour list and what belongs to its pairs, for measures: histories and forces of
  * the `near` ones, pulls of the `far` ones, both on the first particle. */
 const struct gb_pairs *gb_world_pairs(const struct gb_world *world);
-/* Contacts of every particle, counted anew. */
+/* Contacts of every particle, one number each, counted anew; good until the next call, by
+ * one thread at a time. */
 const int32_t *gb_world_degrees(const struct gb_world *world);
 const struct gb_contacts *gb_world_contacts(const struct gb_world *world);
 void gb_world_force(const struct gb_world *world, int64_t k, double force[3]);
