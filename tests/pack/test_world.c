@@ -388,6 +388,40 @@ static void test_strays_driven(void)
     g_assert_cmpint(amended, >, 0);
 }
 
+/* An amendment without memory is an error, and the next evaluation makes up for it. */
+static void test_amended_memory(void)
+{
+    const struct gb_params params =
+        scene_params("particles.count=600", "numerics.precision=single", NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    const struct gb_bodies b = gb_world_bodies(world);
+    GRand *dice = g_rand_new_with_seed(17);
+    int failed = 0;
+    scene_press(world, 100, 3, 2.0);
+    for (int step = 0; step < 200; step++) {
+        for (int64_t i = 0; i < 3 * b.count; i++) {
+            const double way = i / 3 % 199 == 0 ? 0.02 : 1e-4;
+            b.position[i] += way * g_rand_double_range(dice, -0.5, 1.0);
+        }
+        struct gb_error err = {0};
+        gb_alloc_fail_after(1 + step % 8);
+        const bool done = gb_world_evaluate(world, &err);
+        gb_alloc_fail_after(0);
+        if (!done && err.code == GB_ERR_MEMORY) {
+            failed++;
+            err = (struct gb_error){0};
+            (void)gb_world_evaluate(world, &err);
+        }
+        /* or one ran into another: go on */
+        g_assert_true(err.code == GB_OK || err.code == GB_ERR_GUARD);
+        check_listed(world);
+    }
+    g_assert_cmpint(failed, >, 0);
+    g_rand_free(dice);
+    gb_world_destroy(world);
+}
+
 /* Blocks hold every particle once, whatever their size. */
 static void test_blocks(void)
 {
@@ -783,6 +817,7 @@ int main(int argc, char **argv)
     g_test_add_func("/world/strays", test_strays);
     g_test_add_func("/world/strays-driven", test_strays_driven);
     g_test_add_func("/world/amended", test_amended);
+    g_test_add_func("/world/amended-memory", test_amended_memory);
     g_test_add_func("/world/blocks", test_blocks);
     g_test_add_data_func("/world/degrees", &precisions[0], test_degrees);
     g_test_add_data_func("/world/degrees-single", &precisions[1], test_degrees);
