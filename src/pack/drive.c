@@ -22,7 +22,7 @@ struct pass {
     float keep, back, step;
     float kick, kick_turn;
     float inertia;
-    bool again; /* changes the motion that was just made */
+    float most2; /* squared speed of who goes as far as anybody may */
     float *turned;
     /* of the axis of every number of a stretch */
     double units[NUMBERS];
@@ -35,6 +35,7 @@ struct scratch {
     float way[NUMBERS], turn[NUMBERS + 1];
     float square[NUMBERS];
     uint32_t place[NUMBERS + 1];
+    float kept[STRETCH]; /* of a motion that goes too far; written where one does */
 };
 
 GB_SIMD_LOOP void take_forces(float (*total)[GB_SINGLE_WRENCH], int particles,
@@ -133,24 +134,29 @@ GB_SIMD_LOOP void add_to(float *restrict sum, const float *restrict number, int 
     }
 }
 
-GB_SIMD_LOOP void turn_on(const struct pass *pass, int n, const float *restrict way,
-                          float *restrict turn, float *restrict turned)
+/* What those keep who would go too far: seldom any, and then true. */
+GB_SIMD_LOOP bool slow_down(const struct pass *pass, int particles, struct scratch *s)
 {
-    if (pass->again) {
-        add_to(turn, way, n);
-    } else {
-        memcpy(turn, way, (size_t)n * sizeof *turn);
+    if (!(most_of(s->square, particles) > pass->most2)) {
+        return false;
     }
-    if (turned) {
-        add_to(turned, way, n);
+    for (int i = 0; i < particles; i++) {
+        const float *square = s->square + 3 * i;
+        const float speed2 = square[0] + square[1] + square[2];
+        s->kept[i] = speed2 > pass->most2 ? sqrtf(pass->most2 / speed2) : 1.0F;
     }
+    return true;
 }
 
-GB_SIMD_LOOP void take_turns(const struct gb_spot *spot, int particles,
-                             float *restrict turn)
+/* Scales velocities, their squares and the ways they carry. */
+GB_SIMD_LOOP void keep_part(const struct pass *pass, int particles, struct scratch *s,
+                            float *v, float *way)
 {
-    for (int i = 0; i < particles; i++) {
-        gb_row_store(turn + 3 * i, gb_row_load(spot[i].turn));
+    for (int k = 0; k < 3 * particles; k++) {
+        const float kept = s->kept[k / 3];
+        way[k] -= pass->step * (1.0F - kept) * v[k];
+        v[k] *= kept;
+        s->square[k] *= kept * kept;
     }
 }
 
@@ -166,8 +172,8 @@ GB_SIMD_LOOP void give_spots(const struct scratch *restrict s, int particles,
 
 /* What is added up over the stretches of a block. */
 struct motion {
-    double speed2;           /* with inertia */
-    float fastest2, travel2; /* the largest ones */
+    double speed2; /* with inertia */
+    float travel2; /* the largest one */
 };
 
 GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
@@ -176,24 +182,30 @@ GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
     const int64_t at = 3 * begin;
     const int n = 3 * particles;
     struct gb_single *single = &world->single;
+    float *v = single->velocity + at, *w = single->spin + at;
     struct scratch s;
     s.place[n] = 0;
     s.turn[n] = 0.0F;
     take_forces(single->total + begin, particles, &s);
-    speed_up(pass, pass->kick, n, s.force, single->velocity + at, s.way, s.square);
+    speed_up(pass, pass->kick, n, s.force, v, s.way, s.square);
+    const bool slow = slow_down(pass, particles, &s);
+    if (slow) {
+        keep_part(pass, particles, &s, v, s.way);
+    }
     motion->speed2 += sum_of(s.square, n);
-    motion->fastest2 = fmaxf(motion->fastest2, most_of(s.square, particles));
     go(pass, n, s.way, world->position + at, s.place);
     ways_since_build(pass, n, s.place, single->built + at, s.square);
     motion->travel2 =
         fmaxf(motion->travel2,
               flocks(s.square, particles, single->travel2 + begin / GB_SINGLE_FLOCK));
-    if (pass->again) {
-        take_turns(single->spot + begin, particles, s.turn);
+    speed_up(pass, pass->kick_turn, n, s.torque, w, s.turn, s.square);
+    if (slow) {
+        keep_part(pass, particles, &s, w, s.turn);
     }
-    speed_up(pass, pass->kick_turn, n, s.torque, single->spin + at, s.way, s.square);
     motion->speed2 += (double)pass->inertia * sum_of(s.square, n);
-    turn_on(pass, n, s.way, s.turn, pass->turned ? pass->turned + at : NULL);
+    if (pass->turned) {
+        add_to(pass->turned + at, s.turn, n);
+    }
     give_spots(&s, particles, single->spot + begin);
 }
 
@@ -209,7 +221,6 @@ GB_SIMD_LOOP void drive_block_loop(struct gb_world *world, const struct pass *pa
         drive_stretch(world, pass, i, particles, &motion);
     }
     block->speed2 = motion.speed2;
-    block->fastest2 = (double)motion.fastest2;
     /* places wrap around and can't tell what is not finite */
     block->travel = isfinite(motion.speed2) ? sqrt((double)motion.travel2) : (double)NAN;
 }
@@ -234,18 +245,6 @@ static void drive_all(struct gb_world *world, const struct pass *pass)
     } else { /* a team of one would wait for itself */
         drive_blocks(world, pass);
     }
-}
-
-/* Velocities that gb_drive_move left are scaled, and what they did is put right: seldom.
- */
-static void slow_down(struct gb_world *world, struct pass *pass, float scale)
-{
-    pass->again = true;
-    pass->keep = scale;
-    pass->kick = pass->kick_turn = 0.0F;
-    pass->back = (1.0F - scale) * pass->step;
-    pass->step = 0.0F;
-    drive_all(world, pass);
 }
 
 bool gb_drive_does(const struct gb_world *world)
@@ -280,25 +279,19 @@ static void fill_axes(struct pass *pass, const struct gb_cell *cell)
 
 double gb_drive_move(struct gb_world *world, const struct gb_drive *by, float *turned)
 {
+    const double bound = by->most / by->step;
     struct pass pass = {.keep = (float)by->keep,
                         .back = (float)by->back,
                         .step = (float)by->step,
                         .kick = (float)by->kick,
                         .kick_turn = (float)(by->kick / by->inertia),
                         .inertia = (float)by->inertia,
+                        .most2 = (float)(bound * bound),
                         .turned = turned};
     fill_axes(&pass, &world->cell);
     drive_all(world, &pass);
-    const int64_t blocks = gb_sweep_blocks(world->count);
-    double fastest2 = 0.0, speed2 = 0.0;
-    for (int64_t b = 0; b < blocks; b++) {
-        fastest2 = fmax(fastest2, world->block[b].fastest2);
-    }
-    const double farthest = by->step * sqrt(fastest2);
-    if (farthest > by->most) {
-        slow_down(world, &pass, (float)(by->most / farthest));
-    }
-    for (int64_t b = 0; b < blocks; b++) {
+    double speed2 = 0.0;
+    for (int64_t b = 0; b < gb_sweep_blocks(world->count); b++) {
         speed2 += world->block[b].speed2;
     }
     world->single.driven = true;

@@ -13,7 +13,7 @@ struct gb_world;
 struct gb_drive {
     double keep, kick, back, step; /* x -= back v, v = keep v + kick F, x += step v */
     double inertia;                /* of turns, m d^2: their F is the torque over it */
-    double most; /* d; where somebody goes farther in a step, all are slowed alike */
+    double most; /* d; who would go farther in a step is slowed, and turns slower */
 };
 
 /* Does the world do that, and will that of a model? */

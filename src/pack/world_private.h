@@ -17,7 +17,7 @@ struct gb_sweep_block {
     struct gb_world_sums sums;
     double travel;                    /* longest way since the list was built */
     struct gb_strays_missing missing; /* where somebody has strayed */
-    double speed2, fastest2; /* of a drive: sum with inertia, and of who moves fastest */
+    double speed2; /* of a drive: sum of squared velocities, with inertia */
 };
 
 struct gb_world {

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec.h"
 #include "pack/drive.h"
 #include "pack/simd.h"
 #include "solve/relax_fire.h"
@@ -53,9 +54,8 @@ struct pass {
     double *turned;          /* turns are added up here; NULL: nowhere */
     double keep, kick, back; /* x -= back v, v = keep v + kick F ... */
     double step;             /* ... x += step v */
-    double scale;            /* what is kept of a step that goes too far */
+    double most2;            /* squared speed of who goes as far as anybody may */
     double speed2[SPANS];    /* of v and, with their inertia, of w */
-    double speed2_most[SPANS];
 };
 
 /* The first of the numbers (three a particle) of a span. */
@@ -170,48 +170,48 @@ GB_SIMD_LOOP void add_up_loop(double *restrict sum, const double *restrict more,
 GB_SIMD_WIDTHS(add_up, (double *sum, const double *more, int64_t count),
                (sum, more, count))
 
+/* Slows those of a span who would go too far, and how they turn: seldom any.  Returns
+ * what the squared speed of all falls by. */
+static double slow_down(const struct pass *pass, int64_t begin, int64_t end)
+{
+    double fall = 0.0;
+    for (int64_t i = begin; i < end; i += 3) {
+        double *v = pass->v + i, *w = pass->w + i;
+        const double speed2 = gb_vec_dot(v, v);
+        if (speed2 <= pass->most2) {
+            continue;
+        }
+        const double factor = sqrt(pass->most2 / speed2);
+        const double back = (1.0 - factor) * pass->step;
+        fall += (1.0 - factor * factor) * (speed2 + inertia * gb_vec_dot(w, w));
+        for (int c = 0; c < 3; c++) {
+            pass->b.position[i + c] -= back * v[c];
+            pass->b.turn[i + c] -= back * w[c];
+            v[c] *= factor;
+            w[c] *= factor;
+        }
+    }
+    return fall;
+}
+
 static void drive_span(struct pass *pass, int span)
 {
     const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
     const struct drive way = {pass->keep, pass->kick, pass->back, pass->step};
     const struct drive turn = {pass->keep, pass->kick / inertia, pass->back, pass->step};
-    double moving, turning;
+    double moving, turning, most2;
     drive(pass->b.position + begin, pass->v + begin, pass->b.force + begin, end - begin,
           way, &moving);
-    fastest(pass->v + begin, (end - begin) / 3, &pass->speed2_most[span]);
+    fastest(pass->v + begin, (end - begin) / 3, &most2);
     drive(pass->b.turn + begin, pass->w + begin, pass->b.torque + begin, end - begin,
           turn, &turning);
+    pass->speed2[span] = moving + inertia * turning;
+    if (most2 > pass->most2) {
+        pass->speed2[span] -= slow_down(pass, begin, end);
+    }
     if (pass->turned) {
         add_up(pass->turned + begin, pass->b.turn + begin, end - begin);
     }
-    pass->speed2[span] = moving + inertia * turning;
-}
-
-/* Takes back what was too far: seldom. */
-static void slow_span(struct pass *pass, int span)
-{
-    const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
-    const double scale = pass->scale, back = (1.0 - scale) * pass->step;
-    for (int64_t i = begin; i < end; i++) {
-        const double turn = back * pass->w[i];
-        pass->b.position[i] -= back * pass->v[i];
-        pass->b.turn[i] -= turn;
-        pass->v[i] *= scale;
-        pass->w[i] *= scale;
-        if (pass->turned) {
-            pass->turned[i] -= turn;
-        }
-    }
-    pass->speed2[span] *= scale * scale;
-}
-
-static double speed_most(const struct pass *pass)
-{
-    double most = 0.0;
-    for (int s = 0; s < SPANS; s++) {
-        most = fmax(most, pass->speed2_most[s]);
-    }
-    return sqrt(most);
 }
 
 /* The motion of a world that does not drive itself; returns the squared speed. */
@@ -219,6 +219,7 @@ static double drive_world(struct gb_relax *relax, struct gb_world *world,
                           const struct gb_drive *by)
 {
     const int threads = gb_world_threads(world);
+    const double bound = by->most / by->step;
     struct pass pass = {
         .b = gb_world_bodies(world),
         .v = relax->vector[0],
@@ -227,13 +228,9 @@ static double drive_world(struct gb_relax *relax, struct gb_world *world,
         .keep = by->keep,
         .kick = by->kick,
         .back = by->back,
-        .step = by->step};
+        .step = by->step,
+        .most2 = bound * bound};
     over_spans(&pass, threads, drive_span);
-    const double farthest = pass.step * speed_most(&pass);
-    if (farthest > by->most) {
-        pass.scale = by->most / farthest;
-        over_spans(&pass, threads, slow_span);
-    }
     double speed2 = 0.0;
     for (int s = 0; s < SPANS; s++) {
         speed2 += pass.speed2[s];

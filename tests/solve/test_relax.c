@@ -4,9 +4,11 @@
 #include "base/vec.h"
 #include "common/scene.h"
 #include "measure/observe.h"
+#include "pack/world_private.h"
 #include "phys/tolerances.h"
 #include "solve/guard.h"
 #include "solve/relax.h"
+#include "solve/relax_fire.h"
 
 /* Every relaxer brings every small problem to the same stopping rule. */
 static void test_all(void)
@@ -156,6 +158,60 @@ static void test_foretold(void)
     gb_world_destroy(world);
 }
 
+/* Turn of particle i that the next evaluation will see. */
+static double turn_of(const struct gb_world *world, int64_t i, int c)
+{
+    return world->in_single ? (double)world->single.spot[i].turn[c]
+                            : world->turn[3 * i + c];
+}
+
+/* Whoever would go farther than 0.01 d in a step is slowed, with its turn; all others
+ * move as they would without it. */
+static void check_slowed(const char *precision)
+{
+    const struct gb_params params =
+        scene_params("numerics.relaxer=fire", "contact.mu=0.3", precision, NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    struct gb_relax *relax = NULL;
+    struct gb_error err = {0};
+    g_assert_true(gb_relax_create(&relax, &model, &err));
+    gb_relax_start(relax, world);
+    scene_evaluate(world);
+    scene_squeeze(world, 0.14); /* some are pushed hard, most are not */
+    scene_evaluate(world);
+    relax->evaluations = 1;
+    const struct gb_bodies b = gb_world_bodies(world);
+    const double step = gb_relax_fire_plain.step_first, most = 0.01;
+    double *before = g_memdup2(b.position, 3 * (size_t)b.count * sizeof *before);
+    int slowed = 0;
+    relax->method->move(relax, world);
+    for (int64_t i = 0; i < b.count; i++) {
+        const double way = step * step * gb_vec_length(b.force + 3 * i);
+        const double factor = step * step * (way > most ? most / way : 1.0);
+        slowed += way > most;
+        for (int c = 0; c < 3; c++) {
+            g_assert_cmpfloat_with_epsilon(b.position[3 * i + c] - before[3 * i + c],
+                                           factor * b.force[3 * i + c], 1e-8);
+            g_assert_cmpfloat_with_epsilon(
+                turn_of(world, i, c), factor / GB_RELAX_INERTIA * b.torque[3 * i + c],
+                1e-8);
+        }
+    }
+    g_test_message("%s: %d of %" G_GINT64_FORMAT " slowed", precision, slowed, b.count);
+    g_assert_cmpint(slowed, >, 0);
+    g_assert_cmpint(slowed, <, b.count / 2);
+    g_free(before);
+    gb_relax_destroy(relax);
+    gb_world_destroy(world);
+}
+
+static void test_slowed(void)
+{
+    check_slowed("numerics.precision=double");
+    check_slowed("numerics.precision=single");
+}
+
 /* What a scene gets where its preset leaves it open. */
 static void test_picked(void)
 {
@@ -276,6 +332,7 @@ int main(int argc, char **argv)
     g_test_add_func("/relax/predict", test_predict);
     g_test_add_func("/relax/light", test_light);
     g_test_add_func("/relax/foretold", test_foretold);
+    g_test_add_func("/relax/slowed", test_slowed);
     g_test_add_func("/relax/picked", test_picked);
     g_test_add_func("/relax/slices", test_slices);
     g_test_add_func("/relax/exhausted", test_exhausted);
