@@ -67,6 +67,24 @@ static bool holds(const struct gb_world *world, const struct gb_pair_list *list,
     return false;
 }
 
+static void note(struct gb_strays_missing *missing, int64_t i, int64_t j, bool near)
+{
+    if (missing->count == GB_STRAYS_MISSING) {
+        missing->many = true;
+        return;
+    }
+    missing->pair[missing->count++] =
+        (struct gb_strays_pair){(int32_t)(i < j ? i : j), (int32_t)(i < j ? j : i), near};
+}
+
+/* Those whom a stray may have met.  They lie anywhere in memory, which is asked for all of
+ * them before it is waited for. */
+enum { CROWD = 256 };
+struct crowd {
+    int count;
+    int32_t who[CROWD];
+};
+
 /* Squared distance of nearest images. */
 static double nearest2(const struct gb_cell *cell, const double *xi, const double *xj)
 {
@@ -79,14 +97,35 @@ static double nearest2(const struct gb_cell *cell, const double *xi, const doubl
     return squared;
 }
 
-static void note(struct gb_strays_missing *missing, int64_t i, int64_t j, bool near)
+/* Leaves in the crowd who is near enough to be in a list of particle i. */
+static void keep_near(const struct gb_world *world, int64_t i, struct crowd *crowd)
 {
-    if (missing->count == GB_STRAYS_MISSING) {
-        missing->many = true;
-        return;
+    const double reach = world->pairs.largest + hair + world->model->numerics.cutoff - 1.0;
+    const double *x = world->position;
+    int kept = 0;
+    for (int k = 0; k < crowd->count; k++) {
+        const int32_t j = crowd->who[k];
+        const double squared = nearest2(&world->cell, x + 3 * i, x + 3 * (int64_t)j);
+        crowd->who[kept] = j;
+        kept += squared < reach * reach && j != i;
     }
-    missing->pair[missing->count++] =
-        (struct gb_strays_pair){(int32_t)(i < j ? i : j), (int32_t)(i < j ? j : i), near};
+    crowd->count = kept;
+}
+
+static void ask_for_lists(const struct gb_world *world, int64_t i,
+                          const struct crowd *crowd)
+{
+    const struct gb_pairs *pairs = &world->pairs;
+    for (int k = 0; k < crowd->count; k++) {
+        const int64_t low = i < crowd->who[k] ? i : crowd->who[k];
+        __builtin_prefetch(&pairs->near.start[low]);
+        __builtin_prefetch(&pairs->far.start[low]);
+    }
+    for (int k = 0; k < crowd->count; k++) {
+        const int64_t low = i < crowd->who[k] ? i : crowd->who[k];
+        __builtin_prefetch(&pairs->near.other[pairs->near.start[low]]);
+        __builtin_prefetch(&pairs->near.image[pairs->near.start[low]]);
+    }
 }
 
 /* Is the pair in the list that its distance asks for? */
@@ -105,6 +144,17 @@ static void look_at_pair(const struct gb_world *world, int64_t i, int64_t j,
     }
 }
 
+static void look_at_crowd(const struct gb_world *world, int64_t i, struct crowd *crowd,
+                          struct gb_strays_missing *missing)
+{
+    keep_near(world, i, crowd);
+    ask_for_lists(world, i, crowd);
+    for (int k = 0; k < crowd->count; k++) {
+        look_at_pair(world, i, crowd->who[k], missing);
+    }
+    crowd->count = 0;
+}
+
 /* Where particle i would have been at the build had only the cell been strained since. */
 static void home_at_build(const struct gb_world *world, int64_t i, int home[3])
 {
@@ -118,38 +168,62 @@ static void home_at_build(const struct gb_world *world, int64_t i, int home[3])
     gb_pairs_grid_home(&world->pairs.grid, x, home);
 }
 
-static void look_into_cell(const struct gb_world *world, int64_t i, const int home[3],
-                           struct gb_strays_missing *missing)
+/* Grid cells beside each other along x: `next` holds their particles in one run. */
+struct run {
+    int first, last;
+};
+
+/* The runs of `span` grid cells each way around particle i: two where they wrap around. */
+enum { SPAN_MOST = 2, RUNS = 2 * (2 * SPAN_MOST + 1) * (2 * SPAN_MOST + 1) };
+static int find_runs(const struct gb_world *world, int64_t i, int span, struct run *run)
 {
-    const struct gb_pairs *pairs = &world->pairs;
-    const int cell = gb_pairs_grid_index(&pairs->grid, home);
-    for (int32_t k = pairs->head[cell]; k < pairs->head[cell + 1]; k++) {
-        const int64_t j = pairs->next[k];
-        if (j != i) {
-            look_at_pair(world, i, j, missing);
+    const struct gb_pairs_grid *grid = &world->pairs.grid;
+    int home[3], low[3], count[3], runs = 0;
+    home_at_build(world, i, home);
+    for (int k = 0; k < 3; k++) { /* all of them once, where there are few */
+        const bool all = grid->n[k] <= 2 * span + 1;
+        low[k] = all ? 0 : home[k] - span + (home[k] < span ? grid->n[k] : 0);
+        count[k] = all ? grid->n[k] : 2 * span + 1;
+    }
+    const int wrapped = low[0] + count[0] - grid->n[0];
+    for (int r = 0; r < count[1] * count[2]; r++) {
+        const int at[3] = {0, (low[1] + r % count[1]) % grid->n[1],
+                           (low[2] + r / count[1]) % grid->n[2]};
+        const int row = gb_pairs_grid_index(grid, at);
+        const int behind = wrapped > 0 ? grid->n[0] : low[0] + count[0];
+        run[runs++] = (struct run){row + low[0], row + behind - 1};
+        if (wrapped > 0) {
+            run[runs++] = (struct run){row, row + wrapped - 1};
         }
     }
+    return runs;
 }
 
-/* Those in `span` grid cells each way. */
 static void look_around(const struct gb_world *world, int64_t i, int span,
                         struct gb_strays_missing *missing)
 {
-    const struct gb_pairs_grid *grid = &world->pairs.grid;
-    int home[3], at[3], low[3], high[3];
-    home_at_build(world, i, home);
-    for (int k = 0; k < 3; k++) { /* all of them once, where there are few */
-        low[k] = grid->n[k] > 2 * span ? -span : 0;
-        high[k] = grid->n[k] > 2 * span ? span : grid->n[k] - 1;
+    const struct gb_pairs *pairs = &world->pairs;
+    struct run run[RUNS];
+    struct crowd crowd = {.count = 0};
+    const int runs = find_runs(world, i, span, run);
+    for (int r = 0; r < runs; r++) {
+        __builtin_prefetch(&pairs->head[run[r].first]);
     }
-    const int row = high[0] - low[0] + 1, plane = row * (high[1] - low[1] + 1);
-    for (int c = 0; c < plane * (high[2] - low[2] + 1); c++) {
-        const int step[3] = {c % row, c % plane / row, c / plane};
-        for (int k = 0; k < 3; k++) {
-            at[k] = (home[k] + low[k] + step[k] + grid->n[k]) % grid->n[k];
+    for (int r = 0; r < runs; r++) {
+        __builtin_prefetch(&pairs->next[pairs->head[run[r].first]]);
+    }
+    for (int r = 0; r < runs; r++) {
+        const int32_t stop = pairs->head[run[r].last + 1];
+        for (int32_t k = pairs->head[run[r].first]; k < stop; k++) {
+            const int32_t j = pairs->next[k];
+            __builtin_prefetch(world->position + 3 * (int64_t)j);
+            crowd.who[crowd.count++] = j;
+            if (crowd.count == CROWD) {
+                look_at_crowd(world, i, &crowd, missing);
+            }
         }
-        look_into_cell(world, i, at, missing);
     }
+    look_at_crowd(world, i, &crowd, missing);
 }
 
 /* Squared way of particle i since the build, beside the affine motion. */
