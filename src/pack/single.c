@@ -6,10 +6,11 @@
 static bool outward_init(struct gb_single_outward *out, int64_t count,
                          struct gb_error *err)
 {
-    out->start =
-        gb_alloc_array((size_t)gb_sweep_blocks(count) + 1, sizeof *out->start, err);
+    const size_t blocks = (size_t)gb_sweep_blocks(count);
+    out->start = gb_alloc_array(blocks + 1, sizeof *out->start, err);
+    out->source = gb_alloc_array(blocks, sizeof *out->source, err);
     out->in_start = gb_alloc_array((size_t)count + 1, sizeof *out->in_start, err);
-    return out->start && out->in_start;
+    return out->start && out->source && out->in_start;
 }
 
 static void outward_drop_rows(struct gb_single_outward *out)
@@ -24,6 +25,7 @@ static void outward_drop_rows(struct gb_single_outward *out)
 static void outward_finish(struct gb_single_outward *out)
 {
     gb_alloc_free(out->start);
+    gb_alloc_free(out->source);
     gb_alloc_free(out->in_start);
     outward_drop_rows(out);
 }
@@ -71,6 +73,7 @@ static void count_rows(struct gb_single_outward *out, const struct gb_pair_list 
         const int64_t begin = gb_sweep_block_begin(count, b),
                       end = gb_sweep_block_end(count, b);
         out->start[b] = rows;
+        out->source[b] = b;
         for (int64_t k = list->start[begin]; k < list->start[end]; k++) {
             const int32_t j = list->other[k];
             const bool leaves = j >= end;
@@ -88,12 +91,15 @@ static void count_rows(struct gb_single_outward *out, const struct gb_pair_list 
 static void deal_rows(struct gb_single_outward *out, const struct gb_pair_list *list,
                       int64_t count)
 {
+    const int64_t size = gb_sweep_block_size(count);
     int32_t row = 0, *in = out->in_start;
     for (int64_t b = 0; b < gb_sweep_blocks(count); b++) {
         const int64_t begin = gb_sweep_block_begin(count, b),
                       end = gb_sweep_block_end(count, b);
         for (int64_t k = list->start[begin]; k < list->start[end]; k++) {
             if (list->other[k] >= end) {
+                int64_t *source = &out->source[list->other[k] / size];
+                *source = b < *source ? b : *source;
                 out->in_row[in[list->other[k]]++] = row++;
             }
         }

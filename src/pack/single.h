@@ -35,6 +35,7 @@ enum { GB_SINGLE_FLOCK = 32 };
  * once. */
 struct gb_single_outward {
     int64_t *start;    /* blocks + 1: the rows of each block, in the order of its pairs */
+    int64_t *source;   /* blocks: the earliest one whose rows each collects, or itself */
     int32_t *in_start; /* particles + 1: the rows that a particle collects ... */
     int32_t *in_row;   /* ... ascending */
     float *row;

@@ -77,8 +77,8 @@ static void note(struct gb_strays_missing *missing, int64_t i, int64_t j, bool n
         (struct gb_strays_pair){(int32_t)(i < j ? i : j), (int32_t)(i < j ? j : i), near};
 }
 
-/* Those whom a stray may have met.  They lie anywhere in memory, which is asked for all of
- * them before it is waited for. */
+/* Those whom a stray may have met.  They lie anywhere in memory, which is asked for all
+ * of them before it is waited for. */
 enum { CROWD = 256 };
 struct crowd {
     int count;
@@ -100,7 +100,8 @@ static double nearest2(const struct gb_cell *cell, const double *xi, const doubl
 /* Leaves in the crowd who is near enough to be in a list of particle i. */
 static void keep_near(const struct gb_world *world, int64_t i, struct crowd *crowd)
 {
-    const double reach = world->pairs.largest + hair + world->model->numerics.cutoff - 1.0;
+    const double reach =
+        world->pairs.largest + hair + world->model->numerics.cutoff - 1.0;
     const double *x = world->position;
     int kept = 0;
     for (int k = 0; k < crowd->count; k++) {
@@ -173,7 +174,8 @@ struct run {
     int first, last;
 };
 
-/* The runs of `span` grid cells each way around particle i: two where they wrap around. */
+/* The runs of `span` grid cells each way around particle i: two where they wrap around.
+ */
 enum { SPAN_MOST = 2, RUNS = 2 * (2 * SPAN_MOST + 1) * (2 * SPAN_MOST + 1) };
 static int find_runs(const struct gb_world *world, int64_t i, int span, struct run *run)
 {

@@ -1,6 +1,9 @@
 #include "pack/sweep.h"
 
 #include <math.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 #include <string.h>
 
 #include "pack/simd.h"
@@ -378,6 +381,29 @@ bool gb_sweep_list_holds(struct gb_world *world, double *travel)
     return list_holds(world, blocks);
 }
 
+/* The blocks of one thread of a team; all of them without one. */
+struct share {
+    int64_t begin, end;
+};
+
+static struct share share_of(int64_t blocks)
+{
+#ifdef _OPENMP
+    const int64_t thread = omp_get_thread_num(), threads = omp_get_num_threads();
+    return (struct share){blocks * thread / threads, blocks * (thread + 1) / threads};
+#else
+    return (struct share){0, blocks};
+#endif
+}
+
+/* Is all that a block of a share collects left there by its thread, and already? */
+static bool collects_at_once(const struct gb_world *world, const struct share *share,
+                             int64_t b)
+{
+    return world->in_single && world->single.near.source[b] >= share->begin &&
+           world->single.far.source[b] >= share->begin;
+}
+
 /* All blocks, by the threads of the team that calls it; without one, by the caller.  All
  * of them see alike whether the list still holds. */
 static void run_blocks(struct gb_world *world, int64_t blocks, bool *holds)
@@ -393,13 +419,18 @@ static void run_blocks(struct gb_world *world, int64_t blocks, bool *holds)
     }
 #pragma omp single nowait
     *holds = true;
-#pragma omp for schedule(static)
-    for (int64_t b = 0; b < blocks; b++) {
+    const struct share share = share_of(blocks);
+    for (int64_t b = share.begin; b < share.end; b++) {
         sweep_block(world, b);
+        if (collects_at_once(world, &share, b)) {
+            collect_block(world, b);
+        }
     }
-#pragma omp for schedule(static)
-    for (int64_t b = 0; b < blocks; b++) {
-        collect_block(world, b);
+#pragma omp barrier
+    for (int64_t b = share.begin; b < share.end; b++) {
+        if (!collects_at_once(world, &share, b)) {
+            collect_block(world, b);
+        }
     }
 }
 
