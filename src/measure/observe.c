@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/vec.h"
+#include "pack/forces.h"
 #include "pack/virial.h"
 #include "phys/law_unequal.h"
 
@@ -157,6 +158,8 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
     enum { BINS_MOST = 360 };
     double sum[BINS_MOST] = {0};
     int64_t hits[BINS_MOST] = {0};
+    struct gb_forces forces;
+    gb_forces_init(&forces, world, true);
     bins = bins < BINS_MOST ? bins : BINS_MOST;
     for (int64_t i = 0; i < count; i++) {
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
@@ -168,7 +171,7 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
                 const int b = (int)(angle / (0.5 * M_PI) * bins);
                 const int bin = b < bins ? b : bins - 1;
                 double force[3];
-                gb_world_force(world, k, force);
+                gb_forces_at(&forces, k, force);
                 sum[bin] += gb_vec_dot(force, r) / length;
                 hits[bin]++;
             }

@@ -128,6 +128,10 @@ struct gb_batch_single_kernel {
     void (*tally)(struct gb_batch_single *batch, const struct gb_contacts *contacts,
                   int64_t slot, struct gb_tally *tally);
     void (*attract)(const struct gb_model *model, struct gb_batch_single *batch);
+    /* Arms and forces on the first particles as the last `advance` left them; nothing
+     * changes. */
+    void (*recall)(const struct gb_model *model, struct gb_batch_single *batch,
+                   const struct gb_contacts *contacts, int64_t slot);
 };
 
 /* The variant for this scene and this processor; no variant pays for terms it leaves out.

@@ -295,6 +295,39 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
     }
 }
 
+/* Force on the first particle, 3D and not viscous, from springs that were cut already. */
+INLINE void recall_3d(const struct gb_model *model, struct terms t, BATCH *restrict b,
+                      const struct gb_contacts *restrict c, int64_t slot)
+{
+    const real *restrict deepest = PLANE(c->deepest);
+    const real *restrict ax = PLANE(c->arm[0]), *restrict ay = PLANE(c->arm[1]);
+    const real *restrict az = PLANE(c->arm[2]);
+    const real *restrict sx = PLANE(c->shear[0]), *restrict sy = PLANE(c->shear[1]);
+    const real *restrict sz = PLANE(c->shear[2]);
+    const struct normal_law law = normal_law(model, b->cutoff2);
+    const real k_shear = (real)model->slip.shear, length = (real)model->bridge.length;
+    const real quarter = 0.25;
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const real rx = ax[k], ry = ay[k], rz = az[k], state = deepest[k];
+        const real r = root(rx * rx + ry * ry + rz * rz), h = 1 - r;
+        const bool live = state >= 0;
+        const struct normal f = normal_force(t, &law, state, h, r);
+        const real along = f.total / r;
+        real ks = 0;
+        if (t.friction) {
+            const real a2 = where(live, quarter * radius_square(t, length, state, h));
+            ks = k_shear * radius(t, a2, live, f.root);
+        }
+        b->r[0][k] = rx;
+        b->r[1][k] = ry;
+        b->r[2][k] = rz;
+        b->force[0][k] = along * rx - (t.friction ? ks * sx[k] : 0);
+        b->force[1][k] = along * ry - (t.friction ? ks * sy[k] : 0);
+        b->force[2][k] = along * rz - (t.friction ? ks * sz[k] : 0);
+    }
+}
+
 /* First moment of the contact pressure, M(a) of (9), for the pivoting cap of contacts
  * without a bridge.  Few contacts need it in scenes with bridges. */
 static inline void fill_moments(const struct gb_model *model, BATCH *batch,

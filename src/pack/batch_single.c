@@ -20,6 +20,18 @@
             advance_3d(model, t, batch, contacts, slot);                                 \
         }                                                                                \
     }                                                                                    \
+    attribute static void name##_recall(                                                 \
+        const struct gb_model *model, struct gb_batch_single *batch,                     \
+        const struct gb_contacts *contacts, int64_t slot)                                \
+    {                                                                                    \
+        const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
+        const struct terms printed = {false, friction_, bridges_, false, true, plain_};  \
+        if (bridges_ && model->bridge.radius_current) {                                  \
+            recall_3d(model, printed, batch, contacts, slot);                            \
+        } else {                                                                         \
+            recall_3d(model, t, batch, contacts, slot);                                  \
+        }                                                                                \
+    }                                                                                    \
     attribute static void name##_tally(struct gb_batch_single *batch,                    \
                                        const struct gb_contacts *contacts, int64_t slot, \
                                        struct gb_tally *tally)                           \
@@ -43,7 +55,7 @@
 
 #define ROW(name)                                                                        \
     {                                                                                    \
-        name##_advance, name##_tally, name##_attract                                     \
+        name##_advance, name##_tally, name##_attract, name##_recall                      \
     }
 #define TABLE(width)                                                                     \
     {                                                                                    \

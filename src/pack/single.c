@@ -56,8 +56,6 @@ void gb_single_finish(struct gb_single *single)
     gb_alloc_free(single->spin);
     gb_alloc_free(single->built);
     gb_alloc_free(single->travel2);
-    gb_alloc_free(single->push[0]);
-    gb_alloc_free(single->pull[0]);
     outward_finish(&single->near);
     outward_finish(&single->far);
     *single = (struct gb_single){0};
@@ -130,26 +128,6 @@ static bool outward_take(struct gb_single_outward *out, const struct gb_pair_lis
     return true;
 }
 
-/* Three arrays of `room`. */
-static bool reserve_forces(float *force[3], int64_t *had, int64_t room,
-                           struct gb_error *err)
-{
-    if (room <= *had) {
-        return true;
-    }
-    const size_t stride = (size_t)(room + 15) / 16 * 16;
-    gb_alloc_free(force[0]);
-    *had = 0;
-    force[0] = gb_alloc_array(3 * stride, sizeof *force[0], err);
-    if (!force[0]) {
-        return false;
-    }
-    force[1] = force[0] + stride;
-    force[2] = force[1] + stride;
-    *had = room;
-    return true;
-}
-
 /* Places at the build. */
 static void take_built(struct gb_single *single, const struct gb_pairs *pairs)
 {
@@ -178,9 +156,7 @@ bool gb_single_take_lists(struct gb_single *single, const struct gb_pairs *pairs
                           struct gb_error *err)
 {
     take_built(single, pairs);
-    return reserve_forces(single->push, &single->push_room, pairs->near.capacity, err) &&
-           reserve_forces(single->pull, &single->pull_room, pairs->far.capacity, err) &&
-           gb_single_amend(single, pairs, true, true, err);
+    return gb_single_amend(single, pairs, true, true, err);
 }
 
 void gb_single_arm(const struct gb_cell *cell, const double xi[3], const double xj[3],

@@ -48,8 +48,6 @@ struct gb_single {
     float (*total)[GB_SINGLE_WRENCH]; /* one a particle: force and torque */
     struct gb_single_outward near;    /* rows: wrenches on j */
     struct gb_single_outward far;     /* pulls on it */
-    float *push[3], *pull[3];         /* force on i of every near and of every far pair */
-    int64_t push_room, pull_room;
     float scale[3]; /* d in a unit of place, as of the last evaluation */
     /* Motion (pack/drive.h), count x 3 and a number more each. */
     float *velocity, *spin;

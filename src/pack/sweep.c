@@ -171,8 +171,7 @@ static void sweep_far(struct gb_world *world, int64_t begin, int64_t end, double
 
 static void sweep_block(struct gb_world *world, int64_t b)
 {
-    const double cutoff =
-        world->model->terms.attraction ? world->model->numerics.cutoff : 0.0;
+    const double cutoff = gb_world_cutoff(world);
     const int64_t begin = gb_sweep_block_begin(world->count, b),
                   end = gb_sweep_block_end(world->count, b);
     struct gb_tally tally = {0};

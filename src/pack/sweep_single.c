@@ -156,15 +156,6 @@ GB_ROW_INLINE struct way_out spill(const struct gb_batch_single *batch,
     return k < batch->n ? four(batch, first, other, k, batch->n - k, out) : out;
 }
 
-/* Forces on the first particles, for measures. */
-GB_ROW_INLINE void keep_forces(float *const to[3], const struct gb_batch_single *batch,
-                               int64_t slot)
-{
-    for (int c = 0; c < 3; c++) {
-        memcpy(to[c] + slot, batch->force[c], (size_t)batch->n * sizeof *batch->force[c]);
-    }
-}
-
 /* Particles from which on spots of other blocks have left the nearest caches since they
  * were written. */
 enum { FETCHED_LEAST = 131072 };
@@ -201,7 +192,6 @@ GB_ROW_INLINE void sweep_near(struct gb_world *world, int64_t b, float cutoff2,
         fill_batch(&world->single, near, &batch, slot, true);
         kernel->advance(world->model, &batch, &world->contacts, slot);
         out = spill(&batch, near->first + slot, near->other + slot, out, give_four);
-        keep_forces(world->single.push, &batch, slot);
         kernel->tally(&batch, &world->contacts, slot, tally);
     }
 }
@@ -220,7 +210,6 @@ GB_ROW_INLINE void sweep_far(struct gb_world *world, int64_t b, float cutoff2)
         fill_batch(&world->single, far, &batch, slot, false);
         world->single.kernel.attract(world->model, &batch);
         out = spill(&batch, far->first + slot, far->other + slot, out, pull_four);
-        keep_forces(world->single.pull, &batch, slot);
     }
 }
 
@@ -329,6 +318,26 @@ void gb_sweep_single_collect(struct gb_world *world, int64_t begin, int64_t end,
                              struct gb_world_sums *sums)
 {
     collect(world, begin, end, sums);
+}
+
+void gb_sweep_single_recall(const struct gb_world *world, bool near, int64_t slot,
+                            struct gb_batch_single *batch)
+{
+    const double cutoff = gb_world_cutoff(world);
+    batch->cutoff2 = (float)(cutoff * cutoff);
+    if (near) {
+        world->single.kernel.recall(world->model, batch, &world->contacts, slot);
+        return;
+    }
+    const struct gb_pair_list *far = &world->pairs.far;
+    for (int k = 0; k < batch->n; k++) {
+        double r[3];
+        gb_world_arm_of(world, far, far->first[slot + k], slot + k, r);
+        for (int c = 0; c < 3; c++) {
+            batch->r[c][k] = (float)r[c];
+        }
+    }
+    world->single.kernel.attract(world->model, batch);
 }
 
 void gb_sweep_single_widen(struct gb_world *world)

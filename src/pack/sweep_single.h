@@ -1,8 +1,10 @@
 #ifndef GB_PACK_SWEEP_SINGLE_H
 #define GB_PACK_SWEEP_SINGLE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
+struct gb_batch_single;
 struct gb_tally;
 struct gb_world;
 struct gb_world_sums;
@@ -15,6 +17,11 @@ void gb_sweep_single_block(struct gb_world *world, int64_t b, double cutoff2,
                            struct gb_tally *tally);
 void gb_sweep_single_collect(struct gb_world *world, int64_t begin, int64_t end,
                              struct gb_world_sums *sums);
+
+/* Arms of batch->n pairs of a list from slot on, and the forces on their first particles,
+ * as of the last evaluation: nothing keeps them from there. */
+void gb_sweep_single_recall(const struct gb_world *world, bool near, int64_t slot,
+                            struct gb_batch_single *batch);
 
 /* Forces and torques as doubles, for all but gb_drive_move; and back. */
 void gb_sweep_single_widen(struct gb_world *world);

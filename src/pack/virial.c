@@ -2,8 +2,10 @@
 
 #include <string.h>
 
+#include "pack/forces.h"
 #include "pack/share.h"
 #include "pack/simd.h"
+#include "pack/sweep_single.h"
 #include "pack/world_private.h"
 
 /* Sums of so many parts of the particles, added in their order: the same bits for any
@@ -17,47 +19,59 @@ static void add(double sum[3][3], const double force[3], const double r[3])
     }
 }
 
-/* Near pairs [begin, end) in single precision: forces and arms as the sweep left them,
- * lane by lane. */
-GB_SIMD_LOOP void sum_single_loop(const struct gb_world *world, int64_t begin,
-                                  int64_t end, double sum[3][3])
+/* Adds the pairs of a batch, lane by lane. */
+GB_SIMD_LOOP void add_batch_loop(const struct gb_batch_single *batch,
+                                 double lane[3][3][GB_LANES])
 {
-    const struct gb_contacts *contacts = &world->contacts;
     for (int a = 0; a < 3; a++) {
-        const float *restrict force = world->single.push[a];
+        const float *restrict force = batch->force[a];
         for (int b = 0; b < 3; b++) {
-            const float *restrict arm = contacts->plane[contacts->arm[b]];
-            double lane[GB_LANES] = {0}, all = 0.0;
-            int64_t k = begin;
-            for (; k + GB_LANES <= end; k += GB_LANES) {
+            const float *restrict arm = batch->r[b];
+            double *restrict sum = lane[a][b];
+            int k = 0;
+            for (; k + GB_LANES <= batch->n; k += GB_LANES) {
                 for (int l = 0; l < GB_LANES; l++) {
-                    lane[l] += (double)force[k + l] * (double)arm[k + l];
+                    sum[l] += (double)force[k + l] * (double)arm[k + l];
                 }
             }
-            for (; k < end; k++) {
-                all += (double)force[k] * (double)arm[k];
+            for (; k < batch->n; k++) {
+                sum[0] += (double)force[k] * (double)arm[k];
             }
-            for (int l = 0; l < GB_LANES; l++) {
-                all += lane[l];
-            }
-            sum[a][b] += all;
         }
     }
 }
-GB_SIMD_WIDTHS(sum_single,
-               (const struct gb_world *world, int64_t begin, int64_t end,
-                double sum[3][3]),
-               (world, begin, end, sum))
+GB_SIMD_WIDTHS(add_batch,
+               (const struct gb_batch_single *batch, double lane[3][3][GB_LANES]),
+               (batch, lane))
 
-/* Pairs of particle i in one list or the other. */
-static void sum_pairs(const struct gb_world *world, bool near, int64_t i,
-                      double sum[3][3])
+/* Pairs [begin, end) of one list or the other in single precision. */
+static void sum_single(const struct gb_world *world, bool near, int64_t begin,
+                       int64_t end, double sum[3][3])
 {
-    const struct gb_pair_list *list = near ? &world->pairs.near : &world->pairs.far;
-    double force[3], r[3];
+    double lane[3][3][GB_LANES] = {0};
+    struct gb_batch_single batch;
+    for (int64_t slot = begin; slot < end; slot += batch.n) {
+        batch.n = end - slot < GB_BATCH ? (int)(end - slot) : GB_BATCH;
+        gb_sweep_single_recall(world, near, slot, &batch);
+        add_batch(&batch, lane);
+    }
+    for (int a = 0; a < 3; a++) {
+        for (int b = 0; b < 3; b++) {
+            for (int l = 0; l < GB_LANES; l++) {
+                sum[a][b] += lane[a][b][l];
+            }
+        }
+    }
+}
+
+/* The same of particle i in double precision. */
+static void sum_double(struct gb_forces *forces, const struct gb_pair_list *list,
+                       int64_t i, double sum[3][3])
+{
     for (int64_t k = list->start[i]; k < list->start[i + 1]; k++) {
-        gb_world_arm_of(world, list, i, k, r);
-        (near ? gb_world_force_of : gb_world_pull_of)(world, k, force);
+        double force[3], r[3];
+        gb_world_arm_of(forces->world, list, i, k, r);
+        gb_forces_at(forces, k, force);
         add(sum, force, r);
     }
 }
@@ -65,15 +79,18 @@ static void sum_pairs(const struct gb_world *world, bool near, int64_t i,
 static void sum_part(const struct gb_world *world, int64_t begin, int64_t end,
                      double sum[3][3])
 {
-    const int64_t *start = world->pairs.near.start;
+    const struct gb_pair_list *near = &world->pairs.near, *far = &world->pairs.far;
+    struct gb_forces push, pull;
     if (world->in_single) {
-        sum_single(world, start[begin], start[end], sum);
+        sum_single(world, true, near->start[begin], near->start[end], sum);
+        sum_single(world, false, far->start[begin], far->start[end], sum);
+        return;
     }
+    gb_forces_init(&push, world, true);
+    gb_forces_init(&pull, world, false);
     for (int64_t i = begin; i < end; i++) {
-        if (!world->in_single) {
-            sum_pairs(world, true, i, sum);
-        }
-        sum_pairs(world, false, i, sum);
+        sum_double(&push, near, i, sum);
+        sum_double(&pull, far, i, sum);
     }
 }
 

@@ -377,16 +377,6 @@ const int32_t *gb_world_degrees(const struct gb_world *world)
     return world->degree;
 }
 
-void gb_world_force(const struct gb_world *world, int64_t k, double force[3])
-{
-    gb_world_force_of(world, k, force);
-}
-
-void gb_world_pull(const struct gb_world *world, int64_t k, double force[3])
-{
-    gb_world_pull_of(world, k, force);
-}
-
 void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list,
                   int64_t i, int64_t k, double r[3])
 {

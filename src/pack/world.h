@@ -73,15 +73,13 @@ double gb_world_diameter(const struct gb_world *world, int64_t i);
  * of the contacts or f_a(d), whichever is larger (without adhesion: a small floor). */
 double gb_world_residual(const struct gb_world *world);
 
-/* The neighbour list and what belongs to its pairs, for measures: histories and forces of
- * the `near` ones, pulls of the `far` ones, both on the first particle. */
+/* The neighbour list and what belongs to its pairs, for measures: histories of the `near`
+ * ones here, forces in pack/forces.h. */
 const struct gb_pairs *gb_world_pairs(const struct gb_world *world);
 /* Contacts of every particle, one number each, counted anew; good until the next call, by
  * one thread at a time. */
 const int32_t *gb_world_degrees(const struct gb_world *world);
 const struct gb_contacts *gb_world_contacts(const struct gb_world *world);
-void gb_world_force(const struct gb_world *world, int64_t k, double force[3]);
-void gb_world_pull(const struct gb_world *world, int64_t k, double force[3]);
 /* x_i - x_other of pair k of a list, as of the last evaluation. */
 void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list,
                   int64_t i, int64_t k, double r[3]);

@@ -33,7 +33,8 @@ struct gb_world {
     double *wrench;              /* rows per near pair: force on i, torque on j */
     double damp;                 /* viscous time over time step */
     bool in_single;              /* histories and forces of pairs are of float ... */
-    struct gb_single single;     /* ... and in these instead of wrench and pull */
+    struct gb_single single;     /* ... and in these instead of wrench and pull, as far as
+                                  * they are kept */
     int row;                     /* doubles in a row: 6, in 2D 3 (x, z, about y) */
     int64_t far_room;
     double *pull; /* three per far pair: force on the first particle */
@@ -91,29 +92,10 @@ static inline double gb_world_arm_of(const struct gb_world *world,
     return gb_vec_dot(r, r);
 }
 
-/* Force of near pair k on its first particle, and of far pair k. */
-static inline void gb_world_force_of(const struct gb_world *world, int64_t k,
-                                     double force[3])
+/* Reach of the attraction, d; 0: there is none. */
+static inline double gb_world_cutoff(const struct gb_world *world)
 {
-    if (world->in_single) {
-        for (int c = 0; c < 3; c++) {
-            force[c] = (double)world->single.push[c][k];
-        }
-        return;
-    }
-    const double *row = world->wrench + (int64_t)world->row * k;
-    force[0] = row[0];
-    force[1] = world->row >= 6 ? row[1] : 0.0;
-    force[2] = world->row >= 6 ? row[2] : row[1];
-}
-
-static inline void gb_world_pull_of(const struct gb_world *world, int64_t k,
-                                    double force[3])
-{
-    for (int c = 0; c < 3; c++) {
-        force[c] =
-            world->in_single ? (double)world->single.pull[c][k] : world->pull[3 * k + c];
-    }
+    return world->model->terms.attraction ? world->model->numerics.cutoff : 0.0;
 }
 
 #endif

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "pack/amend.h"
+#include "pack/forces.h"
 #include "pack/sweep_single.h"
 #include "pack/world_private.h"
 
@@ -236,9 +237,11 @@ static bool save_forces(const struct gb_world *world, struct gb_record *record,
         gb_record_add(record, "world/pair_force", GB_RECORD_DOUBLE, world->spare.count, 3,
                       "E d^2", err);
     double *force = item ? item->data : NULL;
+    struct gb_forces forces;
+    gb_forces_init(&forces, world, true);
     for (int64_t k = 0; item && k < world->pairs.near.pair_count; k++) {
         if (gb_contacts_touch(&world->contacts, k)) {
-            gb_world_force(world, k, force);
+            gb_forces_at(&forces, k, force);
             force += 3;
         }
     }

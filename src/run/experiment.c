@@ -10,6 +10,7 @@
 #include "measure/observe.h"
 #include "pack/curve.h"
 #include "pack/departure.h"
+#include "pack/forces.h"
 #include "pack/grow.h"
 #include "phys/changes.h"
 #include "run/change.h"
@@ -534,7 +535,9 @@ static void copy_pairs(const struct gb_world *world, struct gb_state *state)
 {
     const struct gb_pair_list *near = &gb_world_pairs(world)->near;
     const struct gb_contacts *contacts = gb_world_contacts(world);
+    struct gb_forces forces;
     int64_t line = 0;
+    gb_forces_init(&forces, world, true);
     for (int64_t i = 0; i < state->count; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
             const double deepest = gb_contacts_deepest(contacts, k);
@@ -546,7 +549,7 @@ static void copy_pairs(const struct gb_world *world, struct gb_state *state)
             state->pair[2 * line] = (int32_t)i;
             state->pair[2 * line + 1] = near->other[k];
             double *force = state->pair_force + 3 * line;
-            gb_world_force(world, k, force);
+            gb_forces_at(&forces, k, force);
             state->pair_normal[line] = gb_vec_dot(force, r) / gb_vec_length(r);
             state->pair_bridged[line++] = deepest > 0.0;
         }

@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "greenbody/model.h"
+#include "pack/forces.h"
 #include "pack/grow.h"
 #include "pack/world.h"
 
@@ -70,6 +71,15 @@ static inline void scene_evaluate(struct gb_world *world)
     if (!gb_world_evaluate(world, &err)) {
         g_error("%s", err.text);
     }
+}
+
+/* Force of one pair of a list on its first particle. */
+static inline void scene_force(const struct gb_world *world, bool near, int64_t k,
+                               double force[3])
+{
+    struct gb_forces forces;
+    gb_forces_init(&forces, world, near);
+    gb_forces_at(&forces, k, force);
 }
 
 static inline void scene_squeeze(struct gb_world *world, double step)

@@ -199,7 +199,7 @@ static void check_balance(const struct gb_world *world)
         for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
             double r[3], f[3];
             gb_world_arm(world, &pairs->near, i, k, r);
-            gb_world_force(world, k, f);
+            scene_force(world, true, k, f);
             for (int c = 0; c < 3; c++) {
                 const int u = (c + 1) % 3, v = (c + 2) % 3;
                 moment[c] += r[u] * f[v] - r[v] * f[u];
@@ -253,7 +253,7 @@ static void test_packing(void)
 static double pull_of(const struct gb_world *world, int64_t k)
 {
     double f[3];
-    gb_world_pull(world, k, f);
+    scene_force(world, false, k, f);
     return gb_vec_length(f);
 }
 
@@ -283,7 +283,7 @@ static void test_lists(void)
     }
     for (int64_t k = 0; k < pairs->near.pair_count; k++) {
         double f[3];
-        gb_world_force(world, k, f);
+        scene_force(world, true, k, f);
         pulled +=
             !gb_contacts_touch(gb_world_contacts(world), k) && gb_vec_length(f) > 0.0;
     }

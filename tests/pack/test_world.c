@@ -188,7 +188,7 @@ static void check_dry(const struct gb_world *world, const struct gb_law_hertz *l
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
             double r[3], force[3];
             gb_world_arm(world, near, i, k, r);
-            gb_world_force(world, k, force);
+            scene_force(world, true, k, force);
             const double distance = gb_vec_length(r);
             const double normal = gb_vec_dot(force, r) / distance;
             const double hertz =
@@ -222,11 +222,11 @@ static void check_mindlin(const struct gb_model *model, const double *position,
     const double axis[3] = {fabs(r[0]) < 0.5 ? 1.0 : 0.0, fabs(r[0]) < 0.5 ? 0.0 : 1.0,
                             0.0};
     gb_vec_cross(r, axis, across);
-    gb_world_force(world, k, before);
+    scene_force(world, true, k, before);
     gb_vec_add(gb_world_bodies(world).position + 3 * i, step / gb_vec_length(across),
                across);
     scene_evaluate(world);
-    gb_world_force(world, k, force);
+    scene_force(world, true, k, force);
     const double shear =
         (gb_vec_dot(force, across) - gb_vec_dot(before, across)) / gb_vec_length(across);
     const double expected =
@@ -438,6 +438,49 @@ static void test_blocks(void)
         g_assert_cmpint(end, ==, count);
         g_assert_true(count < 131072 || blocks >= GB_SWEEP_BLOCKS_SHARED);
     }
+}
+
+/* The forces of the pairs, asked for in any order, make up those on every particle. */
+static void check_forces(const char *precision, const char *scene, const char *law)
+{
+    const struct gb_params params = scene_params(precision, scene, law, NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    scene_press(world, 100, 10, 2.0);
+    const struct gb_bodies b = gb_world_bodies(world);
+    const struct gb_pairs *pairs = gb_world_pairs(world);
+    double *sum = g_new0(double, 3 * b.count), largest = 0.0;
+    for (int l = 0; l < 2; l++) {
+        const struct gb_pair_list *list = l == 0 ? &pairs->near : &pairs->far;
+        struct gb_forces forward, backward;
+        gb_forces_init(&forward, world, l == 0);
+        gb_forces_init(&backward, world, l == 0);
+        for (int64_t k = 0; k < list->pair_count; k++) {
+            const int64_t other = list->pair_count - 1 - k;
+            double force[3];
+            gb_forces_at(&forward, k, force);
+            gb_vec_add(sum + 3 * (int64_t)list->first[k], 0.5, force);
+            gb_vec_add(sum + 3 * (int64_t)list->other[k], -0.5, force);
+            gb_forces_at(&backward, other, force);
+            gb_vec_add(sum + 3 * (int64_t)list->first[other], 0.5, force);
+            gb_vec_add(sum + 3 * (int64_t)list->other[other], -0.5, force);
+            largest = fmax(largest, gb_vec_length(force));
+        }
+    }
+    for (int64_t i = 0; i < 3 * b.count; i++) {
+        g_assert_cmpfloat_with_epsilon(sum[i], b.force[i], 3e-6 * largest);
+    }
+    g_assert_cmpint(gb_world_tally(world)->sliding, >, 0);
+    g_free(sum);
+    gb_world_destroy(world);
+}
+
+static void test_forces(const void *data)
+{
+    const struct precision *precision = data;
+    check_forces(precision->setting, "particles.count=300", "contact.mu=0.1");
+    check_forces(precision->setting, "contact.bridge_radius=current", "contact.mu=0.1");
+    check_forces(precision->setting, "contact.normal=hertz", "contact.mu=0.05");
 }
 
 /* Contacts of every particle, against what its distances say. */
@@ -821,6 +864,8 @@ int main(int argc, char **argv)
     g_test_add_func("/world/blocks", test_blocks);
     g_test_add_data_func("/world/degrees", &precisions[0], test_degrees);
     g_test_add_data_func("/world/degrees-single", &precisions[1], test_degrees);
+    g_test_add_data_func("/world/forces", &precisions[0], test_forces);
+    g_test_add_data_func("/world/forces-single", &precisions[1], test_forces);
     g_test_add_func("/world/meeting", test_meeting);
     g_test_add_data_func("/world/momentum", &precisions[0], test_momentum);
     g_test_add_data_func("/world/momentum-single", &precisions[1], test_momentum);
