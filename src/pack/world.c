@@ -239,7 +239,9 @@ static bool evaluate(struct gb_world *world, struct gb_error *err)
         world->listed = false;
         return false;
     }
+    world->amended = amended;
     swept = swept || (amended && sweep(world, &travel));
+    world->amended = false;
     if (!swept) {
         if (!gb_ledger_write(&world->ledger, world, true, err) ||
             !rebuild(world, &world->ledger, err)) {

@@ -51,6 +51,7 @@ struct gb_world {
     /* of the evaluation under way: what its power is asked along; NULL: nothing */
     const double *velocity, *spin;
     bool listed;   /* the pair list exists */
+    bool amended;  /* just now, so that it holds where the particles are */
     int64_t state; /* grows whenever a history may have changed */
     int64_t evaluations, rebuilds;
 };
