@@ -27,28 +27,43 @@ static int compare(const void *a, const void *b)
                                 : (x->other > y->other) - (x->other < y->other);
 }
 
-/* First slot of the pair's first particle whose second one is not before the pair's. */
-static int64_t slot_of(const struct gb_pair_list *list, const struct gb_amendment *pair)
+static int64_t block_of(const struct gb_world *world, int64_t i)
 {
+    return i / gb_sweep_block_size(world->count);
+}
+
+/* Behind the last pair of particle i of a list that leaves slots free. */
+static int64_t end_of(const struct gb_world *world, const struct gb_pair_list *list,
+                      int64_t i)
+{
+    const int64_t stop = list->stop[block_of(world, i)];
+    return list->start[i + 1] < stop ? list->start[i + 1] : stop;
+}
+
+/* First slot of the pair's first particle whose second one is not before the pair's. */
+static int64_t slot_of(const struct gb_world *world, const struct gb_pair_list *list,
+                       const struct gb_amendment *pair)
+{
+    const int64_t end = end_of(world, list, pair->first);
     int64_t k = list->start[pair->first];
-    while (k < list->start[pair->first + 1] && list->other[k] < pair->other) {
+    while (k < end && list->other[k] < pair->other) {
         k++;
     }
     return k;
 }
 
-static bool holds(const struct gb_pair_list *list, const struct gb_amendment *pair)
+static bool holds(const struct gb_world *world, const struct gb_pair_list *list,
+                  const struct gb_amendment *pair)
 {
-    const int64_t k = slot_of(list, pair);
-    return k < list->start[pair->first + 1] && list->other[k] == pair->other;
+    const int64_t k = slot_of(world, list, pair);
+    return k < end_of(world, list, pair->first) && list->other[k] == pair->other;
 }
 
-/* Opens a gap at every place in an array of items of so many bytes. */
-static void open_gaps(void *array, size_t size, int64_t length,
-                      const struct places *places)
+/* Opens a gap at every place in an array of items of so many bytes, whose last one that
+ * moves is before `end`. */
+static void open_gaps(void *array, size_t size, int64_t end, const struct places *places)
 {
     char *byte = array;
-    int64_t end = length;
     for (int p = places->count - 1; p >= 0; p--) {
         const int64_t at = places->at[p];
         memmove(byte + (size_t)(at + p + 1) * size, byte + (size_t)at * size,
@@ -57,73 +72,106 @@ static void open_gaps(void *array, size_t size, int64_t length,
     }
 }
 
-static void close_gaps(void *array, size_t size, int64_t length,
-                       const struct places *places)
+static void close_gaps(void *array, size_t size, int64_t end, const struct places *places)
 {
     char *byte = array;
     for (int p = 0; p < places->count; p++) {
         const int64_t from = places->at[p] + 1;
-        const int64_t to = p + 1 < places->count ? places->at[p + 1] : length;
+        const int64_t to = p + 1 < places->count ? places->at[p + 1] : end;
         memmove(byte + (size_t)(from - p - 1) * size, byte + (size_t)from * size,
                 (size_t)(to - from) * size);
     }
 }
 
-/* Moves the starts of all particles behind the places; by: +1 or -1. */
-static void shift_starts(struct gb_pair_list *list, int64_t particles,
+static void move_list(struct gb_pair_list *list,
+                      void (*move)(void *, size_t, int64_t, const struct places *),
+                      int64_t end, const struct places *places)
+{
+    move(list->first, sizeof *list->first, end, places);
+    move(list->other, sizeof *list->other, end, places);
+    move(list->image, sizeof *list->image, end, places);
+}
+
+/* Moves the starts of the particles of block b behind the places, and its stop; by: +1 or
+ * -1. */
+static void shift_starts(struct gb_pair_list *list, int64_t particles, int64_t b,
                          const struct places *places, int by)
 {
+    const int64_t end = gb_sweep_block_end(particles, b);
     int p = 0;
-    for (int64_t i = 0; i <= particles; i++) {
+    for (int64_t i = places->pair[0]->first + 1; i < end; i++) {
         while (p < places->count && places->pair[p]->first < i) {
             p++;
         }
         list->start[i] += (int64_t)by * p;
     }
+    list->stop[b] += (int64_t)by * places->count;
     list->pair_count += (int64_t)by * places->count;
 }
 
-static void move_list(struct gb_pair_list *list,
-                      void (*move)(void *, size_t, int64_t, const struct places *),
-                      const struct places *places)
+/* Those of the block in which the first of them is; the others are left. */
+static struct places take_block(const struct gb_world *world, struct places *places,
+                                int64_t *b)
 {
-    move(list->first, sizeof *list->first, list->pair_count, places);
-    move(list->other, sizeof *list->other, list->pair_count, places);
-    move(list->image, sizeof *list->image, list->pair_count, places);
-}
-
-static void put_in(struct gb_pair_list *list, int64_t particles,
-                   const struct places *places)
-{
-    move_list(list, open_gaps, places);
-    for (int p = 0; p < places->count; p++) {
-        const int64_t k = places->at[p] + p;
-        list->first[k] = places->pair[p]->first;
-        list->other[k] = places->pair[p]->other;
-        list->image[k] = (uint8_t)places->pair[p]->image;
+    struct places own = *places;
+    *b = block_of(world, own.pair[0]->first);
+    own.count = 0;
+    while (own.count < places->count &&
+           block_of(world, own.pair[own.count]->first) == *b) {
+        own.count++;
     }
-    shift_starts(list, particles, places, 1);
+    places->at += own.count;
+    places->pair += own.count;
+    places->count -= own.count;
+    return own;
 }
 
-static void take_out(struct gb_pair_list *list, int64_t particles,
-                     const struct places *places)
+/* Gaps in the histories of near pairs before `end`, filled with pairs that do not touch.
+ */
+static void make_histories(struct gb_contacts *contacts, int64_t end,
+                           const struct places *places)
 {
-    move_list(list, close_gaps, places);
-    shift_starts(list, particles, places, -1);
-}
-
-/* Gaps in the histories of the near pairs, filled with pairs that do not touch. */
-static void make_histories(struct gb_world *world, const struct places *places)
-{
-    struct gb_contacts *contacts = &world->contacts;
-    const int64_t length = world->pairs.near.pair_count;
-#pragma omp parallel for num_threads(world->threads)                                     \
-    schedule(static) if (world->threads > 1)
     for (int p = 0; p < contacts->planes; p++) {
-        open_gaps(contacts->plane[p], sizeof(float), length, places);
+        open_gaps(contacts->plane[p], sizeof(float), end, places);
     }
     for (int p = 0; p < places->count; p++) {
         gb_contacts_clear(contacts, places->at[p] + p);
+    }
+}
+
+/* Into free slots of their blocks. */
+static void put_in(struct gb_world *world, struct gb_pair_list *list,
+                   struct places places)
+{
+    while (places.count > 0) {
+        int64_t b;
+        const struct places own = take_block(world, &places, &b);
+        if (list == &world->pairs.near) {
+            make_histories(&world->contacts, list->stop[b], &own);
+        }
+        move_list(list, open_gaps, list->stop[b], &own);
+        for (int p = 0; p < own.count; p++) {
+            const int64_t k = own.at[p] + p;
+            list->first[k] = own.pair[p]->first;
+            list->other[k] = own.pair[p]->other;
+            list->image[k] = (uint8_t)own.pair[p]->image;
+        }
+        shift_starts(list, world->count, b, &own, 1);
+    }
+}
+
+static void take_out(struct gb_world *world, struct gb_pair_list *list,
+                     struct places places)
+{
+    while (places.count > 0) {
+        int64_t b;
+        const struct places own = take_block(world, &places, &b);
+        move_list(list, close_gaps, list->stop[b], &own);
+        shift_starts(list, world->count, b, &own, -1);
+        for (int p = 0; p < own.count; p++) {
+            gb_pairs_vacate(list, list->stop[b] + p,
+                            gb_sweep_block_end(world->count, b) - 1);
+        }
     }
 }
 
@@ -212,11 +260,26 @@ static void gather(const struct gb_world *world, struct plan *plan)
     }
 }
 
-static void add_place(struct places *places, const struct gb_pair_list *list,
-                      const struct gb_amendment *pair)
+static void add_place(const struct gb_world *world, struct places *places,
+                      const struct gb_pair_list *list, const struct gb_amendment *pair)
 {
-    places->at[places->count] = slot_of(list, pair);
+    places->at[places->count] = slot_of(world, list, pair);
     places->pair[places->count++] = pair;
+}
+
+/* Has every block free slots for its own of them? */
+static bool fit_in(const struct gb_world *world, const struct gb_pair_list *list,
+                   struct places places)
+{
+    while (places.count > 0) {
+        int64_t b;
+        const struct places own = take_block(world, &places, &b);
+        const int64_t end = gb_sweep_block_end(world->count, b);
+        if (list->stop[b] + own.count > list->start[end]) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /* Sorts the changes by list; false where one makes no sense or room is out. */
@@ -225,21 +288,22 @@ static bool sort_out(const struct gb_world *world, struct plan *plan)
     const struct gb_pairs *pairs = &world->pairs;
     for (int k = 0; k < plan->count; k++) {
         const struct gb_amendment *pair = &plan->missing[k];
-        const bool far_off = holds(&pairs->far, pair);
-        if (holds(&pairs->near, pair) || pair->image < 0 || (far_off && !pair->near)) {
+        const bool far_off = holds(world, &pairs->far, pair);
+        if (holds(world, &pairs->near, pair) || pair->image < 0 ||
+            (far_off && !pair->near)) {
             return false; /* there, but with another image */
         }
         if (pair->near) {
-            add_place(&plan->near, &pairs->near, pair);
+            add_place(world, &plan->near, &pairs->near, pair);
         } else {
-            add_place(&plan->far, &pairs->far, pair);
+            add_place(world, &plan->far, &pairs->far, pair);
         }
         if (far_off) {
-            add_place(&plan->not_far, &pairs->far, pair);
+            add_place(world, &plan->not_far, &pairs->far, pair);
         }
     }
-    return pairs->near.pair_count + plan->near.count < pairs->near.capacity &&
-           pairs->far.pair_count + plan->far.count < pairs->far.capacity;
+    return fit_in(world, &pairs->near, plan->near) &&
+           fit_in(world, &pairs->far, plan->far);
 }
 
 /* Remembers them, sorted; one that was far becomes near. */
@@ -275,13 +339,12 @@ static bool carry_out(struct gb_world *world, struct plan *plan, struct gb_error
 {
     struct gb_pairs *pairs = &world->pairs;
     remember(pairs, plan);
-    make_histories(world, &plan->near);
-    put_in(&pairs->near, world->count, &plan->near);
-    take_out(&pairs->far, world->count, &plan->not_far);
+    put_in(world, &pairs->near, plan->near);
+    take_out(world, &pairs->far, plan->not_far);
     for (int p = 0; p < plan->far.count; p++) {
-        plan->far.at[p] = slot_of(&pairs->far, plan->far.pair[p]);
+        plan->far.at[p] = slot_of(world, &pairs->far, plan->far.pair[p]);
     }
-    put_in(&pairs->far, world->count, &plan->far);
+    put_in(world, &pairs->far, plan->far);
     const bool near_leaves = any_leaves(&plan->near, world->count);
     const bool far_leaves =
         any_leaves(&plan->far, world->count) || any_leaves(&plan->not_far, world->count);

@@ -307,10 +307,12 @@ INLINE void recall_3d(const struct gb_model *model, struct terms t, BATCH *restr
     const struct normal_law law = normal_law(model, b->cutoff2);
     const real k_shear = (real)model->slip.shear, length = (real)model->bridge.length;
     const real quarter = 0.25;
+    const real away2 = 4 * (1 + b->cutoff2); /* of slots that hold no pair: no arm */
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
         const real rx = ax[k], ry = ay[k], rz = az[k], state = deepest[k];
-        const real r = root(rx * rx + ry * ry + rz * rz), h = 1 - r;
+        const real squared = rx * rx + ry * ry + rz * rz;
+        const real r = root(squared > 0 ? squared : away2), h = 1 - r;
         const bool live = state >= 0;
         const struct normal f = normal_force(t, &law, state, h, r);
         const real along = f.total / r;

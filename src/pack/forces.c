@@ -26,7 +26,8 @@ static void kept(const struct gb_world *world, bool near, int64_t k, double forc
 static void recall(struct gb_forces *forces, int64_t k)
 {
     const struct gb_pairs *pairs = &forces->world->pairs;
-    const int64_t left = (forces->near ? &pairs->near : &pairs->far)->pair_count - k;
+    const int64_t left =
+        gb_pairs_slots(pairs, forces->near ? &pairs->near : &pairs->far) - k;
     struct gb_batch_single batch;
     batch.n = left < GB_BATCH ? (int)left : GB_BATCH;
     gb_sweep_single_recall(forces->world, forces->near, k, &batch);

@@ -7,6 +7,7 @@
 #include "pack/pairs_grid.h"
 #include "pack/share.h"
 #include "pack/simd.h"
+#include "pack/sweep.h"
 #include "phys/tolerances.h"
 
 /* Neighbours one particle may have within the reach: a dense packing has about a dozen.
@@ -19,6 +20,13 @@ enum { FEW = 32 };
 /* Pairs that lists may be amended by between two builds: some, and one for so many
  * particles. */
 enum { AMENDED_LEAST = 64, AMENDED_SHARE = 256 };
+
+/* Free slots behind every block of a one-way list: no block of a small world needs more
+ * than it may be amended by at all. */
+enum { FREE = AMENDED_LEAST + 16 };
+
+/* Image of a particle of its own that is away along every axis. */
+enum { IMAGE_AWAY = 26 };
 
 struct grid {
     struct gb_pairs_grid shape;
@@ -35,10 +43,13 @@ static bool list_init(struct gb_pair_list *list, int64_t count, bool one_way,
 {
     const size_t starts = (size_t)count + 1;
     list->start = gb_alloc_array(starts, sizeof *list->start, err);
-    if (!one_way) {
+    if (one_way) {
+        list->stop =
+            gb_alloc_array((size_t)gb_sweep_blocks(count), sizeof *list->stop, err);
+    } else {
         list->in_start = gb_alloc_array(starts, sizeof *list->in_start, err);
     }
-    return list->start && (one_way || list->in_start);
+    return list->start && (list->stop || list->in_start);
 }
 
 static void list_drop_pairs(struct gb_pair_list *list)
@@ -57,6 +68,7 @@ static void list_drop_pairs(struct gb_pair_list *list)
 static void list_finish(struct gb_pair_list *list)
 {
     gb_alloc_free(list->start);
+    gb_alloc_free(list->stop);
     gb_alloc_free(list->in_start);
     list_drop_pairs(list);
 }
@@ -375,6 +387,28 @@ static void append(struct gb_pair_list *list, int64_t i, int64_t k,
     list->image[k] = found->image;
 }
 
+void gb_pairs_vacate(struct gb_pair_list *list, int64_t slot, int64_t i)
+{
+    list->first[slot] = (int32_t)i;
+    list->other[slot] = (int32_t)i;
+    list->image[slot] = IMAGE_AWAY;
+}
+
+/* Where the pairs behind particle i go: slots stay free where a block ends. */
+static int64_t end_particle(struct gb_pairs *pairs, struct gb_pair_list *list, int64_t i,
+                            int64_t slot)
+{
+    const int64_t size = gb_sweep_block_size(pairs->count);
+    if (list->stop && ((i + 1) % size == 0 || i + 1 == pairs->count)) {
+        list->stop[i / size] = slot;
+        for (int k = 0; k < FREE; k++) {
+            gb_pairs_vacate(list, slot++, i);
+        }
+    }
+    list->start[i + 1] = slot;
+    return slot;
+}
+
 /* Into the lists, each from its place on. */
 static void place_stretch(struct gb_pairs *pairs, const struct stretch *stretch)
 {
@@ -389,8 +423,8 @@ static void place_stretch(struct gb_pairs *pairs, const struct stretch *stretch)
                 append(&pairs->far, i, far++, found);
             }
         }
-        pairs->near.start[i + 1] = near;
-        pairs->far.start[i + 1] = far;
+        near = end_particle(pairs, &pairs->near, i, near);
+        far = end_particle(pairs, &pairs->far, i, far);
     }
 }
 
@@ -398,22 +432,25 @@ static void place_stretch(struct gb_pairs *pairs, const struct stretch *stretch)
 static bool line_up(struct gb_pairs *pairs, struct stretch *stretch, int threads,
                     struct gb_error *err)
 {
+    const int64_t size = gb_sweep_block_size(pairs->count);
     int64_t near = 0, far = 0;
     for (int t = 0; t < threads; t++) {
         if (stretch[t].err.code != GB_OK) {
             return gb_error_set(err, stretch[t].err.code, "%s", stretch[t].err.text);
         }
         const int64_t own_near = stretch[t].near, own_far = stretch[t].far;
-        stretch[t].near = near;
-        stretch[t].far = far;
+        const int64_t left_free = pairs->one_way ? FREE * (stretch[t].begin / size) : 0;
+        stretch[t].near = near + left_free;
+        stretch[t].far = far + left_free;
         near += own_near;
         far += own_far;
     }
     pairs->near.start[0] = pairs->far.start[0] = 0;
     pairs->near.pair_count = near;
     pairs->far.pair_count = far;
-    return reserve(&pairs->near, near, pairs->one_way, err) &&
-           reserve(&pairs->far, far, pairs->one_way, err);
+    const int64_t left_free = pairs->one_way ? FREE * gb_sweep_blocks(pairs->count) : 0;
+    return reserve(&pairs->near, near + left_free, pairs->one_way, err) &&
+           reserve(&pairs->far, far + left_free, pairs->one_way, err);
 }
 
 /* Fills both lists, the same ones for any number of threads. */
@@ -516,6 +553,9 @@ static void list_clear(struct gb_pair_list *list, int64_t count)
     memset(list->start, 0, starts * sizeof *list->start);
     if (list->in_start) {
         memset(list->in_start, 0, starts * sizeof *list->in_start);
+    }
+    if (list->stop) {
+        memset(list->stop, 0, (size_t)gb_sweep_blocks(count) * sizeof *list->stop);
     }
     list->pair_count = 0;
 }

@@ -14,7 +14,12 @@ struct gb_pair_list {
     int64_t pair_count;
     int64_t capacity; /* pairs the arrays can hold */
     int64_t *start;   /* particles + 1 */
-    int32_t *first;   /* i of each pair, for loops that need not know where i changes */
+    /* One-way lists only, else NULL: behind the last pair of every block of particles
+     * (pack/sweep.h).  What is left before the next block begins is free, so that a pair
+     * more moves no other block: pairs of the block's last particle with an image of its
+     * own, an edge away along every axis, which touch nobody. */
+    int64_t *stop;
+    int32_t *first; /* i of each pair, for loops that need not know where i changes */
     int32_t *other;
     uint8_t *image;    /* which periodic image of other is meant; see gb_pairs_shifts */
     int64_t *in_start; /* particles + 1: pairs in which j is the second particle ... */
@@ -54,6 +59,16 @@ struct gb_pairs {
 bool gb_pairs_init(struct gb_pairs *pairs, int64_t count, bool one_way,
                    struct gb_error *err);
 void gb_pairs_finish(struct gb_pairs *pairs);
+
+/* Slots of a list, free ones as well. */
+static inline int64_t gb_pairs_slots(const struct gb_pairs *pairs,
+                                     const struct gb_pair_list *list)
+{
+    return list->start[pairs->count];
+}
+
+/* Marks a slot as one of those that are left at the end of the block of particle i. */
+void gb_pairs_vacate(struct gb_pair_list *list, int64_t slot, int64_t i);
 
 /* Builds both lists for positions inside the cell, out to cutoff + skin, on so many
  * threads; what was in them is lost.  Errors:

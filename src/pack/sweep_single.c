@@ -180,7 +180,7 @@ GB_ROW_INLINE void sweep_near(struct gb_world *world, int64_t b, float cutoff2,
 {
     const struct gb_pair_list *near = &world->pairs.near;
     const struct gb_batch_single_kernel *kernel = &world->single.kernel;
-    const int64_t stop = near->start[gb_sweep_block_end(world->count, b)];
+    const int64_t stop = near->stop[b];
     struct way_out out = way_out(world, &world->single.near, WRENCH, b);
     struct gb_batch_single batch;
     batch.cutoff2 = cutoff2;
@@ -199,7 +199,7 @@ GB_ROW_INLINE void sweep_near(struct gb_world *world, int64_t b, float cutoff2,
 GB_ROW_INLINE void sweep_far(struct gb_world *world, int64_t b, float cutoff2)
 {
     const struct gb_pair_list *far = &world->pairs.far;
-    const int64_t stop = far->start[gb_sweep_block_end(world->count, b)];
+    const int64_t stop = far->stop[b];
     struct way_out out = way_out(world, &world->single.far, PULL, b);
     struct gb_batch_single batch;
     batch.cutoff2 = cutoff2;

@@ -371,7 +371,7 @@ const int32_t *gb_world_degrees(const struct gb_world *world)
 {
     const struct gb_pair_list *near = &world->pairs.near;
     memset(world->degree, 0, (size_t)world->count * sizeof *world->degree);
-    for (int64_t k = 0; k < near->pair_count; k++) {
+    for (int64_t k = 0; k < gb_pairs_slots(&world->pairs, near); k++) {
         const int touches = gb_contacts_touch(&world->contacts, k);
         world->degree[near->first[k]] += touches;
         world->degree[near->other[k]] += touches;
@@ -463,11 +463,13 @@ static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
 uint64_t gb_world_hash(const struct gb_world *world)
 {
     const struct gb_contacts *contacts = &world->contacts;
+    const int64_t slots =
+        world->listed ? gb_pairs_slots(&world->pairs, &world->pairs.near) : 0;
     uint64_t hash = 14695981039346656037u;
     hash = hash_bytes(hash, world->cell.edge, sizeof world->cell.edge);
     hash = hash_bytes(hash, world->position,
                       3 * (size_t)world->count * sizeof *world->position);
-    for (int64_t k = 0; world->listed && k < world->pairs.near.pair_count; k++) {
+    for (int64_t k = 0; k < slots; k++) {
         for (int p = 0; p < contacts->planes && gb_contacts_touch(contacts, k); p++) {
             const double value = gb_contacts_value(contacts, p, k);
             hash = hash_bytes(hash, &value, sizeof value);

@@ -176,7 +176,7 @@ static void put_history(const struct gb_ledger *ledger, struct gb_world *world)
 {
     int64_t line = 0;
     world->state++;
-    for (int64_t k = 0; k < world->pairs.near.pair_count; k++) {
+    for (int64_t k = 0; k < gb_pairs_slots(&world->pairs, &world->pairs.near); k++) {
         if (!gb_contacts_touch(&world->contacts, k)) {
             continue;
         }
@@ -239,7 +239,8 @@ static bool save_forces(const struct gb_world *world, struct gb_record *record,
     double *force = item ? item->data : NULL;
     struct gb_forces forces;
     gb_forces_init(&forces, world, true);
-    for (int64_t k = 0; item && k < world->pairs.near.pair_count; k++) {
+    for (int64_t k = 0; item && k < gb_pairs_slots(&world->pairs, &world->pairs.near);
+         k++) {
         if (gb_contacts_touch(&world->contacts, k)) {
             gb_forces_at(&forces, k, force);
             force += 3;

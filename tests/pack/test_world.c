@@ -5,6 +5,7 @@
 #include "base/vec.h"
 #include "common/scene.h"
 #include "measure/observe.h"
+#include "pack/amend.h"
 #include "pack/drive.h"
 #include "pack/world_private.h"
 #include "pack/world_record.h"
@@ -44,6 +45,50 @@ static int64_t brute_pairs(const struct gb_world *world, double reach)
     return found;
 }
 
+/* Pairs in order, block by block, and free slots behind them. */
+static void check_slots(const struct gb_world *world, const struct gb_pair_list *list)
+{
+    const int64_t count = world->count;
+    int64_t pairs = 0, left = 0;
+    for (int64_t b = 0; b < gb_sweep_blocks(count); b++) {
+        const int64_t end = gb_sweep_block_end(count, b);
+        int64_t k = list->start[gb_sweep_block_begin(count, b)];
+        for (int64_t i = gb_sweep_block_begin(count, b); i < end; i++) {
+            g_assert_cmpint(list->start[i], ==, k);
+            while (k < list->stop[b] && list->first[k] == i) {
+                g_assert_cmpint(list->other[k], >, i);
+                g_assert_true(k == list->start[i] || list->other[k - 1] < list->other[k]);
+                k++;
+                pairs++;
+            }
+        }
+        g_assert_cmpint(k, ==, list->stop[b]);
+        for (; k < list->start[end]; k++) {
+            double r[3];
+            g_assert_cmpint(list->first[k], ==, end - 1);
+            g_assert_cmpint(list->other[k], ==, end - 1);
+            g_assert_cmpfloat(gb_world_arm_of(world, list, end - 1, k, r), >, 6.0);
+            g_assert_true(list != &world->pairs.near ||
+                          !gb_contacts_touch(&world->contacts, k));
+            left++;
+        }
+    }
+    g_assert_cmpint(pairs, ==, list->pair_count);
+    g_assert_cmpint(pairs + left, ==, gb_pairs_slots(&world->pairs, list));
+    g_assert_cmpint(left, >, 0);
+}
+
+/* Pairs in order. */
+static void check_order(const struct gb_pair_list *list, int64_t count)
+{
+    for (int64_t i = 0; i < count; i++) {
+        for (int64_t k = list->start[i]; k < list->start[i + 1]; k++) {
+            g_assert_cmpint(list->other[k], >, i);
+            g_assert_true(k == list->start[i] || list->other[k - 1] < list->other[k]);
+        }
+    }
+}
+
 /* The list holds just the pairs that a scan of all finds, in order, in 3D and 2D, also in
  * cells barely wider than twice the reach. */
 static void test_pairs(void)
@@ -62,12 +107,10 @@ static void test_pairs(void)
                         brute_pairs(world, reach));
         g_assert_cmpint(pairs->near.pair_count, ==,
                         brute_pairs(world, 1.0 + model.numerics.skin));
-        for (int64_t i = 0; i < model.count; i++) {
-            for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
-                g_assert_cmpint(pairs->near.other[k], >, i);
-                g_assert_true(k == pairs->near.start[i] ||
-                              pairs->near.other[k - 1] < pairs->near.other[k]);
-            }
+        if (world->in_single) {
+            check_slots(world, &pairs->near);
+        } else {
+            check_order(&pairs->near, model.count);
         }
         gb_world_destroy(world);
     }
@@ -167,7 +210,7 @@ static int64_t deepest_pair(const struct gb_world *world, int64_t *first)
     for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
             const double distance = distance_of(world, i, near->other[k]);
-            if (distance < least) {
+            if (gb_contacts_touch(gb_world_contacts(world), k) && distance < least) {
                 least = distance;
                 best = k;
                 *first = i;
@@ -388,6 +431,41 @@ static void test_strays_driven(void)
     g_assert_cmpint(amended, >, 0);
 }
 
+/* As many pairs as a block has free slots may be added to it, and no more. */
+static void test_amended_full(void)
+{
+    const struct gb_params params =
+        scene_params("particles.count=6000", "numerics.precision=single", NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    struct gb_amendment kept[200];
+    struct gb_error err = {0};
+    scene_evaluate(world);
+    const struct gb_pair_list *near = &world->pairs.near;
+    const int64_t slots = near->start[1024] - near->stop[0], before = near->pair_count;
+    int64_t count = 0;
+    for (int32_t i = 0; i < 1024 && count <= slots; i += 3) { /* with somebody far off */
+        for (int32_t j = i + 1; j < 6000; j++) {
+            if (distance_of(world, i, j) > 3.0) {
+                kept[count++] = (struct gb_amendment){i, j, 13, 1};
+                break;
+            }
+        }
+    }
+    g_assert_cmpint(count, ==, slots + 1);
+    g_assert_cmpint(count, <=, world->pairs.amended_most);
+    g_assert_false(gb_amend_again(world, kept, count, &err));
+    g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+    g_assert_cmpint(near->pair_count, ==, before);
+    check_slots(world, near);
+    g_assert_true(gb_amend_again(world, kept, count - 1, &err));
+    g_assert_cmpint(near->pair_count, ==, before + slots);
+    g_assert_cmpint(near->stop[0], ==, near->start[1024]);
+    scene_evaluate(world);
+    g_assert_cmpint(gb_world_tally(world)->contacts, >, 10000);
+    gb_world_destroy(world);
+}
+
 /* An amendment without memory is an error, and the next evaluation makes up for it. */
 static void test_amended_memory(void)
 {
@@ -440,6 +518,20 @@ static void test_blocks(void)
     }
 }
 
+/* Half the force of pair k onto both its particles; returns how large it is. */
+static double half_to_both(struct gb_forces *forces, const struct gb_pair_list *list,
+                           int64_t k, double *sum)
+{
+    double force[3];
+    if (list->first[k] == list->other[k]) { /* free */
+        return 0.0;
+    }
+    gb_forces_at(forces, k, force);
+    gb_vec_add(sum + 3 * (int64_t)list->first[k], 0.5, force);
+    gb_vec_add(sum + 3 * (int64_t)list->other[k], -0.5, force);
+    return gb_vec_length(force);
+}
+
 /* The forces of the pairs, asked for in any order, make up those on every particle. */
 static void check_forces(const char *precision, const char *scene, const char *law)
 {
@@ -455,16 +547,10 @@ static void check_forces(const char *precision, const char *scene, const char *l
         struct gb_forces forward, backward;
         gb_forces_init(&forward, world, l == 0);
         gb_forces_init(&backward, world, l == 0);
-        for (int64_t k = 0; k < list->pair_count; k++) {
-            const int64_t other = list->pair_count - 1 - k;
-            double force[3];
-            gb_forces_at(&forward, k, force);
-            gb_vec_add(sum + 3 * (int64_t)list->first[k], 0.5, force);
-            gb_vec_add(sum + 3 * (int64_t)list->other[k], -0.5, force);
-            gb_forces_at(&backward, other, force);
-            gb_vec_add(sum + 3 * (int64_t)list->first[other], 0.5, force);
-            gb_vec_add(sum + 3 * (int64_t)list->other[other], -0.5, force);
-            largest = fmax(largest, gb_vec_length(force));
+        const int64_t slots = gb_pairs_slots(pairs, list);
+        for (int64_t k = 0; k < slots; k++) {
+            largest = fmax(largest, half_to_both(&forward, list, k, sum));
+            (void)half_to_both(&backward, list, slots - 1 - k, sum);
         }
     }
     for (int64_t i = 0; i < 3 * b.count; i++) {
@@ -522,6 +608,8 @@ static void stray_until_amended(struct gb_world *world)
         }
         scene_evaluate(world);
         apart[0] = apart[1] = 0;
+        check_slots(world, &pairs->near);
+        check_slots(world, &pairs->far);
         for (int64_t k = 0; k < pairs->amended_count; k++) {
             const struct gb_amendment *pair = &pairs->amended[k];
             apart[pair->near] +=
@@ -533,10 +621,17 @@ static void stray_until_amended(struct gb_world *world)
     g_assert_cmpint(apart[1], >, 0);
 }
 
-static void assert_same_lists(const struct gb_pair_list *a, const struct gb_pair_list *b)
+static void assert_same_lists(const struct gb_pair_list *a, const struct gb_pair_list *b,
+                              int64_t count)
 {
     g_assert_cmpint(a->pair_count, ==, b->pair_count);
-    for (int64_t k = 0; k < a->pair_count; k++) {
+    for (int64_t i = 0; i <= count; i++) {
+        g_assert_cmpint(a->start[i], ==, b->start[i]);
+    }
+    for (int64_t block = 0; block < gb_sweep_blocks(count); block++) {
+        g_assert_cmpint(a->stop[block], ==, b->stop[block]);
+    }
+    for (int64_t k = 0; k < a->start[count]; k++) {
         g_assert_cmpint(a->first[k], ==, b->first[k]);
         g_assert_cmpint(a->other[k], ==, b->other[k]);
         g_assert_cmpint(a->image[k], ==, b->image[k]);
@@ -564,8 +659,10 @@ static void test_amended(void)
     record.loading = true;
     g_assert_true(gb_world_create(&loaded, &model, gb_world_position(world), &err));
     g_assert_true(gb_world_record(loaded, &record, &err));
-    assert_same_lists(&gb_world_pairs(world)->near, &gb_world_pairs(loaded)->near);
-    assert_same_lists(&gb_world_pairs(world)->far, &gb_world_pairs(loaded)->far);
+    assert_same_lists(&gb_world_pairs(world)->near, &gb_world_pairs(loaded)->near,
+                      model.count);
+    assert_same_lists(&gb_world_pairs(world)->far, &gb_world_pairs(loaded)->far,
+                      model.count);
     scene_evaluate(world);
     scene_evaluate(fresh);
     scene_evaluate(loaded);
@@ -860,6 +957,7 @@ int main(int argc, char **argv)
     g_test_add_func("/world/strays", test_strays);
     g_test_add_func("/world/strays-driven", test_strays_driven);
     g_test_add_func("/world/amended", test_amended);
+    g_test_add_func("/world/amended-full", test_amended_full);
     g_test_add_func("/world/amended-memory", test_amended_memory);
     g_test_add_func("/world/blocks", test_blocks);
     g_test_add_data_func("/world/degrees", &precisions[0], test_degrees);
