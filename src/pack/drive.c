@@ -10,12 +10,15 @@
 #include "pack/simd.h"
 #include "pack/world_private.h"
 
-/* Particles that are turned together, their numbers, and lanes that sums have whatever
- * the vector width. */
-enum { STRETCH = 256, NUMBERS = 3 * STRETCH, LANES = 16 };
+/* Particles that are turned together, few enough that the nearest cache holds all there
+ * is about them, and their numbers; particles whose squares are added up as floats, and
+ * lanes that these sums have whatever the vector width. */
+enum { STRETCH = 64, NUMBERS = 3 * STRETCH, SUMMED = 256, LANES = 16 };
 _Static_assert((int)STRETCH % (int)GB_SINGLE_FLOCK == 0 &&
-                   (int)GB_SWEEP_BLOCK % (int)STRETCH == 0,
-               "no flock lies in two stretches, no stretch in two blocks");
+                   (int)SUMMED % (int)STRETCH == 0 &&
+                   (int)GB_SWEEP_BLOCK % (int)SUMMED == 0 &&
+                   (int)NUMBERS % (int)LANES == 0,
+               "no flock lies in two stretches, no stretch in two sums or blocks");
 
 /* One pass over all blocks. */
 struct pass {
@@ -61,23 +64,31 @@ GB_SIMD_LOOP void speed_up(const struct pass *pass, float kick, int n,
     }
 }
 
-GB_SIMD_LOOP double sum_of(const float *restrict number, int n)
+struct sum {
+    float lane[LANES];
+    double rest; /* of numbers that fill no more lanes */
+};
+
+GB_SIMD_LOOP void sum_up(struct sum *restrict sum, const float *restrict number, int n)
 {
-    float lane[LANES] = {0.0F};
-    double sum = 0.0;
     int k = 0;
     for (; k + LANES <= n; k += LANES) {
         for (int l = 0; l < LANES; l++) {
-            lane[l] += number[k + l];
+            sum->lane[l] += number[k + l];
         }
     }
     for (; k < n; k++) {
-        sum += (double)number[k];
+        sum->rest += (double)number[k];
     }
+}
+
+static double sum_of(const struct sum *sum)
+{
+    double all = sum->rest;
     for (int l = 0; l < LANES; l++) {
-        sum += (double)lane[l];
+        all += (double)sum->lane[l];
     }
-    return sum;
+    return all;
 }
 
 /* Largest sum of three numbers of a particle. */
@@ -170,9 +181,9 @@ GB_SIMD_LOOP void give_spots(const struct scratch *restrict s, int particles,
     }
 }
 
-/* What is added up over the stretches of a block. */
+/* What is added up over some stretches. */
 struct motion {
-    double speed2; /* with inertia */
+    struct sum speed2, spin2;
     float travel2; /* the largest one */
 };
 
@@ -192,7 +203,7 @@ GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
     if (slow) {
         keep_part(pass, particles, &s, v, s.way);
     }
-    motion->speed2 += sum_of(s.square, n);
+    sum_up(&motion->speed2, s.square, n);
     go(pass, n, s.way, world->position + at, s.place);
     ways_since_build(pass, n, s.place, single->built + at, s.square);
     motion->travel2 =
@@ -202,7 +213,7 @@ GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
     if (slow) {
         keep_part(pass, particles, &s, w, s.turn);
     }
-    motion->speed2 += (double)pass->inertia * sum_of(s.square, n);
+    sum_up(&motion->spin2, s.square, n);
     if (pass->turned) {
         add_to(pass->turned + at, s.turn, n);
     }
@@ -212,17 +223,24 @@ GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
 GB_SIMD_LOOP void drive_block_loop(struct gb_world *world, const struct pass *pass,
                                    int64_t b)
 {
+    const int64_t begin = gb_sweep_block_begin(world->count, b);
     const int64_t end = gb_sweep_block_end(world->count, b);
     struct gb_sweep_block *block = &world->block[b];
-    struct motion motion = {0};
-    int particles;
-    for (int64_t i = gb_sweep_block_begin(world->count, b); i < end; i += particles) {
-        particles = end - i < STRETCH ? (int)(end - i) : STRETCH;
-        drive_stretch(world, pass, i, particles, &motion);
+    float travel2 = 0.0F;
+    block->speed2 = 0.0;
+    for (int64_t i = begin; i < end; i += SUMMED) {
+        struct motion motion = {0};
+        const int64_t stop = end - i < SUMMED ? end : i + SUMMED;
+        for (int64_t k = i; k < stop; k += STRETCH) {
+            drive_stretch(world, pass, k, stop - k < STRETCH ? (int)(stop - k) : STRETCH,
+                          &motion);
+        }
+        block->speed2 += sum_of(&motion.speed2);
+        block->speed2 += (double)pass->inertia * sum_of(&motion.spin2);
+        travel2 = fmaxf(travel2, motion.travel2);
     }
-    block->speed2 = motion.speed2;
     /* places wrap around and can't tell what is not finite */
-    block->travel = isfinite(motion.speed2) ? sqrt((double)motion.travel2) : (double)NAN;
+    block->travel = isfinite(block->speed2) ? sqrt((double)travel2) : (double)NAN;
 }
 GB_SIMD_WIDTHS(drive_block, (struct gb_world * world, const struct pass *pass, int64_t b),
                (world, pass, b))
