@@ -30,6 +30,10 @@ enum { GB_SINGLE_SLACK = 8 };
 /* Neighbours in memory whose ways are looked at together; as many fit into a block. */
 enum { GB_SINGLE_FLOCK = 32 };
 
+/* Particles from which on what an evaluation wrote has left the caches when the next one
+ * asks for it; then it is asked for ahead. */
+enum { GB_SINGLE_FETCHED = 131072 };
+
 /* Pairs of a list whose second particle lies in a later block than the first: they leave
  * rows, which the block of the second one collects; all others add to their particles at
  * once. */

@@ -156,17 +156,13 @@ GB_ROW_INLINE struct way_out spill(const struct gb_batch_single *batch,
     return k < batch->n ? four(batch, first, other, k, batch->n - k, out) : out;
 }
 
-/* Particles from which on spots of other blocks have left the nearest caches since they
- * were written. */
-enum { FETCHED_LEAST = 131072 };
-
 /* Asks for the spots of the `count` pairs of a list from slot on, a batch before they are
  * needed: they lie in no order that a processor could foresee. */
 GB_ROW_INLINE void fetch_ahead(const struct gb_world *world,
                                const struct gb_pair_list *list, int64_t slot,
                                int64_t count)
 {
-    if (world->count < FETCHED_LEAST) {
+    if (world->count < GB_SINGLE_FETCHED) {
         return;
     }
     const int32_t *other = list->other + slot;
@@ -271,7 +267,7 @@ GB_ROW_INLINE void ask_for_rows(const struct gb_single_outward *out, int width,
 GB_ROW_INLINE void ask_for_next(const struct gb_world *world, int64_t begin, int64_t end)
 {
     const int64_t stop = begin + COLLECTED_NEXT < end ? begin + COLLECTED_NEXT : end;
-    if (world->count >= FETCHED_LEAST && begin < end) {
+    if (world->count >= GB_SINGLE_FETCHED && begin < end) {
         ask_for_rows(&world->single.near, WRENCH, begin, stop);
         ask_for_rows(&world->single.far, PULL, begin, stop);
     }
