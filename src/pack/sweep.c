@@ -383,7 +383,8 @@ bool gb_sweep_list_holds(struct gb_world *world, double *travel)
     return list_holds(world, blocks);
 }
 
-/* The blocks of one thread of a team; all of them without one. */
+/* The blocks of one thread of a team; all of them without one.  The same that a loop with
+ * a static schedule gives it, so that they stay in its caches. */
 struct share {
     int64_t begin, end;
 };
@@ -392,7 +393,9 @@ static struct share share_of(int64_t blocks)
 {
 #ifdef _OPENMP
     const int64_t thread = omp_get_thread_num(), threads = omp_get_num_threads();
-    return (struct share){blocks * thread / threads, blocks * (thread + 1) / threads};
+    const int64_t each = blocks / threads, more = blocks % threads;
+    const int64_t begin = each * thread + (thread < more ? thread : more);
+    return (struct share){begin, begin + each + (thread < more ? 1 : 0)};
 #else
     return (struct share){0, blocks};
 #endif
