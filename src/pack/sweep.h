@@ -26,8 +26,9 @@ void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums)
 /* Particles whose tallies, and in single precision the forces of pairs among them, are
  * summed as one: in blocks that follow from their number alone, so that the order of the
  * sums, and with it every bit, does not depend on the number of threads.  Larger blocks
- * leave fewer pairs between two of them, smaller ones more of them to share. */
-enum { GB_SWEEP_BLOCK = 1024, GB_SWEEP_BLOCK_MOST = 4096, GB_SWEEP_BLOCKS_SHARED = 64 };
+ * leave fewer pairs between two of them, smaller ones more of them to share: one for
+ * every thread that a world takes by itself (world.c), and then 64 of them. */
+enum { GB_SWEEP_BLOCK = 2048, GB_SWEEP_BLOCK_MOST = 8192, GB_SWEEP_BLOCKS_SHARED = 64 };
 
 static inline int64_t gb_sweep_block_size(int64_t count)
 {

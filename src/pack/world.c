@@ -18,6 +18,8 @@
 
 /* Particles per thread below which a second thread costs more than it brings. */
 enum { PARTICLES_PER_THREAD = 2000 };
+_Static_assert((int)PARTICLES_PER_THREAD * 17 / 16 >= (int)GB_SWEEP_BLOCK,
+               "hardly a thread is left without a block");
 
 static int thread_count(const struct gb_model *model)
 {

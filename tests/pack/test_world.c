@@ -442,9 +442,10 @@ static void test_amended_full(void)
     struct gb_error err = {0};
     scene_evaluate(world);
     const struct gb_pair_list *near = &world->pairs.near;
-    const int64_t slots = near->start[1024] - near->stop[0], before = near->pair_count;
+    const int64_t end = gb_sweep_block_end(world->count, 0);
+    const int64_t slots = near->start[end] - near->stop[0], before = near->pair_count;
     int64_t count = 0;
-    for (int32_t i = 0; i < 1024 && count <= slots; i += 3) { /* with somebody far off */
+    for (int32_t i = 0; i < end && count <= slots; i += 3) { /* with somebody far off */
         for (int32_t j = i + 1; j < 6000; j++) {
             if (distance_of(world, i, j) > 3.0) {
                 kept[count++] = (struct gb_amendment){i, j, 13, 1};
@@ -460,7 +461,7 @@ static void test_amended_full(void)
     check_slots(world, near);
     g_assert_true(gb_amend_again(world, kept, count - 1, &err));
     g_assert_cmpint(near->pair_count, ==, before + slots);
-    g_assert_cmpint(near->stop[0], ==, near->start[1024]);
+    g_assert_cmpint(near->stop[0], ==, near->start[end]);
     scene_evaluate(world);
     g_assert_cmpint(gb_world_tally(world)->contacts, >, 10000);
     gb_world_destroy(world);
@@ -643,7 +644,7 @@ static void assert_same_lists(const struct gb_pair_list *a, const struct gb_pair
 static void test_amended(void)
 {
     const struct gb_params params =
-        scene_params("particles.count=2500", "numerics.precision=single", NULL);
+        scene_params("particles.count=6000", "numerics.precision=single", NULL);
     const struct gb_model model = scene_model(&params);
     struct gb_world *world = scene_world(&model), *fresh = NULL, *loaded = NULL;
     struct gb_world_copy *copy = NULL;
@@ -783,13 +784,14 @@ static void test_threads(const void *data)
 {
     const struct precision *precision = data;
     const struct gb_params params =
-        scene_params(precision->setting, "particles.count=700", NULL);
+        scene_params(precision->setting, "particles.count=9000", NULL);
     uint64_t first = 0;
+    g_assert_cmpint(gb_sweep_blocks(9000), >, 4);
     for (int threads = 1; threads <= 8; threads++) {
         struct gb_model model = scene_model(&params);
         model.numerics.threads = threads;
         struct gb_world *world = scene_world(&model);
-        scene_press(world, 3, 30, 2.0);
+        scene_press(world, 3, 15, 2.0);
         const uint64_t hash = gb_world_hash(world);
         first = threads == 1 ? hash : first;
         g_assert_cmpuint(hash, ==, first);
