@@ -9,8 +9,14 @@
 #include "pack/world_private.h"
 
 /* Sums of so many parts of the particles, added in their order: the same bits for any
- * number of threads. */
-enum { PARTS = 64 };
+ * number of threads.  In single precision every part is worth some batches. */
+enum { PARTS = 64, PART_LEAST = 1024 };
+
+static int parts_of(const struct gb_world *world)
+{
+    const int64_t parts = 1 + world->count / PART_LEAST;
+    return world->in_single && parts < PARTS ? (int)parts : PARTS;
+}
 
 static void add(double sum[3][3], const double force[3], const double r[3])
 {
@@ -97,14 +103,15 @@ static void sum_part(const struct gb_world *world, int64_t begin, int64_t end,
 void gb_virial_sum(const struct gb_world *world, double sum[3][3])
 {
     double part[PARTS][3][3] = {0};
+    const int parts = parts_of(world);
 #pragma omp parallel for num_threads(world->threads)                                     \
     schedule(static) if (world->threads > 1)
-    for (int p = 0; p < PARTS; p++) {
-        sum_part(world, gb_share(world->count, p, PARTS),
-                 gb_share(world->count, p + 1, PARTS), part[p]);
+    for (int p = 0; p < parts; p++) {
+        sum_part(world, gb_share(world->count, p, parts),
+                 gb_share(world->count, p + 1, parts), part[p]);
     }
     memset(sum, 0, sizeof part[0]);
-    for (int p = 0; p < PARTS; p++) {
+    for (int p = 0; p < parts; p++) {
         for (int a = 0; a < 3; a++) {
             gb_vec_add(sum[a], 1.0, part[p][a]);
         }
