@@ -6,8 +6,8 @@
 
 /* Some may stray, and one of so many particles: looking at them costs a little of a sweep
  * then.  In one block of them more, as one spot may be busier than all others. */
-enum { STRAYS_ANYWAY = 16 };
-enum { STRAYS_SHARE = 128, STRAYS_SHARE_BLOCK = 8 };
+enum { STRAYS_ANYWAY = 20 };
+enum { STRAYS_SHARE = 256, STRAYS_SHARE_BLOCK = 8 };
 
 /* Pairs count as touching, or within the cutoff, this much too early (d): a sweep in
  * single precision sees distances to a little less. */
