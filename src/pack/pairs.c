@@ -394,18 +394,14 @@ void gb_pairs_vacate(struct gb_pair_list *list, int64_t slot, int64_t i)
     list->image[slot] = IMAGE_AWAY;
 }
 
-/* Where the pairs behind particle i go: slots stay free where a block ends. */
-static int64_t end_particle(struct gb_pairs *pairs, struct gb_pair_list *list, int64_t i,
-                            int64_t slot)
+/* Slots stay free behind the pairs of block b, whose last particle is i; returns where
+ * those of the next one go. */
+static int64_t end_block(struct gb_pair_list *list, int64_t b, int64_t i, int64_t slot)
 {
-    const int64_t size = gb_sweep_block_size(pairs->count);
-    if (list->stop && ((i + 1) % size == 0 || i + 1 == pairs->count)) {
-        list->stop[i / size] = slot;
-        for (int k = 0; k < FREE; k++) {
-            gb_pairs_vacate(list, slot++, i);
-        }
+    list->stop[b] = slot;
+    for (int k = 0; k < FREE; k++) {
+        gb_pairs_vacate(list, slot++, i);
     }
-    list->start[i + 1] = slot;
     return slot;
 }
 
@@ -414,6 +410,8 @@ static void place_stretch(struct gb_pairs *pairs, const struct stretch *stretch)
 {
     const struct neighbour *found = stretch->found;
     int64_t near = stretch->near, far = stretch->far;
+    int64_t b = stretch->begin / gb_sweep_block_size(pairs->count);
+    int64_t end = gb_sweep_block_end(pairs->count, b);
     for (int64_t i = stretch->begin; i < stretch->end; i++) {
         int64_t n = pairs->near.start[i + 1] + pairs->far.start[i + 1];
         for (; n > 0; n--, found++) {
@@ -423,8 +421,13 @@ static void place_stretch(struct gb_pairs *pairs, const struct stretch *stretch)
                 append(&pairs->far, i, far++, found);
             }
         }
-        near = end_particle(pairs, &pairs->near, i, near);
-        far = end_particle(pairs, &pairs->far, i, far);
+        if (pairs->one_way && i + 1 == end) {
+            near = end_block(&pairs->near, b, i, near);
+            far = end_block(&pairs->far, b, i, far);
+            end = gb_sweep_block_end(pairs->count, ++b);
+        }
+        pairs->near.start[i + 1] = near;
+        pairs->far.start[i + 1] = far;
     }
 }
 

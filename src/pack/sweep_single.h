@@ -11,7 +11,8 @@ struct gb_world_sums;
 
 /* The parts of gb_sweep_run in single precision, for particles [begin, end), or block b:
  * where they are, the forces of their own pairs, and what the pairs of earlier blocks
- * add. All blocks are through with a part before any begins the next. */
+ * add.  All blocks are prepared before any is swept, and a block collects when it and all
+ * that leave rows for it are swept. */
 void gb_sweep_single_prepare(struct gb_world *world, int64_t begin, int64_t end);
 void gb_sweep_single_block(struct gb_world *world, int64_t b, double cutoff2,
                            struct gb_tally *tally);
