@@ -195,6 +195,7 @@ int gb_app_run(struct gb_preset *preset, const char *folder, const char *attache
     gb_session_finish(&screen->session);
     gb_panel_plot_finish(&screen->plot);
     gb_dialog_close(&screen->dialog);
+    gb_term_destroy(screen->term);
     const int status = app->status;
     gb_alloc_free(app);
     return status;

@@ -85,8 +85,12 @@ static void catch_signals(struct gb_term *term)
     term->signal_fd = signalfd(-1, &mask, SFD_CLOEXEC | SFD_NONBLOCK);
 }
 
+/* Those that still wait asked for an end that has come. */
 static void release_signals(struct gb_term *term)
 {
+    struct signalfd_siginfo late;
+    while (read(term->signal_fd, &late, sizeof late) == (ssize_t)sizeof late) {
+    }
     for (int i = 0; i < CAUGHT; i++) {
         sigaction(caught[i], &term->before[i], NULL);
     }
@@ -184,9 +188,6 @@ fail:
 
 void gb_term_stop(struct gb_term *term)
 {
-    if (term == NULL) {
-        return;
-    }
     gb_crash_disarm();
     delwin(term->keys);
     endwin();
@@ -195,20 +196,26 @@ void gb_term_stop(struct gb_term *term)
             (long long)term->frames,
             1e-6 * (double)(g_get_monotonic_time() - term->since_us));
     gb_term_tty_restore(term->saved_out, term->saved_err);
-    release_signals(term);
     close_streams(term);
-    gb_alloc_free(term);
 }
 
 void gb_term_abandon(struct gb_term *term)
 {
     gb_crash_disarm();
     close(term->signal_fd);
+    term->signal_fd = -1;
     close_streams(term);
     const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
     if (nothing >= 0) {
         dup2(nothing, STDIN_FILENO);
         close(nothing);
+    }
+}
+
+void gb_term_destroy(struct gb_term *term)
+{
+    if (term != NULL && term->signal_fd >= 0) {
+        release_signals(term);
     }
     gb_alloc_free(term);
 }

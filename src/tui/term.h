@@ -52,11 +52,16 @@ struct gb_term_event {
  * works, cannot place the cursor; nothing has been changed then. */
 bool gb_term_start(struct gb_term **out, const struct gb_settings *settings,
                    struct gb_error *err);
-void gb_term_stop(struct gb_term *term); /* NULL is fine */
+/* Gives it back.  Signals are held up until gb_term_destroy, so that nobody who asks
+ * twice for the end cuts off what is still to be kept. */
+void gb_term_stop(struct gb_term *term);
 
 /* Instead of gb_term_stop when the terminal is gone: it is not touched again.  Standard
- * output and error stay in the log file, signals stay blocked. */
+ * output and error stay in the log file, signals stay blocked for ever. */
 void gb_term_abandon(struct gb_term *term);
+
+/* After one of the two; NULL is fine. */
+void gb_term_destroy(struct gb_term *term);
 
 /* Sleeps until something happens, at most timeout_ms (negative: for ever). */
 struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms);

@@ -244,6 +244,7 @@ int gb_watch_run(const char *directory, const struct gb_settings *settings,
     } else {
         gb_term_stop(term);
     }
+    gb_term_destroy(term);
     gb_plot_finish(&watch.plot);
     gb_swarm_finish(&watch.swarm);
     return status;

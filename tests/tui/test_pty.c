@@ -3,6 +3,7 @@
  * PRESET_FOLDER */
 #include <errno.h>
 #include <glib.h>
+#include <glib/gstdio.h>
 #include <poll.h>
 #include <pty.h>
 #include <signal.h>
@@ -309,6 +310,52 @@ static void test_images(void)
     check_images("--images=kitty", "\033_G");
 }
 
+/* Lines of a file of the first run of the default preset in a folder of its own; 0: it is
+ * not there. */
+static int count_lines(const char *folder, const char *name)
+{
+    char *path = g_build_filename(folder, "greenbody", "runs", "default-1", name, NULL);
+    char *text = NULL;
+    int lines = 0;
+    if (g_file_get_contents(path, &text, NULL, NULL)) {
+        for (const char *c = text; *c != '\0'; c++) {
+            lines += *c == '\n';
+        }
+    }
+    g_free(text);
+    g_free(path);
+    return lines;
+}
+
+/* Lines of a curve after which there is something to keep. */
+enum { POINTS = 8 };
+
+/* Somebody who asks for the end a second time, while the engine is still being stopped,
+ * does not lose the run. */
+static void test_asked_twice(void)
+{
+    char *const before = home;
+    struct child child;
+    home = g_build_filename(before, "twice", NULL);
+    g_assert_cmpint(g_mkdir(home, 0700), ==, 0);
+    open_program(&child, 24, 80, "particles.count=8000");
+    for (int i = 0; i < 1200 && count_lines(home, "curve.csv") < POINTS; i++) {
+        receive(&child, 0.1, false);
+    }
+    g_assert_cmpint(count_lines(home, "curve.csv"), >=, POINTS);
+    await(&child, "q", "Quit?");
+    send_text(&child, "y", 1);
+    while (!child.saw_leave) {
+        g_assert_true(receive(&child, 10.0, true));
+    }
+    kill(child.pid, SIGTERM);
+    (void)wait_for_end(&child);
+    check_restored(&child);
+    g_assert_cmpint(count_lines(home, "state.h5"), >, 0);
+    g_free(home);
+    home = before;
+}
+
 /* Keys of the table, text, escape sequences; none that sends a signal, and no slash,
  * which would let a saved preset land anywhere. */
 enum { KEY_MOST = 32 };
@@ -384,7 +431,9 @@ static void storm(int keys, int resizes)
     g_test_message("%d keys, %d resizes, started %d times", keys, resizes, starts);
     g_rand_free(rand);
     /* it may be leaving on its own: both ways out are good ones */
-    kill(child.pid, SIGTERM);
+    if (!child.saw_leave) {
+        kill(child.pid, SIGTERM);
+    }
     const int status = wait_for_end(&child);
     g_test_message("status %d", status);
     g_assert_true(WIFEXITED(status));
@@ -417,6 +466,7 @@ int main(int argc, char **argv)
         g_test_add_func("/tui/pty/paused", test_paused);
         g_test_add_func("/tui/pty/latency", test_latency);
         g_test_add_func("/tui/pty/images", test_images);
+        g_test_add_func("/tui/pty/asked-twice", test_asked_twice);
         g_test_add_func("/tui/pty/storm", test_storm);
     }
     const int status = g_test_run();
