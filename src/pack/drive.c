@@ -14,18 +14,25 @@
  * is about them, and their numbers; particles whose squares are added up as floats, and
  * lanes that these sums have whatever the vector width. */
 enum { STRETCH = 64, NUMBERS = 3 * STRETCH, SUMMED = 256, LANES = 16 };
+enum { FLOCKS = STRETCH / GB_SINGLE_FLOCK };
 _Static_assert((int)STRETCH % (int)GB_SINGLE_FLOCK == 0 &&
                    (int)SUMMED % (int)STRETCH == 0 &&
                    (int)GB_SWEEP_BLOCK % (int)SUMMED == 0 &&
                    (int)NUMBERS % (int)LANES == 0,
                "no flock lies in two stretches, no stretch in two sums or blocks");
 
+/* Particles from which on they have left the caches since the last pass, and are asked
+ * for ahead. */
+enum { FETCHED = 131072 };
+
 /* One pass over all blocks. */
 struct pass {
     float keep, back, step;
     float kick, kick_turn;
     float inertia;
-    float most2; /* squared speed of who goes as far as anybody may */
+    float fresh;  /* ways from here on have to be known, others may be overestimated */
+    bool bounded; /* there are ways to begin with */
+    float most2;  /* squared speed of who goes as far as anybody may */
     float *turned;
     /* of the axis of every number of a stretch */
     double units[NUMBERS];
@@ -103,17 +110,22 @@ GB_SIMD_LOOP float most_of(const float *restrict number, int particles)
     return most;
 }
 
-/* The same of every flock of them; returns the largest. */
-GB_SIMD_LOOP float flocks(const float *restrict number, int particles,
-                          float *restrict each)
+/* Square roots of it for every flock of them. */
+GB_SIMD_LOOP void most_of_flocks(const float *restrict square, int particles,
+                                 float *restrict way)
 {
-    float most = 0.0F;
     for (int i = 0; i < particles; i += GB_SINGLE_FLOCK) {
         const int left = particles - i;
-        *each = most_of(number + 3 * i, left < GB_SINGLE_FLOCK ? left : GB_SINGLE_FLOCK);
-        most = fmaxf(most, *each++);
+        const int n = left < GB_SINGLE_FLOCK ? left : GB_SINGLE_FLOCK;
+        *way++ = sqrtf(most_of(square + 3 * i, n));
     }
-    return most;
+}
+
+GB_SIMD_LOOP void square_all(const float *restrict number, int n, float *restrict square)
+{
+    for (int k = 0; k < n; k++) {
+        square[k] = number[k] * number[k];
+    }
 }
 
 /* Positions, and the places that belong to them. */
@@ -136,6 +148,34 @@ GB_SIMD_LOOP void ways_since_build(const struct pass *pass, int n,
         const float way = (float)(int32_t)wide * pass->scale[k];
         square[k] = way * way;
     }
+}
+
+/* Ways of the flocks of a stretch; returns the longest.  They grow by the longest step of
+ * each flock, a little more than that so that rounding does no harm, and only where that
+ * becomes too much is it looked up how far everybody has really come. */
+GB_SIMD_LOOP float follow_flocks(const struct pass *pass, int particles,
+                                 const uint32_t *built, struct scratch *s, float *travel)
+{
+    const float slack = 1.0F + 0x1p-16F;
+    const int count = (particles + GB_SINGLE_FLOCK - 1) / GB_SINGLE_FLOCK;
+    float step[FLOCKS], most = 0.0F;
+    bool known = pass->bounded;
+    if (known) {
+        square_all(s->way, 3 * particles, s->square);
+        most_of_flocks(s->square, particles, step);
+        for (int f = 0; f < count; f++) {
+            travel[f] = (travel[f] + step[f]) * slack;
+            known = known && travel[f] < pass->fresh;
+        }
+    }
+    if (!known) {
+        ways_since_build(pass, 3 * particles, s->place, built, s->square);
+        most_of_flocks(s->square, particles, travel);
+    }
+    for (int f = 0; f < count; f++) {
+        most = fmaxf(most, travel[f]);
+    }
+    return most;
 }
 
 GB_SIMD_LOOP void add_to(float *restrict sum, const float *restrict number, int n)
@@ -184,18 +224,18 @@ GB_SIMD_LOOP void give_spots(const struct scratch *restrict s, int particles,
 /* What is added up over some stretches. */
 struct motion {
     struct sum speed2, spin2;
-    float travel2; /* the largest one */
+    float travel; /* the longest one */
 };
 
 GB_SIMD_LOOP void fetch(const void *from, size_t bytes)
 {
-    enum { LINE = 64, TO_WRITE = 1 };
+    enum { LINE = 64 };
     for (size_t at = 0; at < bytes; at += LINE) {
-        __builtin_prefetch((const char *)from + at, TO_WRITE);
+        gb_simd_fetch((const char *)from + at);
     }
 }
 
-/* Asks for all about a stretch before the one in front of it is worked on: of six short
+/* Asks for all about a stretch before the one in front of it is worked on: of five short
  * arrays at a time no processor foresees the next. */
 GB_SIMD_LOOP void fetch_stretch(const struct gb_world *world, int64_t begin)
 {
@@ -206,7 +246,6 @@ GB_SIMD_LOOP void fetch_stretch(const struct gb_world *world, int64_t begin)
     fetch(world->position + at, NUMBERS * sizeof *world->position);
     fetch(single->velocity + at, NUMBERS * sizeof *single->velocity);
     fetch(single->spin + at, NUMBERS * sizeof *single->spin);
-    fetch(single->built + at, NUMBERS * sizeof *single->built);
 }
 
 GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
@@ -227,10 +266,9 @@ GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
     }
     sum_up(&motion->speed2, s.square, n);
     go(pass, n, s.way, world->position + at, s.place);
-    ways_since_build(pass, n, s.place, single->built + at, s.square);
-    motion->travel2 =
-        fmaxf(motion->travel2,
-              flocks(s.square, particles, single->travel2 + begin / GB_SINGLE_FLOCK));
+    motion->travel =
+        fmaxf(motion->travel, follow_flocks(pass, particles, single->built + at, &s,
+                                            single->travel + begin / GB_SINGLE_FLOCK));
     speed_up(pass, pass->kick_turn, n, s.torque, w, s.turn, s.square);
     if (slow) {
         keep_part(pass, particles, &s, w, s.turn);
@@ -248,13 +286,13 @@ GB_SIMD_LOOP void drive_block_loop(struct gb_world *world, const struct pass *pa
     const int64_t begin = gb_sweep_block_begin(world->count, b);
     const int64_t end = gb_sweep_block_end(world->count, b);
     struct gb_sweep_block *block = &world->block[b];
-    float travel2 = 0.0F;
+    float travel = 0.0F;
     block->speed2 = 0.0;
     for (int64_t i = begin; i < end; i += SUMMED) {
         struct motion motion = {0};
         const int64_t stop = end - i < SUMMED ? end : i + SUMMED;
         for (int64_t k = i; k < stop; k += STRETCH) {
-            if (world->count >= GB_SINGLE_FETCHED && k + STRETCH < end) {
+            if (world->count >= FETCHED && k + STRETCH < end) {
                 fetch_stretch(world, k + STRETCH);
             }
             drive_stretch(world, pass, k, stop - k < STRETCH ? (int)(stop - k) : STRETCH,
@@ -262,10 +300,10 @@ GB_SIMD_LOOP void drive_block_loop(struct gb_world *world, const struct pass *pa
         }
         block->speed2 += sum_of(&motion.speed2);
         block->speed2 += (double)pass->inertia * sum_of(&motion.spin2);
-        travel2 = fmaxf(travel2, motion.travel2);
+        travel = fmaxf(travel, motion.travel);
     }
     /* places wrap around and can't tell what is not finite */
-    block->travel = isfinite(block->speed2) ? sqrt((double)travel2) : (double)NAN;
+    block->travel = isfinite(block->speed2) ? (double)travel : (double)NAN;
 }
 GB_SIMD_WIDTHS(drive_block, (struct gb_world * world, const struct pass *pass, int64_t b),
                (world, pass, b))
@@ -329,6 +367,8 @@ double gb_drive_move(struct gb_world *world, const struct gb_drive *by, float *t
                         .kick = (float)by->kick,
                         .kick_turn = (float)(by->kick / by->inertia),
                         .inertia = (float)by->inertia,
+                        .fresh = (float)gb_strays_fresh(world),
+                        .bounded = world->single.bounded,
                         .most2 = (float)(bound * bound),
                         .turned = turned};
     fill_axes(&pass, &world->cell);
@@ -337,6 +377,6 @@ double gb_drive_move(struct gb_world *world, const struct gb_drive *by, float *t
     for (int64_t b = 0; b < gb_sweep_blocks(world->count); b++) {
         speed2 += world->block[b].speed2;
     }
-    world->single.driven = true;
+    world->single.driven = world->single.bounded = true;
     return speed2;
 }

@@ -64,4 +64,13 @@ static inline int gb_simd_width(int widest)
 
 #define GB_SIMD_LOOP static inline __attribute__((always_inline))
 
+/* Asks for a line of memory before it is needed, as far as the second cache: the first
+ * can wait for few lines at a time, and what is read meanwhile would queue behind them.
+ */
+GB_SIMD_LOOP void gb_simd_fetch(const void *line)
+{
+    enum { TO_READ = 0, SECOND_CACHE = 2 };
+    __builtin_prefetch(line, TO_READ, SECOND_CACHE);
+}
+
 #endif

@@ -40,10 +40,10 @@ bool gb_single_init(struct gb_single *single, const struct gb_model *model,
     single->velocity = gb_alloc_array(3 * n + 1, sizeof *single->velocity, err);
     single->spin = gb_alloc_array(3 * n + 1, sizeof *single->spin, err);
     single->built = gb_alloc_array(3 * n, sizeof *single->built, err);
-    single->travel2 = gb_alloc_array((n + GB_SINGLE_FLOCK - 1) / GB_SINGLE_FLOCK,
-                                     sizeof *single->travel2, err);
+    single->travel = gb_alloc_array((n + GB_SINGLE_FLOCK - 1) / GB_SINGLE_FLOCK,
+                                    sizeof *single->travel, err);
     return single->spot && single->total && single->velocity && single->spin &&
-           single->built && single->travel2 &&
+           single->built && single->travel &&
            outward_init(&single->near, model->count, err) &&
            outward_init(&single->far, model->count, err);
 }
@@ -55,7 +55,7 @@ void gb_single_finish(struct gb_single *single)
     gb_alloc_free(single->velocity);
     gb_alloc_free(single->spin);
     gb_alloc_free(single->built);
-    gb_alloc_free(single->travel2);
+    gb_alloc_free(single->travel);
     outward_finish(&single->near);
     outward_finish(&single->far);
     *single = (struct gb_single){0};
@@ -132,6 +132,7 @@ static bool outward_take(struct gb_single_outward *out, const struct gb_pair_lis
 static void take_built(struct gb_single *single, const struct gb_pairs *pairs)
 {
     double units[3];
+    single->bounded = false;
     for (int c = 0; c < 3; c++) {
         units[c] = 0x1p32 / pairs->built_edge[c];
     }

@@ -30,9 +30,9 @@ enum { GB_SINGLE_SLACK = 8 };
 /* Neighbours in memory whose ways are looked at together; as many fit into a block. */
 enum { GB_SINGLE_FLOCK = 32 };
 
-/* Particles from which on what an evaluation wrote has left the caches when the next one
- * asks for it; then it is asked for ahead. */
-enum { GB_SINGLE_FETCHED = 131072 };
+/* Particles from which on what a sweep wants of others is not in the second cache any
+ * more; then it is asked for ahead. */
+enum { GB_SINGLE_FETCHED = 16384 };
 
 /* Pairs of a list whose second particle lies in a later block than the first: they leave
  * rows, which the block of the second one collects; all others add to their particles at
@@ -56,9 +56,12 @@ struct gb_single {
     /* Motion (pack/drive.h), count x 3 and a number more each. */
     float *velocity, *spin;
     uint32_t *built; /* places when the lists were built */
-    float *travel2;  /* longest way since, squared, of every flock; by the last drive */
-    bool driven;     /* spots and ways are those of a drive that nobody evaluated yet */
-    bool narrow;     /* the last forces are in `total` only */
+    /* Of every flock: nobody in it has come farther since then (d).  From gb_strays_fresh
+     * on it is the way of the one that came farthest. */
+    float *travel;
+    bool bounded; /* they are known: nothing but drives has moved anybody */
+    bool driven;  /* spots and ways are those of a drive that nobody evaluated yet */
+    bool narrow;  /* the last forces are in `total` only */
 };
 
 bool gb_single_init(struct gb_single *single, const struct gb_model *model,

@@ -24,7 +24,7 @@ static double margin_of(const struct gb_world *world, double *reach)
 
 /* Two at the reach now were at most reach (1 + strain) + both ways apart; nearer than
  * reach + skin they are in a list. */
-static double half_margin(const struct gb_world *world)
+double gb_strays_fresh(const struct gb_world *world)
 {
     double reach;
     return 0.5 * margin_of(world, &reach);
@@ -47,7 +47,7 @@ static struct sight sight_of(const struct gb_world *world)
 
 enum gb_strays_list gb_strays_judge(const struct gb_world *world, double travel)
 {
-    if (travel < half_margin(world)) {
+    if (travel < gb_strays_fresh(world)) {
         return GB_STRAYS_FRESH;
     }
     return travel < sight_of(world).far ? GB_STRAYS_DOUBTED : GB_STRAYS_STALE;
@@ -244,13 +244,13 @@ static double way2(const struct gb_pairs *pairs, const double *position, int64_t
 static bool flock_stays(const struct gb_world *world, int64_t i, double fresh)
 {
     return world->single.driven && i % GB_SINGLE_FLOCK == 0 &&
-           (double)world->single.travel2[i / GB_SINGLE_FLOCK] < fresh * fresh;
+           (double)world->single.travel[i / GB_SINGLE_FLOCK] < fresh;
 }
 
 void gb_strays_look(const struct gb_world *world, int64_t begin, int64_t end,
                     struct gb_strays_missing *missing)
 {
-    const double fresh = half_margin(world), near = sight_of(world).near;
+    const double fresh = gb_strays_fresh(world), near = sight_of(world).near;
     *missing = (struct gb_strays_missing){0};
     for (int64_t i = begin; i < end && !missing->many; i++) {
         if (flock_stays(world, i, fresh)) {

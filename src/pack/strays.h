@@ -20,6 +20,9 @@ enum gb_strays_list {
 /* travel: of the particle that came furthest; NaN where a place is not finite */
 enum gb_strays_list gb_strays_judge(const struct gb_world *world, double travel);
 
+/* The way (d) from which on the list is not fresh. */
+double gb_strays_fresh(const struct gb_world *world);
+
 /* A pair that the list it belongs into does not hold: first < other. */
 struct gb_strays_pair {
     int32_t first, other;

@@ -447,6 +447,7 @@ bool gb_sweep_run(struct gb_world *world, double *travel)
         world->single.scale[c] = (float)(world->cell.edge[c] * 0x1p-32);
     }
     bool holds = false;
+    world->single.bounded = world->single.bounded && world->single.driven;
     if (world->threads > 1) {
 #pragma omp parallel num_threads(world->threads)
         run_blocks(world, blocks, &holds);

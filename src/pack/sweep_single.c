@@ -167,7 +167,7 @@ GB_ROW_INLINE void fetch_ahead(const struct gb_world *world,
     }
     const int32_t *other = list->other + slot;
     for (int k = 0; k < GB_BATCH && k < count; k++) {
-        __builtin_prefetch(&world->single.spot[other[k]]);
+        gb_simd_fetch(&world->single.spot[other[k]]);
     }
 }
 
@@ -260,7 +260,7 @@ GB_ROW_INLINE void ask_for_rows(const struct gb_single_outward *out, int width,
                                 int64_t begin, int64_t end)
 {
     for (int32_t in = out->in_start[begin]; in < out->in_start[end]; in++) {
-        __builtin_prefetch(out->row + width * (int64_t)out->in_row[in]);
+        gb_simd_fetch(out->row + width * (int64_t)out->in_row[in]);
     }
 }
 
