@@ -132,7 +132,6 @@ static bool outward_take(struct gb_single_outward *out, const struct gb_pair_lis
 static void take_built(struct gb_single *single, const struct gb_pairs *pairs)
 {
     double units[3];
-    single->bounded = false;
     for (int c = 0; c < 3; c++) {
         units[c] = 0x1p32 / pairs->built_edge[c];
     }
