@@ -384,8 +384,15 @@ static void test_strays(void)
     }
 }
 
-/* The same of a world that drives its particles itself: one in 41 at such a pace (d).
- * Every third time somebody else moves them, as a prediction does. */
+static void evaluate_or_meet(struct gb_world *world)
+{
+    struct gb_error err = {0};
+    if (!gb_world_evaluate(world, &err)) { /* ran into another: go on */
+        g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
+    }
+}
+
+/* The same of a world that drives its particles itself: one in 41 at such a pace (d). */
 static void check_driven(double pace, int *outlived, int64_t *amended)
 {
     const struct gb_params params =
@@ -404,26 +411,54 @@ static void check_driven(double pace, int *outlived, int64_t *amended)
             world->single.velocity[k] =
                 (float)(way * g_rand_double_range(dice, -0.5, 1.0));
         }
-        if (step % 3 == 1) {
-            struct gb_bodies b = gb_world_movable(world);
-            for (int64_t k = 0; k < 3 * b.count; k++) {
-                b.position[k] += (double)world->single.velocity[k];
-            }
-        } else {
-            gb_drive_move(world, &by, NULL);
-        }
+        gb_drive_move(world, &by, NULL);
         const double travel =
             gb_pairs_travel(pairs, gb_world_position(world), 0, pairs->count);
-        struct gb_error err = {0};
-        if (!gb_world_evaluate(world, &err)) { /* ran into another: go on */
-            g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
-        }
+        evaluate_or_meet(world);
         *outlived +=
             gb_world_rebuilds(world) == before && 2.0 * travel >= model.numerics.skin;
         *amended += pairs->amended_count;
         check_listed(world);
     }
     g_rand_free(dice);
+    gb_world_destroy(world);
+}
+
+/* Somebody else moves a few of them, as a prediction does, after a drive that moved
+ * nobody and before one that alone would make nobody stray. */
+static void check_driven_on(void)
+{
+    const struct gb_params params =
+        scene_params("particles.count=600", "numerics.precision=single", NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world = scene_world(&model);
+    struct gb_world_copy *copy = NULL;
+    struct gb_error err = {0};
+    const struct gb_drive by = {.keep = 0.45, .step = 1.0, .inertia = 0.4, .most = 1.0};
+    GRand *dice = g_rand_new_with_seed(19);
+    scene_press(world, 100, 3, 2.0);
+    g_assert_true(gb_world_save(world, &copy, &err));
+    for (int round = 0; round < 40; round++) {
+        g_assert_true(gb_world_restore(world, copy, &err));
+        scene_evaluate(world);
+        gb_drive_rest(world);
+        gb_drive_move(world, &by, NULL);
+        scene_evaluate(world);
+        const double pace = 2.0 * gb_strays_fresh(world) / sqrt(3.0);
+        struct gb_bodies b = gb_world_movable(world);
+        for (int64_t k = 0; k < 3 * b.count; k++) {
+            const bool runs = k / 3 % 40 == round;
+            const double way = runs ? g_rand_boolean(dice) ? pace : -pace : 0.0;
+            b.position[k] += way;
+            world->single.velocity[k] = (float)way;
+        }
+        evaluate_or_meet(world);
+        gb_drive_move(world, &by, NULL);
+        evaluate_or_meet(world);
+        check_listed(world);
+    }
+    g_rand_free(dice);
+    gb_world_copy_destroy(copy);
     gb_world_destroy(world);
 }
 
@@ -435,6 +470,7 @@ static void test_strays_driven(void)
     for (int p = 0; p < 3; p++) {
         check_driven(paces[p], &outlived, &amended);
     }
+    check_driven_on();
     g_assert_cmpint(outlived, >, 0);
     g_assert_cmpint(amended, >, 0);
 }
