@@ -179,9 +179,12 @@ static void take_out(struct gb_world *world, struct gb_pair_list *list,
 static int32_t nearest_image(const struct gb_world *world, int64_t i, int64_t j)
 {
     int32_t image = 0, weight = 1;
+    double xi[3], xj[3];
+    gb_world_at(world, i, xi);
+    gb_world_at(world, j, xj);
     for (int k = 0; k < 3; k++) {
         const double edge = world->cell.edge[k];
-        const double r = world->position[3 * i + k] - world->position[3 * j + k];
+        const double r = xi[k] - xj[k];
         const int32_t whole = -(int32_t)gb_cell_whole(r / edge);
         if (whole < -1 || whole > 1) {
             return -1;

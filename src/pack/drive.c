@@ -8,6 +8,7 @@
 
 #include "pack/rows.h"
 #include "pack/simd.h"
+#include "pack/sweep_single.h"
 #include "pack/world_private.h"
 
 /* Particles that are turned together, few enough that the nearest cache holds all there
@@ -33,18 +34,18 @@ struct pass {
     float fresh;  /* ways from here on have to be known, others may be overestimated */
     bool bounded; /* there are ways to begin with */
     float most2;  /* squared speed of who goes as far as anybody may */
+    float grain;  /* d; rounding to places adds less than this to a way */
     float *turned;
     /* of the axis of every number of a stretch */
-    double units[NUMBERS];
-    float scale[NUMBERS];
+    float units[NUMBERS], scale[NUMBERS];
 };
 
-/* A stretch on its way; rows of four may be read at the last particle. */
+/* A stretch on its way; rows of four are read and written at the last particle. */
 struct scratch {
     float force[NUMBERS + 1], torque[NUMBERS + 1];
     float way[NUMBERS], turn[NUMBERS + 1];
     float square[NUMBERS];
-    uint32_t place[NUMBERS + 1];
+    int32_t place[NUMBERS + 1];
     float kept[STRETCH]; /* of a motion that goes too far; written where one does */
 };
 
@@ -54,6 +55,14 @@ GB_SIMD_LOOP void take_forces(float (*total)[GB_SINGLE_WRENCH], int particles,
     for (int i = 0; i < particles; i++) {
         gb_row_store(s->force + 3 * i, gb_row_load(total[i]));
         gb_row_store(s->torque + 3 * i, gb_row_load(total[i] + 4));
+    }
+}
+
+GB_SIMD_LOOP void take_places(const struct gb_spot *spot, int particles,
+                              struct scratch *restrict s)
+{
+    for (int i = 0; i < particles; i++) {
+        memcpy(s->place + 3 * i, spot[i].place, 4 * sizeof *s->place);
     }
 }
 
@@ -128,23 +137,26 @@ GB_SIMD_LOOP void square_all(const float *restrict number, int n, float *restric
     }
 }
 
-/* Positions, and the places that belong to them. */
+/* To the nearest place.  A way that is not finite leads anywhere: what is done then is
+ * told by the speeds. */
 GB_SIMD_LOOP void go(const struct pass *pass, int n, const float *restrict way,
-                     double *restrict position, uint32_t *restrict place)
+                     int32_t *restrict place)
 {
+    const float most = 0x1p30F;
     for (int k = 0; k < n; k++) {
-        const double x = position[k] + (double)way[k];
-        position[k] = x;
-        place[k] = (uint32_t)gb_single_place(x, pass->units[k]);
+        const float far = way[k] * pass->units[k];
+        const float near = far < most ? far > -most ? far : -most : most;
+        const uint32_t units = (uint32_t)(int32_t)(near + (near < 0.0F ? -0.5F : 0.5F));
+        place[k] = (int32_t)((uint32_t)place[k] + units);
     }
 }
 
 GB_SIMD_LOOP void ways_since_build(const struct pass *pass, int n,
-                                   const uint32_t *restrict place,
+                                   const int32_t *restrict place,
                                    const uint32_t *restrict built, float *restrict square)
 {
     for (int k = 0; k < n; k++) {
-        const uint32_t wide = place[k] - built[k];
+        const uint32_t wide = (uint32_t)place[k] - built[k];
         const float way = (float)(int32_t)wide * pass->scale[k];
         square[k] = way * way;
     }
@@ -164,7 +176,7 @@ GB_SIMD_LOOP float follow_flocks(const struct pass *pass, int particles,
         square_all(s->way, 3 * particles, s->square);
         most_of_flocks(s->square, particles, step);
         for (int f = 0; f < count; f++) {
-            travel[f] = (travel[f] + step[f]) * slack;
+            travel[f] = (travel[f] + step[f] + pass->grain) * slack;
             known = known && travel[f] < pass->fresh;
         }
     }
@@ -235,7 +247,7 @@ GB_SIMD_LOOP void fetch(const void *from, size_t bytes)
     }
 }
 
-/* Asks for all about a stretch before the one in front of it is worked on: of five short
+/* Asks for all about a stretch before the one in front of it is worked on: of four short
  * arrays at a time no processor foresees the next. */
 GB_SIMD_LOOP void fetch_stretch(const struct gb_world *world, int64_t begin)
 {
@@ -243,7 +255,6 @@ GB_SIMD_LOOP void fetch_stretch(const struct gb_world *world, int64_t begin)
     const int64_t at = 3 * begin;
     fetch(single->total + begin, STRETCH * sizeof *single->total);
     fetch(single->spot + begin, STRETCH * sizeof *single->spot);
-    fetch(world->position + at, NUMBERS * sizeof *world->position);
     fetch(single->velocity + at, NUMBERS * sizeof *single->velocity);
     fetch(single->spin + at, NUMBERS * sizeof *single->spin);
 }
@@ -256,7 +267,6 @@ GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
     struct gb_single *single = &world->single;
     float *v = single->velocity + at, *w = single->spin + at;
     struct scratch s;
-    s.place[n] = 0;
     s.turn[n] = 0.0F;
     take_forces(single->total + begin, particles, &s);
     speed_up(pass, pass->kick, n, s.force, v, s.way, s.square);
@@ -265,7 +275,8 @@ GB_SIMD_LOOP void drive_stretch(struct gb_world *world, const struct pass *pass,
         keep_part(pass, particles, &s, v, s.way);
     }
     sum_up(&motion->speed2, s.square, n);
-    go(pass, n, s.way, world->position + at, s.place);
+    take_places(single->spot + begin, particles, &s);
+    go(pass, n, s.way, s.place);
     motion->travel =
         fmaxf(motion->travel, follow_flocks(pass, particles, single->built + at, &s,
                                             single->travel + begin / GB_SINGLE_FLOCK));
@@ -348,9 +359,11 @@ void gb_drive_rest(struct gb_world *world)
 /* The same three numbers again and again. */
 static void fill_axes(struct pass *pass, const struct gb_cell *cell)
 {
+    pass->grain = 0.0F;
     for (int c = 0; c < 3; c++) {
-        const double units = gb_single_units(cell, c);
-        const float scale = (float)(cell->edge[c] * 0x1p-32);
+        const float units = (float)gb_single_units(cell, c);
+        const float scale = (float)gb_single_d(cell, c);
+        pass->grain += scale;
         for (int k = c; k < NUMBERS; k += 3) {
             pass->units[k] = units;
             pass->scale[k] = scale;
@@ -372,11 +385,15 @@ double gb_drive_move(struct gb_world *world, const struct gb_drive *by, float *t
                         .most2 = (float)(bound * bound),
                         .turned = turned};
     fill_axes(&pass, &world->cell);
+    if (world->single.ahead == GB_SINGLE_POSITIONS) {
+        gb_sweep_single_prepare(world, 0, world->count);
+    }
     drive_all(world, &pass);
     double speed2 = 0.0;
     for (int64_t b = 0; b < gb_sweep_blocks(world->count); b++) {
         speed2 += world->block[b].speed2;
     }
+    world->single.ahead = GB_SINGLE_PLACES;
     world->single.driven = world->single.bounded = true;
     return speed2;
 }

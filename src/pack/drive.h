@@ -8,8 +8,8 @@ struct gb_world;
 
 /* Motion with inertia of the particles of a world in single precision.  Their velocities
  * lie in the world, and one pass over each block of particles does all that comes between
- * two evaluations: velocities, positions, places and turns as the next sweep sees them,
- * and the ways since the lists were built. */
+ * two evaluations: velocities, places and turns as the next sweep sees them, and the ways
+ * since the lists were built.  Positions follow when gb_world_settle asks for them. */
 struct gb_drive {
     double keep, kick, back, step; /* x -= back v, v = keep v + kick F, x += step v */
     double inertia;                /* of turns, m d^2: their F is the torque over it */

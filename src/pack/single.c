@@ -169,6 +169,6 @@ void gb_single_arm(const struct gb_cell *cell, const double xi[3], const double 
         const uint32_t wide = a - b;
         int32_t difference;
         memcpy(&difference, &wide, sizeof difference);
-        r[c] = (double)((float)difference * (float)(cell->edge[c] * 0x1p-32));
+        r[c] = (double)((float)difference * (float)gb_single_d(cell, c));
     }
 }

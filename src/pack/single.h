@@ -46,12 +46,21 @@ struct gb_single_outward {
     int64_t room; /* rows */
 };
 
+/* Where particles are is told twice: by positions, and by places, which motions with
+ * inertia and sweeps go by. */
+enum gb_single_ahead {
+    GB_SINGLE_EVEN,
+    GB_SINGLE_PLACES,    /* positions lag behind: gb_sweep_single_settle */
+    GB_SINGLE_POSITIONS, /* somebody may have moved them: gb_sweep_single_prepare */
+};
+
 struct gb_single {
     struct gb_batch_single_kernel kernel;
     struct gb_spot *spot;             /* one a particle */
     float (*total)[GB_SINGLE_WRENCH]; /* one a particle: force and torque */
     struct gb_single_outward near;    /* rows: wrenches on j */
     struct gb_single_outward far;     /* pulls on it */
+    enum gb_single_ahead ahead;
     float scale[3]; /* d in a unit of place, as of the last evaluation */
     /* Motion (pack/drive.h), count x 3 and a number more each. */
     float *velocity, *spin;
@@ -91,10 +100,32 @@ static inline int32_t gb_single_place(double x, double units_per_d)
     return place;
 }
 
+/* Position along an edge (d) that the last one, up to half an edge away, has become where
+ * the place has become this one.  Only place and edge, and how often a particle has gone
+ * around, decide on its bits. */
+static inline double gb_single_follow(double last, int32_t place, double units_per_d,
+                                      double d_per_unit)
+{
+    const double sum = last * units_per_d + 0x1.8p52; /* as in gb_single_place */
+    const double whole = sum - 0x1.8p52;
+    uint64_t bits;
+    memcpy(&bits, &sum, sizeof bits);
+    const uint32_t wide = (uint32_t)place - (uint32_t)bits;
+    int32_t way;
+    memcpy(&way, &wide, sizeof way);
+    return (whole + (double)way) * d_per_unit;
+}
+
 /* Units of place in a d, along axis c of a cell. */
 static inline double gb_single_units(const struct gb_cell *cell, int c)
 {
     return 0x1p32 / cell->edge[c];
+}
+
+/* d in one. */
+static inline double gb_single_d(const struct gb_cell *cell, int c)
+{
+    return cell->edge[c] * 0x1p-32;
 }
 
 /* x_i - x_j as a sweep sees it. */

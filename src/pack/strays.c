@@ -1,6 +1,7 @@
 #include "pack/strays.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "pack/world_private.h"
 
@@ -53,15 +54,26 @@ enum gb_strays_list gb_strays_judge(const struct gb_world *world, double travel)
     return travel < sight_of(world).far ? GB_STRAYS_DOUBTED : GB_STRAYS_STALE;
 }
 
+/* Squared arm of pair k of particle i, also of a drive under way. */
+static double arm2_of(const struct gb_world *world, const struct gb_pair_list *list,
+                      int64_t i, int64_t k)
+{
+    double r[3], xj[3];
+    gb_world_at(world, i, r);
+    gb_world_at(world, list->other[k], xj);
+    gb_vec_add(r, -1.0, xj);
+    gb_vec_add(r, 1.0, world->shift[list->image[k]]);
+    return gb_vec_dot(r, r);
+}
+
 /* In the list, and with the image that is the nearest one now. */
 static bool holds(const struct gb_world *world, const struct gb_pair_list *list,
                   int64_t i, int64_t j, double squared)
 {
     const int64_t low = i < j ? i : j, high = i < j ? j : i;
     for (int64_t k = list->start[low]; k < list->start[low + 1]; k++) {
-        double r[3];
         if (list->other[k] == high) {
-            return gb_world_arm_of(world, list, low, k, r) <= squared + hair;
+            return arm2_of(world, list, low, k) <= squared + hair;
         }
     }
     return false;
@@ -85,10 +97,31 @@ struct crowd {
     int32_t who[CROWD];
 };
 
-/* Squared distance of nearest images. */
-static double nearest2(const struct gb_cell *cell, const double *xi, const double *xj)
+/* Squared way between two places, the shortest one around the cell. */
+static double place_way2(const struct gb_world *world, const int32_t from[3],
+                         const int32_t to[3])
 {
     double squared = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t wide = (uint32_t)to[k] - (uint32_t)from[k];
+        int32_t units;
+        memcpy(&units, &wide, sizeof units);
+        const double way = (double)units * gb_single_d(&world->cell, k);
+        squared += way * way;
+    }
+    return squared;
+}
+
+/* Squared distance of nearest images. */
+static double nearest2(const struct gb_world *world, int64_t i, int64_t j)
+{
+    const struct gb_cell *cell = &world->cell;
+    const double *xi = world->position + 3 * i, *xj = world->position + 3 * j;
+    double squared = 0.0;
+    if (world->in_single) {
+        return place_way2(world, world->single.spot[i].place,
+                          world->single.spot[j].place);
+    }
     for (int k = 0; k < 3; k++) {
         const double r = xi[k] - xj[k], edge = cell->edge[k];
         const double way = cell->periodic[k] ? r - edge * gb_cell_whole(r / edge) : r;
@@ -102,11 +135,10 @@ static void keep_near(const struct gb_world *world, int64_t i, struct crowd *cro
 {
     const double reach =
         world->pairs.largest + hair + world->model->numerics.cutoff - 1.0;
-    const double *x = world->position;
     int kept = 0;
     for (int k = 0; k < crowd->count; k++) {
         const int32_t j = crowd->who[k];
-        const double squared = nearest2(&world->cell, x + 3 * i, x + 3 * (int64_t)j);
+        const double squared = nearest2(world, i, j);
         crowd->who[kept] = j;
         kept += squared < reach * reach && j != i;
     }
@@ -136,8 +168,7 @@ static void look_at_pair(const struct gb_world *world, int64_t i, int64_t j,
     const double *d = world->diameter;
     const double touch = (d ? 0.5 * (d[i] + d[j]) : 1.0) + hair;
     const double reach = touch + world->model->numerics.cutoff - 1.0;
-    const double squared =
-        nearest2(&world->cell, world->position + 3 * i, world->position + 3 * j);
+    const double squared = nearest2(world, i, j);
     const bool touches = squared < touch * touch;
     if (squared < reach * reach && !holds(world, &world->pairs.near, i, j, squared) &&
         (touches || !holds(world, &world->pairs.far, i, j, squared))) {
@@ -161,9 +192,10 @@ static void home_at_build(const struct gb_world *world, int64_t i, int home[3])
 {
     struct gb_cell built = world->cell;
     double x[3];
+    gb_world_at(world, i, x);
     for (int k = 0; k < 3; k++) {
         built.edge[k] = world->pairs.built_edge[k];
-        x[k] = world->position[3 * i + k] / world->pairs.stretch[k];
+        x[k] /= world->pairs.stretch[k];
     }
     gb_cell_wrap(&built, x);
     gb_pairs_grid_home(&world->pairs.grid, x, home);
@@ -218,7 +250,8 @@ static void look_around(const struct gb_world *world, int64_t i, int span,
         const int32_t stop = pairs->head[run[r].last + 1];
         for (int32_t k = pairs->head[run[r].first]; k < stop; k++) {
             const int32_t j = pairs->next[k];
-            __builtin_prefetch(world->position + 3 * (int64_t)j);
+            __builtin_prefetch(world->in_single ? (const void *)&world->single.spot[j]
+                                                : world->position + 3 * (int64_t)j);
             crowd.who[crowd.count++] = j;
             if (crowd.count == CROWD) {
                 look_at_crowd(world, i, &crowd, missing);
@@ -229,12 +262,13 @@ static void look_around(const struct gb_world *world, int64_t i, int span,
 }
 
 /* Squared way of particle i since the build, beside the affine motion. */
-static double way2(const struct gb_pairs *pairs, const double *position, int64_t i)
+static double way2(const struct gb_world *world, int64_t i)
 {
-    double square = 0.0;
+    const struct gb_pairs *pairs = &world->pairs;
+    double square = 0.0, x[3];
+    gb_world_at(world, i, x);
     for (int k = 0; k < 3; k++) {
-        const double way =
-            position[3 * i + k] - pairs->built_at[3 * i + k] * pairs->stretch[k];
+        const double way = x[k] - pairs->built_at[3 * i + k] * pairs->stretch[k];
         square += way * way;
     }
     return square;
@@ -257,7 +291,7 @@ void gb_strays_look(const struct gb_world *world, int64_t begin, int64_t end,
             i += GB_SINGLE_FLOCK - 1;
             continue;
         }
-        const double square = way2(&world->pairs, world->position, i);
+        const double square = way2(world, i);
         if (square < fresh * fresh) {
             continue;
         }

@@ -444,7 +444,10 @@ bool gb_sweep_run(struct gb_world *world, double *travel)
     gb_pairs_shifts(&world->cell, world->shift);
     const int64_t blocks = gb_sweep_blocks(world->count);
     for (int c = 0; c < 3; c++) {
-        world->single.scale[c] = (float)(world->cell.edge[c] * 0x1p-32);
+        world->single.scale[c] = (float)gb_single_d(&world->cell, c);
+    }
+    if (!world->single.driven) {
+        gb_sweep_single_settle(world);
     }
     bool holds = false;
     world->single.bounded = world->single.bounded && world->single.driven;
@@ -453,6 +456,9 @@ bool gb_sweep_run(struct gb_world *world, double *travel)
         run_blocks(world, blocks, &holds);
     } else { /* a team of one would wait for itself */
         run_blocks(world, blocks, &holds);
+    }
+    if (!world->single.driven) {
+        world->single.ahead = GB_SINGLE_EVEN; /* prepared */
     }
     *travel = longest_travel(world, blocks);
     if (!holds) {

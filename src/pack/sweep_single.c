@@ -31,6 +31,42 @@ void gb_sweep_single_prepare(struct gb_world *world, int64_t begin, int64_t end)
     }
 }
 
+GB_SIMD_LOOP void follow_loop(double *restrict position, const struct gb_spot *spot,
+                              int64_t count, const double units[3], const double d[3])
+{
+    for (int64_t i = 0; i < count; i++) {
+        for (int c = 0; c < 3; c++) {
+            position[3 * i + c] =
+                gb_single_follow(position[3 * i + c], spot[i].place[c], units[c], d[c]);
+        }
+    }
+}
+GB_SIMD_WIDTHS(follow,
+               (double *position, const struct gb_spot *spot, int64_t count,
+                const double units[3], const double d[3]),
+               (position, spot, count, units, d))
+
+void gb_sweep_single_settle(struct gb_world *world)
+{
+    if (world->single.ahead != GB_SINGLE_PLACES) {
+        return;
+    }
+    const int64_t blocks = gb_sweep_blocks(world->count);
+    double units[3], d[3];
+    for (int c = 0; c < 3; c++) {
+        units[c] = gb_single_units(&world->cell, c);
+        d[c] = gb_single_d(&world->cell, c);
+    }
+#pragma omp parallel for num_threads(world->threads)                                     \
+    schedule(static) if (world->threads > 1)
+    for (int64_t b = 0; b < blocks; b++) {
+        const int64_t begin = gb_sweep_block_begin(world->count, b);
+        follow(world->position + 3 * begin, world->single.spot + begin,
+               gb_sweep_block_end(world->count, b) - begin, units, d);
+    }
+    world->single.ahead = GB_SINGLE_EVEN;
+}
+
 /* Columns of arms, and with turns of their sums and differences, of `count` pairs (at
  * most four) from place k of a batch on. */
 GB_ROW_INLINE void fill_four(const struct gb_single *single,

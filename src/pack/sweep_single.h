@@ -24,6 +24,9 @@ void gb_sweep_single_collect(struct gb_world *world, int64_t begin, int64_t end,
 void gb_sweep_single_recall(const struct gb_world *world, bool near, int64_t slot,
                             struct gb_batch_single *batch);
 
+/* Positions follow places; where nobody moved, nothing is done. */
+void gb_sweep_single_settle(struct gb_world *world);
+
 /* Forces and torques as doubles, for all but gb_drive_move; and back. */
 void gb_sweep_single_widen(struct gb_world *world);
 void gb_sweep_single_narrow(struct gb_world *world);

@@ -162,6 +162,7 @@ static bool rebuild(struct gb_world *world, const struct gb_ledger *ledger,
                     struct gb_error *err)
 {
     const int threads = world->threads;
+    gb_sweep_single_settle(world);
 #pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
     for (int64_t i = 0; i < world->count; i++) {
         gb_cell_wrap(&world->cell, world->position + 3 * i);
@@ -229,6 +230,7 @@ static bool evaluate(struct gb_world *world, struct gb_error *err)
     double travel = 0.0;
     world->state++;
     if (!world->listed) {
+        gb_sweep_single_settle(world);
         travel = gb_pairs_travel(&world->pairs, world->position, 0, world->count);
     }
     bool swept = world->listed && sweep(world, &travel);
@@ -258,6 +260,7 @@ static bool evaluate(struct gb_world *world, struct gb_error *err)
 bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
 {
     const bool done = evaluate(world, err);
+    gb_sweep_single_settle(world);
     gb_sweep_single_widen(world);
     return done;
 }
@@ -296,8 +299,16 @@ GB_SIMD_LOOP void scale_loop(double *restrict position, const double factor[3],
 GB_SIMD_WIDTHS(scale, (double *position, const double factor[3], int64_t count),
                (position, factor, count))
 
+/* For somebody who may move the particles. */
+static void hand_out(struct gb_world *world)
+{
+    gb_sweep_single_settle(world);
+    world->single.ahead = GB_SINGLE_POSITIONS;
+}
+
 void gb_world_strain(struct gb_world *world, const double factor[3])
 {
+    hand_out(world);
     for (int k = 0; k < 3; k++) {
         world->cell.edge[k] *= factor[k];
     }
@@ -306,8 +317,14 @@ void gb_world_strain(struct gb_world *world, const double factor[3])
     gb_pairs_strain(&world->pairs, factor);
 }
 
+void gb_world_settle(struct gb_world *world)
+{
+    gb_sweep_single_settle(world);
+}
+
 struct gb_bodies gb_world_bodies(struct gb_world *world)
 {
+    hand_out(world);
     gb_sweep_single_widen(world);
     return (struct gb_bodies){world->count, world->position, world->turn, world->force,
                               world->torque};
@@ -315,6 +332,7 @@ struct gb_bodies gb_world_bodies(struct gb_world *world)
 
 struct gb_bodies gb_world_movable(struct gb_world *world)
 {
+    hand_out(world);
     return (struct gb_bodies){
         .count = world->count, .position = world->position, .turn = world->turn};
 }
@@ -441,6 +459,7 @@ bool gb_world_restore(struct gb_world *world, const struct gb_world_copy *copy,
     memcpy(world->position, copy->position, n * sizeof *world->position);
     memset(world->turn, 0, n * sizeof *world->turn);
     world->single.driven = false;
+    world->single.ahead = GB_SINGLE_POSITIONS;
     return rebuild(world, &copy->ledger, err);
 }
 

@@ -40,9 +40,13 @@ bool gb_world_evaluate(struct gb_world *world, struct gb_error *err);
 
 /* The same, and the power of the forces along these velocities (count x 3 each), of the
  * particles and of their turns; in a world that drives (pack/drive.h) along its own.
- * What gb_world_bodies told of the forces before has to be asked anew. */
+ * What gb_world_bodies told before has to be asked anew, and the positions told otherwise
+ * lag behind until gb_world_settle. */
 bool gb_world_evaluate_along(struct gb_world *world, const double *velocity,
                              const double *spin, struct gb_error *err);
+
+/* Positions are those of the last motion or evaluation from here on. */
+void gb_world_settle(struct gb_world *world);
 
 /* Sums over the particles, of the last evaluation. */
 struct gb_world_sums {

@@ -93,6 +93,19 @@ static inline double gb_world_arm_of(const struct gb_world *world,
     return gb_vec_dot(r, r);
 }
 
+/* Where particle i is, be it that its position has not followed yet. */
+static inline void gb_world_at(const struct gb_world *world, int64_t i, double x[3])
+{
+    for (int c = 0; c < 3; c++) {
+        x[c] = world->position[3 * i + c];
+        if (world->single.ahead == GB_SINGLE_PLACES) {
+            x[c] = gb_single_follow(x[c], world->single.spot[i].place[c],
+                                    gb_single_units(&world->cell, c),
+                                    gb_single_d(&world->cell, c));
+        }
+    }
+}
+
 /* Reach of the attraction, d; 0: there is none. */
 static inline double gb_world_cutoff(const struct gb_world *world)
 {

@@ -202,6 +202,8 @@ static bool load_contacts(struct gb_world *world, struct gb_record *record,
 
 static bool load(struct gb_world *world, struct gb_record *record, struct gb_error *err)
 {
+    world->single.driven = false;
+    world->single.ahead = GB_SINGLE_POSITIONS;
     if (!load_lists(world, record, err) ||
         !gb_record_members(record, members, LENGTH(members), world, err) ||
         !check_edges(&world->cell, "world/edge", err) ||
@@ -252,6 +254,7 @@ static bool save_forces(const struct gb_world *world, struct gb_record *record,
 static bool save(struct gb_world *world, struct gb_record *record, struct gb_error *err)
 {
     struct gb_ledger *ledger = &world->spare;
+    gb_sweep_single_settle(world);
     gb_sweep_single_widen(world);
     return gb_ledger_write(ledger, world, false, err) &&
            gb_record_members(record, before, LENGTH(before), world, err) &&

@@ -143,8 +143,8 @@ bool gb_relax_evaluate(struct gb_relax *relax, struct gb_world *world,
                : gb_world_evaluate(world, err);
 }
 
-enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *world,
-                                       int64_t max_evaluations, struct gb_error *err)
+static enum gb_relax_outcome advance(struct gb_relax *relax, struct gb_world *world,
+                                     int64_t max_evaluations, struct gb_error *err)
 {
     for (int64_t slice = 0; slice < max_evaluations; slice++) {
         /* the move comes before the evaluation, except before the very first one */
@@ -165,6 +165,14 @@ enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *
         }
     }
     return GB_RELAX_MORE;
+}
+
+enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *world,
+                                       int64_t max_evaluations, struct gb_error *err)
+{
+    const enum gb_relax_outcome outcome = advance(relax, world, max_evaluations, err);
+    gb_world_settle(world);
+    return outcome;
 }
 
 bool gb_relax_record(struct gb_relax *relax, int64_t count, struct gb_record *record,

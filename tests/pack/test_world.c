@@ -392,6 +392,21 @@ static void evaluate_or_meet(struct gb_world *world)
     }
 }
 
+/* Longest way since the lists were built, also of a drive that nobody has settled. */
+static double travel_of(const struct gb_world *world)
+{
+    double longest = 0.0;
+    for (int64_t i = 0; i < world->count; i++) {
+        double way[3];
+        gb_world_at(world, i, way);
+        for (int c = 0; c < 3; c++) {
+            way[c] -= world->pairs.built_at[3 * i + c] * world->pairs.stretch[c];
+        }
+        longest = fmax(longest, gb_vec_length(way));
+    }
+    return longest;
+}
+
 /* The same of a world that drives its particles itself: one in 41 at such a pace (d). */
 static void check_driven(double pace, int *outlived, int64_t *amended)
 {
@@ -412,8 +427,7 @@ static void check_driven(double pace, int *outlived, int64_t *amended)
                 (float)(way * g_rand_double_range(dice, -0.5, 1.0));
         }
         gb_drive_move(world, &by, NULL);
-        const double travel =
-            gb_pairs_travel(pairs, gb_world_position(world), 0, pairs->count);
+        const double travel = travel_of(world);
         evaluate_or_meet(world);
         *outlived +=
             gb_world_rebuilds(world) == before && 2.0 * travel >= model.numerics.skin;
@@ -612,6 +626,106 @@ static void test_forces(const void *data)
     check_forces(precision->setting, "particles.count=300", "contact.mu=0.1");
     check_forces(precision->setting, "contact.bridge_radius=current", "contact.mu=0.1");
     check_forces(precision->setting, "contact.normal=hertz", "contact.mu=0.05");
+}
+
+/* A drive at random velocities and the evaluation after it. */
+static void drive_anywhere(struct gb_world *world, GRand *dice)
+{
+    const struct gb_drive by = {.keep = 1.0, .step = 1.0, .inertia = 0.4, .most = 1.0};
+    struct gb_error err = {0};
+    for (int64_t k = 0; k < 3 * world->count; k++) {
+        world->single.velocity[k] = (float)g_rand_double_range(dice, -5e-3, 5e-3);
+        world->single.spin[k] = (float)g_rand_double_range(dice, -5e-3, 5e-3);
+    }
+    gb_drive_move(world, &by, NULL);
+    if (!gb_world_evaluate_along(world, NULL, NULL, &err)) {
+        g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
+    }
+}
+
+/* Whether and when positions follow the places changes no bit: in three worlds on the
+ * same way they follow at the end only, after every evaluation, or somebody asks for them
+ * who might move the particles; a fourth one is loaded from the first on the way. */
+static void test_settled(void)
+{
+    const struct gb_params params =
+        scene_params("particles.count=600", "numerics.precision=single", NULL);
+    const struct gb_model model = scene_model(&params);
+    struct gb_world *world[4];
+    struct gb_world_copy *copy = NULL;
+    struct gb_record record = {0};
+    struct gb_error err = {0};
+    GRand *dice[4];
+    for (int w = 0; w < 4; w++) {
+        dice[w] = g_rand_new_with_seed(23);
+        world[w] = scene_world(&model);
+    }
+    scene_press(world[0], 120, 10, 2.0);
+    g_assert_true(gb_world_save(world[0], &copy, &err));
+    for (int w = 0; w < 3; w++) {
+        g_assert_true(gb_world_restore(world[w], copy, &err));
+        scene_evaluate(world[w]);
+        gb_drive_rest(world[w]);
+    }
+    for (int step = 0; step < 60; step++) {
+        const double factor[3] = {1.0, 0.9995, 0.9995};
+        if (step == 30) {
+            g_assert_true(gb_world_record(world[0], &record, &err));
+            record.loading = true;
+            g_assert_true(gb_world_record(world[3], &record, &err));
+            g_rand_free(dice[3]);
+            dice[3] = g_rand_copy(dice[0]);
+        }
+        for (int w = 0; w < (step < 30 ? 3 : 4); w++) {
+            if (step % 10 == 5) {
+                gb_world_strain(world[w], factor);
+                g_assert_true(gb_world_evaluate_along(world[w], NULL, NULL, &err));
+            }
+            drive_anywhere(world[w], dice[w]);
+        }
+        gb_world_settle(world[1]);
+        (void)gb_world_bodies(world[2]);
+    }
+    for (int w = 0; w < 4; w++) {
+        gb_world_settle(world[w]);
+        g_assert_cmpuint(gb_world_hash(world[w]), ==, gb_world_hash(world[0]));
+    }
+    g_assert_cmpint(gb_world_rebuilds(world[0]), >, 2);
+    for (int w = 0; w < 4; w++) {
+        g_rand_free(dice[w]);
+        gb_world_destroy(world[w]);
+    }
+    gb_record_finish(&record);
+    gb_world_copy_destroy(copy);
+}
+
+/* Whom somebody moves by hand between an evaluation and a drive goes on from there; to
+ * half a unit of place. */
+static void test_moved_by_hand(void)
+{
+    const struct gb_params params =
+        scene_params("particles.count=300", "numerics.precision=single", NULL);
+    const struct gb_model model = scene_model(&params);
+    const struct gb_drive by = {.keep = 1.0, .step = 1.0, .inertia = 0.4, .most = 1.0};
+    struct gb_world *world = scene_world(&model);
+    scene_evaluate(world);
+    gb_drive_rest(world);
+    gb_drive_move(world, &by, NULL);
+    scene_evaluate(world);
+    double *position = gb_world_bodies(world).position;
+    double *before = g_memdup2(position, 3 * (size_t)model.count * sizeof *before);
+    position[3 * 17 + 1] += 0.02;
+    world->single.velocity[3 * 17 + 1] = 0.01F;
+    world->single.velocity[3 * 18 + 2] = -0.01F;
+    gb_drive_move(world, &by, NULL);
+    gb_world_settle(world);
+    for (int64_t k = 0; k < 3 * model.count; k++) {
+        const double way = k == 3 * 17 + 1 ? 0.03 : k == 3 * 18 + 2 ? -0.01 : 0.0;
+        g_assert_cmpfloat_with_epsilon(gb_world_position(world)[k] - before[k], way,
+                                       1e-8);
+    }
+    g_free(before);
+    gb_world_destroy(world);
 }
 
 /* Contacts of every particle, against what its distances say. */
@@ -1002,6 +1116,8 @@ int main(int argc, char **argv)
     g_test_add_func("/world/pairs", test_pairs);
     g_test_add_func("/world/strays", test_strays);
     g_test_add_func("/world/strays-driven", test_strays_driven);
+    g_test_add_func("/world/settled", test_settled);
+    g_test_add_func("/world/moved-by-hand", test_moved_by_hand);
     g_test_add_func("/world/amended", test_amended);
     g_test_add_func("/world/amended-full", test_amended_full);
     g_test_add_func("/world/amended-memory", test_amended_memory);
