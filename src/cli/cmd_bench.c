@@ -19,7 +19,9 @@ static const struct gb_options_page page = {
         "the bed of P3 at 50 MPa in its die.",
     .description =
         "Without a preset: 8000 particles of 9.7 nm with bridges (P1, set II).\n"
-        "The times are medians of 15 batches of 24 evaluations.",
+        "The times are medians of 15 batches of 24 evaluations; those of several sizes "
+        "are\n"
+        "taken in turn, in 5 rounds of 9 batches or more.",
 };
 
 struct line {
@@ -94,7 +96,7 @@ static bool report_terms(const struct gb_params *params, double coordination,
 enum { SIZES_MOST = 16 };
 
 /* "1000, 8000": 2 to 16 numbers of particles. */
-static bool read_sizes(const char *text, int64_t *count, size_t *sizes,
+static bool read_sizes(const char *text, struct gb_bench_size *size, size_t *sizes,
                        struct gb_error *err)
 {
     char **parts = g_strsplit(text, ",", SIZES_MOST + 1);
@@ -102,8 +104,8 @@ static bool read_sizes(const char *text, int64_t *count, size_t *sizes,
     *sizes = 0;
     for (char **part = parts; *part && good; part++) {
         good = g_ascii_string_to_signed(g_strstrip(*part), 10, 10, 10000000,
-                                        &count[*sizes], NULL) &&
-               (*sizes == 0 || count[*sizes] > count[*sizes - 1]);
+                                        &size[*sizes].count, NULL) &&
+               (*sizes == 0 || size[*sizes].count > size[*sizes - 1].count);
         ++*sizes;
     }
     g_strfreev(parts);
@@ -113,42 +115,50 @@ static bool read_sizes(const char *text, int64_t *count, size_t *sizes,
                                 text, SIZES_MOST);
 }
 
-/* How the cost of an evaluation grows with the size of the cell. */
-static bool report_sizes(const struct gb_params *params, const char *text,
-                         double coordination, gboolean csv, struct gb_error *err)
+/* What is done, on stderr. */
+static void tell(void *data, int64_t count, int round)
 {
-    int64_t count[SIZES_MOST];
-    double particles[SIZES_MOST], one[SIZES_MOST], all[SIZES_MOST];
-    size_t sizes = 0;
-    if (!read_sizes(text, count, &sizes, err)) {
-        return false;
+    const int64_t *last = data;
+    if (round == 0) {
+        fprintf(stderr, "%lld particles: pressed\n", (long long)count);
+    } else if (count == *last) {
+        fprintf(stderr, "round %d of %d\n", round, GB_BENCH_ROUNDS);
     }
+}
+
+static void print_sizes(const struct gb_bench_size *size, size_t sizes, gboolean csv)
+{
+    double particles[SIZES_MOST], one[SIZES_MOST], all[SIZES_MOST];
+    puts(csv ? "particles,coordination,one_core_us,all_cores_us,bytes"
+             : " particles   coordination   one core   all cores, us   bytes a particle");
     for (size_t i = 0; i < sizes; i++) {
-        struct gb_params sized = *params;
-        struct gb_bench_size size;
-        sized.count = count[i];
-        if (!gb_bench_size_run(&size, &sized, coordination, err)) {
-            return false;
-        }
-        if (i == 0) { /* nothing is begun where the scene is refused */
-            puts(csv ? "particles,coordination,one_core_us,all_cores_us,bytes"
-                     : " particles   coordination   one core   all cores, us   bytes a "
-                       "particle");
-        }
-        particles[i] = (double)count[i];
-        one[i] = size.evaluation_s;
-        all[i] = size.evaluation_all_s;
+        particles[i] = (double)size[i].count;
+        one[i] = size[i].evaluation_s;
+        all[i] = size[i].evaluation_all_s;
         const double micro = 1e6 / particles[i];
         printf(csv ? "%.0f,%.4g,%.5g,%.5g,%.5g\n"
                    : "%10.0f   %12.4g   %8.4g   %13.4g   %16.4g\n",
-               particles[i], size.coordination, micro * one[i], micro * all[i],
-               size.bytes_per_particle);
-        fflush(stdout);
+               particles[i], size[i].coordination, micro * one[i], micro * all[i],
+               size[i].bytes_per_particle);
     }
     printf(csv ? "exponent,,%.4f,%.4f,\n"
                : "cost grows with the power   %11.3f   %13.3f\n",
            gb_bench_exponent(particles, one, sizes),
            gb_bench_exponent(particles, all, sizes));
+}
+
+/* How the cost of an evaluation grows with the size of the cell. */
+static bool report_sizes(const struct gb_params *params, const char *text,
+                         double coordination, gboolean csv, struct gb_error *err)
+{
+    struct gb_bench_size size[SIZES_MOST];
+    size_t sizes = 0;
+    if (!read_sizes(text, size, &sizes, err) ||
+        !gb_bench_growth_run(size, sizes, params, coordination, tell,
+                             &size[sizes - 1].count, err)) {
+        return false;
+    }
+    print_sizes(size, sizes, csv);
     return true;
 }
 

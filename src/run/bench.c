@@ -1,7 +1,6 @@
 #include "run/bench.h"
 
 #include <gsl/gsl_fit.h>
-#include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
 #include <math.h>
 #include <string.h>
@@ -22,6 +21,11 @@
 /* Batches timed, and evaluations in each: the median of the batches is what counts,
  * because other work on the machine comes and goes. */
 enum { BATCHES = 15, BATCH = 24 };
+
+/* Batches of a round among several, and how long (s) a cell is timed in it at least: of a
+ * small one a few batches say little. */
+enum { ROUND_BATCHES = 9 };
+static const double round_s = 0.2;
 
 /* Strain steps on the way to the wanted coordination number, and where to give up. */
 static const double press_step = 0.01, bench_step = 0.001;
@@ -84,13 +88,13 @@ static bool press(struct gb_world *world, struct gb_relax *relax, double coordin
 
 /* Median time of one evaluation with its move.  The tolerance is out of reach, so that
  * every batch has its full length. */
-static bool time_batches(struct gb_world *world, struct gb_relax *relax, double *median,
-                         struct gb_error *err)
+static bool time_batches(struct gb_world *world, struct gb_relax *relax, int batches,
+                         double *median, struct gb_error *err)
 {
     double seconds[BATCHES];
     const bool one_core = gb_world_model(world)->numerics.threads == 1;
     relax->tolerance = 0.0;
-    for (int batch = 0; batch < BATCHES; batch++) {
+    for (int batch = 0; batch < batches; batch++) {
         squeeze(world, relax, bench_step);
         const double start = now(one_core);
         if (gb_relax_advance(relax, world, BATCH, err) == GB_RELAX_FAILED) {
@@ -98,13 +102,12 @@ static bool time_batches(struct gb_world *world, struct gb_relax *relax, double 
         }
         seconds[batch] = (now(one_core) - start) / BATCH;
     }
-    gsl_sort(seconds, 1, BATCHES);
-    *median = gsl_stats_median_from_sorted_data(seconds, 1, BATCHES);
+    *median = gsl_stats_median(seconds, 1, (size_t)batches);
     return true;
 }
 
 /* The same batches on another number of threads, from the same state. */
-static bool time_on(const struct gb_model *model, int threads,
+static bool time_on(const struct gb_model *model, int threads, int batches,
                     const struct gb_world_copy *copy, const double *position,
                     double *median, uint64_t *hash, struct gb_error *err)
 {
@@ -115,7 +118,7 @@ static bool time_on(const struct gb_model *model, int threads,
     const bool done = gb_world_create(&world, &threaded, position, err) &&
                       gb_relax_create(&relax, &threaded, err) &&
                       gb_world_restore(world, copy, err) &&
-                      time_batches(world, relax, median, err);
+                      time_batches(world, relax, batches, median, err);
     *hash = done ? gb_world_hash(world) : 0;
     gb_relax_destroy(relax);
     gb_world_destroy(world);
@@ -161,15 +164,15 @@ static void finish_pressed(struct pressed *pressed)
 }
 
 /* On one core and on all of them; did both come to the same bits? */
-static bool time_cores(const struct pressed *pressed, double *one, double *all,
-                       bool *same_bits, struct gb_error *err)
+static bool time_cores(const struct pressed *pressed, int batches, double *one,
+                       double *all, bool *same_bits, struct gb_error *err)
 {
     const double *position = gb_world_position(pressed->world);
     uint64_t hash_one = 0, hash_all = 0;
-    const bool done =
-        time_on(&pressed->model, 1, pressed->copy, position, one, &hash_one, err) &&
-        time_on(&pressed->model, (int)g_get_num_processors(), pressed->copy, position,
-                all, &hash_all, err);
+    const bool done = time_on(&pressed->model, 1, batches, pressed->copy, position, one,
+                              &hash_one, err) &&
+                      time_on(&pressed->model, (int)g_get_num_processors(), batches,
+                              pressed->copy, position, all, &hash_all, err);
     *same_bits = hash_one == hash_all;
     return done;
 }
@@ -180,8 +183,8 @@ bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
     struct pressed pressed;
     *bench = (struct gb_bench){.cores = (int)g_get_num_processors()};
     const bool done = make_pressed(&pressed, params, coordination, err) &&
-                      time_cores(&pressed, &bench->evaluation_s, &bench->evaluation_all_s,
-                                 &bench->same_bits, err) &&
+                      time_cores(&pressed, BATCHES, &bench->evaluation_s,
+                                 &bench->evaluation_all_s, &bench->same_bits, err) &&
                       gb_bench_state_run(&bench->state, params, pressed.copy, err);
     if (done) {
         bench->grow_s = pressed.grow_s;
@@ -193,19 +196,78 @@ bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
     return done;
 }
 
-bool gb_bench_size_run(struct gb_bench_size *size, const struct gb_params *params,
-                       double coordination, struct gb_error *err)
-{
+/* One of several sizes, and its times so far. */
+struct growing {
     struct pressed pressed;
-    bool same_bits = false;
-    const bool done = make_pressed(&pressed, params, coordination, err) &&
-                      time_cores(&pressed, &size->evaluation_s, &size->evaluation_all_s,
-                                 &same_bits, err);
-    size->coordination = pressed.coordination;
-    size->bytes_per_particle = (double)pressed.bytes / (double)params->count;
-    finish_pressed(&pressed);
-    return done && (same_bits || gb_error_set(err, GB_ERR_GUARD,
-                                              "other bits on one core than on all"));
+    GArray *one, *all; /* of double, s */
+};
+
+static bool press_size(struct growing *growing, struct gb_bench_size *size,
+                       const struct gb_params *params, double coordination,
+                       struct gb_error *err)
+{
+    struct gb_params sized = *params;
+    sized.count = size->count;
+    const bool done = make_pressed(&growing->pressed, &sized, coordination, err);
+    size->coordination = growing->pressed.coordination;
+    size->bytes_per_particle = (double)growing->pressed.bytes / (double)size->count;
+    return done;
+}
+
+static bool time_round(struct growing *growing, struct gb_error *err)
+{
+    const gint64 start = g_get_monotonic_time();
+    do {
+        double one, all;
+        bool same_bits;
+        if (!time_cores(&growing->pressed, ROUND_BATCHES, &one, &all, &same_bits, err)) {
+            return false;
+        }
+        if (!same_bits) {
+            return gb_error_set(err, GB_ERR_GUARD, "other bits on one core than on all");
+        }
+        g_array_append_val(growing->one, one);
+        g_array_append_val(growing->all, all);
+    } while (seconds_since(start) < round_s);
+    return true;
+}
+
+static double median_of(GArray *seconds)
+{
+    return gsl_stats_median((double *)(void *)seconds->data, 1, seconds->len);
+}
+
+bool gb_bench_growth_run(struct gb_bench_size *size, size_t sizes,
+                         const struct gb_params *params, double coordination,
+                         gb_bench_tell *tell, void *data, struct gb_error *err)
+{
+    struct growing *growing = g_new0(struct growing, sizes);
+    bool done = true;
+    for (size_t i = 0; i < sizes; i++) {
+        growing[i].one = g_array_new(FALSE, FALSE, sizeof(double));
+        growing[i].all = g_array_new(FALSE, FALSE, sizeof(double));
+    }
+    for (int round = 0; round <= GB_BENCH_ROUNDS; round++) {
+        for (size_t i = 0; i < sizes && done; i++) {
+            done = round == 0
+                       ? press_size(&growing[i], &size[i], params, coordination, err)
+                       : time_round(&growing[i], err);
+            if (done && tell) {
+                tell(data, size[i].count, round);
+            }
+        }
+    }
+    for (size_t i = 0; i < sizes; i++) {
+        if (done) {
+            size[i].evaluation_s = median_of(growing[i].one);
+            size[i].evaluation_all_s = median_of(growing[i].all);
+        }
+        finish_pressed(&growing[i].pressed);
+        g_array_unref(growing[i].one);
+        g_array_unref(growing[i].all);
+    }
+    g_free(growing);
+    return done;
 }
 
 double gb_bench_exponent(const double *count, const double *cost, size_t n)
@@ -273,7 +335,7 @@ static bool time_variant(const struct gb_world *pressed, const struct gb_params 
     memcpy(model.edges, gb_world_cell(pressed)->edge, sizeof model.edges);
     const bool done = gb_world_create(&world, &model, gb_world_position(pressed), err) &&
                       gb_relax_create(&relax, &model, err) &&
-                      time_batches(world, relax, median, err);
+                      time_batches(world, relax, BATCHES, median, err);
     gb_relax_destroy(relax);
     gb_world_destroy(world);
     return done;

@@ -28,15 +28,28 @@ struct gb_bench {
 bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
                   double coordination, struct gb_error *err);
 
-/* How the cost grows with the size of the cell: the packing of params, of its own count,
- * timed as by gb_bench_run. */
+/* A cell of so many particles among others, timed as by gb_bench_run. */
 struct gb_bench_size {
+    int64_t count;
     double coordination;
     double evaluation_s, evaluation_all_s; /* as above */
     double bytes_per_particle;
 };
-bool gb_bench_size_run(struct gb_bench_size *size, const struct gb_params *params,
-                       double coordination, struct gb_error *err);
+
+/* Told when a cell of so many particles has been pressed (round 0), and when it has been
+ * timed in a round. */
+enum { GB_BENCH_ROUNDS = 5 };
+typedef void gb_bench_tell(void *data, int64_t count, int round);
+
+/* How the cost grows with the size of the cell: the packing of params with other numbers
+ * of particles.  All of them are timed in turn, round by round, as other work on the
+ * machine comes and goes and would slow some of them only; medians over the rounds.
+ *
+ * size   sizes of them, with their counts
+ * tell   NULL: nobody */
+bool gb_bench_growth_run(struct gb_bench_size *size, size_t sizes,
+                         const struct gb_params *params, double coordination,
+                         gb_bench_tell *tell, void *data, struct gb_error *err);
 
 /* b of cost ~ count^b, by least squares of the logarithms over n sizes (2 or more). */
 double gb_bench_exponent(const double *count, const double *cost, size_t n);
