@@ -80,11 +80,13 @@ static bool check_options(const struct request *request,
     if (request->densities != NULL && strcmp(figure->name, "rate") != 0) {
         return gb_error_set(err, GB_ERR_INPUT, "--density is for the figure rate");
     }
-    const bool at_pressure =
-        strcmp(figure->name, "size-effect") == 0 || strcmp(figure->name, "sweep") == 0;
+    const bool at_pressure = strcmp(figure->name, "size-effect") == 0 ||
+                             strcmp(figure->name, "sweep") == 0 ||
+                             strcmp(figure->name, "chart-error") == 0;
     if (request->pressure != NULL && !at_pressure) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "--pressure is for the figures size-effect and sweep");
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--pressure is for the figures size-effect, sweep and chart-error");
     }
     if (request->at != NULL && figure->takes != GB_FIGURES_STATES) {
         return gb_error_set(err, GB_ERR_INPUT,
@@ -317,7 +319,9 @@ int gb_cmd_plot(int argc, char **argv)
         {"density", 0, 0, G_OPTION_ARG_STRING, &request.densities,
          "rate: densities at which pressures are compared", "RHO,RHO..."},
         {"pressure", 0, 0, G_OPTION_ARG_STRING, &request.pressure,
-         "size-effect, sweep: where densities are compared (100 MPa)", "P"},
+         "size-effect, sweep: where densities are compared (100 MPa); chart-error: of "
+         "errors (the last one)",
+         "P"},
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
          "rdf, force-angle, sizes: a kept state, as \"p=500 MPa\" (the last)", "POINT"},
         {0},

@@ -260,6 +260,8 @@ static const struct gb_figures_row figures[] = {
      GB_FIGURES_SCENE, "p3-pair", gb_figures_pair_step},
     {"chart", "error against cost of numerical choices, from greenbody chart",
      GB_FIGURES_TABLE, NULL, gb_figures_chart},
+    {"chart-error", "error at one pressure, with the scatter, against evaluations",
+     GB_FIGURES_TABLE, NULL, gb_figures_chart_error},
     {0},
 };
 

@@ -6,32 +6,91 @@
 
 #include "base/table.h"
 
-/* What the figure needs of chart.csv. */
+/* What a figure needs of chart.csv. */
 struct chart {
     struct gb_table *table;
     const double *particles, *bound, *cost, *front, *chosen;
+    /* at one pressure */
+    const double *evaluations, *reference, *seeds, *error, *error_se, *scatter;
 };
 
-static bool read_chart(struct chart *chart, const char *place, struct gb_error *err)
+/* A column that a figure needs, and where it goes. */
+struct wanted {
+    const char *name;
+    const double **column;
+};
+
+static bool find_columns(const struct chart *chart, const struct wanted *wanted,
+                         size_t count, struct gb_error *err)
 {
-    const struct {
-        const char *name;
-        const double **column;
-    } columns[] = {{"particles", &chart->particles},
-                   {"bound", &chart->bound},
-                   {"cpu_s", &chart->cost},
-                   {"front", &chart->front},
-                   {"chosen", &chart->chosen}};
+    bool good = true;
+    for (size_t k = 0; k < count && good; k++) {
+        *wanted[k].column = gb_table_column(chart->table, wanted[k].name, err);
+        good = *wanted[k].column != NULL;
+    }
+    return good;
+}
+
+/* The table of the one place that the words name. */
+static bool open_chart(struct chart *chart, const struct gb_figures_input *input,
+                       struct gb_error *err)
+{
+    const char *place = input->words[0];
+    if (place == NULL || input->words[1] != NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "the figure chart, or chart-error, takes one directory of "
+                            "`greenbody chart`");
+    }
     char *path = g_file_test(place, G_FILE_TEST_IS_DIR)
                      ? g_build_filename(place, "chart.csv", NULL)
                      : g_strdup(place);
-    bool good = gb_table_read(&chart->table, path, "relaxer", err);
-    for (size_t k = 0; k < G_N_ELEMENTS(columns) && good; k++) {
-        *columns[k].column = gb_table_column(chart->table, columns[k].name, err);
-        good = *columns[k].column != NULL;
-    }
+    const bool good = gb_table_read(&chart->table, path, "relaxer", err);
     g_free(path);
-    return good;
+    const struct wanted wanted[] = {{"particles", &chart->particles}};
+    return good && find_columns(chart, wanted, G_N_ELEMENTS(wanted), err);
+}
+
+/* Pressure of a column of errors, as the table spells it; NULL: it is another column. */
+static const char *pressure_of(const char *column)
+{
+    static const char *const head = "error_";
+    const char *text = column + strlen(head);
+    return g_str_has_prefix(column, head) && g_str_has_suffix(column, "MPa") &&
+                   g_ascii_isdigit(*text)
+               ? text
+               : NULL;
+}
+
+/* Name of the column of errors at a pressure, 0: at the last one; NULL: there is none. */
+static const char *find_pressure(const struct chart *chart, double wanted_pa)
+{
+    const char *found = NULL, *name;
+    for (size_t k = 0; (name = gb_table_name(chart->table, k)) != NULL; k++) {
+        const char *text = pressure_of(name);
+        const double pa = text ? 1e6 * g_ascii_strtod(text, NULL) : (double)NAN;
+        if (text && (wanted_pa == 0.0 || fabs(pa - wanted_pa) <= 1e-5 * wanted_pa)) {
+            found = text;
+        }
+    }
+    return found;
+}
+
+static bool refuse_pressure(const struct chart *chart, double wanted_pa,
+                            struct gb_error *err)
+{
+    GString *known = g_string_new(NULL);
+    const char *name;
+    for (size_t k = 0; (name = gb_table_name(chart->table, k)) != NULL; k++) {
+        const char *text = pressure_of(name);
+        if (text) {
+            g_string_append_printf(known, "%s%.*s MPa", known->len > 0 ? ", " : "",
+                                   (int)(strlen(text) - strlen("MPa")), text);
+        }
+    }
+    gb_error_set(err, GB_ERR_INPUT, "--pressure %g MPa: accepted those of the chart: %s",
+                 wanted_pa / 1e6, known->len > 0 ? known->str : "it has none");
+    g_string_free(known, TRUE);
+    return false;
 }
 
 /* Whether row k is of the same relaxer and cell as row i. */
@@ -59,6 +118,25 @@ static void draw_kind(struct gb_series *series, const struct chart *chart, size_
              gb_table_word(chart->table, first), chart->particles[first]);
     if (filled > 0) {
         gb_series_draw(series, cost, bound, NULL, GB_FIGURE_POINTS, style, label);
+    }
+}
+
+typedef void draw_of_kind(struct gb_series *series, const struct chart *chart,
+                          size_t first, int style);
+
+/* Every relaxer and cell in turn. */
+static void draw_kinds(struct gb_series *series, const struct chart *chart,
+                       draw_of_kind *draw)
+{
+    int style = 0;
+    for (size_t i = 0; i < gb_table_rows(chart->table); i++) {
+        bool seen = false;
+        for (size_t k = 0; k < i && !seen; k++) {
+            seen = is_kind(chart, k, i);
+        }
+        if (!seen) {
+            draw(series, chart, i, style++);
+        }
     }
 }
 
@@ -101,20 +179,11 @@ static void draw_chosen(struct gb_series *series, const struct chart *chart)
 
 static void fill(struct gb_series *series, const struct chart *chart)
 {
-    int style = 0;
     gb_series_axes(series, "cpu_s", "processor time of one cell (s)", "bound_points",
                    "error of the density (points)");
     series->x.log = series->y.log = true;
     draw_front(series, chart);
-    for (size_t i = 0; i < series->rows; i++) {
-        bool seen = false;
-        for (size_t k = 0; k < i && !seen; k++) {
-            seen = is_kind(chart, k, i);
-        }
-        if (!seen) {
-            draw_kind(series, chart, i, style++);
-        }
-    }
+    draw_kinds(series, chart, draw_kind);
     draw_chosen(series, chart);
     gb_series_say(series, "Largest |error| and standard error over the pressures. Thin "
                           "line: nothing costs less and errs less.");
@@ -124,15 +193,126 @@ bool gb_figures_chart(struct gb_series *series, const struct gb_figures_input *i
                       struct gb_error *err)
 {
     struct chart chart = {0};
-    if (input->words[0] == NULL || input->words[1] != NULL) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "the figure chart takes one directory of `greenbody chart`");
-    }
-    const bool good = read_chart(&chart, input->words[0], err);
+    const struct wanted wanted[] = {{"bound", &chart.bound},
+                                    {"cpu_s", &chart.cost},
+                                    {"front", &chart.front},
+                                    {"chosen", &chart.chosen}};
+    const bool good = open_chart(&chart, input, err) &&
+                      find_columns(&chart, wanted, G_N_ELEMENTS(wanted), err);
     if (good) {
         gb_series_init(series, gb_table_rows(chart.table));
         fill(series, &chart);
     }
+    gb_table_destroy(chart.table);
+    return good;
+}
+
+/* Of one cell of the reference's size, from all rows with such cells. */
+static double pooled_scatter(const struct chart *chart)
+{
+    const size_t rows = gb_table_rows(chart->table);
+    double count = NAN, sum = 0.0, weight = 0.0;
+    for (size_t k = 0; k < rows; k++) {
+        count = chart->reference[k] == 1.0 ? chart->particles[k] : count;
+    }
+    for (size_t k = 0; k < rows; k++) {
+        if (chart->particles[k] == count && chart->seeds[k] > 1.0 &&
+            isfinite(chart->scatter[k])) {
+            sum += (chart->seeds[k] - 1.0) * chart->scatter[k] * chart->scatter[k];
+            weight += chart->seeds[k] - 1.0;
+        }
+    }
+    return weight > 0.0 ? sqrt(sum / weight) : (double)NAN;
+}
+
+/* What one cell scatters by, above and below no error, over all costs. */
+static void draw_scatter(struct gb_series *series, const struct chart *chart)
+{
+    double *cost = gb_series_column(series, "scatter_evaluations");
+    double *middle = gb_series_column(series, "scatter_middle");
+    double *scatter = gb_series_column(series, "scatter_points");
+    double ends[2] = {INFINITY, -INFINITY};
+    for (size_t k = 0; k < gb_table_rows(chart->table); k++) {
+        if (isfinite(chart->error[k])) {
+            ends[0] = fmin(ends[0], chart->evaluations[k]);
+            ends[1] = fmax(ends[1], chart->evaluations[k]);
+        }
+    }
+    const double width = 100.0 * pooled_scatter(chart);
+    if (!isfinite(width) || !(ends[1] > ends[0])) {
+        return;
+    }
+    for (int end = 0; end < 2; end++) {
+        cost[end] = ends[end];
+        middle[end] = 0.0;
+        scatter[end] = width;
+    }
+    gb_series_draw(series, cost, middle, scatter, GB_FIGURE_FAINT, 3, NULL);
+    gb_series_say(series, "Band: scatter of one cell, %.2g points.", width);
+}
+
+static void draw_errors(struct gb_series *series, const struct chart *chart, size_t first,
+                        int style)
+{
+    char label[80];
+    double *cost = gb_series_column(series, "evaluations_%d", style + 1);
+    double *error = gb_series_column(series, "error_%d_points", style + 1);
+    double *error_se = gb_series_column(series, "error_%d_se_points", style + 1);
+    size_t filled = 0;
+    for (size_t k = first; k < gb_table_rows(chart->table); k++) {
+        if (is_kind(chart, first, k) && isfinite(chart->error[k]) &&
+            chart->reference[k] != 1.0) {
+            cost[filled] = chart->evaluations[k];
+            error_se[filled] = 100.0 * chart->error_se[k];
+            error[filled++] = 100.0 * chart->error[k];
+        }
+    }
+    snprintf(label, sizeof label, "%.40s, <i>N</i> = %g",
+             gb_table_word(chart->table, first), chart->particles[first]);
+    if (filled > 0) {
+        gb_series_draw(series, cost, error, error_se, GB_FIGURE_POINTS, style, label);
+    }
+}
+
+bool gb_figures_chart_error(struct gb_series *series,
+                            const struct gb_figures_input *input, struct gb_error *err)
+{
+    struct chart chart = {0};
+    if (!open_chart(&chart, input, err)) {
+        gb_table_destroy(chart.table);
+        return false;
+    }
+    const char *pressure = find_pressure(&chart, input->pressure_pa);
+    if (!pressure) {
+        refuse_pressure(&chart, input->pressure_pa, err);
+        gb_table_destroy(chart.table);
+        return false;
+    }
+    char *error = g_strconcat("error_", pressure, NULL);
+    char *error_se = g_strconcat("error_se_", pressure, NULL);
+    char *scatter = g_strconcat("scatter_", pressure, NULL);
+    const struct wanted wanted[] = {{"evaluations", &chart.evaluations},
+                                    {"reference", &chart.reference},
+                                    {"seeds", &chart.seeds},
+                                    {error, &chart.error},
+                                    {error_se, &chart.error_se},
+                                    {scatter, &chart.scatter}};
+    const bool good = find_columns(&chart, wanted, G_N_ELEMENTS(wanted), err);
+    if (good) {
+        gb_series_init(series, gb_table_rows(chart.table));
+        gb_series_axes(series, "evaluations", "force evaluations of one cell",
+                       "error_points", "error of the density (points)");
+        series->x.log = true;
+        gb_series_say(series,
+                      "At %g MPa, against the reference with the same seeds; "
+                      "bars: standard error.",
+                      g_ascii_strtod(pressure, NULL));
+        draw_scatter(series, &chart);
+        draw_kinds(series, &chart, draw_errors);
+    }
+    g_free(error);
+    g_free(error_se);
+    g_free(scatter);
     gb_table_destroy(chart.table);
     return good;
 }

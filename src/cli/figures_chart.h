@@ -8,4 +8,9 @@
 bool gb_figures_chart(struct gb_series *series, const struct gb_figures_input *input,
                       struct gb_error *err);
 
+/* Error at one pressure with its standard error, against the evaluations of one cell; the
+ * scatter between the seeds as a band. */
+bool gb_figures_chart_error(struct gb_series *series,
+                            const struct gb_figures_input *input, struct gb_error *err);
+
 #endif

@@ -306,12 +306,35 @@ static void test_laws(void)
                       cell(result.out, "step_ns_1", 10));
     program_finish(&result);
     write_in("errors", "chart.csv",
-             "relaxer,particles,cpu_s,bound,front,chosen\nfire,1000,2,0.01,1,0\n"
-             "fire,1000,1,0.02,1,1\nfire,500,3,,0,0\n");
+             "relaxer,particles,reference,seeds,evaluations,cpu_s,bound,front,chosen,"
+             "error_5MPa,error_se_5MPa,scatter_5MPa,error_40MPa,error_se_40MPa,"
+             "scatter_40MPa\n"
+             "fire,1000,1,3,900,9,,0,0,0,0,0.003,0,0,0.001\n"
+             "fire,1000,0,3,200,2,0.01,1,0,0.008,0.002,0.005,-0.004,0.001,0.007\n"
+             "fire,1000,0,3,100,1,0.02,1,1,-0.02,0,,-0.02,0,\n"
+             "fire,500,0,3,300,3,,0,0,0.1,0.01,0.5,,,\n");
     result = fine("errors --figure chart");
     near_to(cell(result.out, "front_cpu_s", 0), 1.0, 0.0);
     near_to(cell(result.out, "front_bound", 1), 1.0, 1e-12);
     near_to(cell(result.out, "chosen_bound", 0), 2.0, 1e-12);
+    program_finish(&result);
+    result = fine("errors --figure chart-error"); /* at the last pressure */
+    near_to(cell(result.out, "evaluations_1", 0), 200.0, 0.0);
+    near_to(cell(result.out, "error_1_points", 0), -0.4, 1e-12);
+    near_to(cell(result.out, "error_1_se_points", 0), 0.1, 1e-12);
+    near_to(cell(result.out, "error_1_points", 1), -2.0, 1e-12);
+    near_to(cell(result.out, "scatter_points", 0), 0.5, 1e-12); /* of 0.1 and 0.7 */
+    near_to(cell(result.out, "scatter_evaluations", 1), 900.0, 0.0);
+    program_finish(&result);
+    result = fine("errors --figure chart-error --pressure 5MPa");
+    near_to(cell(result.out, "error_1_points", 0), 0.8, 1e-12);
+    near_to(cell(result.out, "error_2_points", 0), 10.0, 1e-12);
+    near_to(cell(result.out, "scatter_points", 1), 0.1 * sqrt(17.0), 1e-12);
+    program_finish(&result);
+    result = call("errors --figure chart-error --pressure 7MPa");
+    g_assert_cmpint(result.status, ==, 2);
+    g_assert_nonnull(strstr(result.err, "--pressure 7 MPa: accepted those of the chart: "
+                                        "5 MPa, 40 MPa\n"));
     program_finish(&result);
     write_in("die", "preset.ini",
              "[scene]\nkind = die\n[contact]\nnormal = hertz\n"
