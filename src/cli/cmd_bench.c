@@ -19,9 +19,8 @@ static const struct gb_options_page page = {
         "the bed of P3 at 50 MPa in its die.",
     .description =
         "Without a preset: 8000 particles of 9.7 nm with bridges (P1, set II).\n"
-        "The times are medians of 15 batches of 24 evaluations; those of several sizes "
-        "are\n"
-        "taken in turn, in 5 rounds of 9 batches or more.",
+        "The times are medians of 15 batches of 24 evaluations; several sizes are timed\n"
+        "in turn, in 5 rounds of 9 batches or more.",
 };
 
 struct line {

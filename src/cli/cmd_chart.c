@@ -268,9 +268,10 @@ int gb_cmd_chart(int argc, char **argv)
         "scatter between cells, and says which rows are limited by noise and how many\n"
         "cells a wanted standard error takes.",
         "DIR receives chart.csv (one row per choice), runs.csv (one row per cell) and\n"
-        "preset.ini.  The same command goes on where it was stopped.  `greenbody plot "
-        "DIR\n"
-        "--figure chart` draws it, `--figure chart-error` one of the pressures."};
+        "preset.ini.  The same command goes on where it was stopped.\n"
+        "`greenbody plot DIR --figure chart` draws it, `--figure chart-error` the "
+        "errors\n"
+        "at one of the pressures."};
     struct chart chart = {.seeds = 4, .standard_error = 0.001, .log = {.lock = -1}};
     char **sets = NULL, **words = NULL;
     int status = 0;

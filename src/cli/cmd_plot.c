@@ -319,9 +319,7 @@ int gb_cmd_plot(int argc, char **argv)
         {"density", 0, 0, G_OPTION_ARG_STRING, &request.densities,
          "rate: densities at which pressures are compared", "RHO,RHO..."},
         {"pressure", 0, 0, G_OPTION_ARG_STRING, &request.pressure,
-         "size-effect, sweep: where densities are compared (100 MPa); chart-error: of "
-         "errors (the last one)",
-         "P"},
+         "where size-effect, sweep (100 MPa), chart-error (the last one) compare", "P"},
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
          "rdf, force-angle, sizes: a kept state, as \"p=500 MPa\" (the last)", "POINT"},
         {0},

@@ -54,11 +54,11 @@ static bool open_chart(struct chart *chart, const struct gb_figures_input *input
 static const char *pressure_of(const char *column)
 {
     static const char *const head = "error_";
+    if (!g_str_has_prefix(column, head) || !g_str_has_suffix(column, "MPa")) {
+        return NULL;
+    }
     const char *text = column + strlen(head);
-    return g_str_has_prefix(column, head) && g_str_has_suffix(column, "MPa") &&
-                   g_ascii_isdigit(*text)
-               ? text
-               : NULL;
+    return g_ascii_isdigit(*text) ? text : NULL; /* or the standard error */
 }
 
 /* Name of the column of errors at a pressure, 0: at the last one; NULL: there is none. */
@@ -87,8 +87,15 @@ static bool refuse_pressure(const struct chart *chart, double wanted_pa,
                                    (int)(strlen(text) - strlen("MPa")), text);
         }
     }
-    gb_error_set(err, GB_ERR_INPUT, "--pressure %g MPa: accepted those of the chart: %s",
-                 wanted_pa / 1e6, known->len > 0 ? known->str : "it has none");
+    if (known->len == 0) {
+        gb_error_set(err, GB_ERR_INPUT,
+                     "%s: no error at a pressure; accepted a table of `greenbody chart`",
+                     gb_table_path(chart->table));
+    } else {
+        gb_error_set(err, GB_ERR_INPUT,
+                     "--pressure %g MPa: accepted those of the chart: %s",
+                     wanted_pa / 1e6, known->str);
+    }
     g_string_free(known, TRUE);
     return false;
 }
@@ -100,11 +107,19 @@ static bool is_kind(const struct chart *chart, size_t i, size_t k)
            strcmp(gb_table_word(chart->table, i), gb_table_word(chart->table, k)) == 0;
 }
 
+/* Name of the relaxer and cell of row i. */
+enum { KIND_NAME = 80 };
+static void name_kind(const struct chart *chart, size_t i, char label[KIND_NAME])
+{
+    snprintf(label, KIND_NAME, "%.40s, <i>N</i> = %g", gb_table_word(chart->table, i),
+             chart->particles[i]);
+}
+
 /* Rows of one relaxer and cell as points. */
 static void draw_kind(struct gb_series *series, const struct chart *chart, size_t first,
                       int style)
 {
-    char label[80];
+    char label[KIND_NAME];
     double *cost = gb_series_column(series, "cpu_%d_s", style + 1);
     double *bound = gb_series_column(series, "bound_%d", style + 1);
     size_t filled = 0;
@@ -114,9 +129,8 @@ static void draw_kind(struct gb_series *series, const struct chart *chart, size_
             bound[filled++] = 100.0 * chart->bound[k];
         }
     }
-    snprintf(label, sizeof label, "%.40s, <i>N</i> = %g",
-             gb_table_word(chart->table, first), chart->particles[first]);
     if (filled > 0) {
+        name_kind(chart, first, label);
         gb_series_draw(series, cost, bound, NULL, GB_FIGURE_POINTS, style, label);
     }
 }
@@ -254,7 +268,7 @@ static void draw_scatter(struct gb_series *series, const struct chart *chart)
 static void draw_errors(struct gb_series *series, const struct chart *chart, size_t first,
                         int style)
 {
-    char label[80];
+    char label[KIND_NAME];
     double *cost = gb_series_column(series, "evaluations_%d", style + 1);
     double *error = gb_series_column(series, "error_%d_points", style + 1);
     double *error_se = gb_series_column(series, "error_%d_se_points", style + 1);
@@ -267,52 +281,59 @@ static void draw_errors(struct gb_series *series, const struct chart *chart, siz
             error[filled++] = 100.0 * chart->error[k];
         }
     }
-    snprintf(label, sizeof label, "%.40s, <i>N</i> = %g",
-             gb_table_word(chart->table, first), chart->particles[first]);
     if (filled > 0) {
+        name_kind(chart, first, label);
         gb_series_draw(series, cost, error, error_se, GB_FIGURE_POINTS, style, label);
     }
+}
+
+/* The columns at one pressure, as the table spells it. */
+static bool find_errors(struct chart *chart, const char *pressure, struct gb_error *err)
+{
+    char *error = g_strconcat("error_", pressure, NULL);
+    char *error_se = g_strconcat("error_se_", pressure, NULL);
+    char *scatter = g_strconcat("scatter_", pressure, NULL);
+    const struct wanted wanted[] = {{"evaluations", &chart->evaluations},
+                                    {"reference", &chart->reference},
+                                    {"seeds", &chart->seeds},
+                                    {error, &chart->error},
+                                    {error_se, &chart->error_se},
+                                    {scatter, &chart->scatter}};
+    const bool good = find_columns(chart, wanted, G_N_ELEMENTS(wanted), err);
+    g_free(error);
+    g_free(error_se);
+    g_free(scatter);
+    return good;
+}
+
+static void fill_errors(struct gb_series *series, const struct chart *chart,
+                        double pressure_mpa)
+{
+    gb_series_axes(series, "evaluations", "force evaluations of one cell", "error_points",
+                   "error of the density (points)");
+    series->x.log = true;
+    gb_series_say(series,
+                  "At %g MPa, against the reference with the same seeds; bars: standard "
+                  "error.",
+                  pressure_mpa);
+    draw_scatter(series, chart);
+    draw_kinds(series, chart, draw_errors);
 }
 
 bool gb_figures_chart_error(struct gb_series *series,
                             const struct gb_figures_input *input, struct gb_error *err)
 {
     struct chart chart = {0};
-    if (!open_chart(&chart, input, err)) {
-        gb_table_destroy(chart.table);
-        return false;
+    bool good = open_chart(&chart, input, err);
+    const char *pressure = good ? find_pressure(&chart, input->pressure_pa) : NULL;
+    if (good && !pressure) {
+        good = refuse_pressure(&chart, input->pressure_pa, err);
     }
-    const char *pressure = find_pressure(&chart, input->pressure_pa);
-    if (!pressure) {
-        refuse_pressure(&chart, input->pressure_pa, err);
-        gb_table_destroy(chart.table);
-        return false;
-    }
-    char *error = g_strconcat("error_", pressure, NULL);
-    char *error_se = g_strconcat("error_se_", pressure, NULL);
-    char *scatter = g_strconcat("scatter_", pressure, NULL);
-    const struct wanted wanted[] = {{"evaluations", &chart.evaluations},
-                                    {"reference", &chart.reference},
-                                    {"seeds", &chart.seeds},
-                                    {error, &chart.error},
-                                    {error_se, &chart.error_se},
-                                    {scatter, &chart.scatter}};
-    const bool good = find_columns(&chart, wanted, G_N_ELEMENTS(wanted), err);
+    good = good && find_errors(&chart, pressure, err);
     if (good) {
         gb_series_init(series, gb_table_rows(chart.table));
-        gb_series_axes(series, "evaluations", "force evaluations of one cell",
-                       "error_points", "error of the density (points)");
-        series->x.log = true;
-        gb_series_say(series,
-                      "At %g MPa, against the reference with the same seeds; "
-                      "bars: standard error.",
-                      g_ascii_strtod(pressure, NULL));
-        draw_scatter(series, &chart);
-        draw_kinds(series, &chart, draw_errors);
+        fill_errors(series, &chart, g_ascii_strtod(pressure, NULL));
     }
-    g_free(error);
-    g_free(error_se);
-    g_free(scatter);
     gb_table_destroy(chart.table);
     return good;
 }

@@ -54,26 +54,15 @@ enum gb_strays_list gb_strays_judge(const struct gb_world *world, double travel)
     return travel < sight_of(world).far ? GB_STRAYS_DOUBTED : GB_STRAYS_STALE;
 }
 
-/* Squared arm of pair k of particle i, also of a drive under way. */
-static double arm2_of(const struct gb_world *world, const struct gb_pair_list *list,
-                      int64_t i, int64_t k)
-{
-    double r[3], xj[3];
-    gb_world_at(world, i, r);
-    gb_world_at(world, list->other[k], xj);
-    gb_vec_add(r, -1.0, xj);
-    gb_vec_add(r, 1.0, world->shift[list->image[k]]);
-    return gb_vec_dot(r, r);
-}
-
 /* In the list, and with the image that is the nearest one now. */
 static bool holds(const struct gb_world *world, const struct gb_pair_list *list,
                   int64_t i, int64_t j, double squared)
 {
     const int64_t low = i < j ? i : j, high = i < j ? j : i;
     for (int64_t k = list->start[low]; k < list->start[low + 1]; k++) {
+        double r[3];
         if (list->other[k] == high) {
-            return arm2_of(world, list, low, k) <= squared + hair;
+            return gb_world_arm_of(world, list, low, k, r) <= squared + hair;
         }
     }
     return false;

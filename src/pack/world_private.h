@@ -79,20 +79,6 @@ static inline int gb_world_stop(const struct gb_pair_list *list, int n, int64_t 
     return stop < n ? (int)stop : n;
 }
 
-/* x_i - x_j of pair k of a list, nearest image; returns its square. */
-static inline double gb_world_arm_of(const struct gb_world *world,
-                                     const struct gb_pair_list *list, int64_t i,
-                                     int64_t k, double r[3])
-{
-    const double *xi = world->position + 3 * i;
-    const double *xj = world->position + 3 * (int64_t)list->other[k];
-    const double *shift = world->shift[list->image[k]];
-    for (int c = 0; c < 3; c++) {
-        r[c] = xi[c] - xj[c] + shift[c];
-    }
-    return gb_vec_dot(r, r);
-}
-
 /* Where particle i is, be it that its position has not followed yet. */
 static inline void gb_world_at(const struct gb_world *world, int64_t i, double x[3])
 {
@@ -104,6 +90,21 @@ static inline void gb_world_at(const struct gb_world *world, int64_t i, double x
                                     gb_single_d(&world->cell, c));
         }
     }
+}
+
+/* x_i - x_j of pair k of a list, nearest image; returns its square. */
+static inline double gb_world_arm_of(const struct gb_world *world,
+                                     const struct gb_pair_list *list, int64_t i,
+                                     int64_t k, double r[3])
+{
+    double xi[3], xj[3];
+    gb_world_at(world, i, xi);
+    gb_world_at(world, list->other[k], xj);
+    const double *shift = world->shift[list->image[k]];
+    for (int c = 0; c < 3; c++) {
+        r[c] = xi[c] - xj[c] + shift[c];
+    }
+    return gb_vec_dot(r, r);
 }
 
 /* Reach of the attraction, d; 0: there is none. */

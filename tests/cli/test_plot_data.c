@@ -336,6 +336,11 @@ static void test_laws(void)
     g_assert_nonnull(strstr(result.err, "--pressure 7 MPa: accepted those of the chart: "
                                         "5 MPa, 40 MPa\n"));
     program_finish(&result);
+    write_in("unpressed", "chart.csv", "relaxer,particles,cpu_s\nfire,1000,2\n");
+    result = call("unpressed --figure chart-error");
+    g_assert_cmpint(result.status, ==, 2);
+    g_assert_nonnull(strstr(result.err, "chart.csv: no error at a pressure"));
+    program_finish(&result);
     write_in("die", "preset.ini",
              "[scene]\nkind = die\n[contact]\nnormal = hertz\n"
              "[loading]\ngeometry = die\n");
