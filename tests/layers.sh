@@ -1,39 +1,37 @@
 #!/bin/sh
-# The walls of the house, checked on the sources and on the libraries:
-#   1. a layer includes only headers of itself and of the layers to its left,
-#   2. what an object exports starts with gb_<file>_.
+# The layers, checked on the sources and on the libraries:
+#   1. a layer includes only headers of itself and of the layers that it may see,
+#   2. no two layers see each other,
+#   3. an exported symbol starts with gb_<file>_,
+#   4. no two files, struct, union or enum tags of one name; no file takes the symbols of another.
 # Usage: layers.sh SOURCE_DIR [library.a | object directory]...
 set -u
 
 source=$1
 shift
 bad=0
+layers="base law scene pack solve measure io run many study draw figures tui cli"
 
-# base < phys < pack < solve < measure < run < { tui, draw } < cli.  tui and draw never see
-# each other; cli sees all.
+# What each layer sees besides itself.  `draw`, `study` and `tui` stand beside each other.
 below() {
+    core="base law scene pack solve measure io run"
     case $1 in
-    base) echo "base" ;;
-    phys) echo "base phys" ;;
-    pack) echo "base phys pack" ;;
-    solve) echo "base phys pack solve" ;;
-    measure) echo "base phys pack solve measure" ;;
-    run) echo "base phys pack solve measure run" ;;
-    tui) echo "base phys pack solve measure run tui" ;;
-    draw) echo "base phys pack solve measure run draw" ;;
-    cli) echo "base phys pack solve measure run tui draw cli" ;;
+    many | draw) echo "$core" ;;
+    study) echo "$core many" ;;
+    tui) echo "$core many study" ;;
+    figures) echo "$core many study draw" ;;
+    cli) echo "$core many study draw figures tui" ;;
+    *) echo "${core%%"$1"*}" ;;
     esac
 }
 
-# Layer of include/greenbody/X.h: that of src/*/X.c.  Headers without a source of their name
-# are listed.
+# Layer of a header in include/greenbody.
 layer_of_public() {
-    file=$(find "$source/src" -name "${1%.h}.c" | head -n 1)
-    case ${file:-$1} in
-    snapshot.h | curve.h) echo run ;;
-    model.h | params.h) echo phys ;;
+    case $1 in
     status.h) echo base ;;
-    *) basename "$(dirname "$file")" ;;
+    model.h | params.h) echo scene ;;
+    curve.h | snapshot.h) echo io ;;
+    *) echo unknown ;;
     esac
 }
 
@@ -45,39 +43,56 @@ complain() {
 check_include() { # file, its layer, the header
     case $3 in
     greenbody/*) layer=$(layer_of_public "${3#greenbody/}") ;;
-    base/* | phys/* | pack/* | solve/* | measure/* | run/* | tui/* | draw/* | cli/*)
-        layer=${3%%/*}
-        ;;
-    */*)
-        [ ! -e "$source/src/$3" ] || complain "$1: unknown layer of $3"
-        return
-        ;;
-    *)
-        complain "$1: include \"$3\" without its layer"
-        return
-        ;;
+    */*) layer=${3%%/*} ;;
+    *) layer= ;;
     esac
-    case " $(below "$2") " in
+    case " $2 $(below "$2") " in
     *" $layer "*) ;;
-    *) complain "$1: $2 must not see $3 ($layer)" ;;
+    *) complain "$1: $2 must not see $3" ;;
     esac
 }
 
-check_file() { # file, its layer
-    # shellcheck disable=SC2013  # a header has no blank in its name
-    for header in $(sed -n 's/^#[ ]*include[ ]*"\(.*\)".*/\1/p' "$1"); do
-        check_include "$1" "$2" "$header"
+check_includes_of() { # layer, files
+    layer_name=$1
+    shift
+    sed -n 's/^#[ ]*include[ ]*"\(.*\)".*/\1/p' "$@" | sort -u >"$scratch/headers"
+    while read -r header; do
+        check_include "$layer_name" "$layer_name" "$header"
+        [ -e "$source/src/$header" ] || [ -e "$source/include/$header" ] ||
+            complain "$layer_name: no header $header"
+    done <"$scratch/headers"
+}
+
+check_cycles() {
+    for one in $layers; do
+        for other in $(below "$one"); do
+            case " $(below "$other") " in
+            *" $one "*) complain "$one and $other see each other" ;;
+            esac
+        done
     done
 }
 
-for layer_dir in base phys pack solve measure run tui draw cli; do
-    for file in "$source/src/$layer_dir"/*.[ch]; do
-        [ ! -e "$file" ] || check_file "$file" "$layer_dir"
+# Prints every line of standard input that stands there more than once.
+repeated() {
+    sort | uniq -d
+}
+
+sources() { # name pattern
+    find "$source/src" "$source/include" -name "$1"
+}
+
+check_names() {
+    for ending in c h; do
+        for name in $(sources "*.$ending" | sed 's|.*/||' | repeated); do
+            complain "two files are called $name"
+        done
     done
-done
-for file in "$source"/include/greenbody/*.h; do
-    check_file "$file" "$(layer_of_public "$(basename "$file")")"
-done
+    for tag in $(sources '*.[ch]' | xargs sed -n \
+        's/^\(struct\|union\|enum\) \([a-zA-Z0-9_]*\)[ ]*{.*/\2/p' | grep '^gb_' | repeated); do
+        complain "two definitions of the tag $tag"
+    done
+}
 
 # file:prefix pairs besides gb_<file>_: several things one file is about.
 exceptions() {
@@ -89,33 +104,73 @@ main:main
 TABLE
 }
 
-check_symbol() { # object, file name without .c, symbol
-    case $3 in
-    gb_"$2" | gb_"$2"_* | __asan_* | __odr_asan* | __gcov_* | __ubsan_* | __start_* | __stop_*) return ;;
-    esac
-    for pair in $(exceptions); do
-        case $2:$3 in
-        "$pair"*) return ;;
-        esac
-    done
-    complain "$1: exports $3, which does not start with gb_$2_"
-}
-
-# nm -A prints "lib.a:law_rod.c.o:0000 T name" or "dir/law_rod.c.o:0000 T name".
+# nm -A prints "lib.a:law_rod.c.o:0000 T name" or "dir/law_rod.c.o:0000 T name".  An object of
+# a folder inside a layer is called folder_law_rod.c.o there.  The symbols of figure_axis.c start
+# with gb_figure_ too: the longest file name that fits owns a symbol.
 # i is left out: an ifunc's resolver appears under the function's own name.
 check_exports() { # archive or object
     [ -r "$1" ] || complain "$1: cannot be read"
+    exceptions >"$scratch/exceptions"
     nm -A -g --defined-only "$1" 2>/dev/null |
         sed -n 's/^\(.*\):[0-9a-fA-F]* [A-Zi] \([A-Za-z0-9_]*\).*$/\1 \2/p' |
-        {
-            while read -r where symbol; do
-                object=${where##*[:/]}
-                check_symbol "$where" "${object%.c.o}" "$symbol"
-            done
-            exit "$bad"
-        } || bad=1
+        awk -v scratch="$scratch" '
+            function owner(symbol) {
+                sub(/^gb_/, "", symbol)
+                while (symbol != "" && !(symbol in stem)) {
+                    if (!sub(/_[^_]*$/, "", symbol)) { return "" }
+                }
+                return symbol
+            }
+            BEGIN {
+                while ((getline line < (scratch "/stems")) > 0) { stem[line] = 1 }
+                while ((getline line < (scratch "/objects")) > 0) {
+                    split(line, part, "\t")
+                    file[part[1]] = part[2]
+                }
+                while ((getline line < (scratch "/exceptions")) > 0) { allowed[line] = 1 }
+            }
+            $2 !~ /^__(asan|odr_asan|gcov|ubsan|start|stop)_?/ {
+                object = $1
+                sub(/.*[:\/]/, "", object)
+                sub(/\.c\.o$/, "", object)
+                name = object in file ? file[object] : object
+                if ($2 ~ /^gb_/ && owner($2) == name) { next }
+                for (pair in allowed) {
+                    if (index(name ":" $2, pair) == 1) { next }
+                }
+                print $1 ": exports " $2 ", which does not start with gb_" name \
+                    "_ or belongs to another file"
+            }' >"$scratch/wrong"
+    while read -r line; do
+        complain "$line"
+    done <"$scratch/wrong"
 }
 
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+(cd "$source/src" && find . -name '*.c') | sed 's|^\./||; s|\.c$||' >"$scratch/paths"
+sed 's|.*/||' "$scratch/paths" >"$scratch/stems"
+sources '*.h' | sed 's|.*/||; s|\.h$||' >>"$scratch/stems"
+# meson's name of an object ("folder_file" or "file", seen from the layer) and the file's own
+awk -F/ '{ name = $2; for (k = 3; k <= NF; k++) { name = name "_" $k }
+           print name "\t" $NF }' "$scratch/paths" >"$scratch/objects"
+
+for name in $layers; do
+    [ -d "$source/src/$name" ] || continue
+    # shellcheck disable=SC2046  # no file has a blank in its name
+    check_includes_of "$name" $(find "$source/src/$name" -name '*.[ch]')
+done
+for name in "$source"/src/*/; do
+    case " $layers " in
+    *" $(basename "$name") "*) ;;
+    *) complain "$name is no layer" ;;
+    esac
+done
+for file in "$source"/include/greenbody/*.h; do
+    check_includes_of "$(layer_of_public "$(basename "$file")")" "$file"
+done
+check_cycles
+check_names
 for library in "$@"; do
     if [ -d "$library" ]; then
         for object in "$library"/*.o; do

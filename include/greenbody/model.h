@@ -5,11 +5,11 @@
 #include <stdint.h>
 
 #include "greenbody/params.h"
-#include "phys/law_bridge.h"
-#include "phys/law_dispersion.h"
-#include "phys/law_rod.h"
-#include "phys/law_slip.h"
-#include "phys/sizes.h"
+#include "law/law_bridge.h"
+#include "law/law_dispersion.h"
+#include "law/law_rod.h"
+#include "law/law_slip.h"
+#include "scene/sizes.h"
 
 /* Which terms the force sweep of this scene carries.  A scene pays only for what it uses.
  */

@@ -9,7 +9,7 @@
 
 /* What the user typed: SI, unit in the field's name.  Const after gb_params_check.  The
  * reduced twin is struct gb_model; the two never meet.
- * One row per field in the field table (phys/params.c): preset files, --set, the editor,
+ * One row per field in the field table (scene/params.c): preset files, --set, the editor,
  * `greenbody params` and the run directory follow from it. */
 
 enum gb_kind { GB_KIND_QUASISTATIC, GB_KIND_DYNAMIC, GB_KIND_DIE };
@@ -123,7 +123,7 @@ struct gb_params {
     double until_density;     /* NaN when the run stops at a pressure */
     double unload_from_pa[GB_UNLOAD_MAX];
     int unload_count;
-    char changes[256]; /* of a run under way: phys/changes.h */
+    char changes[256]; /* of a run under way: scene/changes.h */
     double rate_per_s; /* (1/rho) d rho/dt; this and the next four: dynamic scenes */
     double relax_s, hold_s;
     double record_density;     /* relative growth of density between recorded points */
@@ -146,7 +146,7 @@ struct gb_params {
     double safety;                /* of the automatic step of a die; NaN: auto */
     double inertia_scale;         /* of the rotation of particles in a die */
     /* [output] */
-    char snapshots_at[192]; /* phys/marks.h */
+    char snapshots_at[192]; /* scene/keep_points.h */
     double checkpoint_every_s;
     int on_hangup; /* enum gb_on_hangup */
 };

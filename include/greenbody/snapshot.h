@@ -44,13 +44,12 @@ enum { GB_PICTURE_POINTS = 4096, GB_PICTURE_RDF = 160 };
 
 /* The packing as the screen can draw it: plain data through a triple buffer of its own,
  * taken less often than the snapshot.  Reduced lengths. */
-struct gb_picture {
+struct gb_view_sample {
     bool valid;
     int dimension;
     double density;
-    double edge[3]; /* of the whole cell */
-    double
-        window[3]; /* the part that is shown; its front is y = 0 */
+    double edge[3];   /* of the whole cell */
+    double window[3]; /* the part that is shown; its front is y = 0 */
     int count;
     float place[GB_PICTURE_POINTS][3];
     float radius[GB_PICTURE_POINTS];

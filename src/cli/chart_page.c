@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "solve/relax.h"
-#include "tui/plot.h"
+#include "tui/plot/plot.h"
 
 enum { DESCRIPTION = 160, ROWS = 18, COLUMNS = 78 };
 

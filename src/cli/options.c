@@ -6,7 +6,7 @@
 
 #include <glib/gstdio.h>
 
-#include "draw/png.h"
+#include "draw/image/png.h"
 
 static GOptionContext *make_context(const struct gb_options_page *page,
                                     const GOptionEntry *entries, const char *command)

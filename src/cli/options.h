@@ -6,7 +6,7 @@
 #include <glib.h>
 
 #include "greenbody/status.h"
-#include "run/preset.h"
+#include "io/preset.h"
 
 /* Help page of a command. */
 struct gb_options_page {

@@ -3,7 +3,7 @@
 
 #include <glib.h>
 
-#include "tui/settings.h"
+#include "tui/term/settings.h"
 
 /* Options of the commands that open a screen. */
 struct gb_screening {

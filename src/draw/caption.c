@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "draw/figure_axis.h"
-#include "draw/palette.h"
-#include "draw/text.h"
+#include "draw/figure/figure_axis.h"
+#include "draw/image/palette.h"
+#include "draw/image/text.h"
 
 /* Below this many pixels of the shorter side words cannot be read. */
 static const int words_from = 240;
@@ -113,7 +113,7 @@ static void frame_bar(const struct pen *pen, const struct gb_frame *bar,
 
 /* Whole numbers: a cell of its own for each, 0 at the bottom. */
 static void draw_cells(const struct pen *pen, const struct gb_frame *bar,
-                       const struct gb_dress_scale *scale)
+                       const struct gb_picture_style_scale *scale)
 {
     const int last = (int)scale->high;
     const double step = bar->height / (last + 1);
@@ -151,7 +151,7 @@ static void draw_beyond(const struct pen *pen, const struct gb_frame *bar, bool 
 }
 
 static void draw_ticks(const struct pen *pen, const struct gb_frame *bar,
-                       const struct gb_dress_scale *scale)
+                       const struct gb_picture_style_scale *scale)
 {
     static const bool exact[2] = {true, true};
     struct gb_figure_axis_scale axis;
@@ -175,7 +175,7 @@ static void draw_ticks(const struct pen *pen, const struct gb_frame *bar,
 }
 
 static void draw_gradient(const struct pen *pen, const struct gb_frame *bar,
-                          const struct gb_dress_scale *scale)
+                          const struct gb_picture_style_scale *scale)
 {
     const int steps = 256;
     for (int k = 0; k < steps; k++) {
@@ -197,7 +197,7 @@ static void draw_gradient(const struct pen *pen, const struct gb_frame *bar,
 }
 
 static void draw_colour_bar(const struct pen *pen, const struct gb_frame *bar,
-                            const struct gb_dress_scale *scale)
+                            const struct gb_picture_style_scale *scale)
 {
     if (scale->title == NULL) {
         return;
@@ -211,7 +211,7 @@ static void draw_colour_bar(const struct pen *pen, const struct gb_frame *bar,
 }
 
 /* Kinds of forces, and how thick is how much, in the upper right corner. */
-static void draw_swatches(const struct pen *pen, const struct gb_dress *dress,
+static void draw_swatches(const struct pen *pen, const struct gb_picture_style *dress,
                           double right)
 {
     const double unit = pen->unit;
@@ -271,7 +271,7 @@ static void point_text(const struct gb_state *state, char *text, size_t size)
 
 static void draw_all(const struct pen *pen, const struct gb_image *image,
                      const struct gb_caption_layout *layout, const struct gb_scene *scene,
-                     const struct gb_dress *dress, const struct gb_state *state)
+                     const struct gb_picture_style *dress, const struct gb_state *state)
 {
     char text[160];
     const double unit = layout->unit;
@@ -313,7 +313,7 @@ static bool lift(struct pen *pen, struct gb_image *image, bool good, struct gb_e
 }
 
 bool gb_caption_draw(struct gb_image *image, const struct gb_caption_layout *layout,
-                     const struct gb_scene *scene, const struct gb_dress *dress,
+                     const struct gb_scene *scene, const struct gb_picture_style *dress,
                      const struct gb_state *state, struct gb_error *err)
 {
     struct pen pen;
@@ -355,8 +355,8 @@ bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout
     if (layout->bar.width <= 0.0) {
         return true;
     }
-    const struct gb_dress_scale scale = {.title = "force over the mean of all",
-                                         .high = reach};
+    const struct gb_picture_style_scale scale = {.title = "force over the mean of all",
+                                                 .high = reach};
     const bool good = put_down(&pen, image, layout->unit, scene->ground, err);
     if (good) {
         const double unit = layout->unit;

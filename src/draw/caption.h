@@ -3,10 +3,10 @@
 
 #include <stdbool.h>
 
-#include "draw/image.h"
+#include "draw/image/image.h"
 #include "draw/scene.h"
 #include "greenbody/status.h"
-#include "run/state.h"
+#include "io/state.h"
 
 /* Text, colour bar and scale bar around the packing. */
 struct gb_caption_layout {
@@ -24,7 +24,7 @@ void gb_caption_place(int width, int height, bool words,
 double gb_caption_bar_length(double most, char *label, size_t size);
 
 bool gb_caption_draw(struct gb_image *image, const struct gb_caption_layout *layout,
-                     const struct gb_scene *scene, const struct gb_dress *dress,
+                     const struct gb_scene *scene, const struct gb_picture_style *dress,
                      const struct gb_state *state, struct gb_error *err);
 
 /* Words around a rose of forces whose box has half the edge `reach`. */

@@ -10,7 +10,7 @@
  * front of the viewer is an ellipsoid, so the front bulges towards the viewer.  What is
  * farther away than all cells it touches is hidden. */
 struct screen {
-    const struct gb_lens *lens;
+    const struct gb_camera *lens;
     int cell;          /* side of a cell, samples */
     int width, height; /* cells */
     float *depth;
@@ -29,7 +29,7 @@ struct ball {
     float x, y, z, r;
 };
 
-static struct ball place(const struct gb_lens *lens, const float *at, float radius)
+static struct ball place(const struct gb_camera *lens, const float *at, float radius)
 {
     const float *m = lens->turn;
     return (struct ball){
@@ -41,7 +41,7 @@ static struct ball place(const struct gb_lens *lens, const float *at, float radi
 }
 
 /* Samples from..to that a ball touches along an axis: 0 is x, 1 is y. */
-static void reach(const struct gb_lens *lens, const struct ball *ball, int axis,
+static void reach(const struct gb_camera *lens, const struct ball *ball, int axis,
                   float span[2])
 {
     const float a = axis == 0 ? ball->x : -ball->y;
@@ -58,7 +58,8 @@ static void reach(const struct gb_lens *lens, const struct ball *ball, int axis,
 }
 
 /* Depth at which the ray through a sample enters a ball; infinite beside it. */
-static float enter(const struct gb_lens *lens, const struct ball *ball, float x, float y)
+static float enter(const struct gb_camera *lens, const struct ball *ball, float x,
+                   float y)
 {
     const float u = (x - lens->lens[0]) / lens->lens[2];
     const float v = -(y - lens->lens[1]) / lens->lens[2];
@@ -180,7 +181,7 @@ static bool rod_is_behind(const struct screen *screen, const float *rod)
 }
 
 /* Side of the cells: some across the radius of an average sphere in the middle. */
-static int choose_cell(const struct gb_scene *scene, const struct gb_lens *lens,
+static int choose_cell(const struct gb_scene *scene, const struct gb_camera *lens,
                        int width, int height)
 {
     double sum = 0.0;
@@ -213,7 +214,7 @@ static void find(struct screen *screen, const struct gb_scene *scene, uint8_t *h
     }
 }
 
-bool gb_hidden_find(const struct gb_scene *scene, const struct gb_lens *lens, int width,
+bool gb_hidden_find(const struct gb_scene *scene, const struct gb_camera *lens, int width,
                     int height, uint8_t *hidden, struct gb_error *err)
 {
     struct screen screen = {.lens = lens};

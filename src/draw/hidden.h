@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-#include "draw/lens.h"
+#include "draw/camera.h"
 #include "draw/scene.h"
 
 /* Which spheres and rods of a scene stand wholly behind others: most of a dense packing.
@@ -12,7 +12,7 @@
  * width, height   of the target, samples
  * hidden          scene->count + scene->rods, spheres first; 1: need not be drawn.  What
  *                 reaches beyond the target counts as seen. */
-bool gb_hidden_find(const struct gb_scene *scene, const struct gb_lens *lens, int width,
+bool gb_hidden_find(const struct gb_scene *scene, const struct gb_camera *lens, int width,
                     int height, uint8_t *hidden, struct gb_error *err);
 
 #endif

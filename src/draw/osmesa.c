@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "draw/camera.h"
 #include "draw/hidden.h"
-#include "draw/lens.h"
 #include "draw/shaders.h"
 
 enum {
@@ -80,7 +80,7 @@ struct pass {
     uint32_t *index;
     uint8_t *hidden; /* from the eye: spheres, then rods */
     uint8_t *unlit;  /* from the light */
-    struct gb_lens eye, light;
+    struct gb_camera eye, light;
     int margin;              /* of a tile, samples */
     int x, y, width, height; /* tile, pixels */
     int most_width, most_height;
@@ -192,7 +192,7 @@ static void set_sampler(GLuint program, const char *name, enum texture unit)
     glUniform1i(glGetUniformLocation(program, name), (GLint)unit);
 }
 
-static void set_lens(GLuint program, const struct gb_lens *lens, int width, int height)
+static void set_lens(GLuint program, const struct gb_camera *lens, int width, int height)
 {
     glUniform4fv(glGetUniformLocation(program, "lens"), 1, lens->lens);
     glUniform2fv(glGetUniformLocation(program, "range"), 1, lens->range);
@@ -218,8 +218,8 @@ static void linear_colour(const uint8_t rgb[3], float out[3])
 static void set_eye_lens(struct pass *pass)
 {
     const struct gb_view *view = &pass->scene->view;
-    struct gb_lens *lens = &pass->eye;
-    *lens = (struct gb_lens){.turn = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    struct gb_camera *lens = &pass->eye;
+    *lens = (struct gb_camera){.turn = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
     for (int k = 0; k < 2; k++) {
         const int origin = k == 0 ? pass->x : pass->y;
         lens->lens[k] = (float)(SAMPLES * (view->centre[k] - origin) + pass->margin);
@@ -271,7 +271,7 @@ static void widen(struct room *room, const float *point, float radius)
 static void set_light_lens(struct pass *pass)
 {
     const struct gb_scene *scene = pass->scene;
-    struct gb_lens *lens = &pass->light;
+    struct gb_camera *lens = &pass->light;
     struct room room = {.low = {INFINITY, INFINITY, INFINITY},
                         .high = {-INFINITY, -INFINITY, -INFINITY}};
     light_axes(scene->light, room.axis);
@@ -417,7 +417,7 @@ static void free_pass(struct pass *pass)
 }
 
 /* Whether a sphere may show in the target; generous by the slant of perspective. */
-static bool in_target(const struct gb_lens *lens, const float *ball, int width,
+static bool in_target(const struct gb_camera *lens, const float *ball, int width,
                       int height)
 {
     const float scale = lens->lens[3] != 0.0F ? lens->lens[2] : lens->lens[2] / ball[2];
@@ -430,7 +430,7 @@ static bool in_target(const struct gb_lens *lens, const float *ball, int width,
 
 /* Whether a part within a ball needs to be drawn: spheres come first, then rods.  The
  * light sees all of the scene, the eye a tile. */
-static bool shows(const struct pass *pass, const struct gb_lens *lens, size_t part,
+static bool shows(const struct pass *pass, const struct gb_camera *lens, size_t part,
                   const float *ball, int width, int height)
 {
     return lens == &pass->light
@@ -438,7 +438,7 @@ static bool shows(const struct pass *pass, const struct gb_lens *lens, size_t pa
                : pass->hidden[part] == 0 && in_target(lens, ball, width, height);
 }
 
-static void draw_spheres(struct pass *pass, const struct gb_lens *lens, int width,
+static void draw_spheres(struct pass *pass, const struct gb_camera *lens, int width,
                          int height)
 {
     const GLuint program = pass->painter->program[PROGRAM_SPHERE];
@@ -469,7 +469,7 @@ static void rod_ball(const float *rod, float ball[4])
     ball[3] = rod[3] + hypotf(hypotf(rod[4] - rod[0], rod[5] - rod[1]), rod[6] - rod[2]);
 }
 
-static void draw_rods(struct pass *pass, const struct gb_lens *lens, int width,
+static void draw_rods(struct pass *pass, const struct gb_camera *lens, int width,
                       int height)
 {
     const GLuint program = pass->painter->program[PROGRAM_ROD];
@@ -492,7 +492,7 @@ static void draw_rods(struct pass *pass, const struct gb_lens *lens, int width,
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
 }
 
-static void draw_facets(const struct pass *pass, const struct gb_lens *lens, int width,
+static void draw_facets(const struct pass *pass, const struct gb_camera *lens, int width,
                         int height)
 {
     const GLuint program = pass->painter->program[PROGRAM_FACET];
@@ -504,7 +504,7 @@ static void draw_facets(const struct pass *pass, const struct gb_lens *lens, int
 }
 
 /* All but the edges of the box. */
-static void draw_parts(struct pass *pass, const struct gb_lens *lens, int width,
+static void draw_parts(struct pass *pass, const struct gb_camera *lens, int width,
                        int height)
 {
     if (pass->scene->count > 0) {
@@ -519,7 +519,7 @@ static void draw_parts(struct pass *pass, const struct gb_lens *lens, int width,
 }
 
 /* Two triangles along an edge, in samples of the tile. */
-static void ribbon(const struct gb_lens *lens, const float edge[6], float width,
+static void ribbon(const struct gb_camera *lens, const float edge[6], float width,
                    float *out)
 {
     static const int corner[RIBBON] = {0, 1, 2, 2, 1, 3};

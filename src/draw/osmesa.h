@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "draw/image.h"
+#include "draw/image/image.h"
 #include "draw/scene.h"
 #include "greenbody/status.h"
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "draw/palette.h"
-#include "pack/cell.h"
+#include "draw/image/palette.h"
+#include "pack/cell/cell.h"
 
 /* Meridians and parallels of the body, pieces of a ring. */
 enum { AROUND = 160, DOWN = 80, RING = 72 };
@@ -13,7 +13,7 @@ enum { AROUND = 160, DOWN = 80, RING = 72 };
 static const double ring_radius = 0.008;
 static const double axis_radius = 0.012;
 
-bool gb_rose_of_state(struct gb_rose *rose, const struct gb_state *state,
+bool gb_rose_of_state(struct gb_harmonics *rose, const struct gb_state *state,
                       struct gb_error *err)
 {
     const size_t count = (size_t)state->pair_count;
@@ -32,7 +32,7 @@ bool gb_rose_of_state(struct gb_rose *rose, const struct gb_state *state,
         gb_cell_nearest(&cell, &axis[3 * k]);
     }
     const bool good =
-        gb_rose_fit(rose, state->dimension, axis, state->pair_normal, count, err);
+        gb_harmonics_fit(rose, state->dimension, axis, state->pair_normal, count, err);
     gb_alloc_free(axis);
     return good;
 }
@@ -46,12 +46,12 @@ static void direction(int around, int down, double out[3])
     out[2] = cos(b);
 }
 
-static double radius_at(const struct gb_rose *rose, const double towards[3])
+static double radius_at(const struct gb_harmonics *rose, const double towards[3])
 {
-    return fmax(gb_rose_at(rose, towards) / rose->mean, 0.0);
+    return fmax(gb_harmonics_at(rose, towards) / rose->mean, 0.0);
 }
 
-double gb_rose_reach(const struct gb_rose *rose)
+double gb_rose_reach(const struct gb_harmonics *rose)
 {
     double most = 1.0;
     for (int down = 0; down <= DOWN; down++) {
@@ -65,8 +65,8 @@ double gb_rose_reach(const struct gb_rose *rose)
 }
 
 /* Corner of the surface in the eye's coordinates; its radius is added to *sum. */
-static void corner(const struct gb_scene *scene, const struct gb_rose *rose, double reach,
-                   int around, int down, float *out, double *sum)
+static void corner(const struct gb_scene *scene, const struct gb_harmonics *rose,
+                   double reach, int around, int down, float *out, double *sum)
 {
     double towards[3];
     double point[3];
@@ -83,7 +83,8 @@ static void corner(const struct gb_scene *scene, const struct gb_rose *rose, dou
     *sum += radius;
 }
 
-static void set_surface(struct gb_scene *scene, const struct gb_rose *rose, double reach)
+static void set_surface(struct gb_scene *scene, const struct gb_harmonics *rose,
+                        double reach)
 {
     static const int corners[2][3][2] = {{{0, 0}, {0, 1}, {1, 1}},
                                          {{0, 0}, {1, 1}, {1, 0}}};
@@ -151,7 +152,7 @@ static void set_frame(struct gb_scene *scene, double reach)
     }
 }
 
-bool gb_rose_scene(struct gb_scene **out, const struct gb_rose *rose, double reach,
+bool gb_rose_scene(struct gb_scene **out, const struct gb_harmonics *rose, double reach,
                    const struct gb_look *look, const struct gb_frame *frame,
                    enum gb_ground ground, struct gb_error *err)
 {

@@ -4,21 +4,21 @@
 #include <stdbool.h>
 
 #include "draw/scene.h"
-#include "measure/rose.h"
+#include "measure/harmonics.h"
 
 /* The rose of forces as a body: its radius in each direction is the mean normal force of
  * the contacts along it, over the mean of all.  Without anisotropy it is a ball of radius
  * 1; the rings have that radius. */
 
-/* Fits the contacts of a packing.  Errors: those of gb_rose_fit. */
-bool gb_rose_of_state(struct gb_rose *rose, const struct gb_state *state,
+/* Fits the contacts of a packing.  Errors: those of gb_harmonics_fit. */
+bool gb_rose_of_state(struct gb_harmonics *rose, const struct gb_state *state,
                       struct gb_error *err);
 
 /* Half the edge of the box that a scene of the rose is seen in; colours run from 0 to it.
  */
-double gb_rose_reach(const struct gb_rose *rose);
+double gb_rose_reach(const struct gb_harmonics *rose);
 
-bool gb_rose_scene(struct gb_scene **out, const struct gb_rose *rose, double reach,
+bool gb_rose_scene(struct gb_scene **out, const struct gb_harmonics *rose, double reach,
                    const struct gb_look *look, const struct gb_frame *frame,
                    enum gb_ground ground, struct gb_error *err);
 

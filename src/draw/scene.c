@@ -31,7 +31,7 @@ static void set_point(const struct gb_view *view, const double point[3], float o
 
 /* Those that are not hidden move up; count becomes their number. */
 static void set_spheres(struct gb_scene *scene, const struct gb_state *state,
-                        const struct gb_dress *dress)
+                        const struct gb_picture_style *dress)
 {
     size_t shown = 0;
     for (size_t i = 0; i < scene->count; i++) {
@@ -47,7 +47,7 @@ static void set_spheres(struct gb_scene *scene, const struct gb_state *state,
     scene->count = shown;
 }
 
-static void set_rods(struct gb_scene *scene, const struct gb_dress *dress)
+static void set_rods(struct gb_scene *scene, const struct gb_picture_style *dress)
 {
     for (size_t i = 0; i < dress->rods; i++) {
         const float *from = &dress->rod[7 * i];
@@ -175,18 +175,18 @@ static bool begin(struct gb_scene **out, const struct gb_state *state, size_t ro
 }
 
 bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
-                     const struct gb_dress *dress, const struct gb_look *look,
+                     const struct gb_picture_style *dress, const struct gb_look *look,
                      const struct gb_frame *frame, enum gb_ground ground,
                      struct gb_error *err)
 {
-    struct gb_dress *usual = NULL;
-    struct gb_dress_request request;
-    gb_dress_init(&request);
+    struct gb_picture_style *usual = NULL;
+    struct gb_picture_style_request request;
+    gb_picture_style_init(&request);
     *out = NULL;
-    if (dress == NULL && !gb_dress_create(&usual, state, &request, err)) {
+    if (dress == NULL && !gb_picture_style_create(&usual, state, &request, err)) {
         return false;
     }
-    const struct gb_dress *worn = dress != NULL ? dress : usual;
+    const struct gb_picture_style *worn = dress != NULL ? dress : usual;
     const bool good = begin(out, state, worn->rods, look, frame, ground, err);
     if (good) {
         set_spheres(*out, state, worn);
@@ -197,7 +197,7 @@ bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
             set_edges(*out, state);
         }
     }
-    gb_dress_destroy(usual);
+    gb_picture_style_destroy(usual);
     return good;
 }
 

@@ -5,10 +5,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "draw/dress.h"
+#include "draw/picture_style.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
-#include "run/state.h"
+#include "io/state.h"
 
 enum gb_ground { GB_GROUND_WHITE, GB_GROUND_DARK, GB_GROUND_TRANSPARENT };
 
@@ -38,7 +38,7 @@ struct gb_scene {
  * fills the frame.  2D packings are always seen along y without perspective.  dress NULL:
  * all particles by coordination number. */
 bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
-                     const struct gb_dress *dress, const struct gb_look *look,
+                     const struct gb_picture_style *dress, const struct gb_look *look,
                      const struct gb_frame *frame, enum gb_ground ground,
                      struct gb_error *err);
 

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/vec.h"
-#include "pack/forces.h"
-#include "pack/virial.h"
-#include "phys/law_unequal.h"
+#include "scene/unequal_pair.h"
+#include "pack/kernel/pair_forces.h"
+#include "pack/kernel/virial.h"
 
 double gb_observe_density(const struct gb_world *world)
 {
@@ -55,7 +55,7 @@ struct bond {
 static struct bond bond_of(const struct gb_model *model, double first, double second)
 {
     struct bond bond;
-    gb_law_unequal_init(&bond.law, model, first, second);
+    gb_unequal_pair_init(&bond.law, model, first, second);
     bond.reach = bond.law.span + model->numerics.cutoff - 1.0;
     bond.base = gb_law_unequal_depth(&bond.law, bond.reach);
     return bond;
@@ -93,7 +93,7 @@ static double pair_energy(const struct gb_world *world, const struct gb_pair_lis
 
 double gb_observe_elastic(const struct gb_world *world)
 {
-    const struct gb_pairs *pairs = gb_world_pairs(world);
+    const struct gb_neighbour_list *pairs = gb_world_pairs(world);
     const struct bond equal = bond_of(gb_world_model(world), 1.0, 1.0);
     double sum = 0.0;
     for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
@@ -158,8 +158,8 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
     enum { BINS_MOST = 360 };
     double sum[BINS_MOST] = {0};
     int64_t hits[BINS_MOST] = {0};
-    struct gb_forces forces;
-    gb_forces_init(&forces, world, true);
+    struct gb_pair_forces forces;
+    gb_pair_forces_init(&forces, world, true);
     bins = bins < BINS_MOST ? bins : BINS_MOST;
     for (int64_t i = 0; i < count; i++) {
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
@@ -171,7 +171,7 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
                 const int b = (int)(angle / (0.5 * M_PI) * bins);
                 const int bin = b < bins ? b : bins - 1;
                 double force[3];
-                gb_forces_at(&forces, k, force);
+                gb_pair_forces_at(&forces, k, force);
                 sum[bin] += gb_vec_dot(force, r) / length;
                 hits[bin]++;
             }

@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-#include "pack/world.h"
+#include "pack/cell/world.h"
 
 /* Measures of a world right after an evaluation; reduced units. */
 

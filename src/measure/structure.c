@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "pack/grid.h"
+#include "pack/structure/grid.h"
 
 /* A grid finer than this share of the reach makes a search visit more cells than it
  * saves points. */

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "pack/cell.h"
+#include "pack/cell/cell.h"
 
 /* Measures of plain positions (count x 3, reduced units). */
 

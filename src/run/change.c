@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "measure/observe.h"
-#include "phys/changes.h"
 #include "run/checkpoint.h"
 #include "run/experiment_private.h"
+#include "scene/changes.h"
 
 bool gb_change_order(struct gb_experiment *experiment, struct gb_error *err)
 {
@@ -17,15 +17,16 @@ bool gb_change_order(struct gb_experiment *experiment, struct gb_error *err)
     gb_observe_pressure(experiment->world, tensor);
     const double pressure[3] = {tensor[0][0], tensor[1][1], tensor[2][2]};
     const double density = gb_observe_density(experiment->world);
-    switch (gb_load_next(&experiment->load, pressure, density, experiment->factor)) {
-    case GB_LOAD_UNLOAD:
+    switch (
+        gb_quasistatic_next(&experiment->load, pressure, density, experiment->factor)) {
+    case GB_QUASISTATIC_UNLOAD:
         return gb_world_save(experiment->world, &experiment->branch, err);
-    case GB_LOAD_END:
+    case GB_QUASISTATIC_END:
         experiment->strain_due = false;
         experiment->over = true;
         break;
-    case GB_LOAD_STRAIN:
-    case GB_LOAD_RESTORE:
+    case GB_QUASISTATIC_STRAIN:
+    case GB_QUASISTATIC_RESTORE:
         break;
     }
     return true;
@@ -34,8 +35,8 @@ bool gb_change_order(struct gb_experiment *experiment, struct gb_error *err)
 static bool same_terms(const struct gb_model *a, const struct gb_model *b)
 {
     return a->terms.attraction == b->terms.attraction &&
-           a->terms.bridges == b->terms.bridges && a->terms.friction == b->terms.friction &&
-           a->dry == b->dry;
+           a->terms.bridges == b->terms.bridges &&
+           a->terms.friction == b->terms.friction && a->dry == b->dry;
 }
 
 /* Everything that the next one has becomes the experiment's.  The world points to the
@@ -58,7 +59,7 @@ static void move_in(struct gb_experiment *experiment, struct gb_experiment *next
     gb_world_copy_destroy(next->good);
     gb_world_copy_destroy(next->branch);
     gb_relax_destroy(next->relax);
-    gb_motion_destroy(next->motion);
+    gb_dynamic_destroy(next->motion);
     next->world = NULL;
     next->good = next->branch = NULL;
     next->relax = NULL;

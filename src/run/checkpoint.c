@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 #include "base/alloc.h"
-#include "pack/world_record.h"
+#include "pack/cell/world_record.h"
 #include "run/experiment_private.h"
 
 #define AT(member) offsetof(struct gb_experiment, member)
@@ -74,9 +74,9 @@ static bool exchange(struct gb_experiment *experiment, struct gb_record *record,
         return gb_die_run_record(experiment->die, record, err);
     }
     if (experiment->motion) {
-        return gb_motion_record(experiment->motion, record, err);
+        return gb_dynamic_record(experiment->motion, record, err);
     }
-    return gb_load_record(&experiment->load, record, err) &&
+    return gb_quasistatic_record(&experiment->load, record, err) &&
            gb_relax_record(experiment->relax, experiment->model.count, record, err) &&
            (experiment->load.branch <= 0 ||
             gb_world_record_copy(experiment->world, &experiment->branch, record, err));

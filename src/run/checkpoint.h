@@ -13,7 +13,7 @@
  * lists itself, the way back is the present state, and all events are due to be taken:
  * little is left to keep.
  *
- * A new kind of scene adds the function that lists its members (as gb_load_record does)
+ * A new kind of scene adds the function that lists its members (as gb_quasistatic_record does)
  * and calls it in gb_checkpoint_take and gb_checkpoint_load. */
 
 /* Fills the record, using its memory again.  Errors: GB_ERR_MEMORY; GB_ERR_INPUT for a

@@ -7,10 +7,10 @@
 
 #include "base/alloc.h"
 #include "base/vec.h"
-#include "measure/survey.h"
-#include "pack/bed_record.h"
-#include "pack/filling.h"
-#include "phys/tolerances.h"
+#include "measure/observe_die.h"
+#include "pack/die/bed_record.h"
+#include "pack/die/filling.h"
+#include "scene/tolerances.h"
 
 static bool make(struct gb_die_run **out, const struct gb_params *params,
                  const struct gb_model *model, struct gb_error *err)
@@ -22,7 +22,7 @@ static bool make(struct gb_die_run **out, const struct gb_params *params,
     }
     run->params = params;
     run->model = model;
-    if (!gb_programme_create(&run->programme, &model->die, &law, err)) {
+    if (!gb_die_stages_create(&run->programme, &model->die, &law, err)) {
         gb_die_run_destroy(run);
         return false;
     }
@@ -70,7 +70,7 @@ bool gb_die_run_record(struct gb_die_run *run, struct gb_record *record,
         {"die/unsteady", GB_RECORD_BOOL, 1, offsetof(struct gb_die_run, unsteady), "1"},
     };
     return gb_record_members(record, members, 1, run, err) &&
-           gb_programme_record(run->programme, record, err) &&
+           gb_die_stages_record(run->programme, record, err) &&
            gb_bed_record(run->bed, record, err);
 }
 
@@ -80,22 +80,22 @@ void gb_die_run_destroy(struct gb_die_run *run)
         return;
     }
     gb_bed_destroy(run->bed);
-    gb_programme_destroy(run->programme);
+    gb_die_stages_destroy(run->programme);
     gb_alloc_free(run);
 }
 
 void gb_die_run_measure(const struct gb_die_run *run, struct gb_point *point)
 {
     const struct gb_model *model = run->model;
-    const struct gb_programme_report report =
-        gb_programme_report(run->programme, run->bed);
+    const struct gb_die_stages_report report =
+        gb_die_stages_report(run->programme, run->bed);
     const double pascal = model->pascal_per_stress;
-    const bool pressing = report.stage >= GB_PROGRAMME_PRESS && report.pressed > 0.0;
+    const bool pressing = report.stage >= GB_DIE_STAGES_PRESS && report.pressed > 0.0;
     struct gb_contact_counts counts;
-    gb_survey_contacts(run->bed, &counts, NULL, 0, NULL);
+    gb_observe_die_contacts(run->bed, &counts, NULL, 0, NULL);
     *point = (struct gb_point){
         .branch = pressing ? GB_BRANCH_LOAD : GB_BRANCH_RELAX,
-        .density = gb_survey_density(run->bed, report.height),
+        .density = gb_observe_die_density(run->bed, report.height),
         .px_pa = report.side[0] * pascal,
         .py_pa = report.side[1] * pascal,
         .pz_pa = report.carried * pascal,
@@ -112,7 +112,7 @@ void gb_die_run_measure(const struct gb_die_run *run, struct gb_point *point)
         .elastic = NAN,
         .dissipated = NAN,
         .energy_residual = NAN,
-        .central = gb_survey_central(run->bed, report.height, model->die.central),
+        .central = gb_observe_die_central(run->bed, report.height, model->die.central),
         .height_m = report.height * model->metre_per_length,
         .height_change = report.height0 > 0.0
                              ? (report.height - report.height0) / report.height0
@@ -146,12 +146,12 @@ void gb_die_run_judge(struct gb_die_run *run, const struct gb_point *point, char
 
 void gb_die_run_observe(const struct gb_die_run *run, struct gb_snapshot *snapshot)
 {
-    const struct gb_programme_report report =
-        gb_programme_report(run->programme, run->bed);
+    const struct gb_die_stages_report report =
+        gb_die_stages_report(run->programme, run->bed);
     struct gb_contact_counts counts;
-    gb_survey_contacts(run->bed, &counts, snapshot->histogram, GB_SNAPSHOT_HISTOGRAM,
-                       NULL);
-    gb_survey_rose(run->bed, GB_SNAPSHOT_ROSE, snapshot->rose);
+    gb_observe_die_contacts(run->bed, &counts, snapshot->histogram, GB_SNAPSHOT_HISTOGRAM,
+                            NULL);
+    gb_observe_die_rose(run->bed, GB_SNAPSHOT_ROSE, snapshot->rose);
     snapshot->evaluations = run->bed->evaluations;
     snapshot->live_residual = report.residual;
     snapshot->progress = report.progress;
@@ -166,7 +166,7 @@ static void copy_pairs(const struct gb_bed *bed, struct gb_state *state)
             continue;
         }
         double unit[3];
-        gb_survey_force(bed, slot, unit, state->pair_force + 3 * line);
+        gb_observe_die_force(bed, slot, unit, state->pair_force + 3 * line);
         state->pair[2 * line] = bed->pairs.first[slot];
         state->pair[2 * line + 1] = bed->pairs.other[slot];
         state->pair_normal[line++] = bed->pairs.contacts.normal[slot];
@@ -190,7 +190,7 @@ bool gb_die_run_state(const struct gb_die_run *run, struct gb_state **out,
     const struct gb_bed *bed = run->bed;
     const double radius = half_width(bed);
     struct gb_contact_counts counts;
-    gb_survey_contacts(bed, &counts, NULL, 0, NULL);
+    gb_observe_die_contacts(bed, &counts, NULL, 0, NULL);
     if (!gb_state_create(out, bed->count, counts.contacts, err)) {
         return false;
     }
@@ -199,7 +199,7 @@ bool gb_die_run_state(const struct gb_die_run *run, struct gb_state **out,
     state->die_radius = bed->die.radius;
     state->cell[0] = state->cell[1] = 2.0 * radius;
     state->cell[2] = top;
-    gb_survey_contacts(bed, &counts, NULL, 0, state->contacts);
+    gb_observe_die_contacts(bed, &counts, NULL, 0, state->contacts);
     for (int64_t i = 0; i < bed->count; i++) {
         const double place[3] = {bed->place[i][0] + radius, bed->place[i][1] + radius,
                                  bed->place[i][2]};

@@ -2,9 +2,9 @@
 #define GB_RUN_DIE_RUN_H
 
 #include "greenbody/snapshot.h"
-#include "pack/bed.h"
-#include "run/state.h"
-#include "solve/programme.h"
+#include "io/state.h"
+#include "pack/die/bed.h"
+#include "solve/die_stages.h"
 
 /* What an experiment with kind = die consists of, instead of a world in a periodic cell:
  * a bed and its programme. */
@@ -12,7 +12,7 @@ struct gb_die_run {
     const struct gb_params *params;
     const struct gb_model *model;
     struct gb_bed *bed;
-    struct gb_programme *programme;
+    struct gb_die_stages *programme;
     bool unsteady; /* floor and punch differed at the last point */
 };
 

@@ -8,14 +8,14 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "measure/observe.h"
-#include "pack/curve.h"
-#include "pack/departure.h"
-#include "pack/forces.h"
-#include "pack/grow.h"
-#include "phys/changes.h"
+#include "pack/cell/nonaffine.h"
+#include "pack/kernel/pair_forces.h"
+#include "pack/structure/grow.h"
+#include "pack/structure/hilbert.h"
 #include "run/change.h"
 #include "run/checkpoint.h"
 #include "run/experiment_private.h"
+#include "scene/changes.h"
 
 static void add_event(struct gb_experiment *experiment, const char *text)
 {
@@ -54,7 +54,7 @@ static bool grow_world(struct gb_experiment *experiment, bool (*cancelled)(void 
     grow.cancelled = cancelled;
     grow.data = data;
     const bool done = gb_grow_place(&grow, position, err) &&
-                      gb_curve_sort(model, position, err) &&
+                      gb_hilbert_sort(model, position, err) &&
                       gb_world_create(&experiment->world, model, position, err);
     gb_alloc_free(position);
     return done;
@@ -74,13 +74,13 @@ static bool begin(struct gb_experiment *experiment, struct gb_error *err)
     if (experiment->die) {
         return true;
     }
-    gb_load_init(&experiment->load, &experiment->model);
+    gb_quasistatic_init(&experiment->load, &experiment->model);
     if (experiment->relax) {
         gb_relax_start(experiment->relax, experiment->world);
         return true;
     }
     experiment->elastic_start = gb_observe_elastic(experiment->world);
-    return gb_motion_create(&experiment->motion, experiment->world, err);
+    return gb_dynamic_create(&experiment->motion, experiment->world, err);
 }
 
 /* The model of the parameters that hold behind a recorded step. */
@@ -154,7 +154,7 @@ void gb_experiment_destroy(struct gb_experiment *experiment)
     gb_world_copy_destroy(experiment->good);
     gb_world_copy_destroy(experiment->branch);
     gb_relax_destroy(experiment->relax);
-    gb_motion_destroy(experiment->motion);
+    gb_dynamic_destroy(experiment->motion);
     gb_experiment_destroy(experiment->husk);
     gb_die_run_destroy(experiment->die);
     gb_alloc_free(experiment);
@@ -187,7 +187,7 @@ static void measure(const struct gb_experiment *experiment, struct gb_point *poi
         .px_pa = pressure[0] * pascal,
         .py_pa = experiment->model.dimension == 3 ? pressure[1] * pascal : (double)NAN,
         .pz_pa = pressure[2] * pascal,
-        .p_pa = gb_load_pressure(&experiment->load, pressure) * pascal,
+        .p_pa = gb_quasistatic_pressure(&experiment->load, pressure) * pascal,
         .coordination = counts.coordination,
         .bridged =
             counts.contacts > 0 ? (double)counts.bridged / (double)counts.contacts : 0.0,
@@ -265,8 +265,9 @@ static bool obey(struct gb_experiment *experiment, struct gb_error *err)
     for (;;) {
         pressures(experiment, pressure);
         const double density = gb_observe_density(experiment->world);
-        switch (gb_load_next(&experiment->load, pressure, density, experiment->factor)) {
-        case GB_LOAD_RESTORE:
+        switch (gb_quasistatic_next(&experiment->load, pressure, density,
+                                    experiment->factor)) {
+        case GB_QUASISTATIC_RESTORE:
             restore_event(experiment);
             /* the evaluation brings the forces of the restored state, so that the
              * programme sees its pressure */
@@ -276,16 +277,16 @@ static bool obey(struct gb_experiment *experiment, struct gb_error *err)
             }
             measure(experiment, &experiment->shown);
             continue;
-        case GB_LOAD_END:
+        case GB_QUASISTATIC_END:
             experiment->over = true;
             return true;
-        case GB_LOAD_UNLOAD:
+        case GB_QUASISTATIC_UNLOAD:
             unload_event(experiment);
             if (!gb_world_save(experiment->world, &experiment->branch, err)) {
                 return false;
             }
             break;
-        case GB_LOAD_STRAIN:
+        case GB_QUASISTATIC_STRAIN:
             break;
         }
         experiment->have_good = gb_world_save(experiment->world, &experiment->good, err);
@@ -318,7 +319,7 @@ static void measure_motion(const struct gb_experiment *experiment, struct gb_poi
     static const int branch[] = {GB_BRANCH_RELAX, GB_BRANCH_LOAD, GB_BRANCH_HOLD,
                                  GB_BRANCH_HOLD};
     const struct gb_model *model = &experiment->model;
-    const struct gb_motion_report report = gb_motion_report(experiment->motion);
+    const struct gb_dynamic_report report = gb_dynamic_report(experiment->motion);
     const double joule = model->newton_per_force * model->metre_per_length;
     const double stored =
         gb_observe_elastic(experiment->world) - experiment->elastic_start;
@@ -362,7 +363,7 @@ static enum gb_advance record(struct gb_experiment *experiment, struct gb_error 
     experiment->spent_iterations = experiment->spent_evaluations = 0;
     experiment->shown = experiment->point;
     experiment->step++;
-    gb_load_recover(&experiment->load);
+    gb_quasistatic_recover(&experiment->load);
     if (!obey(experiment, err) || !change(experiment, err)) {
         experiment->over = experiment->stopped = true;
         return GB_ADVANCE_STOPPED;
@@ -374,22 +375,22 @@ static enum gb_advance advance_motion(struct gb_experiment *experiment, int64_t 
                                       struct gb_error *err)
 {
     char text[GB_EXPERIMENT_TEXT];
-    const enum gb_motion_outcome outcome = gb_motion_advance(
+    const enum gb_dynamic_outcome outcome = gb_dynamic_advance(
         experiment->motion, experiment->world, max_steps, text, sizeof text, err);
     add_event(experiment, text);
     switch (outcome) {
-    case GB_MOTION_MORE:
+    case GB_DYNAMIC_MORE:
         return GB_ADVANCE_MORE;
-    case GB_MOTION_POINT:
+    case GB_DYNAMIC_POINT:
         measure(experiment, &experiment->point);
         measure_motion(experiment, &experiment->point);
         experiment->shown = experiment->point;
         experiment->step++;
         return GB_ADVANCE_POINT;
-    case GB_MOTION_DONE:
+    case GB_DYNAMIC_DONE:
         experiment->over = true;
         return GB_ADVANCE_DONE;
-    case GB_MOTION_STOPPED:
+    case GB_DYNAMIC_STOPPED:
         break;
     }
     add_event(experiment, err->text);
@@ -412,19 +413,19 @@ static enum gb_advance advance_die(struct gb_experiment *experiment, int64_t max
                                    struct gb_error *err)
 {
     char text[GB_EXPERIMENT_TEXT];
-    const enum gb_programme_outcome outcome =
-        gb_programme_advance(experiment->die->programme, experiment->die->bed, max_steps,
-                             text, sizeof text, err);
+    const enum gb_die_stages_outcome outcome =
+        gb_die_stages_advance(experiment->die->programme, experiment->die->bed, max_steps,
+                              text, sizeof text, err);
     add_event(experiment, text);
     switch (outcome) {
-    case GB_PROGRAMME_MORE:
+    case GB_DIE_STAGES_MORE:
         return GB_ADVANCE_MORE;
-    case GB_PROGRAMME_POINT:
+    case GB_DIE_STAGES_POINT:
         return record_die(experiment);
-    case GB_PROGRAMME_DONE:
+    case GB_DIE_STAGES_DONE:
         experiment->over = true;
         return GB_ADVANCE_DONE;
-    case GB_PROGRAMME_STOPPED:
+    case GB_DIE_STAGES_STOPPED:
         break;
     }
     add_event(experiment, err->text);
@@ -440,8 +441,8 @@ static enum gb_guard_action judge_departure(struct gb_experiment *experiment, ch
     if (!experiment->have_good) {
         return GB_GUARD_ACCEPT;
     }
-    const struct gb_departure departure =
-        gb_departure_since(experiment->world, experiment->good);
+    const struct gb_nonaffine departure =
+        gb_nonaffine_since(experiment->world, experiment->good);
     return gb_guard_departure(&experiment->guard, &departure, text, size);
 }
 
@@ -486,7 +487,7 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
             return stop(experiment);
         }
         add_event(experiment, text);
-        gb_load_halve(&experiment->load, experiment->factor);
+        gb_quasistatic_halve(&experiment->load, experiment->factor);
         experiment->strain_due = true;
         return GB_ADVANCE_MORE;
     case GB_GUARD_STOP:
@@ -518,26 +519,26 @@ void gb_experiment_observe(const struct gb_experiment *experiment,
     snapshot->live_residual = gb_world_residual(experiment->world);
     const double pressure = experiment->point.p_pa / experiment->model.pascal_per_stress;
     if (experiment->motion) {
-        const struct gb_motion_report report = gb_motion_report(experiment->motion);
+        const struct gb_dynamic_report report = gb_dynamic_report(experiment->motion);
         snapshot->progress = report.progress;
         snapshot->time_step_s =
             report.time_step * experiment->model.dynamics.second_per_time;
         return;
     }
-    snapshot->progress =
-        experiment->over && !experiment->stopped
-            ? 1.0
-            : gb_load_progress(&experiment->load, pressure, experiment->point.density,
-                               experiment->model.start_density);
+    snapshot->progress = experiment->over && !experiment->stopped
+                             ? 1.0
+                             : gb_quasistatic_progress(&experiment->load, pressure,
+                                                       experiment->point.density,
+                                                       experiment->model.start_density);
 }
 
 static void copy_pairs(const struct gb_world *world, struct gb_state *state)
 {
     const struct gb_pair_list *near = &gb_world_pairs(world)->near;
     const struct gb_contacts *contacts = gb_world_contacts(world);
-    struct gb_forces forces;
+    struct gb_pair_forces forces;
     int64_t line = 0;
-    gb_forces_init(&forces, world, true);
+    gb_pair_forces_init(&forces, world, true);
     for (int64_t i = 0; i < state->count; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
             const double deepest = gb_contacts_deepest(contacts, k);
@@ -549,7 +550,7 @@ static void copy_pairs(const struct gb_world *world, struct gb_state *state)
             state->pair[2 * line] = (int32_t)i;
             state->pair[2 * line + 1] = near->other[k];
             double *force = state->pair_force + 3 * line;
-            gb_forces_at(&forces, k, force);
+            gb_pair_forces_at(&forces, k, force);
             state->pair_normal[line] = gb_vec_dot(force, r) / gb_vec_length(r);
             state->pair_bridged[line++] = deepest > 0.0;
         }

@@ -9,7 +9,7 @@
 #include "greenbody/model.h"
 #include "greenbody/params.h"
 #include "greenbody/snapshot.h"
-#include "run/state.h"
+#include "io/state.h"
 
 /* Params + loading programme -> points.  No threads, no files, no printing. */
 struct gb_experiment;

@@ -1,12 +1,12 @@
 #ifndef GB_RUN_EXPERIMENT_PRIVATE_H
 #define GB_RUN_EXPERIMENT_PRIVATE_H
 
-#include "pack/world.h"
+#include "pack/cell/world.h"
 #include "run/die_run.h"
 #include "run/experiment.h"
+#include "solve/dynamic.h"
 #include "solve/guard.h"
-#include "solve/load.h"
-#include "solve/motion.h"
+#include "solve/quasistatic.h"
 #include "solve/relax.h"
 
 /* The inside of gb_experiment, for the files that work on it: experiment.c (owner),
@@ -21,11 +21,11 @@ struct gb_experiment {
     struct gb_world_copy *good;   /* before the strain step under way */
     struct gb_world_copy *branch; /* where the unloading branch began */
     struct gb_relax *relax;
-    struct gb_motion *motion;   /* dynamic scenes only, instead of relax and load */
+    struct gb_dynamic *motion;  /* dynamic scenes only, instead of relax and load */
     struct gb_experiment *husk; /* holds the model after a change: run/change.c */
     struct gb_die_run *die;     /* dies only, instead of all these */
     double elastic_start;       /* elastic energy when the motion began */
-    struct gb_load load;
+    struct gb_quasistatic load;
     struct gb_guard guard;
     double factor[3]; /* strain step under way, or to be taken next */
     int part;         /* of the strain step, from 1; the parts are equal */

@@ -8,14 +8,14 @@
 #include <time.h>
 
 #include "base/alloc.h"
-#include "phys/changes.h"
+#include "io/follow.h"
+#include "io/rundir.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
-#include "run/follow.h"
 #include "run/pace.h"
-#include "run/picture.h"
-#include "run/rundir.h"
-#include "run/runner_keep.h"
+#include "run/runner_recorder.h"
+#include "run/view_sample.h"
+#include "scene/changes.h"
 
 /* The screen cannot use more than this, and each one costs a sweep over the contacts. */
 static const double publish_every_s = 0.05;
@@ -42,7 +42,7 @@ struct gb_runner {
     /* shared without a lock: see publish.h */
     struct gb_publish publish;
     struct gb_publish_turn turn;
-    struct gb_picture picture[3];
+    struct gb_view_sample picture[3];
     struct gb_command_ring ring;
 
     /* guarded by the mutex: the paused engine sleeps on wake */
@@ -56,7 +56,7 @@ struct gb_runner {
     char event[EVENTS][GB_SNAPSHOT_EVENT];
 
     /* the engine thread's own */
-    struct gb_runner_keep kept;
+    struct gb_runner_recorder kept;
     bool resumed; /* goes on in its directory */
     struct gb_experiment *experiment;
     struct gb_snapshot shown;
@@ -105,8 +105,8 @@ static void take_events(struct gb_runner *runner)
     char text[GB_SNAPSHOT_EVENT];
     while (gb_experiment_event(runner->experiment, text, sizeof text)) {
         add_event(runner, text);
-        gb_runner_keep_event(&runner->kept, gb_experiment_point(runner->experiment)->step,
-                             text);
+        gb_runner_recorder_event(&runner->kept,
+                                 gb_experiment_point(runner->experiment)->step, text);
     }
     take_note(runner);
 }
@@ -162,7 +162,7 @@ static void show_packing(struct gb_runner *runner)
     if (runner->experiment == NULL || !runner->watched) {
         return;
     }
-    gb_picture_take(runner->experiment, &runner->picture[runner->turn.back]);
+    gb_view_sample_take(runner->experiment, &runner->picture[runner->turn.back]);
     gb_publish_turn_swap(&runner->turn);
     runner->pictured = clock_s();
     runner->picture_cost = runner->pictured - before;
@@ -269,7 +269,7 @@ static void sleep_paused(struct gb_runner *runner)
 {
     add_event(runner, "paused");
     change_state(runner, GB_RUN_PAUSED);
-    gb_runner_keep_tick(&runner->kept, &runner->shown, true);
+    gb_runner_recorder_tick(&runner->kept, &runner->shown, true);
     sleep_while(runner, &runner->paused);
     if (!runner->stop) {
         add_event(runner, "resumed");
@@ -330,7 +330,7 @@ static bool slice(struct gb_runner *runner)
             return false;
         }
         take_events(runner);
-        gb_runner_keep_point(&runner->kept, runner->experiment, &point);
+        gb_runner_recorder_point(&runner->kept, runner->experiment, &point);
         hand_over(runner, &point);
         return true;
     }
@@ -347,7 +347,7 @@ static bool slice(struct gb_runner *runner)
 static void advance_all(struct gb_runner *runner)
 {
     change_state(runner, GB_RUN_RUNNING);
-    gb_runner_keep_tick(&runner->kept, &runner->shown, true); /* who works here */
+    gb_runner_recorder_tick(&runner->kept, &runner->shown, true); /* who works here */
     for (;;) {
         drain(runner);
         if (runner->aside && !runner->stop) {
@@ -367,7 +367,7 @@ static void advance_all(struct gb_runner *runner)
         }
         picture_if_due(runner);
         publish_if_due(runner);
-        gb_runner_keep_tick(&runner->kept, &runner->shown, false);
+        gb_runner_recorder_tick(&runner->kept, &runner->shown, false);
     }
 }
 
@@ -400,7 +400,7 @@ static bool go_on(struct gb_runner *runner, struct gb_error *err)
 {
     char text[96];
     if (!wait_for_lock(runner, err) ||
-        !gb_runner_keep_resume(&runner->kept, &runner->experiment, err) ||
+        !gb_runner_recorder_resume(&runner->kept, &runner->experiment, err) ||
         !gb_follow_curve(runner->kept.directory, &runner->params, runner->curve, err)) {
         return false;
     }
@@ -408,11 +408,12 @@ static bool go_on(struct gb_runner *runner, struct gb_error *err)
         return gb_experiment_create(&runner->experiment, &runner->params, cancelled,
                                     runner, err);
     }
-    runner->started = clock_s() - runner->idle - gb_keep_seconds(runner->kept.keep);
+    runner->started =
+        clock_s() - runner->idle - gb_run_recorder_seconds(runner->kept.keep);
     const long long step = gb_experiment_point(runner->experiment)->step;
     snprintf(text, sizeof text, "resumed from the checkpoint of step %lld", step);
     add_event(runner, text);
-    gb_runner_keep_event(&runner->kept, step, text);
+    gb_runner_recorder_event(&runner->kept, step, text);
     return true;
 }
 
@@ -421,11 +422,11 @@ static void keep_inherited(struct gb_runner *runner)
 {
     const size_t points = gb_curve_count(runner->curve);
     for (size_t i = 0; i + 1 < points; i++) {
-        gb_runner_keep_row(&runner->kept, gb_curve_at(runner->curve, i));
+        gb_runner_recorder_row(&runner->kept, gb_curve_at(runner->curve, i));
     }
     if (points > 0) {
-        gb_runner_keep_point(&runner->kept, runner->experiment,
-                             gb_curve_at(runner->curve, points - 1));
+        gb_runner_recorder_point(&runner->kept, runner->experiment,
+                                 gb_curve_at(runner->curve, points - 1));
     }
 }
 
@@ -437,7 +438,7 @@ static bool begin(struct gb_runner *runner, struct gb_error *err)
     if (!open_experiment(runner, err)) {
         return false;
     }
-    gb_runner_keep_begin(&runner->kept, &runner->params);
+    gb_runner_recorder_begin(&runner->kept, &runner->params);
     take_note(runner);
     keep_inherited(runner);
     return true;
@@ -455,7 +456,7 @@ static void *engine(void *data)
     }
     runner->packed = elapsed(runner);
     advance_all(runner);
-    gb_runner_keep_conclude(&runner->kept, &runner->shown);
+    gb_runner_recorder_conclude(&runner->kept, &runner->shown);
     if (runner->kept.note[0] != '\0') {
         take_note(runner);
         publish(runner);
@@ -561,7 +562,7 @@ static void drop(struct gb_runner *runner)
         gb_record_finish(runner->origin);
         gb_alloc_free(runner->origin);
     }
-    gb_runner_keep_finish(&runner->kept);
+    gb_runner_recorder_finish(&runner->kept);
     gb_curve_destroy(runner->curve);
     gb_alloc_free(runner);
 }
@@ -729,7 +730,7 @@ const struct gb_snapshot *gb_runner_snapshot(struct gb_runner *runner, bool *cha
     return gb_publish_front(&runner->publish);
 }
 
-const struct gb_picture *gb_runner_picture(struct gb_runner *runner, bool *changed)
+const struct gb_view_sample *gb_runner_picture(struct gb_runner *runner, bool *changed)
 {
     const bool fresh = gb_publish_turn_take(&runner->turn);
     if (changed != NULL) {

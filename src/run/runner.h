@@ -8,8 +8,8 @@
 #include "greenbody/curve.h"
 #include "greenbody/params.h"
 #include "greenbody/snapshot.h"
+#include "io/state.h"
 #include "run/publish.h"
-#include "run/state.h"
 
 /* One experiment in a background thread: the only place that creates threads.  The thread
  * blocks all signals. */
@@ -58,7 +58,7 @@ const struct gb_snapshot *gb_runner_snapshot(struct gb_runner *runner, bool *cha
 /* Newest picture of the packing, one that is not valid before the first.  They are taken
  * once GB_COMMAND_WATCH was sent: a few a second and one at each end or pause, for a few
  * percent of the engine's time. */
-const struct gb_picture *gb_runner_picture(struct gb_runner *runner, bool *changed);
+const struct gb_view_sample *gb_runner_picture(struct gb_runner *runner, bool *changed);
 
 /* The growing curve; readable from the screen's thread at any time. */
 const struct gb_curve *gb_runner_curve(const struct gb_runner *runner);

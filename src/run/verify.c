@@ -5,10 +5,10 @@
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "io/rundir.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
-#include "run/keep.h"
-#include "run/rundir.h"
+#include "run/run_recorder.h"
 
 /* Force evaluations between two looks at whether to go on. */
 enum { SLICE = 200 };
@@ -25,7 +25,8 @@ static bool begin(struct gb_experiment **out, struct gb_verify *verify,
 {
     struct gb_params same;
     struct gb_error ignored;
-    const bool has = gb_keep_read(directory, "state-before.h5", &same, before, &ignored);
+    const bool has =
+        gb_run_recorder_read(directory, "state-before.h5", &same, before, &ignored);
     verify->from = has ? gb_checkpoint_step(before) : -1;
     if (verify->from > 0 && verify->from < verify->to) {
         return gb_experiment_resume(out, params, before, err);
@@ -76,7 +77,7 @@ static bool verify_locked(struct gb_verify *verify, const char *directory,
 {
     struct gb_params params;
     struct gb_experiment *experiment = NULL;
-    if (!gb_keep_read(directory, "state.h5", &params, &pair->kept, err)) {
+    if (!gb_run_recorder_read(directory, "state.h5", &params, &pair->kept, err)) {
         return false;
     }
     verify->to = gb_checkpoint_step(&pair->kept);

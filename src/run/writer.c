@@ -8,7 +8,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "run/state_record.h"
+#include "io/state_record.h"
 
 struct gb_writer {
     /* const once the thread runs */

@@ -5,7 +5,7 @@
 
 #include "base/record.h"
 #include "greenbody/model.h"
-#include "run/store.h"
+#include "io/store.h"
 
 /* Writes states and status beside the engine: the engine fills a record, a thread of its
  * own makes the file of it and waits for the disk.  The thread blocks all signals. */

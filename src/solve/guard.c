@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-#include "phys/tolerances.h"
+#include "scene/tolerances.h"
 
 /* Halvings in a row after which the step is hopeless. */
 enum { HALVINGS_MOST = 6 };
@@ -64,7 +64,7 @@ enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcom
 }
 
 enum gb_guard_action gb_guard_departure(struct gb_guard *guard,
-                                        const struct gb_departure *departure, char *text,
+                                        const struct gb_nonaffine *departure, char *text,
                                         size_t size)
 {
     if (departure->farthest <= GB_DEPARTURE_MOST) {

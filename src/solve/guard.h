@@ -4,7 +4,7 @@
 #include <stdbool.h>
 
 #include "greenbody/status.h"
-#include "pack/departure.h"
+#include "pack/cell/nonaffine.h"
 #include "solve/relax.h"
 
 /* What is done when a strain step fails, in one place. */
@@ -30,7 +30,7 @@ enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcom
  * contacts by?  RETRY while half the step may help; ACCEPT with a line when it does not:
  * the packing itself jumps, across a gap or off a bridge. */
 enum gb_guard_action gb_guard_departure(struct gb_guard *guard,
-                                        const struct gb_departure *departure, char *text,
+                                        const struct gb_nonaffine *departure, char *text,
                                         size_t size);
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-void gb_punch_begin(struct gb_punch *punch, struct gb_leap *leap, struct gb_bed *bed,
+void gb_punch_begin(struct gb_punch *punch, struct gb_leapfrog *leap, struct gb_bed *bed,
                     double height, double mass)
 {
     bed->die.punch = true;
@@ -22,7 +22,7 @@ double gb_punch_wanted(const struct gb_punch *punch, double time)
     return punch->pressure * (punch->quadratic ? share * share : share);
 }
 
-void gb_punch_follow(struct gb_punch *punch, struct gb_leap *leap,
+void gb_punch_follow(struct gb_punch *punch, struct gb_leapfrog *leap,
                      const struct gb_bed *bed)
 {
     const struct gb_bed_tally *tally = &bed->tally;

@@ -4,8 +4,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "pack/bed.h"
-#include "solve/leap.h"
+#include "pack/die/bed.h"
+#include "solve/leapfrog.h"
 
 /* A punch that carries a pressure: a body that the powder pushes up and the programme
  * pushes down, M a = F - p(t) A.  Nothing is tuned: its mass only has to be small enough
@@ -21,14 +21,14 @@ struct gb_punch {
 };
 
 /* Puts the punch at rest on a height; mass in masses of the bed. */
-void gb_punch_begin(struct gb_punch *punch, struct gb_leap *leap, struct gb_bed *bed,
+void gb_punch_begin(struct gb_punch *punch, struct gb_leapfrog *leap, struct gb_bed *bed,
                     double height, double mass);
 
 /* Pressure of the ramp after a time. */
 double gb_punch_wanted(const struct gb_punch *punch, double time);
 
 /* Books the step just taken and sets the load of the next one. */
-void gb_punch_follow(struct gb_punch *punch, struct gb_leap *leap,
+void gb_punch_follow(struct gb_punch *punch, struct gb_leapfrog *leap,
                      const struct gb_bed *bed);
 
 /* Means begin anew. */

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "pack/drive.h"
-#include "phys/tolerances.h"
+#include "pack/cell/integrate_f32.h"
+#include "scene/tolerances.h"
 
 static const struct gb_relaxer *const table[] = {&gb_relax_predict, &gb_relax_fire,
                                                  &gb_relax_steepest, NULL};
@@ -43,7 +43,7 @@ static bool take_vectors(struct gb_relax *relax, const struct gb_model *model,
 {
     const struct gb_relaxer *method = relax->method;
     const size_t numbers = 3 * (size_t)model->count;
-    const bool driven = method->moving && gb_drive_will(model);
+    const bool driven = method->moving && gb_integrate_f32_will(model);
     bool whole = true;
     for (int v = driven ? 2 : 0; v < method->vectors && whole; v++) {
         if (driven && v == method->turned) {

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "pack/world.h"
+#include "pack/cell/world.h"
 
 /* Relaxation of a world to equilibrium: one table of methods, one stopping rule.
  *

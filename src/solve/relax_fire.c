@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "base/vec.h"
-#include "pack/drive.h"
-#include "pack/simd.h"
+#include "pack/cell/integrate_f32.h"
+#include "pack/kernel/simd.h"
 #include "solve/relax_fire.h"
 
 static const double grow = 1.1;
@@ -33,8 +33,8 @@ void gb_relax_fire_rest(struct gb_relax *relax, struct gb_relax_fire_state *fire
                         const struct gb_relax_fire_tuning *tuning, struct gb_world *world)
 {
     const size_t bytes = 3 * (size_t)gb_world_model(world)->count * sizeof(double);
-    if (gb_drive_does(world)) {
-        gb_drive_rest(world);
+    if (gb_integrate_f32_does(world)) {
+        gb_integrate_f32_rest(world);
     } else {
         memset(relax->vector[0], 0, bytes);
         memset(relax->vector[1], 0, bytes);
@@ -216,7 +216,7 @@ static void drive_span(struct pass *pass, int span)
 
 /* The motion of a world that does not drive itself; returns the squared speed. */
 static double drive_world(struct gb_relax *relax, struct gb_world *world,
-                          const struct gb_drive *by)
+                          const struct gb_integrate_f32 *by)
 {
     const int threads = gb_world_threads(world);
     const double bound = by->most / by->step;
@@ -243,7 +243,7 @@ void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire
 {
     const struct gb_world_sums *sums = gb_world_sums(world);
     const double force2 = sums->force2 + sums->torque2 / inertia;
-    struct gb_drive drive = {.inertia = inertia, .most = move_most};
+    struct gb_integrate_f32 drive = {.inertia = inertia, .most = move_most};
     drive.back = adapt(fire, tuning, sums->power);
     /* mixing needs the speed after the kick; the speed before differs by one step only
      * and saves a pass over the arrays */
@@ -253,8 +253,9 @@ void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire
     drive.keep = rolling ? 1.0 - fire->mixing : 0.0;
     drive.step = fire->step;
     drive.kick = fire->step + steer;
-    fire->speed2 = gb_drive_does(world) ? gb_drive_move(world, &drive, relax->turned)
-                                        : drive_world(relax, world, &drive);
+    fire->speed2 = gb_integrate_f32_does(world)
+                       ? gb_integrate_f32_move(world, &drive, relax->turned)
+                       : drive_world(relax, world, &drive);
 }
 
 static void start(struct gb_relax *relax, struct gb_world *world)

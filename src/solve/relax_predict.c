@@ -11,7 +11,7 @@
 
 #include "base/record.h"
 #include "base/vec.h"
-#include "phys/tolerances.h"
+#include "scene/tolerances.h"
 #include "solve/relax_fire.h"
 
 const struct gb_relax_fire_tuning gb_relax_predict_tuning = {

@@ -4,7 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/vec.h"
-#include "pack/simd.h"
+#include "pack/kernel/simd.h"
 
 bool gb_verlet_init(struct gb_verlet *verlet, const struct gb_model *model,
                     struct gb_error *err)

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "pack/world.h"
+#include "pack/cell/world.h"
 
 /* Newton's equations for translation and rotation, P2 (1), by velocity Verlet. Velocities
  * are those beside the affine motion of the cell.  Reduced units: m = 1, J = 0.1.  In 2D

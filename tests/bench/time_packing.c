@@ -14,8 +14,8 @@
 #include "base/alloc.h"
 #include "greenbody/params.h"
 #include "measure/observe.h"
-#include "pack/curve.h"
-#include "pack/virial.h"
+#include "pack/kernel/virial.h"
+#include "pack/structure/hilbert.h"
 #include "solve/relax.h"
 #include "spheres.h"
 
@@ -63,7 +63,7 @@ static bool settle(struct gb_world **world, const struct gb_model *model,
         gb_cell_wrap(&cell, x + 3 * i);
     }
     const bool done =
-        x && gb_curve_sort(model, x, err) && gb_world_create(world, model, x, err);
+        x && gb_hilbert_sort(model, x, err) && gb_world_create(world, model, x, err);
     gb_alloc_free(x);
     return done;
 }

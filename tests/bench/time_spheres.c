@@ -11,8 +11,8 @@
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
 
-#include "measure/survey.h"
-#include "solve/leap.h"
+#include "measure/observe_die.h"
+#include "solve/leapfrog.h"
 #include "spheres.h"
 
 enum { STEPS = 100 };
@@ -51,7 +51,7 @@ static double virial(const struct gb_bed *bed)
     for (int64_t s = 0; s < bed->pairs.count; s++) {
         if (bed->pairs.contacts.normal[s] > 0.0) {
             double unit[3], force[3];
-            gb_survey_force(bed, s, unit, force);
+            gb_observe_die_force(bed, s, unit, force);
             const double *a = bed->place[bed->pairs.first[s]];
             const double *b = bed->place[bed->pairs.other[s]];
             for (int k = 0; k < 3; k++) {
@@ -64,19 +64,19 @@ static double virial(const struct gb_bed *bed)
 
 static bool time_steps(struct gb_bed *bed, int batches, struct gb_error *err)
 {
-    struct gb_leap leap;
+    struct gb_leapfrog leap;
     struct gb_contact_counts counts;
     double *batch = g_new(double, batches);
-    gb_leap_init(&leap, 0.5, 1e-3);
+    gb_leapfrog_init(&leap, 0.5, 1e-3);
     bool good = gb_bed_evaluate(bed, 0.0, 0.0, err);
     if (good) {
-        gb_survey_contacts(bed, &counts, NULL, 0, NULL);
+        gb_observe_die_contacts(bed, &counts, NULL, 0, NULL);
         printf("coordination %.6f\nvirial %.8g\n", counts.coordination, virial(bed));
     }
     for (int b = -1; b < batches && good; b++) { /* the first one warms up */
         const clock_t start = clock();
         for (int k = 0; k < STEPS && good; k++) {
-            good = gb_leap_step(&leap, bed, err);
+            good = gb_leapfrog_step(&leap, bed, err);
         }
         batch[b < 0 ? 0 : b] = (double)(clock() - start) / CLOCKS_PER_SEC / STEPS;
     }

@@ -15,9 +15,9 @@
 
 #include <glib.h>
 
+#include "io/preset.h"
+#include "many/single_run.h"
 #include "run/experiment.h"
-#include "run/preset.h"
-#include "run/solo.h"
 
 /* A block is long enough for the start of a program to be a small part of it. */
 enum { BLOCK = 500, RUNS = 1000, PARTICLES = 250, WORDS = 32 };
@@ -96,7 +96,7 @@ static void press_all(struct gb_params params, const char *folder, int first, in
         char *out = folder ? g_strdup_printf("%s/%d", folder, first + k) : NULL;
         if (out == NULL) {
             press(&params);
-        } else if (!gb_solo_run(&params, out, NULL, &err)) {
+        } else if (!gb_single_run(&params, out, NULL, &err)) {
             fail(err.text);
         }
         g_free(out);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "run/checkpoint.h"
-#include "run/keep.h"
+#include "run/run_recorder.h"
 
 static struct gb_record records[2];
 
@@ -18,7 +18,7 @@ int main(int argc, char **argv)
         return 2;
     }
     for (int k = 0; k < 2; k++) {
-        if (!gb_keep_read(argv[k + 1], "state.h5", &params, &records[k], &err)) {
+        if (!gb_run_recorder_read(argv[k + 1], "state.h5", &params, &records[k], &err)) {
             fprintf(stderr, "%s\n", err.text);
             return 2;
         }

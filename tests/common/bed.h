@@ -4,7 +4,7 @@
 #include <glib.h>
 #include <math.h>
 
-#include "pack/bed.h"
+#include "pack/die/bed.h"
 
 /* Hertz contacts of E = 1, nu = 0.3 without damping or friction. */
 static inline struct gb_bed_law bed_law(void)

@@ -7,8 +7,8 @@
 
 #include "base/alloc.h"
 #include "measure/structure.h"
-#include "pack/cell.h"
-#include "pack/grow.h"
+#include "pack/cell/cell.h"
+#include "pack/structure/grow.h"
 
 /* Equilibrium overlap of alumina at d = 9.7 nm, P1's parameters. */
 static const double packing_h_eq = 1.568325077091e-2;

@@ -6,7 +6,7 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "run/keep.h"
+#include "run/run_recorder.h"
 
 /* A run directory in a folder of its own. */
 struct place {
@@ -101,15 +101,16 @@ static inline int place_points(const struct place *place)
 /* Goes on with what was kept, to the end, without a screen. */
 static inline void place_go_on(const struct place *place)
 {
-    struct gb_keep *keep = NULL;
+    struct gb_run_recorder *keep = NULL;
     struct gb_experiment *experiment = NULL;
     struct gb_error err = {0};
     struct gb_snapshot shot = {0};
-    if (!gb_keep_resume(&keep, &experiment, place->directory, &err)) {
+    if (!gb_run_recorder_resume(&keep, &experiment, place->directory, &err)) {
         g_error("%s", err.text);
     }
     if (experiment == NULL &&
-        !gb_experiment_create(&experiment, gb_keep_params(keep), NULL, NULL, &err)) {
+        !gb_experiment_create(&experiment, gb_run_recorder_params(keep), NULL, NULL,
+                              &err)) {
         g_error("%s", err.text);
     }
     enum gb_advance how = GB_ADVANCE_MORE;
@@ -117,16 +118,16 @@ static inline void place_go_on(const struct place *place)
         char text[640];
         how = gb_experiment_advance(experiment, 1000, &err);
         while (gb_experiment_event(experiment, text, sizeof text)) {
-            g_assert_true(gb_keep_event(keep, 0, text, &err));
+            g_assert_true(gb_run_recorder_event(keep, 0, text, &err));
         }
         if (how == GB_ADVANCE_POINT) {
-            g_assert_true(
-                gb_keep_point(keep, experiment, gb_experiment_point(experiment), &err));
+            g_assert_true(gb_run_recorder_point(keep, experiment,
+                                                gb_experiment_point(experiment), &err));
         }
     }
     g_assert_cmpint(how, ==, GB_ADVANCE_DONE);
-    g_assert_true(gb_keep_conclude(keep, &shot, &err));
-    gb_keep_destroy(keep);
+    g_assert_true(gb_run_recorder_conclude(keep, &shot, &err));
+    gb_run_recorder_destroy(keep);
     gb_experiment_destroy(experiment);
 }
 

@@ -7,9 +7,9 @@
 
 #include "base/alloc.h"
 #include "greenbody/model.h"
-#include "pack/forces.h"
-#include "pack/grow.h"
-#include "pack/world.h"
+#include "pack/cell/world.h"
+#include "pack/kernel/pair_forces.h"
+#include "pack/structure/grow.h"
 
 /* Parameters of a small alumina packing, then assignments "group.key=value", NULL at the
  * end. */
@@ -77,9 +77,9 @@ static inline void scene_evaluate(struct gb_world *world)
 static inline void scene_force(const struct gb_world *world, bool near, int64_t k,
                                double force[3])
 {
-    struct gb_forces forces;
-    gb_forces_init(&forces, world, near);
-    gb_forces_at(&forces, k, force);
+    struct gb_pair_forces forces;
+    gb_pair_forces_init(&forces, world, near);
+    gb_pair_forces_at(&forces, k, force);
 }
 
 static inline void scene_squeeze(struct gb_world *world, double step)

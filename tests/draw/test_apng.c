@@ -3,7 +3,7 @@
 #include <glib/gstdio.h>
 #include <string.h>
 
-#include "draw/apng.h"
+#include "draw/image/apng.h"
 
 enum { WIDTH = 40, HEIGHT = 30, FRAMES = 3 };
 

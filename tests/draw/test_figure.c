@@ -1,12 +1,12 @@
 /* Figures: axes as numbers, and ink at known places of the page. */
-#include "draw/figure.h"
+#include "draw/figure/figure.h"
 
 #include <glib.h>
 #include <glib/gstdio.h>
 #include <math.h>
 #include <string.h>
 
-#include "draw/figure_marks.h"
+#include "draw/figure/figure_marks.h"
 
 enum { WIDE = 800, HIGH = 600, POINTS = 50 };
 

@@ -94,7 +94,7 @@ static size_t first_met(const struct gb_scene *scene, const double from[3],
 }
 
 /* Number of hidden parts; fails when one of them is seen. */
-static int check(const struct gb_scene *scene, const struct gb_lens *lens)
+static int check(const struct gb_scene *scene, const struct gb_camera *lens)
 {
     const size_t parts = scene->count + scene->rods;
     uint8_t *hidden = g_malloc(parts);
@@ -120,7 +120,7 @@ static int check(const struct gb_scene *scene, const struct gb_lens *lens)
     return count;
 }
 
-static const struct gb_lens straight = {
+static const struct gb_camera straight = {
     .lens = {0.5F * WIDTH, 0.5F * HEIGHT, 12.0F, 1.0F},
     .range = {29.0F, 43.0F},
     .turn = {1, 0, 0, 0, 1, 0, 0, 0, 1},
@@ -133,7 +133,7 @@ static void test_view(gconstpointer data)
     float rod[8 * RODS];
     struct gb_scene scene = {
         .count = SPHERES, .rods = RODS, .sphere = sphere, .rod = rod};
-    struct gb_lens lens = straight;
+    struct gb_camera lens = straight;
     lens.lens[2] = flat ? 12.0F : 400.0F;
     lens.lens[3] = flat ? 1.0F : 0.0F;
     fill(&scene, 0.5);

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/image.h"
-#include "draw/palette.h"
+#include "draw/image/image.h"
+#include "draw/image/palette.h"
 
 static const struct gb_frame frame = {100.0, 50.0, 800.0, 600.0};
 

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "draw/caption.h"
-#include "draw/palette.h"
-#include "draw/picture.h"
-#include "draw/png.h"
+#include "draw/image/palette.h"
+#include "draw/image/png.h"
+#include "draw/packing_image.h"
 
 enum { SIDE = 400 };
 
@@ -39,22 +39,22 @@ static struct gb_state *packing(int dimension)
     return state;
 }
 
-static struct gb_picture front(void)
+static struct gb_packing_image front(void)
 {
-    struct gb_picture picture;
-    gb_picture_init(&picture);
+    struct gb_packing_image picture;
+    gb_packing_image_init(&picture);
     picture.width = picture.height = SIDE;
     picture.words = false;
     g_assert_true(gb_view_parse("front", &picture.look, NULL));
     return picture;
 }
 
-static struct gb_image *paint(const struct gb_picture *picture,
+static struct gb_image *paint(const struct gb_packing_image *picture,
                               const struct gb_state *state)
 {
     struct gb_image *image = NULL;
     struct gb_error err = {0};
-    const bool done = gb_picture_paint(&image, picture, state, &err);
+    const bool done = gb_packing_image_paint(&image, picture, state, &err);
     g_assert_cmpstr(err.text, ==, "");
     g_assert_true(done);
     return image;
@@ -68,7 +68,7 @@ static const uint8_t *at(const struct gb_image *image, double x, double y)
 
 /* Where the camera of a picture sees a particle. */
 static const uint8_t *particle(const struct gb_image *image,
-                               const struct gb_picture *picture,
+                               const struct gb_packing_image *picture,
                                const struct gb_state *state, int index)
 {
     struct gb_caption_layout layout;
@@ -111,7 +111,7 @@ static int nearest_contacts(const uint8_t *pixel)
 static void test_colours_and_depth(void)
 {
     struct gb_state *state = packing(3);
-    struct gb_picture picture = front();
+    struct gb_packing_image picture = front();
     struct gb_image *image = paint(&picture, state);
     g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 0)) - 2), <=,
                     1);
@@ -133,7 +133,7 @@ static void test_colours_and_depth(void)
 static void test_silhouette(void)
 {
     struct gb_state *state = packing(3);
-    struct gb_picture picture = front();
+    struct gb_packing_image picture = front();
     struct gb_caption_layout layout;
     struct gb_scene *scene = NULL;
     double covered = 0.0;
@@ -164,8 +164,8 @@ static void test_silhouette(void)
 static void test_same_bits(void)
 {
     struct gb_state *state = packing(3);
-    struct gb_picture picture;
-    gb_picture_init(&picture);
+    struct gb_packing_image picture;
+    gb_packing_image_init(&picture);
     picture.width = 640;
     picture.height = 480;
     struct gb_image *one = paint(&picture, state);
@@ -180,7 +180,7 @@ static void test_same_bits(void)
 static void test_tiles(void)
 {
     struct gb_state *state = packing(3);
-    struct gb_picture picture = front();
+    struct gb_packing_image picture = front();
     picture.width = 2100; /* two tiles */
     picture.height = 300;
     struct gb_image *image = paint(&picture, state);
@@ -198,9 +198,9 @@ static void test_tiles(void)
 static void test_colour_bar(void)
 {
     struct gb_state *state = packing(3);
-    struct gb_picture picture;
+    struct gb_packing_image picture;
     struct gb_caption_layout layout;
-    gb_picture_init(&picture);
+    gb_packing_image_init(&picture);
     picture.width = 800;
     picture.height = 600;
     struct gb_image *image = paint(&picture, state);
@@ -232,7 +232,7 @@ static void test_scale_bar(void)
 static void test_planar(void)
 {
     struct gb_state *state = packing(2);
-    struct gb_picture picture = front();
+    struct gb_packing_image picture = front();
     struct gb_image *image = paint(&picture, state);
     g_assert_cmpint(nearest_contacts(particle(image, &picture, state, 1)), >=, 11);
     g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 0)) - 2), <=,
@@ -248,8 +248,8 @@ static void test_odd_sizes(void)
         {16, 16}, {16, 3000}, {3000, 16}, {17, 243}, {241, 240}};
     struct gb_state *state = packing(3);
     for (size_t k = 0; k < G_N_ELEMENTS(sizes); k++) {
-        struct gb_picture picture;
-        gb_picture_init(&picture);
+        struct gb_packing_image picture;
+        gb_packing_image_init(&picture);
         picture.width = sizes[k][0];
         picture.height = sizes[k][1];
         gb_image_destroy(paint(&picture, state));
@@ -263,7 +263,7 @@ static void test_forces(void)
 {
     struct gb_state *state = NULL;
     struct gb_error err = {0};
-    struct gb_picture picture = front();
+    struct gb_packing_image picture = front();
     g_assert_true(gb_state_create(&state, 2, 1, &err));
     state->dimension = 3;
     for (int k = 0; k < 3; k++) {
@@ -278,7 +278,7 @@ static void test_forces(void)
     state->pair_normal[0] = 1.0;
     state->metre_per_length = 1e-8;
     state->pascal_per_stress = 1e9;
-    picture.dress.show = GB_DRESS_BOTH;
+    picture.dress.show = GB_PICTURE_STYLE_BOTH;
     g_assert_true(gb_view_parse("side,flat", &picture.look, NULL));
     struct gb_image *image = paint(&picture, state);
     const uint8_t *middle = at(image, 0.5 * SIDE, 0.5 * SIDE);
@@ -309,10 +309,10 @@ static void test_file(void)
     char *folder = g_dir_make_tmp("greenbody-draw-XXXXXX", NULL);
     char *path = g_build_filename(folder, "x.png", NULL);
     struct gb_state *state = packing(3);
-    struct gb_picture picture = front();
+    struct gb_packing_image picture = front();
     struct gb_error err = {0};
     picture.preset = "[scene]\ntitle = Al₂O₃\n";
-    g_assert_true(gb_picture_write(&picture, state, path, &err));
+    g_assert_true(gb_packing_image_write(&picture, state, path, &err));
     char *preset = NULL;
     g_assert_true(gb_png_read_text(path, "Preset", &preset, &err));
     g_assert_cmpstr(preset, ==, picture.preset);
@@ -341,10 +341,10 @@ static void test_file(void)
 
     g_remove(path);
     g_rmdir(folder);
-    g_assert_false(gb_picture_write(&picture, state, path, &err));
+    g_assert_false(gb_packing_image_write(&picture, state, path, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);
     g_assert_nonnull(strstr(err.text, path));
-    g_assert_false(gb_picture_write(&picture, state, "/dev/null", &err));
+    g_assert_false(gb_packing_image_write(&picture, state, "/dev/null", &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     gb_state_destroy(state);
     g_free(path);

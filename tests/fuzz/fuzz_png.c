@@ -2,7 +2,7 @@
 
 #include <glib.h>
 
-#include "draw/png.h"
+#include "draw/image/png.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -1,6 +1,6 @@
 #include "fuzz/target.h"
 
-#include "run/preset.h"
+#include "io/preset.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

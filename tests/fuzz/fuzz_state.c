@@ -3,8 +3,8 @@
  * looked at: see fuzz_record.c. */
 #include "fuzz/target.h"
 
-#include "run/hdf_record.h"
-#include "run/state.h"
+#include "io/hdf/hdf_record.h"
+#include "io/state.h"
 
 static struct gb_record record;
 

@@ -5,7 +5,7 @@
 
 #include <glib.h>
 
-#include "measure/lognormal.h"
+#include "measure/fit/lognormal.h"
 
 /* P1 Fig. 10: alumina by target evaporation, sizes in nm. */
 static const double p1_m = 2.644;

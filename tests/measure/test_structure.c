@@ -99,7 +99,8 @@ static struct gb_connectivity connect(const struct gb_cell *cell, int64_t count,
 {
     struct gb_connectivity found;
     struct gb_error err = {0};
-    g_assert_true(gb_structure_connectivity(cell, count, position, NULL, reach, &found, &err));
+    g_assert_true(
+        gb_structure_connectivity(cell, count, position, NULL, reach, &found, &err));
     return found;
 }
 

@@ -4,11 +4,11 @@
 
 #include "base/vec.h"
 #include "common/bed.h"
-#include "pack/bed_batch.h"
-#include "pack/bed_copy.h"
-#include "pack/bed_laws.h"
-#include "pack/pour.h"
-#include "phys/law_mindlin.h"
+#include "law/law_mindlin.h"
+#include "pack/die/bed_copy.h"
+#include "pack/die/pour.h"
+#include "pack/kernel/bed_batch.h"
+#include "pack/kernel/bed_laws.h"
 
 static const int widths[] = {128, 256, 512};
 

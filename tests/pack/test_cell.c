@@ -1,7 +1,7 @@
 #include <glib.h>
 #include <math.h>
 
-#include "pack/cell.h"
+#include "pack/cell/cell.h"
 
 static const double edges[3] = {4.0, 5.0, 6.0};
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "pack/grid.h"
+#include "pack/structure/grid.h"
 
 enum { POINTS = 60, IMAGES = 4 };
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "pack/curve.h"
+#include "pack/structure/hilbert.h"
 
 /* The curve comes through every cell once, and each step of it leads to a neighbour. */
 static void walk(int n, int bits)
@@ -16,7 +16,7 @@ static void walk(int n, int bits)
     for (uint64_t k = 0; k < cells; k++) {
         const uint32_t cell[3] = {(uint32_t)(k % edge), (uint32_t)(k / edge % edge),
                                   (uint32_t)(k / edge / edge)};
-        const uint64_t index = gb_curve_index(cell, n, bits);
+        const uint64_t index = gb_hilbert_index(cell, n, bits);
         g_assert_cmpuint(index, <, cells);
         g_assert_false(seen[index]);
         seen[index] = true;
@@ -68,7 +68,7 @@ static void test_sort(void)
             }
         }
         memcpy(before, position, sizeof before);
-        g_assert_true(gb_curve_sort(&model, position, &err));
+        g_assert_true(gb_hilbert_sort(&model, position, &err));
         double way = 0.0;
         for (int i = 1; i < COUNT; i++) {
             double squared = 0.0;
@@ -92,7 +92,7 @@ static void test_sort(void)
         position[c] = before[3 * COUNT - 3 + c];
     }
     memcpy(before, position, sizeof before);
-    g_assert_true(gb_curve_sort(&model, position, &err));
+    g_assert_true(gb_hilbert_sort(&model, position, &err));
     g_assert_true(memcmp(position, before, sizeof before) == 0);
     g_rand_free(random);
 }
@@ -104,7 +104,7 @@ static void test_memory(void)
     for (int k = 1; k <= 2; k++) {
         struct gb_error err = {0};
         gb_alloc_fail_after(k);
-        g_assert_false(gb_curve_sort(&model, position, &err));
+        g_assert_false(gb_hilbert_sort(&model, position, &err));
         gb_alloc_fail_after(0);
         g_assert_cmpint(err.code, ==, GB_ERR_MEMORY);
     }

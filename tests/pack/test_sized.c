@@ -3,9 +3,9 @@
 
 #include "base/vec.h"
 #include "common/scene.h"
+#include "scene/unequal_pair.h"
 #include "measure/observe.h"
-#include "phys/law_unequal.h"
-#include "phys/tolerances.h"
+#include "scene/tolerances.h"
 
 /* Contacts of unequal spheres: their laws, and the sweep over packings of many sizes. */
 
@@ -28,7 +28,7 @@ static void test_equal(void)
 {
     const struct gb_model model = model_of(NULL);
     struct gb_law_unequal law;
-    gb_law_unequal_init(&law, &model, 1.0, 1.0);
+    gb_unequal_pair_init(&law, &model, 1.0, 1.0);
     for (double h = 1e-4; h < 0.4; h *= 1.7) {
         double slope;
         close_to(gb_law_unequal_elastic(&law, 0.0, h, &slope),
@@ -58,7 +58,7 @@ static void test_scale(void)
     const struct gb_params once = scene_params(NULL);
     const struct gb_model model = scene_model(&once);
     struct gb_law_unequal law;
-    gb_law_unequal_init(&law, &model, 2.0, 2.0);
+    gb_unequal_pair_init(&law, &model, 2.0, 2.0);
     for (double h = 1e-3; h < 0.3; h *= 2.0) {
         close_to(gb_law_unequal_elastic(&law, 0.0, 2.0 * h, NULL),
                  4.0 * gb_law_rod_force(&own.rod, h), 1e-13);
@@ -79,8 +79,8 @@ static void test_potential(void)
     const struct gb_model model = model_of(NULL);
     for (size_t s = 0; s < G_N_ELEMENTS(sizes); s++) {
         struct gb_law_unequal law, other;
-        gb_law_unequal_init(&law, &model, sizes[s][0], sizes[s][1]);
-        gb_law_unequal_init(&other, &model, sizes[s][1], sizes[s][0]);
+        gb_unequal_pair_init(&law, &model, sizes[s][0], sizes[s][1]);
+        gb_unequal_pair_init(&other, &model, sizes[s][1], sizes[s][0]);
         const double step = 1e-5 * law.span;
         for (double h = 1e-3; h < 0.3; h *= 2.0) {
             const double from = h * law.span;
@@ -110,12 +110,12 @@ static void test_limits(void)
 {
     const struct gb_model model = model_of(NULL);
     struct gb_law_unequal law;
-    gb_law_unequal_init(&law, &model, 0.5, 2.0);
+    gb_unequal_pair_init(&law, &model, 0.5, 2.0);
     const double h = 1e-7, reduced = 0.25 * 1.0 / 1.25;
     close_to(gb_law_unequal_elastic(&law, 0.0, h, NULL),
              4.0 * model.rod.hertz * 0.5 * sqrt(reduced) * pow(h, 1.5), 2e-3);
     close_to(gb_law_unequal_radius(&law, h), sqrt(reduced * h), 1e-13);
-    gb_law_unequal_init(&law, &model, 1.0, 1e5);
+    gb_unequal_pair_init(&law, &model, 1.0, 1e5);
     const double alpha_d0 = model.dispersion.shift, gap = 0.01;
     const double hamaker = 6.0 * model.dispersion.strength;
     close_to(gb_law_unequal_pull(&law, law.span + gap),
@@ -186,7 +186,7 @@ static void test_one_size(void)
  * arms it is none: each pair alone is balanced. */
 static void check_balance(const struct gb_world *world)
 {
-    const struct gb_pairs *pairs = gb_world_pairs(world);
+    const struct gb_neighbour_list *pairs = gb_world_pairs(world);
     double torque[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0}, size = 0.0;
     const struct gb_bodies b = gb_world_bodies((struct gb_world *)world);
     double force[3] = {0.0, 0.0, 0.0};
@@ -276,7 +276,7 @@ static void test_lists(void)
             pulling += gap >= 0.0 && gap < model.numerics.cutoff - 1.0;
         }
     }
-    const struct gb_pairs *pairs = gb_world_pairs(world);
+    const struct gb_neighbour_list *pairs = gb_world_pairs(world);
     int64_t pulled = 0;
     for (int64_t k = 0; k < pairs->far.pair_count; k++) {
         pulled += pull_of(world, k) > 0.0;
@@ -331,7 +331,7 @@ static void test_pair(void)
     struct gb_law_unequal law;
     double d[2], deepest = 0.0;
     struct gb_world *world = pair(&model, d);
-    gb_law_unequal_init(&law, &model, d[0], d[1]);
+    gb_unequal_pair_init(&law, &model, d[0], d[1]);
     const struct gb_bodies b = gb_world_bodies(world);
     static const double path[] = {0.5,   0.05,  -0.005, -0.02, -0.05,
                                   -0.04, -0.03, -0.01,  0.01,  -0.005};
@@ -362,7 +362,7 @@ static void test_pair_shear(void)
     struct gb_law_unequal law;
     double d[2];
     struct gb_world *world = pair(&model, d);
-    gb_law_unequal_init(&law, &model, d[0], d[1]);
+    gb_unequal_pair_init(&law, &model, d[0], d[1]);
     const struct gb_bodies b = gb_world_bodies(world);
     const double h = 0.03 * law.span, r = law.span - h, roll = 1e-5;
     b.position[5] = 5.0 + r;

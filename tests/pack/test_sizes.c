@@ -1,4 +1,4 @@
-#include "pack/deal.h"
+#include "pack/structure/assign_sizes.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_integration.h>
@@ -41,7 +41,7 @@ static double *draw(const struct gb_sizes *sizes, int64_t count, uint64_t seed)
 {
     double *d = g_new(double, (gsize)count);
     struct gb_error err = {0};
-    g_assert_true(gb_deal_sizes(sizes, count, seed, d, &err));
+    g_assert_true(gb_assign_sizes(sizes, count, seed, d, &err));
     return d;
 }
 
@@ -249,7 +249,7 @@ static void test_errors(void)
     double d[4];
     const struct gb_sizes law = freeze(p1);
     gb_alloc_fail_after(1);
-    g_assert_false(gb_deal_sizes(&law, 4, 1, d, &err));
+    g_assert_false(gb_assign_sizes(&law, 4, 1, d, &err));
     gb_alloc_fail_after(0);
     g_assert_cmpint(err.code, ==, GB_ERR_MEMORY);
 }

@@ -4,12 +4,12 @@
 
 #include "base/vec.h"
 #include "common/scene.h"
+#include "law/law_hertz.h"
 #include "measure/observe.h"
-#include "pack/amend.h"
-#include "pack/drive.h"
-#include "pack/world_private.h"
-#include "pack/world_record.h"
-#include "phys/law_hertz.h"
+#include "pack/cell/integrate_f32.h"
+#include "pack/cell/list_patch.h"
+#include "pack/cell/world_private.h"
+#include "pack/cell/world_record.h"
 
 /* What a world is good for in each precision. */
 struct precision {
@@ -74,7 +74,7 @@ static void check_slots(const struct gb_world *world, const struct gb_pair_list 
         }
     }
     g_assert_cmpint(pairs, ==, list->pair_count);
-    g_assert_cmpint(pairs + left, ==, gb_pairs_slots(&world->pairs, list));
+    g_assert_cmpint(pairs + left, ==, gb_neighbour_list_slots(&world->pairs, list));
     g_assert_cmpint(left, >, 0);
 }
 
@@ -101,7 +101,7 @@ static void test_pairs(void)
         const struct gb_model model = scene_model(&params);
         struct gb_world *world = scene_world(&model);
         scene_evaluate(world);
-        const struct gb_pairs *pairs = gb_world_pairs(world);
+        const struct gb_neighbour_list *pairs = gb_world_pairs(world);
         const double reach = model.numerics.cutoff + model.numerics.skin;
         g_assert_cmpint(pairs->near.pair_count + pairs->far.pair_count, ==,
                         brute_pairs(world, reach));
@@ -316,7 +316,7 @@ static bool listed(const struct gb_world *world, const struct gb_pair_list *list
  * ones. */
 static void check_listed(const struct gb_world *world)
 {
-    const struct gb_pairs *pairs = gb_world_pairs(world);
+    const struct gb_neighbour_list *pairs = gb_world_pairs(world);
     const double gap = gb_world_model(world)->numerics.cutoff - 1.0;
     for (int64_t j = 0; j < pairs->count; j++) {
         for (int64_t i = 0; i < j; i++) {
@@ -366,7 +366,7 @@ static void test_strays(void)
             }
             const int64_t before = gb_world_rebuilds(world);
             const double travel =
-                gb_pairs_travel(gb_world_pairs(world), b.position, 0, b.count);
+                gb_neighbour_list_travel(gb_world_pairs(world), b.position, 0, b.count);
             struct gb_error err = {0};
             if (!gb_world_evaluate(world, &err)) { /* ran into another: go on */
                 g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
@@ -414,11 +414,12 @@ static void check_driven(double pace, int *outlived, int64_t *amended)
         scene_params("particles.count=600", "numerics.precision=single", NULL);
     const struct gb_model model = scene_model(&params);
     struct gb_world *world = scene_world(&model);
-    const struct gb_drive by = {.keep = 1.0, .step = 1.0, .inertia = 0.4, .most = 1.0};
-    const struct gb_pairs *pairs = gb_world_pairs(world);
+    const struct gb_integrate_f32 by = {
+        .keep = 1.0, .step = 1.0, .inertia = 0.4, .most = 1.0};
+    const struct gb_neighbour_list *pairs = gb_world_pairs(world);
     GRand *dice = g_rand_new_with_seed(13);
     scene_press(world, 100, 3, 2.0);
-    gb_drive_rest(world);
+    gb_integrate_f32_rest(world);
     for (int step = 0; step < 200; step++) {
         const int64_t before = gb_world_rebuilds(world);
         for (int64_t k = 0; k < 3 * pairs->count; k++) {
@@ -426,7 +427,7 @@ static void check_driven(double pace, int *outlived, int64_t *amended)
             world->single.velocity[k] =
                 (float)(way * g_rand_double_range(dice, -0.5, 1.0));
         }
-        gb_drive_move(world, &by, NULL);
+        gb_integrate_f32_move(world, &by, NULL);
         const double travel = travel_of(world);
         evaluate_or_meet(world);
         *outlived +=
@@ -448,17 +449,18 @@ static void check_driven_on(void)
     struct gb_world *world = scene_world(&model);
     struct gb_world_copy *copy = NULL;
     struct gb_error err = {0};
-    const struct gb_drive by = {.keep = 0.45, .step = 1.0, .inertia = 0.4, .most = 1.0};
+    const struct gb_integrate_f32 by = {
+        .keep = 0.45, .step = 1.0, .inertia = 0.4, .most = 1.0};
     GRand *dice = g_rand_new_with_seed(19);
     scene_press(world, 100, 3, 2.0);
     g_assert_true(gb_world_save(world, &copy, &err));
     for (int round = 0; round < 40; round++) {
         g_assert_true(gb_world_restore(world, copy, &err));
         scene_evaluate(world);
-        gb_drive_rest(world);
-        gb_drive_move(world, &by, NULL);
+        gb_integrate_f32_rest(world);
+        gb_integrate_f32_move(world, &by, NULL);
         scene_evaluate(world);
-        const double pace = 2.0 * gb_strays_fresh(world) / sqrt(3.0);
+        const double pace = 2.0 * gb_list_check_fresh(world) / sqrt(3.0);
         struct gb_bodies b = gb_world_movable(world);
         for (int64_t k = 0; k < 3 * b.count; k++) {
             const bool runs = k / 3 % 40 == round;
@@ -467,7 +469,7 @@ static void check_driven_on(void)
             world->single.velocity[k] = (float)way;
         }
         evaluate_or_meet(world);
-        gb_drive_move(world, &by, NULL);
+        gb_integrate_f32_move(world, &by, NULL);
         evaluate_or_meet(world);
         check_listed(world);
     }
@@ -513,11 +515,11 @@ static void test_amended_full(void)
     }
     g_assert_cmpint(count, ==, slots + 1);
     g_assert_cmpint(count, <=, world->pairs.amended_most);
-    g_assert_false(gb_amend_again(world, kept, count, &err));
+    g_assert_false(gb_list_patch_again(world, kept, count, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     g_assert_cmpint(near->pair_count, ==, before);
     check_slots(world, near);
-    g_assert_true(gb_amend_again(world, kept, count - 1, &err));
+    g_assert_true(gb_list_patch_again(world, kept, count - 1, &err));
     g_assert_cmpint(near->pair_count, ==, before + slots);
     g_assert_cmpint(near->stop[0], ==, near->start[end]);
     scene_evaluate(world);
@@ -578,14 +580,14 @@ static void test_blocks(void)
 }
 
 /* Half the force of pair k onto both its particles; returns how large it is. */
-static double half_to_both(struct gb_forces *forces, const struct gb_pair_list *list,
+static double half_to_both(struct gb_pair_forces *forces, const struct gb_pair_list *list,
                            int64_t k, double *sum)
 {
     double force[3];
     if (list->first[k] == list->other[k]) { /* free */
         return 0.0;
     }
-    gb_forces_at(forces, k, force);
+    gb_pair_forces_at(forces, k, force);
     gb_vec_add(sum + 3 * (int64_t)list->first[k], 0.5, force);
     gb_vec_add(sum + 3 * (int64_t)list->other[k], -0.5, force);
     return gb_vec_length(force);
@@ -599,14 +601,14 @@ static void check_forces(const char *precision, const char *scene, const char *l
     struct gb_world *world = scene_world(&model);
     scene_press(world, 100, 10, 2.0);
     const struct gb_bodies b = gb_world_bodies(world);
-    const struct gb_pairs *pairs = gb_world_pairs(world);
+    const struct gb_neighbour_list *pairs = gb_world_pairs(world);
     double *sum = g_new0(double, 3 * b.count), largest = 0.0;
     for (int l = 0; l < 2; l++) {
         const struct gb_pair_list *list = l == 0 ? &pairs->near : &pairs->far;
-        struct gb_forces forward, backward;
-        gb_forces_init(&forward, world, l == 0);
-        gb_forces_init(&backward, world, l == 0);
-        const int64_t slots = gb_pairs_slots(pairs, list);
+        struct gb_pair_forces forward, backward;
+        gb_pair_forces_init(&forward, world, l == 0);
+        gb_pair_forces_init(&backward, world, l == 0);
+        const int64_t slots = gb_neighbour_list_slots(pairs, list);
         for (int64_t k = 0; k < slots; k++) {
             largest = fmax(largest, half_to_both(&forward, list, k, sum));
             (void)half_to_both(&backward, list, slots - 1 - k, sum);
@@ -631,13 +633,14 @@ static void test_forces(const void *data)
 /* A drive at random velocities and the evaluation after it. */
 static void drive_anywhere(struct gb_world *world, GRand *dice)
 {
-    const struct gb_drive by = {.keep = 1.0, .step = 1.0, .inertia = 0.4, .most = 1.0};
+    const struct gb_integrate_f32 by = {
+        .keep = 1.0, .step = 1.0, .inertia = 0.4, .most = 1.0};
     struct gb_error err = {0};
     for (int64_t k = 0; k < 3 * world->count; k++) {
         world->single.velocity[k] = (float)g_rand_double_range(dice, -5e-3, 5e-3);
         world->single.spin[k] = (float)g_rand_double_range(dice, -5e-3, 5e-3);
     }
-    gb_drive_move(world, &by, NULL);
+    gb_integrate_f32_move(world, &by, NULL);
     if (!gb_world_evaluate_along(world, NULL, NULL, &err)) {
         g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
     }
@@ -665,7 +668,7 @@ static void test_settled(void)
     for (int w = 0; w < 3; w++) {
         g_assert_true(gb_world_restore(world[w], copy, &err));
         scene_evaluate(world[w]);
-        gb_drive_rest(world[w]);
+        gb_integrate_f32_rest(world[w]);
     }
     for (int step = 0; step < 60; step++) {
         const double factor[3] = {1.0, 0.9995, 0.9995};
@@ -706,18 +709,19 @@ static void test_moved_by_hand(void)
     const struct gb_params params =
         scene_params("particles.count=300", "numerics.precision=single", NULL);
     const struct gb_model model = scene_model(&params);
-    const struct gb_drive by = {.keep = 1.0, .step = 1.0, .inertia = 0.4, .most = 1.0};
+    const struct gb_integrate_f32 by = {
+        .keep = 1.0, .step = 1.0, .inertia = 0.4, .most = 1.0};
     struct gb_world *world = scene_world(&model);
     scene_evaluate(world);
-    gb_drive_rest(world);
-    gb_drive_move(world, &by, NULL);
+    gb_integrate_f32_rest(world);
+    gb_integrate_f32_move(world, &by, NULL);
     scene_evaluate(world);
     double *position = gb_world_bodies(world).position;
     double *before = g_memdup2(position, 3 * (size_t)model.count * sizeof *before);
     position[3 * 17 + 1] += 0.02;
     world->single.velocity[3 * 17 + 1] = 0.01F;
     world->single.velocity[3 * 18 + 2] = -0.01F;
-    gb_drive_move(world, &by, NULL);
+    gb_integrate_f32_move(world, &by, NULL);
     gb_world_settle(world);
     for (int64_t k = 0; k < 3 * model.count; k++) {
         const double way = k == 3 * 17 + 1 ? 0.03 : k == 3 * 18 + 2 ? -0.01 : 0.0;
@@ -756,7 +760,7 @@ static void test_degrees(gconstpointer data)
  * least of particles in two blocks. */
 static void stray_until_amended(struct gb_world *world)
 {
-    const struct gb_pairs *pairs = gb_world_pairs(world);
+    const struct gb_neighbour_list *pairs = gb_world_pairs(world);
     const struct gb_bodies b = gb_world_bodies(world);
     GRand *dice = g_rand_new_with_seed(11);
     int apart[2] = {0, 0};
@@ -887,7 +891,7 @@ static void test_meeting(void)
         for (int step = 0; step < 100; step++) {
             const int64_t before = gb_world_rebuilds(world);
             (void)gb_world_evaluate(world, &err); /* the others overlap */
-            const struct gb_pairs *pairs = gb_world_pairs(world);
+            const struct gb_neighbour_list *pairs = gb_world_pairs(world);
             const double distance = distance_of(world, 0, 1);
             const bool near = listed(world, &pairs->near, 0, 1, distance);
             g_assert_true(near || distance >= 1.0);

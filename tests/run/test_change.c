@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "common/scene.h"
-#include "pack/world.h"
-#include "phys/changes.h"
+#include "pack/cell/world.h"
 #include "run/checkpoint.h"
 #include "run/runner.h"
+#include "scene/changes.h"
 
 enum { BEFORE = 100, BEHIND = 20 };
 

@@ -4,7 +4,7 @@
 #include <glib.h>
 
 #include "common/die.h"
-#include "pack/bed_copy.h"
+#include "pack/die/bed_copy.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
 #include "run/experiment_private.h"

@@ -4,11 +4,11 @@
 
 #include <glib.h>
 
-#include "measure/survey.h"
-#include "pack/bed_copy.h"
-#include "pack/filling.h"
-#include "run/preset.h"
-#include "solve/programme.h"
+#include "io/preset.h"
+#include "measure/observe_die.h"
+#include "pack/die/bed_copy.h"
+#include "pack/die/filling.h"
+#include "solve/die_stages.h"
 
 /* The targets of P3's experiment: three beds, each filled once and pressed by every
  * model, and as many again by the frictionless ones only: one bed scatters by as much as
@@ -85,36 +85,36 @@ static double seconds_since(clock_t start)
 }
 
 /* To the next point; false at the end. */
-static bool next_point(struct gb_programme *programme, struct gb_bed *bed)
+static bool next_point(struct gb_die_stages *programme, struct gb_bed *bed)
 {
     char text[640];
     struct gb_error err = {0};
     for (;;) {
-        switch (gb_programme_advance(programme, bed, 100000, text, sizeof text, &err)) {
-        case GB_PROGRAMME_MORE:
+        switch (gb_die_stages_advance(programme, bed, 100000, text, sizeof text, &err)) {
+        case GB_DIE_STAGES_MORE:
             if (text[0] != '\0') {
                 g_test_message("%s", text);
             }
             break;
-        case GB_PROGRAMME_POINT:
+        case GB_DIE_STAGES_POINT:
             return true;
-        case GB_PROGRAMME_DONE:
+        case GB_DIE_STAGES_DONE:
             return false;
-        case GB_PROGRAMME_STOPPED:
+        case GB_DIE_STAGES_STOPPED:
             g_error("%s", err.text);
         }
     }
 }
 
-static void book(struct result *result, const struct gb_programme_report *report,
+static void book(struct result *result, const struct gb_die_stages_report *report,
                  const struct gb_bed *bed, const struct gb_model *model)
 {
     const double mpa = 1e-6 * report->wanted * model->pascal_per_stress;
     for (int k = 0; k < MARKS; k++) {
         if (fabs(mpa - marks_mpa[k]) < 0.2) {
-            result->whole[k] = gb_survey_density(bed, report->height);
+            result->whole[k] = gb_observe_die_density(bed, report->height);
             result->central[k] =
-                gb_survey_central(bed, report->height, model->die.central);
+                gb_observe_die_central(bed, report->height, model->die.central);
         }
     }
     if (mpa > 1.9) {
@@ -129,7 +129,7 @@ static struct result press(struct gb_bed *bed, const struct gb_bed_copy *filled,
                            const struct model *name, int seed)
 {
     struct gb_error err = {0};
-    struct gb_programme *programme = NULL;
+    struct gb_die_stages *programme = NULL;
     struct result result = {.floor_low = HUGE_VAL};
     const struct gb_params params = load(name, seed);
     const struct gb_model model = freeze(&params);
@@ -137,13 +137,13 @@ static struct result press(struct gb_bed *bed, const struct gb_bed_copy *filled,
     const clock_t start = clock();
     const int64_t evaluations = bed->evaluations;
     g_assert_true(gb_bed_copy_restore(bed, filled, &err));
-    g_assert_true(gb_programme_create(&programme, &model.die, &law, &err));
-    g_assert_true(gb_programme_begin(programme, bed, &err));
+    g_assert_true(gb_die_stages_create(&programme, &model.die, &law, &err));
+    g_assert_true(gb_die_stages_begin(programme, bed, &err));
     while (next_point(programme, bed)) {
-        const struct gb_programme_report report = gb_programme_report(programme, bed);
+        const struct gb_die_stages_report report = gb_die_stages_report(programme, bed);
         book(&result, &report, bed, &model);
     }
-    gb_programme_destroy(programme);
+    gb_die_stages_destroy(programme);
     const double seconds = seconds_since(start);
     const double steps = (double)(bed->evaluations - evaluations);
     g_test_message(
@@ -167,22 +167,22 @@ static struct bed_result study(int seed, size_t models_pressed)
     struct gb_error err = {0};
     struct bed_result result;
     struct gb_bed *bed = NULL;
-    struct gb_programme *programme = NULL;
+    struct gb_die_stages *programme = NULL;
     struct gb_bed_copy *filled = NULL;
     const struct gb_params params = load(&models[0], seed);
     const struct gb_model model = freeze(&params);
     const struct gb_bed_law law = gb_filling_pressing_law(&params);
     const clock_t start = clock();
     if (!gb_filling_create(&bed, &params, &model, NULL, NULL, &err) ||
-        !gb_programme_create(&programme, &model.die, &law, &err)) {
+        !gb_die_stages_create(&programme, &model.die, &law, &err)) {
         g_error("%s", err.text);
     }
     g_assert_true(next_point(programme, bed));
     g_assert_true(gb_bed_copy_take(bed, &filled, &err));
-    const struct gb_programme_report report = gb_programme_report(programme, bed);
+    const struct gb_die_stages_report report = gb_die_stages_report(programme, bed);
     result.height_um = 1e6 * report.height * model.metre_per_length;
-    result.whole = gb_survey_density(bed, report.height);
-    result.central = gb_survey_central(bed, report.height, model.die.central);
+    result.whole = gb_observe_die_density(bed, report.height);
+    result.central = gb_observe_die_central(bed, report.height, model.die.central);
     g_test_message(
         "bed %d: H0 %.2f um, density %.4f whole, %.4f central; filled in %.1f s", seed,
         result.height_um, result.whole, result.central, seconds_since(start));
@@ -190,7 +190,7 @@ static struct bed_result study(int seed, size_t models_pressed)
         result.model[k] = press(bed, filled, &models[k], seed);
     }
     gb_bed_copy_destroy(filled);
-    gb_programme_destroy(programme);
+    gb_die_stages_destroy(programme);
     gb_bed_destroy(bed);
     return result;
 }

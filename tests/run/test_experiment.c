@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "common/scene.h"
-#include "pack/world.h"
+#include "pack/cell/world.h"
 #include "run/experiment.h"
 
 static struct gb_experiment *create(const struct gb_params *params)

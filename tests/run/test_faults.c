@@ -9,10 +9,10 @@
 #include "common/die.h"
 #include "common/place.h"
 #include "common/scene.h"
-#include "run/hdf_record.h"
-#include "run/rundir.h"
+#include "io/hdf/hdf_record.h"
+#include "io/rundir.h"
+#include "many/single_run.h"
 #include "run/runner.h"
-#include "run/solo.h"
 
 static struct gb_params scene(void)
 {
@@ -81,7 +81,7 @@ static void fail_writes(struct gb_params params)
 {
     struct place place = place_make("run");
     struct gb_error err = {0};
-    g_assert_true(gb_solo_run(&params, place.directory, NULL, &err));
+    g_assert_true(gb_single_run(&params, place.directory, NULL, &err));
     char *whole = place_rows(&place);
     bool done = false;
     long k = 1;
@@ -89,7 +89,7 @@ static void fail_writes(struct gb_params params)
         place_clear(&place);
         err = (struct gb_error){0};
         gb_file_fail_after(k);
-        done = gb_solo_run(&params, place.directory, NULL, &err);
+        done = gb_single_run(&params, place.directory, NULL, &err);
         const long left = gb_file_fail_after(0);
         if (done) { /* not because a failure was passed over */
             g_assert_cmpint(left, >, 0);
@@ -131,7 +131,7 @@ static void fail_allocations(struct gb_params params)
         const size_t before = gb_alloc_bytes();
         place_clear(&place);
         gb_alloc_fail_after(k);
-        done = gb_solo_run(&params, place.directory, NULL, &err);
+        done = gb_single_run(&params, place.directory, NULL, &err);
         const long left = gb_alloc_fail_after(0);
         g_assert_cmpint(left > 0, ==, done);
         if (!done) {
@@ -203,9 +203,9 @@ static void check_lost(enum loss loss, const struct gb_params *params, const cha
 {
     struct thief thief = thief_make(loss);
     struct place *place = &thief.place;
-    const struct gb_crew_boss boss = {.cancelled = steal, .data = &thief};
+    const struct gb_pool_boss boss = {.cancelled = steal, .data = &thief};
     struct gb_error err = {0};
-    g_assert_false(gb_solo_run(params, place->directory, &boss, &err));
+    g_assert_false(gb_single_run(params, place->directory, &boss, &err));
     check_line(&err, GB_ERR_MACHINE);
     g_assert_nonnull(strstr(err.text, place->directory));
     g_assert_nonnull(strstr(err.text, "was moved or removed"));
@@ -226,7 +226,7 @@ static void test_lost(void)
     struct gb_params params = scene();
     struct place place = place_make("run");
     struct gb_error err = {0};
-    g_assert_true(gb_solo_run(&params, place.directory, NULL, &err));
+    g_assert_true(gb_single_run(&params, place.directory, NULL, &err));
     char *whole = place_rows(&place);
     place_finish(&place);
     check_lost(MOVED, &params, whole);

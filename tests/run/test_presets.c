@@ -3,7 +3,7 @@
 #include <glib.h>
 
 #include "greenbody/model.h"
-#include "run/preset.h"
+#include "io/preset.h"
 
 /* Pressed from all sides, a cell keeps its shape: it is a square or a cube from the start. */
 static void check_dynamic(const struct gb_model *model)

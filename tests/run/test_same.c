@@ -6,8 +6,8 @@
 #include "common/die.h"
 #include "common/place.h"
 #include "common/scene.h"
+#include "many/single_run.h"
 #include "run/runner.h"
-#include "run/solo.h"
 
 /* How a run is run; all eight combinations, each on another number of threads. */
 enum { RESUMED = 1, SCREEN = 2, SNAPSHOTS = 4, WAYS = 8 };
@@ -23,8 +23,9 @@ static bool has_points(void *data)
 static void run_plainly(const struct gb_params *params, struct place *place, bool resumed)
 {
     struct gb_error err = {0};
-    const struct gb_crew_boss boss = {.cancelled = has_points, .data = place};
-    const bool done = gb_solo_run(params, place->directory, resumed ? &boss : NULL, &err);
+    const struct gb_pool_boss boss = {.cancelled = has_points, .data = place};
+    const bool done =
+        gb_single_run(params, place->directory, resumed ? &boss : NULL, &err);
     if (done == resumed) {
         g_error("%s", err.text);
     }
@@ -108,7 +109,8 @@ static void run(struct gb_params params, int way, struct result *result)
                     (way & SNAPSHOTS) != 0);
     result->rows = place_rows(&place);
     result->points = place_points(&place);
-    if (!gb_keep_read(place.directory, "state.h5", &params, &result->state, &err)) {
+    if (!gb_run_recorder_read(place.directory, "state.h5", &params, &result->state,
+                              &err)) {
         g_error("%s", err.text);
     }
     gb_record_drop(&result->state, "journal/");

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "common/scene.h"
-#include "phys/tolerances.h"
+#include "scene/tolerances.h"
 #include "solve/guard.h"
-#include "solve/load.h"
+#include "solve/quasistatic.h"
 #include "solve/relax.h"
 
 /* Two particles `gap` apart in a wide cell. */
@@ -45,7 +45,7 @@ static void test_jump(void)
         gb_relax_start(relax, world);
         g_assert_cmpint(gb_relax_advance(relax, world, 100000, &err), ==, GB_RELAX_DONE);
         g_assert_cmpint(gb_world_tally(world)->contacts, ==, 1);
-        const struct gb_departure departure = gb_departure_since(world, before);
+        const struct gb_nonaffine departure = gb_nonaffine_since(world, before);
         g_assert_cmpfloat_with_epsilon(departure.farthest, 0.5 * (0.55 + model.h_eq),
                                        0.01);
         const enum gb_guard_action action =
@@ -73,10 +73,10 @@ static void test_departure(void)
     scene_evaluate(world);
     g_assert_true(gb_world_save(world, &before, &err));
     gb_world_strain(world, factor);
-    struct gb_departure departure = gb_departure_since(world, before);
+    struct gb_nonaffine departure = gb_nonaffine_since(world, before);
     g_assert_cmpfloat(departure.farthest, <, 1e-12);
     gb_world_bodies(world).position[3 * 17 + 2] += 0.3 + gb_world_cell(world)->edge[2];
-    departure = gb_departure_since(world, before);
+    departure = gb_nonaffine_since(world, before);
     g_assert_cmpfloat_with_epsilon(departure.farthest, 0.3, 1e-12);
     g_assert_cmpint(departure.particle, ==, 17);
     g_assert_cmpfloat_with_epsilon(departure.rms, 0.3 / sqrt(200.0), 1e-12);
@@ -226,21 +226,22 @@ static void test_endless(void)
         scene_params("loading.unload_from=10 MPa", "loading.until=20 MPa",
                      "loading.geometry=isotropic", "loading.step=1 %", NULL);
     const struct gb_model model = scene_model(&params);
-    struct gb_load load;
+    struct gb_quasistatic load;
     double factor[3];
     double density = 0.3, grown = 1.0;
-    gb_load_init(&load, &model);
+    gb_quasistatic_init(&load, &model);
     const double top[3] = {model.unload_from[0], model.unload_from[0],
                            model.unload_from[0]};
-    g_assert_cmpint(gb_load_next(&load, top, density, factor), ==, GB_LOAD_UNLOAD);
-    enum gb_load_order order = GB_LOAD_STRAIN;
-    for (int i = 0; i < 1000 && order == GB_LOAD_STRAIN; i++) {
+    g_assert_cmpint(gb_quasistatic_next(&load, top, density, factor), ==,
+                    GB_QUASISTATIC_UNLOAD);
+    enum gb_quasistatic_order order = GB_QUASISTATIC_STRAIN;
+    for (int i = 0; i < 1000 && order == GB_QUASISTATIC_STRAIN; i++) {
         const double left[3] = {0.1 * top[0], 0.1 * top[0], 0.1 * top[0]};
         grown *= factor[2];
         density /= factor[0] * factor[1] * factor[2];
-        order = gb_load_next(&load, left, density, factor);
+        order = gb_quasistatic_next(&load, left, density, factor);
     }
-    g_assert_cmpint(order, ==, GB_LOAD_RESTORE);
+    g_assert_cmpint(order, ==, GB_QUASISTATIC_RESTORE);
     g_assert_true(load.endless);
     g_assert_cmpfloat(grown, <, 1.6);
 }

@@ -9,7 +9,7 @@
 
 #include "run/experiment.h"
 #include "run/quick.h"
-#include "tui/views.h"
+#include "tui/view/views.h"
 
 static bool hard;
 

@@ -1,7 +1,7 @@
 #include <glib.h>
 #include <string.h>
 
-#include "tui/costly.h"
+#include "tui/session/costly.h"
 
 /* P2's discs at a rate of loading, before anything is measured, on one core. */
 static struct gb_params planar(const char *rate, const char *time_step)

@@ -2,7 +2,7 @@
 #include <ncurses.h>
 #include <string.h>
 
-#include "tui/keys.h"
+#include "tui/app/keys.h"
 
 static void test_no_duplicates(void)
 {

@@ -2,8 +2,8 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "tui/complete.h"
-#include "tui/knob.h"
+#include "tui/app/complete.h"
+#include "tui/session/knob.h"
 
 static void expect(const char *group, const char *key, const char *value, int direction,
                    const char *wanted)

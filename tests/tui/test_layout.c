@@ -1,6 +1,6 @@
 #include <glib.h>
 
-#include "tui/layout.h"
+#include "tui/app/layout.h"
 
 enum { MOST_ROWS = 100, MOST_COLS = 300, RECTS = GB_PANES + 3 };
 

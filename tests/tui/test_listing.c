@@ -1,7 +1,7 @@
 #include <glib.h>
 
-#include "phys/applies.h"
-#include "tui/listing.h"
+#include "scene/applies.h"
+#include "tui/panel/listing.h"
 
 static struct gb_params scene(const char *first, ...)
 {

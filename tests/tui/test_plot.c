@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "tui/plot.h"
+#include "tui/plot/plot.h"
 
 enum { POINTS = 101 };
 

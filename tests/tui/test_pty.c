@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tui/pixels.h"
+#include "tui/term/pixels.h"
 
 /* The targets of speed are asserted of medians with 'long', on a machine that does
  * nothing else; here of what other work cannot spoil. */

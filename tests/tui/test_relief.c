@@ -1,15 +1,15 @@
 /* Packings drawn as lit spheres. */
 #include <glib.h>
 
-#include "tui/relief.h"
+#include "tui/plot/relief.h"
 
 enum { ROWS = 40, COLS = 40 };
 
 static float shade[ROWS * COLS];
 
-static struct gb_picture *one_sphere(int dimension, float y)
+static struct gb_view_sample *one_sphere(int dimension, float y)
 {
-    struct gb_picture *picture = g_new0(struct gb_picture, 1);
+    struct gb_view_sample *picture = g_new0(struct gb_view_sample, 1);
     picture->valid = true;
     picture->dimension = dimension;
     picture->window[0] = picture->window[1] = picture->window[2] = 9.0;
@@ -43,7 +43,7 @@ static float brightest(void)
 /* 10 diameters over 40 dots: a disc of radius 2 dots in the middle. */
 static void test_one(void)
 {
-    struct gb_picture *picture = one_sphere(3, 0.0F);
+    struct gb_view_sample *picture = one_sphere(3, 0.0F);
     gb_relief_render(picture, ROWS, COLS, shade);
     g_assert_cmpint(covered(), >=, 9);
     g_assert_cmpint(covered(), <=, 16);
@@ -57,8 +57,8 @@ static void test_one(void)
 /* Deeper is darker, and what is in front hides what is behind, in any order. */
 static void test_depth(void)
 {
-    struct gb_picture *near = one_sphere(3, 0.0F);
-    struct gb_picture *far = one_sphere(3, 8.0F);
+    struct gb_view_sample *near = one_sphere(3, 0.0F);
+    struct gb_view_sample *far = one_sphere(3, 8.0F);
     gb_relief_render(near, ROWS, COLS, shade);
     const float front = brightest();
     gb_relief_render(far, ROWS, COLS, shade);
@@ -80,7 +80,7 @@ static void test_depth(void)
 /* Any size and a full picture stay inside the array. */
 static void test_sizes(void)
 {
-    struct gb_picture *picture = one_sphere(2, 0.0F);
+    struct gb_view_sample *picture = one_sphere(2, 0.0F);
     picture->count = GB_PICTURE_POINTS;
     for (int i = 0; i < picture->count; i++) {
         picture->place[i][0] = (float)(i % 64) * 9.0F / 63.0F;

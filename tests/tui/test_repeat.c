@@ -2,7 +2,7 @@
 #include <glib.h>
 #include <string.h>
 
-#include "tui/repeat.h"
+#include "tui/session/repeat.h"
 
 static void test_command(void)
 {

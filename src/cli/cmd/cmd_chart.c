@@ -1,0 +1,322 @@
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/file.h"
+#include "base/units.h"
+#include "cli/chart_page.h"
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "io/preset.h"
+
+enum { SEEDS_MOST = 1000, DESCRIPTION = 160 };
+
+struct chart {
+    char *directory, *write, *pressures, *budget_text;
+    char **vary, **reference;
+    int seeds;
+    double budget_s, allowed, standard_error;
+    gboolean force, quiet;
+    char *command; /* for the head of chart.csv */
+    struct gb_preset *preset;
+    struct gb_chart_plan plan;
+    struct gb_chart_log log;
+    struct gb_progress progress;
+    double spent_s;
+    int missing; /* cells that the budget did not reach */
+};
+
+static volatile sig_atomic_t caught;
+
+static void on_signal(int number)
+{
+    caught = number;
+}
+
+static void install_handlers(void)
+{
+    struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+static bool cancelled(void *data, double cpu_s)
+{
+    const struct chart *chart = data;
+    return caught != 0 || chart->spent_s + cpu_s > chart->budget_s;
+}
+
+/* The file to write may be new or the preset itself; another one only by force. */
+static bool check_write(const struct chart *chart, struct gb_error *err)
+{
+    if (!chart->write || !gb_file_check_target(chart->write, err)) {
+        return chart->write == NULL;
+    }
+    char *there = g_canonicalize_filename(chart->write, NULL);
+    char *own = g_canonicalize_filename(gb_preset_path(chart->preset), NULL);
+    const bool fine = chart->force || strcmp(there, own) == 0 ||
+                      !g_file_test(chart->write, G_FILE_TEST_EXISTS);
+    g_free(there);
+    g_free(own);
+    return fine ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "--write %.300s: exists; accepted: a new file, the preset "
+                        "itself, or --force",
+                        chart->write);
+}
+
+static bool check(struct chart *chart, struct gb_error *err)
+{
+    chart->budget_s = INFINITY;
+    if (chart->directory == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "chart needs --out DIR, a directory for the chart");
+    }
+    if (chart->seeds < 2 || chart->seeds > SEEDS_MOST) {
+        return gb_error_set(err, GB_ERR_INPUT, "--seeds %d: accepted 2 to %d",
+                            chart->seeds, SEEDS_MOST);
+    }
+    if (!(chart->standard_error > 0.0) || chart->allowed < 0.0) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--allow and --standard-error: accepted above 0");
+    }
+    struct gb_error why = {0};
+    if (chart->budget_text &&
+        (!gb_units_parse(chart->budget_text, GB_DIM_TIME, &chart->budget_s, &why) ||
+         !(chart->budget_s > 0.0))) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--budget %.80s: accepted a time above 0, as in '10 min'",
+                            chart->budget_text);
+    }
+    return true;
+}
+
+static bool prepare(struct chart *chart, char **words, char **sets, struct gb_error *err)
+{
+    return check(chart, err) &&
+           gb_options_scene(&chart->preset, words, sets, true, err) &&
+           check_write(chart, err) &&
+           gb_chart_plan_init(&chart->plan, gb_preset_params(chart->preset),
+                              (const char *const *)chart->vary,
+                              (const char *const *)chart->reference, chart->pressures,
+                              chart->seeds, err) &&
+           gb_chart_log_open(&chart->log, chart->directory, &chart->plan, err);
+}
+
+static bool keep_table(const struct chart *chart, struct gb_error *err)
+{
+    struct gb_chart_table table;
+    gb_chart_table_init(&table, &chart->log,
+                        chart->allowed > 0.0 ? chart->allowed : (double)NAN);
+    char *comment = g_strdup_printf(
+        "preset: %s\n%s\n"
+        "error: density minus that of the reference, same seeds; scatter: standard "
+        "deviation between the seeds; bound: largest |error| + error_se\n"
+        "step and step_error are fractions; cpu_s and evaluations: mean of one cell, "
+        "loading only",
+        chart->plan.params.title, chart->command);
+    GString *text = gb_chart_table_csv(&table, &chart->plan, comment);
+    const bool good = gb_chart_log_keep(&chart->log, "chart.csv", text, err);
+    g_string_free(text, TRUE);
+    g_free(comment);
+    gb_chart_table_finish(&table);
+    return good;
+}
+
+/* One cell, unless it is known.  False only when the chart cannot go on. */
+static bool measure(struct chart *chart, const struct gb_chart_choice *choice,
+                    uint64_t seed, struct gb_error *err)
+{
+    if (gb_chart_log_find(&chart->log, choice, seed)) {
+        return true;
+    }
+    if (chart->missing > 0) { /* the budget is spent */
+        chart->missing++;
+        return true;
+    }
+    struct gb_chart_run run = {.choice = *choice, .seed = seed};
+    const bool done = gb_chart_press(&run, &chart->plan.params, chart->plan.pressure_pa,
+                                     chart->plan.pressures, cancelled, chart, err);
+    chart->spent_s += run.cpu_s;
+    if (!done && err->code == GB_ERR_CANCELLED && caught == 0) {
+        chart->missing++;
+        return true;
+    }
+    return done && gb_chart_log_add(&chart->log, &run, err);
+}
+
+static bool press_all(struct chart *chart, struct gb_error *err)
+{
+    const struct gb_chart_plan *plan = &chart->plan;
+    for (size_t i = 0; i < plan->choices; i++) {
+        const double before = chart->spent_s;
+        const int missing = chart->missing;
+        for (int s = 0; s < plan->seeds; s++) {
+            if (!measure(chart, &plan->choice[i], plan->params.seed + (uint64_t)s, err)) {
+                return false;
+            }
+        }
+        if (chart->spent_s > before && missing == chart->missing) {
+            char text[DESCRIPTION];
+            gb_progress_say(&chart->progress, "%3zu of %zu  %6.1f CPU s  %s", i + 1,
+                            plan->choices, chart->spent_s - before,
+                            gb_chart_describe(&plan->choice[i], text, sizeof text));
+        }
+        if (chart->spent_s > before && !keep_table(chart, err)) {
+            return false;
+        }
+    }
+    return keep_table(chart, err);
+}
+
+/* The chosen numbers into the preset as it is on disk; everything else stays. */
+static bool write_preset(const struct chart *chart, const struct gb_chart_row *chosen,
+                         struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    if (!chosen) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--write %.300s: no choice is known to err less; nothing is "
+                            "written",
+                            chart->write);
+    }
+    if (!gb_preset_load(&preset, gb_preset_path(chart->preset), err)) {
+        return false;
+    }
+    struct gb_chart_choice choice = chosen->choice;
+    choice.count = gb_preset_params(preset)->count;
+    gb_chart_choose(gb_preset_params(preset), &choice);
+    const bool good = gb_params_check(gb_preset_params(preset), err) &&
+                      gb_preset_save(preset, chart->write, false, err);
+    gb_preset_destroy(preset);
+    if (good) {
+        printf("written to %s\n", chart->write);
+    }
+    return good;
+}
+
+static bool conclude(struct chart *chart, struct gb_error *err)
+{
+    struct gb_chart_table table;
+    struct gb_chart_advice advice;
+    gb_chart_table_init(&table, &chart->log,
+                        chart->allowed > 0.0 ? chart->allowed : (double)NAN);
+    bool good =
+        gb_chart_advice_init(&advice, &table, &chart->plan, chart->standard_error, err);
+    if (good) {
+        GString *page = gb_chart_page(&table, &chart->plan, &advice);
+        fputs(page->str, stdout);
+        g_string_free(page, TRUE);
+        if (chart->missing > 0) {
+            printf(
+                "%d cells are missing: the budget is spent; the same command goes on\n",
+                chart->missing);
+        }
+        good = !chart->write || write_preset(chart, gb_chart_table_chosen(&table), err);
+    }
+    gb_chart_table_finish(&table);
+    return good;
+}
+
+static int perform(struct chart *chart, char **words, char **sets)
+{
+    struct gb_error err = {0};
+    if (prepare(chart, words, sets, &err) && press_all(chart, &err) &&
+        conclude(chart, &err)) {
+        return 0;
+    }
+    if (err.code == GB_ERR_CANCELLED && caught != 0) {
+        struct gb_error ignored;
+        keep_table(chart, &ignored);
+        gb_progress_say(&chart->progress, "stopped; the same command goes on");
+        return 128 + (int)caught;
+    }
+    return gb_options_fail(&err);
+}
+
+static char *join_command(int argc, char **argv)
+{
+    GString *text = g_string_new("command: greenbody");
+    for (int i = 0; i < argc; i++) {
+        const bool plain = strpbrk(argv[i], " ;'\"\n") == NULL;
+        char *quoted = plain ? g_strdup(argv[i]) : g_shell_quote(argv[i]);
+        g_string_append_printf(text, " %s", quoted);
+        g_free(quoted);
+    }
+    g_strdelimit(text->str, "\n\r", '?');
+    return g_string_free(text, FALSE);
+}
+
+int gb_cmd_chart(int argc, char **argv)
+{
+    static const struct gb_options_page page = {
+        "PRESET [group.key=value]...",
+        "Measures the error of the numerical choices of a scene against their cost: "
+        "each\n"
+        "choice presses the same cells as a reference does with a small strain step and "
+        "a\n"
+        "tight tolerance, and its densities at given pressures are compared, cell by "
+        "cell.\n"
+        "Marks the choices that nothing beats, names the cheapest whose error is below "
+        "the\n"
+        "scatter between cells, and says which rows are limited by noise and how many\n"
+        "cells a wanted standard error takes.",
+        "DIR receives chart.csv (one row per choice), runs.csv (one row per cell) and\n"
+        "preset.ini.  The same command goes on where it was stopped.\n"
+        "`greenbody plot DIR --figure chart` draws it, `--figure chart-error` the "
+        "errors\n"
+        "at one of the pressures."};
+    struct chart chart = {.seeds = 4, .standard_error = 0.001, .log = {.lock = -1}};
+    char **sets = NULL, **words = NULL;
+    int status = 0;
+    const GOptionEntry entries[] = {
+        GB_OPTIONS_SET(&sets),
+        {"out", 'o', 0, G_OPTION_ARG_FILENAME, &chart.directory, "directory of the chart",
+         "DIR"},
+        {"seeds", 0, 0, G_OPTION_ARG_INT, &chart.seeds,
+         "cells per choice, from structure.seed on (4)", "N"},
+        {"budget", 0, 0, G_OPTION_ARG_STRING, &chart.budget_text,
+         "CPU time after which it stops for now", "'10 min'"},
+        {"at", 0, 0, G_OPTION_ARG_STRING, &chart.pressures,
+         "pressures (where the preset unloads, and its end)", "'100 MPa; 1 GPa'"},
+        {"vary", 0, 0, G_OPTION_ARG_STRING_ARRAY, &chart.vary,
+         "choices of a key; repeated: all combinations", "group.key=A,B,..."},
+        {"reference", 0, 0, G_OPTION_ARG_STRING_ARRAY, &chart.reference,
+         "another number for the reference; may be repeated", "group.key=value"},
+        {"allow", 0, 0, G_OPTION_ARG_DOUBLE, &chart.allowed,
+         "error in density allowed to the chosen one (the scatter)", "0.002"},
+        {"standard-error", 0, 0, G_OPTION_ARG_DOUBLE, &chart.standard_error,
+         "of a mean density, for the advice on cells (0.001)", "0.001"},
+        {"write", 0, 0, G_OPTION_ARG_FILENAME, &chart.write,
+         "write the preset with the chosen numbers: a new file, or the preset itself",
+         "FILE"},
+        {"force", 'f', 0, G_OPTION_ARG_NONE, &chart.force,
+         "let --write replace another file", NULL},
+        {"quiet", 'q', 0, G_OPTION_ARG_NONE, &chart.quiet, "no progress", NULL},
+        {0}};
+    chart.command = join_command(argc, argv);
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        gb_progress_init(&chart.progress, chart.quiet);
+        install_handlers();
+        status = perform(&chart, words, sets);
+    }
+    gb_chart_log_close(&chart.log);
+    gb_chart_plan_finish(&chart.plan);
+    gb_preset_destroy(chart.preset);
+    g_free(chart.directory);
+    g_free(chart.write);
+    g_free(chart.pressures);
+    g_free(chart.budget_text);
+    g_free(chart.command);
+    g_strfreev(chart.vary);
+    g_strfreev(chart.reference);
+    g_strfreev(words);
+    g_strfreev(sets);
+    return status;
+}

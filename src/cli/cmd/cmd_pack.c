@@ -1,0 +1,177 @@
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "figures/report/packing.h"
+#include "io/preset.h"
+#include "io/rundir.h"
+#include "measure/structure.h"
+#include "pack/cell/cell.h"
+#include "run/experiment.h"
+#include "scene/die_scene.h"
+
+/* g(r) is taken in bins of about this width, d: it shows the peak of touching particles
+ * and the edges at sqrt(3) and 2 apart. */
+static const double bin_width = 0.05;
+
+/* Beyond this distance (d) g(r) costs more than the packing itself and is 1. */
+static const double farthest = 12.0;
+
+/* Without adhesion touching particles are at r = d but for rounding. */
+static const double touch = 1e-9;
+
+struct pack {
+    char *directory;
+    bool force;
+    struct gb_preset *preset;
+    struct gb_packing packing;
+};
+
+/* Everything that can be known to be wrong before the packing is grown. */
+static bool prepare(struct pack *pack, char **words, char **sets, struct gb_error *err)
+{
+    if (pack->directory == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "pack needs --out DIR, a directory for the packing");
+    }
+    if (!gb_options_scene(&pack->preset, words, sets, true, err)) {
+        return false;
+    }
+    pack->packing.params = *gb_preset_params(pack->preset);
+    return gb_die_scene_absent(&pack->packing.params, "pack", err) &&
+           gb_rundir_check(pack->directory, pack->force, err);
+}
+
+/* The packing exactly as `run` would start from it. */
+static bool grow(struct gb_packing *packing, struct gb_error *err)
+{
+    struct gb_experiment *experiment = NULL;
+    if (!gb_experiment_create(&experiment, &packing->params, NULL, NULL, err)) {
+        return false;
+    }
+    packing->r_eq = 1.0 - gb_experiment_model(experiment)->h_eq;
+    const bool grown = gb_experiment_state(experiment, &packing->state, err);
+    gb_experiment_destroy(experiment);
+    return grown;
+}
+
+static bool measure(struct gb_packing *packing, struct gb_error *err)
+{
+    const struct gb_state *state = packing->state;
+    struct gb_cell cell;
+    gb_cell_init(&cell, state->dimension, state->cell);
+    packing->reach = packing->r_eq < 1.0 ? 1.0 : 1.0 + touch;
+    packing->r_max = fmin(0.5 * gb_cell_shortest(&cell), farthest);
+    packing->bins = (int)ceil(packing->r_max / bin_width);
+    packing->g = gb_alloc_array((size_t)packing->bins, sizeof *packing->g, err);
+    if (packing->g == NULL ||
+        !gb_structure_rdf(&cell, state->count, state->position, packing->r_max,
+                          packing->bins, packing->g, err) ||
+        !gb_structure_connectivity(&cell, state->count, state->position, state->radius,
+                                   packing->reach, &packing->connectivity, err)) {
+        return false;
+    }
+    packing->g_end = gb_structure_rdf_end(state->dimension, packing->r_max, packing->bins,
+                                          packing->g, NULL);
+    return true;
+}
+
+/* A packing that cannot be written whole leaves nothing behind. */
+static bool keep(const struct pack *pack, struct gb_error *err)
+{
+    struct gb_rundir dir;
+    if (!gb_rundir_make(&dir, pack->directory, pack->force, err)) {
+        return false;
+    }
+    if (!gb_packing_write(&pack->packing, pack->directory, err)) {
+        gb_rundir_unmake(&dir);
+        return false;
+    }
+    gb_rundir_finish(&dir);
+    return true;
+}
+
+static void print_contacts(const struct gb_connectivity *found, int64_t count)
+{
+    enum { BINS = sizeof found->histogram / sizeof found->histogram[0] };
+    printf("coordination   %.6g\n", found->coordination);
+    for (int k = 0; k < BINS; k++) {
+        if (found->histogram[k] > 0) {
+            printf("  %2d%s contacts %8" PRId64 "  %6.2f %%\n", k,
+                   k == BINS - 1 ? "+" : " ", found->histogram[k],
+                   100.0 * (double)found->histogram[k] / (double)count);
+        }
+    }
+}
+
+static void print_summary(const struct gb_packing *packing, const char *directory)
+{
+    const struct gb_state *state = packing->state;
+    const struct gb_connectivity *found = &packing->connectivity;
+    const bool planar = state->dimension == 2;
+    const char *const axes[] = {"x ", "y ", "z "};
+    printf("particles      %" PRId64 ", seed %" PRIu64 "\n", state->count, state->seed);
+    if (planar) {
+        printf("cell           %.5g x %.5g d\n", state->cell[0], state->cell[2]);
+    } else {
+        printf("cell           %.5g x %.5g x %.5g d\n", state->cell[0], state->cell[1],
+               state->cell[2]);
+    }
+    printf("density        %.6g\n", state->point.density);
+    print_contacts(found, state->count);
+    printf("clusters       %" PRId64 ", the largest of %" PRId64 " particles\n",
+           found->clusters, found->largest);
+    printf("spans along    ");
+    bool any = false;
+    for (int k = 0; k < 3; k++) {
+        fputs(found->percolates[k] ? axes[k] : "", stdout);
+        any = any || found->percolates[k];
+    }
+    puts(any ? "" : "no axis");
+    printf("mean g(r)      %.5g for r = %.4g to %.4g d\n", packing->g_end,
+           fmax(0.0, packing->r_max - 1.0), packing->r_max);
+    printf("written to     %s\n", directory);
+}
+
+int gb_cmd_pack(int argc, char **argv)
+{
+    static const struct gb_options_page page = {
+        "PRESET [group.key=value]...",
+        "The initial structure alone: its particles (packing.csv), g(r) (g.csv), "
+        "contacts\n"
+        "and clusters (structure.json), and state.h5 for greenbody snapshot.",
+        NULL};
+    struct pack pack = {0};
+    struct gb_error err = {0};
+    char **sets = NULL;
+    char **words = NULL;
+    gboolean force = FALSE;
+    int status = 0;
+    const GOptionEntry entries[] = {GB_OPTIONS_SET(&sets),
+                                    {"out", 'o', 0, G_OPTION_ARG_FILENAME,
+                                     &pack.directory, "directory of the packing", "DIR"},
+                                    {"force", 'f', 0, G_OPTION_ARG_NONE, &force,
+                                     "replace what an earlier command left in DIR", NULL},
+                                    {0}};
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        pack.force = force;
+        if (prepare(&pack, words, sets, &err) && grow(&pack.packing, &err) &&
+            measure(&pack.packing, &err) && keep(&pack, &err)) {
+            print_summary(&pack.packing, pack.directory);
+        } else {
+            status = gb_options_fail(&err);
+        }
+    }
+    gb_alloc_free(pack.packing.g);
+    gb_state_destroy(pack.packing.state);
+    gb_preset_destroy(pack.preset);
+    g_free(pack.directory);
+    g_strfreev(words);
+    g_strfreev(sets);
+    return status;
+}

@@ -1,0 +1,342 @@
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/units.h"
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "figures/figures.h"
+#include "figures/plotting.h"
+#include "many/runset.h"
+
+enum { DIRECTORIES_MAX = 1000 };
+
+/* What the command line said. */
+struct request {
+    char *figure, *reference, *densities, *pressure, *output, *size, *log, *data, *title,
+        *inset;
+    char *at;
+    gboolean force;
+};
+
+static void free_request(struct request *request)
+{
+    char *const texts[] = {request->figure,   request->reference, request->densities,
+                           request->pressure, request->output,    request->size,
+                           request->log,      request->data,      request->title,
+                           request->at,       request->inset};
+    for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
+        g_free(texts[k]);
+    }
+}
+
+static const struct gb_figures_row *find_figure(const char *name, struct gb_error *err)
+{
+    const struct gb_figures_row *found = name ? gb_figures_find(name) : NULL;
+    if (found == NULL) {
+        GString *names = g_string_new(NULL);
+        for (const struct gb_figures_row *row = gb_figures_all(); row->name; row++) {
+            g_string_append_printf(names, "%s%s", names->len ? ", " : "", row->name);
+        }
+        gb_error_set(err, GB_ERR_INPUT, "--figure %.80s: accepted %s", name ? name : "",
+                     names->str);
+        g_string_free(names, TRUE);
+    }
+    return found;
+}
+
+static bool parse_densities(const char *text, struct gb_figures_input *to,
+                            struct gb_error *err)
+{
+    char **parts = g_strsplit(text, ",", GB_FIGURES_DENSITIES + 1);
+    bool good = parts[0] != NULL;
+    for (size_t i = 0; parts[i] != NULL && good; i++) {
+        good = i < GB_FIGURES_DENSITIES &&
+               gb_units_parse(parts[i], GB_DIM_NONE, &to->density[i], NULL) &&
+               to->density[i] > 0.0 && to->density[i] < 2.0;
+        to->densities = i + 1;
+    }
+    g_strfreev(parts);
+    return good ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "--density %.80s: accepted up to %d numbers between 0 and 2, as "
+                        "in 0.8,0.9,0.95",
+                        text, GB_FIGURES_DENSITIES);
+}
+
+/* Options that belong to some figures only. */
+static bool check_options(const struct request *request,
+                          const struct gb_figures_row *figure, struct gb_error *err)
+{
+    const bool differs = strcmp(figure->name, "difference") == 0;
+    if (differs != (request->reference != NULL)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            differs ? "the figure difference needs --reference DIR"
+                                    : "--reference is for the figure difference");
+    }
+    if (request->densities != NULL && strcmp(figure->name, "rate") != 0) {
+        return gb_error_set(err, GB_ERR_INPUT, "--density is for the figure rate");
+    }
+    const bool at_pressure = strcmp(figure->name, "size-effect") == 0 ||
+                             strcmp(figure->name, "sweep") == 0 ||
+                             strcmp(figure->name, "chart-error") == 0;
+    if (request->pressure != NULL && !at_pressure) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--pressure is for the figures size-effect, sweep and chart-error");
+    }
+    if (request->at != NULL && figure->takes != GB_FIGURES_STATES) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--at is for figures of packings: rdf, force-angle, sizes");
+    }
+    if (request->log != NULL && strspn(request->log, "xy") != strlen(request->log)) {
+        return gb_error_set(err, GB_ERR_INPUT, "--log %.80s: accepted x, y or xy",
+                            request->log);
+    }
+    return true;
+}
+
+static bool check_count(guint count, struct gb_error *err)
+{
+    return (count > 0 && count <= DIRECTORIES_MAX) ||
+           gb_error_set(err, GB_ERR_INPUT, "plot takes 1 to %d run directories",
+                        DIRECTORIES_MAX);
+}
+
+/* All that can be known to be wrong before the runs are read. */
+static bool check_request(const struct request *request,
+                          const struct gb_figures_row *figure, char **words,
+                          struct gb_error *err)
+{
+    return (figure->takes == GB_FIGURES_SCENE ||
+            check_count(g_strv_length(words), err)) &&
+           check_options(request, figure, err) &&
+           (request->output == NULL ||
+            gb_plotting_check(request->output, request->force, err));
+}
+
+static bool same_place(const char *a, const char *b)
+{
+    char *first = g_canonicalize_filename(a, NULL);
+    char *second = g_canonicalize_filename(b, NULL);
+    const bool same = strcmp(first, second) == 0;
+    g_free(first);
+    g_free(second);
+    return same;
+}
+
+/* The directories to read; the reference comes last when it is none of them.  Returns
+ * its place. */
+static size_t list_directories(char **words, const char *reference, GPtrArray *list)
+{
+    for (size_t i = 0; words[i] != NULL; i++) {
+        gb_runset_expand(list, words[i]);
+    }
+    for (guint i = 0; i < list->len; i++) {
+        if (reference == NULL || same_place(g_ptr_array_index(list, i), reference)) {
+            return i;
+        }
+    }
+    g_ptr_array_add(list, g_strdup(reference));
+    return list->len - 1;
+}
+
+static bool write_series(const struct gb_series *series, const struct request *request,
+                         const struct gb_figures_row *figure, const struct gb_runset *set,
+                         struct gb_error *err)
+{
+    struct gb_plotting_page page = {.width = 1600,
+                                    .height = 1200,
+                                    .name = figure->name,
+                                    .title = request->title,
+                                    .set = set};
+    if (request->output != NULL) {
+        return (request->size == NULL ||
+                gb_image_parse_size(request->size, &page.width, &page.height, err)) &&
+               gb_plotting_write(series, &page, request->output, err);
+    }
+    GString *text = gb_series_csv(series);
+    const bool good =
+        (fwrite(text->str, 1, text->len, stdout) == text->len && fflush(stdout) == 0) ||
+        gb_options_output_failed(err);
+    g_string_free(text, TRUE);
+    return good;
+}
+
+static void set_log(struct gb_series *series, const char *axes)
+{
+    series->x.log = series->x.log || (axes != NULL && strchr(axes, 'x') != NULL);
+    series->y.log = series->y.log || (axes != NULL && strchr(axes, 'y') != NULL);
+}
+
+/* "5:9" along x, or none. */
+static bool set_inset(struct gb_series *series, const char *text, struct gb_error *err)
+{
+    const char *end = NULL;
+    double from = 0.0;
+    double to = 0.0;
+    const bool none = strcmp(text, "none") == 0;
+    if (!none && (!gb_units_number(text, &end, &from) || *end != ':' ||
+                  !gb_units_number(end + 1, &end, &to) || *end != '\0' || !(from < to))) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--inset %.80s: accepted FROM:TO of the lower axis, as in "
+                            "5:9, or none",
+                            text);
+    }
+    series->inset[0] = none ? NAN : from;
+    series->inset[1] = none ? NAN : to;
+    return true;
+}
+
+static bool plot_series(const struct request *request,
+                        const struct gb_figures_row *figure,
+                        const struct gb_figures_input *input, struct gb_error *err)
+{
+    struct gb_series series = {0};
+    bool good = figure->compute(&series, input, err) &&
+                (request->inset == NULL || set_inset(&series, request->inset, err)) &&
+                (request->data == NULL ||
+                 gb_plotting_data(&series, request->data, figure->name, err));
+    if (good) {
+        set_log(&series, request->log);
+        good = write_series(&series, request, figure, input->set, err);
+    }
+    gb_series_finish(&series);
+    return good;
+}
+
+static bool plot_runs(const struct request *request, const struct gb_figures_row *figure,
+                      struct gb_figures_input *input, char **words, struct gb_error *err)
+{
+    struct gb_runset set = {0};
+    GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
+    const size_t place = list_directories(words, request->reference, list);
+    bool good = check_count(list->len, err) &&
+                gb_runset_read(&set, (char *const *)list->pdata, list->len, err);
+    if (good) {
+        gb_runset_merge(&set, gb_figures_ignored(figure));
+        input->set = &set;
+        input->reference = set.run[place].group;
+        good = plot_series(request, figure, input, err);
+    }
+    gb_runset_finish(&set);
+    g_ptr_array_unref(list);
+    return good;
+}
+
+/* The figure of a law: of its own preset unless another is named. */
+static bool plot_scene(const struct request *request, const struct gb_figures_row *figure,
+                       struct gb_figures_input *input, char **words, struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    GPtrArray *list = g_ptr_array_new();
+    bool named = false;
+    for (size_t i = 0; words[i] != NULL; i++) {
+        named = named || strchr(words[i], '=') == NULL;
+    }
+    if (!named) {
+        g_ptr_array_add(list, (char *)(uintptr_t)figure->preset);
+    }
+    for (size_t i = 0; words[i] != NULL; i++) {
+        g_ptr_array_add(list, words[i]);
+    }
+    g_ptr_array_add(list, NULL);
+    bool good = gb_options_scene(&preset, (char **)list->pdata, NULL, false, err);
+    if (good) {
+        input->scene = gb_preset_params(preset);
+        good = plot_series(request, figure, input, err);
+    }
+    gb_preset_destroy(preset);
+    g_ptr_array_unref(list);
+    return good;
+}
+
+static bool plot(const struct request *request, char **words, struct gb_error *err)
+{
+    struct gb_figures_input input = {.at = request->at, .words = words};
+    const struct gb_figures_row *figure = find_figure(request->figure, err);
+    if (figure == NULL || !check_request(request, figure, words, err) ||
+        (request->densities && !parse_densities(request->densities, &input, err)) ||
+        (request->pressure &&
+         !gb_units_parse(request->pressure, GB_DIM_PRESSURE, &input.pressure_pa, err))) {
+        return false;
+    }
+    if (figure->takes == GB_FIGURES_TABLE) {
+        return plot_series(request, figure, &input, err);
+    }
+    return figure->takes == GB_FIGURES_SCENE
+               ? plot_scene(request, figure, &input, words, err)
+               : plot_runs(request, figure, &input, words, err);
+}
+
+/* The list of figures under the options. */
+static char *describe_figures(void)
+{
+    GString *text = g_string_new("Figures:\n");
+    for (const struct gb_figures_row *row = gb_figures_all(); row->name != NULL; row++) {
+        g_string_append_printf(text, "  %-14s %s\n", row->name, row->doc);
+    }
+    g_string_append(
+        text, "\nRuns whose presets are equal but for seed, title, threads "
+              "and [output] are one\ngroup; means are over its runs (figures of the "
+              "loading branch: also those that differ in\nloading.hold).  The directory "
+              "of a sweep stands for its runs.\nFigures of laws, from contact to "
+              "critical-step, take a preset and group.key=value\nin place of runs; "
+              "chart takes the directory of greenbody chart.\nA figure has a twin "
+              "ending in .csv beside it;\n"
+              "the table of --data has the columns of its axes, and may have "
+              "series (words) and\n<column>_error.");
+    return g_string_free(text, FALSE);
+}
+
+int gb_cmd_plot(int argc, char **argv)
+{
+    struct request request = {0};
+    struct gb_error err = {0};
+    char **words = NULL;
+    int status = 0;
+    const GOptionEntry entries[] = {
+        {"figure", 0, 0, G_OPTION_ARG_STRING, &request.figure, "one of those below",
+         "NAME"},
+        {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output,
+         "the figure, and its data beside it (standard output)", "FILE.png|svg|pdf|csv"},
+        {"size", 0, 0, G_OPTION_ARG_STRING, &request.size, "pixels (1600x1200)",
+         "WIDTHxHEIGHT"},
+        {"log", 0, 0, G_OPTION_ARG_STRING, &request.log, "axes that are logarithmic",
+         "x|y|xy"},
+        {"data", 0, 0, G_OPTION_ARG_FILENAME, &request.data,
+         "points of an experiment, drawn as marks", "FILE.csv"},
+        {"inset", 0, 0, G_OPTION_ARG_STRING, &request.inset,
+         "a part of the lower axis drawn larger in a free corner; none", "FROM:TO"},
+        {"title", 0, 0, G_OPTION_ARG_STRING, &request.title, "above the figure", "TEXT"},
+        {"force", 0, 0, G_OPTION_ARG_NONE, &request.force, "replace an existing file",
+         NULL},
+        {"reference", 0, 0, G_OPTION_ARG_FILENAME, &request.reference,
+         "difference: a run of the group that is subtracted", "DIR"},
+        {"density", 0, 0, G_OPTION_ARG_STRING, &request.densities,
+         "rate: densities at which pressures are compared", "RHO,RHO..."},
+        {"pressure", 0, 0, G_OPTION_ARG_STRING, &request.pressure,
+         "where size-effect, sweep (100 MPa), chart-error (the last one) compare", "P"},
+        {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
+         "rdf, force-angle, sizes: a kept state, as \"p=500 MPa\" (the last)", "POINT"},
+        {0},
+    };
+    char *figures = describe_figures();
+    const struct gb_options_page page = {
+        .usage = "DIR...",
+        .summary = "A figure over one or more run directories: PNG, SVG, PDF, or its "
+                   "data as CSV.",
+        .description = figures,
+    };
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error of a write */
+        status = plot(&request, words, &err) ? 0 : gb_options_fail(&err);
+    }
+    g_free(figures);
+    g_strfreev(words);
+    free_request(&request);
+    return status;
+}

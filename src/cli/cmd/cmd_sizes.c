@@ -1,0 +1,132 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/table.h"
+#include "base/units.h"
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "measure/fit/lognormal.h"
+
+static const char diameter_prefix[] = "diameter_";
+
+/* A measured histogram; arrays belong to the table. */
+struct histogram {
+    struct gb_table *table;
+    const char *unit; /* of the diameters, within a name of the table */
+    const double *middle, *weight;
+    bool particles; /* weights are numbers of particles */
+};
+
+static const double *find_diameter(struct histogram *histogram, struct gb_error *err)
+{
+    for (size_t k = 0; gb_table_name(histogram->table, k) != NULL; k++) {
+        const char *name = gb_table_name(histogram->table, k);
+        double value = 0.0;
+        char *text =
+            g_strconcat("1 ", name + MIN(strlen(name), strlen(diameter_prefix)), NULL);
+        const bool length = g_str_has_prefix(name, diameter_prefix) &&
+                            gb_units_parse(text, GB_DIM_LENGTH, &value, NULL);
+        g_free(text);
+        if (length) {
+            histogram->unit = name + strlen(diameter_prefix);
+            return gb_table_column(histogram->table, name, err);
+        }
+    }
+    gb_error_set(
+        err, GB_ERR_INPUT,
+        "%.300s: no column of diameters; accepted diameter_nm or another unit of "
+        "length",
+        gb_table_path(histogram->table));
+    return NULL;
+}
+
+static bool read_histogram(struct histogram *histogram, const char *path,
+                           struct gb_error *err)
+{
+    *histogram = (struct histogram){0};
+    if (!gb_table_read(&histogram->table, path, NULL, err)) {
+        return false;
+    }
+    histogram->middle = find_diameter(histogram, err);
+    histogram->weight = gb_table_column(histogram->table, "count", NULL);
+    histogram->particles = histogram->weight != NULL;
+    if (histogram->middle != NULL && !histogram->particles) {
+        histogram->weight = gb_table_column(histogram->table, "share_number", NULL);
+    }
+    if (histogram->middle != NULL && histogram->weight == NULL) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "%.300s: accepted a column count (particles in each class) or "
+            "share_number",
+            path);
+    }
+    return histogram->middle != NULL;
+}
+
+/* As keys of a preset, rounded to what is known. */
+static void print_keys(const struct gb_lognormal *law, const char *unit)
+{
+    printf("particles.distribution = lognormal\n"
+           "particles.diameter = %.4g %s\n"
+           "particles.sigma = %.4g\n",
+           exp(law->m), unit, law->sigma);
+}
+
+static void print_law(const struct gb_lognormal *law, const char *unit)
+{
+    printf("# P1 (17), sizes in %s: m = %.4f", unit, law->m);
+    if (isfinite(law->m_error)) {
+        printf(" +- %.4f, sigma = %.4f +- %.4f, correlation %.2f\n", law->m_error,
+               law->sigma, law->sigma_error, law->correlation);
+        printf("# chi-squared %.3g for %zu degrees of freedom\n", law->chi_squared,
+               law->degrees);
+    } else {
+        printf(", sigma = %.4f; shares do not tell the errors\n", law->sigma);
+    }
+    printf("# most frequent size %.4g %s\n", exp(law->m - law->sigma * law->sigma), unit);
+}
+
+static bool fit(char **words, struct gb_error *err)
+{
+    struct histogram histogram = {0};
+    struct gb_lognormal law;
+    if (g_strv_length(words) != 1) {
+        return gb_error_set(err, GB_ERR_INPUT, "sizes takes one file: FILE.csv");
+    }
+    struct gb_error why = {0};
+    bool good = read_histogram(&histogram, words[0], err);
+    if (good &&
+        !gb_lognormal_fit(&law, histogram.middle, histogram.weight,
+                          gb_table_rows(histogram.table), histogram.particles, &why)) {
+        good = gb_error_set(err, why.code, "%.200s: %s", words[0], why.text);
+    }
+    if (good) {
+        print_law(&law, histogram.unit);
+        print_keys(&law, histogram.unit);
+    }
+    gb_table_destroy(histogram.table);
+    return good;
+}
+
+int gb_cmd_sizes(int argc, char **argv)
+{
+    static const struct gb_options_page page = {
+        "FILE.csv",
+        "Fits the log-normal law of particle sizes, P1 (17), to a measured histogram and "
+        "prints it as keys\nof a preset.",
+        "The file has a row per class: its middle in diameter_nm (or another unit of "
+        "length) and the\nparticles in it, count, or their share, share_number.  Maximum "
+        "likelihood; the borders of the\nclasses lie halfway between the middles."};
+    struct gb_error err = {0};
+    char **words = NULL;
+    int status = 0;
+    const GOptionEntry entries[] = {{0}};
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        status = fit(words, &err) ? 0 : gb_options_fail(&err);
+    }
+    g_strfreev(words);
+    return status;
+}

@@ -1,0 +1,68 @@
+#include <inttypes.h>
+#include <stdio.h>
+
+#include <glib.h>
+
+#include "cli/commands.h"
+#include "cli/foreground.h"
+#include "cli/options.h"
+#include "run/verify.h"
+
+enum { DIFFERENT = 1 };
+
+static bool cancelled(void *data)
+{
+    (void)data;
+    return *gb_foreground_caught() != 0;
+}
+
+static int tell(const struct gb_verify *verify)
+{
+    printf("repeated from step %" PRId64 " to step %" PRId64 "\n"
+           "kept      %016" PRIx64 "\n"
+           "repeated  %016" PRIx64 "\n",
+           verify->from, verify->to, verify->kept, verify->repeated);
+    if (verify->equal) {
+        puts("equal");
+        return 0;
+    }
+    printf("different: first in %s, row %" PRId64 "\n", verify->name, verify->row);
+    return DIFFERENT;
+}
+
+static int perform(const char *directory)
+{
+    struct gb_error err = {0};
+    struct gb_verify verify;
+    if (!gb_verify_run(&verify, directory, cancelled, NULL, &err)) {
+        const int signal = (int)*gb_foreground_caught();
+        const int status = gb_options_fail(&err);
+        return err.code == GB_ERR_CANCELLED && signal != 0 ? 128 + signal : status;
+    }
+    return tell(&verify);
+}
+
+int gb_cmd_verify(int argc, char **argv)
+{
+    static const struct gb_options_page page = {
+        "DIR",
+        "Repeats the last stretch of a run, from the checkpoint before the last one (or "
+        "from the beginning), and compares the two states bit by bit.",
+        "Exit status 0: equal; 1: different, the first array and row that differ are "
+        "named.  The directory is left as it is."};
+    char **words = NULL;
+    int status = 0;
+    const GOptionEntry entries[] = {{0}};
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        struct gb_error err = {0};
+        if (words[0] == NULL || words[1] != NULL) {
+            gb_error_set(&err, GB_ERR_INPUT, "verify: one run directory is needed");
+            status = gb_options_fail(&err);
+        } else {
+            gb_foreground_catch_signals();
+            status = perform(words[0]);
+        }
+    }
+    g_strfreev(words);
+    return status;
+}

@@ -1,0 +1,32 @@
+#ifndef GB_DRAW_FIGURE_FIGURE_AXIS_H
+#define GB_DRAW_FIGURE_FIGURE_AXIS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { GB_FIGURE_AXIS_TICKS = 16, GB_FIGURE_AXIS_MINOR = 96 };
+
+/* From values to places along one axis, with its ticks. */
+struct gb_figure_axis_scale {
+    bool log;
+    double low, high; /* values at the two ends */
+    double from, to;  /* their places */
+    int power;        /* ticks are labelled in units of 10^power */
+    int ticks, minors;
+    double tick[GB_FIGURE_AXIS_TICKS];
+    char label[GB_FIGURE_AXIS_TICKS][40]; /* Pango markup; "" between labelled decades */
+    double minor[GB_FIGURE_AXIS_MINOR];
+};
+
+/* Ends and ticks for values from low to high (low > 0 when log), about `wanted` of them.
+ * exact keeps the ends as they are.  Ends that are not finite, equal or reversed become
+ * something that can be drawn. */
+void gb_figure_axis_fit(struct gb_figure_axis_scale *scale, bool log, double low,
+                        double high, int wanted, const bool exact[2]);
+
+double gb_figure_axis_place(const struct gb_figure_axis_scale *scale, double value);
+
+/* A number as print wants it: "−0.25", "10<sup>−3</sup>"; decimals behind the point. */
+void gb_figure_axis_number(double value, int decimals, char *text, size_t size);
+
+#endif

@@ -1,0 +1,31 @@
+#ifndef GB_DRAW_IMAGE_PNG_H
+#define GB_DRAW_IMAGE_PNG_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "draw/image/image.h"
+#include "greenbody/status.h"
+
+/* A text chunk: a PNG keyword (1 to 79 Latin letters) and UTF-8. */
+struct gb_png_text {
+    const char *key, *value;
+};
+
+/* Writes the image as sRGB PNG and puts it in place as a whole.  opaque leaves the alpha
+ * out. Errors: as gb_file_replace, GB_ERR_MEMORY. */
+bool gb_png_write(const struct gb_image *image, bool opaque,
+                  const struct gb_png_text *texts, int text_count, const char *path,
+                  struct gb_error *err);
+
+/* The same into memory, which belongs to the caller (free). */
+bool gb_png_encode(const struct gb_image *image, bool opaque,
+                   const struct gb_png_text *texts, int text_count, char **memory,
+                   size_t *size, struct gb_error *err);
+
+/* The value of the text chunk `key` of a PNG file (g_free).  Errors: GB_ERR_INPUT when
+ * the file is no PNG or has no such chunk, GB_ERR_MACHINE when it cannot be read. */
+bool gb_png_read_text(const char *path, const char *key, char **value,
+                      struct gb_error *err);
+
+#endif

@@ -1,0 +1,83 @@
+#include "draw/image/text.h"
+
+#include <fontconfig/fontconfig.h>
+
+static const char *const face = "DejaVu Sans, Noto Sans, Liberation Sans, Sans";
+
+bool gb_text_init(struct gb_text *text, cairo_t *cairo, struct gb_error *err)
+{
+    *text = (struct gb_text){.cairo = cairo};
+    /* Pango itself would fall over its own fallback */
+    const FcFontSet *fonts = FcConfigGetFonts(NULL, FcSetSystem);
+    if (fonts == NULL || fonts->nfont == 0) {
+        return gb_error_set(err, GB_ERR_MACHINE,
+                            "no font is installed; words in pictures and figures need "
+                            "one, as in the package fonts-dejavu-core");
+    }
+    text->layout = pango_cairo_create_layout(cairo);
+    /* the same spacing at every size and in every kind of file */
+    cairo_font_options_t *options = cairo_font_options_create();
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+    PangoContext *context = pango_layout_get_context(text->layout);
+    pango_cairo_context_set_font_options(context, options);
+    pango_context_set_round_glyph_positions(context, FALSE);
+    pango_layout_context_changed(text->layout);
+    cairo_font_options_destroy(options);
+    return true;
+}
+
+void gb_text_finish(struct gb_text *text)
+{
+    if (text->layout != NULL) {
+        g_object_unref(text->layout);
+    }
+    *text = (struct gb_text){0};
+}
+
+static void set(const struct gb_text *text, const char *markup, double size, double width)
+{
+    PangoFontDescription *font = pango_font_description_from_string(face);
+    pango_font_description_set_absolute_size(font, size * PANGO_SCALE);
+    pango_layout_set_font_description(text->layout, font);
+    pango_font_description_free(font);
+    pango_layout_set_attributes(text->layout, NULL);
+    if (pango_parse_markup(markup, -1, 0, NULL, NULL, NULL, NULL)) {
+        pango_layout_set_markup(text->layout, markup, -1);
+    } else {
+        pango_layout_set_text(text->layout, markup, -1);
+    }
+    pango_layout_set_width(text->layout, width > 0.0 ? (int)(width * PANGO_SCALE) : -1);
+    pango_layout_set_wrap(text->layout, PANGO_WRAP_WORD_CHAR);
+}
+
+static void extent(const struct gb_text *text, double *wide, double *high)
+{
+    PangoRectangle logical;
+    pango_layout_get_extents(text->layout, NULL, &logical);
+    *wide = (double)logical.width / PANGO_SCALE;
+    *high = (double)logical.height / PANGO_SCALE;
+}
+
+void gb_text_measure(const struct gb_text *text, const char *markup, double size,
+                     double width, double *wide, double *high)
+{
+    set(text, markup, size, width);
+    extent(text, wide, high);
+}
+
+void gb_text_write(const struct gb_text *text, const char *markup, double size,
+                   double width, const double at[2], const double align[2], int quarters)
+{
+    double wide = 0.0;
+    double high = 0.0;
+    set(text, markup, size, width);
+    extent(text, &wide, &high);
+    cairo_save(text->cairo);
+    cairo_translate(text->cairo, at[0], at[1]);
+    cairo_rotate(text->cairo, -0.5 * G_PI * quarters);
+    cairo_move_to(text->cairo, -align[0] * wide, -align[1] * high);
+    pango_cairo_show_layout(text->cairo, text->layout);
+    cairo_restore(text->cairo);
+}

@@ -1,0 +1,205 @@
+#include "figures/figures_label.h"
+
+#include <pango/pango.h>
+#include <string.h>
+
+/* How a key is written in a figure; the rest is "key = value". */
+static const struct {
+    const char *key, *format;
+} short_forms[] = {
+    {"particles.diameter", "<i>d</i> = %s"},
+    {"particles.count", "<i>N</i> = %s"},
+    {"contact.mu", "<i>\xce\xbc</i> = %s"},
+    {"contact.alpha", "<i>\xce\xb1</i> = %s"},
+    {"contact.bridge_length", "\xce\x94<i>r</i><sub>ch</sub> = %s"},
+    {"contact.shear_strength", "<i>\xcf\x83</i><sub>b</sub> = %s"},
+    {"structure.density", "<i>\xcf\x81</i><sub>0</sub> = %s"},
+    {"loading.geometry", "%s"},
+    {"loading.rate", "<i>v</i> = %s"},
+    {"contact.normal", "%s"},
+    {"numerics.fidelity", "%s"},
+    {"contact.bridge_radius", "bridge radius %s"},
+    {"contact.relative_motion", "%s motion"},
+};
+
+/* Keys that follow from others or say nothing in a figure. */
+static const char *const silent[] = {"structure.base",
+                                     "loading.until",
+                                     "loading.unload_from",
+                                     "material.name",
+                                     "output.",
+                                     "loading.record",
+                                     NULL};
+
+enum { LONGEST = 60 };
+
+static bool is_silent(const char *key, const char *except)
+{
+    for (int k = 0; silent[k] != NULL; k++) {
+        if (g_str_has_prefix(key, silent[k])) {
+            return true;
+        }
+    }
+    return except != NULL && strcmp(key, except) == 0;
+}
+
+/* The value of a key as markup: the prefix micro as a Greek letter. */
+static char *value_markup(const char *value)
+{
+    char *safe = g_markup_escape_text(value, -1);
+    const gsize length = strlen(safe);
+    const bool micro =
+        length > 3 && safe[length - 2] == 'u' && strchr("msN", safe[length - 1]) != NULL;
+    if (micro && strchr(" /", safe[length - 3]) != NULL) {
+        char *greek =
+            g_strdup_printf("%.*s\xce\xbc%c", (int)length - 2, safe, safe[length - 1]);
+        g_free(safe);
+        return greek;
+    }
+    return safe;
+}
+
+static const char *short_form(const char *key)
+{
+    for (gsize k = 0; k < G_N_ELEMENTS(short_forms); k++) {
+        if (strcmp(short_forms[k].key, key) == 0) {
+            return short_forms[k].format;
+        }
+    }
+    return NULL;
+}
+
+/* "group.key = value" in short. */
+static void append_part(GString *label, const char *part, const char *except)
+{
+    char **sides = g_strsplit(part, " = ", 2);
+    if (sides[0] != NULL && sides[1] != NULL && !is_silent(sides[0], except)) {
+        char *value = value_markup(sides[1]);
+        const char *dot = strchr(sides[0], '.');
+        g_string_append(label, label->len > 0 ? ", " : "");
+        const char *form = short_form(sides[0]);
+        if (form != NULL) {
+            char **halves = g_strsplit(form, "%s", 2);
+            g_string_append_printf(label, "%s%s%s", halves[0], value, halves[1]);
+            g_strfreev(halves);
+        } else {
+            g_string_append_printf(label, "%s = %s", dot ? dot + 1 : sides[0], value);
+        }
+        g_free(value);
+    }
+    g_strfreev(sides);
+}
+
+/* Characters that are seen. */
+static glong seen_length(const char *markup)
+{
+    char *plain = NULL;
+    if (!pango_parse_markup(markup, -1, 0, NULL, &plain, NULL, NULL)) {
+        return (glong)strlen(markup);
+    }
+    const glong length = g_utf8_strlen(plain, -1);
+    g_free(plain);
+    return length;
+}
+
+/* "key = value, ..." in short; takes whole. */
+static GString *shorten(char *whole, const char *except)
+{
+    char **parts = g_strsplit(whole, ", ", -1);
+    GString *label = g_string_new(NULL);
+    for (int k = 0; parts[k] != NULL; k++) {
+        append_part(label, parts[k], except);
+    }
+    g_strfreev(parts);
+    g_free(whole);
+    return label;
+}
+
+/* Scenes that differ in much are named by their titles, and those of one title by what
+ * tells them apart. */
+static void use_title(GString *label, const struct gb_runset *set, size_t group,
+                      const char *except)
+{
+    char *title = g_markup_escape_text(gb_runset_first(set, group)->params.title, -1);
+    GString *more = shorten(gb_runset_label_of_title(set, group), except);
+    g_string_assign(label, title);
+    if (more->len > 0 && seen_length(more->str) <= LONGEST) {
+        g_string_append_printf(label, ": %s", more->str);
+    }
+    g_string_free(more, TRUE);
+    g_free(title);
+}
+
+char *gb_figures_label(const struct gb_runset *set, size_t group, const char *except)
+{
+    GString *label = shorten(gb_runset_label(set, group), except);
+    const bool nothing = label->len == 0 && except == NULL;
+    if (nothing || seen_length(label->str) > LONGEST) {
+        use_title(label, set, group, except);
+    }
+    return g_string_free(label, FALSE);
+}
+
+char *gb_figures_label_axis(const char *key, const char *unit)
+{
+    const char *form = short_form(key);
+    const char *equals = form != NULL ? strstr(form, " = %s") : NULL;
+    const char *dot = strchr(key, '.');
+    char *symbol = equals != NULL ? g_strndup(form, (gsize)(equals - form))
+                                  : g_markup_escape_text(dot ? dot + 1 : key, -1);
+    char *value = g_strconcat("1 ", unit, NULL);
+    char *shown = value_markup(value);
+    char *label =
+        *unit ? g_strdup_printf("%s (%s)", symbol, shown + 2) : g_strdup(symbol);
+    g_free(shown);
+    g_free(value);
+    g_free(symbol);
+    return label;
+}
+
+size_t gb_figures_label_groups(struct gb_series *series, const struct gb_runset *set)
+{
+    size_t most = 0;
+    for (size_t g = 0; g < set->groups; g++) {
+        const size_t members = gb_runset_members(set, g);
+        char *label = gb_runset_label(set, g);
+        gb_series_note(series, "group %zu: %zu runs%s%s", g + 1, members,
+                       *label ? ", " : "", label);
+        g_free(label);
+        most = MAX(most, members);
+    }
+    return most;
+}
+
+void gb_figures_label_note(struct gb_series *series, const struct gb_runset *set)
+{
+    const size_t most = gb_figures_label_groups(series, set);
+    size_t least = most;
+    for (size_t g = 0; g < set->groups; g++) {
+        least = MIN(least, gb_runset_members(set, g));
+    }
+    if (most > least) {
+        gb_series_say(series, "Means of %zu to %zu runs; bands and bars: standard error.",
+                      least, most);
+    } else if (most > 1) {
+        gb_series_say(series, "Means of %zu runs; bands and bars: standard error.", most);
+    }
+}
+
+bool gb_figures_label_means(struct gb_series *series,
+                            const struct gb_series_sample *sample,
+                            const struct gb_runset *set, const double *grid,
+                            struct gb_error *err)
+{
+    for (size_t g = 0; g < set->groups; g++) {
+        double *mean = gb_series_column(series, "mean_%zu_MPa", g + 1);
+        double *error = gb_series_column(series, "se_%zu_MPa", g + 1);
+        char *label = gb_figures_label(set, g, NULL);
+        gb_series_draw(series, grid, mean, error, GB_FIGURE_LINE, (int)g, label);
+        g_free(label);
+        if (!gb_series_mean(sample, set, g, mean, error, err)) {
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,186 @@
+#include "figures/plotting.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/table.h"
+#include "figures/provenance.h"
+
+static bool is_output(const char *path)
+{
+    return g_str_has_suffix(path, ".csv") || gb_figure_is_file(path);
+}
+
+/* "x.png" -> "x.csv"; g_free. */
+static char *twin_of(const char *path)
+{
+    return g_strdup_printf("%.*s.csv", (int)strlen(path) - 4, path);
+}
+
+static bool check_file(const char *path, bool force, struct gb_error *err)
+{
+    if (!force && g_file_test(path, G_FILE_TEST_EXISTS)) {
+        return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
+                            path);
+    }
+    return gb_file_check_target(path, err);
+}
+
+bool gb_plotting_check(const char *output, bool force, struct gb_error *err)
+{
+    if (!is_output(output)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "-o %.300s: a name ending in .png, .svg, .pdf or .csv is "
+                            "accepted",
+                            output);
+    }
+    char *twin = twin_of(output);
+    const bool good = check_file(output, force, err) && check_file(twin, force, err);
+    g_free(twin);
+    return good;
+}
+
+static char *run_list(const struct gb_runset *set)
+{
+    GString *list = g_string_new(NULL);
+    for (size_t i = 0; set != NULL && i < set->count; i++) {
+        g_string_append_printf(list, "%s%s (seed %" G_GUINT64_FORMAT ")",
+                               i > 0 ? "; " : "", set->run[i].directory,
+                               set->run[i].params.seed);
+    }
+    return g_string_free(list, FALSE);
+}
+
+static bool write_figure(const struct gb_series *series,
+                         const struct gb_plotting_page *page, const char *output,
+                         struct gb_error *err)
+{
+    struct gb_figure figure;
+    struct gb_figure_curve *curves = NULL;
+    char *title = page->title != NULL ? g_markup_escape_text(page->title, -1) : NULL;
+    char *preset = page->set != NULL && page->set->count > 0
+                       ? gb_provenance_preset(page->set->run[0].directory)
+                       : NULL;
+    char *runs = run_list(page->set);
+    gb_series_figure(series, &figure, &curves);
+    figure.title = title;
+    struct gb_png_text texts[5] = {{"Software", "greenbody " GB_VERSION},
+                                   {"Title", page->name}};
+    int count = 2;
+    if (*runs != '\0') {
+        texts[count++] = (struct gb_png_text){"Runs", runs};
+    }
+    if (preset != NULL) {
+        texts[count++] = (struct gb_png_text){"Preset", preset};
+    }
+    const bool good =
+        gb_figure_write(&figure, page->width, page->height, texts, count, output, err);
+    g_free(curves);
+    g_free(title);
+    g_free(preset);
+    g_free(runs);
+    return good;
+}
+
+bool gb_plotting_write(const struct gb_series *series,
+                       const struct gb_plotting_page *page, const char *output,
+                       struct gb_error *err)
+{
+    const bool drawn = gb_figure_is_file(output);
+    char *twin = twin_of(output);
+    GString *text = gb_series_csv(series);
+    const bool good = (!drawn || write_figure(series, page, output, err)) &&
+                      gb_file_replace(twin, text->str, text->len, err);
+    g_string_free(text, TRUE);
+    g_free(twin);
+    return good;
+}
+
+/* What the axes take from a table. */
+struct data {
+    const struct gb_table *table;
+    const double *x, *y, *x_error, *y_error;
+};
+
+static const double *find_error(const struct gb_table *table, const char *name)
+{
+    char *error = g_strdup_printf("%s_error", name);
+    const double *column = gb_table_column(table, error, NULL);
+    g_free(error);
+    return column;
+}
+
+/* The rows of one word of the column "series" as columns and a curve. */
+static void draw_words(struct gb_series *series, const struct data *data,
+                       const char *word, int style)
+{
+    const size_t rows = gb_table_rows(data->table);
+    double *x = gb_series_column(series, "data_%d_%s", style + 1, series->x.name);
+    double *y = gb_series_column(series, "data_%d_%s", style + 1, series->y.name);
+    double *y_error =
+        gb_series_column(series, "data_%d_%s_error", style + 1, series->y.name);
+    double *x_error =
+        gb_series_column(series, "data_%d_%s_error", style + 1, series->x.name);
+    size_t filled = 0;
+    for (size_t k = 0; k < rows; k++) {
+        if (strcmp(gb_table_word(data->table, k), word) == 0) {
+            x[filled] = data->x[k];
+            y[filled] = data->y[k];
+            y_error[filled] = data->y_error != NULL ? data->y_error[k] : NAN;
+            x_error[filled] = data->x_error != NULL ? data->x_error[k] : NAN;
+            filled++;
+        }
+    }
+    char *label = g_markup_escape_text(*word != '\0' ? word : "experiment", -1);
+    struct gb_series_curve *curve =
+        gb_series_draw(series, x, y, y_error, GB_FIGURE_POINTS, style, label);
+    curve->open = true;
+    curve->x_error = curve->error + 1;
+    curve->rows = filled;
+    g_free(label);
+}
+
+/* Every word once, in the order in which they come. */
+static void draw_data(struct gb_series *series, const struct data *data)
+{
+    int style = 0;
+    for (size_t k = 0; k < gb_table_rows(data->table); k++) {
+        const char *word = gb_table_word(data->table, k);
+        bool seen = false;
+        for (size_t i = 0; i < k && !seen; i++) {
+            seen = strcmp(gb_table_word(data->table, i), word) == 0;
+        }
+        if (!seen) {
+            draw_words(series, data, word, style++);
+        }
+    }
+}
+
+bool gb_plotting_data(struct gb_series *series, const char *path, const char *figure,
+                      struct gb_error *err)
+{
+    struct gb_table *table = NULL;
+    if (series->x.label == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT, "--data %.200s: the figure %s takes none",
+                            path, figure);
+    }
+    /* a curve.csv has branches for series */
+    if (!gb_table_read(&table, path, "series", err) &&
+        !gb_table_read(&table, path, "branch", NULL)) {
+        return false;
+    }
+    struct data data = {table, gb_table_column(table, series->x.name, err), NULL, NULL,
+                        NULL};
+    data.y = data.x != NULL ? gb_table_column(table, series->y.name, err) : NULL;
+    const bool good = data.y != NULL;
+    if (good) {
+        data.x_error = find_error(table, series->x.name);
+        data.y_error = find_error(table, series->y.name);
+        gb_series_grow(series, gb_table_rows(table));
+        gb_series_note(series, "data: %s", path);
+        draw_data(series, &data);
+    }
+    gb_table_destroy(table);
+    return good;
+}

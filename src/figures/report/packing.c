@@ -1,0 +1,166 @@
+#include "figures/report/packing.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+#include <glib.h>
+#include <json-glib/json-glib.h>
+
+#include "base/file.h"
+#include "io/preset.h"
+
+static void append_number(GString *text, double value, char end)
+{
+    char digits[G_ASCII_DTOSTR_BUF_SIZE];
+    g_string_append(text, g_ascii_dtostr(digits, sizeof digits, value));
+    g_string_append_c(text, end);
+}
+
+static void append_title(GString *text, const char *title)
+{
+    g_string_append(text, "# greenbody " GB_VERSION "\n# preset: ");
+    for (const char *c = title; *c != '\0'; c++) {
+        g_string_append_c(text, g_ascii_iscntrl(*c) ? '?' : *c);
+    }
+    g_string_append_c(text, '\n');
+}
+
+static GString *packing_text(const struct gb_packing *packing)
+{
+    const struct gb_state *state = packing->state;
+    GString *text = g_string_new(NULL);
+    append_title(text, state->preset);
+    g_string_append_printf(text, "# seed: %" PRIu64 "\n# diameter d, m: ", state->seed);
+    append_number(text, state->metre_per_length, '\n');
+    g_string_append(text, "# periodic cell, d: ");
+    append_number(text, state->cell[0], ' ');
+    append_number(text, state->cell[1], ' ');
+    append_number(text, state->cell[2], '\n');
+    g_string_append(text, "x_d,y_d,z_d\n");
+    for (int64_t i = 0; i < state->count; i++) {
+        append_number(text, state->position[3 * i], ',');
+        append_number(text, state->position[3 * i + 1], ',');
+        append_number(text, state->position[3 * i + 2], '\n');
+    }
+    return text;
+}
+
+static GString *g_text(const struct gb_packing *packing)
+{
+    GString *text = g_string_new(NULL);
+    append_title(text, packing->state->preset);
+    g_string_append(text, "# radial distribution function; r_d is the middle of a bin\n");
+    g_string_append(text, "r_d,g\n");
+    for (int k = 0; k < packing->bins; k++) {
+        append_number(text, (k + 0.5) * packing->r_max / packing->bins, ',');
+        append_number(text, packing->g[k], '\n');
+    }
+    return text;
+}
+
+static void add_number(JsonBuilder *builder, const char *name, double value)
+{
+    json_builder_set_member_name(builder, name);
+    json_builder_add_double_value(builder, value);
+}
+
+static void add_integer(JsonBuilder *builder, const char *name, int64_t value)
+{
+    json_builder_set_member_name(builder, name);
+    json_builder_add_int_value(builder, value);
+}
+
+static void add_connectivity(JsonBuilder *builder, const struct gb_connectivity *found)
+{
+    add_number(builder, "coordination", found->coordination);
+    json_builder_set_member_name(builder, "histogram");
+    json_builder_begin_array(builder);
+    for (size_t k = 0; k < G_N_ELEMENTS(found->histogram); k++) {
+        json_builder_add_int_value(builder, found->histogram[k]);
+    }
+    json_builder_end_array(builder);
+    add_integer(builder, "clusters", found->clusters);
+    add_integer(builder, "largest_cluster", found->largest);
+    json_builder_set_member_name(builder, "percolates_xyz");
+    json_builder_begin_array(builder);
+    for (int k = 0; k < 3; k++) {
+        json_builder_add_boolean_value(builder, found->percolates[k]);
+    }
+    json_builder_end_array(builder);
+}
+
+static GString *structure_text(const struct gb_packing *packing)
+{
+    const struct gb_state *state = packing->state;
+    JsonBuilder *builder = json_builder_new();
+    json_builder_begin_object(builder);
+    json_builder_set_member_name(builder, "preset");
+    json_builder_add_string_value(builder, state->preset);
+    /* JSON numbers are doubles to most readers; a seed has 64 bits */
+    char seed[32];
+    snprintf(seed, sizeof seed, "%" PRIu64, state->seed);
+    json_builder_set_member_name(builder, "seed");
+    json_builder_add_string_value(builder, seed);
+    add_integer(builder, "dimension", state->dimension);
+    add_integer(builder, "particles", state->count);
+    /* nm, to 1e-6 nm: json-glib writes 1e-08 as "1e-08.0", which no reader takes */
+    add_number(builder, "diameter_nm", rint(state->metre_per_length * 1e15) / 1e6);
+    add_number(builder, "density", state->point.density);
+    add_number(builder, "touching_distance_d", packing->r_eq);
+    add_number(builder, "contact_reach_d", packing->reach);
+    add_connectivity(builder, &packing->connectivity);
+    add_number(builder, "g_end", packing->g_end);
+    add_number(builder, "g_end_from_d", fmax(0.0, packing->r_max - 1.0));
+    add_number(builder, "g_end_to_d", packing->r_max);
+    json_builder_end_object(builder);
+    JsonNode *root = json_builder_get_root(builder);
+    char *json = json_to_string(root, TRUE);
+    GString *text = g_string_new(json);
+    g_string_append_c(text, '\n');
+    g_free(json);
+    json_node_unref(root);
+    g_object_unref(builder);
+    return text;
+}
+
+/* Writes one file atomically and durably; takes text. */
+static bool write_file(const char *directory, const char *name, GString *text,
+                       struct gb_error *err)
+{
+    char *path = g_build_filename(directory, name, NULL);
+    const bool written = gb_file_replace(path, text->str, text->len, err);
+    g_string_free(text, TRUE);
+    g_free(path);
+    return written;
+}
+
+/* A complete preset written without a file before it names the program's version. */
+static bool write_preset(const struct gb_packing *packing, const char *directory,
+                         struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    if (!gb_preset_create(&preset, err)) {
+        return false;
+    }
+    *gb_preset_params(preset) = packing->params;
+    char *path = g_build_filename(directory, "preset.ini", NULL);
+    const bool written = gb_preset_save(preset, path, true, err);
+    g_free(path);
+    gb_preset_destroy(preset);
+    return written;
+}
+
+bool gb_packing_write(const struct gb_packing *packing, const char *directory,
+                      struct gb_error *err)
+{
+    char *state = g_build_filename(directory, "state.h5", NULL);
+    const bool written =
+        write_preset(packing, directory, err) &&
+        write_file(directory, "packing.csv", packing_text(packing), err) &&
+        write_file(directory, "g.csv", g_text(packing), err) &&
+        write_file(directory, "structure.json", structure_text(packing), err) &&
+        gb_state_write(packing->state, NULL, state, err);
+    g_free(state);
+    return written;
+}

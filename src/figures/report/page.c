@@ -1,0 +1,176 @@
+#include "figures/report/page.h"
+
+#include <string.h>
+
+/* Screen and paper; no font, script or picture from elsewhere. */
+static const char style[] =
+    "body{font:16px/1.5 'DejaVu Sans',Verdana,sans-serif;color:#1a1c20;background:#fff;"
+    "max-width:60rem;margin:2rem auto;padding:0 1.2rem}"
+    "h1{font-size:1.7rem;line-height:1.25;margin:0 0 .2rem}"
+    "h2{font-size:1.2rem;margin:2.4rem 0 .6rem;border-bottom:1px solid #c8ccd2;"
+    "padding-bottom:.2rem}"
+    ".sub{color:#555b66;margin-top:0}"
+    "figure{margin:1.4rem 0 2rem;break-inside:avoid}"
+    "figure img{width:100%;max-width:46rem;height:auto;display:block}"
+    "figcaption{font-size:.88rem;color:#444a54;margin-top:.4rem;max-width:46rem}"
+    "a{color:#0b5c9c}"
+    ".scroll{overflow-x:auto}"
+    "table{border-collapse:collapse;font-size:.86rem;margin:.4rem 0 1.4rem}"
+    "th,td{text-align:right;padding:.22rem .7rem;border-bottom:1px solid #dfe2e6;"
+    "font-variant-numeric:tabular-nums}"
+    "th{border-bottom:1.5px solid #50565f;font-weight:600;vertical-align:bottom}"
+    "th:first-child,td:first-child{text-align:left}"
+    "caption{text-align:left;font-size:.88rem;color:#444a54;padding-bottom:.4rem}"
+    "@media print{body{font-size:10pt;max-width:none;margin:0}a{color:inherit;"
+    "text-decoration:none}h2{break-after:avoid}tr{break-inside:avoid}"
+    "figure img{max-width:14cm}}";
+
+static char *escape(const char *text)
+{
+    return g_markup_escape_text(text, -1);
+}
+
+/* Characters that Markdown would take for its own. */
+static void append_plain(GString *out, const char *text)
+{
+    for (const char *c = text; *c != '\0'; c++) {
+        if (strchr("\\`*_{}[]<>#|", *c) != NULL) {
+            g_string_append_c(out, '\\');
+        }
+        g_string_append_c(out, *c == '\n' ? ' ' : *c);
+    }
+}
+
+void gb_page_begin(struct gb_page *page, const char *title, const char *subtitle)
+{
+    char *name = escape(title);
+    char *below = escape(subtitle);
+    page->html = g_string_new(NULL);
+    page->markdown = g_string_new("# ");
+    g_string_append_printf(
+        page->html,
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width\">\n"
+        "<title>%s</title>\n<style>%s</style>\n</head>\n<body>\n<h1>%s</h1>\n"
+        "<p class=\"sub\">%s</p>\n",
+        name, style, name, below);
+    append_plain(page->markdown, title);
+    g_string_append(page->markdown, "\n\n");
+    append_plain(page->markdown, subtitle);
+    g_string_append(page->markdown, "\n");
+    g_free(below);
+    g_free(name);
+}
+
+void gb_page_end(struct gb_page *page)
+{
+    g_string_append(page->html, "</body>\n</html>\n");
+}
+
+void gb_page_finish(struct gb_page *page)
+{
+    if (page->html != NULL) {
+        g_string_free(page->html, TRUE);
+        g_string_free(page->markdown, TRUE);
+    }
+    *page = (struct gb_page){0};
+}
+
+void gb_page_heading(struct gb_page *page, const char *text)
+{
+    char *safe = escape(text);
+    g_string_append_printf(page->html, "<h2>%s</h2>\n", safe);
+    g_string_append(page->markdown, "\n## ");
+    append_plain(page->markdown, text);
+    g_string_append(page->markdown, "\n");
+    g_free(safe);
+}
+
+void gb_page_paragraph(struct gb_page *page, const char *text)
+{
+    char *safe = escape(text);
+    g_string_append_printf(page->html, "<p>%s</p>\n", safe);
+    g_string_append(page->markdown, "\n");
+    append_plain(page->markdown, text);
+    g_string_append(page->markdown, "\n");
+    g_free(safe);
+}
+
+static void append_link(struct gb_page *page, const char *file)
+{
+    char *safe = g_uri_escape_string(file, "/", FALSE);
+    const char *dot = strrchr(file, '.');
+    const char *name = dot != NULL ? dot + 1 : file;
+    g_string_append_printf(page->html, " <a href=\"%s\">%s</a>", safe, name);
+    g_string_append_printf(page->markdown, " [%s](%s)", name, safe);
+    g_free(safe);
+}
+
+void gb_page_image(struct gb_page *page, const char *file, const char *caption,
+                   const char *const *others)
+{
+    char *safe = escape(caption);
+    char *path = g_uri_escape_string(file, "/", FALSE);
+    g_string_append_printf(page->html,
+                           "<figure>\n<img src=\"%s\" alt=\"%s\">\n<figcaption>%s", path,
+                           safe, safe);
+    g_string_append(page->markdown, "\n![");
+    append_plain(page->markdown, caption);
+    g_string_append_printf(page->markdown, "](%s)\n\n", path);
+    append_plain(page->markdown, caption);
+    for (int k = 0; others != NULL && others[k] != NULL; k++) {
+        append_link(page, others[k]);
+    }
+    g_string_append(page->html, "</figcaption>\n</figure>\n");
+    g_string_append(page->markdown, "\n");
+    g_free(path);
+    g_free(safe);
+}
+
+static void append_cell(struct gb_page *page, const char *tag, const char *text)
+{
+    char *safe = escape(text);
+    g_string_append_printf(page->html, "<%s>%s</%s>", tag, safe, tag);
+    g_string_append(page->markdown, " ");
+    append_plain(page->markdown, text);
+    g_string_append(page->markdown, " |");
+    g_free(safe);
+}
+
+static void append_row(struct gb_page *page, const char *tag, const char *const *cells,
+                       guint columns)
+{
+    g_string_append(page->html, "<tr>");
+    g_string_append(page->markdown, "|");
+    for (guint k = 0; k < columns; k++) {
+        append_cell(page, tag, cells[k]);
+    }
+    g_string_append(page->html, "</tr>\n");
+    g_string_append(page->markdown, "\n");
+}
+
+void gb_page_table(struct gb_page *page, const char *caption, const char *file,
+                   const char *const *heads, guint columns, const GPtrArray *cells)
+{
+    char *safe = escape(caption);
+    g_string_append_printf(page->html, "<div class=\"scroll\"><table>\n<caption>%s",
+                           safe);
+    g_string_append(page->markdown, "\n");
+    append_plain(page->markdown, caption);
+    if (file != NULL) {
+        append_link(page, file);
+    }
+    g_string_append(page->html, "</caption>\n");
+    g_string_append(page->markdown, "\n\n");
+    append_row(page, "th", heads, columns);
+    g_string_append(page->markdown, "|");
+    for (guint k = 0; k < columns; k++) {
+        g_string_append(page->markdown, k == 0 ? "---|" : "---:|");
+    }
+    g_string_append(page->markdown, "\n");
+    for (guint row = 0; row + columns <= cells->len; row += columns) {
+        append_row(page, "td", (const char *const *)cells->pdata + row, columns);
+    }
+    g_string_append(page->html, "</table></div>\n");
+    g_free(safe);
+}

@@ -1,0 +1,209 @@
+#include "figures/states.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/units.h"
+#include "run/kept_states.h"
+
+/* A kept state further away than this share of the wanted value is another one, unless it
+ * was kept for just this value: a step of the loading can jump over it. */
+static const double tolerance = 0.05;
+
+static bool parse_point(const char *text, struct gb_mark *point, struct gb_error *err)
+{
+    char **sides = g_strsplit(text, "=", 2);
+    bool good = sides[0] != NULL && sides[1] != NULL;
+    if (good) {
+        g_strstrip(sides[0]);
+        g_strstrip(sides[1]);
+        point->by_density = strcmp(sides[0], "density") == 0;
+        good = (point->by_density || strcmp(sides[0], "p") == 0) &&
+               gb_units_parse(sides[1], point->by_density ? GB_DIM_NONE : GB_DIM_PRESSURE,
+                              &point->value, NULL) &&
+               isfinite(point->value);
+    }
+    g_strfreev(sides);
+    return good || gb_error_set(err, GB_ERR_INPUT,
+                                "--at %.80s: accepted a point as in \"p=100 MPa\" or "
+                                "\"density=0.5\"",
+                                text);
+}
+
+static double value_of(const struct gb_state *state, const struct gb_mark *point)
+{
+    return point->by_density ? state->point.density : state->point.p_pa;
+}
+
+/* Whether a state was asked for with just this point. */
+static bool is_kept_for(const char *path, const struct gb_mark *point)
+{
+    char name[64];
+    char *base = g_path_get_basename(path);
+    gb_kept_states_name(point, name, sizeof name);
+    const bool same =
+        g_str_has_prefix(base, name) && strcmp(base + strlen(name), ".h5") == 0;
+    g_free(base);
+    return same;
+}
+
+/* Relative distance; states of unloading come after those of loading. */
+static double distance(const struct gb_state *state, const struct gb_mark *point)
+{
+    const double away =
+        fabs(value_of(state, point) - point->value) / fmax(fabs(point->value), 1e-12);
+    return isfinite(away) ? away + (state->point.branch > 0 ? 1e-6 : 0.0) : INFINITY;
+}
+
+static void describe(GString *list, const struct gb_state *state,
+                     const struct gb_mark *point)
+{
+    char value[48];
+    if (point->by_density) {
+        g_snprintf(value, sizeof value, "%.4g", state->point.density);
+    } else {
+        gb_units_format_short(state->point.p_pa, GB_DIM_PRESSURE, 4, value, sizeof value);
+    }
+    g_string_append_printf(list, "%s%s", list->len > 0 ? ", " : "", value);
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* Paths of all states of a directory, sorted; the last one first. */
+static GPtrArray *list_paths(const char *place)
+{
+    GPtrArray *paths = g_ptr_array_new_with_free_func(g_free);
+    if (!g_file_test(place, G_FILE_TEST_IS_DIR)) {
+        g_ptr_array_add(paths, g_strdup(place));
+        return paths;
+    }
+    char *folder = g_build_filename(place, "snapshots", NULL);
+    GDir *dir = g_dir_open(folder, 0, NULL);
+    for (const char *name = dir ? g_dir_read_name(dir) : NULL; name != NULL;
+         name = g_dir_read_name(dir)) {
+        if (g_str_has_suffix(name, ".h5")) {
+            g_ptr_array_add(paths, g_build_filename(folder, name, NULL));
+        }
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    g_free(folder);
+    g_ptr_array_sort(paths, by_name);
+    g_ptr_array_insert(paths, 0, g_build_filename(place, "state.h5", NULL));
+    return paths;
+}
+
+static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
+                         const struct gb_mark *point, GString *seen, struct gb_error *err)
+{
+    double best = INFINITY;
+    for (guint k = 0; k < paths->len; k++) {
+        struct gb_state *state = NULL;
+        if (!gb_state_read(&state, g_ptr_array_index(paths, k), err)) {
+            return false;
+        }
+        describe(seen, state, point);
+        const char *path = g_ptr_array_index(paths, k);
+        const double away = is_kept_for(path, point) ? 0.0 : distance(state, point);
+        if (away < best) {
+            struct gb_state *other = *out;
+            *out = state;
+            state = other;
+            best = away;
+        }
+        gb_state_destroy(state);
+    }
+    return best <= tolerance;
+}
+
+bool gb_states_read(struct gb_state **out, const char *place, const char *at,
+                    struct gb_error *err)
+{
+    struct gb_mark point = {0};
+    *out = NULL;
+    if (at != NULL && !parse_point(at, &point, err)) {
+        return false;
+    }
+    GPtrArray *paths = list_paths(place);
+    if (!g_file_test(g_ptr_array_index(paths, 0), G_FILE_TEST_EXISTS)) {
+        gb_error_set(err, GB_ERR_INPUT, "%.300s: no such file",
+                     (const char *)g_ptr_array_index(paths, 0));
+        g_ptr_array_unref(paths);
+        return false;
+    }
+    if (at == NULL) {
+        const bool good = gb_state_read(out, g_ptr_array_index(paths, 0), err);
+        g_ptr_array_unref(paths);
+        return good;
+    }
+    GString *seen = g_string_new(NULL);
+    struct gb_error why = {0};
+    const bool good = read_nearest(out, paths, &point, seen, &why);
+    if (!good) {
+        gb_state_destroy(*out);
+        *out = NULL;
+        if (why.code != GB_OK) {
+            *err = why;
+        } else {
+            gb_error_set(err, GB_ERR_INPUT, "--at %.80s: %.200s keeps states at %.150s",
+                         at, place, seen->str);
+        }
+    }
+    g_string_free(seen, TRUE);
+    g_ptr_array_unref(paths);
+    return good;
+}
+
+struct frame {
+    int64_t step;
+    char *path;
+};
+
+static int by_step(const void *a, const void *b)
+{
+    const struct frame *x = a;
+    const struct frame *y = b;
+    return (x->step > y->step) - (x->step < y->step);
+}
+
+/* Moves the paths over in the order of their steps, without those that say the same. */
+static GPtrArray *sort_frames(GArray *frames)
+{
+    GPtrArray *sorted = g_ptr_array_new_with_free_func(g_free);
+    g_array_sort(frames, by_step);
+    for (guint k = 0; k < frames->len; k++) {
+        const struct frame *frame = &g_array_index(frames, struct frame, k);
+        if (k > 0 && g_array_index(frames, struct frame, k - 1).step == frame->step) {
+            continue;
+        }
+        g_ptr_array_add(sorted, g_strdup(frame->path));
+    }
+    return sorted;
+}
+
+GPtrArray *gb_states_along(const char *place, struct gb_error *err)
+{
+    GPtrArray *paths = list_paths(place);
+    GArray *frames = g_array_new(FALSE, FALSE, sizeof(struct frame));
+    bool good = true;
+    for (guint k = 0; k < paths->len && good; k++) {
+        struct gb_state *state = NULL;
+        char *path = g_ptr_array_index(paths, k);
+        good = gb_state_read(&state, path, err);
+        if (good) {
+            const struct frame frame = {state->point.step, path};
+            g_array_append_val(frames, frame);
+        }
+        gb_state_destroy(state);
+    }
+    GPtrArray *sorted = good ? sort_frames(frames) : NULL;
+    g_array_unref(frames);
+    g_ptr_array_unref(paths);
+    return sorted;
+}

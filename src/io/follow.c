@@ -1,0 +1,238 @@
+#include "io/follow.h"
+
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include <glib.h>
+#include <json-glib/json-glib.h>
+
+#include "base/table.h"
+#include "io/preset.h"
+#include "io/store.h"
+
+bool gb_follow_params(const char *directory, struct gb_params *params,
+                      struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    struct gb_error why = {0};
+    char *path = g_build_filename(directory, "preset.ini", NULL);
+    bool done = g_file_test(path, G_FILE_TEST_IS_REGULAR) ||
+                gb_error_set(err, GB_ERR_INPUT,
+                             "%s: no run directory, it has no preset.ini", directory);
+    done = done && gb_preset_load(&preset, path, err);
+    if (done) {
+        *params = *gb_preset_params(preset);
+        done = gb_params_check(params, &why) ||
+               gb_error_set(err, why.code, "%s: %s", path, why.text);
+    }
+    gb_preset_destroy(preset);
+    g_free(path);
+    return done;
+}
+
+/* Branch of a row by its name; unloading branches as the preset lists them. */
+static bool find_branch(const char *name, const struct gb_params *params,
+                        struct gb_point *point)
+{
+    for (int branch = GB_BRANCH_HOLD; branch <= params->unload_count; branch++) {
+        char text[64];
+        point->branch = branch;
+        point->branch_from_pa = branch > 0 ? params->unload_from_pa[branch - 1] : 0.0;
+        if (strcmp(gb_curve_branch_name(point, text, sizeof text), name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+struct column {
+    const char *name;
+    size_t offset;
+    double factor; /* to the unit of the point */
+    bool whole;    /* int64_t */
+};
+
+#define AT(member) offsetof(struct gb_point, member)
+static const struct column columns[] = {
+    {"step", AT(step), 1.0, true},
+    {"density", AT(density), 1.0, false},
+    {"px_MPa", AT(px_pa), 1e6, false},
+    {"py_MPa", AT(py_pa), 1e6, false},
+    {"pz_MPa", AT(pz_pa), 1e6, false},
+    {"p_MPa", AT(p_pa), 1e6, false},
+    {"coordination", AT(coordination), 1.0, false},
+    {"bridged", AT(bridged), 1.0, false},
+    {"rattlers", AT(rattlers), 1.0, false},
+    {"residual", AT(residual), 1.0, false},
+    {"iterations", AT(iterations), 1.0, true},
+    {"evaluations", AT(evaluations), 1.0, true},
+    {"seconds", AT(seconds), 1.0, false},
+    {"time_ns", AT(time_s), 1e-9, false},
+    {"kinetic", AT(kinetic), 1.0, false},
+    {"work", AT(work), 1.0, false},
+    {"elastic", AT(elastic), 1.0, false},
+    {"dissipated", AT(dissipated), 1.0, false},
+    {"energy_residual", AT(energy_residual), 1.0, false},
+};
+#undef AT
+
+static void fill_point(const struct gb_table *table, size_t row, struct gb_point *point)
+{
+    for (size_t k = 0; k < G_N_ELEMENTS(columns); k++) {
+        const double *values = gb_table_column(table, columns[k].name, NULL);
+        const double value = values != NULL ? values[row] * columns[k].factor : NAN;
+        char *member = (char *)point + columns[k].offset;
+        if (columns[k].whole) {
+            const int64_t number = fabs(value) < 9e15 ? (int64_t)value : 0;
+            memcpy(member, &number, sizeof number);
+        } else {
+            memcpy(member, &value, sizeof value);
+        }
+    }
+}
+
+bool gb_follow_curve(const char *directory, const struct gb_params *params,
+                     struct gb_curve *curve, struct gb_error *err)
+{
+    struct gb_table *table = NULL;
+    char *path = g_build_filename(directory, "curve.csv", NULL);
+    bool done = gb_table_read(&table, path, "branch", err);
+    g_free(path);
+    for (size_t row = gb_curve_count(curve); done && row < gb_table_rows(table); row++) {
+        struct gb_point point = {0};
+        done = find_branch(gb_table_word(table, row), params, &point) ||
+               gb_error_set(err, GB_ERR_INPUT, "%s/curve.csv: branch %s is not of %s",
+                            directory, gb_table_word(table, row), "its preset");
+        fill_point(table, row, &point);
+        done = done && gb_curve_append(curve, &point, err);
+    }
+    gb_table_destroy(table);
+    return done;
+}
+
+static double number(JsonObject *json, const char *name, double missing)
+{
+    JsonNode *node = json_object_get_member(json, name);
+    const bool is = node != NULL && JSON_NODE_HOLDS_VALUE(node) &&
+                    (json_node_get_value_type(node) == G_TYPE_DOUBLE ||
+                     json_node_get_value_type(node) == G_TYPE_INT64);
+    return is ? json_node_get_double(node) : missing;
+}
+
+static const char *word(JsonObject *json, const char *name)
+{
+    return json_object_get_string_member_with_default(json, name, "");
+}
+
+static void fill_array(JsonObject *json, const char *name, double *values, guint count)
+{
+    JsonNode *node = json_object_get_member(json, name);
+    JsonArray *array =
+        node != NULL && JSON_NODE_HOLDS_ARRAY(node) ? json_node_get_array(node) : NULL;
+    for (guint k = 0; k < count; k++) {
+        JsonNode *item = array != NULL && k < json_array_get_length(array)
+                             ? json_array_get_element(array, k)
+                             : NULL;
+        values[k] = item != NULL && JSON_NODE_HOLDS_VALUE(item)
+                        ? json_node_get_double(item)
+                        : (double)NAN;
+    }
+}
+
+static void fill_status(JsonObject *json, struct gb_snapshot *shot,
+                        struct gb_follow_engine *engine)
+{
+    shot->state = gb_store_state_of(word(json, "state"));
+    shot->progress = number(json, "progress", 0.0);
+    shot->now.step = (int64_t)number(json, "step", 0.0);
+    shot->evaluations = (int64_t)number(json, "evaluations", 0.0);
+    shot->evaluations_per_s = number(json, "evaluations_per_s", 0.0);
+    shot->particle_evaluations_per_s = number(json, "particle_evaluations_per_s", 0.0);
+    shot->seconds = number(json, "seconds", 0.0);
+    shot->seconds_left = number(json, "seconds_left", -1.0);
+    shot->live_residual = number(json, "residual", 0.0);
+    shot->time_step_s = number(json, "time_step_s", 0.0);
+    shot->events = (int64_t)number(json, "events", 0.0);
+    fill_array(json, "histogram", shot->histogram, GB_SNAPSHOT_HISTOGRAM);
+    fill_array(json, "rose", shot->rose, GB_SNAPSHOT_ROSE);
+    g_strlcpy(shot->event, word(json, "event"), sizeof shot->event);
+    shot->error = (struct gb_error){0};
+    if (word(json, "error")[0] != '\0') {
+        gb_error_set(&shot->error, GB_ERR_CANCELLED, "%s", word(json, "error"));
+    }
+    engine->pid = (long long)number(json, "pid", 0.0);
+    engine->here = strcmp(word(json, "host"), g_get_host_name()) == 0;
+}
+
+bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
+                      struct gb_follow_engine *engine, struct gb_error *err)
+{
+    char *path = g_build_filename(directory, "status.json", NULL);
+    JsonParser *parser = json_parser_new();
+    GError *failure = NULL;
+    bool done = json_parser_load_from_file(parser, path, &failure);
+    if (!done) {
+        gb_error_set(err, GB_ERR_INPUT, "%s: cannot be read: %s", path, failure->message);
+        g_error_free(failure);
+    } else {
+        JsonNode *root = json_parser_get_root(parser);
+        done = (root != NULL && JSON_NODE_HOLDS_OBJECT(root)) ||
+               gb_error_set(err, GB_ERR_INPUT, "%s: is no status of a run", path);
+        if (done) {
+            fill_status(json_node_get_object(root), snapshot, engine);
+        }
+    }
+    g_object_unref(parser);
+    g_free(path);
+    return done;
+}
+
+/* Has the process that directory open?  Every engine does, for its lock; a number out of
+ * a file alone must not end somebody's process. */
+static bool works_in(long long pid, const char *directory)
+{
+    struct stat wanted;
+    struct stat seen;
+    bool found = false;
+    char *folder = g_strdup_printf("/proc/%lld/fd", pid);
+    GDir *dir = g_dir_open(folder, 0, NULL);
+    const char *name;
+    const bool known = stat(directory, &wanted) == 0;
+    while (known && dir != NULL && !found && (name = g_dir_read_name(dir)) != NULL) {
+        char *path = g_build_filename(folder, name, NULL);
+        found = stat(path, &seen) == 0 && seen.st_dev == wanted.st_dev &&
+                seen.st_ino == wanted.st_ino;
+        g_free(path);
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    g_free(folder);
+    return found;
+}
+
+bool gb_follow_ask_to_stop(const char *directory, struct gb_error *err)
+{
+    struct gb_snapshot snapshot;
+    struct gb_follow_engine engine = {0};
+    if (!gb_follow_status(directory, &snapshot, &engine, err)) {
+        return false;
+    }
+    if (!engine.here || engine.pid <= 1) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: its engine runs on another machine; stop it there",
+                            directory);
+    }
+    if (!works_in(engine.pid, directory)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: process %lld, named by status.json, does not work "
+                            "there; stop the engine yourself",
+                            directory, engine.pid);
+    }
+    return kill((pid_t)engine.pid, SIGTERM) == 0 ||
+           gb_error_set(err, GB_ERR_MACHINE, "process %lld cannot be asked to stop: %s",
+                        engine.pid, g_strerror(errno));
+}

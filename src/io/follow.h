@@ -1,0 +1,36 @@
+#ifndef GB_IO_FOLLOW_H
+#define GB_IO_FOLLOW_H
+
+#include <stdbool.h>
+
+#include "greenbody/curve.h"
+#include "greenbody/params.h"
+#include "greenbody/snapshot.h"
+
+/* A run that another process computes, seen through its directory: status.json and
+ * curve.csv, read only. */
+
+/* Preset of a run directory.  Errors: GB_ERR_INPUT, GB_ERR_MACHINE. */
+bool gb_follow_params(const char *directory, struct gb_params *params,
+                      struct gb_error *err);
+
+/* Appends the rows of curve.csv that the curve does not have yet; a last row that is only
+ * half there waits. */
+bool gb_follow_curve(const char *directory, const struct gb_params *params,
+                     struct gb_curve *curve, struct gb_error *err);
+
+/* Who computes it. */
+struct gb_follow_engine {
+    long long pid;
+    bool here; /* on this machine */
+};
+
+/* What status.json says.  Whether that is so still is the lock's to say. */
+bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
+                      struct gb_follow_engine *engine, struct gb_error *err);
+
+/* Asks the engine of a run under way to stop with a checkpoint.  Errors: GB_ERR_INPUT
+ * when it is on another machine, or not the process that status.json names. */
+bool gb_follow_ask_to_stop(const char *directory, struct gb_error *err);
+
+#endif

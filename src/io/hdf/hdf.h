@@ -1,0 +1,62 @@
+#ifndef GB_IO_HDF_HDF_H
+#define GB_IO_HDF_HDF_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+
+/* HDF5 with one-line errors and suspicion.  Written files are built in memory and put in
+ * place as a whole: HDF5 never meets a failing disk, after which it cannot close a file.
+ * Read files are not trusted: types, ranks and sizes are checked before memory is asked
+ * for, and links, external or virtual data that lead to other files are refused. */
+struct gb_hdf;
+
+enum gb_hdf_type {
+    GB_HDF_DOUBLE,
+    GB_HDF_INT32,
+    GB_HDF_INT64,
+    GB_HDF_UINT64,
+    GB_HDF_UINT8
+};
+
+/* An empty file that gb_hdf_store puts at path; after that only gb_hdf_destroy is left.
+ */
+bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err);
+bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err);
+/* An existing file, to be read. */
+bool gb_hdf_open(struct gb_hdf **out, const char *path, struct gb_error *err);
+void gb_hdf_destroy(struct gb_hdf *file); /* NULL is fine */
+
+/* Dataset of rows x columns (rank 1 when columns is 1) with its unit as an attribute. */
+struct gb_hdf_array {
+    const char *name; /* "/position" */
+    enum gb_hdf_type type;
+    int64_t rows;
+    int columns;
+    const char *unit;
+};
+
+bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
+                      const void *data, struct gb_error *err);
+/* Rows of a dataset whose type and columns are as in array; array->rows is not looked at.
+ */
+bool gb_hdf_rows(struct gb_hdf *file, const struct gb_hdf_array *array, int64_t *rows,
+                 struct gb_error *err);
+/* Reads a dataset that has exactly the shape of array. */
+bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, void *data,
+                      struct gb_error *err);
+
+/* Attributes of the root group: count numbers of one type, or a text.  A text that is
+ * read is cut to size, made valid UTF-8 and freed from control characters. */
+bool gb_hdf_put_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
+                        int count, const void *data, struct gb_error *err);
+bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
+                        int count, void *data, struct gb_error *err);
+bool gb_hdf_put_text(struct gb_hdf *file, const char *name, const char *text,
+                     struct gb_error *err);
+bool gb_hdf_get_text(struct gb_hdf *file, const char *name, char *text, size_t size,
+                     struct gb_error *err);
+
+#endif

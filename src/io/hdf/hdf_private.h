@@ -1,0 +1,23 @@
+#ifndef GB_IO_HDF_HDF_PRIVATE_H
+#define GB_IO_HDF_HDF_PRIVATE_H
+
+#include <hdf5.h>
+
+#include "io/hdf/hdf.h"
+#include "io/hdf/hdf_memory.h"
+
+/* The inside of gb_hdf, for hdf.c (owner) and hdf_list.c. */
+struct gb_hdf {
+    hid_t file;
+    char *path;
+    struct gb_hdf_memory memory; /* of a file under construction */
+};
+
+/* HDF5 prints its error stack by itself; ours is the only voice.  The setting belongs to
+ * the calling thread, so every entry makes it again. */
+static inline void gb_hdf_hush(void)
+{
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}
+
+#endif

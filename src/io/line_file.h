@@ -1,0 +1,33 @@
+#ifndef GB_IO_LINE_FILE_H
+#define GB_IO_LINE_FILE_H
+
+#include <stdbool.h>
+#include <sys/types.h>
+
+#include "greenbody/status.h"
+
+/* A text file that grows by whole lines: curve.csv and events.log. */
+struct gb_line_file {
+    char *path;
+    int fd;
+    off_t length; /* of the whole lines so far */
+};
+
+/* Makes the file, which must not exist.  gb_line_file_close is due in any case. */
+bool gb_line_file_open(struct gb_line_file *rows, const char *directory, const char *name,
+                       struct gb_error *err);
+/* Opens a file that was written before and cuts it to its first `length` bytes, which
+ * must be whole lines.  Errors: GB_ERR_INPUT when it is shorter or cut in a line;
+ * GB_ERR_MACHINE. */
+bool gb_line_file_reopen(struct gb_line_file *rows, const char *directory,
+                         const char *name, off_t length, struct gb_error *err);
+void gb_line_file_close(struct gb_line_file *rows);
+
+/* Appends text, or leaves the file as it was: a full disk must not leave half a row. */
+bool gb_line_file_append(struct gb_line_file *rows, const char *text,
+                         struct gb_error *err);
+
+/* Waits until all of it is on the disk. */
+bool gb_line_file_sync(const struct gb_line_file *rows, struct gb_error *err);
+
+#endif

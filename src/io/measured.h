@@ -1,0 +1,35 @@
+#ifndef GB_IO_MEASURED_H
+#define GB_IO_MEASURED_H
+
+#include <stddef.h>
+
+#include "greenbody/curve.h"
+
+/* An experiment beside a run: points of density and pressure from a CSV file whose header
+ * names the units: density or density_percent, and p_MPa (or pressure_MPa; Pa, kPa, GPa
+ * likewise); errors are optional and named <column>_error.  A column series or branch may
+ * hold words. */
+struct gb_measured {
+    char *path;
+    size_t count;
+    double *density, *pressure_pa;
+    double *density_error, *pressure_error_pa; /* NaN where none is given */
+};
+
+/* Errors are one line naming file, line and what is accepted (GB_ERR_INPUT, MACHINE,
+ * MEMORY). */
+bool gb_measured_read(struct gb_measured **out, const char *path, struct gb_error *err);
+void gb_measured_destroy(struct gb_measured *measured); /* NULL is fine */
+
+/* How far a loading curve lies from it, along the density at the same pressure. */
+struct gb_measured_misfit {
+    size_t reached; /* points whose pressure the curve has reached */
+    double mean;    /* of curve minus experiment; NaN while nothing is reached */
+    double rms;
+    double weighted; /* rms over the errors; NaN unless all reached points have one */
+};
+
+void gb_measured_compare(const struct gb_measured *measured, const struct gb_curve *curve,
+                         size_t points, struct gb_measured_misfit *out);
+
+#endif

@@ -1,0 +1,457 @@
+#include "io/preset.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <glib.h>
+
+#include "base/file.h"
+#include "io/key_lines.h"
+#include "scene/size_table.h"
+
+/* A preset is a page of text; more is a mistake or an attack. */
+enum { PRESET_BYTES_MAX = 1 << 20 };
+
+/* Written by editors of other systems in front of UTF-8. */
+static const char byte_order_mark[] = "\xef\xbb\xbf";
+
+struct gb_preset {
+    struct gb_params params;
+    char *path; /* "" without a file */
+    GString *text;
+    struct gb_key_lines lines;
+};
+
+/* The user's mistake, or the machine's trouble? */
+static enum gb_status code_of(int number)
+{
+    const bool input = number == ENOENT || number == ENOTDIR || number == EISDIR ||
+                       number == ENAMETOOLONG || number == ELOOP || number == EINVAL;
+    return input ? GB_ERR_INPUT : GB_ERR_MACHINE;
+}
+
+static bool fail_errno(const char *path, int number, struct gb_error *err)
+{
+    return gb_error_set(err, code_of(number), "%s: %s", path, g_strerror(number));
+}
+
+/* Reads at most limit + 1 bytes, so that endless files end. */
+static bool read_some(int file, GString *text, size_t limit)
+{
+    char chunk[16384];
+    while (text->len <= limit) {
+        const ssize_t got = read(file, chunk, MIN(sizeof chunk, limit + 1 - text->len));
+        if (got == 0) {
+            return true;
+        }
+        if (got > 0) {
+            g_string_append_len(text, chunk, got);
+        } else if (errno != EINTR) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool read_file(const char *path, GString *text, struct gb_error *err)
+{
+    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0) {
+        return fail_errno(path, errno, err);
+    }
+    const bool good = read_some(file, text, PRESET_BYTES_MAX);
+    const int number = errno;
+    close(file);
+    if (!good) {
+        return fail_errno(path, number, err);
+    }
+    if (text->len > PRESET_BYTES_MAX) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: larger than a preset may be, %d bytes", path,
+                            PRESET_BYTES_MAX);
+    }
+    if (g_str_has_prefix(text->str, byte_order_mark)) {
+        g_string_erase(text, 0, (gssize)strlen(byte_order_mark));
+    }
+    return true;
+}
+
+static bool is_known_group(const char *group)
+{
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(fields[i].group, group) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A value as read from a preset at path: the name of a table of sizes is relative to the
+ * folder of its preset. */
+static bool set_value(struct gb_params *params, const struct gb_field *field,
+                      const char *value, const char *path, struct gb_error *err)
+{
+    if (field->type != GB_FIELD_SIZES || !gb_size_table_names_file(value) ||
+        g_path_is_absolute(value)) {
+        return gb_params_set(params, field, value, err);
+    }
+    char *folder = g_path_get_dirname(path);
+    char *file = g_build_filename(folder, value, NULL);
+    const bool good = gb_params_set(params, field, file, err);
+    g_free(file);
+    g_free(folder);
+    return good;
+}
+
+/* One key of the file into params. */
+static bool apply_line(struct gb_preset *preset, GKeyFile *file,
+                       const struct gb_keyline *line, struct gb_error *err)
+{
+    if (!line->key || g_str_has_prefix(line->key, "x-") || !is_known_group(line->group)) {
+        return true;
+    }
+    char *value = g_key_file_get_value(file, line->group, line->key, NULL);
+    struct gb_error why = {0};
+    bool good = false;
+    const struct gb_field *field = gb_params_find(line->group, line->key);
+    if (!value) {
+        gb_error_set(&why, GB_ERR_INPUT, "%.40s.%.40s: not a name for a key", line->group,
+                     line->key);
+    } else if (field) {
+        good = set_value(&preset->params, field, value, preset->path, &why);
+    } else { /* assign knows how to say which keys there are */
+        char *text = g_strconcat(line->group, ".", line->key, "=", value, NULL);
+        good = gb_params_assign(&preset->params, text, &why);
+        g_free(text);
+    }
+    g_free(value);
+    return good ||
+           gb_error_set(err, why.code, "%s:%d: %s", preset->path, line->line, why.text);
+}
+
+static bool apply(struct gb_preset *preset, struct gb_error *err)
+{
+    GKeyFile *file = g_key_file_new();
+    GError *trouble = NULL;
+    bool good = preset->text->len == 0 ||
+                g_key_file_load_from_data(file, preset->text->str, preset->text->len,
+                                          G_KEY_FILE_KEEP_COMMENTS, &trouble);
+    if (!good) {
+        gb_error_set(err, GB_ERR_INPUT, "%s: %s", preset->path, trouble->message);
+        g_error_free(trouble);
+    }
+    for (size_t i = 0; i < preset->lines.count && good; i++) {
+        good = apply_line(preset, file, &preset->lines.item[i], err);
+    }
+    g_key_file_free(file);
+    return good;
+}
+
+bool gb_preset_create(struct gb_preset **out, struct gb_error *err)
+{
+    struct gb_preset *preset = g_try_new0(struct gb_preset, 1);
+    if (!preset) {
+        return gb_error_set(err, GB_ERR_MEMORY, "out of memory for a preset");
+    }
+    gb_params_init(&preset->params);
+    preset->path = g_strdup("");
+    preset->text = g_string_new(NULL);
+    *out = preset;
+    return true;
+}
+
+void gb_preset_destroy(struct gb_preset *preset)
+{
+    if (!preset) {
+        return;
+    }
+    gb_key_lines_finish(&preset->lines);
+    g_string_free(preset->text, TRUE);
+    g_free(preset->path);
+    g_free(preset);
+}
+
+static bool load_path(struct gb_preset *preset, const char *path, struct gb_error *err)
+{
+    g_free(preset->path);
+    preset->path = g_strdup(path);
+    return read_file(path, preset->text, err) &&
+           gb_key_lines_init(&preset->lines, path, preset->text->str, preset->text->len,
+                             err) &&
+           apply(preset, err);
+}
+
+/* Path to read for what the user typed (g_free), or NULL with err. */
+static char *resolve(const char *name, struct gb_error *err)
+{
+    if (g_file_test(name, G_FILE_TEST_EXISTS) && !g_file_test(name, G_FILE_TEST_IS_DIR)) {
+        return g_strdup(name);
+    }
+    char *path = gb_preset_find(name);
+    if (!path && (strchr(name, '/') || g_file_test(name, G_FILE_TEST_EXISTS))) {
+        path = g_strdup(name); /* opening it tells what is wrong */
+    }
+    if (!path) {
+        char **known = gb_preset_list();
+        char *list = g_strjoinv(", ", known);
+        gb_error_set(err, GB_ERR_INPUT, "%.80s: no such file or preset; presets: %s",
+                     name, list);
+        g_free(list);
+        g_strfreev(known);
+    }
+    return path;
+}
+
+bool gb_preset_load(struct gb_preset **out, const char *name_or_path,
+                    struct gb_error *err)
+{
+    char *path = resolve(name_or_path, err);
+    if (!path) {
+        return false;
+    }
+    struct gb_preset *preset = NULL;
+    bool good = gb_preset_create(&preset, err);
+    if (good) {
+        good = load_path(preset, path, err);
+    }
+    g_free(path);
+    if (!good) {
+        gb_preset_destroy(preset);
+        return false;
+    }
+    *out = preset;
+    return true;
+}
+
+struct gb_params *gb_preset_params(struct gb_preset *preset)
+{
+    return &preset->params;
+}
+
+const char *gb_preset_path(const struct gb_preset *preset)
+{
+    return preset->path;
+}
+
+/* Does the text of the file, read at path, still say what params hold?  Compared in
+ * written form, so that "0.1nm" and "0.10 nm" stay as typed; the name of a table of sizes
+ * stays only where the table lies beside the preset. */
+static bool says_same(const struct gb_preset *preset, const struct gb_keyline *line,
+                      const struct gb_field *field, const char *path, const char *now)
+{
+    char *typed =
+        g_strndup(preset->text->str + line->value, line->value_end - line->value);
+    struct gb_params then = preset->params;
+    char written[GB_PARAMS_VALUE_MAX] = "";
+    const bool good = set_value(&then, field, typed, path, NULL);
+    g_free(typed);
+    return good &&
+           strcmp(gb_params_format(&then, field, written, sizeof written), now) == 0;
+}
+
+static bool is_fallback(const struct gb_field *field, const char *now)
+{
+    struct gb_params initial;
+    char written[GB_PARAMS_VALUE_MAX];
+    gb_params_init(&initial);
+    return strcmp(gb_params_format(&initial, field, written, sizeof written), now) == 0;
+}
+
+/* Indexes the text again after an edit; it was valid before, so it is now. */
+static bool index_again(struct gb_preset *preset, struct gb_error *err)
+{
+    gb_key_lines_finish(&preset->lines);
+    return gb_key_lines_init(&preset->lines, preset->path, preset->text->str,
+                             preset->text->len, err);
+}
+
+static void insert_key(struct gb_preset *preset, const struct gb_field *field,
+                       const char *now)
+{
+    GString *text = preset->text;
+    size_t at = gb_key_lines_group_end(&preset->lines, field->group, text->len);
+    GString *added = g_string_new(NULL);
+    if (at > 0 && text->str[at - 1] != '\n') {
+        g_string_append_c(added, '\n');
+    }
+    if (!gb_key_lines_find(&preset->lines, field->group, NULL)) {
+        g_string_append_printf(added, "%s[%s]\n", at > 0 ? "\n" : "", field->group);
+    }
+    g_string_append_printf(added, "%s =%s%s\n", field->key, *now ? " " : "", now);
+    g_string_insert_len(text, (gssize)at, added->str, (gssize)added->len);
+    g_string_free(added, TRUE);
+}
+
+static bool update_field(struct gb_preset *preset, const struct gb_field *field,
+                         const char *path, bool complete, struct gb_error *err)
+{
+    char now[GB_PARAMS_VALUE_MAX];
+    gb_params_format(&preset->params, field, now, sizeof now);
+    const struct gb_keyline *line =
+        gb_key_lines_find(&preset->lines, field->group, field->key);
+    if (line ? says_same(preset, line, field, path, now)
+             : !complete && is_fallback(field, now)) {
+        return true;
+    }
+    if (line) {
+        const gssize at = (gssize)line->value;
+        g_string_erase(preset->text, at, (gssize)(line->value_end - line->value));
+        g_string_insert(preset->text, at, now);
+    } else {
+        insert_key(preset, field, now);
+    }
+    return index_again(preset, err);
+}
+
+static bool update_text(struct gb_preset *preset, const char *path, bool complete,
+                        struct gb_error *err)
+{
+    if (preset->text->len == 0 && *preset->path == '\0') {
+        g_string_append(preset->text, "# greenbody " GB_VERSION "\n");
+    }
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (!update_field(preset, &fields[i], path, complete, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool write_text(const GString *text, const char *path, struct gb_error *err)
+{
+    GError *trouble = NULL;
+    if (!gb_file_may_write()) {
+        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
+                            g_strerror(errno));
+    }
+    if (g_file_set_contents_full(path, text->str, (gssize)text->len,
+                                 G_FILE_SET_CONTENTS_DURABLE |
+                                     G_FILE_SET_CONTENTS_CONSISTENT,
+                                 0666, &trouble)) {
+        return true;
+    }
+    const bool input = trouble->code == G_FILE_ERROR_NOENT ||
+                       trouble->code == G_FILE_ERROR_NOTDIR ||
+                       trouble->code == G_FILE_ERROR_ISDIR;
+    gb_error_set(err, input ? GB_ERR_INPUT : GB_ERR_MACHINE, "%s: cannot be written: %s",
+                 path, gb_file_reason(trouble));
+    g_error_free(trouble);
+    return false;
+}
+
+bool gb_preset_save(struct gb_preset *preset, const char *path, bool complete,
+                    struct gb_error *err)
+{
+    /* The text kept in memory changes only when it stands on disk. */
+    GString *before = g_string_new_len(preset->text->str, (gssize)preset->text->len);
+    if (!update_text(preset, path, complete, err) ||
+        !write_text(preset->text, path, err)) {
+        g_string_free(preset->text, TRUE);
+        preset->text = before;
+        index_again(preset, NULL);
+        return false;
+    }
+    g_string_free(before, TRUE);
+    char *saved = g_strdup(path);
+    g_free(preset->path);
+    preset->path = saved;
+    return true;
+}
+
+/* Folders that hold presets, first match wins; NULL-terminated, g_strfreev. */
+static char **folders(void)
+{
+    GPtrArray *list = g_ptr_array_new();
+    g_ptr_array_add(
+        list, g_build_filename(g_get_user_config_dir(), "greenbody", "presets", NULL));
+    const char *given = g_getenv("GB_PRESET_DIR");
+    if (given && *given) {
+        g_ptr_array_add(list, g_strdup(given));
+    }
+    g_ptr_array_add(list, g_strdup(GB_PRESET_INSTALL_DIR));
+    /* A program run from its build folder finds the presets of its source tree. */
+    char *program = g_file_read_link("/proc/self/exe", NULL);
+    char *folder = program ? g_path_get_dirname(program) : NULL;
+    for (int up = 0; folder && up < 3; up++) {
+        char *parent = g_path_get_dirname(folder);
+        g_ptr_array_add(list, g_build_filename(parent, "presets", NULL));
+        g_free(folder);
+        folder = parent;
+    }
+    g_free(folder);
+    g_free(program);
+    g_ptr_array_add(list, NULL);
+    return (char **)g_ptr_array_free(list, FALSE);
+}
+
+static char *find_in(const char *folder, const char *name)
+{
+    static const char *const endings[] = {"", ".ini"};
+    for (size_t i = 0; i < G_N_ELEMENTS(endings); i++) {
+        char *file = g_strconcat(name, endings[i], NULL);
+        char *path = g_build_filename(folder, file, NULL);
+        g_free(file);
+        if (g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
+            return path;
+        }
+        g_free(path);
+    }
+    return NULL;
+}
+
+char *gb_preset_find(const char *name)
+{
+    if (*name == '\0' || strchr(name, '/')) {
+        return NULL;
+    }
+    char **list = folders();
+    char *path = NULL;
+    for (int i = 0; list[i] && !path; i++) {
+        path = find_in(list[i], name);
+    }
+    g_strfreev(list);
+    return path;
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static void list_folder(const char *folder, GHashTable *names)
+{
+    GDir *dir = g_dir_open(folder, 0, NULL);
+    if (!dir) {
+        return;
+    }
+    for (const char *file = g_dir_read_name(dir); file; file = g_dir_read_name(dir)) {
+        if (g_str_has_suffix(file, ".ini")) {
+            g_hash_table_add(names, g_strndup(file, strlen(file) - strlen(".ini")));
+        }
+    }
+    g_dir_close(dir);
+}
+
+char **gb_preset_list(void)
+{
+    GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+    char **list = folders();
+    for (int i = 0; list[i]; i++) {
+        list_folder(list[i], names);
+    }
+    g_strfreev(list);
+    guint count = 0;
+    char **found = (char **)g_hash_table_get_keys_as_array(names, &count);
+    g_hash_table_steal_all(names); /* they are the caller's now */
+    g_hash_table_destroy(names);
+    qsort(found, count, sizeof *found, compare_names);
+    return found;
+}

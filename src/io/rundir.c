@@ -1,0 +1,383 @@
+#include "io/rundir.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <glib.h>
+#include <glib/gstdio.h>
+
+/* Files of a run by name; everything else in a directory is somebody's and stays. */
+static const char *const known_files[] = {
+    "preset.ini",  "curve.csv", "events.log",     "status.json",    "state.h5",
+    "packing.csv", "g.csv",     "structure.json", "state-before.h5"};
+static const char snapshot_folder[] = "snapshots";
+
+/* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed.
+ */
+static bool is_leftover(const char *tail)
+{
+    if (strcmp(tail, ".tmp") == 0) {
+        return true;
+    }
+    if (strlen(tail) != 7 || tail[0] != '.') {
+        return false;
+    }
+    for (const char *c = tail + 1; *c != '\0'; c++) {
+        if (!g_ascii_isalnum(*c)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool is_known_name(const char *name)
+{
+    for (size_t k = 0; k < G_N_ELEMENTS(known_files); k++) {
+        const size_t length = strlen(known_files[k]);
+        if (strncmp(name, known_files[k], length) == 0 &&
+            (name[length] == '\0' || is_leftover(name + length))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_snapshot_name(const char *name)
+{
+    return g_str_has_suffix(name, ".h5") || g_str_has_suffix(name, ".png");
+}
+
+static bool has_type(const char *path, mode_t type)
+{
+    struct stat info;
+    return lstat(path, &info) == 0 && (info.st_mode & S_IFMT) == type;
+}
+
+/* Name of the first entry that no run writes (g_free), NULL when there is none.  *entries
+ * counts what was seen. */
+static char *first_foreign(const char *path, bool (*known)(const char *name),
+                           int *entries, GError **failure)
+{
+    GDir *dir = g_dir_open(path, 0, failure);
+    if (dir == NULL) {
+        return NULL;
+    }
+    char *foreign = NULL;
+    const char *name;
+    while (foreign == NULL && (name = g_dir_read_name(dir)) != NULL) {
+        char *full = g_build_filename(path, name, NULL);
+        (*entries)++;
+        if (known == is_known_name && strcmp(name, snapshot_folder) == 0 &&
+            has_type(full, S_IFDIR)) {
+            int inside = 0;
+            char *deeper = first_foreign(full, is_snapshot_name, &inside, failure);
+            foreign = deeper != NULL ? g_build_filename(name, deeper, NULL) : NULL;
+            g_free(deeper);
+        } else if (!known(name) || !has_type(full, S_IFREG)) {
+            foreign = g_strdup(name);
+        }
+        g_free(full);
+    }
+    g_dir_close(dir);
+    return foreign;
+}
+
+/* Opens path and locks it; -1 with errno when either fails.  File systems without such
+ * locks (some network ones) lose only the protection against two writers. */
+static int lock_directory(const char *path)
+{
+    const int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        close(fd);
+        errno = EWOULDBLOCK;
+        return -1;
+    }
+    return fd;
+}
+
+/* Opens and locks dir->path as lock_directory does, and holds on to it. */
+static bool hold(struct gb_rundir *dir)
+{
+    struct stat info;
+    dir->lock = lock_directory(dir->path);
+    if (dir->lock < 0) {
+        return false;
+    }
+    dir->held = g_strdup_printf("/proc/self/fd/%d", dir->lock);
+    if (stat(dir->held, &info) != 0) { /* no such file system here */
+        g_free(dir->held);
+        dir->held = g_strdup(dir->path);
+    }
+    return true;
+}
+
+static bool busy_error(const char *path, struct gb_error *err)
+{
+    return gb_error_set(
+        err, GB_ERR_INPUT,
+        "%s: a run that is under way writes there; stop it first or choose "
+        "another directory",
+        path);
+}
+
+/* May the files in this directory be replaced by those of a new run? */
+static bool check_content(const char *path, bool force, struct gb_error *err)
+{
+    int entries = 0;
+    GError *failure = NULL;
+    char *foreign = first_foreign(path, is_known_name, &entries, &failure);
+    bool ok = true;
+    if (failure != NULL) {
+        ok = gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be read: %s", path,
+                          failure->message);
+        g_clear_error(&failure);
+    } else if (foreign != NULL) {
+        ok = gb_error_set(err, GB_ERR_INPUT,
+                          "%s: holds \"%s\", which is not of a run; choose another "
+                          "directory (it is left as it is)",
+                          path, foreign);
+    } else if (entries > 0 && !force) {
+        ok = gb_error_set(err, GB_ERR_INPUT,
+                          "%s: holds a run already; choose another directory, or --force "
+                          "to replace it",
+                          path);
+    }
+    g_free(foreign);
+    return ok;
+}
+
+/* The nearest directory at or above path that exists (g_free). */
+static char *nearest_existing(const char *path)
+{
+    char *at = g_canonicalize_filename(path, NULL);
+    while (!g_file_test(at, G_FILE_TEST_EXISTS)) {
+        char *up = g_path_get_dirname(at);
+        g_free(at);
+        at = up;
+    }
+    return at;
+}
+
+static bool check_parent(const char *path, struct gb_error *err)
+{
+    char *at = nearest_existing(path);
+    bool ok = true;
+    if (!g_file_test(at, G_FILE_TEST_IS_DIR)) {
+        ok =
+            gb_error_set(err, GB_ERR_INPUT, "%s: cannot be made: %s is a file", path, at);
+    } else if (access(at, W_OK | X_OK) != 0) {
+        ok = gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be made in %s: %s", path, at,
+                          g_strerror(errno));
+    }
+    g_free(at);
+    return ok;
+}
+
+static bool check_existing(const char *path, bool force, struct gb_error *err)
+{
+    if (!g_file_test(path, G_FILE_TEST_IS_DIR)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: is a file; a run needs a directory of its own", path);
+    }
+    const int lock = lock_directory(path);
+    if (lock < 0 && errno == EWOULDBLOCK) {
+        return busy_error(path, err);
+    }
+    if (lock >= 0) {
+        close(lock);
+    }
+    if (access(path, W_OK | X_OK) != 0) {
+        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
+                            g_strerror(errno));
+    }
+    return check_content(path, force, err);
+}
+
+bool gb_rundir_check(const char *path, bool force, struct gb_error *err)
+{
+    struct stat info;
+    if (path[0] == '\0') {
+        return gb_error_set(err, GB_ERR_INPUT, "the run directory has an empty name");
+    }
+    return lstat(path, &info) == 0 ? check_existing(path, force, err)
+                                   : check_parent(path, err);
+}
+
+/* Removes what a run wrote; entries of other names are not looked at. */
+static bool clear_files(const char *path, bool (*known)(const char *name),
+                        struct gb_error *err)
+{
+    GDir *dir = g_dir_open(path, 0, NULL);
+    bool ok =
+        dir != NULL || gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be read", path);
+    const char *name;
+    while (ok && (name = g_dir_read_name(dir)) != NULL) {
+        char *full = g_build_filename(path, name, NULL);
+        if (known(name) && has_type(full, S_IFREG) && g_unlink(full) != 0) {
+            ok = gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be removed: %s", full,
+                              g_strerror(errno));
+        }
+        g_free(full);
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    return ok;
+}
+
+static bool clear_run(const char *path, struct gb_error *err)
+{
+    char *snapshots = g_build_filename(path, snapshot_folder, NULL);
+    bool ok = true;
+    if (has_type(snapshots, S_IFDIR)) {
+        ok = clear_files(snapshots, is_snapshot_name, err);
+        if (ok && g_rmdir(snapshots) != 0) {
+            ok = gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be removed: %s", snapshots,
+                              g_strerror(errno));
+        }
+    }
+    g_free(snapshots);
+    return ok && clear_files(path, is_known_name, err);
+}
+
+/* Removes the directories from path up to made, as long as they are empty. */
+static void remove_made(const char *path, const char *made)
+{
+    char *at = g_canonicalize_filename(path, NULL);
+    while (g_str_has_prefix(at, made) && g_rmdir(at) == 0) {
+        char *up = g_path_get_dirname(at);
+        g_free(at);
+        at = up;
+    }
+    g_free(at);
+}
+
+/* Makes path, which does not exist, with its parents; only one of two processes that try
+ * at once succeeds.  Gives the topmost directory that was missing. */
+static bool make_missing(struct gb_rundir *dir, struct gb_error *err)
+{
+    char *full = g_canonicalize_filename(dir->path, NULL);
+    char *parent = g_path_get_dirname(full);
+    char *above = nearest_existing(full);
+    const char *rest = full + strlen(above) + (above[1] != '\0' ? 1 : 0);
+    const size_t length = (size_t)(rest - full) + strcspn(rest, "/");
+    char *made = g_strndup(full, length);
+    bool ok = g_mkdir_with_parents(parent, 0777) == 0 && g_mkdir(full, 0777) == 0;
+    if (ok) {
+        dir->made = g_steal_pointer(&made);
+    } else {
+        const int why = errno;
+        remove_made(parent, made);
+        ok = gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be made: %s", dir->path,
+                          g_strerror(why));
+    }
+    g_free(made);
+    g_free(above);
+    g_free(parent);
+    g_free(full);
+    return ok;
+}
+
+bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
+                    struct gb_error *err)
+{
+    if (!gb_rundir_check(path, force, err)) {
+        return false;
+    }
+    *dir = (struct gb_rundir){.path = g_strdup(path), .lock = -1};
+    if (!g_file_test(path, G_FILE_TEST_IS_DIR) && !make_missing(dir, err)) {
+        goto fail;
+    }
+    if (!hold(dir)) {
+        (void)(errno == EWOULDBLOCK
+                   ? busy_error(path, err)
+                   : gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be opened: %s", path,
+                                  g_strerror(errno)));
+        goto fail;
+    }
+    /* once more: it may have changed before the lock was ours */
+    if (!check_content(path, force, err) || !clear_run(path, err)) {
+        goto fail;
+    }
+    return true;
+
+fail:
+    gb_rundir_finish(dir);
+    return false;
+}
+
+bool gb_rundir_busy(const char *path)
+{
+    const int lock = lock_directory(path);
+    const bool busy = lock < 0 && errno == EWOULDBLOCK;
+    if (lock >= 0) {
+        close(lock);
+    }
+    return busy;
+}
+
+bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *err)
+{
+    char *preset = g_build_filename(path, "preset.ini", NULL);
+    const bool is_run = has_type(preset, S_IFREG);
+    g_free(preset);
+    if (!is_run) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: no run directory, it has no preset.ini", path);
+    }
+    *dir = (struct gb_rundir){.path = g_strdup(path), .lock = -1};
+    if (hold(dir)) {
+        return true;
+    }
+    (void)(errno == EWOULDBLOCK
+               ? busy_error(path, err)
+               : gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be opened: %s", path,
+                              g_strerror(errno)));
+    gb_rundir_finish(dir);
+    return false;
+}
+
+bool gb_rundir_stands(const struct gb_rundir *dir, struct gb_error *err)
+{
+    struct stat ours;
+    struct stat named;
+    return (fstat(dir->lock, &ours) == 0 && stat(dir->path, &named) == 0 &&
+            ours.st_dev == named.st_dev && ours.st_ino == named.st_ino) ||
+           gb_error_set(err, GB_ERR_MACHINE,
+                        "%s: was moved or removed while the run wrote there", dir->path);
+}
+
+bool gb_rundir_told(const struct gb_rundir *dir, bool good, struct gb_error *err)
+{
+    if (good || err == NULL || !gb_rundir_stands(dir, err)) {
+        return good;
+    }
+    if (g_str_has_prefix(err->text, dir->held)) {
+        gb_error_set(err, err->code, "%s%s", dir->path, err->text + strlen(dir->held));
+    }
+    return false;
+}
+
+void gb_rundir_finish(struct gb_rundir *dir)
+{
+    if (dir->lock >= 0) {
+        close(dir->lock);
+    }
+    g_free(dir->made);
+    g_free(dir->held);
+    g_free(dir->path);
+    *dir = (struct gb_rundir){.lock = -1};
+}
+
+void gb_rundir_unmake(struct gb_rundir *dir)
+{
+    (void)clear_run(dir->held, NULL);
+    if (dir->made != NULL) {
+        remove_made(dir->path, dir->made);
+    }
+    gb_rundir_finish(dir);
+}

@@ -1,0 +1,338 @@
+#include "io/state.h"
+
+#include <glib.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "io/hdf/hdf.h"
+#include "io/hdf/hdf_record.h"
+#include "io/state_check.h"
+
+/* Raised when a reader of the old layout would misunderstand the new one.  1: without
+ * checkpoints; 2: without dies; the packing is as in 3. */
+static const int32_t layout_number = 3, layout_oldest = 1;
+
+/* Beyond this a file is nonsense rather than large. */
+static const int64_t count_max = 200000000;
+
+/* An array of the file and its place in the struct. */
+struct array_row {
+    const char *name;
+    enum gb_hdf_type type;
+    int columns;
+    bool per_pair;
+    size_t offset;
+    const char *unit;
+};
+
+static const struct array_row arrays[] = {
+    {"/position", GB_HDF_DOUBLE, 3, false, offsetof(struct gb_state, position), "d"},
+    {"/radius", GB_HDF_DOUBLE, 1, false, offsetof(struct gb_state, radius), "d"},
+    {"/contacts", GB_HDF_INT32, 1, false, offsetof(struct gb_state, contacts), "1"},
+    {"/pair", GB_HDF_INT32, 2, true, offsetof(struct gb_state, pair), "1"},
+    {"/pair_force", GB_HDF_DOUBLE, 3, true, offsetof(struct gb_state, pair_force),
+     "E d^2"},
+    {"/pair_normal", GB_HDF_DOUBLE, 1, true, offsetof(struct gb_state, pair_normal),
+     "E d^2"},
+    {"/pair_bridged", GB_HDF_UINT8, 1, true, offsetof(struct gb_state, pair_bridged),
+     "1"},
+};
+
+/* A number of the file's root group: unit in the name, as in curve.csv and the struct. */
+struct number_row {
+    const char *name;
+    enum gb_hdf_type type;
+    int count;
+    size_t offset;
+};
+
+static const struct number_row numbers[] = {
+    {"cell_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, cell)},
+    {"die_radius_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_radius)},
+    {"metre_per_length", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, metre_per_length)},
+    {"pascal_per_stress", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, pascal_per_stress)},
+    {"seed", GB_HDF_UINT64, 1, offsetof(struct gb_state, seed)},
+    {"branch_from_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.branch_from_pa)},
+    {"step", GB_HDF_INT64, 1, offsetof(struct gb_state, point.step)},
+    {"density", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.density)},
+    {"px_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.px_pa)},
+    {"py_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.py_pa)},
+    {"pz_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.pz_pa)},
+    {"p_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.p_pa)},
+    {"coordination", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.coordination)},
+    {"bridged", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.bridged)},
+    {"rattlers", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.rattlers)},
+    {"residual", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.residual)},
+    {"iterations", GB_HDF_INT64, 1, offsetof(struct gb_state, point.iterations)},
+    {"evaluations", GB_HDF_INT64, 1, offsetof(struct gb_state, point.evaluations)},
+    {"seconds", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.seconds)},
+};
+
+enum {
+    ARRAY_COUNT = sizeof arrays / sizeof arrays[0],
+    NUMBER_COUNT = sizeof numbers / sizeof numbers[0],
+    DIGEST_SIZE = 65
+};
+
+static size_t type_size(enum gb_hdf_type type)
+{
+    switch (type) {
+    case GB_HDF_INT32:
+        return 4;
+    case GB_HDF_UINT8:
+        return 1;
+    default:
+        return 8;
+    }
+}
+
+/* The pointer member that a row describes. */
+static void **array_member(struct gb_state *state, const struct array_row *row)
+{
+    return (void **)(void *)((char *)state + row->offset);
+}
+
+static const void *array_data(const struct gb_state *state, const struct array_row *row)
+{
+    return *(const void *const *)(const void *)((const char *)state + row->offset);
+}
+
+static struct gb_hdf_array shape_of(const struct array_row *row,
+                                    const struct gb_state *state)
+{
+    return (struct gb_hdf_array){
+        .name = row->name,
+        .type = row->type,
+        .rows = row->per_pair ? state->pair_count : state->count,
+        .columns = row->columns,
+        .unit = row->unit,
+    };
+}
+
+bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
+                     struct gb_error *err)
+{
+    *out = NULL;
+    if (count < 0 || pair_count < 0) {
+        return gb_error_set(err, GB_ERR_INPUT, "a packing of negative size");
+    }
+    struct gb_state *state = gb_alloc_array(1, sizeof *state, err);
+    if (state == NULL) {
+        return false;
+    }
+    state->dimension = 3;
+    state->count = count;
+    state->pair_count = pair_count;
+    for (int k = 0; k < ARRAY_COUNT; k++) {
+        const struct gb_hdf_array shape = shape_of(&arrays[k], state);
+        /* one spare row, so that an empty array is still memory */
+        void *memory = gb_alloc_array((size_t)(shape.rows + 1) * (size_t)shape.columns,
+                                      type_size(shape.type), err);
+        if (memory == NULL) {
+            gb_state_destroy(state);
+            return false;
+        }
+        *array_member(state, &arrays[k]) = memory;
+    }
+    *out = state;
+    return true;
+}
+
+void gb_state_destroy(struct gb_state *state)
+{
+    if (state == NULL) {
+        return;
+    }
+    for (int k = 0; k < ARRAY_COUNT; k++) {
+        gb_alloc_free(*array_member(state, &arrays[k]));
+    }
+    gb_alloc_free(state);
+}
+
+/* SHA-256 of all arrays in the order of the table.  HDF5 checks its headers but not plain
+ * data. */
+static void digest(const struct gb_state *state, char text[DIGEST_SIZE])
+{
+    GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
+    for (int k = 0; k < ARRAY_COUNT; k++) {
+        const struct gb_hdf_array shape = shape_of(&arrays[k], state);
+        const size_t bytes =
+            (size_t)shape.rows * (size_t)shape.columns * type_size(shape.type);
+        g_checksum_update(sum, array_data(state, &arrays[k]), (gssize)bytes);
+    }
+    g_strlcpy(text, g_checksum_get_string(sum), DIGEST_SIZE);
+    g_checksum_free(sum);
+}
+
+static bool write_numbers(const struct gb_state *state, struct gb_hdf *file,
+                          struct gb_error *err)
+{
+    const int32_t dimension = state->dimension;
+    const int32_t branch = state->point.branch;
+    char sum[DIGEST_SIZE];
+    digest(state, sum);
+    if (!gb_hdf_put_numbers(file, "layout", GB_HDF_INT32, 1, &layout_number, err) ||
+        !gb_hdf_put_numbers(file, "dimension", GB_HDF_INT32, 1, &dimension, err) ||
+        !gb_hdf_put_numbers(file, "branch", GB_HDF_INT32, 1, &branch, err) ||
+        !gb_hdf_put_text(file, "title", state->preset, err) ||
+        !gb_hdf_put_text(file, "version", state->version, err) ||
+        !gb_hdf_put_text(file, "sha256", sum, err)) {
+        return false;
+    }
+    for (int k = 0; k < NUMBER_COUNT; k++) {
+        const struct number_row *row = &numbers[k];
+        if (!gb_hdf_put_numbers(file, row->name, row->type, row->count,
+                                (const char *)state + row->offset, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool gb_state_write(const struct gb_state *state, const struct gb_record *record,
+                    const char *path, struct gb_error *err)
+{
+    struct gb_hdf *file = NULL;
+    if (!gb_hdf_create(&file, path, err)) {
+        return false;
+    }
+    bool done = write_numbers(state, file, err);
+    for (int k = 0; k < ARRAY_COUNT && done; k++) {
+        const struct gb_hdf_array shape = shape_of(&arrays[k], state);
+        done = gb_hdf_put_array(file, &shape, array_data(state, &arrays[k]), err);
+    }
+    done = done && (record == NULL || gb_hdf_record_put(file, record, err)) &&
+           gb_hdf_store(file, err);
+    gb_hdf_destroy(file);
+    return done;
+}
+
+static bool read_layout(struct gb_hdf *file, const char *path, int32_t *number,
+                        struct gb_error *err)
+{
+    int32_t layout = 0;
+    if (!gb_hdf_get_numbers(file, "layout", GB_HDF_INT32, 1, &layout, err)) {
+        return false;
+    }
+    *number = layout;
+    if (layout < layout_oldest || layout > layout_number) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "%s: layout: %d is not known to this version, which reads %d to %d", path,
+            layout, layout_oldest, layout_number);
+    }
+    return true;
+}
+
+/* Layout 3 knows dies. */
+static bool exists_in(int32_t layout, const struct number_row *row)
+{
+    return layout >= 3 || row->offset != offsetof(struct gb_state, die_radius);
+}
+
+static bool read_numbers(struct gb_state *state, struct gb_hdf *file, int32_t layout,
+                         struct gb_error *err)
+{
+    int32_t dimension = 0;
+    int32_t branch = 0;
+    if (!gb_hdf_get_numbers(file, "dimension", GB_HDF_INT32, 1, &dimension, err) ||
+        !gb_hdf_get_numbers(file, "branch", GB_HDF_INT32, 1, &branch, err) ||
+        !gb_hdf_get_text(file, "title", state->preset, sizeof state->preset, err) ||
+        !gb_hdf_get_text(file, "version", state->version, sizeof state->version, err)) {
+        return false;
+    }
+    state->dimension = dimension;
+    state->point.branch = branch;
+    for (int k = 0; k < NUMBER_COUNT; k++) {
+        const struct number_row *row = &numbers[k];
+        if (exists_in(layout, row) &&
+            !gb_hdf_get_numbers(file, row->name, row->type, row->count,
+                                (char *)state + row->offset, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool check_digest(const struct gb_state *state, struct gb_hdf *file,
+                         const char *path, struct gb_error *err)
+{
+    char kept[DIGEST_SIZE];
+    char sum[DIGEST_SIZE];
+    if (!gb_hdf_get_text(file, "sha256", kept, sizeof kept, err)) {
+        return false;
+    }
+    digest(state, sum);
+    return strcmp(kept, sum) == 0 ||
+           gb_error_set(err, GB_ERR_INPUT, "%s: sha256: does not fit the data: damaged",
+                        path);
+}
+
+static bool check(const struct gb_state *state, const char *path, struct gb_error *err)
+{
+    int64_t row = 0;
+    const char *fault = gb_state_check(state, &row);
+    if (fault == NULL) {
+        return true;
+    }
+    if (fault[0] == '/') {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: %s: row %lld is out of range", path,
+                            fault, (long long)row);
+    }
+    return gb_error_set(err, GB_ERR_INPUT, "%s: %s: is out of range", path, fault);
+}
+
+/* Sizes before memory: every dataset must agree with the first of its kind. */
+static bool read_sizes(struct gb_hdf *file, const char *path, int64_t *count,
+                       int64_t *pair_count, struct gb_error *err)
+{
+    int64_t size[2] = {-1, -1};
+    for (int k = 0; k < ARRAY_COUNT; k++) {
+        const struct gb_hdf_array shape = {
+            .name = arrays[k].name, .type = arrays[k].type, .columns = arrays[k].columns};
+        int64_t *known = &size[arrays[k].per_pair];
+        int64_t rows = 0;
+        if (!gb_hdf_rows(file, &shape, &rows, err)) {
+            return false;
+        }
+        *known = *known < 0 ? rows : *known;
+        if (rows != *known || (!arrays[k].per_pair && (rows < 1 || rows > count_max))) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "%s: %s: %lld rows do not fit a packing of %lld", path,
+                                arrays[k].name, (long long)rows, (long long)*known);
+        }
+    }
+    *count = size[0];
+    *pair_count = size[1];
+    return true;
+}
+
+bool gb_state_read(struct gb_state **out, const char *path, struct gb_error *err)
+{
+    struct gb_hdf *file = NULL;
+    struct gb_state *state = NULL;
+    int64_t count = 0;
+    int64_t pair_count = 0;
+    *out = NULL;
+    if (!gb_hdf_open(&file, path, err)) {
+        return false;
+    }
+    int32_t layout = 0;
+    bool done = read_layout(file, path, &layout, err) &&
+                read_sizes(file, path, &count, &pair_count, err) &&
+                gb_state_create(&state, count, pair_count, err) &&
+                read_numbers(state, file, layout, err);
+    for (int k = 0; k < ARRAY_COUNT && done; k++) {
+        const struct gb_hdf_array shape = shape_of(&arrays[k], state);
+        done = gb_hdf_get_array(file, &shape, *array_member(state, &arrays[k]), err);
+    }
+    done = done && check(state, path, err) && check_digest(state, file, path, err);
+    gb_hdf_destroy(file);
+    if (!done) {
+        gb_state_destroy(state);
+        return false;
+    }
+    *out = state;
+    return true;
+}

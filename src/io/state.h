@@ -1,0 +1,46 @@
+#ifndef GB_IO_STATE_H
+#define GB_IO_STATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/record.h"
+#include "greenbody/curve.h"
+#include "greenbody/status.h"
+
+/* A packing as pictures, exporters and state.h5 see it: plain arrays owned by the struct,
+ * reduced lengths (diameters), forces in E d^2. */
+struct gb_state {
+    int dimension;
+    int64_t count;
+    double cell[3];      /* periodic edges, d; y is 1 in 2D */
+    double die_radius;   /* d; 0: a periodic cell, else the cell is the box of a die */
+    double *position;    /* count x 3, inside the cell */
+    double *radius;      /* count */
+    int32_t *contacts;   /* count: coordination number of each particle */
+    int64_t pair_count;  /* pairs with r < d */
+    int32_t *pair;       /* pair_count x 2 particle indices */
+    double *pair_force;  /* pair_count x 3: whole force on the first, E d^2 */
+    double *pair_normal; /* pair_count: f_n, positive when pressed */
+    uint8_t *pair_bridged;
+    struct gb_point point;
+    double metre_per_length, pascal_per_stress;
+    char preset[256]; /* title of the preset */
+    uint64_t seed;
+    char version[32];
+};
+
+/* Arrays for count particles and pair_count pairs, zeroed. */
+bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
+                     struct gb_error *err);
+void gb_state_destroy(struct gb_state *state); /* NULL is fine */
+
+/* HDF5 file, written to a temporary name, synced and renamed.  Units are attributes.
+ * record (may be NULL) goes into it as the group /checkpoint: see io/hdf/hdf_record.h. */
+bool gb_state_write(const struct gb_state *state, const struct gb_record *record,
+                    const char *path, struct gb_error *err);
+/* Errors: GB_ERR_MACHINE (cannot be opened), GB_ERR_INPUT (not a state, sizes that do not
+ * fit, indices or numbers out of range), naming path and dataset. */
+bool gb_state_read(struct gb_state **out, const char *path, struct gb_error *err);
+
+#endif

@@ -1,0 +1,218 @@
+#include "io/state_record.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/vec.h"
+#include "pack/cell/cell.h"
+#include "pack/structure/assign_sizes.h"
+
+/* What is taken out of the record as it is. */
+static bool take(const struct gb_record *record, const char *name,
+                 enum gb_record_type type, int64_t rows, int columns, void *data,
+                 struct gb_error *err)
+{
+    const struct gb_record_item *item = gb_record_find(record, name);
+    if (!item || item->type != type || item->rows != rows || item->columns != columns) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: is missing or of another shape",
+                            name);
+    }
+    if (rows > 0) {
+        memcpy(data, item->data, gb_record_bytes(item));
+    }
+    return true;
+}
+
+static bool take_point(const struct gb_record *record, struct gb_point *point,
+                       struct gb_error *err)
+{
+    const struct {
+        const char *name;
+        double *value;
+    } numbers[] = {
+        {"shown/branch_from", &point->branch_from_pa},
+        {"shown/density", &point->density},
+        {"shown/px", &point->px_pa},
+        {"shown/py", &point->py_pa},
+        {"shown/pz", &point->pz_pa},
+        {"shown/p", &point->p_pa},
+        {"shown/coordination", &point->coordination},
+        {"shown/bridged", &point->bridged},
+        {"shown/rattlers", &point->rattlers},
+        {"shown/residual", &point->residual},
+    };
+    int32_t branch = 0;
+    bool done = take(record, "shown/branch", GB_RECORD_INT32, 1, 1, &branch, err) &&
+                take(record, "shown/step", GB_RECORD_INT64, 1, 1, &point->step, err) &&
+                take(record, "shown/iterations", GB_RECORD_INT64, 1, 1,
+                     &point->iterations, err) &&
+                take(record, "shown/evaluations", GB_RECORD_INT64, 1, 1,
+                     &point->evaluations, err);
+    point->branch = branch;
+    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0] && done; k++) {
+        done =
+            take(record, numbers[k].name, GB_RECORD_DOUBLE, 1, 1, numbers[k].value, err);
+    }
+    return done;
+}
+
+/* Normal forces, bridges and coordination from the pairs and their histories. */
+static void fill_pairs(struct gb_state *state, const struct gb_cell *cell,
+                       const struct gb_record_item *history)
+{
+    const double *value = history->data; /* the first one of a row is the deepest */
+    for (int64_t k = 0; k < state->pair_count; k++) {
+        const int32_t *pair = state->pair + 2 * k;
+        const double *a = state->position + 3 * (int64_t)pair[0];
+        const double *b = state->position + 3 * (int64_t)pair[1];
+        double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+        gb_cell_nearest(cell, r);
+        state->pair_normal[k] =
+            gb_vec_dot(state->pair_force + 3 * k, r) / gb_vec_length(r);
+        state->pair_bridged[k] = value[k * history->columns] > 0.0;
+        state->contacts[pair[0]]++;
+        state->contacts[pair[1]]++;
+    }
+}
+
+static void fill_header(struct gb_state *state, const struct gb_params *params,
+                        const struct gb_model *model)
+{
+    state->dimension = model->dimension;
+    state->metre_per_length = model->metre_per_length;
+    state->pascal_per_stress = model->pascal_per_stress;
+    state->seed = model->seed;
+    snprintf(state->preset, sizeof state->preset, "%s", params->title);
+    snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
+}
+
+/* Rows of a bed: places in the box of the die, true sizes. */
+static void place_spheres(struct gb_state *state, const double (*place)[4], double radius)
+{
+    state->die_radius = radius;
+    state->cell[0] = state->cell[1] = 2.0 * radius;
+    for (int64_t i = 0; i < state->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            state->position[3 * i + k] = place[i][k] + (k < 2 ? radius : 0.0);
+        }
+        state->radius[i] = place[i][3];
+        state->cell[2] = fmax(state->cell[2], place[i][2] + place[i][3]);
+    }
+}
+
+/* Whole forces from normal and shear parts. */
+static void join_forces(struct gb_state *state, double *const shear[3])
+{
+    for (int64_t k = 0; k < state->pair_count; k++) {
+        const int32_t i = state->pair[2 * k], j = state->pair[2 * k + 1];
+        const double *a = state->position + 3 * (int64_t)i;
+        const double *b = state->position + 3 * (int64_t)j;
+        double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+        gb_vec_scale(r, state->pair_normal[k] / gb_vec_length(r));
+        for (int c = 0; c < 3; c++) {
+            state->pair_force[3 * k + c] = r[c] + shear[c][k];
+        }
+        state->contacts[i]++;
+        state->contacts[j]++;
+    }
+}
+
+/* The items of gb_bed_record that a picture needs. */
+static bool fill_die(struct gb_state *state, const struct gb_record *record,
+                     const struct gb_model *model, double *work, struct gb_error *err)
+{
+    static const char *const names[3] = {"bed/shear_x", "bed/shear_y", "bed/shear_z"};
+    const int64_t n = state->pair_count;
+    double(*place)[4] = (double(*)[4])work;
+    double *const shear[3] = {work + 4 * state->count, work + 4 * state->count + n,
+                              work + 4 * state->count + 2 * n};
+    int32_t *index = (int32_t *)(void *)shear[0];
+    double punch = 0.0;
+    if (!take(record, "bed/punch_place", GB_RECORD_DOUBLE, 1, 1, &punch, err) ||
+        !take(record, "bed/place", GB_RECORD_DOUBLE, state->count, 4, place, err) ||
+        !take(record, "bed/normal", GB_RECORD_DOUBLE, n, 1, state->pair_normal, err) ||
+        !take_point(record, &state->point, err)) {
+        return false;
+    }
+    for (int end = 0; end < 2; end++) {
+        if (!take(record, end == 0 ? "bed/first" : "bed/second", GB_RECORD_INT32, n, 1,
+                  index, err)) {
+            return false;
+        }
+        for (int64_t k = 0; k < n; k++) {
+            state->pair[2 * k + end] = index[k];
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        if (!take(record, names[c], GB_RECORD_DOUBLE, n, 1, shear[c], err)) {
+            return false;
+        }
+    }
+    state->cell[2] = punch;
+    place_spheres(state, (const double(*)[4])place, model->die.radius);
+    join_forces(state, shear);
+    return true;
+}
+
+static bool die_state(struct gb_state **out, const struct gb_record *record,
+                      const struct gb_params *params, const struct gb_model *model,
+                      struct gb_error *err)
+{
+    const struct gb_record_item *normal = gb_record_find(record, "bed/normal");
+    const int64_t pairs = normal ? normal->rows : 0;
+    const size_t size = 4 * (size_t)model->count + 3 * (size_t)pairs + 1;
+    struct gb_state *state = NULL;
+    double *work = gb_alloc_array(size, sizeof *work, err);
+    const bool done = work && gb_state_create(&state, model->count, pairs, err) &&
+                      fill_die(state, record, model, work, err);
+    gb_alloc_free(work);
+    if (!done) {
+        gb_state_destroy(state);
+        return false;
+    }
+    fill_header(state, params, model);
+    *out = state;
+    return true;
+}
+
+bool gb_state_record(struct gb_state **out, const struct gb_record *record,
+                     const struct gb_params *params, const struct gb_model *model,
+                     struct gb_error *err)
+{
+    if (model->kind == GB_KIND_DIE) {
+        return die_state(out, record, params, model, err);
+    }
+    const int64_t count = model->count;
+    const struct gb_record_item *history = gb_record_find(record, "world/history");
+    const int64_t pairs = history ? history->rows : 0;
+    struct gb_state *state = NULL;
+    if (!history) {
+        return gb_error_set(err, GB_ERR_INPUT, "world/history: is missing");
+    }
+    if (!gb_state_create(&state, count, pairs, err)) {
+        return false;
+    }
+    if (!take(record, "world/edge", GB_RECORD_DOUBLE, 1, 3, state->cell, err) ||
+        !take(record, "world/position", GB_RECORD_DOUBLE, count, 3, state->position,
+              err) ||
+        !gb_assign_sizes_model(model, state->radius, err) ||
+        !take(record, "world/pair", GB_RECORD_INT32, pairs, 2, state->pair, err) ||
+        !take(record, "world/pair_force", GB_RECORD_DOUBLE, pairs, 3, state->pair_force,
+              err) ||
+        !take_point(record, &state->point, err)) {
+        gb_state_destroy(state);
+        return false;
+    }
+    struct gb_cell cell;
+    gb_cell_init(&cell, model->dimension, state->cell);
+    for (int64_t i = 0; i < count; i++) {
+        gb_cell_wrap(&cell, state->position + 3 * i);
+        state->radius[i] *= 0.5;
+    }
+    fill_pairs(state, &cell, history);
+    fill_header(state, params, model);
+    *out = state;
+    return true;
+}

@@ -1,0 +1,73 @@
+#ifndef GB_IO_STORE_H
+#define GB_IO_STORE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/curve.h"
+#include "greenbody/params.h"
+#include "greenbody/snapshot.h"
+#include "io/rundir.h"
+#include "io/state.h"
+
+/* A run directory (interface.md): preset.ini, curve.csv, events.log, status.json,
+ * state.h5. Every file is either appended line by line or replaced atomically.  Once the
+ * directory is moved, removed or replaced nothing more is written: GB_ERR_MACHINE. */
+struct gb_store;
+
+/* Makes the directory.  An existing run directory is refused (GB_ERR_INPUT) unless force,
+ * which removes the files of the old run first; a directory with foreign files is never
+ * touched.  Writes preset.ini. */
+bool gb_store_create(struct gb_store **out, const char *directory,
+                     const struct gb_params *params, bool force, struct gb_error *err);
+
+/* What of the files belongs to a checkpoint: rows and events up to there. */
+struct gb_store_place {
+    int64_t points, curve_bytes, events_bytes;
+};
+struct gb_store_place gb_store_place(const struct gb_store *store);
+
+/* The store of a run that is to go on in dir, which is locked and belongs to the store
+ * from now on, also on error.  Cuts curve.csv and events.log to the place; NULL: begins
+ * them anew.  Errors: GB_ERR_INPUT for files that do not reach the place. */
+bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
+                     const struct gb_params *params, const struct gb_store_place *place,
+                     struct gb_error *err);
+void gb_store_destroy(struct gb_store *store); /* NULL is fine */
+/* Destroys and removes the files and directories that were made: for a run that could not
+ * begin.  NULL is fine. */
+void gb_store_discard(struct gb_store *store);
+const char *gb_store_directory(const struct gb_store *store);
+/* For files that are not the store's own: written by its held path. */
+const struct gb_rundir *gb_store_rundir(const struct gb_store *store);
+
+bool gb_store_point(struct gb_store *store, const struct gb_point *point,
+                    struct gb_error *err);
+bool gb_store_event(struct gb_store *store, int64_t step, const char *text,
+                    struct gb_error *err);
+/* Rewrites status.json. */
+bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
+                     struct gb_error *err);
+/* The same in two parts: its text (g_free), and the file, which waits for the disk and
+ * may be written from the thread of gb_store_state. */
+char *gb_store_status_text(const struct gb_store *store,
+                           const struct gb_snapshot *snapshot);
+bool gb_store_put_status(const struct gb_store *store, const char *text,
+                         struct gb_error *err);
+/* Replaces state.h5; the one before becomes state-before.h5, from which
+ * `greenbody verify` repeats the way to it.  Rows and events are on the disk first.  May
+ * be called from another thread than the rest, one call at a time. */
+bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
+                    const struct gb_record *record, struct gb_error *err);
+/* Flushes and syncs; call before the last status. */
+bool gb_store_sync(struct gb_store *store, struct gb_error *err);
+
+/* enum gb_run_state of a word in status.json; stopped for others. */
+int gb_store_state_of(const char *word);
+
+/* A name in folder that is free, made of the preset's. Caller g_frees. */
+char *gb_store_new_directory(const char *folder, const char *preset_path);
+/* A free directory name for a run without --out: "runs/<preset>-<k>". Caller g_frees. */
+char *gb_store_default_directory(const char *preset_path);
+
+#endif

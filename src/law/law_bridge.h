@@ -1,0 +1,51 @@
+#ifndef GB_LAW_LAW_BRIDGE_H
+#define GB_LAW_LAW_BRIDGE_H
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "law/law_rod.h"
+
+/* Solid bridge between two equal particles, P1 section II.A and eq. (2), Fig. 1.
+ *
+ * It forms when the overlap h exceeds `length` (drch); h_min = 1 - r_min is the deepest
+ * overlap since then.  Loading beyond h_min obeys the rod law; below it the force follows
+ * the tangent line at h_min.  When the contact opens by more than `length` behind h_min,
+ * h_min follows (partial break); at h <= 0 the bridge is gone. */
+struct gb_law_bridge {
+    double length;       /* drch, d; 1 or more: no bridges */
+    double strength;     /* sigma_b, E */
+    bool radius_current; /* a_ch from the printed form at the current r, not from r_min */
+};
+
+/* h_min after a contact with deepest overlap h_min (0: no bridge) is moved to overlap h.
+ */
+static inline double gb_law_bridge_deepest(const struct gb_law_bridge *law, double h_min,
+                                           double h)
+{
+    if (h <= 0.0) {
+        return 0.0;
+    }
+    if (h_min <= 0.0) {
+        return h > law->length ? h : 0.0;
+    }
+    if (h >= h_min) {
+        return h;
+    }
+    return h_min - h > law->length ? h + law->length : h_min;
+}
+
+/* Elastic force f_e at overlap h <= h_min of a bridged contact. */
+double gb_law_bridge_force(const struct gb_law_rod *rod, double h_min, double h);
+/* Contact radius a_ch = sqrt(h_min)/2, or the printed form at the current r. */
+static inline double gb_law_bridge_radius(const struct gb_law_bridge *law, double h_min,
+                                          double h)
+{
+    return 0.5 * sqrt(law->radius_current ? h + law->length : h_min);
+}
+
+/* Mean normal stress that breaks the bridge (partly) at overlap h, in E; P1 Fig. 2. */
+double gb_law_bridge_peel_stress(const struct gb_law_bridge *law,
+                                 const struct gb_law_rod *rod, double h);
+
+#endif

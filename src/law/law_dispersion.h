@@ -1,0 +1,25 @@
+#ifndef GB_LAW_LAW_DISPERSION_H
+#define GB_LAW_LAW_DISPERSION_H
+
+/* Dispersion attraction of two equal spheres (van der Waals-Hamaker, modified), P1 eq.
+ * (3). Reduced units.  Constant f_a(1) for r < 1. */
+struct gb_law_dispersion {
+    double strength; /* (pi^2/3) (n d0^3)^2 eps / (E d^3) */
+    double shift;    /* alpha d0 / d */
+    double contact;  /* f_a(1) */
+};
+
+/* epsilon in E d^3, d0 in d. */
+void gb_law_dispersion_init(struct gb_law_dispersion *law, double n_d0_cubed,
+                            double epsilon, double alpha, double d0);
+
+/* f_a(r) >= 0, pulling. */
+double gb_law_dispersion_force(const struct gb_law_dispersion *law, double r);
+/* df_a/dr <= 0; 0 for r < 1. */
+double gb_law_dispersion_slope(const struct gb_law_dispersion *law, double r);
+/* Potential energy, 0 at infinity; -dU/dr = -f_a. */
+double gb_law_dispersion_energy(const struct gb_law_dispersion *law, double r);
+/* Distance r >= 1 at which f_a has fallen to share of f_a(1). */
+double gb_law_dispersion_reach(const struct gb_law_dispersion *law, double share);
+
+#endif

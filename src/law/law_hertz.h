@@ -1,0 +1,58 @@
+#ifndef GB_LAW_LAW_HERTZ_H
+#define GB_LAW_LAW_HERTZ_H
+
+/* Elastic contact of two spheres of any radii and materials: Hertz along the normal,
+ * Mindlin-Deresiewicz without micro-slip across it.  Any consistent system of units: h
+ * and radii are lengths, moduli stresses.  Forces are positive in compression, h > 0 is
+ * an overlap (P3 prints both with the other sign).  Source: P3 eqs. (1)-(14). */
+
+/* One material: Young's modulus E and Poisson's ratio nu. */
+struct gb_elastic {
+    double young, poisson;
+};
+
+struct gb_law_hertz {
+    double modulus; /* E*, (3) */
+    double shear;   /* G*, (13) */
+};
+
+/* i and j may be the same.  A wall is as stiff as the particle: it takes its material. */
+void gb_law_hertz_init(struct gb_law_hertz *law, const struct gb_elastic *i,
+                       const struct gb_elastic *j);
+
+/* R* of two radii, (4).  A wall is a sphere of radius INFINITY: R* is then the other
+ * radius, to the bit. */
+double gb_law_hertz_radius(double ri, double rj);
+
+/* F(h), (2), at effective radius R*; 0 for h <= 0. */
+double gb_law_hertz_force(const struct gb_law_hertz *law, double radius, double h);
+/* k_n = dF/dh, (9). */
+double gb_law_hertz_stiffness(const struct gb_law_hertz *law, double radius, double h);
+/* Integral of the force from 0 to h. */
+double gb_law_hertz_energy(const struct gb_law_hertz *law, double radius, double h);
+/* h at which the force is `force`; 0 for force <= 0.  Inverse of (2). */
+double gb_law_hertz_overlap(const struct gb_law_hertz *law, double radius, double force);
+/* k_t(h), (12). */
+double gb_law_hertz_shear(const struct gb_law_hertz *law, double radius, double h);
+
+/* F_Y at which the weaker of the two materials, of yield stress `yield`, starts to flow
+ * below the contact: greatest pressure 1.61 yield, by von Mises at nu = 0.3.  For two
+ * equal spheres this is (30); gb_law_hertz_overlap gives the overlap. */
+double gb_law_hertz_yield(const struct gb_law_hertz *law, double radius, double yield);
+
+/* c_n = xi C_cr, (7), (8): fraction xi of the critical damping of reduced mass m_i m_j /
+ * (m_i + m_j) (against a wall: the particle's mass) on the tangent stiffness of the
+ * active branch. */
+double gb_law_hertz_damping(double stiffness, double reduced_mass, double xi);
+
+/* F_n of (1) at approach speed v = dh/dt: elastic force plus dashpot, (6).  A dry contact
+ * never pulls: 0 where the dashpot would outweigh the spring. */
+double gb_law_hertz_damped(double elastic, double damping, double approach);
+
+/* Critical time step of one particle on a spring, (24), (28), (29): 2/omega (sqrt(1 +
+ * xi^2) - xi), omega^2 = stiffness/mass; INFINITY without a spring.  P3 puts in the
+ * stiffest contact of the particle and leaves the rest to its safety factor (26): a pair
+ * vibrates at sqrt 2 times this omega. */
+double gb_law_hertz_step(double stiffness, double mass, double xi);
+
+#endif

@@ -1,0 +1,24 @@
+#ifndef GB_LAW_LAW_ROD_H
+#define GB_LAW_LAW_ROD_H
+
+/* Elastic repulsion of two equal spheres, "rod model": Hertz law corrected for large
+ * overlaps.  Reduced units: overlap h in diameters, force in E d^2, stiffness in E d,
+ * energy in E d^3.  Source: P1 eqs. (1), (2) (slope as the derivative of (1)), (9). */
+struct gb_law_rod {
+    double hertz; /* 1 / (3 (1 - nu^2)) */
+    double rod;   /* (pi/4) M, M = (1-nu) / ((1-2nu)(1+nu)) */
+    double pivot; /* (pi/3) M, factor of the second term of (9) */
+};
+
+void gb_law_rod_init(struct gb_law_rod *law, double poisson);
+
+/* f_e(h); 0 for h <= 0, grows without bound as h -> 1; infinite at h >= 1. */
+double gb_law_rod_force(const struct gb_law_rod *law, double h);
+/* df_e/dh. */
+double gb_law_rod_stiffness(const struct gb_law_rod *law, double h);
+/* Integral of the force from 0 to h. */
+double gb_law_rod_energy(const struct gb_law_rod *law, double h);
+/* M(a) of (9) at a = sqrt(h)/2: first moment of the contact pressure, E d^3. */
+double gb_law_rod_moment(const struct gb_law_rod *law, double h);
+
+#endif

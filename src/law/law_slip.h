@@ -1,0 +1,65 @@
+#ifndef GB_LAW_LAW_SLIP_H
+#define GB_LAW_LAW_SLIP_H
+
+#include <math.h>
+
+#include "law/law_bridge.h"
+#include "law/law_rod.h"
+
+/* Shear (4), (5), pivoting (6)-(11) and rolling (12) of P1: three springs, one stick-slip
+ * rule.  Every stiffness is per half of the relative motion (P1: displacement and angle
+ * of the contact area).  Reduced units. */
+struct gb_law_slip {
+    double shear;    /* 4 / ((2-nu)(1+nu)); times a: stiffness */
+    double pivot;    /* 8 / (3 (1+nu)); times a^3 */
+    double roll;     /* 4 / (3 (1-nu^2)); times a_ch^3 */
+    double mu;       /* Coulomb cap of shear, mu f_e */
+    double mu_pivot; /* cap of pivoting, mu_f M(a) */
+    double strength; /* sigma_b, E */
+    double motion;   /* share of the relative motion a spring sees: 1/2, or 1 ("full") */
+};
+
+void gb_law_slip_init(struct gb_law_slip *law, double poisson, double mu, double mu_pivot,
+                      double strength, double motion);
+
+/* Stiffnesses at contact radius a (a_ch for a bridge). */
+static inline double gb_law_slip_shear_stiffness(const struct gb_law_slip *law, double a)
+{
+    return law->shear * a;
+}
+
+static inline double gb_law_slip_pivot_stiffness(const struct gb_law_slip *law, double a)
+{
+    return law->pivot * a * a * a;
+}
+
+static inline double gb_law_slip_roll_stiffness(const struct gb_law_slip *law, double a)
+{
+    return law->roll * a * a * a;
+}
+
+/* Caps of a bridge with radius a; also what sigma_b allows a plain contact of radius a.
+ */
+static inline double gb_law_slip_bridge_shear_cap(const struct gb_law_slip *law, double a)
+{
+    return M_PI * a * a * law->strength;
+}
+
+static inline double gb_law_slip_bridge_pivot_cap(const struct gb_law_slip *law, double a)
+{
+    return 0.5 * M_PI * a * a * a * law->strength;
+}
+
+/* a_ch max(f_e, 0) / 3. */
+static inline double gb_law_slip_roll_cap(double a, double force)
+{
+    return force > 0.0 ? a * force / 3.0 : 0.0;
+}
+
+/* Caps of a contact without a bridge at overlap h. */
+double gb_law_slip_shear_cap(const struct gb_law_slip *law, const struct gb_law_rod *rod,
+                             double h);
+double gb_law_slip_pivot_cap(const struct gb_law_slip *law, const struct gb_law_rod *rod,
+                             double h);
+
+#endif

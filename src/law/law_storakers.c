@@ -1,0 +1,138 @@
+#include "law/law_storakers.h"
+
+#include <math.h>
+
+double gb_law_storakers_hollomon(double yield, double young, double exponent)
+{
+    return yield * pow(young / yield, exponent);
+}
+
+double gb_law_storakers_strength(double strength_i, double strength_j, double exponent)
+{
+    const double weak = fmin(strength_i, strength_j);
+    const double strong = fmax(strength_i, strength_j);
+    if (exponent <= 0.0 || !(weak > 0.0)) {
+        return weak;
+    }
+    /* (18) divided by the weaker one's term: nothing overflows at small m */
+    return weak * pow(1.0 + pow(weak / strong, 1.0 / exponent), -exponent);
+}
+
+void gb_law_storakers_init(struct gb_law_storakers *law, const struct gb_elastic *i,
+                           const struct gb_elastic *j, double strength_i,
+                           double strength_j, double exponent, bool printed)
+{
+    gb_law_hertz_init(&law->hertz, i, j);
+    law->exponent = exponent;
+    law->strength = gb_law_storakers_strength(strength_i, strength_j, exponent);
+    law->factor = pow(2.0, 1.0 - 0.5 * exponent) * pow(3.0, 1.0 - exponent) * M_PI *
+                  1.43 * exp(-0.97 * exponent);
+    law->printed = printed;
+}
+
+double gb_law_storakers_plastic(const struct gb_law_storakers *law, double radius,
+                                double h)
+{
+    if (!(h > 0.0)) {
+        return 0.0;
+    }
+    return law->factor * law->strength * radius * h *
+           pow(h / radius, 0.5 * law->exponent);
+}
+
+double gb_law_storakers_plastic_stiffness(const struct gb_law_storakers *law,
+                                          double radius, double h)
+{
+    if (!(h > 0.0)) {
+        return 0.0;
+    }
+    return (1.0 + 0.5 * law->exponent) * gb_law_storakers_plastic(law, radius, h) / h;
+}
+
+double gb_law_storakers_crossing(const struct gb_law_storakers *law, double radius)
+{
+    const double ratio = 0.75 * law->factor * law->strength / law->hertz.modulus;
+    return radius * pow(ratio, 2.0 / (1.0 - law->exponent));
+}
+
+struct gb_law_branch gb_law_storakers_loading(const struct gb_law_storakers *law,
+                                              double radius, double h)
+{
+    const double elastic = gb_law_hertz_force(&law->hertz, radius, h);
+    const double plastic = gb_law_storakers_plastic(law, radius, h);
+    if (elastic <= plastic && !law->printed) {
+        return (struct gb_law_branch){elastic,
+                                      gb_law_hertz_stiffness(&law->hertz, radius, h)};
+    }
+    return (struct gb_law_branch){plastic,
+                                  gb_law_storakers_plastic_stiffness(law, radius, h)};
+}
+
+double gb_law_storakers_load(const struct gb_law_storakers *law, double radius, double h)
+{
+    return gb_law_storakers_loading(law, radius, h).force;
+}
+
+double gb_law_storakers_rebound(const struct gb_law_storakers *law, double radius,
+                                double deepest)
+{
+    const double elastic = gb_law_hertz_force(&law->hertz, radius, deepest);
+    const double plastic = gb_law_storakers_plastic(law, radius, deepest);
+    if (elastic <= plastic && !law->printed) {
+        return deepest; /* to the bit: an elastic contact returns along its way in */
+    }
+    return gb_law_hertz_overlap(&law->hertz, radius, plastic);
+}
+
+/* h - h0, the overlap that Hertz' law sees below the deepest one. */
+static double elastic_overlap(const struct gb_law_storakers *law, double radius,
+                              double deepest, double h)
+{
+    const double rebound = gb_law_storakers_rebound(law, radius, deepest);
+    return rebound == deepest ? h : rebound - (deepest - h);
+}
+
+struct gb_law_branch gb_law_storakers_follow(const struct gb_law_storakers *law,
+                                             double radius, double h, double *deepest)
+{
+    if (!(h > 0.0)) {
+        *deepest = 0.0;
+        return (struct gb_law_branch){0.0, 0.0};
+    }
+    if (h >= *deepest) {
+        *deepest = h;
+        return gb_law_storakers_loading(law, radius, h);
+    }
+    const double elastic = elastic_overlap(law, radius, *deepest, h);
+    return (struct gb_law_branch){gb_law_hertz_force(&law->hertz, radius, elastic),
+                                  gb_law_hertz_stiffness(&law->hertz, radius, elastic)};
+}
+
+/* Integral of (16) from 0 to h. */
+static double plastic_work(const struct gb_law_storakers *law, double radius, double h)
+{
+    return gb_law_storakers_plastic(law, radius, h) * h / (2.0 + 0.5 * law->exponent);
+}
+
+double gb_law_storakers_work(const struct gb_law_storakers *law, double radius, double h)
+{
+    if (law->printed) {
+        return plastic_work(law, radius, h);
+    }
+    const double border = fmin(h, gb_law_storakers_crossing(law, radius));
+    return gb_law_hertz_energy(&law->hertz, radius, border) +
+           (plastic_work(law, radius, h) - plastic_work(law, radius, border));
+}
+
+double gb_law_storakers_returned(const struct gb_law_storakers *law, double radius,
+                                 double deepest, double h)
+{
+    if (!(h > 0.0)) {
+        return 0.0;
+    }
+    /* what is left in a printed contact as it opens is not returned */
+    const double from = elastic_overlap(law, radius, deepest, h);
+    const double to = elastic_overlap(law, radius, deepest, 0.0);
+    return gb_law_hertz_energy(&law->hertz, radius, from) -
+           gb_law_hertz_energy(&law->hertz, radius, to);
+}

@@ -1,0 +1,57 @@
+#ifndef GB_LAW_LAW_UNEQUAL_H
+#define GB_LAW_LAW_UNEQUAL_H
+
+#include "law/law_bridge.h"
+#include "law/law_dispersion.h"
+#include "law/law_rod.h"
+
+/* The contact laws of P1 between two spheres of diameters d_i and d_j.
+ *
+ * With D = (d_i + d_j)/2, where they touch, and d' = 2 d_i d_j/(d_i + d_j), four times
+ * the reduced radius, P1's forms follow from where they come from:
+ *
+ *   Hertz     f = E/(3 (1-nu^2)) sqrt(d') h^1.5, a = sqrt(h d')/2
+ *   rod (1)   a rod of cross-section pi a^2, length r and modulus M E between the
+ *             centres: df/dh = M E pi a^2/r, so
+ *             f = -(pi/4) M E d' D (h/D + ln(1 - h/D)); (9) alike
+ *   (3)       Hamaker's pair of unequal spheres, of which (3) is the case of equal ones:
+ *             (pi^2/3) (n d0^3)^2 eps d_i^3 d_j^3 s/((s^2-D^2)^2 (s^2-(d_i-d_j)^2/4)^2),
+ *             s = r + alpha d0
+ *   bridges   bridge_length in d is in D; a_ch = sqrt(d' (D - r_min))/2
+ *
+ * In units of D these are the laws of equal spheres with factors of c = d'/D. */
+struct gb_law_unequal {
+    double span;           /* D, in the model's lengths, as everything without a note */
+    double round;          /* c */
+    double inverse[2];     /* 1/d_i, 1/d_j */
+    struct gb_law_rod rod; /* in D, with the factors of c */
+    double bridge_length;
+    double strength, shift, offset; /* of (3), in D; offset: (d_i - d_j)/2 squared */
+    double adhesion;                /* f_a where they touch */
+};
+
+/* From the laws of two spheres of the reference diameter; diameters in its lengths. */
+void gb_law_unequal_init(struct gb_law_unequal *law, const struct gb_law_rod *rod,
+                         const struct gb_law_bridge *bridge,
+                         const struct gb_law_dispersion *dispersion, double first,
+                         double second);
+
+/* f_e of a contact with overlap h; deepest > 0: of a bridge with that r_min.  *stiffness
+ * is its slope and may be NULL. */
+double gb_law_unequal_elastic(const struct gb_law_unequal *law, double deepest, double h,
+                              double *stiffness);
+/* What f_e gives back. */
+double gb_law_unequal_energy(const struct gb_law_unequal *law, double deepest, double h);
+/* Contact radius where twice its square over d'/2 is an overlap: sqrt(h d')/2. */
+double gb_law_unequal_radius(const struct gb_law_unequal *law, double h);
+/* M(a) of (9) at overlap h. */
+double gb_law_unequal_moment(const struct gb_law_unequal *law, double h);
+/* f_a at centre distance r; constant where they touch. */
+double gb_law_unequal_pull(const struct gb_law_unequal *law, double r);
+/* Its energy, 0 at infinity. */
+double gb_law_unequal_depth(const struct gb_law_unequal *law, double r);
+/* Overlap at which f_e = f_a, for one of the model's materials; 0 without attraction.
+ * Beyond GB_OVERLAP_MOST of D the laws do not hold. */
+double gb_law_unequal_rest(const struct gb_law_unequal *law);
+
+#endif

@@ -1,0 +1,55 @@
+#ifndef GB_MANY_AXES_H
+#define GB_MANY_AXES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <glib.h>
+
+#include "greenbody/params.h"
+
+/* The grid of a sweep: keys and the values each of them takes. */
+enum { GB_AXES_MOST = 6, GB_AXES_VALUES_MOST = 10000 };
+
+struct gb_axis {
+    const struct gb_field *field;
+    GPtrArray *values; /* char *, as a preset would write them */
+};
+
+struct gb_axes {
+    struct gb_axis axis[GB_AXES_MOST];
+    size_t count;
+};
+
+/* Adds "contact.mu=0.05:0.4:8" (from, to, how many; ":log" behind it spaces them evenly
+ * in the logarithm), or a list "particles.diameter=9.7;16;21;38 nm",
+ * "loading.geometry=uniaxial;isotropic".  A number without a unit takes that at the end.
+ *
+ * Errors: GB_ERR_INPUT with what was given and what is accepted, for values that the key
+ * refuses, values given twice, and keys that make no other experiment (seed, title,
+ * threads, [output]) or are lists themselves. */
+bool gb_axes_add(struct gb_axes *axes, const char *text, struct gb_error *err);
+void gb_axes_finish(struct gb_axes *axes); /* zeroed is fine */
+
+/* Points of the grid; 1 without axes. */
+size_t gb_axes_points(const struct gb_axes *axes);
+
+/* Value of one axis at a point; the last axis runs fastest. */
+const char *gb_axes_value(const struct gb_axes *axes, size_t point, size_t axis);
+
+/* Gives params the values of a point and checks them. */
+bool gb_axes_apply(const struct gb_axes *axes, size_t point, struct gb_params *params,
+                   struct gb_error *err);
+
+/* "mu-0.2_diameter-9.7nm": a name that depends on the values only, so that a grid can
+ * grow in the same directory; "scene" without axes.  Caller g_frees. */
+char *gb_axes_name(const struct gb_axes *axes, size_t point);
+
+/* The same for a table: the name of a column, "contact.mu" or "particles.diameter_nm",
+ * and the cell of a point under it, a number in that unit, or a word.  Name: caller
+ * g_frees; cell: returns buffer. */
+char *gb_axes_column(const struct gb_axes *axes, size_t axis);
+char *gb_axes_cell(const struct gb_axes *axes, size_t point, size_t axis, char *buffer,
+                   size_t size);
+
+#endif

@@ -1,0 +1,37 @@
+#ifndef GB_MANY_READING_H
+#define GB_MANY_READING_H
+
+#include <stdbool.h>
+
+#include "base/table.h"
+
+/* What a finished run says at a pressure: the figures that sweeps tabulate and
+ * calibrations compare. */
+enum gb_reading_quantity {
+    GB_READING_DENSITY,
+    GB_READING_COORDINATION,
+    GB_READING_BRIDGED,
+    GB_READING_RATTLERS,
+    GB_READING_PX, /* MPa */
+    GB_READING_PY,
+    GB_READING_PZ,
+    GB_READING_QUANTITIES
+};
+
+/* Column of curve.csv. */
+const char *gb_reading_name(enum gb_reading_quantity quantity);
+
+/* Reads curve.csv of a run directory; gb_table_destroy.  Errors: those of gb_table_read
+ * and of missing columns. */
+bool gb_reading_open(struct gb_table **out, const char *directory, struct gb_error *err);
+
+/* The figures where the pressure over the compressed axes first reaches pressure_pa on
+ * loading, by linear interpolation; false (all NaN) when it never does. */
+bool gb_reading_loaded(const struct gb_table *curve, double pressure_pa,
+                       double values[GB_READING_QUANTITIES]);
+
+/* The figures after unloading from pressure_pa: the last point of that branch. */
+bool gb_reading_unloaded(const struct gb_table *curve, double pressure_pa,
+                         double values[GB_READING_QUANTITIES]);
+
+#endif

@@ -1,0 +1,337 @@
+#include "many/runset.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "io/preset.h"
+#include "many/single_run.h"
+
+/* Keys that make no other experiment: what is drawn by lot, and what changes no result.
+ */
+static const char *const bookkeeping[] = {"structure.seed", "scene.title",
+                                          "numerics.threads", "output.", NULL};
+
+static bool is_listed(const struct gb_field *field, const char *const *list)
+{
+    for (size_t i = 0; list[i] != NULL; i++) {
+        const size_t length = strlen(field->group);
+        if (strncmp(list[i], field->group, length) == 0 && list[i][length] == '.' &&
+            (list[i][length + 1] == '\0' ||
+             strcmp(list[i] + length + 1, field->key) == 0)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool gb_runset_bookkeeping(const struct gb_field *field)
+{
+    return is_listed(field, bookkeeping);
+}
+
+/* As a preset would write them: equal texts are equal values. */
+static bool is_equal(const struct gb_field *field, const struct gb_params *a,
+                     const struct gb_params *b)
+{
+    char first[GB_PARAMS_VALUE_MAX], second[GB_PARAMS_VALUE_MAX];
+    return strcmp(gb_params_format(a, field, first, sizeof first),
+                  gb_params_format(b, field, second, sizeof second)) == 0;
+}
+
+static const struct gb_field *difference(const struct gb_params *a,
+                                         const struct gb_params *b,
+                                         const char *const *accepted)
+{
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (!gb_runset_bookkeeping(&fields[i]) && !is_listed(&fields[i], accepted) &&
+            !is_equal(&fields[i], a, b)) {
+            return &fields[i];
+        }
+    }
+    return NULL;
+}
+
+bool gb_runset_same(const struct gb_params *a, const struct gb_params *b)
+{
+    static const char *const none[] = {NULL};
+    return difference(a, b, none) == NULL;
+}
+
+static bool read_run(struct gb_runset_run *run, const char *directory,
+                     struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    char *preset_path = g_build_filename(directory, "preset.ini", NULL);
+    char *curve_path = g_build_filename(directory, "curve.csv", NULL);
+    struct gb_error why = {0};
+    bool good = false;
+    run->directory = g_strdup(directory);
+    if (!g_file_test(preset_path, G_FILE_TEST_IS_REGULAR)) {
+        gb_error_set(err, GB_ERR_INPUT, "%.300s: no run directory, it has no preset.ini",
+                     directory);
+    } else if (gb_preset_load(&preset, preset_path, err)) {
+        run->params = *gb_preset_params(preset);
+        good = gb_params_check(&run->params, &why) ||
+               gb_error_set(err, why.code, "%s: %s", preset_path, why.text);
+    }
+    char *packing = g_build_filename(directory, "packing.csv", NULL);
+    const bool is_packing = g_file_test(packing, G_FILE_TEST_EXISTS) &&
+                            !g_file_test(curve_path, G_FILE_TEST_EXISTS);
+    g_free(packing);
+    good = good && (is_packing || gb_table_read(&run->table, curve_path, "branch", err));
+    gb_preset_destroy(preset);
+    g_free(curve_path);
+    g_free(preset_path);
+    return good;
+}
+
+/* Joins the run to the group of an earlier one, or founds the next. */
+static bool join(struct gb_runset *set, size_t index, struct gb_error *err)
+{
+    struct gb_runset_run *run = &set->run[index];
+    run->group = set->groups;
+    for (size_t i = 0; i < index; i++) {
+        const struct gb_runset_run *other = &set->run[i];
+        if (!gb_runset_same(&run->params, &other->params)) {
+            continue;
+        }
+        if (run->params.seed == other->params.seed) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "%.200s: same preset and seed as %.200s; a mean takes "
+                                "each seed once",
+                                run->directory, other->directory);
+        }
+        run->group = other->group;
+    }
+    set->groups += run->group == set->groups;
+    return true;
+}
+
+/* The group that a run belongs to among those before it; the number of groups so far when
+ * it is a new one. */
+static size_t group_of(const struct gb_runset *set, size_t index, const char *const *keys)
+{
+    const struct gb_runset_run *run = &set->run[index];
+    for (size_t i = 0; i < index; i++) {
+        bool taken = difference(&run->params, &set->run[i].params, keys) != NULL;
+        for (size_t k = 0; k < index && !taken; k++) {
+            taken = set->run[k].group == set->run[i].group &&
+                    set->run[k].params.seed == run->params.seed;
+        }
+        if (!taken) {
+            return set->run[i].group;
+        }
+    }
+    return set->groups;
+}
+
+void gb_runset_merge(struct gb_runset *set, const char *const *keys)
+{
+    set->groups = 0;
+    for (size_t i = 0; i < set->count; i++) {
+        set->run[i].group = group_of(set, i, keys);
+        set->groups += set->run[i].group == set->groups;
+    }
+}
+
+static bool has_file(const char *directory, const char *name)
+{
+    char *path = g_build_filename(directory, name, NULL);
+    const bool there = g_file_test(path, G_FILE_TEST_IS_REGULAR);
+    g_free(path);
+    return there;
+}
+
+int gb_runset_compare(const char *a, const char *b)
+{
+    while (*a != '\0' && *b != '\0') {
+        if (g_ascii_isdigit(*a) && g_ascii_isdigit(*b)) {
+            char *a_end = NULL;
+            char *b_end = NULL;
+            const double x = g_ascii_strtod(a, &a_end);
+            const double y = g_ascii_strtod(b, &b_end);
+            if (x != y) {
+                return x < y ? -1 : 1;
+            }
+            a = a_end;
+            b = b_end;
+        } else if (*a != *b) {
+            break;
+        } else {
+            a++;
+            b++;
+        }
+    }
+    return strcmp(a, b);
+}
+
+static gint compare_paths(gconstpointer a, gconstpointer b)
+{
+    return gb_runset_compare(*(const char *const *)a, *(const char *const *)b);
+}
+
+void gb_runset_expand(GPtrArray *list, const char *directory)
+{
+    GDir *dir = has_file(directory, "preset.ini") ? NULL : g_dir_open(directory, 0, NULL);
+    GPtrArray *found = g_ptr_array_new();
+    const char *name;
+    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+        char *path = g_build_filename(directory, name, NULL);
+        char *status = g_build_filename(path, "status.json", NULL);
+        if (has_file(path, "preset.ini") && gb_single_run_says_done(status)) {
+            g_ptr_array_add(found, g_steal_pointer(&path));
+        }
+        g_free(status);
+        g_free(path);
+    }
+    g_ptr_array_sort(found, compare_paths);
+    for (guint i = 0; i < found->len; i++) {
+        g_ptr_array_add(list, g_ptr_array_index(found, i));
+    }
+    if (found->len == 0) {
+        g_ptr_array_add(list, g_strdup(directory));
+    }
+    g_ptr_array_unref(found);
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+}
+
+bool gb_runset_read(struct gb_runset *set, char *const *directories, size_t count,
+                    struct gb_error *err)
+{
+    *set = (struct gb_runset){0};
+    set->run = gb_alloc_array(count, sizeof *set->run, err);
+    if (set->run == NULL) {
+        return false;
+    }
+    for (size_t i = 0; i < count; i++) {
+        set->count = i + 1;
+        if (!read_run(&set->run[i], directories[i], err) || !join(set, i, err)) {
+            gb_runset_finish(set);
+            return false;
+        }
+    }
+    return true;
+}
+
+void gb_runset_finish(struct gb_runset *set)
+{
+    for (size_t i = 0; i < set->count; i++) {
+        g_free(set->run[i].directory);
+        gb_table_destroy(set->run[i].table);
+    }
+    gb_alloc_free(set->run);
+    *set = (struct gb_runset){0};
+}
+
+const struct gb_runset_run *gb_runset_first(const struct gb_runset *set, size_t group)
+{
+    size_t i = 0;
+    while (set->run[i].group != group) {
+        i++;
+    }
+    return &set->run[i];
+}
+
+size_t gb_runset_members(const struct gb_runset *set, size_t group)
+{
+    size_t members = 0;
+    for (size_t i = 0; i < set->count; i++) {
+        members += set->run[i].group == group;
+    }
+    return members;
+}
+
+/* Between groups, of one title when that is given: within a group, keys may differ that
+ * were merged. */
+static bool differs_somewhere(const struct gb_runset *set, const struct gb_field *field,
+                              const struct gb_params *params, const char *title)
+{
+    for (size_t g = 0; g < set->groups; g++) {
+        const struct gb_params *other = &gb_runset_first(set, g)->params;
+        if ((title == NULL || strcmp(title, other->title) == 0) &&
+            !is_equal(field, params, other)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static char *label_among(const struct gb_runset *set, size_t group, bool same_title)
+{
+    const struct gb_params *params = &gb_runset_first(set, group)->params;
+    const char *title = same_title ? params->title : NULL;
+    GString *label = g_string_new(NULL);
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (!gb_runset_bookkeeping(&fields[i]) &&
+            differs_somewhere(set, &fields[i], params, title)) {
+            char value[GB_PARAMS_VALUE_MAX];
+            g_string_append_printf(
+                label, "%s%s.%s = %s", label->len ? ", " : "", fields[i].group,
+                fields[i].key, gb_params_format(params, &fields[i], value, sizeof value));
+        }
+    }
+    return g_string_free(label, FALSE);
+}
+
+char *gb_runset_label(const struct gb_runset *set, size_t group)
+{
+    return label_among(set, group, false);
+}
+
+char *gb_runset_label_of_title(const struct gb_runset *set, size_t group)
+{
+    return label_among(set, group, true);
+}
+
+const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,
+                                            size_t b, const char *const *accepted)
+{
+    return difference(&gb_runset_first(set, a)->params, &gb_runset_first(set, b)->params,
+                      accepted);
+}
+
+bool gb_runset_points(const struct gb_runset_run *run, const char *branch, const char *x,
+                      const char *y, double **xs, double **ys, size_t *count,
+                      struct gb_error *err)
+{
+    if (run->table == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%.300s: a packing has no curve.csv; accepted runs",
+                            run->directory);
+    }
+    const size_t rows = gb_table_rows(run->table);
+    const double *from_x = gb_table_column(run->table, x, err);
+    const double *from_y = from_x ? gb_table_column(run->table, y, err) : NULL;
+    if (from_y == NULL || !gb_table_column(run->table, "branch", err)) {
+        return false;
+    }
+    *count = 0;
+    *xs = gb_alloc_array(rows, sizeof **xs, err);
+    *ys = gb_alloc_array(rows, sizeof **ys, err);
+    const bool made = *xs != NULL && *ys != NULL;
+    for (size_t i = 0; made && i < rows; i++) {
+        const bool here = !branch || strcmp(gb_table_word(run->table, i), branch) == 0;
+        if (here && !isnan(from_x[i])) {
+            (*xs)[*count] = from_x[i];
+            (*ys)[(*count)++] = from_y[i];
+        }
+    }
+    if (made && *count > 0) {
+        return true;
+    }
+    gb_alloc_free(*xs);
+    gb_alloc_free(*ys);
+    *xs = NULL;
+    *ys = NULL;
+    return made && gb_error_set(err, GB_ERR_INPUT, "%s: no point of branch %s",
+                                gb_table_path(run->table), branch ? branch : "any");
+}

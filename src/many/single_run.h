@@ -1,0 +1,32 @@
+#ifndef GB_MANY_SINGLE_RUN_H
+#define GB_MANY_SINGLE_RUN_H
+
+#include <stdbool.h>
+
+#include "greenbody/params.h"
+#include "many/pool.h"
+
+/* One run from the first particle to the last file, without a screen: what each of the
+ * many runs of a sweep is. */
+
+/* Runs params into directory; an old run there is replaced.
+ *
+ * boss   whom it answers to (NULL: nobody)
+ * True when the programme came to its end.  Errors: GB_ERR_GUARD and
+ * GB_ERR_NOT_CONVERGED (results kept), GB_ERR_CANCELLED (points kept), GB_ERR_INPUT,
+ * GB_ERR_MACHINE, GB_ERR_MEMORY; status.json says the same where there is one. */
+bool gb_single_run(const struct gb_params *params, const char *directory,
+                   const struct gb_pool_boss *boss, struct gb_error *err);
+
+/* Is a run of these parameters there, done to its end?  Title, threads and [output] may
+ * differ: they change no result.
+ *
+ * same   false when directory holds the preset of another experiment; true when it holds
+ *        this one's or none that can be read */
+bool gb_single_run_done(const struct gb_params *params, const char *directory,
+                        bool *same);
+
+/* Does this status.json say that its run was done? */
+bool gb_single_run_says_done(const char *path);
+
+#endif

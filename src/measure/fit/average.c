@@ -1,0 +1,208 @@
+#include "measure/fit/average.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/alloc.h"
+
+/* Places closer than this share of the span are one place. */
+static const double same_place = 1e-9;
+
+static bool check_rising(const struct gb_average_curve *curve, struct gb_error *err)
+{
+    for (size_t i = 0; i < curve->count; i++) {
+        if (!isfinite(curve->x[i]) || (i > 0 && curve->x[i] < curve->x[i - 1])) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "point %zu of a curve: x = %g is behind %g; accepted "
+                                "finite numbers that do not fall",
+                                i + 1, curve->x[i], i > 0 ? curve->x[i - 1] : 0.0);
+        }
+    }
+    return true;
+}
+
+/* y between points i - 1 and i. */
+static double between(const struct gb_average_curve *curve, size_t i, double x)
+{
+    const double low = curve->x[i - 1];
+    const double share = (x - low) / (curve->x[i] - low);
+    /* the ends as they are: a missing neighbour must not reach them */
+    if (share <= 0.0) {
+        return curve->y[i - 1];
+    }
+    if (share >= 1.0) {
+        return curve->y[i];
+    }
+    return curve->y[i - 1] + share * (curve->y[i] - curve->y[i - 1]);
+}
+
+/* First point with x[i] >= x, count when there is none. */
+static size_t lower_bound(const struct gb_average_curve *curve, double x)
+{
+    size_t low = 0;
+    size_t high = curve->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (curve->x[middle] < x) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+bool gb_average_resample(const struct gb_average_curve *curve, const double *grid,
+                         size_t size, double *y, struct gb_error *err)
+{
+    if (!check_rising(curve, err)) {
+        return false;
+    }
+    for (size_t k = 0; k < size; k++) {
+        const size_t i = lower_bound(curve, grid[k]);
+        if (isnan(grid[k]) || i == curve->count || (i == 0 && curve->x[0] > grid[k])) {
+            y[k] = NAN;
+        } else if (i == 0 || curve->x[i] == grid[k]) {
+            y[k] = curve->y[i];
+        } else {
+            y[k] = between(curve, i, grid[k]);
+        }
+    }
+    return true;
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Keeps one of each cluster; the ends stay exact, so that no curve ends before the grid
+ * by rounding. */
+static size_t merge_places(double *grid, size_t size)
+{
+    const double margin = same_place * (grid[size - 1] - grid[0]);
+    const double last = grid[size - 1];
+    size_t kept = 1;
+    for (size_t i = 1; i < size; i++) {
+        if (grid[i] - grid[kept - 1] > margin) {
+            grid[kept++] = grid[i];
+        }
+    }
+    if (kept > 1) {
+        grid[kept - 1] = last - grid[kept - 1] <= margin ? last : grid[kept - 1];
+    }
+    return kept;
+}
+
+static size_t thin(double *grid, size_t size, size_t most)
+{
+    if (size <= most) {
+        return size;
+    }
+    for (size_t k = 0; k < most; k++) {
+        const double where = (double)k * (double)(size - 1) / (double)(most - 1);
+        grid[k] = grid[(size_t)(where + 0.5)];
+    }
+    return most;
+}
+
+bool gb_average_grid(const struct gb_average_curve *curves, size_t count, size_t most,
+                     double **grid, size_t *size, struct gb_error *err)
+{
+    size_t total = 0;
+    for (size_t c = 0; c < count; c++) {
+        if (!check_rising(&curves[c], err)) {
+            return false;
+        }
+        total += curves[c].count;
+    }
+    if (total == 0) {
+        return gb_error_set(err, GB_ERR_INPUT, "no points to take a mean of");
+    }
+    double *places = gb_alloc_array(total, sizeof *places, err);
+    if (places == NULL) {
+        return false;
+    }
+    size_t filled = 0;
+    for (size_t c = 0; c < count; c++) {
+        for (size_t i = 0; i < curves[c].count; i++) {
+            places[filled++] = curves[c].x[i];
+        }
+    }
+    qsort(places, total, sizeof *places, compare_doubles);
+    *size = thin(places, merge_places(places, total), most);
+    *grid = places;
+    return true;
+}
+
+/* Value k of count, stride apart. */
+static size_t strided(const double *values, size_t count, size_t stride, double *mean,
+                      double *error)
+{
+    size_t used = 0;
+    double sum = 0.0;
+    double squares = 0.0;
+    for (size_t k = 0; k < count; k++) {
+        if (!isnan(values[k * stride])) {
+            used++;
+            sum += values[k * stride];
+        }
+    }
+    *mean = used > 0 ? sum / (double)used : (double)NAN;
+    for (size_t k = 0; k < count; k++) {
+        if (!isnan(values[k * stride])) {
+            squares += (values[k * stride] - *mean) * (values[k * stride] - *mean);
+        }
+    }
+    const double n = (double)used;
+    *error = used > 1 ? sqrt(squares / (n * (n - 1.0))) : (double)NAN;
+    return used;
+}
+
+size_t gb_average_values(const double *values, size_t count, double *mean, double *error)
+{
+    return strided(values, count, 1, mean, error);
+}
+
+double gb_average_jackknife(const double *without, size_t count)
+{
+    double mean = NAN;
+    double error = NAN;
+    const size_t used = gb_average_values(without, count, &mean, &error);
+    return used > 1 ? error * ((double)used - 1.0) : (double)NAN;
+}
+
+void gb_average_rows(const double *rows, size_t count, size_t size, bool all,
+                     double *mean, double *error)
+{
+    for (size_t k = 0; k < size; k++) {
+        double spread = NAN;
+        const size_t used = strided(rows + k, count, size, &mean[k], &spread);
+        if (all && used < count) {
+            mean[k] = NAN;
+            spread = NAN;
+        }
+        if (error != NULL) {
+            error[k] = spread;
+        }
+    }
+}
+
+double gb_average_crossing(const struct gb_average_curve *curve, double level, size_t *at)
+{
+    for (size_t i = 0; i < curve->count; i++) {
+        const bool reached = curve->x[i] == level;
+        const bool crossed = i > 0 &&
+                             (curve->x[i - 1] < level) != (curve->x[i] < level) &&
+                             isfinite(curve->x[i - 1]) && isfinite(curve->x[i]);
+        if (reached || crossed) {
+            if (at != NULL) {
+                *at = i;
+            }
+            return reached ? curve->y[i] : between(curve, i, level);
+        }
+    }
+    return (double)NAN;
+}

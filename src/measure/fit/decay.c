@@ -1,0 +1,294 @@
+#include "measure/fit/decay.h"
+
+#include <float.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "measure/fit/decay_start.h"
+
+/* Scatter below this share of the largest value is rounding, of the data or of the
+ * iteration. */
+static const double rounding = 1e-9;
+
+/* Time constants below this multiple of the least spacing leave no trace in the data. */
+static const double tau_shortest = 0.01;
+
+/* Autocorrelation that counts as none. */
+static const double died_away = 0.05;
+
+static int compare_doubles(const void *a, const void *b)
+{
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Least difference of two times, and how many different times there are.  t is sorted in
+ * place. */
+static size_t measure_times(double *t, size_t count, double *spacing)
+{
+    size_t different = 1;
+    qsort(t, count, sizeof *t, compare_doubles);
+    *spacing = t[count - 1] - t[0];
+    for (size_t i = 1; i < count; i++) {
+        if (t[i] > t[i - 1]) {
+            different++;
+            *spacing = fmin(*spacing, t[i] - t[i - 1]);
+        }
+    }
+    return different;
+}
+
+static bool check_points(const double *t, const double *p, size_t count,
+                         struct gb_error *err)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!isfinite(t[i]) || !isfinite(p[i])) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "point %zu of the relaxation is not a finite number",
+                                i + 1);
+        }
+        if (t[i] < 0.0) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "point %zu of the relaxation is before its beginning",
+                                i + 1);
+        }
+    }
+    return count >= GB_FIT_DECAY_POINTS ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "%zu points of a relaxation; a fit needs %d or more", count,
+                        GB_FIT_DECAY_POINTS);
+}
+
+/* Fills the scaled copy; its arrays have room for count. */
+static bool scale(struct gb_decay_points *points, const double *t, const double *p,
+                  struct gb_error *err)
+{
+    const size_t count = points->count;
+    memcpy(points->t, t, count * sizeof *t);
+    const size_t different = measure_times(points->t, count, &points->spacing);
+    if (different < GB_FIT_DECAY_POINTS) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%zu different times in a relaxation; a fit needs %d or more",
+                            different, GB_FIT_DECAY_POINTS);
+    }
+    points->t_unit = points->t[count - 1] - points->t[0];
+    points->spacing /= points->t_unit;
+    double low = p[0];
+    double high = p[0];
+    for (size_t i = 0; i < count; i++) {
+        low = fmin(low, p[i]);
+        high = fmax(high, p[i]);
+    }
+    const double size = fmax(fabs(low), fabs(high));
+    points->p_shift = low;
+    points->p_unit = fmax(high - low, fmax(size * DBL_EPSILON, DBL_MIN));
+    points->floor = (double)count * pow(rounding * size / points->p_unit, 2.0);
+    for (size_t i = 0; i < count; i++) {
+        points->t[i] = t[i] / points->t_unit;
+        points->p[i] = (p[i] - low) / points->p_unit;
+    }
+    return true;
+}
+
+bool gb_decay_points_init(struct gb_decay_points *points, const double *t,
+                          const double *p, size_t count, struct gb_error *err)
+{
+    if (!check_points(t, p, count, err)) {
+        return false;
+    }
+    *points = (struct gb_decay_points){.count = count};
+    points->t = gb_alloc_array(count, sizeof *points->t, err);
+    points->p = gb_alloc_array(count, sizeof *points->p, err);
+    const bool good = points->t != NULL && points->p != NULL && scale(points, t, p, err);
+    if (!good) {
+        gb_decay_points_finish(points);
+    }
+    return good;
+}
+
+void gb_decay_points_finish(struct gb_decay_points *points)
+{
+    gb_alloc_free(points->t);
+    gb_alloc_free(points->p);
+    *points = (struct gb_decay_points){0};
+}
+
+static int residuals(const gsl_vector *x, void *data, gsl_vector *f)
+{
+    const struct gb_decay_points *points = data;
+    for (size_t i = 0; i < points->count; i++) {
+        double sum = gsl_vector_get(x, 0) - points->p[i];
+        for (size_t k = 1; k + 1 < x->size; k += 2) {
+            const double tau = exp(gsl_vector_get(x, k + 1));
+            sum += gsl_vector_get(x, k) * exp(-points->t[i] / tau);
+        }
+        gsl_vector_set(f, i, sum);
+    }
+    return GSL_SUCCESS;
+}
+
+static int jacobian(const gsl_vector *x, void *data, gsl_matrix *j)
+{
+    const struct gb_decay_points *points = data;
+    for (size_t i = 0; i < points->count; i++) {
+        gsl_matrix_set(j, i, 0, 1.0);
+        for (size_t k = 1; k + 1 < x->size; k += 2) {
+            const double u = points->t[i] / exp(gsl_vector_get(x, k + 1));
+            const double e = exp(-u);
+            gsl_matrix_set(j, i, k, e);
+            gsl_matrix_set(j, i, k + 1, e > 0.0 ? gsl_vector_get(x, k) * u * e : 0.0);
+        }
+    }
+    return GSL_SUCCESS;
+}
+
+/* Integral of the autocorrelation of n residuals less their mean: how many of them count
+ * as one.  Summed until it has died away; white noise gives 1. */
+static double correlation(const double *f, size_t n, double mean)
+{
+    double square = 0.0;
+    double stretch = 1.0;
+    for (size_t i = 0; i < n; i++) {
+        square += (f[i] - mean) * (f[i] - mean);
+    }
+    for (size_t lag = 1; lag < n / 4 && square > 0.0; lag++) {
+        double product = 0.0;
+        for (size_t i = lag; i < n; i++) {
+            product += (f[i] - mean) * (f[i - lag] - mean);
+        }
+        if (product < died_away * square) {
+            break;
+        }
+        stretch += 2.0 * product / square;
+    }
+    return stretch;
+}
+
+static void take_result(struct gb_decay *found, gsl_multifit_nlinear_workspace *work,
+                        gsl_matrix *covariance)
+{
+    const gsl_vector *f = gsl_multifit_nlinear_residual(work);
+    found->squares = 0.0;
+    for (size_t i = 0; i < f->size; i++) {
+        found->squares += gsl_vector_get(f, i) * gsl_vector_get(f, i);
+    }
+    found->stretch = correlation(f->data, f->size, 0.0);
+    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(work), 0.0, covariance);
+    for (size_t a = 0; a < covariance->size1; a++) {
+        found->x[a] = gsl_vector_get(gsl_multifit_nlinear_position(work), a);
+        for (size_t b = 0; b < covariance->size2; b++) {
+            found->covariance[a][b] = gsl_matrix_get(covariance, a, b);
+        }
+    }
+}
+
+/* A time constant that the data can tell. */
+static bool tau_in_range(const struct gb_decay *found,
+                         const struct gb_decay_points *points)
+{
+    for (int k = 0; k < found->terms; k++) {
+        const double tau = exp(found->x[2 + 2 * k]);
+        if (!(tau > tau_shortest * points->spacing && tau < GB_DECAY_TAU_LONGEST)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Levenberg-Marquardt from found->x. */
+static bool iterate(struct gb_decay *found, const struct gb_decay_points *points,
+                    struct gb_error *err)
+{
+    const size_t size = (size_t)(1 + 2 * found->terms);
+    const gsl_multifit_nlinear_parameters options =
+        gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_fdf system = {.f = residuals,
+                                       .df = jacobian,
+                                       .n = points->count,
+                                       .p = size,
+                                       .params = (void *)points};
+    gsl_multifit_nlinear_workspace *work = gsl_multifit_nlinear_alloc(
+        gsl_multifit_nlinear_trust, &options, points->count, size);
+    gsl_matrix *covariance = gsl_matrix_alloc(size, size);
+    const bool made = work != NULL && covariance != NULL;
+    if (made) {
+        const gsl_vector_view start = gsl_vector_view_array(found->x, size);
+        int info = 0;
+        gsl_multifit_nlinear_init(&start.vector, &system, work);
+        const int status = gsl_multifit_nlinear_driver(GB_DECAY_ITERATIONS, 1e-9, 1e-9,
+                                                       0.0, NULL, NULL, &info, work);
+        take_result(found, work, covariance);
+        /* no progress at the bottom, where only rounding is left, is an end as well */
+        found->settled = (status == GSL_SUCCESS || status == GSL_ENOPROG) &&
+                         isfinite(found->squares) && tau_in_range(found, points);
+    } else {
+        gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit of %zu points",
+                     points->count);
+    }
+    gsl_matrix_free(covariance);
+    gsl_multifit_nlinear_free(work);
+    return made;
+}
+
+void gb_decay_constant(struct gb_decay *found, const struct gb_decay_points *points)
+{
+    const double n = (double)points->count;
+    double sum = 0.0;
+    for (size_t i = 0; i < points->count; i++) {
+        sum += points->p[i];
+    }
+    *found = (struct gb_decay){.settled = true, .x = {sum / n}};
+    for (size_t i = 0; i < points->count; i++) {
+        found->squares += pow(points->p[i] - found->x[0], 2.0);
+    }
+    found->covariance[0][0] = 1.0 / n;
+    found->stretch = correlation(points->p, points->count, found->x[0]);
+}
+
+static void swap_values(double *a, double *b)
+{
+    const double keep = *a;
+    *a = *b;
+    *b = keep;
+}
+
+/* tau1 < tau2, always. */
+static void order_terms(struct gb_decay *found)
+{
+    if (found->terms < 2 || found->x[2] <= found->x[4]) {
+        return;
+    }
+    for (int k = 1; k <= 2; k++) {
+        swap_values(&found->x[k], &found->x[k + 2]);
+        for (int other = 0; other < GB_DECAY_PARAMETERS; other++) {
+            swap_values(&found->covariance[k][other], &found->covariance[k + 2][other]);
+        }
+        for (int other = 0; other < GB_DECAY_PARAMETERS; other++) {
+            swap_values(&found->covariance[other][k], &found->covariance[other][k + 2]);
+        }
+    }
+}
+
+bool gb_decay_terms(struct gb_decay *found, int terms,
+                    const struct gb_decay_points *points, struct gb_error *err)
+{
+    struct gb_decay_start start;
+    *found = (struct gb_decay){.terms = terms};
+    if (!gb_decay_start(&start, terms, points->t, points->p, points->count, err)) {
+        return false;
+    }
+    found->x[0] = start.p0;
+    for (int k = 0; k < terms; k++) {
+        found->x[1 + 2 * k] = start.amplitude[k];
+        found->x[2 + 2 * k] = log(start.tau[k]);
+    }
+    if (!iterate(found, points, err)) {
+        return false;
+    }
+    order_terms(found);
+    return true;
+}

@@ -1,0 +1,359 @@
+#include "measure/fit/estimate.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multimin.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "measure/fit/average.h"
+
+enum { VARIABLES = GB_SURROGATE_VARIABLES, ITERATIONS = 2000 };
+
+/* The simplex starts with this share of the box, ends when it is this small. */
+static const double simplex_start = 0.25;
+static const double simplex_end = 1e-7;
+
+/* Added to the diagonal of the scaled normal matrix: parameters that the data cannot tell
+ * apart at all come out with errors about 1e4 times too large, and not as an error. */
+static const double ridge = 1e-8;
+
+struct fit {
+    const struct gb_estimate_problem *problem;
+    double *mean, *weight; /* data */
+    double *seen;          /* seeds x data: what each seed says */
+    double *slope;         /* data x variables */
+    double *gain;          /* variables x data: change of the fit with the data */
+};
+
+/* What every seed says at a point, and the mean. */
+static void look(const struct fit *fit, const double *at)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    memset(fit->mean, 0, problem->data * sizeof *fit->mean);
+    for (size_t s = 0; s < problem->seeds; s++) {
+        double *seen = fit->seen + s * problem->data;
+        gb_surrogate_value(&problem->seed[s], at, seen);
+        for (size_t i = 0; i < problem->data; i++) {
+            fit->mean[i] += seen[i] / (double)problem->seeds;
+        }
+    }
+}
+
+/* Standard error of the mean over seeds of value i, squared. */
+static double noise(const struct fit *fit, size_t i)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    const double n = (double)problem->seeds;
+    double squares = 0.0;
+    for (size_t s = 0; s < problem->seeds; s++) {
+        const double off = fit->seen[s * problem->data + i] - fit->mean[i];
+        squares += off * off;
+    }
+    return squares / (n * (n - 1.0));
+}
+
+static void set_weights(const struct fit *fit)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    static const double centre[VARIABLES] = {0.0};
+    look(fit, centre);
+    for (size_t i = 0; i < problem->data; i++) {
+        fit->weight[i] = 1.0;
+        if (problem->error != NULL) {
+            fit->weight[i] =
+                1.0 / (problem->error[i] * problem->error[i] + noise(fit, i));
+        }
+    }
+}
+
+static double misfit(const struct fit *fit, const double *at)
+{
+    double sum = 0.0;
+    look(fit, at);
+    for (size_t i = 0; i < fit->problem->data; i++) {
+        const double off = fit->mean[i] - fit->problem->value[i];
+        sum += fit->weight[i] * off * off;
+    }
+    return sum;
+}
+
+/* The nearest point of the box; returns the squared distance to it. */
+static double clip(const struct gb_estimate_problem *problem, const double *from,
+                   double *to)
+{
+    double distance = 0.0;
+    for (size_t k = 0; k < problem->variables; k++) {
+        to[k] = fmin(fmax(from[k], problem->low[k]), problem->high[k]);
+        distance += (from[k] - to[k]) * (from[k] - to[k]);
+    }
+    return distance;
+}
+
+/* Outside of the box it is that of the nearest point, and grows. */
+static double bounded_misfit(const gsl_vector *x, void *data)
+{
+    const struct fit *fit = data;
+    double from[VARIABLES], at[VARIABLES];
+    for (size_t k = 0; k < fit->problem->variables; k++) {
+        from[k] = gsl_vector_get(x, k);
+    }
+    const double distance = clip(fit->problem, from, at);
+    return misfit(fit, at) * (1.0 + distance) + distance;
+}
+
+/* Best of a coarse grid over the box: the simplex shall not begin in the wrong valley. */
+static void find_start(const struct fit *fit, double *best)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    double least = INFINITY;
+    size_t places = 1;
+    for (size_t k = 0; k < problem->variables; k++) {
+        places *= 5;
+    }
+    for (size_t p = 0; p < places; p++) {
+        double at[VARIABLES];
+        size_t rest = p;
+        for (size_t k = 0; k < problem->variables; k++, rest /= 5) {
+            const double share = (double)(rest % 5) / 4.0;
+            at[k] = problem->low[k] + share * (problem->high[k] - problem->low[k]);
+        }
+        const double here = misfit(fit, at);
+        if (here < least) {
+            least = here;
+            memcpy(best, at, sizeof at);
+        }
+    }
+}
+
+static bool minimise(struct fit *fit, double *best, struct gb_error *err)
+{
+    const size_t n = fit->problem->variables;
+    gsl_multimin_function function = {bounded_misfit, n, fit};
+    gsl_multimin_fminimizer *solver =
+        gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, n);
+    gsl_vector *start = gsl_vector_alloc(n);
+    gsl_vector *size = gsl_vector_alloc(n);
+    const bool made = solver != NULL && start != NULL && size != NULL;
+    if (made) {
+        find_start(fit, best);
+        double end[VARIABLES];
+        for (size_t k = 0; k < n; k++) {
+            const double width = fit->problem->high[k] - fit->problem->low[k];
+            gsl_vector_set(start, k, best[k]);
+            gsl_vector_set(size, k, simplex_start * width);
+        }
+        gsl_multimin_fminimizer_set(solver, &function, start, size);
+        int status = GSL_CONTINUE;
+        for (int i = 0; i < ITERATIONS && status == GSL_CONTINUE; i++) {
+            if (gsl_multimin_fminimizer_iterate(solver) != 0) {
+                break;
+            }
+            status =
+                gsl_multimin_test_size(gsl_multimin_fminimizer_size(solver), simplex_end);
+        }
+        for (size_t k = 0; k < n; k++) {
+            end[k] = gsl_vector_get(gsl_multimin_fminimizer_x(solver), k);
+        }
+        clip(fit->problem, end, best);
+    }
+    if (solver != NULL) {
+        gsl_multimin_fminimizer_free(solver);
+    }
+    gsl_vector_free(start);
+    gsl_vector_free(size);
+    return made || gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit");
+}
+
+/* Slope of the mean at the best fit. */
+static bool set_slope(const struct fit *fit, const double *at, struct gb_error *err)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    const size_t cells = problem->data * problem->variables;
+    double *one = gb_alloc_array(cells, sizeof *one, err);
+    if (one == NULL) {
+        return false;
+    }
+    memset(fit->slope, 0, cells * sizeof *one);
+    for (size_t s = 0; s < problem->seeds; s++) {
+        gb_surrogate_slope(&problem->seed[s], at, one);
+        for (size_t c = 0; c < cells; c++) {
+            fit->slope[c] += one[c] / (double)problem->seeds;
+        }
+    }
+    gb_alloc_free(one);
+    return true;
+}
+
+/* gain = (J'WJ)^-1 J'W, the normal matrix scaled to a diagonal of ones.  effect[k] is 0
+ * for a variable that changes nothing. */
+static bool set_gain(const struct fit *fit, double *effect, struct gb_error *err)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    const size_t n = problem->variables;
+    const double *slope = fit->slope;
+    gsl_matrix *normal = gsl_matrix_calloc(n, n);
+    if (normal == NULL) {
+        return gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit");
+    }
+    for (size_t k = 0; k < n; k++) {
+        effect[k] = 0.0;
+        for (size_t i = 0; i < problem->data; i++) {
+            effect[k] += fit->weight[i] * slope[i * n + k] * slope[i * n + k];
+        }
+        effect[k] = sqrt(effect[k]);
+    }
+    for (size_t k = 0; k < n; k++) {
+        for (size_t l = 0; l < n; l++) {
+            double sum = 0.0;
+            for (size_t i = 0; i < problem->data; i++) {
+                sum += fit->weight[i] * slope[i * n + k] * slope[i * n + l];
+            }
+            const double scale = effect[k] * effect[l];
+            gsl_matrix_set(normal, k, l,
+                           (scale > 0.0 ? sum / scale : 0.0) +
+                               (k == l ? ridge + (scale > 0.0 ? 0.0 : 1.0) : 0.0));
+        }
+    }
+    const bool good = gsl_linalg_cholesky_decomp1(normal) == 0 &&
+                      gsl_linalg_cholesky_invert(normal) == 0;
+    for (size_t k = 0; k < n && good; k++) {
+        for (size_t i = 0; i < problem->data; i++) {
+            double sum = 0.0;
+            for (size_t l = 0; l < n; l++) {
+                const double scale = effect[k] * effect[l];
+                sum += scale > 0.0 ? gsl_matrix_get(normal, k, l) / scale *
+                                         slope[i * n + l] * fit->weight[i]
+                                   : 0.0;
+            }
+            fit->gain[k * problem->data + i] = sum;
+        }
+    }
+    gsl_matrix_free(normal);
+    return good || gb_error_set(err, GB_ERR_NOT_CONVERGED,
+                                "the normal matrix of the fit cannot be inverted");
+}
+
+/* Covariance of variables k and l by the errors of the data, variance each. */
+static double from_data(const struct fit *fit, double scatter, size_t k, size_t l)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    double sum = 0.0;
+    for (size_t i = 0; i < problem->data; i++) {
+        const double variance =
+            problem->error ? problem->error[i] * problem->error[i] : scatter;
+        sum += fit->gain[k * problem->data + i] * fit->gain[l * problem->data + i] *
+               variance;
+    }
+    return sum;
+}
+
+/* The same by the noise of the model: each seed, were it alone, would move the fit. */
+static double from_seeds(const struct fit *fit, size_t k, size_t l)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    const double n = (double)problem->seeds;
+    double sum = 0.0;
+    for (size_t s = 0; s < problem->seeds; s++) {
+        double move[2] = {0.0, 0.0};
+        for (size_t i = 0; i < problem->data; i++) {
+            const double off = fit->seen[s * problem->data + i] - fit->mean[i];
+            move[0] += fit->gain[k * problem->data + i] * off;
+            move[1] += fit->gain[l * problem->data + i] * off;
+        }
+        sum += move[0] * move[1];
+    }
+    return sum / (n * (n - 1.0));
+}
+
+/* Student's factor for a variance of two parts with their own degrees of freedom
+ * (Welch and Satterthwaite). */
+static double student(double data, double data_degrees, double seeds, double seed_degrees)
+{
+    const double whole = data + seeds;
+    const double below = data * data / data_degrees + seeds * seeds / seed_degrees;
+    const double degrees = below > 0.0 ? whole * whole / below : INFINITY;
+    return degrees < 1e6 ? gsl_cdf_tdist_Pinv(0.975, degrees)
+                         : gsl_cdf_ugaussian_Pinv(0.975);
+}
+
+static void set_errors(const struct fit *fit, const double *effect, double scatter,
+                       struct gb_estimate *to)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    const size_t n = problem->variables;
+    const double free_data = (double)(problem->data - n);
+    for (size_t k = 0; k < n; k++) {
+        const double data = from_data(fit, scatter, k, k);
+        const double seeds = from_seeds(fit, k, k);
+        to->error[k] = effect[k] > 0.0 ? sqrt(data + seeds) : INFINITY;
+        to->half_95[k] =
+            to->error[k] * student(data, problem->error ? INFINITY : free_data, seeds,
+                                   (double)problem->seeds - 1.0);
+    }
+    for (size_t k = 0; k < n; k++) {
+        for (size_t l = 0; l < n; l++) {
+            const double shared = from_data(fit, scatter, k, l) + from_seeds(fit, k, l);
+            const double scale = to->error[k] * to->error[l];
+            to->correlation[k][l] = k == l                           ? 1.0
+                                    : isfinite(scale) && scale > 0.0 ? shared / scale
+                                                                     : 0.0;
+        }
+    }
+}
+
+static bool alloc_fit(struct fit *fit, struct gb_error *err)
+{
+    const struct gb_estimate_problem *problem = fit->problem;
+    const size_t data = problem->data;
+    fit->mean = gb_alloc_array(data * (2 + problem->seeds + 2 * problem->variables),
+                               sizeof *fit->mean, err);
+    if (fit->mean == NULL) {
+        return false;
+    }
+    fit->weight = fit->mean + data;
+    fit->seen = fit->weight + data;
+    fit->slope = fit->seen + problem->seeds * data;
+    fit->gain = fit->slope + problem->variables * data;
+    return true;
+}
+
+bool gb_estimate_fit(const struct gb_estimate_problem *problem,
+                     struct gb_estimate *estimate, double *fitted, double *fitted_error,
+                     struct gb_error *err)
+{
+    struct fit fit = {.problem = problem};
+    double effect[VARIABLES];
+    *estimate = (struct gb_estimate){0};
+    const size_t needed = problem->variables + (problem->error == NULL);
+    if (problem->data < needed || problem->seeds < 2) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "%zu values and %zu seeds for %zu parameters: accepted as many "
+            "values, one more without errors, and 2 seeds",
+            problem->data, problem->seeds, problem->variables);
+    }
+    if (!alloc_fit(&fit, err)) {
+        return false;
+    }
+    set_weights(&fit);
+    const bool good = minimise(&fit, estimate->at, err) &&
+                      set_slope(&fit, estimate->at, err) && set_gain(&fit, effect, err);
+    if (good) {
+        const double weighted = misfit(&fit, estimate->at); /* sets the mean, too */
+        double squares = 0.0;
+        for (size_t i = 0; i < problem->data; i++) {
+            const double off = fit.mean[i] - problem->value[i];
+            squares += off * off;
+            fitted[i] = fit.mean[i];
+            fitted_error[i] = sqrt(noise(&fit, i));
+        }
+        estimate->rms = sqrt(squares / (double)problem->data);
+        estimate->chi_squared = problem->error ? weighted : (double)NAN;
+        const size_t degrees = problem->data - problem->variables;
+        set_errors(&fit, effect, degrees > 0 ? squares / (double)degrees : 0.0, estimate);
+    }
+    gb_alloc_free(fit.mean);
+    return good;
+}

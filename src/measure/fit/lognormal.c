@@ -1,0 +1,191 @@
+#include "measure/fit/lognormal.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_multimin.h>
+#include <math.h>
+
+enum { ITERATIONS = 2000, CLASSES_LEAST = 3 };
+
+/* Of m and ln sigma; errors of a fit are far above. */
+static const double simplex_end = 1e-6;
+/* Step of second differences: large enough for the sum of logarithms to change. */
+static const double hessian_step = 1e-3;
+/* A class that the law gives less than this would make the likelihood nothing. */
+static const double share_least = 1e-300;
+
+struct histogram {
+    const double *middle, *weight;
+    size_t count;
+    double total;
+};
+
+double gb_lognormal_share(const struct gb_lognormal *law, double from, double to)
+{
+    const double low = from > 0.0 ? (log(from) - law->m) / law->sigma : -INFINITY;
+    const double high = (log(to) - law->m) / law->sigma;
+    /* on the side where the difference of two small numbers is exact */
+    return low > 0.0 ? gsl_cdf_ugaussian_Q(low) - gsl_cdf_ugaussian_Q(high)
+                     : gsl_cdf_ugaussian_P(high) - gsl_cdf_ugaussian_P(low);
+}
+
+/* Lower border of class i; i = count is the upper border of the last one. */
+static double border(const struct histogram *from, size_t i)
+{
+    const double *x = from->middle;
+    const size_t last = from->count - 1;
+    if (i == 0) {
+        return fmax(0.0, x[0] - (x[1] - x[0]) / 2.0);
+    }
+    return i > last ? x[last] + (x[last] - x[last - 1]) / 2.0 : (x[i - 1] + x[i]) / 2.0;
+}
+
+/* Minus the logarithm of the likelihood. */
+static double misfit(const struct histogram *histogram, double m, double ln_sigma)
+{
+    const struct gb_lognormal law = {.m = m, .sigma = exp(ln_sigma)};
+    double sum = 0.0;
+    for (size_t i = 0; i < histogram->count; i++) {
+        if (histogram->weight[i] > 0.0) {
+            const double share =
+                gb_lognormal_share(&law, border(histogram, i), border(histogram, i + 1));
+            sum -= histogram->weight[i] * log(fmax(share, share_least));
+        }
+    }
+    return sum;
+}
+
+static double minimised(const gsl_vector *x, void *data)
+{
+    return misfit(data, gsl_vector_get(x, 0), gsl_vector_get(x, 1));
+}
+
+static bool check(struct histogram *histogram, struct gb_error *err)
+{
+    size_t filled = 0;
+    bool good = true;
+    for (size_t i = 0; i < histogram->count; i++) {
+        const double x = histogram->middle[i];
+        const double w = histogram->weight[i];
+        good = good && isfinite(x) && x > 0.0 && isfinite(w) && w >= 0.0 &&
+               (i == 0 || x > histogram->middle[i - 1]);
+        filled += w > 0.0;
+        histogram->total += w;
+    }
+    return (good && filled >= CLASSES_LEAST) ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "a histogram of sizes: accepted sizes above 0 that rise, numbers "
+                        "that are not negative, and %d classes with particles",
+                        CLASSES_LEAST);
+}
+
+/* Mean and spread of ln x as if all sat in the middles. */
+static void guess(const struct histogram *histogram, gsl_vector *x)
+{
+    double mean = 0.0;
+    double square = 0.0;
+    for (size_t i = 0; i < histogram->count; i++) {
+        mean += histogram->weight[i] / histogram->total * log(histogram->middle[i]);
+    }
+    for (size_t i = 0; i < histogram->count; i++) {
+        const double off = log(histogram->middle[i]) - mean;
+        square += histogram->weight[i] / histogram->total * off * off;
+    }
+    gsl_vector_set(x, 0, mean);
+    gsl_vector_set(x, 1, 0.5 * log(square));
+}
+
+static bool minimise(struct histogram *histogram, struct gb_lognormal *law,
+                     struct gb_error *err)
+{
+    gsl_multimin_function function = {minimised, 2, histogram};
+    gsl_multimin_fminimizer *solver =
+        gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, 2);
+    gsl_vector *start = gsl_vector_alloc(2);
+    gsl_vector *size = gsl_vector_alloc(2);
+    int status = GSL_ENOMEM;
+    if (solver != NULL && start != NULL && size != NULL) {
+        guess(histogram, start);
+        gsl_vector_set_all(size, 0.1);
+        gsl_multimin_fminimizer_set(solver, &function, start, size);
+        status = GSL_CONTINUE;
+        for (int i = 0; i < ITERATIONS && status == GSL_CONTINUE; i++) {
+            status = gsl_multimin_fminimizer_iterate(solver);
+            if (status == GSL_SUCCESS) {
+                status = gsl_multimin_test_size(gsl_multimin_fminimizer_size(solver),
+                                                simplex_end);
+            }
+        }
+        law->m = gsl_vector_get(gsl_multimin_fminimizer_x(solver), 0);
+        law->sigma = exp(gsl_vector_get(gsl_multimin_fminimizer_x(solver), 1));
+    }
+    if (solver != NULL) {
+        gsl_multimin_fminimizer_free(solver);
+    }
+    gsl_vector_free(start);
+    gsl_vector_free(size);
+    if (status == GSL_ENOMEM) {
+        return gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit");
+    }
+    /* no progress is what the last digits look like */
+    return status == GSL_SUCCESS || status == GSL_ENOPROG ||
+           gb_error_set(err, GB_ERR_NOT_CONVERGED,
+                        "the log-normal law of the sizes was not found");
+}
+
+/* From the curvature of the likelihood. */
+static void set_errors(const struct histogram *histogram, struct gb_lognormal *law)
+{
+    const double m = law->m;
+    const double s = log(law->sigma);
+    const double h = hessian_step * law->sigma;
+    const double k = hessian_step;
+    const double here = misfit(histogram, m, s);
+    const double mm =
+        (misfit(histogram, m + h, s) + misfit(histogram, m - h, s) - 2.0 * here) /
+        (h * h);
+    const double ss =
+        (misfit(histogram, m, s + k) + misfit(histogram, m, s - k) - 2.0 * here) /
+        (k * k);
+    const double ms =
+        (misfit(histogram, m + h, s + k) - misfit(histogram, m + h, s - k) -
+         misfit(histogram, m - h, s + k) + misfit(histogram, m - h, s - k)) /
+        (4.0 * h * k);
+    const double determinant = mm * ss - ms * ms;
+    if (determinant > 0.0 && mm > 0.0) {
+        law->m_error = sqrt(ss / determinant);
+        law->sigma_error = law->sigma * sqrt(mm / determinant);
+        law->correlation = -ms / sqrt(mm * ss);
+    }
+}
+
+static void set_chi_squared(const struct histogram *histogram, struct gb_lognormal *law)
+{
+    law->chi_squared = 0.0;
+    for (size_t i = 0; i < histogram->count; i++) {
+        const double expected =
+            histogram->total *
+            gb_lognormal_share(law, border(histogram, i), border(histogram, i + 1));
+        const double off = histogram->weight[i] - expected;
+        law->chi_squared += off * off / fmax(expected, share_least);
+    }
+}
+
+bool gb_lognormal_fit(struct gb_lognormal *law, const double *middle,
+                      const double *weight, size_t count, bool particles,
+                      struct gb_error *err)
+{
+    struct histogram histogram = {middle, weight, count, 0.0};
+    *law = (struct gb_lognormal){.m_error = NAN,
+                                 .sigma_error = NAN,
+                                 .correlation = NAN,
+                                 .chi_squared = NAN,
+                                 .degrees = count > 3 ? count - 3 : 0};
+    if (!check(&histogram, err) || !minimise(&histogram, law, err)) {
+        return false;
+    }
+    if (particles) {
+        set_errors(&histogram, law);
+        set_chi_squared(&histogram, law);
+    }
+    return true;
+}

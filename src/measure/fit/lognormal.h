@@ -1,0 +1,34 @@
+#ifndef GB_MEASURE_FIT_LOGNORMAL_H
+#define GB_MEASURE_FIT_LOGNORMAL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "greenbody/status.h"
+
+/* The log-normal law of particle sizes, P1 (17), fitted to a histogram. */
+struct gb_lognormal {
+    double m, sigma; /* of ln x, x in the unit of the middles */
+    double m_error,
+        sigma_error;    /* standard errors; NaN where the particles are not known */
+    double correlation; /* of the two errors */
+    double chi_squared; /* Pearson's, over the classes; NaN likewise */
+    size_t degrees;     /* classes less 3 */
+};
+
+/* Share of the particles between two sizes, 0 <= from < to. */
+double gb_lognormal_share(const struct gb_lognormal *law, double from, double to);
+
+/* Maximum likelihood for classes whose borders lie halfway between the middles (the outer
+ * ones as far out as in), no particle beyond.
+ *
+ * middle     count values above 0 that rise
+ * weight     particles in the class, or any number proportional to it
+ * particles  is weight a number of particles?  Else there are no errors.
+ * Errors: GB_ERR_INPUT (middles, weights, fewer than 3 classes with particles),
+ * GB_ERR_NOT_CONVERGED, GB_ERR_MEMORY. */
+bool gb_lognormal_fit(struct gb_lognormal *law, const double *middle,
+                      const double *weight, size_t count, bool particles,
+                      struct gb_error *err);
+
+#endif

@@ -1,0 +1,67 @@
+/* Room for contact histories, in either precision. */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "pack/kernel/batch.h"
+
+enum { PLANES_3D = 11, PLANES_2D = 5 };
+
+/* Gives every quantity the number of its array; history first, arms and what viscous
+ * scenes remember behind. */
+static void number_planes(struct gb_contacts *contacts, int vector, int spring)
+{
+    int plane = 0;
+    contacts->deepest = plane++;
+    for (int k = 0; k < spring; k++) {
+        contacts->shear[k] = plane++;
+        contacts->roll[k] = plane++;
+    }
+    contacts->pivot = vector == 3 ? plane++ : -1;
+    for (int k = 0; k < vector; k++) {
+        contacts->arm[k] = plane++;
+    }
+    contacts->last_normal = plane++;
+    contacts->last_shear = plane++;
+    contacts->last_roll = plane++;
+    contacts->last_pivot = plane++;
+}
+
+bool gb_contacts_init(struct gb_contacts *contacts, int dimension, bool viscous,
+                      bool single, int64_t room, struct gb_error *err)
+{
+    const bool solid = dimension == 3;
+    const int kept = solid ? PLANES_3D : PLANES_2D, last = viscous ? (solid ? 4 : 3) : 0;
+    const size_t stride = (size_t)(room + 15) / 16 * 16;
+    const size_t size = single ? sizeof(float) : sizeof(double);
+    /* what is kept of a viscous scene is all: its copies go back into the middle of a
+     * motion */
+    *contacts =
+        (struct gb_contacts){.room = room,
+                             .planes = kept + last,
+                             .kept = viscous ? kept + last : kept - (solid ? 3 : 2),
+                             .single = single};
+    char *slab = gb_alloc_array((size_t)contacts->planes * stride, size, err);
+    if (!slab) {
+        *contacts = (struct gb_contacts){0};
+        return false;
+    }
+    for (int p = 0; p < contacts->planes; p++) {
+        contacts->plane[p] = slab + (size_t)p * stride * size;
+    }
+    number_planes(contacts, solid ? 3 : 2, solid ? 3 : 1);
+    return true;
+}
+
+void gb_contacts_finish(struct gb_contacts *contacts)
+{
+    gb_alloc_free(contacts->plane[0]);
+    *contacts = (struct gb_contacts){0};
+}
+
+void gb_contacts_clear(struct gb_contacts *contacts, int64_t slot)
+{
+    for (int p = 0; p < contacts->planes; p++) {
+        gb_contacts_put(contacts, p, slot, 0.0);
+    }
+    gb_contacts_put(contacts, contacts->deepest, slot, -1.0);
+}

@@ -1,0 +1,32 @@
+#include "pack/cell/neighbour_grid.h"
+
+#include <math.h>
+
+static int clamp(int value, int low, int high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+void gb_neighbour_grid_init(struct gb_neighbour_grid *grid, const struct gb_cell *cell,
+                            double reach, int64_t count)
+{
+    const int most = (int)fmax(1.0, ceil(cbrt((double)count)) * 2.0);
+    grid->plain = true;
+    for (int k = 0; k < 3; k++) {
+        const double edge = cell->edge[k];
+        grid->n[k] = cell->periodic[k] ? clamp((int)(edge / reach), 1, most * 8) : 1;
+        grid->inverse[k] = grid->n[k] / edge;
+        /* with one or two cells along an axis, -1 and +1 are the same cell */
+        grid->span_low[k] = grid->n[k] > 2 ? -1 : 0;
+        grid->span_high[k] = grid->n[k] > 1 ? 1 : 0;
+        grid->plain = grid->plain && (grid->n[k] > 2 || !cell->periodic[k]);
+    }
+}
+
+void gb_neighbour_grid_home(const struct gb_neighbour_grid *grid, const double x[3],
+                            int home[3])
+{
+    for (int k = 0; k < 3; k++) {
+        home[k] = clamp((int)(x[k] * grid->inverse[k]), 0, grid->n[k] - 1);
+    }
+}

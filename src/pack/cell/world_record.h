@@ -1,0 +1,22 @@
+#ifndef GB_PACK_CELL_WORLD_RECORD_H
+#define GB_PACK_CELL_WORLD_RECORD_H
+
+#include <stdbool.h>
+
+#include "base/record.h"
+#include "pack/cell/world.h"
+
+/* A world out of a record or into it: to the last bit what it was right after an
+ * evaluation, so that the next one gives the same forces and the neighbour list is built
+ * anew at the same moment.
+ *
+ * Loading, the world was just created with the same model.  Errors: GB_ERR_INPUT naming
+ * the array for what does not fit or is out of range. */
+bool gb_world_record(struct gb_world *world, struct gb_record *record,
+                     struct gb_error *err);
+
+/* A copy of the same world, to go back to; made when *copy is NULL. */
+bool gb_world_record_copy(const struct gb_world *world, struct gb_world_copy **copy,
+                          struct gb_record *record, struct gb_error *err);
+
+#endif

@@ -1,0 +1,326 @@
+#include "pack/die/bed.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "pack/die/bed_list.h"
+#include "scene/tolerances.h"
+
+/* Evaluations that a list should last: making one costs as much as a few tens. */
+static const double list_lasts = 250.0;
+/* Skin over the smallest radius, at least and at most. */
+static const double skin_least = 0.01, skin_most = 1.0;
+
+static bool allocate(struct gb_bed *bed, struct gb_error *err)
+{
+    gb_bed_row **const rows[] = {&bed->place, &bed->speed,  &bed->spin,
+                                 &bed->force, &bed->torque, &bed->listed_at};
+    struct gb_bed_list *const lists[] = {&bed->pairs, &bed->spare_pairs, &bed->walls,
+                                         &bed->spare_walls};
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        *rows[k] = gb_alloc_array((size_t)bed->count, sizeof **rows[k], err);
+        if (!*rows[k]) {
+            return false;
+        }
+    }
+    for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++) {
+        if (!gb_bed_list_init(lists[k], bed->count, 8 * bed->count, err)) {
+            return false;
+        }
+    }
+    bed->tallies = gb_alloc_array((size_t)bed->count, sizeof *bed->tallies, err);
+    if (!bed->tallies) {
+        return false;
+    }
+    double **const numbers[] = {&bed->mass, &bed->per_mass, &bed->per_inertia};
+    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+        *numbers[k] = gb_alloc_array((size_t)bed->count, sizeof **numbers[k], err);
+        if (!*numbers[k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
+                   const struct gb_die *die, const struct gb_bed_law *law,
+                   double inertia_scale, struct gb_error *err)
+{
+    struct gb_bed *bed = gb_alloc_array(1, sizeof *bed, err);
+    if (!bed) {
+        return false;
+    }
+    bed->count = count;
+    bed->die = *die;
+    bed->inertia_scale = inertia_scale;
+    if (!allocate(bed, err) || !gb_hgrid_init(&bed->sift, count, err)) {
+        gb_bed_destroy(bed);
+        return false;
+    }
+    bed->smallest = HUGE_VAL;
+    for (int64_t i = 0; i < count; i++) {
+        const double d = 2.0 * radius[i];
+        bed->place[i][3] = radius[i];
+        bed->mass[i] = d * d * d;
+        bed->per_mass[i] = 1.0 / bed->mass[i];
+        bed->per_inertia[i] =
+            1.0 / (0.4 * bed->mass[i] * radius[i] * radius[i] * inertia_scale);
+        bed->smallest = fmin(bed->smallest, radius[i]);
+    }
+    bed->skin = 0.1 * bed->smallest;
+    gb_bed_change_law(bed, law);
+    *out = bed;
+    return true;
+}
+
+void gb_bed_destroy(struct gb_bed *bed)
+{
+    if (!bed) {
+        return;
+    }
+    gb_alloc_free(bed->place);
+    gb_alloc_free(bed->speed);
+    gb_alloc_free(bed->spin);
+    gb_alloc_free(bed->force);
+    gb_alloc_free(bed->torque);
+    gb_alloc_free(bed->listed_at);
+    gb_alloc_free(bed->tallies);
+    gb_alloc_free(bed->mass);
+    gb_alloc_free(bed->per_mass);
+    gb_alloc_free(bed->per_inertia);
+    gb_hgrid_finish(&bed->sift);
+    gb_bed_list_finish(&bed->pairs);
+    gb_bed_list_finish(&bed->spare_pairs);
+    gb_bed_list_finish(&bed->walls);
+    gb_bed_list_finish(&bed->spare_walls);
+    gb_alloc_free(bed);
+}
+
+static void empty(struct gb_bed_list *list, int64_t particles)
+{
+    list->count = 0;
+    memset(list->start, 0, ((size_t)particles + 1) * sizeof *list->start);
+}
+
+void gb_bed_change_law(struct gb_bed *bed, const struct gb_bed_law *law)
+{
+    bed->law = *law;
+    bed->pair_kernel = gb_bed_batch_pick(law, false, 0);
+    bed->wall_kernel = gb_bed_batch_pick(law, true, 0);
+    bed->carrier = gb_bed_carrier_pick(0);
+    empty(&bed->pairs, bed->count);
+    empty(&bed->walls, bed->count);
+    bed->listed = false;
+}
+
+void gb_bed_forget_lists(struct gb_bed *bed)
+{
+    bed->listed = false;
+}
+
+/* The skin follows the pace of the motion.  No force depends on it: pairs that do not
+ * touch add exact zeros in an order that is the same for any list. */
+static void adapt_skin(struct gb_bed *bed)
+{
+    const double lasted = (double)(bed->evaluations - bed->listed_when);
+    if (bed->listed && lasted > 0.0) {
+        const double wanted = fmin(fmax(list_lasts / lasted, 0.5), 2.0);
+        bed->skin = fmin(fmax(bed->skin * wanted, skin_least * bed->smallest),
+                         skin_most * bed->smallest);
+    }
+}
+
+static bool refresh_lists(struct gb_bed *bed, double moved2, struct gb_error *err)
+{
+    const double moved = sqrt(moved2);
+    const double punch = fabs(bed->die.punch_place - bed->punch_listed_at);
+    if (bed->listed && 2.0 * moved < bed->skin &&
+        (!bed->die.punch || moved + punch < bed->skin)) {
+        return true;
+    }
+    adapt_skin(bed);
+    if (!gb_bed_list_rebuild(bed, err)) {
+        return false;
+    }
+    memcpy(bed->listed_at, bed->place, (size_t)bed->count * sizeof *bed->place);
+    bed->punch_listed_at = bed->die.punch_place;
+    bed->listed_when = bed->evaluations;
+    bed->listed = true;
+    bed->rebuilds++;
+    return true;
+}
+
+static void sweep_pairs(struct gb_bed *bed, struct gb_bed_batch *b)
+{
+    struct gb_bed_rows rows = {.place = (const gb_bed_row *)bed->place,
+                               .speed = (const gb_bed_row *)bed->speed,
+                               .spin = (const gb_bed_row *)bed->spin,
+                               .force = bed->force,
+                               .torque = bed->torque,
+                               .friction = bed->law.mu > 0.0};
+    b->mu = bed->law.mu;
+    for (int64_t slot = 0; slot < bed->pairs.count; slot += b->n) {
+        const int64_t left = bed->pairs.count - slot;
+        b->n = left < GB_BED_BATCH ? (int)left : GB_BED_BATCH;
+        rows.first = bed->pairs.first + slot;
+        rows.other = bed->pairs.other + slot;
+        bed->carrier.fill(&rows, b);
+        bed->pair_kernel(&bed->law, b, &bed->pairs.contacts, slot);
+        bed->carrier.spill(&rows, b);
+    }
+}
+
+static void fill_walls(const struct gb_bed *bed, struct gb_bed_batch *b, int64_t slot)
+{
+    for (int k = 0; k < b->n; k++) {
+        const int64_t i = bed->walls.first[slot + k];
+        const enum gb_die_wall wall = (enum gb_die_wall)bed->walls.other[slot + k];
+        const double *x = bed->place[i], radius = x[3];
+        double unit[3] = {0.0, 0.0, 1.0};
+        b->overlap[k] = fmax(gb_die_overlap(&bed->die, wall, x, radius, unit), -radius);
+        b->lever[k] = 1.0 - b->overlap[k] / radius;
+        for (int c = 0; c < 3; c++) {
+            b->unit[c][k] = unit[c];
+            b->slip[c][k] = bed->speed[i][c];
+            b->roll[c][k] = radius * bed->spin[i][c];
+        }
+        b->slip[2][k] -= wall == GB_DIE_PUNCH ? bed->die.punch_speed : 0.0;
+    }
+}
+
+static void bear(struct gb_bed_tally *tally, enum gb_die_wall wall, const double x[3],
+                 const double force[3])
+{
+    switch (wall) {
+    case GB_DIE_FLOOR:
+        tally->floor += force[2];
+        break;
+    case GB_DIE_PUNCH:
+        tally->punch -= force[2];
+        break;
+    case GB_DIE_SIDE:
+        tally->side[0] -= force[0] * x[0];
+        tally->side[1] -= force[1] * x[1];
+        break;
+    case GB_DIE_FUNNEL:
+    case GB_DIE_WALLS:
+        break;
+    }
+}
+
+static void spill_walls(struct gb_bed *bed, const struct gb_bed_batch *b, int64_t slot,
+                        bool friction)
+{
+    for (int k = 0; k < b->n; k++) {
+        const int64_t i = bed->walls.first[slot + k];
+        const double force[3] = {b->force[0][k], b->force[1][k], b->force[2][k]};
+        bear(&bed->tally, (enum gb_die_wall)bed->walls.other[slot + k], bed->place[i],
+             force);
+        for (int c = 0; c < 3; c++) {
+            bed->force[i][c] += force[c];
+            bed->torque[i][c] += friction ? bed->place[i][3] * b->moment[c][k] : 0.0;
+        }
+    }
+}
+
+static void sweep_walls(struct gb_bed *bed, struct gb_bed_batch *b)
+{
+    const bool friction = bed->law.mu_wall > 0.0;
+    b->mu = bed->law.mu_wall;
+    for (int64_t slot = 0; slot < bed->walls.count; slot += b->n) {
+        const int64_t left = bed->walls.count - slot;
+        b->n = left < GB_BED_BATCH ? (int)left : GB_BED_BATCH;
+        fill_walls(bed, b, slot);
+        bed->wall_kernel(&bed->law, b, &bed->walls.contacts, slot);
+        spill_walls(bed, b, slot, friction);
+    }
+}
+
+bool gb_bed_evaluate(struct gb_bed *bed, double step, double moved2, struct gb_error *err)
+{
+    if (!refresh_lists(bed, moved2, err)) {
+        return false;
+    }
+    struct gb_bed_batch batch;
+    batch.step = step;
+    batch.stiffest = 0.0;
+    bed->tally = (struct gb_bed_tally){0};
+    memset(bed->force, 0, (size_t)bed->count * sizeof *bed->force);
+    memset(bed->torque, 0, (size_t)bed->count * sizeof *bed->torque);
+    sweep_pairs(bed, &batch);
+    sweep_walls(bed, &batch);
+    bed->tally.stiffest = batch.stiffest;
+    bed->evaluations++;
+    return true;
+}
+
+int64_t gb_bed_escaped(const struct gb_bed *bed)
+{
+    for (int64_t i = 0; i < bed->count; i++) {
+        if (!gb_die_holds(&bed->die, bed->place[i])) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+double gb_bed_solid_volume(const struct gb_bed *bed)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < bed->count; i++) {
+        sum += bed->mass[i]; /* d^3 */
+    }
+    return M_PI / 6.0 * sum;
+}
+
+static double square(const double row[4])
+{
+    return row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+}
+
+struct gb_bed_kinetic gb_bed_kinetic(const struct gb_bed *bed)
+{
+    struct gb_bed_kinetic sum = {0.0, 0.0};
+    for (int64_t i = 0; i < bed->count; i++) {
+        sum.moving += 0.5 * bed->mass[i] * square(bed->speed[i]);
+        sum.turning += 0.5 * square(bed->spin[i]) / bed->per_inertia[i];
+    }
+    return sum;
+}
+
+double gb_bed_top(const struct gb_bed *bed)
+{
+    double top = 0.0;
+    for (int64_t i = 0; i < bed->count; i++) {
+        top = fmax(top, bed->place[i][2] + bed->place[i][3]);
+    }
+    return top;
+}
+
+static double normal_sum(const struct gb_bed_list *list, int64_t *touching)
+{
+    double sum = 0.0;
+    for (int64_t slot = 0; slot < list->count; slot++) {
+        if (list->contacts.normal[slot] >= 0.0) {
+            sum += list->contacts.normal[slot];
+            (*touching)++;
+        }
+    }
+    return sum;
+}
+
+double gb_bed_unbalanced(const struct gb_bed *bed, double gravity)
+{
+    int64_t touching = 0;
+    double force2 = 0.0;
+    const double sum =
+        normal_sum(&bed->pairs, &touching) + normal_sum(&bed->walls, &touching);
+    for (int64_t i = 0; i < bed->count; i++) {
+        const double *f = bed->force[i];
+        const double down = f[2] - bed->mass[i] * gravity;
+        force2 += f[0] * f[0] + f[1] * f[1] + down * down;
+    }
+    return sum > 0.0 ? sqrt(force2 / (double)bed->count) * (double)touching / sum
+                     : HUGE_VAL;
+}

@@ -1,0 +1,90 @@
+#ifndef GB_PACK_DIE_BED_H
+#define GB_PACK_DIE_BED_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+#include "pack/die/die.h"
+#include "pack/kernel/bed_batch.h"
+#include "pack/structure/hgrid.h"
+
+/* Spheres of many sizes in a die.  Reduced units: length d (the reference diameter),
+ * stress E, mass that of a sphere of diameter d, so that time is sqrt(m/(E d)).  The
+ * fourth of a row is the radius in place and 0 elsewhere. */
+
+/* Near contacts, sorted by their first particle and then by `other`: the second particle,
+ * or enum gb_die_wall. */
+struct gb_bed_list {
+    int64_t count;
+    int64_t *start; /* particles + 1 */
+    int64_t room;
+    int32_t *first, *other; /* of each slot */
+    struct gb_bed_contacts contacts;
+};
+
+/* What the walls bear, and what decides the time step; of the last evaluation. */
+struct gb_bed_tally {
+    double stiffest;     /* largest omega^2 = k/m of (29) */
+    double floor, punch; /* force on them, positive in compression */
+    double side[2];      /* sum of f_x x, f_y y over the side's contacts */
+};
+
+struct gb_bed {
+    int64_t count;
+    gb_bed_row *place, *speed, *spin, *force, *torque;
+    double *mass, *per_mass, *per_inertia; /* and one over mass and 2/5 m R^2 x scale */
+    double inertia_scale;                  /* of 2/5 m R^2; P3 takes 10 */
+    struct gb_die die;
+    struct gb_bed_law law;
+    gb_bed_kernel *pair_kernel, *wall_kernel;
+    struct gb_bed_carrier carrier; /* of pairs */
+    struct gb_bed_list pairs, walls;
+    struct gb_bed_tally tally;
+    double smallest;  /* radius */
+    int32_t *tallies; /* one per particle, for measures to count in */
+    int64_t evaluations, rebuilds;
+    /* the lists hold while nothing has moved further than half the skin */
+    double skin;
+    struct gb_hgrid sift;
+    gb_bed_row *listed_at;
+    double punch_listed_at;
+    int64_t listed_when; /* evaluations then */
+    bool listed;
+    struct gb_bed_list spare_pairs, spare_walls;
+};
+
+/* count      spheres, with these radii; at rest at the origin
+ * Errors: GB_ERR_MEMORY. */
+bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
+                   const struct gb_die *die, const struct gb_bed_law *law,
+                   double inertia_scale, struct gb_error *err);
+void gb_bed_destroy(struct gb_bed *bed); /* NULL is fine */
+
+/* Another law from now on; all contacts begin anew. */
+void gb_bed_change_law(struct gb_bed *bed, const struct gb_bed_law *law);
+
+/* Forces and torques at the present places and speeds; carries the history of every
+ * contact over the step since the last evaluation.  moved2: largest squared displacement
+ * of a particle since the lists were made.  Errors: GB_ERR_MEMORY. */
+bool gb_bed_evaluate(struct gb_bed *bed, double step, double moved2,
+                     struct gb_error *err);
+
+/* The lists are made anew at the next evaluation: places were changed by hand. */
+void gb_bed_forget_lists(struct gb_bed *bed);
+
+/* First particle that is not a number or beyond a wall; -1: none. */
+int64_t gb_bed_escaped(const struct gb_bed *bed);
+
+/* Sums over a bed, right after an evaluation. */
+double gb_bed_solid_volume(const struct gb_bed *bed);
+struct gb_bed_kinetic {
+    double moving, turning; /* of the centres, about them */
+};
+struct gb_bed_kinetic gb_bed_kinetic(const struct gb_bed *bed);
+double gb_bed_top(const struct gb_bed *bed); /* of the highest particle */
+/* rms resultant force (gravity g acts along -z) over the mean normal force of the
+ * contacts; INFINITY without contacts. */
+double gb_bed_unbalanced(const struct gb_bed *bed, double gravity);
+
+#endif

@@ -1,0 +1,143 @@
+#include "pack/die/bed_record.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "base/alloc.h"
+#include "pack/die/bed_list.h"
+
+#define AT(member) offsetof(struct gb_bed, member)
+
+static const struct gb_record_member members[] = {
+    {"bed/funnel", GB_RECORD_BOOL, 1, AT(die.funnel), "1"},
+    {"bed/punch", GB_RECORD_BOOL, 1, AT(die.punch), "1"},
+    {"bed/punch_place", GB_RECORD_DOUBLE, 1, AT(die.punch_place), "d"},
+    {"bed/punch_speed", GB_RECORD_DOUBLE, 1, AT(die.punch_speed), "d/T"},
+    {"bed/stiffest", GB_RECORD_DOUBLE, 1, AT(tally.stiffest), "1/T^2"},
+    {"bed/floor_force", GB_RECORD_DOUBLE, 1, AT(tally.floor), "E d^2"},
+    {"bed/punch_force", GB_RECORD_DOUBLE, 1, AT(tally.punch), "E d^2"},
+    {"bed/side_moment", GB_RECORD_DOUBLE, 2, AT(tally.side), "E d^3"},
+    {"bed/evaluations", GB_RECORD_INT64, 1, AT(evaluations), "1"},
+};
+
+#undef AT
+
+static bool wrong(const char *name, struct gb_error *err)
+{
+    return gb_error_set(err, GB_ERR_INPUT, "%s: is out of range", name);
+}
+
+static bool rows(struct gb_bed *bed, struct gb_record *record, const char *name,
+                 const char *unit, gb_bed_row *data, struct gb_error *err)
+{
+    return gb_record_array(record, name, GB_RECORD_DOUBLE, bed->count, 4, unit, data,
+                           err);
+}
+
+/* The radii belong to the parameters; what the record says must be the same. */
+static bool check_places(const struct gb_bed *bed, const double *mass,
+                         struct gb_error *err)
+{
+    for (int64_t i = 0; i < bed->count; i++) {
+        const double *x = bed->place[i];
+        const double d = 2.0 * x[3];
+        const double far = fabs(x[0]) + fabs(x[1]) + fabs(x[2]);
+        if (!(far < 1e9) || fabs(d * d * d - mass[i]) > 1e-9 * mass[i]) {
+            return wrong("bed/place", err);
+        }
+    }
+    return true;
+}
+
+/* Sorted, of particles that there are. */
+static bool check_list(const struct gb_bed_list *list, int64_t count, bool walls,
+                       const char *name, struct gb_error *err)
+{
+    for (int64_t k = 0; k < list->count; k++) {
+        const int32_t i = list->first[k], j = list->other[k];
+        const bool known = walls ? j >= 0 && j < GB_DIE_WALLS : j > i && j < count;
+        const bool follows = k == 0 || list->first[k - 1] < i ||
+                             (list->first[k - 1] == i && list->other[k - 1] < j);
+        if (i < 0 || i >= count || !known || !follows) {
+            return wrong(name, err);
+        }
+    }
+    return true;
+}
+
+static void start_list(struct gb_bed_list *list, int64_t count)
+{
+    int64_t slot = 0;
+    for (int64_t i = 0; i <= count; i++) {
+        while (slot < list->count && list->first[slot] < i) {
+            slot++;
+        }
+        list->start[i] = slot;
+    }
+}
+
+/* The touching contacts, in a list of nothing else. */
+static bool exchange_list(struct gb_bed *bed, bool walls, struct gb_bed_list *list,
+                          struct gb_record *record, struct gb_error *err)
+{
+    static const char *const names[2][8] = {
+        {"bed/first", "bed/second", "bed/deepest", "bed/rest", "bed/shear_x",
+         "bed/shear_y", "bed/shear_z", "bed/normal"},
+        {"walls/first", "walls/wall", "walls/deepest", "walls/rest", "walls/shear_x",
+         "walls/shear_y", "walls/shear_z", "walls/normal"}};
+    static const char *const units[8] = {"1",     "1",     "d",     "d",
+                                         "E d^2", "E d^2", "E d^2", "E d^2"};
+    const char *const *name = names[walls];
+    int64_t count = list->count;
+    if (record->loading &&
+        (!gb_record_rows(record, name[0], GB_RECORD_INT32, 1, &count, err) ||
+         !gb_bed_list_init(list, bed->count, count, err))) {
+        return false;
+    }
+    list->count = count;
+    struct gb_bed_contacts *c = &list->contacts;
+    double *const plane[6] = {c->deepest,  c->rest,     c->shear[0],
+                              c->shear[1], c->shear[2], c->normal};
+    int32_t *const index[2] = {list->first, list->other};
+    for (int k = 0; k < 8; k++) {
+        void *data = k < 2 ? (void *)index[k] : (void *)plane[k - 2];
+        if (!gb_record_array(record, name[k], k < 2 ? GB_RECORD_INT32 : GB_RECORD_DOUBLE,
+                             count, 1, units[k], data, err)) {
+            return false;
+        }
+    }
+    if (!check_list(list, bed->count, walls, name[0], err)) {
+        return false;
+    }
+    start_list(list, bed->count);
+    return true;
+}
+
+static bool exchange_contacts(struct gb_bed *bed, bool walls, struct gb_record *record,
+                              struct gb_error *err)
+{
+    struct gb_bed_list *own = walls ? &bed->walls : &bed->pairs;
+    struct gb_bed_list kept = {0};
+    bool done = record->loading || gb_bed_list_keep(&kept, own, bed->count, err);
+    done = done && exchange_list(bed, walls, &kept, record, err);
+    if (done && record->loading) {
+        done = gb_bed_list_keep(own, &kept, bed->count, err);
+        bed->listed = false;
+    }
+    gb_bed_list_finish(&kept);
+    return done;
+}
+
+bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error *err)
+{
+    return gb_record_members(record, members, sizeof members / sizeof members[0], bed,
+                             err) &&
+           rows(bed, record, "bed/place", "d", bed->place, err) &&
+           rows(bed, record, "bed/speed", "d/T", bed->speed, err) &&
+           rows(bed, record, "bed/spin", "1/T", bed->spin, err) &&
+           rows(bed, record, "bed/force", "E d^2", bed->force, err) &&
+           rows(bed, record, "bed/torque", "E d^3", bed->torque, err) &&
+           check_places(bed, bed->mass, err) &&
+           exchange_contacts(bed, false, record, err) &&
+           exchange_contacts(bed, true, record, err);
+}

@@ -1,0 +1,13 @@
+#ifndef GB_PACK_DIE_BED_RECORD_H
+#define GB_PACK_DIE_BED_RECORD_H
+
+#include "base/record.h"
+#include "pack/die/bed.h"
+
+/* A bed into a record, or back into one of the same sizes and law, right after an
+ * evaluation: it then goes on to the same bits.  The lists are not part of it, since no
+ * force depends on them: they are made anew.  Errors: GB_ERR_INPUT naming what is missing
+ * or out of range, GB_ERR_MEMORY. */
+bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error *err);
+
+#endif

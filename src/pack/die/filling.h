@@ -1,0 +1,28 @@
+#ifndef GB_PACK_DIE_FILLING_H
+#define GB_PACK_DIE_FILLING_H
+
+#include <stdbool.h>
+
+#include "greenbody/model.h"
+#include "pack/die/bed.h"
+
+/* The powder of a scene with kind = die, loose in the funnel above its die and obeying
+ * the law of filling.  Same sizes, seed and die: same bits, whatever law it is pressed
+ * with.
+ *
+ * cancelled   may be NULL; polled with data, true fails with GB_ERR_CANCELLED
+ * Errors: GB_ERR_INPUT naming the keys when particles or powder do not fit the die. */
+bool gb_filling_create(struct gb_bed **out, const struct gb_params *params,
+                       const struct gb_model *model, bool (*cancelled)(void *data),
+                       void *data, struct gb_error *err);
+
+/* The same bed before its spheres have a place: they are to be loaded. */
+bool gb_filling_bare(struct gb_bed **out, const struct gb_params *params,
+                     const struct gb_model *model, struct gb_error *err);
+
+/* Law of filling: Hertz without friction between particles, P3 section 5. */
+struct gb_bed_law gb_filling_law(const struct gb_params *params);
+/* Law of pressing, as the keys of [contact] and [material] say. */
+struct gb_bed_law gb_filling_pressing_law(const struct gb_params *params);
+
+#endif

@@ -1,0 +1,21 @@
+#ifndef GB_PACK_DIE_POUR_H
+#define GB_PACK_DIE_POUR_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "pack/die/bed.h"
+
+/* Loose powder in the funnel: the spheres of a bed at random places without overlap, the
+ * large ones placed first, in the cone above the die from its outlet up to the height at
+ * which their volume is `density` of the cone.  All at rest.
+ *
+ * seed        same seed, same places; the sizes are the bed's own
+ * density     about 0.2; beyond 0.3 there may be no room left
+ * cancelled   may be NULL; polled, true fails with GB_ERR_CANCELLED
+ * Errors: GB_ERR_INPUT when a sphere finds no place, GB_ERR_MEMORY.
+ * Source: P3 section 5. */
+bool gb_pour_place(struct gb_bed *bed, uint64_t seed, double density,
+                   bool (*cancelled)(void *data), void *data, struct gb_error *err);
+
+#endif

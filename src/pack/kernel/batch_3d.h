@@ -1,0 +1,356 @@
+#ifndef GB_PACK_KERNEL_BATCH_3D_H
+#define GB_PACK_KERNEL_BATCH_3D_H
+
+#include "pack/kernel/batch_laws.h"
+
+/* First half, 3D: geometry, springs stretched by the motion, state of the bridge. */
+INLINE void stretch_3d(const struct gb_model *model, struct terms t, BATCH *restrict b,
+                       struct gb_contacts *restrict c, int64_t slot)
+{
+    real *restrict deepest = PLANE(c->deepest), *restrict pivot = PLANE(c->pivot);
+    real *restrict ax = PLANE(c->arm[0]), *restrict ay = PLANE(c->arm[1]);
+    real *restrict az = PLANE(c->arm[2]);
+    real *restrict sx = PLANE(c->shear[0]), *restrict sy = PLANE(c->shear[1]);
+    real *restrict sz = PLANE(c->shear[2]);
+    real *restrict qx = PLANE(c->roll[0]), *restrict qy = PLANE(c->roll[1]);
+    real *restrict qz = PLANE(c->roll[2]);
+    const real m = (real)model->slip.motion, length = (real)model->bridge.length;
+    const real k_shear = (real)model->slip.shear, k_pivot = (real)model->slip.pivot;
+    /* the caps over the stiffnesses, both squared, without the contact's size */
+    const real bond = (real)(M_PI * model->slip.strength), tear = bond * bond;
+    const real half = 0.5, quarter = 0.25, wring = quarter * tear;
+    real loose = 0.0;
+#pragma omp simd reduction(+ : loose)
+    for (int k = 0; k < b->n; k++) {
+        const real rx = b->r[0][k], ry = b->r[1][k], rz = b->r[2][k];
+        const real squared = rx * rx + ry * ry + rz * rz;
+        const real r = root(squared), inverse = 1 / r;
+        const real nx = rx * inverse, ny = ry * inverse, nz = rz * inverse;
+        const real h = 1 - r, before = deepest[k];
+        const bool live = squared < 1;
+        const bool lasts = live & (before >= 0);
+        const real state = t.bridges ? deepest_after(length, larger(before, 0), h) : 0;
+        real now = live ? state : -1;
+        b->unit[0][k] = nx;
+        b->unit[1][k] = ny;
+        b->unit[2][k] = nz;
+        b->distance[k] = r;
+        b->overlap[k] = h;
+        if (t.friction) {
+            const real wx = b->turn_sum[0][k], wy = b->turn_sum[1][k];
+            const real wz = b->turn_sum[2][k];
+            const real dx = b->turn_difference[0][k], dy = b->turn_difference[1][k];
+            const real dz = b->turn_difference[2][k];
+            real ux = rx - ax[k] - half * r * (wy * nz - wz * ny);
+            real uy = ry - ay[k] - half * r * (wz * nx - wx * nz);
+            real uz = rz - az[k] - half * r * (wx * ny - wy * nx);
+            const real un = ux * nx + uy * ny + uz * nz;
+            const real dn = dx * nx + dy * ny + dz * nz;
+            ux = m * (ux - un * nx);
+            uy = m * (uy - un * ny);
+            uz = m * (uz - un * nz);
+            real vx = sx[k], vy = sy[k], vz = sz[k];
+            const real v2 = vx * vx + vy * vy + vz * vz;
+            const real vn = vx * nx + vy * ny + vz * nz;
+            vx -= vn * nx;
+            vy -= vn * ny;
+            vz -= vn * nz;
+            const real keep = keep_length(v2, vx * vx + vy * vy + vz * vz);
+            vx = where(lasts, keep * vx + ux);
+            vy = where(lasts, keep * vy + uy);
+            vz = where(lasts, keep * vz + uz);
+            const real twist = t.plain ? 0 : where(lasts, pivot[k] + m * dn);
+            sx[k] = vx;
+            sy[k] = vy;
+            sz[k] = vz;
+            if (!t.plain) {
+                pivot[k] = twist;
+            }
+            if (t.viscous) {
+                b->rate[0][k] = where(lasts, ux);
+                b->rate[1][k] = where(lasts, uy);
+                b->rate[2][k] = where(lasts, uz);
+                b->rate[3][k] = where(lasts, m * dn);
+            }
+            if (t.bridges) {
+                const bool holds = lasts & (now > 0);
+                real px = qx[k], py = qy[k], pz = qz[k];
+                const real p2 = px * px + py * py + pz * pz;
+                const real pn = px * nx + py * ny + pz * nz;
+                px -= pn * nx;
+                py -= pn * ny;
+                pz -= pn * nz;
+                const real hold = keep_length(p2, px * px + py * py + pz * pz);
+                const real gx = m * (dx - dn * nx), gy = m * (dy - dn * ny);
+                const real gz = m * (dz - dn * nz);
+                qx[k] = where(holds, hold * px + gx);
+                qy[k] = where(holds, hold * py + gy);
+                qz[k] = where(holds, hold * pz + gz);
+                if (t.viscous) {
+                    b->rate[4][k] = where(holds, gx);
+                    b->rate[5][k] = where(holds, gy);
+                    b->rate[6][k] = where(holds, gz);
+                }
+                /* (5), (11): the cap of shear or pivoting is reached */
+                const real a2 = quarter * radius_square(t, length, now, h);
+                const real v_squared = vx * vx + vy * vy + vz * vz;
+                const bool fails =
+                    (now > 0) & ((k_shear * k_shear * v_squared > tear * a2) |
+                                 (k_pivot * k_pivot * twist * twist > wring));
+                /* it shrinks to the present overlap, or is gone; P1 below (5), (11) */
+                const real left = h > length ? h : 0;
+                now = fails ? left : now;
+            }
+        }
+        if (t.friction && !MOMENT_FITTED) {
+            b->moment[k] = 0;
+            loose += mask(now == 0);
+        }
+        if (t.viscous) {
+            const real arm2 = ax[k] * ax[k] + ay[k] * ay[k] + az[k] * az[k];
+            b->rate[7][k] = mask(arm2 > 0) * (root(arm2) - r);
+        }
+        deepest[k] = now;
+        ax[k] = rx;
+        ay[k] = ry;
+        az[k] = rz;
+    }
+    b->loose = loose;
+}
+
+/* Shear, pivoting and rolling: what they need of the scene. */
+struct slip_law {
+    real shear, pivot, roll, mu, mu_pivot;
+    real bond; /* pi sigma_b */
+    /* the two terms of M(a) */
+    real plate, rod;
+};
+
+INLINE struct slip_law slip_law(const struct gb_law_slip *slip,
+                                const struct gb_law_rod *rod)
+{
+    return (struct slip_law){
+        .shear = (real)slip->shear,
+        .pivot = (real)slip->pivot,
+        .roll = (real)slip->roll,
+        .mu = (real)slip->mu,
+        .mu_pivot = (real)slip->mu_pivot,
+        .bond = (real)(M_PI * slip->strength),
+        .plate = (real)(3.0 * M_PI / 32.0 * rod->hertz),
+        .rod = (real)(0.5 * rod->pivot),
+    };
+}
+
+/* Second half, 3D: forces and torques from the springs, which are cut at their caps. */
+INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restrict b,
+                    struct gb_contacts *restrict c, int64_t slot)
+{
+    const real *restrict deepest = PLANE(c->deepest);
+    real *restrict pivot = PLANE(c->pivot);
+    real *restrict sx = PLANE(c->shear[0]), *restrict sy = PLANE(c->shear[1]);
+    real *restrict sz = PLANE(c->shear[2]);
+    real *restrict qx = PLANE(c->roll[0]), *restrict qy = PLANE(c->roll[1]);
+    real *restrict qz = PLANE(c->roll[2]);
+    real *restrict last_normal = t.viscous ? PLANE(c->last_normal) : NULL;
+    real *restrict last_shear = t.viscous ? PLANE(c->last_shear) : NULL;
+    real *restrict last_roll = t.viscous ? PLANE(c->last_roll) : NULL;
+    real *restrict last_pivot = t.viscous ? PLANE(c->last_pivot) : NULL;
+    const struct slip_law slip = slip_law(&model->slip, &model->rod);
+    const struct normal_law law = normal_law(model, b->cutoff2);
+    const real half = 0.5, quarter = 0.25, third = (real)(1.0 / 3.0);
+    const real inverse_motion = (real)(1.0 / model->slip.motion);
+    const real damp = b->damp, length = (real)model->bridge.length;
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const real nx = b->unit[0][k], ny = b->unit[1][k], nz = b->unit[2][k];
+        const real r = b->distance[k], h = b->overlap[k], state = deepest[k];
+        const bool held = t.bridges & (state > 0);
+        const bool live = state >= 0;
+        const struct normal f = normal_force(t, &law, state, h, r);
+        real fn = f.total, taken = 0.0;
+        if (t.viscous) {
+            const real lag = damp * f.slope * b->rate[7][k];
+            taken = (half * (last_normal[k] + fn) + lag) * b->rate[7][k];
+            last_normal[k] = fn;
+            fn += lag;
+        }
+        real fx = fn * nx, fy = fn * ny, fz = fn * nz;
+        real tx = 0.0, ty = 0.0, tz = 0.0, jx = 0.0, jy = 0.0, jz = 0.0;
+        real slides = 0.0;
+        if (t.friction) {
+            const real a2 = where(live, quarter * radius_square(t, length, state, h));
+            const real a = radius(t, a2, live, f.root);
+            const real from = larger(h, 0);
+            const real ks = slip.shear * a, kp = slip.pivot * a2 * a;
+            const real strength = a2 * slip.bond;
+            const real twisting = half * a2 * a * slip.bond;
+            const real cap = held ? strength : smaller(slip.mu * f.elastic, strength);
+            const real moment =
+                t.plain ? 0
+                : MOMENT_FITTED
+                    ? from * from * (slip.plate + slip.rod * f.root * moment_tail(from))
+                    : b->moment[k];
+            const real turn_cap =
+                held ? twisting : smaller(slip.mu_pivot * moment, twisting);
+            real vx = sx[k], vy = sy[k], vz = sz[k], p = t.plain ? 0 : pivot[k];
+            const real ox = vx, oy = vy, oz = vz, op = p;
+            const real v2 = vx * vx + vy * vy + vz * vz;
+            const real shear2 = ks * ks * v2, turn2 = kp * kp * p * p;
+            const bool cut = shear2 > cap * cap, turned = turn2 > turn_cap * turn_cap;
+            const real keep = cut_to(t, cap, shear2, cut);
+            const real stay = t.plain ? 0 : cut_to(t, turn_cap, turn2, turned);
+            vx *= keep;
+            vy *= keep;
+            vz *= keep;
+            p *= stay;
+            sx[k] = vx;
+            sy[k] = vy;
+            sz[k] = vz;
+            if (!t.plain) {
+                pivot[k] = p;
+            }
+            slides = mask(cut);
+            if (t.viscous) {
+                /* work over the step: the springs as they were, turned along, and as they
+                 * are */
+                const real ux = b->rate[0][k], uy = b->rate[1][k], uz = b->rate[2][k];
+                const real up = b->rate[3][k];
+                const real was = last_shear[k], turned_was = last_pivot[k];
+                const real lag = damp * mask(!cut), turn_lag = damp * mask(!turned);
+                const real fore = (ox - ux) * ux + (oy - uy) * uy + (oz - uz) * uz;
+                const real aft = vx * ux + vy * uy + vz * uz;
+                const real u2 = ux * ux + uy * uy + uz * uz;
+                taken +=
+                    inverse_motion * (half * (was * fore + ks * aft) + lag * ks * u2 +
+                                      half * (turned_was * (op - up) + kp * p) * up +
+                                      turn_lag * kp * up * up);
+                last_shear[k] = ks;
+                last_pivot[k] = kp;
+                vx += lag * ux;
+                vy += lag * uy;
+                vz += lag * uz;
+                p += turn_lag * up;
+            }
+            fx -= ks * vx;
+            fy -= ks * vy;
+            fz -= ks * vz;
+            real mx = -kp * p * nx, my = -kp * p * ny, mz = -kp * p * nz;
+            if (t.bridges) {
+                const real kr = slip.roll * a2 * a;
+                const real roll_cap = a * larger(f.elastic, 0) * third;
+                real px = qx[k], py = qy[k], pz = qz[k];
+                const real qox = px, qoy = py, qoz = pz;
+                const real p2 = px * px + py * py + pz * pz;
+                const real roll2 = kr * kr * p2;
+                const bool rolls = roll2 > roll_cap * roll_cap;
+                const real hold = where(held, cut_to(t, roll_cap, roll2, rolls));
+                px *= hold;
+                py *= hold;
+                pz *= hold;
+                qx[k] = px;
+                qy[k] = py;
+                qz[k] = pz;
+                if (t.viscous) {
+                    const real gx = b->rate[4][k], gy = b->rate[5][k], gz = b->rate[6][k];
+                    const real lag = damp * mask(!rolls & held);
+                    const real fore = (qox - gx) * gx + (qoy - gy) * gy + (qoz - gz) * gz;
+                    const real aft = px * gx + py * gy + pz * gz;
+                    taken += inverse_motion * (half * (last_roll[k] * fore + kr * aft) +
+                                               lag * kr * (gx * gx + gy * gy + gz * gz));
+                    last_roll[k] = where(held, kr);
+                    px += lag * gx;
+                    py += lag * gy;
+                    pz += lag * gz;
+                }
+                mx -= kr * px;
+                my -= kr * py;
+                mz -= kr * pz;
+            }
+            /* torque of the shear force on both: -(r/2) n x T, T = -ks v */
+            const real lever = half * r * ks;
+            const real cx = lever * (ny * vz - nz * vy);
+            const real cy = lever * (nz * vx - nx * vz);
+            const real cz = lever * (nx * vy - ny * vx);
+            tx = cx + mx;
+            ty = cy + my;
+            tz = cz + mz;
+            jx = cx - mx;
+            jy = cy - my;
+            jz = cz - mz;
+        }
+        b->force[0][k] = fx;
+        b->force[1][k] = fy;
+        b->force[2][k] = fz;
+        b->torque_i[0][k] = tx;
+        b->torque_i[1][k] = ty;
+        b->torque_i[2][k] = tz;
+        b->torque_j[0][k] = jx;
+        b->torque_j[1][k] = jy;
+        b->torque_j[2][k] = jz;
+        if (t.viscous) {
+            b->absorbed[k] = taken;
+        }
+        b->normal[k] = where(live, magnitude(f.elastic - law.adhesion));
+        b->sliding[k] = slides;
+    }
+}
+
+/* Force on the first particle, 3D and not viscous, from springs that were cut already. */
+INLINE void recall_3d(const struct gb_model *model, struct terms t, BATCH *restrict b,
+                      const struct gb_contacts *restrict c, int64_t slot)
+{
+    const real *restrict deepest = PLANE(c->deepest);
+    const real *restrict ax = PLANE(c->arm[0]), *restrict ay = PLANE(c->arm[1]);
+    const real *restrict az = PLANE(c->arm[2]);
+    const real *restrict sx = PLANE(c->shear[0]), *restrict sy = PLANE(c->shear[1]);
+    const real *restrict sz = PLANE(c->shear[2]);
+    const struct normal_law law = normal_law(model, b->cutoff2);
+    const real k_shear = (real)model->slip.shear, length = (real)model->bridge.length;
+    const real quarter = 0.25;
+    const real away2 = 4 * (1 + b->cutoff2); /* of slots that hold no pair: no arm */
+#pragma omp simd
+    for (int k = 0; k < b->n; k++) {
+        const real rx = ax[k], ry = ay[k], rz = az[k], state = deepest[k];
+        const real squared = rx * rx + ry * ry + rz * rz;
+        const real r = root(squared > 0 ? squared : away2), h = 1 - r;
+        const bool live = state >= 0;
+        const struct normal f = normal_force(t, &law, state, h, r);
+        const real along = f.total / r;
+        real ks = 0;
+        if (t.friction) {
+            const real a2 = where(live, quarter * radius_square(t, length, state, h));
+            ks = k_shear * radius(t, a2, live, f.root);
+        }
+        b->r[0][k] = rx;
+        b->r[1][k] = ry;
+        b->r[2][k] = rz;
+        b->force[0][k] = along * rx - (t.friction ? ks * sx[k] : 0);
+        b->force[1][k] = along * ry - (t.friction ? ks * sy[k] : 0);
+        b->force[2][k] = along * rz - (t.friction ? ks * sz[k] : 0);
+    }
+}
+
+/* First moment of the contact pressure, M(a) of (9), for the pivoting cap of contacts
+ * without a bridge.  Few contacts need it in scenes with bridges. */
+static inline void fill_moments(const struct gb_model *model, BATCH *batch,
+                                const real *deepest)
+{
+    for (int k = 0; k < batch->n; k++) {
+        if (deepest[k] == 0) {
+            batch->moment[k] = (real)gb_law_rod_moment(&model->rod, batch->overlap[k]);
+        }
+    }
+}
+
+/* Both halves, with what happens rarely done between them. */
+INLINE void advance_3d(const struct gb_model *model, struct terms t, BATCH *b,
+                       struct gb_contacts *c, int64_t slot)
+{
+    stretch_3d(model, t, b, c, slot);
+    if (t.friction && !MOMENT_FITTED && b->loose > 0 && model->slip.mu_pivot > 0.0) {
+        fill_moments(model, b, PLANE(c->deepest));
+    }
+    load_3d(model, t, b, c, slot);
+}
+
+#endif

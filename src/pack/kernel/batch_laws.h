@@ -1,0 +1,132 @@
+#ifndef GB_PACK_KERNEL_BATCH_LAWS_H
+#define GB_PACK_KERNEL_BATCH_LAWS_H
+
+#include <math.h>
+
+#include "pack/kernel/batch.h"
+
+/* How these loops are written: conditions choose between values that are there already
+ * and masks (1 or 0) multiply, so that no lane needs a branch; a hidden one (&&, or an
+ * expensive branch of ?:) would send the whole loop back to one contact at a time.
+ *
+ * One source, compiled once per useful combination of terms and per vector width: every
+ * `const bool` below is a constant where the function is inlined.  Nothing but the order
+ * of lanes differs between the widths (contraction is off), so they give the same bits.
+ *
+ * And once per precision: batch_double.h or batch_single.h, included before, says what a
+ * `real` is.  Constants are whole numbers where they can be, which take the type of what
+ * they meet; any other one is made real first, or it would drag the loop into double. */
+
+struct terms {
+    bool planar, friction, bridges, viscous;
+    bool printed; /* a_ch follows the printed form at the current r */
+    bool plain;   /* Hertz and Mindlin: no rod, no attraction, nothing against pivoting */
+};
+
+INLINE real larger(real a, real b)
+{
+    return a > b ? a : b;
+}
+
+INLINE real smaller(real a, real b)
+{
+    return a < b ? a : b;
+}
+
+/* h_min after the move to overlap h; law_bridge.h without branches. */
+INLINE real deepest_after(real length, real before, real h)
+{
+    const real fresh = h > length ? h : 0;
+    const real peeled = before - h > length ? h + length : before;
+    const real bridged = h >= before ? h : peeled;
+    return before <= 0 ? fresh : bridged;
+}
+
+/* Squared overlap whose root is twice the spring radius. */
+INLINE real radius_square(struct terms t, real length, real deepest, real h)
+{
+    return (t.bridges & (deepest > 0)) ? (t.printed ? h + length : deepest) : h;
+}
+
+/* Factor that keeps the length of a vector when its normal part is taken away; of the
+ * squared lengths. */
+INLINE real keep_length(real before, real after)
+{
+    return before * inverse_root(before * after);
+}
+
+/* Factor that cuts a spring of squared load load2 back to its cap; where nothing moves by
+ * itself to a hair below it, so that no rounding error makes a spring at rest slide. */
+INLINE real cut_to(struct terms t, real cap, real load2, bool over)
+{
+    const real hair = t.viscous ? 1 : HAIR;
+    return over ? hair * cap * inverse_root_below(load2) : 1;
+}
+
+INLINE real mask(bool condition)
+{
+    return condition ? 1 : 0;
+}
+
+/* x where the condition holds, else 0: one masked operation. */
+INLINE real where(bool condition, real x)
+{
+    return condition ? x : 0;
+}
+
+/* f_n along the normal: elastic line or rod law minus adhesion, or the pull across a gap.
+ */
+struct normal {
+    real elastic, slope, total;
+    real root; /* of the overlap that the elastic force comes from */
+};
+
+/* What it needs of the scene. */
+struct normal_law {
+    real hertz, rod, shift, strength, adhesion, cutoff2;
+};
+
+INLINE struct normal_law normal_law(const struct gb_model *model, real cutoff2)
+{
+    return (struct normal_law){
+        .hertz = (real)model->rod.hertz,
+        .rod = (real)model->rod.rod,
+        .shift = (real)model->dispersion.shift,
+        .strength = (real)model->dispersion.strength,
+        .adhesion = (real)model->adhesion,
+        .cutoff2 = cutoff2,
+    };
+}
+
+INLINE struct normal normal_force(struct terms t, const struct normal_law *law,
+                                  real deepest, real h, real r)
+{
+    const real overlap = larger(h, 0);
+    if (t.plain) {
+        const real half_width = root(overlap), hertz = law->hertz * half_width;
+        const real force = hertz * overlap;
+        return (struct normal){force, (real)1.5 * hertz, force, half_width};
+    }
+    const real from = deepest > 0 ? deepest : overlap;
+    /* one division for all: D = 1 / ((1 - h) (2 - h) s^3 q^2) */
+    const real s = larger(r, 1) + law->shift, q = s * s - 1;
+    const real near = 1 - from, wide = 2 - from, gap = s * s * s * q * q;
+    const real all = 1 / (near * wide * gap);
+    const real half_width = root(from), tail = log_tail(from, from * (near * gap) * all);
+    const real hertz = law->hertz * half_width;
+    const real slope = (real)1.5 * hertz + law->rod * (from * (wide * gap)) * all;
+    const real force = hertz * from + law->rod * tail - slope * (from - overlap);
+    const real pull = law->strength * (near * wide * all);
+    const real touching = force - law->adhesion;
+    const real apart = where(r * r < law->cutoff2, -pull);
+    /* without a contact the overlap is none, and so are force and slope */
+    return (struct normal){force, slope, deepest >= 0 ? touching : apart, half_width};
+}
+
+/* Radius of the springs from its square; mostly half the root that is there already. */
+INLINE real radius(struct terms t, real square, bool live, real root_of_overlap)
+{
+    return t.printed ? root(larger(square, 0)) : where(live, (real)0.5 * root_of_overlap);
+}
+
+#endif

@@ -1,0 +1,89 @@
+/* The loops in single precision, for scenes in 3D at rest. */
+#include "pack/kernel/batch_f32.h"
+
+#include "pack/kernel/batch_3d.h"
+#include "pack/kernel/batch_far.h"
+#include "pack/kernel/batch_tally.h"
+#include "pack/kernel/simd.h"
+
+/* Variants: normal only, friction, friction and bridges; Hertz and Mindlin only. */
+#define VARIANT(name, attribute, friction_, bridges_, plain_)                            \
+    attribute static void name##_advance(const struct gb_model *model,                   \
+                                         struct gb_batch_single *batch,                  \
+                                         struct gb_contacts *contacts, int64_t slot)     \
+    {                                                                                    \
+        const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
+        const struct terms printed = {false, friction_, bridges_, false, true, plain_};  \
+        if (bridges_ && model->bridge.radius_current) {                                  \
+            advance_3d(model, printed, batch, contacts, slot);                           \
+        } else {                                                                         \
+            advance_3d(model, t, batch, contacts, slot);                                 \
+        }                                                                                \
+    }                                                                                    \
+    attribute static void name##_recall(                                                 \
+        const struct gb_model *model, struct gb_batch_single *batch,                     \
+        const struct gb_contacts *contacts, int64_t slot)                                \
+    {                                                                                    \
+        const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
+        const struct terms printed = {false, friction_, bridges_, false, true, plain_};  \
+        if (bridges_ && model->bridge.radius_current) {                                  \
+            recall_3d(model, printed, batch, contacts, slot);                            \
+        } else {                                                                         \
+            recall_3d(model, t, batch, contacts, slot);                                  \
+        }                                                                                \
+    }                                                                                    \
+    attribute static void name##_tally(struct gb_batch_single *batch,                    \
+                                       const struct gb_contacts *contacts, int64_t slot, \
+                                       struct gb_tally *tally)                           \
+    {                                                                                    \
+        const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
+        const float *deepest = (const float *)contacts->plane[contacts->deepest];        \
+        tally_batch(t, batch, deepest + slot, tally);                                    \
+    }                                                                                    \
+    attribute static void name##_attract(const struct gb_model *model,                   \
+                                         struct gb_batch_single *batch)                  \
+    {                                                                                    \
+        const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
+        attract(model, t, batch, NULL, NULL);                                            \
+    }
+
+#define VARIANTS(width, attribute)                                                       \
+    VARIANT(width##_normal, attribute, false, false, false)                              \
+    VARIANT(width##_friction, attribute, true, false, false)                             \
+    VARIANT(width##_bridges, attribute, true, true, false)                               \
+    VARIANT(width##_plain, attribute, true, false, true)
+
+#define ROW(name)                                                                        \
+    {                                                                                    \
+        name##_advance, name##_tally, name##_attract, name##_recall                      \
+    }
+#define TABLE(width)                                                                     \
+    {                                                                                    \
+        ROW(width##_normal), ROW(width##_friction), ROW(width##_bridges),                \
+            ROW(width##_plain)                                                           \
+    }
+
+VARIANTS(w128, )
+static const struct gb_batch_single_kernel table128[] = TABLE(w128);
+#if defined(__x86_64__)
+VARIANTS(w256, GB_TARGET_256)
+VARIANTS(w512, GB_TARGET_512)
+static const struct gb_batch_single_kernel table256[] = TABLE(w256);
+static const struct gb_batch_single_kernel table512[] = TABLE(w512);
+#endif
+
+struct gb_batch_single_kernel gb_batch_single_pick(const struct gb_model *model,
+                                                   int widest)
+{
+    const int terms = model->terms.plain      ? 3
+                      : model->terms.bridges  ? 2
+                      : model->terms.friction ? 1
+                                              : 0;
+#if defined(__x86_64__)
+    const int width = gb_simd_width(widest);
+    return (width == 512 ? table512 : width == 256 ? table256 : table128)[terms];
+#else
+    (void)widest;
+    return table128[terms];
+#endif
+}

@@ -1,0 +1,58 @@
+#ifndef GB_PACK_KERNEL_BED_BATCH_H
+#define GB_PACK_KERNEL_BED_BATCH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "pack/die/bed_contacts.h"
+
+enum { GB_BED_BATCH = 64 };
+
+/* A batch of contacts on its way through the laws. */
+struct gb_bed_batch {
+    int n;
+    double step; /* time since the last evaluation, for the shear increments */
+    double mu;
+    /* in, pairs: x_i - x_j and R_i + R_j.  In, walls: unit, overlap, and lever = 1 - h/R
+     */
+    _Alignas(64) double arm[3][GB_BED_BATCH];
+    double reach[GB_BED_BATCH];
+    double unit[3][GB_BED_BATCH], overlap[GB_BED_BATCH], lever[GB_BED_BATCH];
+    double slip[3][GB_BED_BATCH]; /* in: v_i - v_j of the centres */
+    double roll[3][GB_BED_BATCH]; /* in, friction: R_i w_i + R_j w_j */
+    /* out: force on i; torque on i is R_i moment, on j R_j moment */
+    double force[3][GB_BED_BATCH], moment[3][GB_BED_BATCH];
+    double stiffest; /* largest omega^2 = k/m of (29) so far; in and out */
+};
+
+/* Carries contacts [slot, slot + batch->n) on to the present and fills the outputs. */
+typedef void gb_bed_kernel(const struct gb_bed_law *law, struct gb_bed_batch *batch,
+                           struct gb_bed_contacts *contacts, int64_t slot);
+
+/* The variant for a law and this processor; none pays for terms it leaves out.  widest: 0
+ * picks by processor; 128, 256 or 512 limits the vectors (tests). */
+gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law, bool walls, int widest);
+
+/* Rows of four doubles of the particles, so that a vector is one load. */
+typedef double gb_bed_row[4];
+
+/* What a batch of pairs takes from its particles and gives them back; the particles of
+ * pair k are first[k] and other[k].  Without friction neither spin nor torque is used. */
+struct gb_bed_rows {
+    const gb_bed_row *place, *speed, *spin;
+    gb_bed_row *force, *torque;
+    const int32_t *first, *other;
+    bool friction;
+};
+typedef void gb_bed_fill(const struct gb_bed_rows *rows, struct gb_bed_batch *batch);
+typedef void gb_bed_spill(const struct gb_bed_rows *rows,
+                          const struct gb_bed_batch *batch);
+
+/* The variant for this processor, widest as above; the same bits from all. */
+struct gb_bed_carrier {
+    gb_bed_fill *fill;
+    gb_bed_spill *spill;
+};
+struct gb_bed_carrier gb_bed_carrier_pick(int widest);
+
+#endif

@@ -1,0 +1,160 @@
+#include "pack/kernel/bed_batch.h"
+#include "pack/kernel/simd.h"
+
+/* Pairs [from, batch->n) one by one. */
+static void fill_from(const struct gb_bed_rows *rows, struct gb_bed_batch *b, int from)
+{
+    for (int k = from; k < b->n; k++) {
+        const int32_t i = rows->first[k], j = rows->other[k];
+        const double *xi = rows->place[i], *xj = rows->place[j];
+        for (int c = 0; c < 3; c++) {
+            b->arm[c][k] = xi[c] - xj[c];
+            b->slip[c][k] = rows->speed[i][c] - rows->speed[j][c];
+        }
+        b->reach[k] = xi[3] + xj[3];
+        for (int c = 0; c < 3 && rows->friction; c++) {
+            b->roll[c][k] = xi[3] * rows->spin[i][c] + xj[3] * rows->spin[j][c];
+        }
+    }
+}
+
+static void spill_from(const struct gb_bed_rows *rows, const struct gb_bed_batch *b,
+                       int from)
+{
+    for (int k = from; k < b->n; k++) {
+        const int32_t i = rows->first[k], j = rows->other[k];
+        const double ri = rows->place[i][3], rj = rows->place[j][3];
+        for (int c = 0; c < 3; c++) {
+            rows->force[i][c] += b->force[c][k];
+            rows->force[j][c] -= b->force[c][k];
+        }
+        for (int c = 0; c < 3 && rows->friction; c++) {
+            rows->torque[i][c] += ri * b->moment[c][k];
+            rows->torque[j][c] += rj * b->moment[c][k];
+        }
+    }
+}
+
+static void fill_128(const struct gb_bed_rows *rows, struct gb_bed_batch *batch)
+{
+    fill_from(rows, batch, 0);
+}
+
+static void spill_128(const struct gb_bed_rows *rows, const struct gb_bed_batch *batch)
+{
+    spill_from(rows, batch, 0);
+}
+
+static const struct gb_bed_carrier carrier_128 = {fill_128, spill_128};
+
+#if defined(__x86_64__) && defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)
+#define HAVE_256
+#endif
+#endif
+
+#if defined(HAVE_256)
+typedef double v4 __attribute__((vector_size(32), aligned(8), may_alias));
+
+#define SHUFFLE __builtin_shufflevector
+/* Four rows into four columns, in place. */
+#define TRANSPOSE(a, b, c, d)                                                            \
+    do {                                                                                 \
+        const v4 ab_even = SHUFFLE(a, b, 0, 4, 2, 6),                                    \
+                 cd_even = SHUFFLE(c, d, 0, 4, 2, 6);                                    \
+        const v4 ab_odd = SHUFFLE(a, b, 1, 5, 3, 7), cd_odd = SHUFFLE(c, d, 1, 5, 3, 7); \
+        a = SHUFFLE(ab_even, cd_even, 0, 1, 4, 5);                                       \
+        b = SHUFFLE(ab_odd, cd_odd, 0, 1, 4, 5);                                         \
+        c = SHUFFLE(ab_even, cd_even, 2, 3, 6, 7);                                       \
+        d = SHUFFLE(ab_odd, cd_odd, 2, 3, 6, 7);                                         \
+    } while (0)
+
+#define ROW(rows, i) (*(const v4 *)(rows)[i])
+
+/* Rows of the particles of four pairs, then columns of the batch. */
+GB_TARGET_256 static void fill_256(const struct gb_bed_rows *rows, struct gb_bed_batch *b)
+{
+    const int32_t *restrict first = rows->first, *restrict other = rows->other;
+    const gb_bed_row *restrict place = rows->place;
+    const gb_bed_row *restrict speed = rows->speed, *restrict spin = rows->spin;
+    const bool friction = rows->friction;
+    const int n = b->n;
+    int k = 0;
+    for (; k + 4 <= n; k += 4) {
+        v4 arm[4], slip[4], roll[4] = {{0}};
+        for (int p = 0; p < 4; p++) {
+            const int32_t i = first[k + p], j = other[k + p];
+            const v4 xi = ROW(place, i), xj = ROW(place, j);
+            arm[p] = SHUFFLE(xi - xj, xi + xj, 0, 1, 2, 7);
+            slip[p] = ROW(speed, i) - ROW(speed, j);
+            if (friction) {
+                const v4 ri = SHUFFLE(xi, xi, 3, 3, 3, 3),
+                         rj = SHUFFLE(xj, xj, 3, 3, 3, 3);
+                roll[p] = ri * ROW(spin, i) + rj * ROW(spin, j);
+            }
+        }
+        TRANSPOSE(arm[0], arm[1], arm[2], arm[3]);
+        TRANSPOSE(slip[0], slip[1], slip[2], slip[3]);
+        for (int c = 0; c < 3; c++) {
+            *(v4 *)(b->arm[c] + k) = arm[c];
+            *(v4 *)(b->slip[c] + k) = slip[c];
+        }
+        *(v4 *)(b->reach + k) = arm[3];
+        if (friction) {
+            TRANSPOSE(roll[0], roll[1], roll[2], roll[3]);
+            for (int c = 0; c < 3; c++) {
+                *(v4 *)(b->roll[c] + k) = roll[c];
+            }
+        }
+    }
+    fill_from(rows, b, k);
+}
+
+GB_TARGET_256 static void spill_256(const struct gb_bed_rows *rows,
+                                    const struct gb_bed_batch *b)
+{
+    const int32_t *restrict first = rows->first, *restrict other = rows->other;
+    const gb_bed_row *restrict place = rows->place;
+    gb_bed_row *force_of = rows->force, *torque_of = rows->torque;
+    const bool friction = rows->friction;
+    const int n = b->n;
+    int k = 0;
+    for (; k + 4 <= n; k += 4) {
+        v4 force[4] = {{0}}, moment[4] = {{0}};
+        for (int c = 0; c < 3; c++) {
+            force[c] = *(const v4 *)(b->force[c] + k);
+        }
+        TRANSPOSE(force[0], force[1], force[2], force[3]);
+        for (int p = 0; p < 4; p++) {
+            *(v4 *)force_of[first[k + p]] += force[p];
+            *(v4 *)force_of[other[k + p]] -= force[p];
+        }
+        if (!friction) {
+            continue;
+        }
+        for (int c = 0; c < 3; c++) {
+            moment[c] = *(const v4 *)(b->moment[c] + k);
+        }
+        TRANSPOSE(moment[0], moment[1], moment[2], moment[3]);
+        for (int p = 0; p < 4; p++) {
+            const int32_t i = first[k + p], j = other[k + p];
+            const v4 xi = ROW(place, i), xj = ROW(place, j);
+            *(v4 *)torque_of[i] += SHUFFLE(xi, xi, 3, 3, 3, 3) * moment[p];
+            *(v4 *)torque_of[j] += SHUFFLE(xj, xj, 3, 3, 3, 3) * moment[p];
+        }
+    }
+    spill_from(rows, b, k);
+}
+
+static const struct gb_bed_carrier carrier_256 = {fill_256, spill_256};
+#endif
+
+struct gb_bed_carrier gb_bed_carrier_pick(int widest)
+{
+#if defined(HAVE_256)
+    return gb_simd_width(widest) >= 256 ? carrier_256 : carrier_128;
+#else
+    (void)widest;
+    return carrier_128;
+#endif
+}

@@ -1,0 +1,144 @@
+#ifndef GB_PACK_KERNEL_REGISTER_ROWS_H
+#define GB_PACK_KERNEL_REGISTER_ROWS_H
+
+/* Rows of numbers in a register, and four of them turned into columns and back: particles
+ * lie in memory one by one, the laws take contacts side by side. */
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+#define GB_ROW_INLINE static inline __attribute__((always_inline))
+
+typedef float gb_row __attribute__((vector_size(16)));
+typedef float gb_row_pair __attribute__((vector_size(32))); /* two of them */
+typedef int32_t gb_row_int __attribute__((vector_size(16)));
+typedef int32_t gb_row_int_pair __attribute__((vector_size(32)));
+typedef uint32_t gb_row_word __attribute__((vector_size(16)));
+
+GB_ROW_INLINE gb_row gb_row_load(const float *from)
+{
+    gb_row row;
+    memcpy(&row, from, sizeof row);
+    return row;
+}
+
+GB_ROW_INLINE void gb_row_store(float *to, gb_row row)
+{
+    memcpy(to, &row, sizeof row);
+}
+
+/* a - b of whole numbers, wrapping around, as float. */
+GB_ROW_INLINE gb_row gb_row_difference(const int32_t *a, const int32_t *b)
+{
+    gb_row_word wa, wb;
+    memcpy(&wa, a, sizeof wa);
+    memcpy(&wb, b, sizeof wb);
+    const gb_row_word wide = wa - wb;
+    gb_row_int difference;
+    memcpy(&difference, &wide, sizeof difference);
+    return __builtin_convertvector(difference, gb_row);
+}
+
+/* The first three numbers of four rows, as columns of four. */
+GB_ROW_INLINE void gb_row_columns(const gb_row row[4], float *x, float *y, float *z)
+{
+    const gb_row low01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+    const gb_row low23 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+    const gb_row high01 = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+    const gb_row high23 = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+    gb_row_store(x, __builtin_shufflevector(low01, low23, 0, 1, 4, 5));
+    gb_row_store(y, __builtin_shufflevector(low01, low23, 2, 3, 6, 7));
+    gb_row_store(z, __builtin_shufflevector(high01, high23, 0, 1, 4, 5));
+}
+
+/* Back: rows of three columns; their fourth numbers are 0. */
+GB_ROW_INLINE void gb_row_of_columns(const float *x, const float *y, const float *z,
+                                     gb_row row[4])
+{
+    const gb_row none = {0.0F}, xs = gb_row_load(x), ys = gb_row_load(y);
+    const gb_row zs = gb_row_load(z);
+    const gb_row xy = __builtin_shufflevector(xs, ys, 0, 4, 1, 5);
+    const gb_row yx = __builtin_shufflevector(xs, ys, 2, 6, 3, 7);
+    const gb_row z0 = __builtin_shufflevector(zs, none, 0, 4, 1, 5);
+    const gb_row z1 = __builtin_shufflevector(zs, none, 2, 6, 3, 7);
+    row[0] = __builtin_shufflevector(xy, z0, 0, 1, 4, 5);
+    row[1] = __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
+    row[2] = __builtin_shufflevector(yx, z1, 0, 1, 4, 5);
+    row[3] = __builtin_shufflevector(yx, z1, 2, 3, 6, 7);
+}
+
+/* Adds a row to what is there, or, where `there` is false, puts it in its place: without
+ * a branch, which a processor would guess wrong. */
+GB_ROW_INLINE void gb_row_add(float *to, gb_row row)
+{
+    gb_row_store(to, gb_row_load(to) + row);
+}
+
+GB_ROW_INLINE void gb_row_add_if(float *to, bool there, gb_row row)
+{
+    const int32_t all = -(int32_t)there;
+    gb_row_int bits;
+    gb_row kept;
+    memcpy(&bits, to, sizeof bits);
+    bits &= (gb_row_int){all, all, all, all};
+    memcpy(&kept, &bits, sizeof kept);
+    gb_row_store(to, kept + row);
+}
+
+/* The same for rows of eight; by address, as some compilers refuse them by value. */
+GB_ROW_INLINE void gb_row_pair_add(float *to, const gb_row_pair *row)
+{
+    gb_row_pair sum;
+    memcpy(&sum, to, sizeof sum);
+    sum += *row;
+    memcpy(to, &sum, sizeof sum);
+}
+
+GB_ROW_INLINE void gb_row_pair_add_if(float *to, bool there, const gb_row_pair *row)
+{
+    const int32_t all = -(int32_t)there;
+    gb_row_int_pair bits;
+    gb_row_pair sum;
+    memcpy(&bits, to, sizeof bits);
+    bits &= (gb_row_int_pair){all, all, all, all, all, all, all, all};
+    memcpy(&sum, &bits, sizeof sum);
+    sum += *row;
+    memcpy(to, &sum, sizeof sum);
+}
+
+/* Adds row number l to a sum if l < n, again without a branch. */
+GB_ROW_INLINE void gb_row_sum_if(gb_row_pair *sum, const float *row, int l, int n)
+{
+    const gb_row_int_pair ns = {n, n, n, n, n, n, n, n}, ls = {l, l, l, l, l, l, l, l};
+    gb_row_int_pair bits;
+    gb_row_pair kept;
+    memcpy(&bits, row, sizeof bits);
+    bits &= ls < ns;
+    memcpy(&kept, &bits, sizeof kept);
+    *sum += kept;
+}
+
+/* Three columns of four beside three others, as rows of eight; their fourth and last
+ * numbers are 0. */
+GB_ROW_INLINE void gb_row_rows(const gb_row low[3], const gb_row high[3],
+                               gb_row_pair row[4])
+{
+    const gb_row_pair none = {0.0F};
+    const gb_row_pair x =
+        __builtin_shufflevector(low[0], high[0], 0, 1, 2, 3, 4, 5, 6, 7);
+    const gb_row_pair y =
+        __builtin_shufflevector(low[1], high[1], 0, 1, 2, 3, 4, 5, 6, 7);
+    const gb_row_pair z =
+        __builtin_shufflevector(low[2], high[2], 0, 1, 2, 3, 4, 5, 6, 7);
+    const gb_row_pair xy = __builtin_shufflevector(x, y, 0, 8, 1, 9, 4, 12, 5, 13);
+    const gb_row_pair yx = __builtin_shufflevector(x, y, 2, 10, 3, 11, 6, 14, 7, 15);
+    const gb_row_pair z0 = __builtin_shufflevector(z, none, 0, 8, 1, 9, 4, 12, 5, 13);
+    const gb_row_pair z1 = __builtin_shufflevector(z, none, 2, 10, 3, 11, 6, 14, 7, 15);
+    row[0] = __builtin_shufflevector(xy, z0, 0, 1, 8, 9, 4, 5, 12, 13);
+    row[1] = __builtin_shufflevector(xy, z0, 2, 3, 10, 11, 6, 7, 14, 15);
+    row[2] = __builtin_shufflevector(yx, z1, 0, 1, 8, 9, 4, 5, 12, 13);
+    row[3] = __builtin_shufflevector(yx, z1, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+#endif

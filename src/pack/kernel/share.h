@@ -1,0 +1,12 @@
+#ifndef GB_PACK_KERNEL_SHARE_H
+#define GB_PACK_KERNEL_SHARE_H
+
+#include <stdint.h>
+
+/* Part t of `parts` nearly equal ones of count items is share(t) .. share(t + 1) - 1. */
+static inline int64_t gb_share(int64_t count, int t, int parts)
+{
+    return count * t / parts;
+}
+
+#endif

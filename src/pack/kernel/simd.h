@@ -1,0 +1,76 @@
+#ifndef GB_PACK_KERNEL_SIMD_H
+#define GB_PACK_KERNEL_SIMD_H
+
+/* Loops compiled once per vector width of the processor family, chosen at run time. */
+#if defined(__x86_64__)
+#define GB_TARGET_256 __attribute__((target("avx2")))
+#if defined(__clang__)
+#define GB_TARGET_512 __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw")))
+#else
+#define GB_TARGET_512                                                                    \
+    __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,prefer-vector-width="      \
+                          "512")))
+#endif
+#endif
+
+/* Bits of the widest vectors that this processor and the caller (0: no limit) allow: 128,
+ * 256 or 512. */
+static inline int gb_simd_width(int widest)
+{
+#if defined(__x86_64__)
+    const int most = widest > 0 ? widest : 512;
+    if (most >= 512 && __builtin_cpu_supports("avx512f") &&
+        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512bw")) {
+        return 512;
+    }
+    return most >= 256 && __builtin_cpu_supports("avx2") ? 256 : 128;
+#else
+    (void)widest;
+    return 128;
+#endif
+}
+
+/* Defines `void name parameters` from the always-inlined `name_loop`, compiled once per
+ * width.  Only for loops whose results do not depend on the order of lanes. */
+#if defined(__x86_64__)
+#define GB_SIMD_WIDTHS(name, parameters, arguments)                                      \
+    GB_TARGET_512 static void name##_512 parameters                                      \
+    {                                                                                    \
+        name##_loop arguments;                                                           \
+    }                                                                                    \
+    GB_TARGET_256 static void name##_256 parameters                                      \
+    {                                                                                    \
+        name##_loop arguments;                                                           \
+    }                                                                                    \
+    static void name parameters                                                          \
+    {                                                                                    \
+        const int width = gb_simd_width(0);                                              \
+        if (width == 512) {                                                              \
+            name##_512 arguments;                                                        \
+        } else if (width == 256) {                                                       \
+            name##_256 arguments;                                                        \
+        } else {                                                                         \
+            name##_loop arguments;                                                       \
+        }                                                                                \
+    }
+#else
+#define GB_SIMD_WIDTHS(name, parameters, arguments)                                      \
+    static void name parameters                                                          \
+    {                                                                                    \
+        name##_loop arguments;                                                           \
+    }
+#endif
+
+#define GB_SIMD_LOOP static inline __attribute__((always_inline))
+
+/* Asks for a line of memory before it is needed, as far as the second cache: the first
+ * can wait for few lines at a time, and what is read meanwhile would queue behind them.
+ */
+GB_SIMD_LOOP void gb_simd_fetch(const void *line)
+{
+    enum { TO_READ = 0, SECOND_CACHE = 2 };
+    __builtin_prefetch(line, TO_READ, SECOND_CACHE);
+}
+
+#endif

@@ -1,0 +1,37 @@
+#ifndef GB_PACK_STRUCTURE_GROW_H
+#define GB_PACK_STRUCTURE_GROW_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/model.h"
+#include "greenbody/status.h"
+#include "pack/cell/cell.h"
+
+/* Chain-growth initial structure of P1, section III, in 3D and 2D: periodic, connected.
+ */
+struct gb_grow {
+    int dimension;
+    int64_t count;
+    double edges[3]; /* d; y is 1 in 2D */
+    double r_eq;     /* distance of touching particles, d: 1 - h_eq; of unequal sizes the
+                      * longest that can be */
+    double r_meso;   /* d */
+    uint64_t seed;
+    const struct gb_model *model;  /* of unequal sizes; else NULL */
+    bool (*cancelled)(void *data); /* polled; NULL is fine */
+    void *data;
+};
+
+/* The structure a model begins with; cancelled is left NULL. */
+struct gb_grow gb_grow_of(const struct gb_model *model);
+
+/* Places the particles.
+ *
+ * position   count x 3, filled with places inside the cell (y = 0 in 2D)
+ * Errors: GB_ERR_INPUT "structure.density = 0.7: not reached, stopped at 0.44 (...)" when
+ * no place is left, GB_ERR_MEMORY, GB_ERR_CANCELLED.
+ * Deterministic: same struct, same bits.  Cost about linear in count. */
+bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error *err);
+
+#endif

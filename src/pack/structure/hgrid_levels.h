@@ -1,0 +1,57 @@
+#ifndef GB_PACK_STRUCTURE_HGRID_LEVELS_H
+#define GB_PACK_STRUCTURE_HGRID_LEVELS_H
+
+#include "pack/structure/hgrid.h"
+
+/* The sorting half of sift.c: spheres into levels of size, and within a level into the
+ * cells of its grid.  No one else includes this. */
+
+/* Levels of size, each a factor of 2; spheres smaller than the last share it. */
+enum { GB_HGRID_LEVELS = 16 };
+
+/* Grid cells per sphere of a level at most; where spheres are rarer the cells are wider.
+ */
+enum { GB_SIFT_CELLS_PER_SPHERE = 2, GB_SIFT_CELLS_LEAST = 64 };
+
+struct gb_sift_sphere {
+    double x[3]; /* wrapped into the box */
+    double reach;
+};
+
+struct gb_sift_level {
+    double widest; /* largest reach */
+    int64_t count; /* spheres */
+    int cells[3];
+    double per_width[3]; /* cells per length */
+    int32_t first_cell;  /* in cell_start */
+};
+
+struct gb_sift_search {
+    struct gb_hgrid *sift;
+    double low[3], high[3]; /* of the grids */
+    double edge[3];         /* INFINITY where not periodic */
+    int64_t count;
+    int64_t found; /* pairs so far */
+    double widest;
+    struct gb_sift_level level[GB_HGRID_LEVELS]; /* the largest spheres first */
+};
+
+/* How far a sphere reaches: pairs closer than the sum of two reaches are wanted. */
+double gb_hgrid_levels_reach(const double sphere[4], const double *margin, int64_t i,
+                             double skin);
+
+/* Sets where the grids lie.  Errors: GB_ERR_GUARD for a periodic edge too short. */
+bool gb_hgrid_levels_bounds(struct gb_sift_search *search, const struct gb_hgrid_box *box,
+                            const double (*sphere)[4], struct gb_error *err);
+
+/* Shapes the grids and notes which cell each sphere lies in; then sorts the spheres. */
+void gb_hgrid_levels_assign(struct gb_sift_search *search, const double (*sphere)[4],
+                            const double *margin, double skin);
+void gb_hgrid_levels_sort(struct gb_sift_search *search, const double (*sphere)[4],
+                          const double *margin, double skin);
+
+/* Grid index of a place along an axis, outside of [0, cells) clamped. */
+int gb_hgrid_levels_index(const struct gb_sift_search *search,
+                          const struct gb_sift_level *level, int k, double x);
+
+#endif

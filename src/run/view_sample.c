@@ -1,0 +1,96 @@
+#include "run/view_sample.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "measure/structure.h"
+#include "pack/cell/cell.h"
+
+/* Distances that g(r) is taken to, diameters: P1 finds no order beyond. */
+static const double rdf_reach = 5.0;
+
+/* Room left in the array, because the front is not as dense as the mean. */
+static const double filling = 0.9;
+
+/* A slab behind the front less deep than this would look full of holes. */
+static const double depth_least = 2.5;
+
+/* The part of the cell that is shown: all of its front, as deep as fits; of a very large
+ * cell a corner of the front.  2D: the same in the plane. */
+static void choose_window(const struct gb_state *state, double window[3])
+{
+    const double *edge = state->cell;
+    const double part = fmin(1.0, filling * GB_PICTURE_POINTS / (double)state->count);
+    memcpy(window, edge, 3 * sizeof *window);
+    double share = part;
+    if (state->dimension == 3) {
+        window[1] = fmin(edge[1], fmax(depth_least, part * edge[1]));
+        share = fmin(1.0, part * edge[1] / window[1]);
+    }
+    window[0] = sqrt(share) * edge[0];
+    window[2] = sqrt(share) * edge[2];
+}
+
+/* Particles of the window.  A die is cut through its middle, a periodic cell begins
+ * anywhere. */
+static void copy_front(const struct gb_state *state, bool die,
+                       struct gb_view_sample *picture)
+{
+    const double cut = die ? 0.5 * state->cell[1] : 0.0;
+    for (int64_t i = 0; i < state->count && picture->count < GB_PICTURE_POINTS; i++) {
+        const double *at = state->position + 3 * i;
+        const double place[3] = {at[0], at[1] - cut, at[2]};
+        bool inside = place[1] >= 0.0;
+        for (int c = 0; c < 3; c++) {
+            inside = inside && place[c] <= picture->window[c];
+        }
+        if (inside) {
+            const int k = picture->count++;
+            for (int c = 0; c < 3; c++) {
+                picture->place[k][c] = (float)place[c];
+            }
+            picture->radius[k] = (float)state->radius[i];
+        }
+    }
+}
+
+/* Only where the cell is periodic: walls have an order of their own. */
+static void measure_distances(const struct gb_state *state,
+                              struct gb_view_sample *picture)
+{
+    struct gb_cell cell;
+    double reach = rdf_reach;
+    for (int c = 0; c < 3; c++) {
+        if (c != 1 || state->dimension == 3) {
+            reach = fmin(reach, 0.499 * state->cell[c]);
+        }
+    }
+    gb_cell_init(&cell, state->dimension, state->cell);
+    if (gb_structure_rdf(&cell, state->count, state->position, reach, GB_PICTURE_RDF,
+                         picture->rdf, NULL)) {
+        picture->rdf_reach = reach;
+    }
+}
+
+void gb_view_sample_take(const struct gb_experiment *experiment,
+                         struct gb_view_sample *picture)
+{
+    struct gb_state *state = NULL;
+    const bool die = gb_experiment_params(experiment)->kind == GB_KIND_DIE;
+    picture->valid = false;
+    if (!gb_experiment_state(experiment, &state, NULL)) {
+        return;
+    }
+    picture->dimension = state->dimension;
+    picture->density = state->point.density;
+    picture->count = 0;
+    picture->rdf_reach = 0.0;
+    memcpy(picture->edge, state->cell, sizeof picture->edge);
+    choose_window(state, picture->window);
+    copy_front(state, die, picture);
+    if (!die) {
+        measure_distances(state, picture);
+    }
+    gb_state_destroy(state);
+    picture->valid = true;
+}

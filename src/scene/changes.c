@@ -1,0 +1,215 @@
+#include "scene/changes.h"
+
+#include <glib.h>
+#include <inttypes.h>
+#include <string.h>
+
+static const char *const allowed[] = {
+    "contact.alpha",
+    "contact.mu",
+    "contact.mu_pivot",
+    "contact.bridge_length",
+    "contact.shear_strength",
+    "loading.geometry",
+    "loading.step",
+    "loading.until",
+    NULL,
+};
+
+/* One entry: behind which step, and "group.key=value". */
+struct entry {
+    int64_t step;
+    char *assignment;
+};
+
+static bool is_allowed(const char *assignment)
+{
+    for (size_t i = 0; allowed[i] != NULL; i++) {
+        const size_t length = strlen(allowed[i]);
+        if (strncmp(assignment, allowed[i], length) == 0 && assignment[length] == '=') {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* text: an entry; its assignment alone is told when that is what is wrong. */
+static bool refuse(const char *text, const struct entry *entry, struct gb_error *err)
+{
+    if (entry->assignment == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "loading.changes = %.60s: accepted STEP KEY=VALUE, separated "
+                            "by ';', in the order of steps",
+                            text);
+    }
+    char *names = g_strjoinv(", ", (char **)allowed);
+    gb_error_set(err, GB_ERR_INPUT, "%.60s: a run under way accepts changes of %s",
+                 entry->assignment, names);
+    g_free(names);
+    return false;
+}
+
+/* "120 contact.mu=0.3", without blanks at its ends.  False: it is no entry. */
+static bool parse(const char *text, struct entry *entry)
+{
+    char *rest = NULL;
+    entry->assignment = NULL;
+    entry->step = g_ascii_strtoll(text, &rest, 10);
+    if (rest == text || entry->step < 0 || !g_ascii_isspace(*rest)) {
+        return false;
+    }
+    while (g_ascii_isspace(*rest)) {
+        rest++;
+    }
+    entry->assignment = rest;
+    return is_allowed(rest);
+}
+
+/* Calls take with each entry up to a step until it returns false. */
+static bool visit(const struct gb_params *params, int64_t last,
+                  bool (*take)(const struct entry *entry, void *data), void *data,
+                  struct gb_error *err)
+{
+    char **parts = g_strsplit(params->changes, ";", -1);
+    int64_t before = 0;
+    bool good = true;
+    for (int i = 0; good && parts[i] != NULL; i++) {
+        struct entry entry;
+        const char *text = g_strstrip(parts[i]);
+        if (*text == '\0') {
+            continue;
+        }
+        if (!parse(text, &entry)) {
+            good = refuse(text, &entry, err);
+        } else if (entry.step < before) {
+            entry.assignment = NULL;
+            good = refuse(text, &entry, err);
+        } else if (entry.step <= last) {
+            good = take(&entry, data);
+        }
+        before = entry.step;
+    }
+    g_strfreev(parts);
+    return good;
+}
+
+struct checking {
+    struct gb_params params;
+    struct gb_error *err;
+};
+
+static bool check_entry(const struct entry *entry, void *data)
+{
+    struct checking *checking = data;
+    return gb_params_assign(&checking->params, entry->assignment, checking->err) &&
+           gb_params_check(&checking->params, checking->err);
+}
+
+bool gb_changes_check(const struct gb_params *params, struct gb_error *err)
+{
+    if (params->changes[0] == '\0') {
+        return true;
+    }
+    if (params->kind != GB_KIND_QUASISTATIC) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "loading.changes: accepted with scene.kind = quasistatic");
+    }
+    struct checking checking = {*params, err};
+    checking.params.changes[0] = '\0';
+    return visit(params, INT64_MAX, check_entry, &checking, err);
+}
+
+static bool apply_entry(const struct entry *entry, void *data)
+{
+    gb_params_assign(data, entry->assignment, NULL);
+    return true;
+}
+
+void gb_changes_effective(const struct gb_params *params, int64_t step,
+                          struct gb_params *out)
+{
+    *out = *params;
+    visit(params, step, apply_entry, out, NULL);
+}
+
+struct asking {
+    int64_t step;
+    bool due;
+};
+
+static bool compare_step(const struct entry *entry, void *data)
+{
+    struct asking *asking = data;
+    asking->due = asking->due || entry->step == asking->step;
+    return true;
+}
+
+bool gb_changes_due(const struct gb_params *params, int64_t step)
+{
+    struct asking asking = {step, false};
+    if (params->changes[0] != '\0') {
+        visit(params, step, compare_step, &asking, NULL);
+    }
+    return asking.due;
+}
+
+/* "mu=0.3" becomes "contact.mu=0.3" where the key is one of the allowed. */
+static char *with_group(const char *assignment)
+{
+    for (size_t i = 0; allowed[i] != NULL; i++) {
+        const char *key = strchr(allowed[i], '.') + 1;
+        const size_t length = strlen(key);
+        if (strncmp(assignment, key, length) == 0 && assignment[length] == '=') {
+            const char *dot = strchr(allowed[i], '.');
+            return g_strdup_printf("%.*s.%s", (int)(dot - allowed[i]), allowed[i],
+                                   assignment);
+        }
+    }
+    return g_strdup(assignment);
+}
+
+/* "mu = 0.3" is written without blanks around the sign. */
+static char *tidy(const char *text)
+{
+    char **sides = g_strsplit(text, "=", 2);
+    char *joined = NULL;
+    if (sides[0] != NULL && sides[1] != NULL) {
+        joined = g_strconcat(g_strstrip(sides[0]), "=", g_strstrip(sides[1]), NULL);
+    } else {
+        joined = g_strdup(text);
+    }
+    char *full = with_group(joined);
+    g_free(joined);
+    g_strfreev(sides);
+    return full;
+}
+
+bool gb_changes_add(struct gb_params *params, int64_t step, const char *assignments,
+                    struct gb_error *err)
+{
+    struct gb_params more = *params;
+    GString *all = g_string_new(params->changes);
+    char **parts = g_strsplit(assignments, ";", -1);
+    for (int i = 0; parts[i] != NULL; i++) {
+        if (*g_strstrip(parts[i]) != '\0') {
+            char *entry = tidy(parts[i]);
+            g_string_append_printf(all, "%s%" PRId64 " %s", all->len > 0 ? "; " : "",
+                                   step, entry);
+            g_free(entry);
+        }
+    }
+    const bool fits = all->len < sizeof more.changes;
+    if (fits) {
+        g_strlcpy(more.changes, all->str, sizeof more.changes);
+    } else {
+        gb_error_set(err, GB_ERR_INPUT, "loading.changes: accepted up to %zu bytes",
+                     sizeof more.changes - 1);
+    }
+    g_strfreev(parts);
+    g_string_free(all, TRUE);
+    if (!fits || !gb_changes_check(&more, err)) {
+        return false;
+    }
+    *params = more;
+    return true;
+}

@@ -1,0 +1,42 @@
+#ifndef GB_SCENE_FIELD_H
+#define GB_SCENE_FIELD_H
+
+#include "greenbody/params.h"
+
+/* Text <-> one member of gb_params, by the row of the field table.  Errors of reading are
+ * `group.key = given: accepted ...`; params is untouched then. */
+bool gb_field_read(const struct gb_field *field, struct gb_params *params,
+                   const char *text, struct gb_error *err);
+char *gb_field_write(const struct gb_field *field, const struct gb_params *params,
+                     char *buffer, size_t size);
+
+/* What is accepted, for messages, help and the editor: "0 to 2", "auto, or 1 nm to 1 mm".
+ */
+char *gb_field_accepted(const struct gb_field *field, char *buffer, size_t size);
+
+/* Is the value in memory within its range?  (Relative fields given as a length or
+ * pressure are compared as the multiple they come to.) */
+bool gb_field_valid(const struct gb_field *field, const struct gb_params *params);
+
+/* Bounds of the density that may end a run; the table has room for one range a field. */
+#define GB_FIELD_DENSITY_MIN 0.02
+#define GB_FIELD_DENSITY_MAX 0.99
+
+/* A finite number within the row's range. */
+bool gb_field_in_range(const struct gb_field *field, double value);
+/* Least and largest size of a checked table within the row's range. */
+bool gb_field_sizes_in_range(const struct gb_field *field,
+                             const struct gb_sizetable *table);
+/* Index of the choice with this name, or -1. */
+int gb_field_find_choice(const struct gb_field *field, const char *text);
+/* How a choice is stored: names that are numbers ("3", "2") as that number, others as
+ * their index. */
+int gb_field_choice_value(const struct gb_field *field, int index);
+/* Valid UTF-8 without control characters. */
+bool gb_field_plain_text(const char *text);
+
+/* SI value of a relative member: its multiple of the diameter, of Young's modulus or of
+ * the reduced time. */
+double gb_field_absolute(const struct gb_field *field, const struct gb_params *params);
+
+#endif

@@ -1,0 +1,72 @@
+#include "scene/keep_points.h"
+
+#include <glib.h>
+#include <string.h>
+
+#include "base/units.h"
+
+static const int64_t every_most = 1000000;
+static const double pressure_least = 1.0, pressure_most = 1e12;
+
+static bool refuse(const char *entry, struct gb_error *err)
+{
+    return gb_error_set(
+        err, GB_ERR_INPUT,
+        "output.snapshots_at = %.60s: accepted up to %d pressures, "
+        "densities or numbers of points, separated by ';', as in 100 MPa; "
+        "density = 0.5; every 20",
+        entry, GB_KEEP_POINTS_MAX);
+}
+
+static bool parse_every(const char *text, int64_t *every)
+{
+    char *rest = NULL;
+    if (!g_str_has_prefix(text, "every") || !g_ascii_isspace(text[5])) {
+        return false;
+    }
+    *every = g_ascii_strtoll(text + 5, &rest, 10);
+    return *rest == '\0' && *every >= 1 && *every <= every_most;
+}
+
+static bool parse_mark(const char *text, struct gb_mark *mark)
+{
+    const char *value = text;
+    mark->by_density = g_str_has_prefix(text, "density");
+    if (mark->by_density) {
+        value += strlen("density");
+        value += strspn(value, " \t");
+        if (*value++ != '=') {
+            return false;
+        }
+    }
+    return gb_units_parse(value, mark->by_density ? GB_DIM_NONE : GB_DIM_PRESSURE,
+                          &mark->value, NULL) &&
+           (mark->by_density
+                ? mark->value > 0.0 && mark->value < 1.0
+                : mark->value >= pressure_least && mark->value <= pressure_most);
+}
+
+static bool parse_entry(const char *text, struct gb_keep_points *marks)
+{
+    if (marks->every == 0 && parse_every(text, &marks->every)) {
+        return true;
+    }
+    return marks->count < GB_KEEP_POINTS_MAX &&
+           parse_mark(text, &marks->mark[marks->count]) && ++marks->count > 0;
+}
+
+bool gb_keep_points_parse(const char *text, struct gb_keep_points *marks,
+                          struct gb_error *err)
+{
+    *marks = (struct gb_keep_points){0};
+    char **entries = g_strsplit(text, ";", -1);
+    bool good = true;
+    for (size_t i = 0; good && entries[i] != NULL; i++) {
+        char *entry = g_strstrip(entries[i]);
+        /* a ';' at the end, or nothing at all */
+        const bool nothing = entry[0] == '\0' && entries[i + 1] == NULL;
+        good = nothing || parse_entry(entry, marks) || refuse(entry, err);
+    }
+    g_strfreev(entries);
+    return good;
+}

@@ -1,0 +1,25 @@
+#ifndef GB_SCENE_KEEP_POINTS_H
+#define GB_SCENE_KEEP_POINTS_H
+
+#include "greenbody/params.h"
+
+/* At which points of a run a state is kept (output.snapshots_at): "100 MPa; 1 GPa;
+ * density = 0.5; every 20", the last for each 20th recorded point. */
+enum { GB_KEEP_POINTS_MAX = 16 };
+
+struct gb_mark {
+    bool by_density;
+    double value; /* Pa, or density */
+};
+
+struct gb_keep_points {
+    int count;
+    struct gb_mark mark[GB_KEEP_POINTS_MAX];
+    int64_t every; /* recorded points; 0: none */
+};
+
+/* Errors: GB_ERR_INPUT, naming the entry and what is accepted. */
+bool gb_keep_points_parse(const char *text, struct gb_keep_points *marks,
+                          struct gb_error *err);
+
+#endif

@@ -1,0 +1,356 @@
+#include "greenbody/model.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "scene/unequal_pair.h"
+#include "scene/die_scene.h"
+#include "scene/dynamic_scene.h"
+#include "scene/tolerances.h"
+
+struct normal_laws {
+    const struct gb_law_rod *rod;
+    double adhesion;
+};
+
+static double normal_force(double h, void *data)
+{
+    const struct normal_laws *laws = data;
+    return gb_law_rod_force(laws->rod, h) - laws->adhesion;
+}
+
+/* Root of f_e(h) = f_a(d); NaN when adhesion is too strong for the laws to hold. */
+static double equilibrium_overlap(const struct gb_law_rod *rod, double adhesion)
+{
+    if (adhesion <= 0.0) {
+        return 0.0;
+    }
+    struct normal_laws laws = {rod, adhesion};
+    if (normal_force(GB_OVERLAP_MOST, &laws) <= 0.0) {
+        return NAN;
+    }
+    gsl_function function = {normal_force, &laws};
+    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    if (!solver) {
+        return NAN;
+    }
+    double low = 0.0, high = GB_OVERLAP_MOST;
+    gsl_root_fsolver_set(solver, &function, low, high);
+    int status = GSL_CONTINUE;
+    for (int i = 0; i < 200 && status == GSL_CONTINUE; i++) {
+        gsl_root_fsolver_iterate(solver);
+        low = gsl_root_fsolver_x_lower(solver);
+        high = gsl_root_fsolver_x_upper(solver);
+        status = gsl_root_test_interval(low, high, 0.0, 1e-15);
+    }
+    const double h = gsl_root_fsolver_root(solver);
+    gsl_root_fsolver_free(solver);
+    return h;
+}
+
+static double by_fidelity(int fidelity, double fast, double balanced, double reference)
+{
+    switch (fidelity) {
+    case GB_FIDELITY_FAST:
+        return fast;
+    case GB_FIDELITY_REFERENCE:
+        return reference;
+    default:
+        return balanced;
+    }
+}
+
+/* What is best for one relaxer is not for another. */
+static void pick_for_predict(struct gb_numerics *numerics, const struct gb_params *params,
+                             bool bridges, double *part)
+{
+    const int axes = params->geometry == GB_GEOMETRY_ISOTROPIC ? params->dimension
+                     : params->geometry == GB_GEOMETRY_BIAXIAL ? 2
+                                                               : 1;
+    const bool fast = params->fidelity == GB_FIDELITY_FAST;
+    *part = (fast ? GB_PREDICT_PART_FAST : GB_PREDICT_PART_BALANCED) / sqrt(axes);
+    numerics->tolerance =
+        bridges ? (fast ? GB_PREDICT_TOLERANCE_FAST : GB_PREDICT_TOLERANCE_BALANCED)
+                : (fast ? GB_UNBRIDGED_TOLERANCE_FAST : GB_UNBRIDGED_TOLERANCE_BALANCED);
+}
+
+/* Tolerance and parts of a strain step. */
+static void pick_relaxation(struct gb_model *model, const struct gb_params *params)
+{
+    struct gb_numerics *numerics = &model->numerics;
+    double part = params->strain_step;
+    if (params->fidelity == GB_FIDELITY_REFERENCE) {
+        numerics->tolerance = GB_TOLERANCE_REFERENCE;
+        part = GB_PART_REFERENCE;
+    } else if (strcmp(numerics->relaxer, "predict") == 0) {
+        pick_for_predict(numerics, params, model->terms.bridges, &part);
+    } else {
+        numerics->tolerance = params->fidelity == GB_FIDELITY_FAST
+                                  ? GB_TOLERANCE_FAST
+                                  : GB_TOLERANCE_BALANCED;
+    }
+    numerics->tolerance =
+        isfinite(params->tolerance) ? params->tolerance : numerics->tolerance;
+    const double most = isfinite(params->strain_part) ? params->strain_part : part;
+    numerics->parts = (int)fmax(1.0, ceil(params->strain_step / most - 1e-9));
+}
+
+/* predict costs a third; the reference is what it is measured against. */
+static const char *automatic_relaxer(const struct gb_params *params)
+{
+    return params->fidelity == GB_FIDELITY_REFERENCE ? "fire" : "predict";
+}
+
+/* Scenes whose sweep there is in single precision: no viscous forces, no plane. */
+static bool bears_single(const struct gb_model *model)
+{
+    return model->kind == GB_KIND_QUASISTATIC && model->dimension == 3 && !model->sized;
+}
+
+/* Single precision halves memory and time; P1's own relaxer is kept as printed. */
+static bool pick_precision(const struct gb_model *model, const struct gb_params *params)
+{
+    return params->precision == GB_PRECISION_SINGLE ||
+           (params->precision == GB_PRECISION_AUTO && bears_single(model) &&
+            strcmp(model->numerics.relaxer, "steepest") != 0 &&
+            model->numerics.tolerance >= GB_SINGLE_TOLERANCE_LEAST);
+}
+
+static void pick_numerics(struct gb_model *model, const struct gb_params *params)
+{
+    struct gb_numerics *numerics = &model->numerics;
+    const bool named = params->relaxer[0] && strcmp(params->relaxer, "auto") != 0;
+    snprintf(numerics->relaxer, sizeof numerics->relaxer, "%s",
+             named ? params->relaxer : automatic_relaxer(params));
+    pick_relaxation(model, params);
+    numerics->single = pick_precision(model, params);
+    const double share = by_fidelity(params->fidelity, GB_CUTOFF_SHARE_FAST,
+                                     GB_CUTOFF_SHARE_BALANCED, GB_CUTOFF_SHARE_REFERENCE);
+    const double given = params->cutoff.relative
+                             ? params->cutoff.value
+                             : params->cutoff.value / model->metre_per_length;
+    numerics->cutoff = isfinite(given) && given > 0.0
+                           ? given
+                           : gb_law_dispersion_reach(&model->dispersion, share);
+    if (!model->terms.attraction && !(isfinite(given) && given > 0.0)) {
+        numerics->cutoff = 1.0;
+    }
+    numerics->cutoff =
+        fmax(numerics->cutoff, model->terms.attraction ? GB_CUTOFF_LEAST : 1.0);
+    numerics->skin = model->kind == GB_KIND_DYNAMIC ? GB_SKIN_MOVING : GB_SKIN;
+    numerics->threads = params->threads > 0 ? (int)params->threads : 0;
+    numerics->max_evaluations =
+        params->max_evaluations > 0 ? params->max_evaluations : GB_EVALUATIONS_MOST;
+}
+
+/* Hertz, Mindlin and Coulomb: the first term of (1), and (5) with its friction only;
+ * springs of half the relative motion with (5)'s stiffness are Mindlin's. */
+static void leave_dry_grains(struct gb_model *model)
+{
+    model->dry = true;
+    model->rod.rod = model->rod.pivot = 0.0;
+    model->dispersion.strength = model->dispersion.contact = 0.0;
+    model->adhesion = 0.0;
+    model->force_floor = gb_law_rod_force(&model->rod, GB_OVERLAP_FLOOR);
+    model->bridge.length = 1.0;
+    model->bridge.strength = model->slip.strength = GB_STRENGTH_OF_GRAINS;
+    model->slip.mu_pivot = 0.0;
+    model->slip.motion = 0.5;
+}
+
+static void freeze_laws(struct gb_model *model, const struct gb_params *params)
+{
+    const double d = model->metre_per_length, young = params->young_pa;
+    gb_law_rod_init(&model->rod, params->poisson);
+    gb_law_dispersion_init(&model->dispersion, params->n_d0_cubed,
+                           params->epsilon_j / (young * d * d * d), params->alpha,
+                           params->d0_m / d);
+    model->adhesion = model->dispersion.contact;
+    model->force_floor =
+        fmax(model->adhesion, gb_law_rod_force(&model->rod, GB_OVERLAP_FLOOR));
+    model->bridge = (struct gb_law_bridge){
+        .length = gb_params_bridge_length_m(params) / d,
+        .strength = gb_params_shear_strength_pa(params) / young,
+        .radius_current = params->bridge_radius == GB_BRIDGE_RADIUS_CURRENT,
+    };
+    const double mu_pivot = isfinite(params->mu_pivot) ? params->mu_pivot : params->mu;
+    gb_law_slip_init(&model->slip, params->poisson, params->mu, mu_pivot,
+                     model->bridge.strength,
+                     params->relative_motion == GB_MOTION_FULL ? 1.0 : 0.5);
+    if (params->kind != GB_KIND_DIE && params->normal == GB_NORMAL_HERTZ) {
+        leave_dry_grains(model);
+    }
+    model->terms.attraction = model->adhesion > 0.0;
+    model->terms.bridges = model->bridge.length < 1.0;
+    model->terms.friction =
+        model->terms.bridges || params->mu > 0.0 || model->slip.mu_pivot > 0.0;
+    model->terms.plain = model->dry && model->terms.friction;
+}
+
+static void freeze_programme(struct gb_model *model, const struct gb_params *params)
+{
+    model->geometry = params->geometry;
+    model->strain_step = params->strain_step;
+    model->until_pressure = isfinite(params->until_pressure_pa)
+                                ? params->until_pressure_pa / params->young_pa
+                                : INFINITY;
+    model->until_density = isfinite(params->until_density) ? params->until_density : 1.0;
+    model->unload_count = params->unload_count;
+    for (int i = 0; i < params->unload_count; i++) {
+        model->unload_from[i] = params->unload_from_pa[i] / params->young_pa;
+    }
+}
+
+/* The sizes of the powder; one of them in every scene but those of gb_sizes_apply. */
+static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
+                         struct gb_error *err)
+{
+    const double d = model->metre_per_length;
+    model->least = model->largest = model->mean_cube = 1.0;
+    model->sized = gb_sizes_apply(params);
+    if (!model->sized) {
+        return true;
+    }
+    if (!gb_sizes_init(&model->sizes, params, err)) {
+        return false;
+    }
+    model->mean_cube = gb_sizes_moment(&model->sizes, 3) / (d * d * d);
+    gb_sizes_ends(&model->sizes, params->count, &model->least, &model->largest);
+    model->least /= d;
+    model->largest /= d;
+    return true;
+}
+
+/* Equilibrium of the pair that adhesion presses deepest: of the smallest particles. */
+static double deepest_rest(const struct gb_model *model)
+{
+    struct gb_law_unequal law;
+    if (!model->sized) {
+        return equilibrium_overlap(&model->rod, model->adhesion);
+    }
+    gb_unequal_pair_init(&law, model, model->least, model->least);
+    const double share = gb_law_unequal_rest(&law) / law.span;
+    return share < GB_OVERLAP_MOST ? share : (double)NAN;
+}
+
+bool gb_model_init(struct gb_model *model, const struct gb_params *params,
+                   struct gb_error *err)
+{
+    const double d = gb_params_reference_m(params);
+    *model = (struct gb_model){
+        .kind = params->kind,
+        .dimension = params->dimension,
+        .count = params->count,
+        .seed = params->seed,
+        .r_meso =
+            params->r_meso.relative ? params->r_meso.value : params->r_meso.value / d,
+        .pascal_per_stress = params->young_pa,
+        .metre_per_length = d,
+        .newton_per_force = params->young_pa * d * d,
+        .dynamics = gb_dynamic_scene_of(params),
+        .die = gb_die_scene_of(params),
+    };
+    if (!freeze_sizes(model, params, err)) {
+        return false;
+    }
+    if (params->precision == GB_PRECISION_SINGLE && !bears_single(model)) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "numerics.precision = single: accepted in quasi-static scenes "
+            "in 3D with particles of one size only");
+    }
+    freeze_laws(model, params);
+    if (params->kind == GB_KIND_DIE) { /* no cell, and laws of its own beside these */
+        return true;
+    }
+    gb_params_cell(params, model->edges);
+    const double shape = params->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
+    model->start_density = (double)params->count * model->mean_cube * shape /
+                           (model->edges[0] * model->edges[1] * model->edges[2]);
+    freeze_programme(model, params);
+    model->h_eq = deepest_rest(model);
+    if (!isfinite(model->h_eq)) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "contact.alpha = %g, particles.diameter = %g nm: the adhesion "
+            "%.3g E d^2 presses pairs deeper than %g d; accepted: a larger "
+            "alpha or diameter, or a smaller material.epsilon",
+            params->alpha, 1e9 * d, model->adhesion, GB_OVERLAP_MOST);
+    }
+    pick_numerics(model, params);
+    const double reach =
+        model->numerics.cutoff + model->numerics.skin + model->largest - 1.0;
+    for (int k = 0; k < 3; k++) {
+        const bool periodic = params->dimension == 3 || k != 1;
+        if (periodic && model->edges[k] < GB_EDGE_OVER_REACH * reach) {
+            return gb_error_set(
+                err, GB_ERR_INPUT,
+                "particles.count = %lld, structure.base: the cell is %.3g d "
+                "wide along %c, less than twice the neighbour reach %.3g d; "
+                "accepted: more particles, or another base",
+                (long long)params->count, model->edges[k], "xyz"[k], reach);
+        }
+    }
+    return true;
+}
+
+const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
+                          size_t size)
+{
+    const struct gb_numerics *numerics = &model->numerics;
+    const struct gb_terms *terms = &model->terms;
+    if (model->kind == GB_KIND_DIE) {
+        return gb_die_scene_note(model, index, buffer, size);
+    }
+    switch (index) {
+    case 0:
+        snprintf(buffer, size, "bridges: %s",
+                 terms->bridges ? "carried"
+                 : model->dry   ? "left out (contact.normal = hertz)"
+                              : "left out (contact.bridge_length is a diameter or more)");
+        return buffer;
+    case 1:
+        snprintf(buffer, size, "friction, pivoting and their history: %s",
+                 !terms->friction ? "left out (mu = 0, no bridges)"
+                 : model->dry     ? "carried, but for pivoting (contact.normal = hertz)"
+                                  : "carried");
+        return buffer;
+    case 2:
+        snprintf(
+            buffer, size,
+            terms->attraction
+                ? "attraction: carried to %.3f d, where it is %.1e of its contact value"
+            : model->dry ? "attraction: left out (contact.normal = hertz)"
+                         : "attraction: left out (material.epsilon = 0)",
+            numerics->cutoff,
+            gb_law_dispersion_force(&model->dispersion, numerics->cutoff) /
+                model->adhesion);
+        return buffer;
+    case 3:
+        if (model->kind == GB_KIND_DYNAMIC) {
+            return gb_dynamic_scene_note(model, 0, buffer, size);
+        }
+        snprintf(
+            buffer, size,
+            "relaxer %s, strain steps in %d part%s, tolerance %g of the mean contact "
+            "force%s, at most %lld evaluations per part, %s precision",
+            numerics->relaxer, numerics->parts, numerics->parts == 1 ? "" : "s",
+            numerics->tolerance,
+            strcmp(numerics->relaxer, "predict") == 0 ? " (less under light loads)" : "",
+            (long long)numerics->max_evaluations, numerics->single ? "single" : "double");
+        return buffer;
+    case 4:
+        if (model->dimension == 2) {
+            snprintf(buffer, size, "third dimension: left out (scene.dimension = 2)");
+            return buffer;
+        }
+        return gb_dynamic_scene_note(model, 1, buffer, size);
+    default:
+        return gb_dynamic_scene_note(model, index - (model->dimension == 2 ? 4 : 3),
+                                     buffer, size);
+    }
+}

@@ -1,0 +1,165 @@
+#include "scene/sizes.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+
+#include "scene/size_table.h"
+
+/* Probability of a standard normal between a and b, without loss in either tail. */
+static double between(double a, double b)
+{
+    return a > 0.0 ? gsl_cdf_ugaussian_Q(a) - gsl_cdf_ugaussian_Q(b)
+                   : gsl_cdf_ugaussian_P(b) - gsl_cdf_ugaussian_P(a);
+}
+
+/* Shares by number, summed up.  A share of the volume is divided by that of one sphere.
+ */
+static void freeze_table(struct gb_sizes *sizes, const struct gb_sizetable *table)
+{
+    double sum = 0.0;
+    sizes->rows = table->count;
+    for (int i = 0; i < table->count; i++) {
+        const struct gb_sizetable_row *row = &table->row[i];
+        const double ratio = row->diameter_m / table->row[0].diameter_m;
+        sum += table->by_volume ? row->share / (ratio * ratio * ratio) : row->share;
+        sizes->diameter_m[i] = row->diameter_m;
+        sizes->below[i] = sum;
+    }
+    for (int i = 0; i < table->count; i++) {
+        sizes->below[i] /= sum;
+    }
+}
+
+static double cut_at(const struct gb_sizes *sizes, double diameter_m, double uncut)
+{
+    return isnan(diameter_m) ? uncut : log(diameter_m / sizes->median_m) / sizes->sigma;
+}
+
+bool gb_sizes_apply(const struct gb_params *params)
+{
+    return params->kind == GB_KIND_QUASISTATIC &&
+           params->distribution != GB_DISTRIBUTION_MONO;
+}
+
+bool gb_sizes_init(struct gb_sizes *sizes, const struct gb_params *params,
+                   struct gb_error *err)
+{
+    if (!gb_size_table_check(&params->sizes, NULL, err) ||
+        !gb_size_table_check_params(params, err)) {
+        return false;
+    }
+    *sizes = (struct gb_sizes){.distribution = params->distribution,
+                               .median_m = params->diameter_m};
+    if (params->distribution == GB_DISTRIBUTION_LOGNORMAL) {
+        sizes->median_m = gb_params_median_m(params);
+        sizes->sigma = params->sigma;
+        sizes->z_least = cut_at(sizes, params->least_m, -INFINITY);
+        sizes->z_largest = cut_at(sizes, params->largest_m, INFINITY);
+    } else if (params->distribution == GB_DISTRIBUTION_TABLE) {
+        freeze_table(sizes, &params->sizes);
+    }
+    return true;
+}
+
+/* Quantile of the cut law, as z; share from 0 to 1. */
+static double quantile(const struct gb_sizes *sizes, double share)
+{
+    const double low = sizes->z_least, high = sizes->z_largest;
+    const double mass = between(low, high);
+    const double below = gsl_cdf_ugaussian_P(low) + share * mass;
+    const double above = gsl_cdf_ugaussian_Q(high) + (1.0 - share) * mass;
+    const double z =
+        below < 0.5 ? gsl_cdf_ugaussian_Pinv(below) : gsl_cdf_ugaussian_Qinv(above);
+    return fmin(fmax(z, low), high);
+}
+
+/* The third moment between a and b over their probability, as a diameter. */
+static double stratum_diameter(const struct gb_sizes *sizes, double a, double b,
+                               double probability)
+{
+    const double s = sizes->sigma;
+    const double third =
+        exp(4.5 * s * s) * between(a - 3.0 * s, b - 3.0 * s) / probability;
+    return sizes->median_m * fmin(fmax(cbrt(third), exp(s * a)), exp(s * b));
+}
+
+static void fill_lognormal(const struct gb_sizes *sizes, int64_t count,
+                           double *diameter_m)
+{
+    const double n = (double)count;
+    const double probability = between(sizes->z_least, sizes->z_largest) / n;
+    double low = sizes->z_least;
+    for (int64_t i = 0; i < count; i++) {
+        const double high =
+            i + 1 < count ? quantile(sizes, (double)(i + 1) / n) : sizes->z_largest;
+        diameter_m[i] = stratum_diameter(sizes, low, high, probability);
+        low = high;
+    }
+}
+
+static void fill_table(const struct gb_sizes *sizes, int64_t count, double *diameter_m)
+{
+    int row = 0;
+    for (int64_t i = 0; i < count; i++) {
+        const double middle = ((double)i + 0.5) / (double)count;
+        while (row + 1 < sizes->rows && sizes->below[row] < middle) {
+            row++;
+        }
+        diameter_m[i] = sizes->diameter_m[row];
+    }
+}
+
+void gb_sizes_fill(const struct gb_sizes *sizes, int64_t count, double *diameter_m)
+{
+    if (sizes->distribution == GB_DISTRIBUTION_LOGNORMAL) {
+        fill_lognormal(sizes, count, diameter_m);
+    } else if (sizes->distribution == GB_DISTRIBUTION_TABLE) {
+        fill_table(sizes, count, diameter_m);
+    } else {
+        for (int64_t i = 0; i < count; i++) {
+            diameter_m[i] = sizes->median_m;
+        }
+    }
+}
+
+void gb_sizes_ends(const struct gb_sizes *sizes, int64_t count, double *least,
+                   double *largest)
+{
+    const double n = (double)count,
+                 probability = between(sizes->z_least, sizes->z_largest) / n;
+    *least = *largest = sizes->median_m;
+    if (sizes->distribution == GB_DISTRIBUTION_LOGNORMAL) {
+        const double low = quantile(sizes, 1.0 / n),
+                     high = quantile(sizes, 1.0 - 1.0 / n);
+        *least = stratum_diameter(sizes, sizes->z_least, low, probability);
+        *largest = stratum_diameter(sizes, high, sizes->z_largest, probability);
+    } else if (sizes->distribution == GB_DISTRIBUTION_TABLE) {
+        *least = sizes->diameter_m[0];
+        *largest = sizes->diameter_m[sizes->rows - 1];
+    }
+}
+
+double gb_sizes_moment(const struct gb_sizes *sizes, int power)
+{
+    if (sizes->distribution == GB_DISTRIBUTION_TABLE) {
+        double sum = 0.0;
+        for (int i = 0; i < sizes->rows; i++) {
+            const double share = sizes->below[i] - (i > 0 ? sizes->below[i - 1] : 0.0);
+            sum += share * pow(sizes->diameter_m[i], power);
+        }
+        return sum;
+    }
+    const double mono = pow(sizes->median_m, power);
+    if (sizes->distribution == GB_DISTRIBUTION_MONO) {
+        return mono;
+    }
+    const double shift = power * sizes->sigma;
+    return mono * exp(0.5 * shift * shift) *
+           between(sizes->z_least - shift, sizes->z_largest - shift) /
+           between(sizes->z_least, sizes->z_largest);
+}
+
+double gb_sizes_mean_volume(const struct gb_sizes *sizes)
+{
+    return M_PI / 6.0 * gb_sizes_moment(sizes, 3);
+}

@@ -1,0 +1,452 @@
+#include "solve/die_stages.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "pack/die/bed_copy.h"
+#include "scene/tolerances.h"
+#include "solve/leapfrog.h"
+#include "solve/punch.h"
+
+/* Steps between looks at whether the powder is at rest, and at most between looks for
+ * particles that are nowhere they could be: one that leaves is on its way for a while,
+ * and one that jumps has the neighbour lists made anew. */
+enum { LOOK_EVERY = 256, GUARD_EVERY = 16 };
+
+/* All that a guard takes back, in one piece. */
+struct progress {
+    enum gb_die_stages_stage stage;
+    struct gb_leapfrog leap;
+    struct gb_punch punch;
+    double time, stage_time;
+    int64_t steps; /* of the stage */
+    int64_t since_point;
+    int calm;          /* looks in a row at which the powder was at rest */
+    double punch_from; /* where the flattening began */
+    double height0, next_record;
+    bool pointed; /* the last step ended in a point */
+};
+
+struct gb_die_stages {
+    struct gb_die_scene scene;
+    struct gb_bed_law law;
+    struct progress now, good;
+    struct gb_bed_copy *kept;
+    int halvings;
+    bool have_good;
+    bool unsteady; /* the last point was not quasi-static */
+};
+
+bool gb_die_stages_create(struct gb_die_stages **out, const struct gb_die_scene *scene,
+                          const struct gb_bed_law *law, struct gb_error *err)
+{
+    struct gb_die_stages *programme = gb_alloc_array(1, sizeof *programme, err);
+    if (!programme) {
+        return false;
+    }
+    programme->scene = *scene;
+    programme->law = *law;
+    gb_leapfrog_init(&programme->now.leap, scene->safety, scene->time_step);
+    programme->now.leap.gravity = scene->fill_gravity;
+    *out = programme;
+    return true;
+}
+
+void gb_die_stages_destroy(struct gb_die_stages *programme)
+{
+    if (!programme) {
+        return;
+    }
+    gb_bed_copy_destroy(programme->kept);
+    gb_alloc_free(programme);
+}
+
+static bool keep(struct gb_die_stages *programme, const struct gb_bed *bed,
+                 struct gb_error *err)
+{
+    programme->good = programme->now;
+    programme->have_good = gb_bed_copy_take(bed, &programme->kept, err);
+    return programme->have_good;
+}
+
+/* Half the step from the last good state on, or the end. */
+static enum gb_die_stages_outcome trip(struct gb_die_stages *programme,
+                                       struct gb_bed *bed, const char *why, char *text,
+                                       size_t size, struct gb_error *err)
+{
+    const double step = programme->now.leap.step;
+    if (!gb_bed_copy_restore(bed, programme->kept, err)) {
+        return GB_DIE_STAGES_STOPPED;
+    }
+    programme->now = programme->good;
+    programme->now.leap.limit = 0.5 * step;
+    programme->now.leap.step = 0.0;
+    if (++programme->halvings > GB_STEP_HALVINGS_MOST) {
+        gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %.3g ps", why,
+                     1e12 * step * programme->scene.second_per_time);
+        return GB_DIE_STAGES_STOPPED;
+    }
+    snprintf(text, size, "guard: %s; time step halved to %.3g ps", why,
+             0.5e12 * step * programme->scene.second_per_time);
+    return GB_DIE_STAGES_MORE;
+}
+
+/* Is the highest particle carried, or does it still fall? */
+static bool top_is_borne(const struct gb_bed *bed, double gravity)
+{
+    int64_t highest = 0;
+    double top = 0.0;
+    for (int64_t i = 0; i < bed->count; i++) {
+        const double reach = bed->place[i][2] + bed->place[i][3];
+        highest = reach > top ? i : highest;
+        top = fmax(reach, top);
+    }
+    return bed->force[highest][2] > GB_REST_BORNE * bed->mass[highest] * gravity;
+}
+
+/* Mean kinetic energy against a fall, resultant forces against those of the contacts, and
+ * what the top of the powder lies on.  Spin does not count: nothing slows a smooth sphere
+ * that turns where it lies. */
+static bool at_rest(const struct gb_die_stages *programme, const struct gb_bed *bed)
+{
+    const bool pours = programme->now.stage == GB_DIE_STAGES_POUR;
+    const double gravity = programme->now.leap.gravity;
+    const double weight = gravity * gb_bed_solid_volume(bed) / (M_PI / 6.0);
+    return gb_bed_kinetic(bed).moving <
+               (pours ? GB_POURED_FALL : GB_REST_FALL) * weight &&
+           gb_bed_unbalanced(bed, gravity) <
+               (pours ? GB_POURED_UNBALANCED : GB_REST_UNBALANCED) &&
+           top_is_borne(bed, gravity);
+}
+
+static int64_t left_in_funnel(const struct gb_bed *bed)
+{
+    int64_t left = 0;
+    for (int64_t i = 0; i < bed->count; i++) {
+        left += bed->place[i][2] > bed->die.height;
+    }
+    return left;
+}
+
+static void enter(struct gb_die_stages *programme, enum gb_die_stages_stage stage)
+{
+    programme->now.stage = stage;
+    programme->now.stage_time = 0.0;
+    programme->now.steps = 0;
+    programme->now.calm = 0;
+}
+
+/* Slow enough not to throw particles up: a particle of this speed rises by a quarter of a
+ * tenth of d. */
+static double flatten_speed(const struct gb_die_scene *scene)
+{
+    return 0.5 * sqrt(2.0 * scene->gravity * GB_FLATTEN_RISE);
+}
+
+static void begin_flatten(struct gb_die_stages *programme, struct gb_bed *bed)
+{
+    bed->die.funnel = false;
+    bed->die.punch = true;
+    bed->die.punch_place = programme->now.punch_from = gb_bed_top(bed);
+    bed->die.punch_speed = -flatten_speed(&programme->scene);
+    gb_bed_forget_lists(bed);
+    enter(programme, GB_DIE_STAGES_FLATTEN);
+}
+
+static bool begin_press(struct gb_die_stages *programme, struct gb_bed *bed,
+                        struct gb_error *err)
+{
+    const struct gb_die_scene *scene = &programme->scene;
+    struct progress *now = &programme->now;
+    now->height0 = gb_bed_top(bed);
+    now->punch = (struct gb_punch){.length = scene->pressing,
+                                   .pressure = scene->pressure,
+                                   .quadratic = scene->quadratic};
+    gb_bed_change_law(bed, &programme->law);
+    gb_punch_begin(&now->punch, &now->leap, bed, now->height0, scene->punch_mass);
+    now->leap.drag = now->leap.step = 0.0;
+    now->leap.gravity = scene->gravity;
+    now->next_record = scene->record;
+    enter(programme, GB_DIE_STAGES_PRESS);
+    return gb_bed_evaluate(bed, 0.0, 0.0, err); /* so that the first point has forces */
+}
+
+bool gb_die_stages_begin(struct gb_die_stages *programme, struct gb_bed *bed,
+                         struct gb_error *err)
+{
+    programme->have_good = false;
+    return begin_press(programme, bed, err);
+}
+
+static bool stays_at_rest(struct gb_die_stages *programme, const struct gb_bed *bed)
+{
+    struct progress *now = &programme->now;
+    if (now->steps % LOOK_EVERY != 0) {
+        return false;
+    }
+    now->calm = at_rest(programme, bed) ? now->calm + 1 : 0;
+    return now->calm >= GB_REST_LOOKS;
+}
+
+static void say_stage(const struct gb_die_stages *programme, const char *what, char *text,
+                      size_t size)
+{
+    snprintf(text, size, "%s after %.4g us, %lld steps", what,
+             1e6 * programme->now.time * programme->scene.second_per_time,
+             (long long)programme->now.steps);
+}
+
+static bool clogged(const struct gb_bed *bed, struct gb_error *err)
+{
+    const int64_t left = left_in_funnel(bed);
+    return left > 0 &&
+           !gb_error_set(err, GB_ERR_GUARD,
+                         "the funnel is clogged: %lld particles rest in it; accepted: a "
+                         "larger die.outlet or smaller particles",
+                         (long long)left);
+}
+
+/* The stages before pressing: true when one has ended. */
+static bool end_of_stage(struct gb_die_stages *programme, struct gb_bed *bed, char *text,
+                         size_t size, struct gb_error *err)
+{
+    const struct gb_die_scene *scene = &programme->scene;
+    struct progress *now = &programme->now;
+    switch (now->stage) {
+    case GB_DIE_STAGES_POUR:
+        if (!stays_at_rest(programme, bed) || clogged(bed, err)) {
+            return false;
+        }
+        say_stage(programme, "poured", text, size);
+        now->leap.drag = 1.0 / (GB_EASE_DRAG * scene->ease);
+        enter(programme, GB_DIE_STAGES_EASE);
+        return true;
+    case GB_DIE_STAGES_EASE:
+        now->leap.gravity =
+            scene->fill_gravity * pow(scene->gravity / scene->fill_gravity,
+                                      fmin(now->stage_time / scene->ease, 1.0));
+        if (now->stage_time < scene->ease) {
+            return false;
+        }
+        say_stage(programme, "gravity eased", text, size);
+        now->leap.drag = 1.0 / (GB_REST_DRAG * scene->ease);
+        enter(programme, GB_DIE_STAGES_SETTLE);
+        return true;
+    case GB_DIE_STAGES_SETTLE:
+        if (!stays_at_rest(programme, bed)) {
+            return false;
+        }
+        say_stage(programme, "settled", text, size);
+        begin_flatten(programme, bed);
+        return true;
+    case GB_DIE_STAGES_FLATTEN:
+        if (now->punch_from - bed->die.punch_place < scene->flatten) {
+            return false;
+        }
+        say_stage(programme, "flattened", text, size);
+        bed->die.punch_speed = -bed->die.punch_speed;
+        enter(programme, GB_DIE_STAGES_LIFT);
+        return true;
+    case GB_DIE_STAGES_LIFT:
+        if (bed->tally.punch > 0.0 && bed->die.punch_place < now->punch_from) {
+            return false; /* elastic powder follows the punch a little */
+        }
+        bed->die.punch = false;
+        bed->die.punch_speed = 0.0;
+        gb_bed_forget_lists(bed);
+        enter(programme, GB_DIE_STAGES_REST);
+        return true;
+    case GB_DIE_STAGES_REST:
+        if (!stays_at_rest(programme, bed)) {
+            return false;
+        }
+        say_stage(programme, "at rest", text, size);
+        return begin_press(programme, bed, err);
+    case GB_DIE_STAGES_PRESS:
+    case GB_DIE_STAGES_OVER:
+        break;
+    }
+    return false;
+}
+
+static bool due(struct gb_die_stages *programme)
+{
+    const struct gb_die_scene *scene = &programme->scene;
+    struct progress *now = &programme->now;
+    const double wanted = gb_punch_wanted(&now->punch, now->punch.time);
+    if (now->punch.time >= scene->pressing) {
+        return true;
+    }
+    if (wanted < now->next_record) {
+        return false;
+    }
+    now->next_record += scene->record;
+    return true;
+}
+
+static void write_place(const struct gb_bed *bed, int64_t i, char *why, size_t size)
+{
+    const double *x = bed->place[i];
+    if (!isfinite(x[0] + x[1] + x[2])) {
+        snprintf(why, size, "particle %lld: its place is not a number", (long long)i);
+    } else if (bed->die.punch && x[2] >= bed->die.punch_place) {
+        snprintf(why, size, "the punch is below the powder: particle %lld is above it",
+                 (long long)i);
+    } else {
+        snprintf(why, size, "particle %lld has left the die at (%.3g, %.3g, %.3g) d",
+                 (long long)i, x[0], x[1], x[2]);
+    }
+}
+
+struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *programme,
+                                                 const struct gb_bed *bed)
+{
+    const struct progress *now = &programme->now;
+    const struct gb_punch *punch = &now->punch;
+    const double weight = punch->weight > 0.0 ? punch->weight : 1.0;
+    const double wanted = now->height0 > 0.0 ? gb_punch_wanted(punch, punch->time) : 0.0;
+    struct gb_die_stages_report report = {
+        .stage = now->stage,
+        .time = now->time,
+        .pressed = punch->time,
+        .steps = now->since_point,
+        .height = bed->die.punch ? bed->die.punch_place : gb_bed_top(bed),
+        .height0 = now->height0,
+        .floor_over_punch = punch->carried > 0.0 ? punch->floor / punch->carried : NAN,
+        .wanted = wanted,
+        .carried = wanted + (punch->carried - punch->wanted) / weight,
+        .side = {punch->side[0] / weight, punch->side[1] / weight},
+        .residual = gb_bed_unbalanced(bed, now->leap.gravity),
+        .time_step = now->leap.step,
+    };
+    report.progress = now->stage == GB_DIE_STAGES_OVER ? 1.0
+                      : now->stage == GB_DIE_STAGES_PRESS
+                          ? 0.5 + 0.5 * punch->time / programme->scene.pressing
+                          : 0.5 * (double)now->stage / GB_DIE_STAGES_PRESS;
+    return report;
+}
+
+static enum gb_die_stages_outcome step_once(struct gb_die_stages *programme,
+                                            struct gb_bed *bed, char *text, size_t size,
+                                            struct gb_error *err)
+{
+    struct progress *now = &programme->now;
+    const int64_t rebuilds = bed->rebuilds;
+    if (!gb_leapfrog_step(&now->leap, bed, err)) {
+        char why[sizeof err->text];
+        snprintf(why, sizeof why, "%s", err->text);
+        return err->code == GB_ERR_GUARD ? trip(programme, bed, why, text, size, err)
+                                         : GB_DIE_STAGES_STOPPED;
+    }
+    now->time += now->leap.step;
+    now->stage_time += now->leap.step;
+    now->steps++;
+    now->since_point++;
+    if (now->steps % GUARD_EVERY == 0 || bed->rebuilds != rebuilds) {
+        const int64_t lost = gb_bed_escaped(bed);
+        if (lost >= 0) {
+            char why[160];
+            write_place(bed, lost, why, sizeof why);
+            return trip(programme, bed, why, text, size, err);
+        }
+    }
+    if (now->stage == GB_DIE_STAGES_PRESS) {
+        gb_punch_follow(&now->punch, &now->leap, bed);
+        return due(programme) ? GB_DIE_STAGES_POINT : GB_DIE_STAGES_MORE;
+    }
+    err->code = GB_OK;
+    if (!end_of_stage(programme, bed, text, size, err)) {
+        return err->code == GB_OK ? GB_DIE_STAGES_MORE : GB_DIE_STAGES_STOPPED;
+    }
+    return now->stage == GB_DIE_STAGES_PRESS ? GB_DIE_STAGES_POINT
+           : keep(programme, bed, err)       ? GB_DIE_STAGES_MORE
+                                             : GB_DIE_STAGES_STOPPED;
+}
+
+/* A recorded point is a state to go back to. */
+static bool after_point(struct gb_die_stages *programme, const struct gb_bed *bed,
+                        struct gb_error *err)
+{
+    struct progress *now = &programme->now;
+    now->pointed = false;
+    now->since_point = 0;
+    gb_punch_clear(&now->punch);
+    if (now->punch.time >= programme->scene.pressing) {
+        enter(programme, GB_DIE_STAGES_OVER);
+    }
+    return keep(programme, bed, err);
+}
+
+enum gb_die_stages_outcome gb_die_stages_advance(struct gb_die_stages *programme,
+                                                 struct gb_bed *bed, int64_t max_steps,
+                                                 char *text, size_t size,
+                                                 struct gb_error *err)
+{
+    struct progress *now = &programme->now;
+    text[0] = '\0';
+    if (!programme->have_good && !keep(programme, bed, err)) {
+        return GB_DIE_STAGES_STOPPED;
+    }
+    if (now->pointed && !after_point(programme, bed, err)) {
+        return GB_DIE_STAGES_STOPPED;
+    }
+    if (now->stage == GB_DIE_STAGES_OVER) {
+        return GB_DIE_STAGES_DONE;
+    }
+    for (int64_t k = 0; k < max_steps && text[0] == '\0'; k++) {
+        const enum gb_die_stages_outcome outcome =
+            step_once(programme, bed, text, size, err);
+        if (outcome != GB_DIE_STAGES_MORE) {
+            now->pointed = outcome == GB_DIE_STAGES_POINT;
+            return outcome;
+        }
+    }
+    return GB_DIE_STAGES_MORE;
+}
+
+bool gb_die_stages_record(struct gb_die_stages *programme, struct gb_record *record,
+                          struct gb_error *err)
+{
+#define AT(member) offsetof(struct gb_die_stages, member)
+    static const struct gb_record_member members[] = {
+        {"press/stage", GB_RECORD_INT32, 1, AT(now.stage), "1"},
+        {"press/time", GB_RECORD_DOUBLE, 1, AT(now.time), "T"},
+        {"press/stage_time", GB_RECORD_DOUBLE, 1, AT(now.stage_time), "T"},
+        {"press/steps", GB_RECORD_INT64, 1, AT(now.steps), "1"},
+        {"press/since_point", GB_RECORD_INT64, 1, AT(now.since_point), "1"},
+        {"press/height0", GB_RECORD_DOUBLE, 1, AT(now.height0), "d"},
+        {"press/next_record", GB_RECORD_DOUBLE, 1, AT(now.next_record), "E"},
+        {"press/halvings", GB_RECORD_INT32, 1, AT(halvings), "1"},
+        {"press/limit", GB_RECORD_DOUBLE, 1, AT(now.leap.limit), "T"},
+        {"press/gravity", GB_RECORD_DOUBLE, 1, AT(now.leap.gravity), "d/T^2"},
+        {"press/drag", GB_RECORD_DOUBLE, 1, AT(now.leap.drag), "1/T"},
+        {"press/punch_mass", GB_RECORD_DOUBLE, 1, AT(now.leap.punch_mass), "m"},
+        {"press/load", GB_RECORD_DOUBLE, 1, AT(now.leap.load), "E d^2"},
+        {"press/step", GB_RECORD_DOUBLE, 1, AT(now.leap.step), "T"},
+        {"press/fastest", GB_RECORD_DOUBLE, 1, AT(now.leap.fastest), "d/T"},
+        {"press/area", GB_RECORD_DOUBLE, 1, AT(now.punch.area), "d^2"},
+        {"press/length", GB_RECORD_DOUBLE, 1, AT(now.punch.length), "T"},
+        {"press/pressure", GB_RECORD_DOUBLE, 1, AT(now.punch.pressure), "E"},
+        {"press/quadratic", GB_RECORD_BOOL, 1, AT(now.punch.quadratic), "1"},
+        {"press/pressed", GB_RECORD_DOUBLE, 1, AT(now.punch.time), "T"},
+        {"press/weight", GB_RECORD_DOUBLE, 1, AT(now.punch.weight), "T"},
+        {"press/carried", GB_RECORD_DOUBLE, 1, AT(now.punch.carried), "E T"},
+        {"press/wanted", GB_RECORD_DOUBLE, 1, AT(now.punch.wanted), "E T"},
+        {"press/floor", GB_RECORD_DOUBLE, 1, AT(now.punch.floor), "E T"},
+        {"press/side", GB_RECORD_DOUBLE, 2, AT(now.punch.side), "E T"},
+    };
+#undef AT
+    struct progress *now = &programme->now;
+    if (!gb_record_members(record, members, sizeof members / sizeof members[0], programme,
+                           err)) {
+        return false;
+    }
+    if (now->stage != GB_DIE_STAGES_PRESS && now->stage != GB_DIE_STAGES_OVER) {
+        return gb_error_set(err, GB_ERR_INPUT, "press/stage: is out of range");
+    }
+    now->pointed = true;
+    return true;
+}

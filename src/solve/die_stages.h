@@ -1,0 +1,78 @@
+#ifndef GB_SOLVE_DIE_STAGES_H
+#define GB_SOLVE_DIE_STAGES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/record.h"
+#include "greenbody/model.h"
+#include "pack/die/bed.h"
+
+/* P3's experiment: powder falls through a funnel into the die, settles, is flattened by a
+ * punch that is lifted again, and pressed.  Gravity is raised while it falls and eased
+ * afterwards: a fall of a tenth of a millimetre would take a hundred times the pressing.
+ * Steps of gb_leapfrog between recorded points, guards on the way.  It owns no bed. */
+struct gb_die_stages;
+
+enum gb_die_stages_stage {
+    GB_DIE_STAGES_POUR,    /* until nothing is left in the funnel */
+    GB_DIE_STAGES_EASE,    /* gravity down to its value at rest */
+    GB_DIE_STAGES_SETTLE,  /* until the powder is at rest */
+    GB_DIE_STAGES_FLATTEN, /* punch down by a little, slowly */
+    GB_DIE_STAGES_LIFT,    /* and up again */
+    GB_DIE_STAGES_REST,    /* until the powder is at rest: its height is H0 */
+    GB_DIE_STAGES_PRESS,   /* the punch carries the pressure of the ramp */
+    GB_DIE_STAGES_OVER
+};
+
+enum gb_die_stages_outcome {
+    GB_DIE_STAGES_MORE,   /* the slice is used up */
+    GB_DIE_STAGES_POINT,  /* time to record */
+    GB_DIE_STAGES_DONE,   /* the ramp has ended */
+    GB_DIE_STAGES_STOPPED /* err says why; the bed is back at the last good state */
+};
+
+/* The bed lies loose in its funnel and obeys the law of filling; `law` is that of
+ * pressing. */
+bool gb_die_stages_create(struct gb_die_stages **out, const struct gb_die_scene *scene,
+                          const struct gb_bed_law *law, struct gb_error *err);
+void gb_die_stages_destroy(struct gb_die_stages *programme); /* NULL is fine */
+
+/* Begins with the ramp, on a bed that lies filled, flattened and at rest: every law can
+ * press the same one.  Errors: as of gb_bed_evaluate. */
+bool gb_die_stages_begin(struct gb_die_stages *programme, struct gb_bed *bed,
+                         struct gb_error *err);
+
+/* At most max_steps time steps.  text (size bytes) receives one line when a stage ended
+ * or a guard acted. */
+enum gb_die_stages_outcome gb_die_stages_advance(struct gb_die_stages *programme,
+                                                 struct gb_bed *bed, int64_t max_steps,
+                                                 char *text, size_t size,
+                                                 struct gb_error *err);
+
+/* What goes into a recorded point, reduced units. */
+struct gb_die_stages_report {
+    enum gb_die_stages_stage stage;
+    double time;    /* since the start */
+    double pressed; /* time of the ramp so far */
+    int64_t steps;  /* since the last point */
+    double height;  /* of the powder: of its highest particle, or of the punch */
+    double height0; /* H0; 0 before it is known */
+    double wanted;  /* pressure of the ramp */
+    double carried; /* by the powder under the punch, mean since the last point */
+    double floor_over_punch; /* forces, likewise; NaN without a punch */
+    double side[2];          /* mean pressure on the side wall, x and y */
+    double residual;         /* rms resultant force over the mean contact force */
+    double time_step;        /* last used */
+    double progress;         /* 0..1 */
+};
+struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *programme,
+                                                 const struct gb_bed *bed);
+
+/* The programme into a record at a recorded point, or back; then the bed is of the law of
+ * pressing.  Errors: GB_ERR_INPUT naming what does not fit. */
+bool gb_die_stages_record(struct gb_die_stages *programme, struct gb_record *record,
+                          struct gb_error *err);
+
+#endif

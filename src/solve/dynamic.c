@@ -1,0 +1,385 @@
+#include "solve/dynamic.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/tolerances.h"
+#include "solve/verlet.h"
+
+struct gb_dynamic {
+    const struct gb_model *model;
+    struct gb_verlet verlet;
+    enum gb_dynamic_stage stage, recorded;
+    double time, stage_end;
+    double limit; /* longest step the guard allows, halved when it trips */
+    int halvings;
+    bool told; /* that damping bounds the step */
+    /* the way to the next point */
+    int64_t left, planned;
+    double step;
+    double factor[3];
+    int64_t sliding, contacts; /* summed over the steps since the last point */
+    double sliding_most;       /* share of them above which the step is doubted */
+    double slid;               /* share that made the guard halve the step; 0: none */
+    double limit_before;       /* that halving */
+    /* the last recorded point, to go back to */
+    struct gb_world_copy *good;
+    double *good_velocity, *good_spin;
+    double good_time, good_work, good_absorbed;
+    enum gb_dynamic_stage good_stage;
+    double *scratch;
+    double density; /* of the world, by the programme */
+    double good_density;
+};
+
+static double start_density(const struct gb_world *world)
+{
+    const struct gb_model *model = gb_world_model(world);
+    const double shape = model->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
+    return shape * (double)model->count / gb_cell_volume(gb_world_cell(world));
+}
+
+bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
+                       struct gb_error *err)
+{
+    const struct gb_model *model = gb_world_model(world);
+    const size_t n = 3 * (size_t)model->count;
+    struct gb_dynamic *motion = gb_alloc_array(1, sizeof *motion, err);
+    if (!motion) {
+        return false;
+    }
+    motion->model = model;
+    motion->limit = INFINITY;
+    motion->sliding_most = GB_SLIDING_MOST;
+    motion->density = start_density(world);
+    motion->stage = motion->recorded = GB_DYNAMIC_RELAX;
+    motion->stage_end = model->dynamics.relax;
+    motion->good_velocity = gb_alloc_array(n, sizeof *motion->good_velocity, err);
+    motion->good_spin = gb_alloc_array(n, sizeof *motion->good_spin, err);
+    motion->scratch = gb_alloc_array((size_t)model->count, sizeof *motion->scratch, err);
+    if (!motion->good_velocity || !motion->good_spin || !motion->scratch ||
+        !gb_verlet_init(&motion->verlet, model, err)) {
+        gb_dynamic_destroy(motion);
+        return false;
+    }
+    *out = motion;
+    return true;
+}
+
+void gb_dynamic_destroy(struct gb_dynamic *motion)
+{
+    if (!motion) {
+        return;
+    }
+    gb_verlet_finish(&motion->verlet);
+    gb_world_copy_destroy(motion->good);
+    gb_alloc_free(motion->good_velocity);
+    gb_alloc_free(motion->good_spin);
+    gb_alloc_free(motion->scratch);
+    gb_alloc_free(motion);
+}
+
+/* Longest step before blow-up: 2/omega without damping, less with it (P3 (28); the
+ * viscous force of a mode is xi = A omega / 2 of critical). */
+static double critical_step(const struct gb_dynamic *motion, double frequency)
+{
+    const double xi = 0.5 * motion->model->dynamics.viscous * frequency;
+    return 2.0 / frequency * (sqrt(1.0 + xi * xi) - xi);
+}
+
+/* A given step that has become too long, and what is taken from now on instead. */
+static double bound_given(struct gb_dynamic *motion, double critical, char *text,
+                          size_t size)
+{
+    const double step = fmin(motion->model->dynamics.time_step, motion->limit);
+    if (step <= critical) {
+        return step;
+    }
+    motion->limit = GB_STEP_CRITICAL_SHARE * critical;
+    snprintf(text, size,
+             "guard: time step %.3g T above the critical %.3g T: %.3g T is taken", step,
+             critical, motion->limit);
+    return motion->limit;
+}
+
+/* auto: the error of velocity Verlet goes with (omega step)^2, GB_STEP_ERROR_UNIT says
+ * how much.  Strong damping bounds the step more. */
+static double pick_step(struct gb_dynamic *motion, double frequency, double critical,
+                        char *text, size_t size)
+{
+    const double share = sqrt(motion->model->dynamics.step_error / GB_STEP_ERROR_UNIT);
+    const double accurate = share / fmax(frequency, 1e-3);
+    const double stable = GB_STEP_CRITICAL_SHARE * critical;
+    if (stable < 0.5 * accurate && !motion->told) {
+        motion->told = true;
+        snprintf(
+            text, size,
+            "guard: contact.viscosity bounds the time step to %.3g T (accuracy alone: "
+            "%.3g T)",
+            stable, accurate);
+    }
+    return fmin(fmin(accurate, stable), motion->limit);
+}
+
+/* Longest step allowed now. */
+static double allowed_step(struct gb_dynamic *motion, const struct gb_world *world,
+                           char *text, size_t size)
+{
+    const double frequency = gb_verlet_frequency(world, motion->scratch);
+    const double critical = frequency > 0.0 ? critical_step(motion, frequency) : INFINITY;
+    return motion->model->dynamics.time_step > 0.0
+               ? bound_given(motion, critical, text, size)
+               : pick_step(motion, frequency, critical, text, size);
+}
+
+static void enter(struct gb_dynamic *motion, enum gb_dynamic_stage stage)
+{
+    motion->stage = stage;
+    if (stage == GB_DYNAMIC_HOLD) {
+        motion->stage_end = motion->time + motion->model->dynamics.hold;
+    }
+}
+
+/* Moves on to the stage that has something left to do. */
+static void settle_stage(struct gb_dynamic *motion)
+{
+    const double tiny = 1e-9;
+    if (motion->stage == GB_DYNAMIC_RELAX && motion->time >= motion->stage_end - tiny) {
+        enter(motion, GB_DYNAMIC_LOAD);
+    }
+    if (motion->stage == GB_DYNAMIC_LOAD &&
+        motion->density >= motion->model->until_density * (1.0 - 1e-12)) {
+        enter(motion, GB_DYNAMIC_HOLD);
+    }
+    if (motion->stage == GB_DYNAMIC_HOLD && motion->time >= motion->stage_end - tiny) {
+        enter(motion, GB_DYNAMIC_OVER);
+    }
+}
+
+/* Equal steps to the next point, none longer than allowed. */
+static void plan(struct gb_dynamic *motion, double allowed)
+{
+    const struct gb_dynamics *dynamics = &motion->model->dynamics;
+    double interval = fmin(dynamics->record_time, motion->stage_end - motion->time);
+    double growth = 1.0;
+    if (motion->stage == GB_DYNAMIC_LOAD) {
+        const double next = fmin(motion->density * (1.0 + dynamics->record_density),
+                                 motion->model->until_density);
+        growth = next / motion->density;
+        interval = log(growth) / dynamics->rate;
+    }
+    motion->planned = motion->left = (int64_t)fmax(1.0, ceil(interval / allowed - 1e-9));
+    motion->step = interval / (double)motion->planned;
+    const bool axis[3] = {motion->model->geometry == GB_GEOMETRY_ISOTROPIC,
+                          motion->model->geometry != GB_GEOMETRY_UNIAXIAL &&
+                              motion->model->dimension == 3,
+                          true};
+    const int axes = axis[0] + axis[1] + axis[2];
+    for (int k = 0; k < 3; k++) {
+        motion->factor[k] =
+            axis[k] ? pow(growth, -1.0 / (axes * (double)motion->planned)) : 1.0;
+    }
+    motion->density *= growth;
+    motion->sliding = motion->contacts = 0;
+}
+
+static bool keep(struct gb_dynamic *motion, const struct gb_world *world,
+                 struct gb_error *err)
+{
+    const size_t bytes = 3 * (size_t)motion->model->count * sizeof(double);
+    memcpy(motion->good_velocity, motion->verlet.velocity, bytes);
+    memcpy(motion->good_spin, motion->verlet.spin, bytes);
+    motion->good_time = motion->time;
+    motion->good_density = motion->density;
+    motion->good_work = motion->verlet.work;
+    motion->good_absorbed = motion->verlet.absorbed;
+    motion->good_stage = motion->stage;
+    return gb_world_save(world, &motion->good, err);
+}
+
+/* Back to the last recorded point. */
+static bool go_back(struct gb_dynamic *motion, struct gb_world *world,
+                    struct gb_error *err)
+{
+    const size_t bytes = 3 * (size_t)motion->model->count * sizeof(double);
+    memcpy(motion->verlet.velocity, motion->good_velocity, bytes);
+    memcpy(motion->verlet.spin, motion->good_spin, bytes);
+    motion->time = motion->good_time;
+    motion->density = motion->good_density;
+    motion->verlet.work = motion->good_work;
+    motion->verlet.absorbed = motion->good_absorbed;
+    motion->stage = motion->good_stage;
+    motion->left = 0;
+    return gb_world_restore(world, motion->good, err) && gb_world_evaluate(world, err);
+}
+
+/* Half the step from the last recorded point on, or the end. */
+static enum gb_dynamic_outcome trip(struct gb_dynamic *motion, struct gb_world *world,
+                                    const char *why, char *text, size_t size,
+                                    struct gb_error *err)
+{
+    motion->limit = 0.5 * motion->step;
+    if (!go_back(motion, world, err)) {
+        return GB_DYNAMIC_STOPPED;
+    }
+    if (++motion->halvings > GB_STEP_HALVINGS_MOST) {
+        gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %.3g T", why,
+                     motion->step);
+        return GB_DYNAMIC_STOPPED;
+    }
+    snprintf(text, size, "guard: %s; time step halved to %.3g T", why, motion->limit);
+    return GB_DYNAMIC_MORE;
+}
+
+/* Share of the contacts that slid since the last point. */
+static double sliding_share(const struct gb_dynamic *motion)
+{
+    return motion->contacts > 0 ? (double)motion->sliding / (double)motion->contacts
+                                : 0.0;
+}
+
+/* Half the step changed nothing: it is friction that slides, and the step is given back.
+ */
+static void acquit(struct gb_dynamic *motion, double share, char *text, size_t size)
+{
+    motion->sliding_most = 0.5 * (1.0 + share);
+    motion->limit = motion->limit_before;
+    motion->slid = 0.0;
+    motion->halvings--;
+    snprintf(text, size,
+             "guard: %.0f %% of the contacts slide with half the time step as well; the "
+             "step is not the cause and is taken as before",
+             100.0 * share);
+}
+
+/* Friction caps hide an unstable step from the kinetic energy; the sliding contacts show
+ * it.  Many contacts may also slide for a good reason, which half the step tells. */
+static enum gb_dynamic_outcome judge_sliding(struct gb_dynamic *motion,
+                                             struct gb_world *world, char *text,
+                                             size_t size, struct gb_error *err)
+{
+    const double share = sliding_share(motion);
+    if (motion->slid > 0.0 && share > GB_SLIDING_SAME * motion->slid) {
+        acquit(motion, share, text, size);
+        return GB_DYNAMIC_POINT;
+    }
+    if (share > motion->sliding_most) {
+        char why[96];
+        snprintf(why, sizeof why, "%.0f %% of the contacts slide", 100.0 * share);
+        if (motion->slid == 0.0) {
+            motion->limit_before = motion->limit;
+        }
+        motion->slid = share;
+        return trip(motion, world, why, text, size, err);
+    }
+    motion->slid = 0.0;
+    return GB_DYNAMIC_POINT;
+}
+
+static enum gb_dynamic_outcome begin(struct gb_dynamic *motion, struct gb_world *world,
+                                     char *text, size_t size, struct gb_error *err)
+{
+    settle_stage(motion);
+    if (motion->stage == GB_DYNAMIC_OVER) {
+        return GB_DYNAMIC_DONE;
+    }
+    if (!keep(motion, world, err)) {
+        return GB_DYNAMIC_STOPPED;
+    }
+    plan(motion, allowed_step(motion, world, text, size));
+    return GB_DYNAMIC_MORE;
+}
+
+enum gb_dynamic_outcome gb_dynamic_advance(struct gb_dynamic *motion,
+                                           struct gb_world *world, int64_t max_steps,
+                                           char *text, size_t size, struct gb_error *err)
+{
+    text[0] = '\0';
+    if (motion->left == 0) {
+        const enum gb_dynamic_outcome outcome = begin(motion, world, text, size, err);
+        if (outcome != GB_DYNAMIC_MORE) {
+            return outcome;
+        }
+    }
+    for (int64_t i = 0; i < max_steps && motion->left > 0; i++) {
+        if (!gb_verlet_step(&motion->verlet, world, motion->step, motion->factor, err)) {
+            char why[sizeof err->text];
+            snprintf(why, sizeof why, "%s", err->text);
+            return err->code == GB_ERR_GUARD ? trip(motion, world, why, text, size, err)
+                                             : GB_DYNAMIC_STOPPED;
+        }
+        motion->time += motion->step;
+        motion->left--;
+        motion->sliding += gb_world_tally(world)->sliding;
+        motion->contacts += gb_world_tally(world)->contacts;
+    }
+    if (motion->left > 0) {
+        return GB_DYNAMIC_MORE;
+    }
+    motion->recorded = motion->stage;
+    return judge_sliding(motion, world, text, size, err);
+}
+
+static double whole_time(const struct gb_dynamic *motion)
+{
+    const struct gb_model *model = motion->model;
+    return model->dynamics.relax + model->dynamics.hold +
+           log(model->until_density / model->start_density) / model->dynamics.rate;
+}
+
+struct gb_dynamic_report gb_dynamic_report(const struct gb_dynamic *motion)
+{
+    return (struct gb_dynamic_report){
+        .stage = motion->recorded,
+        .time = motion->time,
+        .steps = motion->planned - motion->left,
+        .kinetic = gb_verlet_kinetic(&motion->verlet),
+        .work = motion->verlet.work,
+        .absorbed = motion->verlet.absorbed,
+        .time_step = motion->step,
+        .progress = fmin(1.0, motion->time / whole_time(motion)),
+    };
+}
+
+/* At a recorded point the way to the next one and what to go back to are yet to be set.
+ */
+bool gb_dynamic_record(struct gb_dynamic *motion, struct gb_record *record,
+                       struct gb_error *err)
+{
+#define AT(member) offsetof(struct gb_dynamic, member)
+    static const struct gb_record_member members[] = {
+        {"motion/stage", GB_RECORD_INT32, 1, AT(stage), "1"},
+        {"motion/recorded", GB_RECORD_INT32, 1, AT(recorded), "1"},
+        {"motion/time", GB_RECORD_DOUBLE, 1, AT(time), "T"},
+        {"motion/stage_end", GB_RECORD_DOUBLE, 1, AT(stage_end), "T"},
+        {"motion/limit", GB_RECORD_DOUBLE, 1, AT(limit), "T"},
+        {"motion/halvings", GB_RECORD_INT32, 1, AT(halvings), "1"},
+        {"motion/sliding_most", GB_RECORD_DOUBLE, 1, AT(sliding_most), "1"},
+        {"motion/slid", GB_RECORD_DOUBLE, 1, AT(slid), "1"},
+        {"motion/limit_before", GB_RECORD_DOUBLE, 1, AT(limit_before), "T"},
+        {"motion/told", GB_RECORD_BOOL, 1, AT(told), "1"},
+        {"motion/planned", GB_RECORD_INT64, 1, AT(planned), "1"},
+        {"motion/step", GB_RECORD_DOUBLE, 1, AT(step), "T"},
+        {"motion/density", GB_RECORD_DOUBLE, 1, AT(density), "1"},
+        {"motion/work", GB_RECORD_DOUBLE, 1, AT(verlet.work), "E d^3"},
+        {"motion/absorbed", GB_RECORD_DOUBLE, 1, AT(verlet.absorbed), "E d^3"},
+    };
+#undef AT
+    const int64_t count = motion->model->count;
+    if (!gb_record_members(record, members, sizeof members / sizeof members[0], motion,
+                           err) ||
+        !gb_record_array(record, "motion/velocity", GB_RECORD_DOUBLE, count, 3, "d/T",
+                         motion->verlet.velocity, err) ||
+        !gb_record_array(record, "motion/spin", GB_RECORD_DOUBLE, count, 3, "1/T",
+                         motion->verlet.spin, err)) {
+        return false;
+    }
+    if ((int)motion->stage < GB_DYNAMIC_RELAX || motion->stage > GB_DYNAMIC_OVER ||
+        (int)motion->recorded < GB_DYNAMIC_RELAX || motion->recorded > GB_DYNAMIC_HOLD) {
+        return gb_error_set(err, GB_ERR_INPUT, "motion/stage: is out of range");
+    }
+    return true;
+}

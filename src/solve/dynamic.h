@@ -1,0 +1,57 @@
+#ifndef GB_SOLVE_DYNAMIC_H
+#define GB_SOLVE_DYNAMIC_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/record.h"
+#include "greenbody/status.h"
+#include "pack/cell/world.h"
+
+/* High-speed pressing of P2: relax in a fixed cell, compress at a rate to a density,
+ * hold.  Steps of gb_verlet between recorded points; a guard that watches the share of
+ * sliding contacts and the critical step.  It owns no world. */
+struct gb_dynamic;
+
+enum gb_dynamic_stage {
+    GB_DYNAMIC_RELAX,
+    GB_DYNAMIC_LOAD,
+    GB_DYNAMIC_HOLD,
+    GB_DYNAMIC_OVER
+};
+
+enum gb_dynamic_outcome {
+    GB_DYNAMIC_MORE,   /* the slice is used up */
+    GB_DYNAMIC_POINT,  /* time to record: forces, places and velocities belong together */
+    GB_DYNAMIC_DONE,   /* the last stage has ended */
+    GB_DYNAMIC_STOPPED /* err says why; the world is back at the last recorded point */
+};
+
+/* The world must have been evaluated. */
+bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
+                       struct gb_error *err);
+void gb_dynamic_destroy(struct gb_dynamic *motion); /* NULL is fine */
+
+/* At most max_steps time steps.  text (size bytes) receives one line when a guard acted.
+ */
+enum gb_dynamic_outcome gb_dynamic_advance(struct gb_dynamic *motion,
+                                           struct gb_world *world, int64_t max_steps,
+                                           char *text, size_t size, struct gb_error *err);
+
+/* What goes into a recorded point, reduced units. */
+struct gb_dynamic_report {
+    enum gb_dynamic_stage stage; /* the one that has just been recorded */
+    double time;                 /* since the start */
+    int64_t steps;               /* since the last point */
+    double kinetic, work, absorbed;
+    double time_step; /* last used */
+    double progress;  /* 0..1, by time */
+};
+struct gb_dynamic_report gb_dynamic_report(const struct gb_dynamic *motion);
+
+/* The motion at a recorded point, out of a record or into it; loading, it was just
+ * created with the same world.  Errors: GB_ERR_INPUT naming the member. */
+bool gb_dynamic_record(struct gb_dynamic *motion, struct gb_record *record,
+                       struct gb_error *err);
+
+#endif

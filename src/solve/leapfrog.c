@@ -1,0 +1,121 @@
+#include "solve/leapfrog.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A step may be longer than the last one by this factor at most: contacts that close
+ * stiffen over many steps, none is met at full stiffness. */
+static const double step_growth = 1.05;
+
+/* And never longer than this reduced time, in which sound crosses a particle: nothing
+ * else bounds it while all is at rest without contacts. */
+static const double step_most = 1.0;
+
+void gb_leapfrog_init(struct gb_leapfrog *leap, double safety, double given)
+{
+    *leap = (struct gb_leapfrog){.safety = safety, .given = given, .limit = INFINITY};
+}
+
+/* (28) for one frequency, at xi of critical. */
+static double critical_of(double frequency2, double xi)
+{
+    return frequency2 > 0.0 ? 2.0 / sqrt(frequency2) * (sqrt(1.0 + xi * xi) - xi)
+                            : INFINITY;
+}
+
+double gb_leapfrog_critical(const struct gb_bed *bed)
+{
+    const double stiffest = bed->tally.stiffest;
+    const bool friction = bed->law.mu > 0.0 || bed->law.mu_wall > 0.0;
+    /* k_t (1/m + R^2/I) */
+    const double turning =
+        friction ? bed->law.shear * (1.0 + 2.5 / bed->inertia_scale) : 0.0;
+    return fmin(critical_of(stiffest, bed->law.damping),
+                critical_of(turning * stiffest, 0.0));
+}
+
+/* T = 2.868 (m^2/(R E*^2 v))^(1/5); a spring of that half period has the critical step 2
+ * T/pi. */
+double gb_leapfrog_impact(const struct gb_bed *bed, double speed)
+{
+    const double d = 2.0 * bed->smallest, modulus = bed->law.normal.hertz.modulus;
+    const double mass = d * d * d, xi = bed->law.damping;
+    if (!(speed > 0.0)) {
+        return INFINITY;
+    }
+    const double duration =
+        2.868 * pow(mass * mass / (bed->smallest * modulus * modulus * speed), 0.2);
+    return M_2_PI * duration * (sqrt(1.0 + xi * xi) - xi);
+}
+
+static double next_step(const struct gb_leapfrog *leap, const struct gb_bed *bed)
+{
+    if (leap->given > 0.0) {
+        return fmin(leap->given, leap->limit);
+    }
+    /* a particle at rest may fall by its size before it meets another */
+    const double fast = fmax(leap->fastest, sqrt(2.0 * leap->gravity * bed->smallest));
+    const double allowed =
+        leap->safety * fmin(gb_leapfrog_critical(bed), gb_leapfrog_impact(bed, fast));
+    const double most = leap->step > 0.0 ? step_growth * leap->step : step_most;
+    return fmin(fmin(allowed, most), leap->limit);
+}
+
+/* Largest components of the displacements since the lists were made, squared and added: a
+ * bound that needs no square of every particle. */
+static double drift(struct gb_bed *bed, double step)
+{
+    double most[4] = {0.0};
+    for (int64_t i = 0; i < bed->count; i++) {
+        double *x = bed->place[i];
+        const double *v = bed->speed[i], *from = bed->listed_at[i];
+        for (int c = 0; c < 4; c++) {
+            x[c] += step * v[c];
+            const double moved = fabs(x[c] - from[c]);
+            most[c] = moved > most[c] ? moved : most[c];
+        }
+    }
+    return most[0] * most[0] + most[1] * most[1] + most[2] * most[2];
+}
+
+/* Returns the bound of the fastest particle. */
+static double kick(struct gb_bed *bed, double step, double gravity, double drag)
+{
+    const double fall[4] = {0.0, 0.0, -gravity * step, 0.0};
+    const double slow = fmax(1.0 - step * drag, 0.0);
+    double most[4] = {0.0};
+    for (int64_t i = 0; i < bed->count; i++) {
+        double *v = bed->speed[i], *w = bed->spin[i];
+        const double *f = bed->force[i], *m = bed->torque[i];
+        const double push = step * bed->per_mass[i], turn = step * bed->per_inertia[i];
+        for (int c = 0; c < 4; c++) {
+            v[c] = slow * v[c] + (push * f[c] + fall[c]);
+            w[c] = slow * w[c] + turn * m[c];
+            const double fast = fabs(v[c]);
+            most[c] = fast > most[c] ? fast : most[c];
+        }
+    }
+    return sqrt(most[0] * most[0] + most[1] * most[1] + most[2] * most[2]);
+}
+
+bool gb_leapfrog_step(struct gb_leapfrog *leap, struct gb_bed *bed, struct gb_error *err)
+{
+    if (!(leap->step > 0.0)) { /* the first: forces are not known yet */
+        if (!gb_bed_evaluate(bed, 0.0, 0.0, err)) {
+            return false;
+        }
+        leap->step = next_step(leap, bed);
+    }
+    leap->moved2 = drift(bed, leap->step);
+    bed->die.punch_place += leap->step * bed->die.punch_speed;
+    if (!gb_bed_evaluate(bed, leap->step, leap->moved2, err)) {
+        return false;
+    }
+    const double next = next_step(leap, bed), half = 0.5 * (leap->step + next);
+    leap->fastest = kick(bed, half, leap->gravity, leap->drag);
+    if (leap->punch_mass > 0.0) {
+        bed->die.punch_speed += half * (bed->tally.punch - leap->load) / leap->punch_mass;
+    }
+    leap->step = next;
+    return true;
+}

@@ -1,0 +1,160 @@
+#include "solve/quasistatic.h"
+
+#include <math.h>
+
+#include "scene/tolerances.h"
+
+/* An unloading branch that has grown its edges by this factor has no pressure to lose. */
+static const double expansion_most = 1.5;
+
+void gb_quasistatic_init(struct gb_quasistatic *load, const struct gb_model *model)
+{
+    *load = (struct gb_quasistatic){
+        .step = model->strain_step,
+        .step_most = model->strain_step,
+        .until_pressure = model->until_pressure,
+        .until_density = model->until_density,
+        .unload_count = model->unload_count,
+        .branch = -1,
+    };
+    for (int i = 0; i < model->unload_count; i++) {
+        load->unload_from[i] = model->unload_from[i];
+    }
+    load->compressed[2] = true;
+    load->compressed[1] =
+        model->dimension == 3 && model->geometry != GB_GEOMETRY_UNIAXIAL;
+    load->compressed[0] = model->geometry == GB_GEOMETRY_ISOTROPIC;
+    for (int k = 0; k < 3; k++) {
+        load->axes += load->compressed[k];
+    }
+}
+
+bool gb_quasistatic_record(struct gb_quasistatic *load, struct gb_record *record,
+                           struct gb_error *err)
+{
+#define AT(member) offsetof(struct gb_quasistatic, member)
+    static const struct gb_record_member members[] = {
+        {"load/step", GB_RECORD_DOUBLE, 1, AT(step), "1"},
+        {"load/next_unload", GB_RECORD_INT32, 1, AT(next_unload), "1"},
+        {"load/branch", GB_RECORD_INT32, 1, AT(branch), "1"},
+        {"load/top_pressure", GB_RECORD_DOUBLE, 1, AT(top_pressure), "E"},
+        {"load/last_pressure", GB_RECORD_DOUBLE, 1, AT(last_pressure), "E"},
+        {"load/last_expansion", GB_RECORD_DOUBLE, 1, AT(last_expansion), "1"},
+        {"load/expansions", GB_RECORD_INT32, 1, AT(expansions), "1"},
+    };
+#undef AT
+    if (!gb_record_members(record, members, sizeof members / sizeof members[0], load,
+                           err)) {
+        return false;
+    }
+    if (load->next_unload < 0 || load->next_unload > load->unload_count ||
+        load->branch < -1 || load->branch > load->next_unload) {
+        return gb_error_set(err, GB_ERR_INPUT, "load/branch: is out of range");
+    }
+    return true;
+}
+
+double gb_quasistatic_pressure(const struct gb_quasistatic *load,
+                               const double pressure[3])
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        sum += load->compressed[k] ? pressure[k] : 0.0;
+    }
+    return sum / load->axes;
+}
+
+static void scale_axes(const struct gb_quasistatic *load, double along, double factor[3])
+{
+    for (int k = 0; k < 3; k++) {
+        factor[k] = load->compressed[k] ? along : 1.0;
+    }
+}
+
+/* One strain step of compression, shortened to end at until_density. */
+static enum gb_quasistatic_order compress(const struct gb_quasistatic *load,
+                                          double density, double factor[3])
+{
+    const double full = 1.0 - load->step;
+    const double to_end = pow(density / load->until_density, 1.0 / load->axes);
+    scale_axes(load, fmax(full, to_end), factor);
+    return GB_QUASISTATIC_STRAIN;
+}
+
+/* The way back: the inverse of a compression step; the last one only as far as the
+ * pressure of the step before foretells zero. */
+static double expansion(struct gb_quasistatic *load, double pressure)
+{
+    const double full = 1.0 / (1.0 - load->step);
+    double share = 1.0;
+    const double drop = load->last_pressure - pressure;
+    if (load->expansions > 0 && drop > 0.0) {
+        const double foretold = pressure / drop * (load->last_expansion / (full - 1.0));
+        share = fmin(1.0, fmax(foretold, 0.02));
+    }
+    load->last_expansion = share * (full - 1.0);
+    load->last_pressure = pressure;
+    load->expansions++;
+    return 1.0 + load->last_expansion;
+}
+
+static bool unloaded(struct gb_quasistatic *load, double pressure)
+{
+    const double grown = pow(1.0 / (1.0 - load->step), load->expansions);
+    const bool done = pressure <= GB_UNLOADED_SHARE * load->top_pressure;
+    load->endless = !done && grown > expansion_most;
+    return done || load->endless;
+}
+
+enum gb_quasistatic_order gb_quasistatic_next(struct gb_quasistatic *load,
+                                              const double pressure[3], double density,
+                                              double factor[3])
+{
+    const double p = gb_quasistatic_pressure(load, pressure);
+    if (load->branch > 0) {
+        if (unloaded(load, p)) {
+            load->branch = 0;
+            return GB_QUASISTATIC_RESTORE;
+        }
+        scale_axes(load, expansion(load, p), factor);
+        return GB_QUASISTATIC_STRAIN;
+    }
+    load->branch = 0;
+    if (load->next_unload < load->unload_count &&
+        p >= load->unload_from[load->next_unload]) {
+        load->branch = ++load->next_unload;
+        load->top_pressure = p;
+        load->expansions = 0;
+        scale_axes(load, expansion(load, p), factor);
+        return GB_QUASISTATIC_UNLOAD;
+    }
+    if (p >= load->until_pressure || density >= load->until_density * (1.0 - 1e-12)) {
+        return GB_QUASISTATIC_END;
+    }
+    return compress(load, density, factor);
+}
+
+void gb_quasistatic_halve(struct gb_quasistatic *load, double factor[3])
+{
+    load->step *= 0.5;
+    for (int k = 0; k < 3; k++) {
+        factor[k] = sqrt(factor[k]);
+    }
+}
+
+void gb_quasistatic_recover(struct gb_quasistatic *load)
+{
+    load->step = fmin(2.0 * load->step, load->step_most);
+}
+
+double gb_quasistatic_progress(const struct gb_quasistatic *load, double pressure,
+                               double density, double start_density)
+{
+    /* Curves reach 1 GPa near a density of 0.62, whatever the powder; time goes with the
+     * number of strain steps, that is with the logarithm of density. */
+    const double end = load->until_density < 1.0 ? load->until_density : 0.62;
+    const double by_density = log(density / start_density) / log(end / start_density);
+    const double by_pressure =
+        isfinite(load->until_pressure) ? pressure / load->until_pressure : 0.0;
+    return fmin(1.0, fmax(0.0, fmax(fmin(by_density, 0.99), by_pressure * by_pressure)));
+}

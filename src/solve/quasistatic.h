@@ -1,0 +1,64 @@
+#ifndef GB_SOLVE_QUASISTATIC_H
+#define GB_SOLVE_QUASISTATIC_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/record.h"
+#include "greenbody/model.h"
+
+/* The loading programme of P1 section IV as a state machine: told the pressure and
+ * density of each relaxed state, it says what comes next.  It owns no world and saves
+ * nothing itself. */
+enum gb_quasistatic_order {
+    GB_QUASISTATIC_STRAIN, /* scale the cell by factor */
+    GB_QUASISTATIC_UNLOAD, /* save the state, then scale: an unloading branch begins */
+    GB_QUASISTATIC_RESTORE, /* the branch has ended: go back to the saved state and ask again */
+    GB_QUASISTATIC_END
+};
+
+struct gb_quasistatic {
+    bool compressed[3]; /* axes that obey the programme */
+    int axes;           /* how many */
+    double step;        /* strain step, share of the present edge */
+    double step_most;   /* the preset's; step is smaller for a while after a guard */
+    double until_pressure, until_density;
+    double unload_from[GB_UNLOAD_MAX];
+    int unload_count, next_unload;
+    int branch; /* 0 loading, k the k-th unloading branch; -1 before the first state */
+    double top_pressure;   /* where the branch under way began */
+    double last_pressure;  /* of the state before, for the last fraction of a step */
+    double last_expansion; /* relative growth of the edges in the last unloading step */
+    int expansions;        /* steps of the branch under way */
+    bool endless;          /* the last branch was given up with pressure left */
+};
+
+void gb_quasistatic_init(struct gb_quasistatic *load, const struct gb_model *model);
+
+/* What the programme remembers, out of a record or into it; loading, the programme was
+ * just begun with the same model.  Errors: GB_ERR_INPUT naming the member. */
+bool gb_quasistatic_record(struct gb_quasistatic *load, struct gb_record *record,
+                           struct gb_error *err);
+
+/* What follows a relaxed state with this stress (normal pressures in x, y, z; E) and
+ * density. factor is filled for STRAIN and UNLOAD. */
+enum gb_quasistatic_order gb_quasistatic_next(struct gb_quasistatic *load,
+                                              const double pressure[3], double density,
+                                              double factor[3]);
+
+/* Halves the strain step and asks for the same step again (after a guard has tripped and
+ * the state before was restored); doubles it again once per relaxed step, up to the
+ * preset's. */
+void gb_quasistatic_halve(struct gb_quasistatic *load, double factor[3]);
+void gb_quasistatic_recover(struct gb_quasistatic *load);
+
+/* Mean pressure over the compressed axes. */
+double gb_quasistatic_pressure(const struct gb_quasistatic *load,
+                               const double pressure[3]);
+
+/* Share of the loading programme that is done, 0..1, by the logarithm of density towards
+ * until_density, or of the pressure (loading branch only). */
+double gb_quasistatic_progress(const struct gb_quasistatic *load, double pressure,
+                               double density, double start_density);
+
+#endif

@@ -1,0 +1,207 @@
+#include "study/chart.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include <glib.h>
+
+#include "base/units.h"
+#include "greenbody/model.h"
+#include "measure/fit/average.h"
+#include "run/experiment.h"
+
+/* Evaluations between two looks at whoever may want to cancel. */
+enum { SLICE = 2000 };
+
+bool gb_chart_choice_of(struct gb_chart_choice *choice, const struct gb_params *params,
+                        struct gb_error *err)
+{
+    struct gb_model model;
+    if (!gb_model_init(&model, params, err)) {
+        return false;
+    }
+    const bool dynamic = model.kind == GB_KIND_DYNAMIC;
+    *choice = (struct gb_chart_choice){
+        .count = model.count,
+        .strain_step = dynamic ? (double)NAN : model.strain_step / model.numerics.parts,
+        .tolerance = dynamic ? (double)NAN : model.numerics.tolerance,
+        .cutoff = model.numerics.cutoff,
+        .single = model.numerics.single,
+        .time_step =
+            model.dynamics.time_step > 0.0 ? model.dynamics.time_step : (double)NAN,
+        .step_error = dynamic && !(model.dynamics.time_step > 0.0)
+                          ? model.dynamics.step_error
+                          : (double)NAN,
+    };
+    g_strlcpy(choice->relaxer, dynamic ? "verlet" : model.numerics.relaxer,
+              sizeof choice->relaxer);
+    return true;
+}
+
+void gb_chart_choose(struct gb_params *params, const struct gb_chart_choice *choice)
+{
+    if (choice->count != params->count) {
+        params->count = choice->count;
+        params->base = (struct gb_relative){0.0, true}; /* auto */
+    }
+    params->cutoff = (struct gb_relative){choice->cutoff, true};
+    if (params->kind == GB_KIND_DYNAMIC) {
+        params->time_step = (struct gb_relative){choice->time_step, true};
+        if (isnan(choice->time_step)) {
+            params->step_error = choice->step_error;
+        }
+        return;
+    }
+    g_strlcpy(params->relaxer, choice->relaxer, sizeof params->relaxer);
+    params->precision = choice->single ? GB_PRECISION_SINGLE : GB_PRECISION_DOUBLE;
+    /* recorded as often as before, where the choice allows it */
+    params->strain_part = choice->strain_step;
+    params->strain_step = fmax(params->strain_step, choice->strain_step);
+    params->tolerance = choice->tolerance;
+}
+
+static bool same_number(double a, double b)
+{
+    /* a step divided and a part multiplied may differ in the last bit */
+    return fabs(a - b) <= 1e-12 * fabs(a) || (isnan(a) && isnan(b));
+}
+
+bool gb_chart_same(const struct gb_chart_choice *a, const struct gb_chart_choice *b)
+{
+    return strcmp(a->relaxer, b->relaxer) == 0 && a->count == b->count &&
+           a->single == b->single && same_number(a->strain_step, b->strain_step) &&
+           same_number(a->tolerance, b->tolerance) && same_number(a->cutoff, b->cutoff) &&
+           same_number(a->time_step, b->time_step) &&
+           same_number(a->step_error, b->step_error);
+}
+
+char *gb_chart_describe(const struct gb_chart_choice *choice, char *buffer, size_t size)
+{
+    char numbers[96] = "";
+    if (isfinite(choice->strain_step)) {
+        snprintf(numbers, sizeof numbers, "step %.4g %%, tolerance %.4g",
+                 100.0 * choice->strain_step, choice->tolerance);
+    } else if (isfinite(choice->time_step)) {
+        snprintf(numbers, sizeof numbers, "time step %.4g T", choice->time_step);
+    } else {
+        snprintf(numbers, sizeof numbers, "time step by an error of %.4g %%",
+                 100.0 * choice->step_error);
+    }
+    snprintf(buffer, size, "%s, %s, cutoff %.4g d, %s precision, %lld particles",
+             choice->relaxer, numbers, choice->cutoff,
+             choice->single ? "single" : "double", (long long)choice->count);
+    return buffer;
+}
+
+double gb_chart_cpu_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* The loading branch as it is recorded. */
+struct branch {
+    GArray *pressure, *density, *coordination; /* of double */
+};
+
+static void branch_init(struct branch *branch)
+{
+    branch->pressure = g_array_new(FALSE, FALSE, sizeof(double));
+    branch->density = g_array_new(FALSE, FALSE, sizeof(double));
+    branch->coordination = g_array_new(FALSE, FALSE, sizeof(double));
+}
+
+static void branch_finish(struct branch *branch)
+{
+    g_array_free(branch->pressure, TRUE);
+    g_array_free(branch->density, TRUE);
+    g_array_free(branch->coordination, TRUE);
+}
+
+static double crossing(const struct branch *branch, const GArray *y, double pressure)
+{
+    const struct gb_average_curve curve = {
+        .x = (const double *)(const void *)branch->pressure->data,
+        .y = (const double *)(const void *)y->data,
+        .count = y->len,
+    };
+    return gb_average_crossing(&curve, pressure, NULL);
+}
+
+static void add_point(struct branch *branch, const struct gb_point *point)
+{
+    if (point->branch == GB_BRANCH_LOAD) {
+        g_array_append_val(branch->pressure, point->p_pa);
+        g_array_append_val(branch->density, point->density);
+        g_array_append_val(branch->coordination, point->coordination);
+    }
+}
+
+static bool advance(struct gb_chart_run *run, struct gb_experiment *experiment,
+                    struct branch *branch, bool (*cancelled)(void *data, double cpu_s),
+                    void *data, struct gb_error *err)
+{
+    const double start = gb_chart_cpu_s();
+    enum gb_advance how = GB_ADVANCE_MORE;
+    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
+        how = gb_experiment_advance(experiment, SLICE, err);
+        run->cpu_s = gb_chart_cpu_s() - start;
+        if (how == GB_ADVANCE_POINT) {
+            run->evaluations += (double)gb_experiment_point(experiment)->evaluations;
+            add_point(branch, gb_experiment_point(experiment));
+        }
+        if (cancelled && cancelled(data, run->cpu_s)) {
+            return gb_error_set(err, GB_ERR_CANCELLED, "cancelled");
+        }
+    }
+    run->failed = how == GB_ADVANCE_STOPPED;
+    const bool guarded =
+        run->failed && (err->code == GB_ERR_GUARD || err->code == GB_ERR_NOT_CONVERGED);
+    return !run->failed || guarded;
+}
+
+static struct gb_params scene_of(const struct gb_chart_run *run,
+                                 const struct gb_params *scene, const double *pressure_pa,
+                                 int pressures)
+{
+    struct gb_params params = *scene;
+    gb_chart_choose(&params, &run->choice);
+    params.seed = run->seed;
+    params.threads = 1;
+    params.unload_count = 0;
+    params.hold_s = 0.0;
+    for (int k = 0; k < pressures && isfinite(params.until_pressure_pa); k++) {
+        params.until_pressure_pa =
+            k == 0 ? pressure_pa[0] : fmax(params.until_pressure_pa, pressure_pa[k]);
+    }
+    return params;
+}
+
+bool gb_chart_press(struct gb_chart_run *run, const struct gb_params *scene,
+                    const double *pressure_pa, int pressures,
+                    bool (*cancelled)(void *data, double cpu_s), void *data,
+                    struct gb_error *err)
+{
+    const struct gb_params params = scene_of(run, scene, pressure_pa, pressures);
+    struct gb_experiment *experiment = NULL;
+    if (!gb_experiment_create(&experiment, &params, NULL, NULL, err)) {
+        return false;
+    }
+    struct branch branch;
+    branch_init(&branch);
+    run->evaluations = 0.0;
+    const bool done = advance(run, experiment, &branch, cancelled, data, err);
+    for (int k = 0; k < GB_CHART_PRESSURES; k++) {
+        const bool there = done && !run->failed && k < pressures;
+        run->density[k] =
+            there ? crossing(&branch, branch.density, pressure_pa[k]) : (double)NAN;
+        run->coordination[k] =
+            there ? crossing(&branch, branch.coordination, pressure_pa[k]) : (double)NAN;
+    }
+    branch_finish(&branch);
+    gb_experiment_destroy(experiment);
+    return done;
+}

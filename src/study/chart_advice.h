@@ -1,0 +1,36 @@
+#ifndef GB_STUDY_CHART_ADVICE_H
+#define GB_STUDY_CHART_ADVICE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "study/chart_table.h"
+
+/* How large a cell, and how many of them, for a wanted standard error. */
+struct gb_chart_size {
+    int64_t count;
+    double half_edge; /* half the shortest edge of the initial cell, d */
+    double g_end;     /* mean g(r) over the last diameter before it ... */
+    double ripple;    /* ... and how far its quarters are from 1, rms */
+    bool wide;        /* it is 1: the cell does not feel itself */
+    double scatter[GB_CHART_PRESSURES]; /* of one cell; NaN: not measured */
+    double cpu_s;                       /* of one cell */
+    double cells; /* that bring the standard error at the worst pressure down to it */
+};
+
+enum { GB_CHART_SIZES = 8 };
+
+struct gb_chart_advice {
+    double standard_error;
+    struct gb_chart_size size[GB_CHART_SIZES]; /* by particles */
+    int sizes;
+};
+
+/* From the rows that differ from the preset's own in the number of particles only; g(r)
+ * of up to eight initial structures each.  Errors: those of the engine. */
+bool gb_chart_advice_init(struct gb_chart_advice *advice,
+                          const struct gb_chart_table *table,
+                          const struct gb_chart_plan *plan, double standard_error,
+                          struct gb_error *err);
+
+#endif

@@ -1,0 +1,202 @@
+#include "tui/app/app.h"
+
+#include <errno.h>
+#include <glib.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/alloc.h"
+#include "tui/app/act.h"
+#include "tui/app/asks.h"
+#include "tui/app/pointer.h"
+#include "tui/session/run_lifecycle.h"
+
+/* At most ten frames within any second, two when slow.  News of the engine alone is drawn
+ * less often, so that a key nearly always finds a frame free and is answered at once. */
+static const double second_s = 1.0;
+static const double news_s = 0.15;
+static const double key_s = 0.02; /* a function key or a paste comes in one piece */
+
+enum { STATUS_SIGNAL = 128 };
+
+static double clock_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* The first Ctrl-C asks, the second one leaves. */
+static void interrupt(struct gb_app *app)
+{
+    if (app->screen.dialog.kind == GB_DIALOG_QUIT ||
+        !gb_session_live(&app->screen.session)) {
+        gb_asks_leave(app, STATUS_SIGNAL + SIGINT);
+    } else {
+        gb_asks_leave_live(app);
+    }
+}
+
+static void handle(struct gb_app *app, const struct gb_term_event *event)
+{
+    app->urgent = app->urgent || event->kind != GB_TERM_NOTHING;
+    app->dirty = app->dirty || app->urgent;
+    switch (event->kind) {
+    case GB_TERM_NOTHING:
+    case GB_TERM_RESIZED:
+        break;
+    case GB_TERM_KEY:
+    case GB_TERM_TEXT:
+        gb_act_type(app, event);
+        break;
+    case GB_TERM_MOUSE:
+        gb_pointer_act(app, event);
+        break;
+    case GB_TERM_INTERRUPT:
+        interrupt(app);
+        break;
+    case GB_TERM_TERMINATE:
+        gb_asks_leave(app, STATUS_SIGNAL + event->code);
+        break;
+    case GB_TERM_GONE:
+        app->gone = true;
+        gb_asks_leave(app, STATUS_SIGNAL + SIGHUP);
+        break;
+    }
+}
+
+/* Seconds until the next frame may be drawn. */
+static double frame_wait(const struct gb_app *app)
+{
+    const double now = clock_s();
+    const double last = app->frame[(app->frames + app->most - 1) % app->most];
+    const double oldest = app->frame[app->frames % app->most];
+    const double spacing = app->urgent ? key_s : news_s;
+    return fmax(last + spacing, oldest + second_s) - now;
+}
+
+/* Milliseconds to sleep: until the next frame may be drawn, until the engine or a picture
+ * may have news, or for ever when nothing can happen without a key. */
+static int patience(const struct gb_app *app)
+{
+    if (app->dirty) {
+        const double left = frame_wait(app);
+        return left > 0.0 ? (int)(1000.0 * left) + 1 : 0;
+    }
+    return gb_session_busy(&app->screen.session) || app->screen.image.waiting
+               ? (int)(1000.0 * news_s)
+               : -1;
+}
+
+static void draw(struct gb_app *app)
+{
+    struct gb_screen *screen = &app->screen;
+    gb_screen_draw(screen);
+    if (gb_term_image_before(&screen->image, screen->term, gb_screen_picture(screen))) {
+        gb_term_repaint(screen->term);
+    }
+    gb_term_flush(screen->term);
+    gb_term_image_after(&screen->image, screen->term, gb_screen_picture(screen),
+                        &screen->plot.field, clock_s());
+    app->frame[app->frames++ % app->most] = clock_s();
+    app->dirty = app->urgent = false;
+}
+
+/* True: there was something. */
+static bool overhear(struct gb_app *app)
+{
+    char line[160];
+    const bool heard = gb_stderr_tail_poll(&app->overheard, line, sizeof line);
+    if (heard) {
+        gb_session_note(&app->screen.session, "a library says: %s", line);
+    }
+    return heard;
+}
+
+static void loop(struct gb_app *app)
+{
+    while (!app->leave) {
+        const struct gb_term_event event = gb_term_wait(app->screen.term, patience(app));
+        handle(app, &event);
+        app->dirty = gb_session_refresh(&app->screen.session) || app->dirty ||
+                     gb_term_image_due(&app->screen.image, clock_s());
+        app->dirty = overhear(app) || app->dirty;
+        gb_asks_follow(app);
+        if (app->dirty && !app->leave && frame_wait(app) <= 0.0) {
+            draw(app);
+        }
+    }
+}
+
+/* Where only one pane fits, the curve comes first. */
+static void first_focus(struct gb_screen *screen)
+{
+    int rows = 0;
+    int cols = 0;
+    gb_term_size(screen->term, &rows, &cols);
+    gb_layout_make(&screen->layout, rows, cols, GB_PANE_PARAMS);
+    if (screen->layout.kind < GB_LAYOUT_FULL) {
+        screen->focus = GB_PANE_PLOT;
+    }
+}
+
+/* The scene of the preset, or the run that is attached. */
+static bool open_first(struct gb_app *app, struct gb_error *err)
+{
+    struct gb_session *session = &app->screen.session;
+    if (session->attached != NULL) {
+        return gb_run_lifecycle_attach(session, err);
+    }
+    gb_asks_start_scene(app);
+    return true;
+}
+
+/* Gives the terminal back, if there still is one. */
+static void close_screen(struct gb_app *app)
+{
+    struct gb_screen *screen = &app->screen;
+    if (app->gone) {
+        gb_term_abandon(screen->term);
+        app->status = gb_run_lifecycle_detached(&screen->session);
+    } else {
+        gb_term_stop(screen->term);
+        gb_run_lifecycle_farewell(&screen->session);
+    }
+}
+
+int gb_app_run(struct gb_preset *preset, const char *folder, const char *attached,
+               const struct gb_settings *settings, struct gb_error *err)
+{
+    struct gb_app *app = gb_alloc_array(1, sizeof *app, err);
+    if (app == NULL) {
+        return gb_status_exit_code(GB_ERR_MEMORY);
+    }
+    struct gb_screen *screen = &app->screen;
+    if (!gb_term_start(&screen->term, settings, err)) {
+        gb_alloc_free(app);
+        return gb_status_exit_code(GB_ERR_MACHINE);
+    }
+    app->dirty = app->urgent = true;
+    gb_stderr_tail_init(&app->overheard);
+    app->most = settings->slow ? GB_APP_FRAMES_SLOW : GB_APP_FRAMES;
+    first_focus(screen);
+    gb_session_init(&screen->session, preset);
+    screen->session.folder = folder;
+    screen->session.attached = attached;
+    gb_panel_plot_init(&screen->plot, screen->term, settings->graph);
+    gb_term_image_init(&screen->image, gb_term_images(screen->term));
+    if (open_first(app, err)) {
+        loop(app);
+    }
+    close_screen(app);
+    gb_session_finish(&screen->session);
+    gb_panel_plot_finish(&screen->plot);
+    gb_dialog_close(&screen->dialog);
+    gb_term_destroy(screen->term);
+    const int status = app->status;
+    gb_alloc_free(app);
+    return status;
+}

@@ -1,0 +1,88 @@
+#include "tui/app/choices.h"
+
+#include <glib.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "base/alloc.h"
+#include "base/table.h"
+
+/* NULL when a column is missing; err names it. */
+static bool find_columns(const struct gb_table *table, const char *const *names,
+                         const double **column, size_t count, struct gb_error *err)
+{
+    for (size_t i = 0; i < count; i++) {
+        column[i] = gb_table_column(table, names[i], err);
+        if (column[i] == NULL) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void write_name(struct gb_choices *choices, const struct gb_table *table,
+                       size_t row)
+{
+    const double *step = gb_table_column(table, "step", NULL);
+    const double *tolerance = gb_table_column(table, "tolerance", NULL);
+    snprintf(choices->name, sizeof choices->name, "%.24s, step %.3g %%, tolerance %.3g",
+             gb_table_word(table, row), step != NULL ? 100.0 * step[row] : (double)NAN,
+             tolerance != NULL ? tolerance[row] : (double)NAN);
+}
+
+static bool fill(struct gb_choices *choices, const struct gb_table *table,
+                 struct gb_error *err)
+{
+    enum { SECONDS, ERROR, FRONT, CHOSEN, COLUMNS };
+    static const char *const names[COLUMNS] = {"cpu_s", "bound", "front", "chosen"};
+    const double *column[COLUMNS];
+    const size_t rows = gb_table_rows(table);
+    if (!find_columns(table, names, column, COLUMNS, err)) {
+        return false;
+    }
+    choices->seconds = gb_alloc_array(rows + 1, sizeof(double), err);
+    choices->error = gb_alloc_array(rows + 1, sizeof(double), err);
+    choices->front = gb_alloc_array(rows + 1, sizeof(bool), err);
+    if (choices->seconds == NULL || choices->error == NULL || choices->front == NULL) {
+        return false;
+    }
+    choices->count = rows;
+    choices->chosen = rows;
+    for (size_t i = 0; i < rows; i++) {
+        choices->seconds[i] = column[SECONDS][i];
+        choices->error[i] = column[ERROR][i];
+        choices->front[i] = column[FRONT][i] > 0.0;
+        if (column[CHOSEN][i] > 0.0) {
+            choices->chosen = i;
+            write_name(choices, table, i);
+        }
+    }
+    return true;
+}
+
+bool gb_choices_read(struct gb_choices **out, const char *path, struct gb_error *err)
+{
+    struct gb_table *table = NULL;
+    if (!gb_table_read(&table, path, "relaxer", err)) {
+        return false;
+    }
+    struct gb_choices *choices = gb_alloc_array(1, sizeof *choices, err);
+    const bool good = choices != NULL && fill(choices, table, err);
+    gb_table_destroy(table);
+    if (!good) {
+        gb_choices_destroy(choices);
+        return false;
+    }
+    *out = choices;
+    return true;
+}
+
+void gb_choices_destroy(struct gb_choices *choices)
+{
+    if (choices != NULL) {
+        gb_alloc_free(choices->seconds);
+        gb_alloc_free(choices->error);
+        gb_alloc_free(choices->front);
+        gb_alloc_free(choices);
+    }
+}

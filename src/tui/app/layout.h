@@ -1,0 +1,43 @@
+#ifndef GB_TUI_APP_LAYOUT_H
+#define GB_TUI_APP_LAYOUT_H
+
+#include <stdbool.h>
+
+/* Cells of the screen; rows or cols 0: not shown. */
+struct gb_rect {
+    int row, col;
+    int rows, cols;
+};
+
+/* Panes in the order of Tab. */
+enum gb_pane { GB_PANE_PARAMS, GB_PANE_PLOT, GB_PANE_STATE, GB_PANE_EVENTS, GB_PANES };
+
+enum gb_layout_kind {
+    GB_LAYOUT_TOO_SMALL, /* only a message that says which size it needs */
+    GB_LAYOUT_COMPACT,   /* plot and state, or the one pane that has the focus */
+    GB_LAYOUT_FULL,      /* everything, state below the plot */
+    GB_LAYOUT_WIDE       /* everything, state to the right of the plot */
+};
+
+enum {
+    GB_LAYOUT_LEAST_ROWS = 12,
+    GB_LAYOUT_LEAST_COLS = 40,
+    GB_LAYOUT_FULL_ROWS = 24,
+    GB_LAYOUT_FULL_COLS = 80
+};
+
+/* The first row of a pane is its title.  In full and wide layouts the parameters' last
+ * column is the line between them and the rest; in wide ones the plot's last column is,
+ * too. */
+struct gb_layout {
+    enum gb_layout_kind kind;
+    struct gb_rect header, pane[GB_PANES], message, footer;
+};
+
+/* Places everything.  Pure: same sizes and focus, same rectangles. */
+void gb_layout_make(struct gb_layout *layout, int rows, int cols, enum gb_pane focus);
+
+/* Whether a pane is on the screen. */
+bool gb_layout_shows(const struct gb_layout *layout, enum gb_pane pane);
+
+#endif

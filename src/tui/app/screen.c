@@ -1,0 +1,229 @@
+#include "tui/app/screen.h"
+
+#include <ncurses.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/units.h"
+
+static struct gb_paint whole(const struct gb_screen *screen)
+{
+    return gb_paint_at(screen->term, (struct gb_rect){0, 0, LINES, COLS});
+}
+
+static void draw_header(struct gb_screen *screen)
+{
+    const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.header);
+    const struct gb_session *session = &screen->session;
+    enum gb_style style = GB_STYLE_DIM;
+    const char *word = "not started";
+    const struct gb_seen seen = gb_session_seen(session);
+    if (seen.quick) {
+        style = GB_STYLE_SERIES;
+        word = gb_trial_live(&session->trial) ? "\u25b6 quick cell" : "\u2713 quick cell";
+    } else if (seen.curve != NULL) {
+        word = gb_panel_state_word(session->engine, &style);
+    }
+    char right[64];
+    snprintf(right, sizeof right, "%s%s", session->frozen ? "view frozen  " : "", word);
+    const int cols = paint.rect.cols;
+    const int from = cols - gb_paint_width(right) - 1;
+    const int name = gb_paint_text(&paint, 0, 1, GB_STYLE_BOLD, "greenbody") + 2;
+    const struct gb_params *params = gb_session_params(&screen->session);
+    char title[192];
+    snprintf(title, sizeof title, "%s \u00b7 N %lld", params->title,
+             (long long)params->count);
+    gb_paint_cell(&paint, 0, name, from - name - 2, GB_STYLE_PLAIN, title);
+    const int word_at = cols - gb_paint_width(word) - 1;
+    if (session->frozen) {
+        gb_paint_text(&paint, 0, from, GB_STYLE_WARN, "view frozen");
+    }
+    gb_paint_text(&paint, 0, word_at, style, word);
+}
+
+/* First name of a key: "?" of "? F1". */
+static void brief_name(const struct gb_key *key, char *name, size_t size)
+{
+    const size_t length = strcspn(key->name, " ");
+    snprintf(name, size, "%.*s", (int)length, key->name);
+}
+
+static int footer_width(const struct gb_key *key, int gap)
+{
+    char name[16];
+    brief_name(key, name, sizeof name);
+    return gb_paint_width(name) + 1 + gb_paint_width(key->brief) + gap;
+}
+
+/* Where the keys of the footer stand: as many of the table as fit; the last two, help and
+ * quit, always.  at[i] is -1 for those that do not.  Returns their number. */
+enum { FOOTER_KEYS = 64 };
+
+static size_t place_footer(int cols, int at[FOOTER_KEYS])
+{
+    size_t count = 0;
+    const struct gb_key *key = gb_keys_table(&count);
+    int all = 0;
+    for (size_t i = 0; i < count; i++) {
+        all += key[i].brief != NULL ? footer_width(&key[i], 2) : 0;
+    }
+    const int gap = all <= cols ? 2 : 1;
+    int reserved = footer_width(&key[count - 2], gap) + footer_width(&key[count - 1], 0);
+    int col = gap - 1;
+    for (size_t i = 0; i < count; i++) {
+        const bool last = i + 2 >= count;
+        at[i] = -1;
+        if (key[i].brief != NULL &&
+            (last || col + footer_width(&key[i], gap) + reserved <= cols)) {
+            at[i] = col;
+            col += footer_width(&key[i], gap);
+        }
+    }
+    return count;
+}
+
+static void draw_footer(struct gb_screen *screen)
+{
+    const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.footer);
+    int at[FOOTER_KEYS];
+    size_t count = 0;
+    const struct gb_key *key = gb_keys_table(&count);
+    place_footer(paint.rect.cols, at);
+    for (size_t i = 0; i < count; i++) {
+        char name[16];
+        brief_name(&key[i], name, sizeof name);
+        if (at[i] >= 0) {
+            const int col = gb_paint_text(&paint, 0, at[i], GB_STYLE_BOLD, name) + 1;
+            gb_paint_text(&paint, 0, col, GB_STYLE_DIM, key[i].brief);
+        }
+    }
+}
+
+const struct gb_key *gb_screen_key_at(const struct gb_screen *screen, int row, int col)
+{
+    const struct gb_rect *footer = &screen->layout.footer;
+    int at[FOOTER_KEYS];
+    size_t count = 0;
+    const struct gb_key *key = gb_keys_table(&count);
+    if (footer->rows == 0 || row != footer->row) {
+        return NULL;
+    }
+    place_footer(footer->cols, at);
+    for (size_t i = 0; i < count; i++) {
+        if (at[i] >= 0 && col >= at[i] && col < at[i] + footer_width(&key[i], 0)) {
+            return &key[i];
+        }
+    }
+    return NULL;
+}
+
+static void draw_message(struct gb_screen *screen)
+{
+    const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.message);
+    struct gb_message message = screen->message;
+    if (message.text[0] == '\0' || screen->params.editing) {
+        struct gb_message shown = {.style = GB_STYLE_DIM};
+        if (screen->focus == GB_PANE_PARAMS) {
+            gb_panel_params_explain(&screen->params, &screen->session, &shown);
+        } else if (screen->focus == GB_PANE_PLOT) {
+            gb_panel_plot_explain(&screen->plot, &screen->session, &shown);
+        } else if (screen->session.now.error.text[0] != '\0') {
+            snprintf(shown.text, sizeof shown.text, "%s", screen->session.now.error.text);
+            shown.style = GB_STYLE_WARN;
+        }
+        message = message.text[0] == '\0' ? shown : message;
+    }
+    gb_paint_wrap(&paint, 0, paint.rect.rows, message.style, message.text);
+}
+
+static void draw_pane(struct gb_screen *screen, enum gb_pane pane)
+{
+    const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.pane[pane]);
+    const bool focus = screen->focus == pane && screen->dialog.kind == GB_DIALOG_NONE;
+    switch (pane) {
+    case GB_PANE_PARAMS:
+        gb_panel_params_draw(&screen->params, &paint, &screen->session, focus);
+        break;
+    case GB_PANE_PLOT:
+        screen->plot.edited = gb_panel_params_edited(&screen->params, &screen->session);
+        gb_panel_plot_draw(&screen->plot, &paint, &screen->session, focus);
+        break;
+    case GB_PANE_STATE:
+        gb_panel_state_draw(&paint, &screen->session, focus);
+        break;
+    case GB_PANE_EVENTS:
+        gb_panel_events_draw(&screen->events, &paint, &screen->session, focus);
+        break;
+    case GB_PANES:
+        break;
+    }
+}
+
+static void join(const struct gb_paint *paint, int row, int col, const char *sign)
+{
+    gb_paint_text(paint, row, col, GB_STYLE_DIM, sign);
+}
+
+/* The lines between panes that stand side by side. */
+static void draw_lines(const struct gb_screen *screen)
+{
+    const struct gb_layout *layout = &screen->layout;
+    const struct gb_paint paint = whole(screen);
+    const struct gb_rect *params = &layout->pane[GB_PANE_PARAMS];
+    const struct gb_rect *state = &layout->pane[GB_PANE_STATE];
+    const struct gb_rect *events = &layout->pane[GB_PANE_EVENTS];
+    const int bottom = params->row + params->rows - 1;
+    if (layout->kind < GB_LAYOUT_FULL) {
+        return;
+    }
+    const int left = params->col + params->cols - 1;
+    gb_paint_column(&paint, left, params->row + 1, bottom);
+    join(&paint, params->row, left, "\u252c");
+    if (layout->kind == GB_LAYOUT_FULL) {
+        join(&paint, state->row, left, "\u251c");
+        join(&paint, events->row, left, "\u251c");
+        return;
+    }
+    gb_paint_column(&paint, state->col - 1, params->row + 1, bottom);
+    join(&paint, state->row, state->col - 1, "\u252c");
+    join(&paint, events->row, events->col - 1, "\u251c");
+}
+
+static void draw_too_small(const struct gb_screen *screen)
+{
+    const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.message);
+    char text[96];
+    snprintf(text, sizeof text, "greenbody needs %d x %d, has %d x %d; q quits",
+             GB_LAYOUT_LEAST_COLS, GB_LAYOUT_LEAST_ROWS, COLS, LINES);
+    gb_paint_wrap(&paint, 0, paint.rect.rows, GB_STYLE_PLAIN, text);
+}
+
+void gb_screen_draw(struct gb_screen *screen)
+{
+    gb_layout_make(&screen->layout, LINES, COLS, screen->focus);
+    erase();
+    if (screen->layout.kind == GB_LAYOUT_TOO_SMALL) {
+        draw_too_small(screen);
+        return;
+    }
+    draw_header(screen);
+    for (enum gb_pane pane = GB_PANE_PARAMS; pane < GB_PANES; pane++) {
+        if (gb_layout_shows(&screen->layout, pane)) {
+            draw_pane(screen, pane);
+        }
+    }
+    draw_lines(screen);
+    draw_message(screen);
+    draw_footer(screen);
+    const struct gb_paint paint = whole(screen);
+    gb_dialog_draw(&screen->dialog, &paint);
+}
+
+const struct gb_view_sample *gb_screen_picture(const struct gb_screen *screen)
+{
+    const struct gb_seen seen = gb_session_seen(&screen->session);
+    const bool wanted = screen->plot.pixels && screen->plot.view == GB_VIEW_PACKING &&
+                        screen->dialog.kind == GB_DIALOG_NONE &&
+                        gb_layout_shows(&screen->layout, GB_PANE_PLOT);
+    return wanted && seen.picture != NULL && seen.picture->valid ? seen.picture : NULL;
+}

@@ -1,0 +1,88 @@
+#include "tui/panel/panels.h"
+
+#include <stdio.h>
+
+static int limit(int value, int most)
+{
+    return value < 0 ? 0 : value > most ? most : value;
+}
+
+static int farthest(const struct gb_panel_events *panel, const struct gb_session *session)
+{
+    const int64_t kept =
+        session->log_count < GB_SESSION_LOG ? session->log_count : GB_SESSION_LOG;
+    return kept > panel->page ? (int)kept - panel->page : 0;
+}
+
+/* Rows that all lines from the newest shown back would take. */
+static int total_rows(const struct gb_panel_events *panel, const struct gb_paint *paint,
+                      const struct gb_session *session, int most)
+{
+    int total = 0;
+    for (int i = panel->back; total < panel->page; i++) {
+        const char *line = gb_session_line(session, i);
+        if (line == NULL) {
+            break;
+        }
+        total += gb_paint_wrapped(paint, most, line);
+    }
+    return total;
+}
+
+/* The newest line at the bottom; a long one takes up to half of the pane. */
+void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *paint,
+                          const struct gb_session *session, bool focus)
+{
+    char title[GB_CHILD_COMMAND_LINE + 32] = "Events";
+    if (session->errand.progress[0] != '\0') {
+        snprintf(title, sizeof title, "Events: %s, %s", session->errand.what,
+                 session->errand.progress);
+    }
+    gb_paint_title(paint, title, focus);
+    panel->page = paint->rect.rows - 1;
+    panel->back = limit(panel->back, farthest(panel, session));
+    const int most = panel->page > 3 ? 3 : 1;
+    const int total = total_rows(panel, paint, session, most);
+    int end = 1 + (total < panel->page ? total : panel->page);
+    const char *line = NULL;
+    for (int i = panel->back; end > 1; i++) {
+        line = gb_session_line(session, i);
+        if (line == NULL) {
+            return;
+        }
+        const int rows = gb_paint_wrapped(paint, most, line);
+        if (end - rows < 1) {
+            return;
+        }
+        end -= rows;
+        gb_paint_wrap(paint, end, rows, GB_STYLE_PLAIN, line);
+    }
+}
+
+bool gb_panel_events_act(struct gb_panel_events *panel, const struct gb_session *session,
+                         enum gb_action action)
+{
+    const int most = farthest(panel, session);
+    switch (action) {
+    case GB_ACTION_UP:
+        panel->back = limit(panel->back + 1, most);
+        return true;
+    case GB_ACTION_DOWN:
+        panel->back = limit(panel->back - 1, most);
+        return true;
+    case GB_ACTION_PAGE_UP:
+        panel->back = limit(panel->back + panel->page, most);
+        return true;
+    case GB_ACTION_PAGE_DOWN:
+        panel->back = limit(panel->back - panel->page, most);
+        return true;
+    case GB_ACTION_HOME:
+        panel->back = most;
+        return true;
+    case GB_ACTION_END:
+        panel->back = 0;
+        return true;
+    default:
+        return false;
+    }
+}

@@ -1,0 +1,32 @@
+#ifndef GB_TUI_PANEL_PROMPT_H
+#define GB_TUI_PANEL_PROMPT_H
+
+#include <stdbool.h>
+
+#include "greenbody/params.h"
+#include "tui/term/paint.h"
+
+/* One line of text being typed: a value, a name. */
+enum { GB_PROMPT_MOST = GB_PARAMS_VALUE_MAX };
+
+struct gb_prompt {
+    uint32_t text[GB_PROMPT_MOST]; /* Unicode */
+    int length, cursor;
+    char utf8[4 * GB_PROMPT_MOST + 1];
+};
+
+/* Begins with a text; the cursor stands behind it. */
+void gb_prompt_set(struct gb_prompt *prompt, const char *text);
+
+/* Takes a key or a character; false when it is not for the prompt (Enter, Esc, Tab, ...).
+ */
+bool gb_prompt_take(struct gb_prompt *prompt, const struct gb_term_event *event);
+
+/* The text as UTF-8, valid until the next change. */
+const char *gb_prompt_text(struct gb_prompt *prompt);
+
+/* Draws the part around the cursor in `cols` cells. */
+void gb_prompt_draw(const struct gb_prompt *prompt, const struct gb_paint *paint, int row,
+                    int col, int cols);
+
+#endif

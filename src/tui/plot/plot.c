@@ -1,0 +1,449 @@
+#include "tui/plot/plot.h"
+
+#include <glib.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "tui/plot/plot_raster.h"
+
+enum { TICK_COLS = 9, TICK_COLS_MOST = 12 };
+
+static const uint32_t wide_marks[] = {' ',    0x25cf, 0x25cb, 0x25c6, 0x25c7,
+                                      0x25b2, 0x25b3, 0x25a0, 0x25a1};
+static const uint32_t ascii_marks[] = {' ', '*', 'o', '#', '+', '^', 'v', '@', 'x'};
+
+enum { MARKS = sizeof wide_marks / sizeof wide_marks[0] };
+
+void gb_plot_init(struct gb_plot *plot)
+{
+    memset(plot, 0, sizeof *plot);
+}
+
+void gb_plot_finish(struct gb_plot *plot)
+{
+    gb_alloc_free(plot->cell);
+    gb_alloc_free(plot->dots);
+    gb_plot_init(plot);
+}
+
+static bool reserve(struct gb_plot *plot, size_t cells, struct gb_error *err)
+{
+    if (cells <= plot->capacity) {
+        return true;
+    }
+    struct gb_plot_cell *cell = gb_alloc_array(cells, sizeof *cell, err);
+    uint8_t *dots = cell == NULL ? NULL : gb_alloc_array(cells, 1, err);
+    if (dots == NULL) {
+        gb_alloc_free(cell);
+        return false;
+    }
+    gb_plot_finish(plot);
+    plot->cell = cell;
+    plot->dots = dots;
+    plot->capacity = cells;
+    return true;
+}
+
+bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyphs glyphs,
+                    struct gb_error *err)
+{
+    const size_t cells = rows > 0 && cols > 0 ? (size_t)rows * (size_t)cols : 0;
+    if (!reserve(plot, cells, err)) {
+        return false;
+    }
+    plot->rows = cells > 0 ? rows : 0;
+    plot->cols = cells > 0 ? cols : 0;
+    plot->glyphs = glyphs;
+    plot->log_x = false;
+    plot->foot = 0;
+    for (size_t i = 0; i < cells; i++) {
+        plot->cell[i] = (struct gb_plot_cell){' ', GB_PLOT_INK_NONE, false, 0};
+        plot->dots[i] = 0;
+    }
+    plot->top = 0;
+    plot->left = 0;
+    plot->field_rows = plot->rows;
+    plot->field_cols = plot->cols;
+    return true;
+}
+
+static void put(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
+{
+    if (row >= 0 && row < plot->rows && col >= 0 && col < plot->cols) {
+        plot->cell[row * plot->cols + col] = (struct gb_plot_cell){ch, ink, true, 0};
+    }
+}
+
+void gb_plot_text(struct gb_plot *plot, int row, int col, int ink, const char *text)
+{
+    for (const char *at = text; *at != '\0'; at = g_utf8_next_char(at)) {
+        put(plot, row, col++, g_utf8_get_char(at), ink);
+    }
+}
+
+static uint32_t line_char(const struct gb_plot *plot, uint32_t wide, uint32_t ascii)
+{
+    return plot->glyphs == GB_PLOT_ASCII ? ascii : wide;
+}
+
+/* Row and column of a place in the field, 0..1 along each axis. */
+static int field_row(const struct gb_plot *plot, double place)
+{
+    const int dots = plot->field_rows * gb_plot_raster_dots_y(plot->glyphs);
+    return plot->top + (int)floor((1.0 - place) * (dots - 1) + 0.5) /
+                           gb_plot_raster_dots_y(plot->glyphs);
+}
+
+static int field_col(const struct gb_plot *plot, double place)
+{
+    const int dots = plot->field_cols * gb_plot_raster_dots_x(plot->glyphs);
+    return plot->left +
+           (int)floor(place * (dots - 1) + 0.5) / gb_plot_raster_dots_x(plot->glyphs);
+}
+
+static void draw_y_axis(struct gb_plot *plot)
+{
+    const int col = plot->left - 1;
+    for (int row = 0; row < plot->field_rows; row++) {
+        put(plot, plot->top + row, col, line_char(plot, 0x2502, '|'), GB_PLOT_INK_AXIS);
+    }
+    int last = plot->rows;
+    for (int i = 0; i < plot->y.ticks; i++) {
+        const int row = field_row(plot, gb_plot_axis_place(&plot->y, plot->y.tick[i]));
+        if (row >= last) {
+            continue;
+        }
+        last = row;
+        const int width = (int)strlen(plot->y.text[i]);
+        gb_plot_text(plot, row, col - width, GB_PLOT_INK_TEXT, plot->y.text[i]);
+        put(plot, row, col, line_char(plot, 0x2524, '+'), GB_PLOT_INK_AXIS);
+    }
+}
+
+static void draw_x_axis(struct gb_plot *plot)
+{
+    const int row = plot->top + plot->field_rows;
+    put(plot, row, plot->left - 1, line_char(plot, 0x2514, '+'), GB_PLOT_INK_AXIS);
+    for (int col = 0; col < plot->field_cols; col++) {
+        put(plot, row, plot->left + col, line_char(plot, 0x2500, '-'), GB_PLOT_INK_AXIS);
+    }
+    int free_from = 0;
+    for (int i = 0; i < plot->x.ticks; i++) {
+        const int col = field_col(plot, gb_plot_axis_place(&plot->x, plot->x.tick[i]));
+        const int width = (int)strlen(plot->x.text[i]);
+        int from = col - width / 2;
+        from = from + width > plot->cols ? plot->cols - width : from;
+        if (from < free_from) {
+            continue;
+        }
+        free_from = from + width + 1;
+        put(plot, row, col, line_char(plot, 0x252c, '+'), GB_PLOT_INK_AXIS);
+        gb_plot_text(plot, row + 1, from, GB_PLOT_INK_TEXT, plot->x.text[i]);
+    }
+}
+
+static int widest_tick(const struct gb_plot_axis *axis)
+{
+    int width = 1;
+    for (int i = 0; i < axis->ticks; i++) {
+        const int length = (int)strlen(axis->text[i]);
+        width = length > width ? length : width;
+    }
+    return width;
+}
+
+static int limit(int value, int least, int most)
+{
+    return value < least ? least : value > most ? most : value;
+}
+
+void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_ends[2],
+                  bool log_y, const char *x_label, const char *y_label)
+{
+    const int rows = plot->rows - 2 - plot->foot;
+    gb_plot_axis_fit(&plot->y, y_ends[0], y_ends[1], log_y, limit(rows / 2 + 1, 2, 10));
+    const int left = widest_tick(&plot->y) + 1;
+    const int cols = plot->cols - left;
+    if (rows < 2 || cols < 8) {
+        gb_plot_bare(plot, x_ends, y_ends);
+        return;
+    }
+    plot->left = left;
+    plot->field_rows = rows;
+    plot->field_cols = cols;
+    gb_plot_axis_fit(&plot->x, x_ends[0], x_ends[1], plot->log_x,
+                     limit(cols / TICK_COLS + 1, 2, TICK_COLS_MOST));
+    draw_y_axis(plot);
+    draw_x_axis(plot);
+    gb_plot_text(plot, 0, left + 1, GB_PLOT_INK_TEXT, y_label);
+    const int width = (int)g_utf8_strlen(x_label, -1);
+    gb_plot_text(plot, rows - 1, plot->cols - width, GB_PLOT_INK_TEXT, x_label);
+}
+
+void gb_plot_bare(struct gb_plot *plot, const double x_ends[2], const double y_ends[2])
+{
+    plot->top = 0;
+    plot->left = 0;
+    plot->field_rows = plot->rows;
+    plot->field_cols = plot->cols;
+    plot->x = (struct gb_plot_axis){.low = x_ends[0], .high = x_ends[1]};
+    plot->y = (struct gb_plot_axis){.low = y_ends[0], .high = y_ends[1]};
+}
+
+static uint32_t mark_char(const struct gb_plot *plot, int marker)
+{
+    if (marker >= MARKS) {
+        return (uint32_t)marker; /* a letter */
+    }
+    return plot->glyphs == GB_PLOT_ASCII ? ascii_marks[marker] : wide_marks[marker];
+}
+
+/* The label of an axis stays whole: the line itself shows that the curve is there. */
+static void put_marker(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
+{
+    if (row < 0 || row >= plot->rows || col < 0 || col >= plot->cols) {
+        return;
+    }
+    const struct gb_plot_cell *cell = &plot->cell[row * plot->cols + col];
+    const bool text = cell->ink == GB_PLOT_INK_TEXT || cell->ink == GB_PLOT_INK_AXIS;
+    if (!cell->fixed || !text) {
+        put(plot, row, col, ch, ink);
+    }
+}
+
+/* Markers at least `spacing` cells apart, and one at the last point. */
+static void draw_markers(struct gb_plot *plot, const struct gb_plot_series *series)
+{
+    const uint32_t ch = mark_char(plot, series->marker);
+    int last_row = INT16_MIN;
+    int last_col = INT16_MIN;
+    int end_row = -1;
+    int end_col = -1;
+    for (size_t i = 0; i < series->count; i++) {
+        const double x = gb_plot_axis_place(&plot->x, series->x[i]);
+        const double y = gb_plot_axis_place(&plot->y, series->y[i]);
+        if (!(x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0)) {
+            continue;
+        }
+        end_row = field_row(plot, y);
+        end_col = field_col(plot, x);
+        const int away = MAX(2 * abs(end_row - last_row), abs(end_col - last_col));
+        if (series->points || (series->spacing > 0 && away >= series->spacing)) {
+            put_marker(plot, end_row, end_col, ch, series->ink);
+            last_row = end_row;
+            last_col = end_col;
+        }
+    }
+    if (series->spacing == 0 && end_row >= 0) {
+        put_marker(plot, end_row, end_col, ch, series->ink);
+    }
+}
+
+void gb_plot_line(struct gb_plot *plot, const struct gb_plot_series *series)
+{
+    if (!series->points) {
+        gb_plot_raster_line(plot, series);
+    }
+    if (series->marker > 0) {
+        draw_markers(plot, series);
+    }
+}
+
+void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int ink)
+{
+    const double from = gb_plot_axis_place(&plot->x, x_from);
+    const double to = gb_plot_axis_place(&plot->x, x_to);
+    const double top = gb_plot_axis_place(&plot->y, y);
+    if (!(from >= 0.0 && to <= 1.0 && from <= to && top > 0.0)) {
+        return;
+    }
+    /* bars of equal share get equal widths, with a column between them */
+    const int width = MAX((int)floor((to - from) * plot->field_cols) - 1, 1);
+    const int col = field_col(plot, from);
+    const int end = MIN(col + width, plot->left + plot->field_cols);
+    for (int c = col; c < end; c++) {
+        gb_plot_raster_column(plot, c, top > 1.0 ? 1.0 : top, ink);
+    }
+}
+
+void gb_plot_cursor(struct gb_plot *plot, double x, double y)
+{
+    const double px = gb_plot_axis_place(&plot->x, x);
+    const double py = gb_plot_axis_place(&plot->y, y);
+    if (!(px >= 0.0 && px <= 1.0 && py >= 0.0 && py <= 1.0)) {
+        return;
+    }
+    const int row = field_row(plot, py);
+    const int col = field_col(plot, px);
+    for (int r = plot->top; r < plot->top + plot->field_rows; r++) {
+        if (plot->cell[r * plot->cols + col].ch == ' ') {
+            put(plot, r, col, line_char(plot, 0x2502, '|'), GB_PLOT_INK_CURSOR);
+        }
+    }
+    for (int c = plot->left; c < plot->left + plot->field_cols; c++) {
+        if (plot->cell[row * plot->cols + c].ch == ' ') {
+            put(plot, row, c, line_char(plot, 0x2500, '-'), GB_PLOT_INK_CURSOR);
+        }
+    }
+    put(plot, row, col, line_char(plot, 0x253c, '+'), GB_PLOT_INK_CURSOR);
+}
+
+/* A legend on its way to its place. */
+struct box {
+    int rows, columns; /* of entries */
+    int width;         /* of an entry */
+    int row, col;
+    int taken; /* cells under it */
+};
+
+static int box_cols(const struct box *box)
+{
+    return box->columns * box->width + (box->columns - 1) * 2;
+}
+
+/* Cells of a box that are taken; counts no further than enough. */
+static int taken(const struct gb_plot *plot, const struct box *box, int enough)
+{
+    const int cols = box_cols(box);
+    int sum = 0;
+    for (int r = box->row; r < box->row + box->rows; r++) {
+        for (int c = box->col; c < box->col + cols && sum < enough; c++) {
+            sum += plot->cell[r * plot->cols + c].ch != ' ';
+        }
+    }
+    return sum;
+}
+
+/* Moves the box to a place where it covers less than so far. */
+static void try_place(const struct gb_plot *plot, struct box *box, int row, int col)
+{
+    struct box there = *box;
+    there.row = row;
+    there.col = col;
+    there.taken = taken(plot, &there, box->taken);
+    if (there.taken < box->taken) {
+        *box = there;
+    }
+}
+
+/* Left above the curves or right below them, where they seldom are, else anywhere. */
+static void find_place(const struct gb_plot *plot, struct box *box)
+{
+    const int bottom = plot->top + plot->field_rows - 1 - box->rows;
+    const int right = plot->left + plot->field_cols - box_cols(box);
+    box->taken = INT_MAX;
+    try_place(plot, box, plot->top + 1, plot->left + 1);
+    try_place(plot, box, bottom, right);
+    for (int row = plot->top + 1; row <= bottom; row++) {
+        for (int col = plot->left + 1; col <= right && box->taken > 0; col++) {
+            try_place(plot, box, row, col);
+        }
+    }
+}
+
+/* A box for so many entries that covers nothing, in one column or more; false when there
+ * is none. */
+static bool find_free(const struct gb_plot *plot, struct box *box, int entries)
+{
+    for (box->columns = 1; box->columns <= 3; box->columns++) {
+        box->rows = (entries + box->columns - 1) / box->columns;
+        if (box->rows > plot->field_rows - 2 || box_cols(box) > plot->field_cols - 1) {
+            continue;
+        }
+        find_place(plot, box);
+        if (box->taken == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Columns of entries below a plot. */
+static int foot_columns(const struct gb_plot *plot, int width)
+{
+    return MAX(1, (plot->cols + 2) / (width + 2));
+}
+
+/* Where so many entries stand: in the foot if there is one, where nothing is, or where
+ * they hide least.  Returns how many fit. */
+static int arrange(const struct gb_plot *plot, struct box *box, int count)
+{
+    if (plot->foot > 0) {
+        box->rows = plot->foot;
+        box->row = plot->rows - plot->foot;
+        box->columns = foot_columns(plot, box->width);
+        return MIN(count, box->rows * box->columns);
+    }
+    if (!find_free(plot, box, count)) {
+        box->columns = 1;
+        box->rows = MIN(count, plot->field_rows - 2);
+        find_place(plot, box);
+    }
+    return MIN(count, box->rows * box->columns);
+}
+
+static void write_entry(struct gb_plot *plot, int row, int col, int width,
+                        const struct gb_plot_entry *entry)
+{
+    char name[GB_PLOT_NAME];
+    g_utf8_strncpy(name, entry->name, (gsize)(width - 2));
+    put(plot, row, col, entry->marker ? mark_char(plot, entry->marker) : ' ', entry->ink);
+    put(plot, row, col + 1, ' ', GB_PLOT_INK_NONE);
+    gb_plot_text(plot, row, col + 2, entry->ink, name);
+}
+
+static int entry_width(const struct gb_plot *plot, const struct gb_plot_entry *entry,
+                       int count)
+{
+    int width = 0;
+    for (int i = 0; i < count; i++) {
+        width = MAX(width, 2 + (int)g_utf8_strlen(entry[i].name, -1));
+    }
+    return MIN(width, 2 * plot->field_cols / 3);
+}
+
+int gb_plot_foot_for(const struct gb_plot *plot, const struct gb_plot_entry *entry,
+                     int count)
+{
+    const int columns = foot_columns(plot, entry_width(plot, entry, count));
+    return MIN((count + columns - 1) / columns, plot->rows / 3);
+}
+
+bool gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int count)
+{
+    struct box box = {.width = entry_width(plot, entry, count)};
+    if (count <= 0 || plot->field_rows < 5 || box.width < 4) {
+        return count <= 0;
+    }
+    const int shown = arrange(plot, &box, count);
+    for (int i = 0; i < shown; i++) {
+        struct gb_plot_entry more = {.ink = GB_PLOT_INK_DIM};
+        snprintf(more.name, sizeof more.name, "and %d more", count - shown + 1);
+        const bool whole = i + 1 < shown || shown == count;
+        write_entry(plot, box.row + i % box.rows,
+                    box.col + i / box.rows * (box.width + 2), box.width,
+                    whole ? &entry[i] : &more);
+    }
+    return shown == count && box.taken == 0;
+}
+
+char *gb_plot_dump(const struct gb_plot *plot)
+{
+    GString *text = g_string_new(NULL);
+    for (int row = 0; row < plot->rows; row++) {
+        const gsize from = text->len;
+        gsize end = from;
+        for (int col = 0; col < plot->cols; col++) {
+            g_string_append_unichar(text, plot->cell[row * plot->cols + col].ch);
+            if (plot->cell[row * plot->cols + col].ch != ' ') {
+                end = text->len;
+            }
+        }
+        g_string_truncate(text, end);
+        g_string_append_c(text, '\n');
+    }
+    return g_string_free(text, FALSE);
+}

@@ -1,0 +1,103 @@
+#ifndef GB_TUI_PLOT_PLOT_H
+#define GB_TUI_PLOT_PLOT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+#include "tui/plot/plot_axis.h"
+
+/* Series -> cells, without curses: what is drawn here can be read in a test. */
+
+/* How dots become characters: 2 x 4 dots a cell (braille), 1 x 2 (half blocks, which
+ * every console font has), 1 x 2 of ' . : (ASCII). */
+enum gb_plot_glyphs { GB_PLOT_BRAILLE, GB_PLOT_BLOCK, GB_PLOT_ASCII, GB_PLOT_GLYPHS };
+
+/* Meaning of a cell, for whoever gives it colours. */
+enum gb_plot_ink {
+    GB_PLOT_INK_NONE,
+    GB_PLOT_INK_AXIS,
+    GB_PLOT_INK_TEXT,
+    GB_PLOT_INK_CURSOR,
+    GB_PLOT_INK_DIM,    /* earlier runs */
+    GB_PLOT_INK_SERIES, /* + number of the series' colour, 0..GB_PLOT_COLOURS - 1 */
+    GB_PLOT_INK_SHADE = GB_PLOT_INK_SERIES + 6 /* + 0 (dark) .. GB_PLOT_SHADES - 1 */
+};
+
+enum { GB_PLOT_COLOURS = 6, GB_PLOT_SHADES = 8 };
+
+struct gb_plot_cell {
+    uint32_t ch; /* Unicode */
+    int ink;     /* enum gb_plot_ink, or GB_PLOT_INK_SERIES + colour */
+    bool fixed;  /* a marker or a text: lines pass behind it */
+    int back;    /* of a shaded cell: 1 + shade of its background; 0: the screen's own */
+};
+
+/* A line of points.  NaN breaks it; what lies outside the axes is clipped. */
+struct gb_plot_series {
+    const double *x, *y;
+    size_t count;
+    int ink;
+    int marker;  /* 0: none; 1.. one of the marker shapes */
+    int spacing; /* cells between markers; 0: one at the last point only */
+    bool points; /* no line between the points */
+};
+
+enum { GB_PLOT_NAME = 64 };
+
+struct gb_plot_entry {
+    int ink, marker;
+    char name[GB_PLOT_NAME];
+};
+
+struct gb_plot {
+    int rows, cols; /* of the whole picture */
+    int top, left;  /* of the field inside the axes */
+    int field_rows, field_cols;
+    enum gb_plot_glyphs glyphs;
+    bool log_x; /* of the axes to come; resizing clears it */
+    int foot;   /* rows below the axes to come, for the legend; resizing clears it */
+    struct gb_plot_axis x, y;
+    struct gb_plot_cell *cell; /* rows x cols */
+    uint8_t *dots;             /* rows x cols: bits of the raster */
+    size_t capacity;
+};
+
+void gb_plot_init(struct gb_plot *plot);
+void gb_plot_finish(struct gb_plot *plot);
+
+/* Empties the plot and gives it a size; allocates only when it grows. */
+bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyphs glyphs,
+                    struct gb_error *err);
+
+/* Axes, ticks and labels around the field, chosen for data between the given ends. */
+void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_ends[2],
+                  bool log_y, const char *x_label, const char *y_label);
+/* No axes: the whole picture is the field (polar pictures). */
+void gb_plot_bare(struct gb_plot *plot, const double x_ends[2], const double y_ends[2]);
+
+void gb_plot_line(struct gb_plot *plot, const struct gb_plot_series *series);
+
+/* A vertical bar from the bottom of the field. */
+void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int ink);
+
+/* Cross hairs at a point; only empty cells are drawn over. */
+void gb_plot_cursor(struct gb_plot *plot, double x, double y);
+
+/* Text inside the picture, cut at its edge.  UTF-8. */
+void gb_plot_text(struct gb_plot *plot, int row, int col, int ink, const char *text);
+
+/* What the lines mean: in the foot, if there is one, else where no line is (top left,
+ * bottom right or anywhere, in up to three columns), else where it hides least.  The last
+ * entries that do not fit are counted.  Call it after the lines.  False when it hides
+ * something or leaves something out. */
+bool gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int count);
+/* Rows that a foot takes for them; a third of the plot at most. */
+int gb_plot_foot_for(const struct gb_plot *plot, const struct gb_plot_entry *entry,
+                     int count);
+
+/* The picture as UTF-8 lines without trailing blanks; g_free. */
+char *gb_plot_dump(const struct gb_plot *plot);
+
+#endif

@@ -1,0 +1,151 @@
+#include "tui/plot/plot_axis.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Decades shown below the largest value when the data reach down to zero or beyond. */
+static const double log_decades = 3.0;
+
+/* The smallest of 1, 2, 5 x 10^k that is not below the given step. */
+static double nice_step(double step)
+{
+    const double decade = pow(10.0, floor(log10(step)));
+    static const double nice[] = {1.0, 2.0, 5.0, 10.0};
+    for (size_t i = 0; i < 4; i++) {
+        /* the tolerance keeps 0.2 from becoming 0.5 when 2 x 0.1 rounds up */
+        if (nice[i] * decade >= step * (1.0 - 1e-9)) {
+            return nice[i] * decade;
+        }
+    }
+    return 10.0 * decade;
+}
+
+/* Plain digits where they are short, powers of ten where they are not. */
+static void write_tick(char *text, double value, double step)
+{
+    const double size = fabs(value);
+    int decimals = (int)ceil(-log10(step) - 1e-9);
+    decimals = decimals < 0 ? 0 : decimals;
+    if (size < 1e-12 * step) {
+        snprintf(text, GB_PLOT_TICK_TEXT, "0");
+    } else if (size >= 1e5 || decimals > 4) {
+        snprintf(text, GB_PLOT_TICK_TEXT, "%.3g", value);
+    } else {
+        snprintf(text, GB_PLOT_TICK_TEXT, "%.*f", decimals, value);
+    }
+}
+
+static void add_tick(struct gb_plot_axis *axis, double value, double step)
+{
+    if (axis->ticks < GB_PLOT_TICKS) {
+        axis->tick[axis->ticks] = value;
+        write_tick(axis->text[axis->ticks], value, step);
+        axis->ticks++;
+    }
+}
+
+/* Whole steps between two values. */
+static double steps_inside(const struct gb_plot_axis *axis, double step, double *first)
+{
+    *first = ceil(axis->low / step - 1e-6);
+    return floor(axis->high / step + 1e-6) - *first;
+}
+
+/* The ends are round to a fifth of a tick: whole ticks would leave up to half of a small
+ * plot empty.  Fewer than two ticks would leave the scale open. */
+static void fit_linear(struct gb_plot_axis *axis, double low, double high, int most)
+{
+    double step = nice_step((high - low) / (most > 2 ? most - 1 : 1));
+    const double fine = step / 5.0;
+    double first = 0.0;
+    axis->low = floor(low / fine + 1e-9) * fine;
+    axis->high = ceil(high / fine - 1e-9) * fine;
+    double count = steps_inside(axis, step, &first);
+    if (count < 1.0) {
+        step = nice_step(step * 0.4);
+        count = steps_inside(axis, step, &first);
+    }
+    for (double i = 0.0; i <= count; i += 1.0) {
+        add_tick(axis, (first + i) * step, step);
+    }
+}
+
+/* The nearest of 1, 2, 5 x 10^k below a value. */
+static double nice_floor(double value)
+{
+    const double decade = pow(10.0, floor(log10(value) + 1e-9));
+    const double mantissa = value / decade * (1.0 + 1e-9);
+    return decade * (mantissa >= 5.0 ? 5.0 : mantissa >= 2.0 ? 2.0 : 1.0);
+}
+
+static void add_log_tick(struct gb_plot_axis *axis, double value, double decade)
+{
+    if (value >= axis->low * (1.0 - 1e-9) && value <= axis->high * (1.0 + 1e-9)) {
+        add_tick(axis, value, decade);
+    }
+}
+
+/* Ticks at the decades; every second, third, ... when there is no room, 2 and 5 between
+ * them when there is plenty or when there would be hardly any. */
+static void fit_log(struct gb_plot_axis *axis, double low, double high, int most)
+{
+    axis->low = nice_floor(low);
+    axis->high = nice_step(high);
+    if (axis->high <= axis->low * (1.0 + 1e-9)) {
+        axis->high = nice_step(axis->low * 1.5);
+    }
+    const double first = floor(log10(axis->low) + 1e-9);
+    const double last = ceil(log10(axis->high) - 1e-9);
+    const double decades = log10(axis->high / axis->low);
+    const bool between = decades < 1.2 || 3.0 * decades + 1.0 <= most;
+    const double stride = fmax(ceil((decades + 1.0) / most), 1.0);
+    for (double e = first; e <= last + 0.5; e += stride) {
+        const double decade = pow(10.0, e);
+        add_log_tick(axis, decade, decade);
+        if (between) {
+            add_log_tick(axis, 2.0 * decade, decade);
+            add_log_tick(axis, 5.0 * decade, decade);
+        }
+    }
+}
+
+void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool log,
+                      int most)
+{
+    memset(axis, 0, sizeof *axis);
+    if (!isfinite(low) || !isfinite(high)) {
+        low = 0.0;
+        high = 1.0;
+    }
+    if (low > high) {
+        const double swap = low;
+        low = high;
+        high = swap;
+    }
+    axis->log = log && high > 0.0;
+    if (axis->log) {
+        if (low <= 0.0) {
+            low = high * pow(10.0, -log_decades);
+        }
+        fit_log(axis, low, high, most);
+        return;
+    }
+    if (!(high - low > 1e-9 * fmax(fabs(low), fabs(high)))) {
+        const double half = high != 0.0 ? 0.1 * fabs(high) : 0.5;
+        low -= half;
+        high += half;
+    }
+    fit_linear(axis, low, high, most);
+}
+
+double gb_plot_axis_place(const struct gb_plot_axis *axis, double value)
+{
+    if (!axis->log) {
+        return (value - axis->low) / (axis->high - axis->low);
+    }
+    if (!(value > 0.0)) {
+        return NAN;
+    }
+    return log10(value / axis->low) / log10(axis->high / axis->low);
+}

@@ -1,0 +1,96 @@
+#include "tui/plot/relief.h"
+
+#include <math.h>
+
+/* Light from above, left and the front: direction towards it, and what the shadow side
+ * still gets.  The deepest layer keeps depth_floor of its light. */
+static const double light[3] = {-0.40, -0.76, 0.51};
+static const double ambient = 0.12;
+static const double depth_floor = 0.15;
+static const double depth_scale = 2.5; /* d */
+static const double margin = 0.5;      /* d, around the window */
+
+struct frame {
+    int rows, cols;
+    double scale;     /* dots a diameter */
+    double left, top; /* dots of the window's corner */
+};
+
+static struct frame fit(const struct gb_view_sample *picture, int rows, int cols)
+{
+    const double wide = picture->window[0] + 2.0 * margin;
+    const double high = picture->window[2] + 2.0 * margin;
+    const double scale = fmin(cols / wide, rows / high);
+    return (struct frame){rows, cols, scale, 0.5 * (cols - scale * wide),
+                          0.5 * (rows - scale * high)};
+}
+
+/* Light on a sphere at (x, z) from its middle, in radii; depth behind the front in d. */
+static float lit(double x, double z, double depth)
+{
+    const double y = -sqrt(fmax(0.0, 1.0 - x * x - z * z));
+    const double lambert = fmax(0.0, x * light[0] + y * light[1] + z * light[2]);
+    const double far = depth_floor + (1.0 - depth_floor) * exp(-depth / depth_scale);
+    return (float)(far * (ambient + (1.0 - ambient) * lambert));
+}
+
+/* What is already there is nearer when its depth is less: the relief is drawn from the
+ * back, so that no buffer of depths is needed. */
+static void draw_sphere(const struct frame *frame, const struct gb_view_sample *picture,
+                        int i, float *shade)
+{
+    const float *place = picture->place[i];
+    const double reach = fmax(picture->radius[i] * frame->scale, 0.5);
+    const double col = frame->left + (place[0] + margin) * frame->scale;
+    const double row =
+        frame->top + (picture->window[2] + margin - place[2]) * frame->scale;
+    const double depth = picture->dimension == 3 ? place[1] : 0.0;
+    const int last_row = (int)fmin(frame->rows - 1, floor(row + reach));
+    const int last_col = (int)fmin(frame->cols - 1, floor(col + reach));
+    for (int r = (int)fmax(0.0, floor(row - reach)); r <= last_row; r++) {
+        for (int c = (int)fmax(0.0, floor(col - reach)); c <= last_col; c++) {
+            const double x = (c + 0.5 - col) / reach;
+            const double z = (row - r - 0.5) / reach;
+            if (x * x + z * z <= 1.0) {
+                shade[r * frame->cols + c] = lit(x, z, depth);
+            }
+        }
+    }
+}
+
+/* Spheres of one thin layer; layers go from the back to the front. */
+enum { LAYERS = 256 };
+
+static int layer_of(const struct gb_view_sample *picture, int i)
+{
+    if (picture->dimension != 3) {
+        return 0;
+    }
+    const double deep = picture->place[i][1] / fmax(picture->window[1], 1e-9);
+    return (int)(fmin(fmax(deep, 0.0), 0.999) * LAYERS);
+}
+
+void gb_relief_render(const struct gb_view_sample *picture, int rows, int cols,
+                      float *shade)
+{
+    /* a counting sort by layer: first[l] is where the layer's chain begins */
+    int first[LAYERS];
+    int16_t next[GB_PICTURE_POINTS];
+    for (int i = 0; i < rows * cols; i++) {
+        shade[i] = -1.0F;
+    }
+    for (int l = 0; l < LAYERS; l++) {
+        first[l] = -1;
+    }
+    for (int i = 0; i < picture->count; i++) {
+        const int l = layer_of(picture, i);
+        next[i] = (int16_t)first[l];
+        first[l] = i;
+    }
+    const struct frame frame = fit(picture, rows, cols);
+    for (int l = LAYERS - 1; l >= 0; l--) {
+        for (int i = first[l]; i >= 0; i = next[i]) {
+            draw_sphere(&frame, picture, i, shade);
+        }
+    }
+}

@@ -1,0 +1,15 @@
+#ifndef GB_TUI_PLOT_RELIEF_H
+#define GB_TUI_PLOT_RELIEF_H
+
+#include "greenbody/snapshot.h"
+
+/* A packing as a relief of lit spheres, seen along y: what is in front hides what is
+ * behind, and what is deeper is darker.  Pure.
+ *
+ * shade   rows x cols, from the top: 0..1, negative where nothing is
+ * Dots are square; the window of the picture is scaled to fit and stands in the middle.
+ */
+void gb_relief_render(const struct gb_view_sample *picture, int rows, int cols,
+                      float *shade);
+
+#endif

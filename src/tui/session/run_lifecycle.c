@@ -1,0 +1,171 @@
+#include "tui/session/run_lifecycle.h"
+
+#include <glib.h>
+#include <signal.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include "io/rundir.h"
+#include "io/store.h"
+
+enum { STATUS_SIGNAL = 128 };
+
+char *gb_run_lifecycle_folder(void)
+{
+    return g_build_filename(g_get_user_state_dir(), "greenbody", "runs", NULL);
+}
+
+/* Bytes on the disk of all that lies there. */
+static int64_t bytes_of(const char *path)
+{
+    struct stat info;
+    if (lstat(path, &info) != 0) {
+        return 0;
+    }
+    int64_t bytes = (int64_t)info.st_blocks * 512; /* POSIX counts in these */
+    GDir *dir = S_ISDIR(info.st_mode) ? g_dir_open(path, 0, NULL) : NULL;
+    const char *name;
+    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+        char *inside = g_build_filename(path, name, NULL);
+        bytes += bytes_of(inside);
+        g_free(inside);
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    return bytes;
+}
+
+static int count_runs(const char *folder)
+{
+    int runs = 0;
+    GDir *dir = g_dir_open(folder, 0, NULL);
+    const char *name;
+    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+        char *preset = g_build_filename(folder, name, "preset.ini", NULL);
+        runs += g_file_test(preset, G_FILE_TEST_IS_REGULAR);
+        g_free(preset);
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    return runs;
+}
+
+void gb_run_lifecycle_print_runs(FILE *out, const char *folder)
+{
+    const int runs = count_runs(folder);
+    char *size = g_format_size((guint64)bytes_of(folder));
+    fprintf(out, "runs       %s: %d kept, %s on the disk; the program removes none\n",
+            folder, runs, size);
+    g_free(size);
+}
+
+char *gb_run_lifecycle_directory(const struct gb_session *session)
+{
+    return session->folder != NULL
+               ? gb_store_new_directory(session->folder, gb_preset_path(session->preset))
+               : NULL;
+}
+
+bool gb_run_lifecycle_start(struct gb_runner **out, const struct gb_session *session,
+                            const struct gb_params *params, struct gb_error *err)
+{
+    char *directory = gb_run_lifecycle_directory(session);
+    const bool done = gb_runner_create_in(out, params, directory, err);
+    g_free(directory);
+    return done;
+}
+
+bool gb_run_lifecycle_attach(struct gb_session *session, struct gb_error *err)
+{
+    struct gb_runner *runner = NULL;
+    if (!gb_runner_follow(&runner, session->attached, err)) {
+        return false;
+    }
+    gb_session_replace(session, runner);
+    gb_session_note(session,
+                    gb_rundir_busy(session->attached)
+                        ? "attached to %s: t takes it over"
+                        : "%s: no engine works there, t goes on with it",
+                    session->attached);
+    return true;
+}
+
+void gb_run_lifecycle_take_over(struct gb_session *session, struct gb_message *message)
+{
+    struct gb_runner *runner = NULL;
+    struct gb_error err = {0};
+    message->style = GB_STYLE_WARN;
+    if (session->attached == NULL) {
+        snprintf(message->text, sizeof message->text,
+                 "no run is attached: greenbody attach DIR shows one");
+        return;
+    }
+    if (!gb_runner_resume(&runner, session->attached, &err)) {
+        snprintf(message->text, sizeof message->text, "%s", err.text);
+        return;
+    }
+    gb_session_replace(session, runner);
+    gb_session_note(session, "goes on here: %s", session->attached);
+    session->attached = NULL;
+}
+
+static bool wants_to_live(const struct gb_session *session)
+{
+    return session->attached == NULL && gb_session_live(session) &&
+           gb_session_params((struct gb_session *)session)->on_hangup ==
+               GB_ON_HANGUP_DETACH;
+}
+
+/* The full cell that was to follow the quick one still does, unless it takes hours. */
+static void follow(struct gb_session *session)
+{
+    char question[400];
+    struct gb_error err;
+    gb_session_refresh(session);
+    if (gb_session_take_due(session) &&
+        !gb_session_costly(session, question, sizeof question)) {
+        gb_session_start(session, &err);
+    }
+}
+
+int gb_run_lifecycle_detached(struct gb_session *session)
+{
+    const struct timespec patience = {.tv_sec = 1};
+    sigset_t asked;
+    sigemptyset(&asked);
+    sigaddset(&asked, SIGINT);
+    sigaddset(&asked, SIGTERM);
+    sigaddset(&asked, SIGQUIT);
+    if (!wants_to_live(session)) {
+        return STATUS_SIGNAL + SIGHUP;
+    }
+    gb_session_note(session, "the terminal is gone; the run goes on");
+    if (session->pause_wanted) { /* nobody is left to end the pause */
+        gb_session_toggle_pause(session);
+    }
+    while (gb_session_live(session)) {
+        const int number = sigtimedwait(&asked, NULL, &patience);
+        if (number > 0) {
+            return STATUS_SIGNAL + number;
+        }
+        follow(session);
+    }
+    return 0;
+}
+
+void gb_run_lifecycle_farewell(const struct gb_session *session)
+{
+    const char *directory =
+        session->runner != NULL ? gb_runner_directory(session->runner) : NULL;
+    if (directory != NULL && session->attached == NULL && gb_session_live(session)) {
+        fprintf(stderr, "greenbody: the run is kept; `greenbody resume %s` goes on\n",
+                directory);
+    }
+    if (session->errand.pid != 0 && session->errand.talks) {
+        fprintf(stderr, "greenbody: %s go on in %s; `greenbody attach` shows them\n",
+                session->errand.what, session->errand.path);
+    }
+}

@@ -1,0 +1,470 @@
+#include "tui/session/session.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "run/cost.h"
+#include "tui/session/costly.h"
+#include "tui/session/run_lifecycle.h"
+#include "tui/session/whatif.h"
+#include "tui/term/crash.h"
+
+/* A live run that has worked longer than this is not replaced unasked. */
+static const double replaced_most_s = 60.0;
+
+void gb_session_init(struct gb_session *session, struct gb_preset *preset)
+{
+    memset(session, 0, sizeof *session);
+    session->preset = preset;
+    session->now.seconds_left = -1.0;
+    session->follow = true;
+}
+
+void gb_session_finish(struct gb_session *session)
+{
+    gb_trial_drop(&session->trial);
+    gb_runner_destroy(session->runner);
+    for (int i = 0; i < session->earlier_count; i++) {
+        gb_earlier_drop(&session->earlier[i]);
+    }
+    gb_band_finish(&session->band);
+    gb_measured_destroy(session->measured);
+    gb_choices_destroy(session->choices);
+    gb_preset_destroy(session->opened);
+    session->runner = NULL;
+    session->opened = NULL;
+}
+
+struct gb_params *gb_session_params(struct gb_session *session)
+{
+    return gb_preset_params(session->preset);
+}
+
+void gb_session_note(struct gb_session *session, const char *format, ...)
+{
+    char text[GB_SNAPSHOT_EVENT];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    char *line = session->log[session->log_count % GB_SESSION_LOG];
+    snprintf(line, sizeof session->log[0], "%.1f s: %s", session->now.seconds, text);
+    session->log_count++;
+}
+
+const char *gb_session_line(const struct gb_session *session, int index)
+{
+    const int64_t at = session->log_count - 1 - index;
+    if (index < 0 || at < 0 || index >= GB_SESSION_LOG) {
+        return NULL;
+    }
+    return session->log[at % GB_SESSION_LOG];
+}
+
+/* Keeps the curve of what is about to be replaced.  A curve without points is not worth a
+ * place; without memory it is forgotten. */
+static void keep(struct gb_session *session, const struct gb_params *params,
+                 const struct gb_runner *runner, bool quick)
+{
+    const struct gb_curve *curve = gb_runner_curve(runner);
+    const size_t count = gb_curve_count(curve);
+    struct gb_earlier earlier;
+    if (count < 2 || !gb_earlier_copy(&earlier, params, curve, count)) {
+        return;
+    }
+    if (session->earlier_count == GB_SESSION_EARLIER) {
+        gb_earlier_drop(&session->earlier[0]);
+        memmove(session->earlier, session->earlier + 1,
+                (GB_SESSION_EARLIER - 1) * sizeof session->earlier[0]);
+        session->earlier_count--;
+    }
+    earlier.letter = (char)('a' + session->kept++ % 26);
+    earlier.quick = quick;
+    session->earlier[session->earlier_count++] = earlier;
+}
+
+static bool trial_is_of(const struct gb_session *session, const struct gb_params *params)
+{
+    return session->trial.runner != NULL &&
+           gb_earlier_differences(&session->trial.asked, params) == 0;
+}
+
+/* The run has the parameters of the quick cell: it followed, or r did not wait for that.
+ */
+static bool full_is_started(const struct gb_session *session)
+{
+    return session->runner != NULL &&
+           trial_is_of(session, gb_runner_params(session->runner));
+}
+
+/* A quick curve has done its work once the full run of its scene has been started. */
+static void keep_trial(struct gb_session *session)
+{
+    if (session->trial.runner != NULL && !full_is_started(session)) {
+        keep(session, &session->trial.asked, session->trial.runner, true);
+    }
+}
+
+/* What tells the curves before from the one of these parameters. */
+static void describe_all(struct gb_session *session, const struct gb_params *params)
+{
+    for (int i = 0; i < session->earlier_count; i++) {
+        struct gb_earlier *earlier = &session->earlier[i];
+        char text[GB_EARLIER_DIFFERENCE];
+        gb_earlier_describe(&earlier->params, params, text, sizeof text);
+        snprintf(earlier->difference, sizeof earlier->difference, "%s%.80s",
+                 earlier->quick ? "quick: " : "", text);
+    }
+}
+
+/* What the quick cell foretells of the full one; NaN: nothing. */
+static bool foretell(const struct gb_session *session, double *seconds, char *text,
+                     size_t size)
+{
+    const struct gb_trial *trial = &session->trial;
+    const struct gb_params *params = gb_preset_params(session->preset);
+    *seconds = NAN;
+    return trial->runner != NULL && trial->state == GB_RUN_DONE &&
+           trial_is_of(session, params) &&
+           gb_costly_after_quick(params, gb_runner_params(trial->runner),
+                                 gb_runner_snapshot(trial->runner, NULL)->seconds,
+                                 seconds, text, size);
+}
+
+bool gb_session_costly(struct gb_session *session, char *text, size_t size)
+{
+    double seconds = NAN;
+    if (foretell(session, &seconds, text, size)) {
+        return true;
+    }
+    return gb_costly_question(gb_session_params(session), session->particle_steps_per_s,
+                              text, size);
+}
+
+void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
+{
+    if (session->runner != NULL) {
+        keep(session, gb_runner_params(session->runner), session->runner, false);
+        gb_runner_destroy(session->runner);
+    }
+    session->runner = runner;
+    gb_runner_send(runner, GB_COMMAND_WATCH);
+    gb_crash_name(gb_runner_directory(runner));
+    session->runs++;
+    session->aside = false;
+    session->due = false;
+    session->frozen = false;
+    session->pause_wanted = false;
+    session->waiting = false;
+    session->engine = GB_RUN_PACKING;
+    session->points = 0;
+    session->picture = NULL;
+    session->events_seen = 0;
+    memset(&session->now, 0, sizeof session->now);
+    session->now.seconds_left = -1.0;
+    describe_all(session, gb_runner_params(runner));
+}
+
+bool gb_session_start(struct gb_session *session, struct gb_error *err)
+{
+    const struct gb_params *params = gb_session_params(session);
+    struct gb_runner *runner = NULL;
+    if (!gb_run_lifecycle_start(&runner, session, params, err)) {
+        return false;
+    }
+    if (session->trial.runner != NULL && !trial_is_of(session, params)) {
+        gb_trial_drop(&session->trial);
+    }
+    session->forks = 0;
+    gb_session_replace(session, runner);
+    gb_session_note(session, "run %d started", session->runs);
+    return true;
+}
+
+bool gb_session_run_is_live(const struct gb_session *session)
+{
+    return session->runner != NULL && session->engine <= GB_RUN_PAUSED;
+}
+
+static void stand_aside(struct gb_session *session, bool aside)
+{
+    if (session->aside != aside && session->runner != NULL &&
+        gb_runner_send(session->runner, aside ? GB_COMMAND_YIELD : GB_COMMAND_TAKE_UP)) {
+        session->aside = aside;
+    }
+}
+
+bool gb_session_try(struct gb_session *session)
+{
+    const struct gb_params *params = gb_session_params(session);
+    struct gb_error err = {0};
+    session->due = false;
+    if (session->runner != NULL && gb_session_changes(session) == 0) {
+        gb_trial_drop(&session->trial);
+        stand_aside(session, false);
+        return false;
+    }
+    if (!gb_params_check(params, NULL)) {
+        return false;
+    }
+    keep_trial(session);
+    stand_aside(session, gb_session_run_is_live(session));
+    session->pause_wanted = false;
+    if (!gb_trial_start(&session->trial, params, &err)) {
+        gb_trial_drop(&session->trial);
+        stand_aside(session, false);
+        return false;
+    }
+    session->frozen = false;
+    describe_all(session, params);
+    return true;
+}
+
+bool gb_session_take_due(struct gb_session *session)
+{
+    const bool due = session->due;
+    session->due = false;
+    return due;
+}
+
+static void note_foretold(struct gb_session *session)
+{
+    char question[400];
+    char duration[48];
+    double seconds = NAN;
+    foretell(session, &seconds, question, sizeof question);
+    if (isfinite(seconds)) {
+        gb_session_note(session, "the full cell of %lld: about %s",
+                        (long long)gb_session_params(session)->count,
+                        gb_cost_duration(seconds, duration, sizeof duration));
+    }
+}
+
+/* The full run follows, unless that would throw away work. */
+static void end_trial(struct gb_session *session)
+{
+    const struct gb_trial *trial = &session->trial;
+    const struct gb_snapshot *now = gb_runner_snapshot(trial->runner, NULL);
+    stand_aside(session, false);
+    if (trial->state != GB_RUN_DONE) {
+        gb_session_note(session, "quick cell: %s", now->error.text);
+        return;
+    }
+    gb_session_note(session, "quick cell of %lld: whole curve in %.1f s",
+                    (long long)gb_runner_params(trial->runner)->count, now->seconds);
+    if (full_is_started(session)) {
+        return;
+    }
+    const bool works =
+        gb_session_run_is_live(session) && session->now.seconds > replaced_most_s;
+    note_foretold(session);
+    /* a pause that came too late for the quick cell is one all the same */
+    session->due = session->follow && !works && !session->pause_wanted;
+    if (!session->due) {
+        gb_session_note(session, "%sr starts the full cell",
+                        works ? "the run under way goes on: " : "");
+    }
+}
+
+struct gb_seen gb_session_seen(const struct gb_session *session)
+{
+    const struct gb_trial *trial = &session->trial;
+    if (trial->runner != NULL && (gb_trial_live(trial) || session->runner == NULL)) {
+        return (struct gb_seen){&trial->now,
+                                gb_runner_params(trial->runner),
+                                gb_runner_curve(trial->runner),
+                                trial->points,
+                                trial->picture,
+                                trial->state,
+                                true};
+    }
+    if (session->runner == NULL) {
+        return (struct gb_seen){.now = &session->now,
+                                .params = gb_preset_params(session->preset)};
+    }
+    return (struct gb_seen){&session->now,
+                            gb_runner_params(session->runner),
+                            gb_runner_curve(session->runner),
+                            session->points,
+                            session->picture,
+                            session->engine,
+                            false};
+}
+
+bool gb_session_open(struct gb_session *session, const char *name, struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    if (!gb_preset_load(&preset, name, err)) {
+        return false;
+    }
+    gb_preset_destroy(session->opened);
+    session->opened = preset;
+    session->preset = preset;
+    return true;
+}
+
+bool gb_session_load_data(struct gb_session *session, const char *path,
+                          struct gb_error *err)
+{
+    struct gb_measured *measured = NULL;
+    struct gb_choices *choices = NULL;
+    if (*path != '\0' && gb_choices_read(&choices, path, NULL)) {
+        gb_choices_destroy(session->choices);
+        session->choices = choices;
+        return true;
+    }
+    if (*path != '\0' && !gb_measured_read(&measured, path, err)) {
+        return false;
+    }
+    gb_measured_destroy(session->measured);
+    session->measured = measured;
+    return true;
+}
+
+void gb_session_misfit(const struct gb_session *session, struct gb_measured_misfit *out)
+{
+    const struct gb_seen seen = gb_session_seen(session);
+    *out = (struct gb_measured_misfit){.reached = 0};
+    if (session->measured != NULL && seen.curve != NULL) {
+        gb_measured_compare(session->measured, seen.curve, seen.points, out);
+    }
+}
+
+static void take_events(struct gb_session *session)
+{
+    char text[GB_SNAPSHOT_EVENT];
+    while (session->events_seen < session->now.events) {
+        if (gb_runner_event(session->runner, session->events_seen, text, sizeof text)) {
+            gb_session_note(session, "%s", text);
+        }
+        session->events_seen++;
+    }
+}
+
+/* The newest snapshot becomes what the screen shows. */
+static void show(struct gb_session *session, const struct gb_snapshot *snapshot)
+{
+    session->now = *snapshot;
+    session->points = gb_curve_count(gb_runner_curve(session->runner));
+    session->picture = gb_runner_picture(session->runner, NULL);
+    take_events(session);
+}
+
+/* What the next run is foretold by. */
+static void take_rate(struct gb_session *session, const struct gb_snapshot *snapshot)
+{
+    if (gb_runner_params(session->runner)->kind == GB_KIND_DYNAMIC &&
+        snapshot->particle_evaluations_per_s > 0.0) {
+        session->particle_steps_per_s = snapshot->particle_evaluations_per_s;
+    }
+}
+
+/* News of the run; the quick cell has its own. */
+static bool refresh_run(struct gb_session *session)
+{
+    if (session->runner == NULL) {
+        return false;
+    }
+    bool changed = false;
+    const struct gb_snapshot *snapshot = gb_runner_snapshot(session->runner, &changed);
+    take_rate(session, snapshot);
+    const bool other_state = snapshot->state != session->engine;
+    if (other_state) {
+        session->engine = snapshot->state;
+        session->waiting = false;
+    }
+    if (changed && !session->frozen) {
+        show(session, snapshot);
+        return true;
+    }
+    return other_state;
+}
+
+/* News of the command beside the screen, and of the cells that it computes. */
+static bool refresh_errand(struct gb_session *session)
+{
+    char text[GB_SNAPSHOT_EVENT];
+    bool some = false;
+    bool ended = false;
+    const bool live = session->errand.pid != 0;
+    enum gb_child_command_news news = GB_CHILD_COMMAND_NOTHING;
+    while ((news = gb_child_command_poll(&session->errand, text, sizeof text)) !=
+           GB_CHILD_COMMAND_NOTHING) {
+        if (news != GB_CHILD_COMMAND_PROGRESS) {
+            gb_session_note(session, "%s", text);
+        }
+        some = true;
+        ended = news == GB_CHILD_COMMAND_ENDED;
+    }
+    return (live && gb_band_refresh(&session->band, ended)) || some;
+}
+
+bool gb_session_refresh(struct gb_session *session)
+{
+    bool ended = false;
+    const int before = session->trial.state;
+    const bool tried = gb_trial_refresh(&session->trial, session->frozen, &ended);
+    session->waiting = session->waiting && session->trial.state == before;
+    const bool ran = refresh_run(session);
+    gb_whatif_refresh(session);
+    const bool made = refresh_errand(session);
+    if (ended) {
+        end_trial(session);
+    }
+    return tried || ran || ended || made;
+}
+
+void gb_session_toggle_pause(struct gb_session *session)
+{
+    const bool quick = gb_trial_live(&session->trial);
+    if (!gb_session_live(session)) {
+        return;
+    }
+    const bool wanted = !session->pause_wanted;
+    if (gb_runner_send(quick ? session->trial.runner : session->runner,
+                       wanted ? GB_COMMAND_PAUSE : GB_COMMAND_RESUME)) {
+        session->pause_wanted = wanted;
+        session->waiting = true;
+    }
+}
+
+void gb_session_toggle_freeze(struct gb_session *session)
+{
+    session->frozen = !session->frozen;
+    if (!session->frozen && session->runner != NULL) {
+        show(session, gb_runner_snapshot(session->runner, NULL));
+    }
+}
+
+bool gb_session_live(const struct gb_session *session)
+{
+    return gb_trial_live(&session->trial) || gb_session_run_is_live(session);
+}
+
+bool gb_session_busy(const struct gb_session *session)
+{
+    const int state = gb_session_seen(session).state;
+    return session->errand.pid != 0 ||
+           ((session->runner != NULL || session->trial.runner != NULL) &&
+            (state <= GB_RUN_RUNNING || session->waiting));
+}
+
+bool gb_session_differs(struct gb_session *session, const struct gb_field *field)
+{
+    return session->runner != NULL &&
+           !gb_earlier_same(gb_session_params(session), gb_runner_params(session->runner),
+                            field);
+}
+
+int gb_session_changes(struct gb_session *session)
+{
+    size_t count = 0;
+    int changes = 0;
+    const struct gb_field *field = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        changes += gb_session_differs(session, &field[i]);
+    }
+    return changes;
+}

@@ -1,0 +1,74 @@
+#include "tui/session/whatif.h"
+
+#include <glib.h>
+#include <string.h>
+
+#include "scene/changes.h"
+#include "tui/session/run_lifecycle.h"
+
+/* What is asked is tried on a step that is never reached, so that it is refused at once
+ * and not when the state has come. */
+static const int64_t some_step = INT64_C(1000000000);
+
+bool gb_whatif_ask(struct gb_session *session, const char *text, struct gb_error *err)
+{
+    if (!gb_session_run_is_live(session)) {
+        return gb_error_set(err, GB_ERR_INPUT, "no run is under way: r starts one");
+    }
+    struct gb_params probe = *gb_runner_params(session->runner);
+    if (strlen(text) >= sizeof session->whatif ||
+        !gb_changes_add(&probe, some_step, text, err)) {
+        return err->code != GB_OK ? false
+                                  : gb_error_set(err, GB_ERR_INPUT, "that is too long");
+    }
+    if (!gb_runner_send(session->runner, GB_COMMAND_FORK) ||
+        (session->engine == GB_RUN_PAUSED &&
+         !gb_runner_send(session->runner, GB_COMMAND_RESUME))) {
+        return gb_error_set(err, GB_ERR_INPUT, "the engine is busy: try again");
+    }
+    session->pause_wanted = false;
+    g_strlcpy(session->whatif, text, sizeof session->whatif);
+    return true;
+}
+
+/* The parameters on the screen get the change, too: a restart repeats it, a saved preset
+ * keeps it. */
+static void note(struct gb_session *session, int64_t step)
+{
+    const struct gb_curve *curve = gb_runner_curve(session->runner);
+    struct gb_params *edited = gb_session_params(session);
+    memcpy(edited->changes, gb_runner_params(session->runner)->changes,
+           sizeof edited->changes);
+    session->points = gb_curve_count(curve);
+    if (session->forks < GB_SESSION_FORKS) {
+        session->fork_at[session->forks++] = session->points;
+    }
+    gb_session_note(session, "step %lld, density %.4f: what if %s", (long long)step,
+                    gb_curve_at(curve, session->points - 1)->density, session->whatif);
+}
+
+void gb_whatif_refresh(struct gb_session *session)
+{
+    struct gb_error err = {0};
+    struct gb_runner *runner = NULL;
+    int64_t step = 0;
+    if (session->whatif[0] == '\0' || session->runner == NULL) {
+        return;
+    }
+    if (gb_runner_forked(session->runner, &step)) {
+        char *directory = gb_run_lifecycle_directory(session);
+        const bool forked = gb_runner_create_fork(&runner, session->whatif,
+                                                  session->runner, directory, &err);
+        g_free(directory);
+        if (forked) {
+            gb_session_replace(session, runner);
+            note(session, step);
+        } else {
+            gb_session_note(session, "what if: %s", err.text);
+        }
+        session->whatif[0] = '\0';
+    } else if (session->engine > GB_RUN_PAUSED) {
+        session->whatif[0] = '\0';
+        gb_session_note(session, "the run has ended before the what-if");
+    }
+}

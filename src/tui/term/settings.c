@@ -1,0 +1,114 @@
+#include "tui/term/settings.h"
+
+#include <glib.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const when[] = {"auto", "always", "never", NULL};
+static const char *const graphs[] = {"auto", "braille", "block", "ascii", NULL};
+static const char *const images[] = {"auto", "none", "sixel", "kitty", NULL};
+static const char *const on_off[] = {"on", "off", NULL};
+static const char *const off_on[] = {"off", "on", NULL};
+
+static const struct gb_settings_row table[] = {
+    {"color", when, "colours; auto: unless NO_COLOR is set",
+     offsetof(struct gb_settings, colour)},
+    {"graph", graphs, "how plots are drawn; auto: braille where the font has it",
+     offsetof(struct gb_settings, graph)},
+    {"images", images, "the packing in real pixels; auto: where the terminal can",
+     offsetof(struct gb_settings, images)},
+    {"mouse", on_off, "clicks and the wheel; M switches it, Shift selects text",
+     offsetof(struct gb_settings, mouse)},
+    {"ascii", off_on, "nothing but ASCII", offsetof(struct gb_settings, ascii)},
+    {"slow", off_on, "two frames a second instead of ten",
+     offsetof(struct gb_settings, slow)},
+};
+
+const struct gb_settings_row *gb_settings_table(size_t *count)
+{
+    *count = G_N_ELEMENTS(table);
+    return table;
+}
+
+void gb_settings_init(struct gb_settings *settings)
+{
+    memset(settings, 0, sizeof *settings); /* the first value of each row */
+}
+
+static int *at(struct gb_settings *settings, const struct gb_settings_row *row)
+{
+    return (int *)(void *)((char *)settings + row->offset);
+}
+
+static const struct gb_settings_row *find(const char *name)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(table); i++) {
+        if (strcmp(table[i].name, name) == 0) {
+            return &table[i];
+        }
+    }
+    return NULL;
+}
+
+bool gb_settings_set(struct gb_settings *settings, const char *name, const char *value,
+                     struct gb_error *err)
+{
+    const struct gb_settings_row *row = find(name);
+    if (row == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT, "%.40s: no such setting", name);
+    }
+    for (int i = 0; row->values[i] != NULL; i++) {
+        if (strcmp(row->values[i], value) == 0) {
+            *at(settings, row) = i;
+            return true;
+        }
+    }
+    char *accepted = g_strjoinv(", ", (char **)row->values);
+    gb_error_set(err, GB_ERR_INPUT, "%s = %.40s: accepted: %s", name, value, accepted);
+    g_free(accepted);
+    return false;
+}
+
+const char *gb_settings_word(const struct gb_settings *settings, const char *name)
+{
+    const struct gb_settings_row *row = find(name);
+    return row->values[*at((struct gb_settings *)settings, row)];
+}
+
+/* The values of the group [screen]. */
+static bool take_all(struct gb_settings *settings, GKeyFile *file, const char *path,
+                     struct gb_error *err)
+{
+    bool good = true;
+    for (size_t i = 0; i < G_N_ELEMENTS(table) && good; i++) {
+        char *value = g_key_file_get_string(file, "screen", table[i].name, NULL);
+        struct gb_error wrong = {0};
+        if (value != NULL &&
+            !gb_settings_set(settings, table[i].name, g_strstrip(value), &wrong)) {
+            good = gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, wrong.text);
+        }
+        g_free(value);
+    }
+    return good;
+}
+
+bool gb_settings_read(struct gb_settings *settings, const char *path,
+                      struct gb_error *err)
+{
+    GKeyFile *file = g_key_file_new();
+    GError *trouble = NULL;
+    bool good = true;
+    if (g_key_file_load_from_file(file, path, G_KEY_FILE_NONE, &trouble)) {
+        good = take_all(settings, file, path, err);
+    } else if (!g_error_matches(trouble, G_FILE_ERROR, G_FILE_ERROR_NOENT)) {
+        good = gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, trouble->message);
+    }
+    g_clear_error(&trouble);
+    g_key_file_free(file);
+    return good;
+}
+
+char *gb_settings_path(void)
+{
+    return g_build_filename(g_get_user_config_dir(), "greenbody", "screen.ini", NULL);
+}

@@ -1,0 +1,59 @@
+#ifndef GB_TUI_TERM_SETTINGS_H
+#define GB_TUI_TERM_SETTINGS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "greenbody/status.h"
+
+/* What the user says about his terminal, where the workbench would guess: in
+ * greenbody/screen.ini of $XDG_CONFIG_HOME, group [screen], and by options of the same
+ * names, which go before. */
+
+enum gb_settings_colour { GB_COLOUR_AUTO, GB_COLOUR_ALWAYS, GB_COLOUR_NEVER };
+enum gb_settings_graph {
+    GB_GRAPH_AUTO,
+    GB_GRAPH_BRAILLE,
+    GB_GRAPH_BLOCK,
+    GB_GRAPH_ASCII
+};
+enum gb_settings_images {
+    GB_IMAGES_AUTO,
+    GB_IMAGES_NONE,
+    GB_IMAGES_SIXEL,
+    GB_IMAGES_KITTY
+};
+
+struct gb_settings {
+    int colour, graph, images; /* of the enums above */
+    int ascii, mouse, slow;    /* 0 or 1 */
+};
+
+/* One row for each setting: the option --name, the key of the file. */
+struct gb_settings_row {
+    const char *name;
+    const char *const *values; /* NULL ends; the first is the default */
+    const char *meaning;
+    size_t offset; /* of the int in gb_settings */
+};
+
+const struct gb_settings_row *gb_settings_table(size_t *count);
+
+void gb_settings_init(struct gb_settings *settings);
+
+/* Error (GB_ERR_INPUT): names the setting and what is accepted. */
+bool gb_settings_set(struct gb_settings *settings, const char *name, const char *value,
+                     struct gb_error *err);
+
+/* The word for what is set. */
+const char *gb_settings_word(const struct gb_settings *settings, const char *name);
+
+/* Reads the file; one that is not there changes nothing.  Keys it does not know are left
+ * alone, other groups too. */
+bool gb_settings_read(struct gb_settings *settings, const char *path,
+                      struct gb_error *err);
+
+/* Where the file is looked for; g_free. */
+char *gb_settings_path(void);
+
+#endif

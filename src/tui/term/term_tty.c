@@ -1,0 +1,102 @@
+#include "tui/term/term_tty.h"
+
+#include <fcntl.h>
+#include <glib.h>
+#include <ncurses.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <term.h>
+#include <unistd.h>
+
+char *gb_term_tty_log(void)
+{
+    return g_build_filename(g_get_user_state_dir(), "greenbody", "workbench.log", NULL);
+}
+
+int gb_term_tty_read_log(void)
+{
+    char *path = gb_term_tty_log();
+    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+    g_free(path);
+    return fd;
+}
+
+static int open_log(void)
+{
+    char *path = gb_term_tty_log();
+    char *folder = g_path_get_dirname(path);
+    g_mkdir_with_parents(folder, 0700);
+    int fd = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+    if (fd < 0) {
+        fd = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    }
+    g_free(path);
+    g_free(folder);
+    return fd;
+}
+
+/* Libraries write to standard error, some to standard output; on the screen that would be
+ * garbage. */
+void gb_term_tty_redirect(void)
+{
+    fflush(stdout);
+    const int log = open_log();
+    if (log >= 0) {
+        dup2(log, STDOUT_FILENO);
+        dup2(log, STDERR_FILENO);
+        close(log);
+    }
+}
+
+void gb_term_tty_restore(int out, int err)
+{
+    fflush(stdout);
+    dup2(out, STDOUT_FILENO);
+    dup2(err, STDERR_FILENO);
+}
+
+static bool places_cursor(const char *type, int fd)
+{
+    int found = 0;
+    if (setupterm(type, fd, &found) != OK) {
+        return false;
+    }
+    const bool places = cursor_address != NULL;
+    del_curterm(cur_term);
+    return places;
+}
+
+int gb_term_tty_colours(const char *type, int fd)
+{
+    int found = 0;
+    if (setupterm(type, fd, &found) != OK) {
+        return 0;
+    }
+    const int colours = tigetnum("colors");
+    del_curterm(cur_term);
+    return colours > 0 ? colours : 0;
+}
+
+const char *gb_term_tty_type(int fd, struct gb_error *err)
+{
+    const char *own = getenv("TERM");
+    int found = 0;
+    const bool known = own != NULL && *own != '\0' && setupterm(own, fd, &found) == OK;
+    if (known) {
+        del_curterm(cur_term);
+    }
+    static const char *const fallback[] = {"xterm-256color", "xterm", "vt100"};
+    if (known && places_cursor(own, fd)) {
+        return own;
+    }
+    for (size_t i = 0; !known && i < G_N_ELEMENTS(fallback); i++) {
+        if (places_cursor(fallback[i], fd)) {
+            return fallback[i];
+        }
+    }
+    gb_error_set(err, GB_ERR_MACHINE,
+                 "the terminal type TERM=%s %s; `greenbody run PRESET` needs no screen",
+                 own == NULL ? "" : own,
+                 known ? "cannot place the cursor" : "is unknown");
+    return NULL;
+}

@@ -1,0 +1,73 @@
+#include <math.h>
+#include <stdio.h>
+
+#include "tui/view/views.h"
+
+enum {
+    INK_ALL = GB_PLOT_INK_SERIES,
+    INK_FRONT = GB_PLOT_INK_SERIES + 1,
+    INK_CHOSEN = GB_PLOT_INK_SERIES + 4
+};
+enum { MARK_ALL = 2, MARK_FRONT = 1, MARK_CHOSEN = 3 };
+
+static void extend(double ends[2], double value)
+{
+    if (value > 0.0 && isfinite(value)) {
+        ends[0] = fmin(ends[0], value);
+        ends[1] = fmax(ends[1], value);
+    }
+}
+
+static void draw_point(struct gb_plot *plot, double x, double y, int ink, int marker)
+{
+    const struct gb_plot_series point = {
+        .x = &x, .y = &y, .count = 1, .ink = ink, .marker = marker, .points = true};
+    gb_plot_line(plot, &point);
+}
+
+static void draw_choices(struct gb_plot *plot, const struct gb_choices *choices)
+{
+    for (size_t i = 0; i < choices->count; i++) {
+        if (i == choices->chosen) {
+            continue;
+        }
+        draw_point(plot, choices->seconds[i], choices->error[i],
+                   choices->front[i] ? INK_FRONT : INK_ALL,
+                   choices->front[i] ? MARK_FRONT : MARK_ALL);
+    }
+    if (choices->chosen < choices->count) {
+        draw_point(plot, choices->seconds[choices->chosen],
+                   choices->error[choices->chosen], INK_CHOSEN, MARK_CHOSEN);
+    }
+}
+
+void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *session)
+{
+    struct gb_plot *plot = &panel->plot;
+    const struct gb_choices *choices = session->choices;
+    double x_ends[2] = {HUGE_VAL, 0.0};
+    double y_ends[2] = {HUGE_VAL, 0.0};
+    for (size_t i = 0; choices != NULL && i < choices->count; i++) {
+        if (choices->error[i] > 0.0) {
+            extend(x_ends, choices->seconds[i]);
+            extend(y_ends, choices->error[i]);
+        }
+    }
+    if (!(x_ends[1] > 0.0)) {
+        gb_plot_text(plot, plot->rows / 2 - 1, 2, GB_PLOT_INK_TEXT,
+                     choices == NULL ? "no chart yet: e loads a chart.csv,"
+                                     : "the chart has no finished row yet:");
+        gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT,
+                     "greenbody chart PRESET --out DIR measures one");
+        return;
+    }
+    plot->log_x = true;
+    gb_plot_axes(plot, x_ends, y_ends, true, "CPU time of a cell, s",
+                 "error of density at most");
+    draw_choices(plot, choices);
+    struct gb_plot_entry entry[3] = {{INK_ALL, MARK_ALL, "a choice"},
+                                     {INK_FRONT, MARK_FRONT, "nothing beats it"},
+                                     {INK_CHOSEN, MARK_CHOSEN, ""}};
+    snprintf(entry[2].name, sizeof entry[2].name, "%s", choices->name);
+    gb_plot_legend(plot, entry, choices->chosen < choices->count ? 3 : 2);
+}

@@ -1,0 +1,105 @@
+#include <glib.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "scene/contact_pair.h"
+#include "tui/view/views.h"
+
+/* Overlap to which the law is drawn, in diameters of the smaller body. */
+static const double depth = 0.05;
+
+enum { POINTS = 160 };
+enum { INK_LAW = GB_PLOT_INK_SERIES, INK_BACK = GB_PLOT_INK_SERIES + 1 };
+
+struct line {
+    double x[POINTS], y[POINTS]; /* um, N */
+};
+
+static bool plastic(const struct gb_params *params)
+{
+    return params->normal == GB_NORMAL_STORAKERS;
+}
+
+static void follow(const struct gb_contact_pair *pair, bool flows, double most,
+                   struct line *line)
+{
+    for (int i = 0; i < POINTS; i++) {
+        const double h = most * i / (POINTS - 1);
+        line->x[i] = 1e6 * h;
+        line->y[i] = flows ? gb_law_storakers_load(&pair->law, pair->radius, h)
+                           : gb_law_hertz_force(&pair->law.hertz, pair->radius, h);
+    }
+}
+
+/* Opened again from the deepest overlap. */
+static void follow_back(const struct gb_contact_pair *pair, double most,
+                        struct line *line)
+{
+    for (int i = 0; i < POINTS; i++) {
+        const double h = most * (POINTS - 1 - i) / (POINTS - 1);
+        double deepest = most;
+        line->x[i] = 1e6 * h;
+        line->y[i] = gb_law_storakers_follow(&pair->law, pair->radius, h, &deepest).force;
+    }
+}
+
+static void draw(struct gb_plot *plot, const struct line *line, int ink, int marker)
+{
+    const struct gb_plot_series series = {
+        .x = line->x, .y = line->y, .count = POINTS, .ink = ink, .marker = marker};
+    gb_plot_line(plot, &series);
+}
+
+/* The same for the run when its law is another one. */
+static bool draw_before(struct gb_plot *plot, const struct gb_params *edited,
+                        const struct gb_session *session, double most)
+{
+    struct gb_contact_pair pair;
+    struct line line;
+    const struct gb_params *run =
+        session->runner != NULL ? gb_runner_params(session->runner) : NULL;
+    if (run == NULL || run->normal == GB_NORMAL_ROD ||
+        gb_earlier_differences(edited, run) == 0 ||
+        !gb_contact_pair_init(&pair, run, NULL)) {
+        return false;
+    }
+    follow(&pair, plastic(run), most, &line);
+    draw(plot, &line, GB_PLOT_INK_DIM, 3);
+    return true;
+}
+
+void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *session)
+{
+    const struct gb_params *params = &panel->edited;
+    struct gb_plot *plot = panel->target;
+    struct gb_contact_pair pair;
+    struct line line;
+    struct line back;
+    if (!gb_contact_pair_init(&pair, params, NULL)) {
+        gb_plot_text(plot, 1, 1, GB_PLOT_INK_TEXT,
+                     "the parameters do not fit together yet");
+        return;
+    }
+    const double most = depth * pair.diameter;
+    follow(&pair, plastic(params), most, &line);
+    const double x_ends[2] = {0.0, 1e6 * most};
+    const double y_ends[2] = {0.0, line.y[POINTS - 1]};
+    gb_plot_axes(plot, x_ends, y_ends, false, "overlap, um", "normal force, N");
+    struct gb_plot_entry entry[3];
+    int entries = 0;
+    if (draw_before(plot, params, session, most)) {
+        entry[entries++] = (struct gb_plot_entry){GB_PLOT_INK_DIM, 3, "as in the run"};
+    }
+    if (plastic(params)) {
+        follow_back(&pair, most, &back);
+        draw(plot, &back, INK_BACK, 2);
+        entry[entries++] = (struct gb_plot_entry){INK_BACK, 2, "opened again"};
+    }
+    draw(plot, &line, INK_LAW, 1);
+    entry[entries++] = (struct gb_plot_entry){
+        INK_LAW, 1, "" /* the name of the law */
+    };
+    snprintf(entry[entries - 1].name, sizeof entry[0].name, "%s",
+             plastic(params) ? "Storakers, pressed" : "Hertz");
+    gb_plot_legend(plot, entry, entries);
+}

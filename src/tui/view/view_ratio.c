@@ -1,0 +1,53 @@
+#include <math.h>
+
+#include "tui/view/views.h"
+
+enum { MARK_LOAD = 1 };
+
+static double ratio(const struct gb_point *point)
+{
+    return point->branch <= 0 && point->pz_pa > 0.0 ? point->px_pa / point->pz_pa
+                                                    : (double)NAN;
+}
+
+/* Below this share of the highest pressure the ratio is that of two noises. */
+static const double noise = 0.01;
+
+void gb_view_ratio_draw(struct gb_panel_plot *panel, const struct gb_session *session)
+{
+    const struct gb_seen seen = gb_session_seen(session);
+    struct gb_plot *plot = &panel->plot;
+    double x_ends[2] = {HUGE_VAL, -HUGE_VAL};
+    const double y_ends[2] = {0.0, 1.2};
+    double most = 0.0;
+    size_t count = 0;
+    for (size_t i = 0; i < seen.points; i++) {
+        most = fmax(most, gb_curve_at(seen.curve, i)->pz_pa);
+    }
+    if (seen.points < 2 || !gb_panel_plot_reserve(panel, seen.points)) {
+        gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no points yet");
+        return;
+    }
+    for (size_t i = 0; i < seen.points; i++) {
+        const struct gb_point *point = gb_curve_at(seen.curve, i);
+        const double value = point->pz_pa > noise * most ? ratio(point) : (double)NAN;
+        panel->x[count] = point->density;
+        panel->y[count++] = value;
+        if (isfinite(value)) {
+            x_ends[0] = fmin(x_ends[0], point->density);
+            x_ends[1] = fmax(x_ends[1], point->density);
+        }
+    }
+    gb_plot_axes(plot, x_ends, y_ends, false, "density", "px/pz, loading");
+    const double one[2] = {1.0, 1.0};
+    gb_plot_line(plot, &(struct gb_plot_series){
+                           .x = x_ends, .y = one, .count = 2, .ink = GB_PLOT_INK_AXIS});
+    gb_plot_line(plot, &(struct gb_plot_series){.x = panel->x,
+                                                .y = panel->y,
+                                                .count = count,
+                                                .ink = GB_PLOT_INK_SERIES,
+                                                .marker = MARK_LOAD});
+    if (panel->cursor_on && panel->cursor < seen.points) {
+        gb_plot_cursor(plot, panel->x[panel->cursor], panel->y[panel->cursor]);
+    }
+}

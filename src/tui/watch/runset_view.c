@@ -1,0 +1,361 @@
+#include "tui/watch/runset_view.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "greenbody/snapshot.h"
+#include "io/follow.h"
+#include "many/reading.h"
+#include "measure/fit/average.h"
+#include "scene/field.h"
+
+static const double least_pa = 1e6;
+
+static bool has_file(const char *directory, const char *name)
+{
+    char *path = g_build_filename(directory, name, NULL);
+    const bool has = g_file_test(path, G_FILE_TEST_IS_REGULAR);
+    g_free(path);
+    return has;
+}
+
+static int compare(const void *a, const void *b)
+{
+    return gb_runset_compare(*(char *const *)a, *(char *const *)b);
+}
+
+/* Directories of runs inside, by name; each to be freed. */
+static GPtrArray *list_runs(const char *directory)
+{
+    GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
+    GDir *dir = g_dir_open(directory, 0, NULL);
+    const char *name = NULL;
+    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+        char *path = g_build_filename(directory, name, NULL);
+        if (has_file(path, "preset.ini") && has_file(path, "status.json")) {
+            g_ptr_array_add(list, path);
+        } else {
+            g_free(path);
+        }
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    if (list->len > 1) {
+        qsort(list->pdata, list->len, sizeof list->pdata[0], compare);
+    }
+    return list;
+}
+
+/* A calibration keeps its runs in a folder. */
+static GPtrArray *list_all(const char *directory)
+{
+    GPtrArray *list = list_runs(directory);
+    if (list->len == 0) {
+        char *inside = g_build_filename(directory, "runs", NULL);
+        g_ptr_array_free(list, TRUE);
+        list = list_runs(inside);
+        g_free(inside);
+    }
+    return list;
+}
+
+bool gb_runset_view_is(const char *directory)
+{
+    if (has_file(directory, "preset.ini")) {
+        return false;
+    }
+    GPtrArray *list = list_all(directory);
+    const bool is = list->len > 0;
+    g_ptr_array_free(list, TRUE);
+    return is;
+}
+
+/* "name value" of each cell. */
+static char *line_of(char **names, char **cells)
+{
+    GString *line = g_string_new(NULL);
+    for (size_t k = 0; cells[k] != NULL && names[k] != NULL; k++) {
+        g_string_append_printf(line, "%s%s %s", k > 0 ? "  " : "", names[k], cells[k]);
+    }
+    return g_string_free(line, FALSE);
+}
+
+/* The rows of a table of a calibration as lines. */
+static void add_lines(GPtrArray *lines, const char *directory, const char *name)
+{
+    char *path = g_build_filename(directory, name, NULL);
+    char *text = NULL;
+    char **names = NULL;
+    char **rows = g_file_get_contents(path, &text, NULL, NULL)
+                      ? g_strsplit(g_strchomp(text), "\n", -1)
+                      : NULL;
+    for (size_t i = 0; rows != NULL && rows[i] != NULL; i++) {
+        if (rows[i][0] == '#') {
+            continue;
+        }
+        char **cells = g_strsplit(rows[i], ",", -1);
+        if (names == NULL) {
+            names = cells; /* the header */
+        } else {
+            g_ptr_array_add(lines, line_of(names, cells));
+            g_strfreev(cells);
+        }
+    }
+    g_strfreev(rows);
+    g_strfreev(names);
+    g_free(text);
+    g_free(path);
+}
+
+/* The result, then the rounds that led there; NULL where nothing is fitted. */
+static char **read_fit(const char *directory)
+{
+    GPtrArray *lines = g_ptr_array_new();
+    char *runs = g_build_filename(directory, "runs", NULL);
+    add_lines(lines, directory, "calibration.csv");
+    add_lines(lines, directory, "rounds.csv");
+    if (lines->len == 0 && g_file_test(runs, G_FILE_TEST_IS_DIR)) {
+        g_ptr_array_add(lines, g_strdup("the first round is not done yet"));
+    }
+    g_free(runs);
+    const bool some = lines->len > 0;
+    g_ptr_array_add(lines, NULL);
+    char **list = (char **)g_ptr_array_free(lines, !some);
+    return some ? list : NULL;
+}
+
+static void read_states(struct gb_runset_view *swarm, GPtrArray *list)
+{
+    double progress = 0.0;
+    swarm->runs = list->len;
+    swarm->run = g_new0(struct gb_runset_view_run, list->len + 1);
+    for (size_t i = 0; i < list->len; i++) {
+        struct gb_runset_view_run *run = &swarm->run[i];
+        struct gb_snapshot shot = {0};
+        struct gb_follow_engine engine;
+        struct gb_error err = {0};
+        run->name = g_path_get_basename(list->pdata[i]);
+        run->state = GB_RUN_PACKING;
+        if (gb_follow_status(list->pdata[i], &shot, &engine, &err)) {
+            run->state = shot.state;
+            run->progress = shot.state == GB_RUN_DONE ? 1.0 : shot.progress;
+            g_strlcpy(run->error, shot.error.text, sizeof run->error);
+        }
+        swarm->done += run->state == GB_RUN_DONE;
+        swarm->failed += run->state == GB_RUN_FAILED;
+        swarm->live += run->state <= GB_RUN_PAUSED;
+        progress += run->progress;
+    }
+    swarm->progress = list->len > 0 ? progress / (double)list->len : 0.0;
+}
+
+/* Those whose curve can be read by now: one that is just being begun has none yet. */
+static GPtrArray *readable(const GPtrArray *list)
+{
+    GPtrArray *good = g_ptr_array_new();
+    for (size_t i = 0; i < list->len; i++) {
+        struct gb_table *table = NULL;
+        struct gb_error err = {0};
+        if (gb_reading_open(&table, list->pdata[i], &err)) {
+            if (gb_table_rows(table) > 0) {
+                g_ptr_array_add(good, list->pdata[i]);
+            }
+            gb_table_destroy(table);
+        }
+    }
+    return good;
+}
+
+static void set_levels(struct gb_runset_view *swarm, const struct gb_runset *set)
+{
+    double most_pa = 10.0 * least_pa;
+    for (size_t i = 0; i < set->count; i++) {
+        const double *p = gb_table_column(set->run[i].table, "p_MPa", NULL);
+        for (size_t k = 0; p != NULL && k < gb_table_rows(set->run[i].table); k++) {
+            most_pa = fmax(most_pa, 1e6 * p[k]); /* NaN is left out */
+        }
+    }
+    for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
+        const double part = (double)k / (GB_RUNSET_VIEW_LEVELS - 1);
+        swarm->level_pa[k] = least_pa * pow(most_pa / least_pa, part);
+    }
+}
+
+/* Mean and standard error over the replicas that got to each level. */
+static void average(struct gb_runset_view *swarm, const struct gb_runset *set,
+                    size_t group)
+{
+    struct gb_runset_view_group *out = &swarm->group[group];
+    double *values = g_new(double, set->count);
+    for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
+        size_t count = 0;
+        for (size_t i = 0; i < set->count; i++) {
+            double read[GB_READING_QUANTITIES];
+            if (set->run[i].group == group && set->run[i].table != NULL) {
+                gb_reading_loaded(set->run[i].table, swarm->level_pa[k], read);
+                values[count++] = read[GB_READING_DENSITY];
+            }
+        }
+        out->reached[k] = gb_average_values(values, count, &out->mean[k], &out->error[k]);
+    }
+    g_free(values);
+}
+
+/* Place of a value in a key's list, at its end when it is new. */
+static size_t place_of(struct gb_runset_view_key *key, const char *value)
+{
+    for (size_t i = 0; i < key->count; i++) {
+        if (strcmp(key->values[i], value) == 0) {
+            return i;
+        }
+    }
+    key->values = g_renew(char *, key->values, key->count + 2);
+    key->values[key->count] = g_strdup(value);
+    key->values[key->count + 1] = NULL;
+    return key->count++;
+}
+
+static double number_of(const char *value)
+{
+    double number = NAN;
+    return gb_units_number(value, NULL, &number) ? number : (double)NAN;
+}
+
+/* Numbers of one unit in their order; words stay as they came. */
+static void sort_values(struct gb_runset_view_key *key, size_t *place, size_t groups)
+{
+    for (size_t i = 1; i < key->count; i++) {
+        for (size_t k = i;
+             k > 0 && number_of(key->values[k]) < number_of(key->values[k - 1]); k--) {
+            char *kept = key->values[k];
+            key->values[k] = key->values[k - 1];
+            key->values[k - 1] = kept;
+            for (size_t g = 0; g < groups; g++) {
+                place[g] = place[g] == k ? k - 1 : place[g] == k - 1 ? k : place[g];
+            }
+        }
+    }
+}
+
+static void find_keys(struct gb_runset_view *swarm, const struct gb_runset *set)
+{
+    size_t count = 0;
+    const struct gb_field *field = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        struct gb_runset_view_key key = {&field[i], NULL, 0};
+        size_t *place = g_new0(size_t, set->groups + 1);
+        for (size_t g = 0; g < set->groups && !gb_runset_bookkeeping(&field[i]); g++) {
+            char value[GB_PARAMS_VALUE_MAX];
+            gb_params_format(&gb_runset_first(set, g)->params, &field[i], value,
+                             sizeof value);
+            place[g] = place_of(&key, value);
+        }
+        if (key.count > 1 && swarm->keys++ < GB_RUNSET_VIEW_VARIED) {
+            const size_t k = swarm->keys - 1;
+            sort_values(&key, place, set->groups);
+            swarm->key[k] = key;
+            for (size_t g = 0; g < set->groups; g++) {
+                swarm->group[g].place[k] = place[g];
+            }
+        } else {
+            g_strfreev(key.values);
+        }
+        g_free(place);
+    }
+}
+
+static bool read_groups(struct gb_runset_view *swarm, const GPtrArray *good,
+                        struct gb_error *err)
+{
+    struct gb_runset set = {0};
+    if (!gb_runset_read(&set, (char *const *)good->pdata, good->len, err)) {
+        return false;
+    }
+    swarm->groups = set.groups;
+    swarm->group = g_new0(struct gb_runset_view_group, set.groups + 1);
+    set_levels(swarm, &set);
+    for (size_t g = 0; g < set.groups; g++) {
+        swarm->group[g].label = gb_runset_label(&set, g);
+        swarm->group[g].members = gb_runset_members(&set, g);
+        average(swarm, &set, g);
+    }
+    find_keys(swarm, &set);
+    gb_runset_finish(&set);
+    return true;
+}
+
+bool gb_runset_view_read(struct gb_runset_view *swarm, const char *directory,
+                         struct gb_error *err)
+{
+    memset(swarm, 0, sizeof *swarm);
+    GPtrArray *list = list_all(directory);
+    swarm->directory = g_strdup(directory);
+    swarm->fit = read_fit(directory);
+    bool read = true;
+    if (list->len == 0) {
+        read = gb_error_set(err, GB_ERR_INPUT, "%s: there is no run in it", directory);
+    } else {
+        read_states(swarm, list);
+        GPtrArray *good = readable(list);
+        read = good->len == 0 || read_groups(swarm, good, err);
+        g_ptr_array_free(good, TRUE);
+    }
+    g_ptr_array_free(list, TRUE);
+    return read;
+}
+
+void gb_runset_view_finish(struct gb_runset_view *swarm)
+{
+    for (size_t i = 0; i < swarm->runs; i++) {
+        g_free(swarm->run[i].name);
+    }
+    for (size_t g = 0; g < swarm->groups; g++) {
+        g_free(swarm->group[g].label);
+    }
+    for (size_t k = 0; k < GB_RUNSET_VIEW_VARIED; k++) {
+        g_strfreev(swarm->key[k].values);
+    }
+    g_strfreev(swarm->fit);
+    g_free(swarm->run);
+    g_free(swarm->group);
+    g_free(swarm->directory);
+    memset(swarm, 0, sizeof *swarm);
+}
+
+static size_t groups_at(const struct gb_runset_view *swarm, size_t level)
+{
+    size_t count = 0;
+    for (size_t g = 0; g < swarm->groups; g++) {
+        count += swarm->group[g].reached[level] == swarm->group[g].members;
+    }
+    return count;
+}
+
+size_t gb_runset_view_level(const struct gb_runset_view *swarm, double pressure_pa)
+{
+    size_t best = 0;
+    for (size_t k = 1; k < GB_RUNSET_VIEW_LEVELS; k++) {
+        if (fabs(log(swarm->level_pa[k] / pressure_pa)) <
+            fabs(log(swarm->level_pa[best] / pressure_pa))) {
+            best = k;
+        }
+    }
+    for (size_t k = best; k > 0; k--) {
+        best = groups_at(swarm, k - 1) > groups_at(swarm, best) ? k - 1 : best;
+    }
+    return best;
+}
+
+const struct gb_runset_view_group *gb_runset_view_at(const struct gb_runset_view *swarm,
+                                                     size_t first, size_t second)
+{
+    for (size_t g = 0; g < swarm->groups; g++) {
+        if (swarm->group[g].place[0] == first && swarm->group[g].place[1] == second) {
+            return &swarm->group[g];
+        }
+    }
+    return NULL;
+}

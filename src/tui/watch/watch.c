@@ -1,0 +1,251 @@
+#include "tui/watch/watch.h"
+
+#include <glib.h>
+#include <ncurses.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "tui/app/keys.h"
+
+/* The files are read again after this time, and after ten times what that took. */
+static const double again_s = 1.0;
+static const double share = 10.0;
+/* The map begins at the pressure at which P1 compares powders. */
+static const double usual_pa = 100e6;
+
+enum { STATUS_SIGNAL = 128, LEAST_ROWS = 12, LEAST_COLS = 40, PAGE = 10 };
+
+static double clock_s(void)
+{
+    return 1e-6 * (double)g_get_monotonic_time();
+}
+
+/* "8 runs: 5 done, 2 live, 1 failed  72 %" */
+static void draw_header(const struct gb_watch *watch, const struct gb_paint *paint)
+{
+    const struct gb_runset_view *swarm = &watch->swarm;
+    char *name = g_path_get_basename(swarm->directory);
+    char text[160];
+    snprintf(text, sizeof text, "%zu runs: %zu done, %zu under way, %zu failed %4.0f %%",
+             swarm->runs, swarm->done, swarm->live, swarm->failed,
+             100.0 * swarm->progress);
+    const int col = gb_paint_text(paint, 0, 1, GB_STYLE_BOLD, "greenbody") + 2;
+    const int from = paint->rect.cols - gb_paint_width(text) - 1;
+    gb_paint_cell(paint, 0, col, from - col - 1, GB_STYLE_PLAIN, name);
+    gb_paint_text(paint, 0, from, swarm->failed > 0 ? GB_STYLE_WARN : GB_STYLE_PLAIN,
+                  text);
+    g_free(name);
+}
+
+static void draw_footer(const struct gb_watch *watch, const struct gb_paint *paint)
+{
+    static const char *const hints[GB_WATCH_VIEWS] = {
+        "1 curves  2 map  3 runs  v next  L log or linear  b glyphs  q quit",
+        "1 curves  2 map  3 runs  v next  Left and Right pressure  q quit",
+        "1 curves  2 map  3 runs  v next  Up and Down scroll  q quit",
+        "1 curves  2 map  3 runs  4 fit  v next  q quit"};
+    const bool whole = watch->trouble.code == GB_OK;
+    gb_paint_cell(paint, paint->rect.rows - 1, 1, paint->rect.cols - 2,
+                  whole ? GB_STYLE_DIM : GB_STYLE_WARN,
+                  whole ? hints[watch->view] : watch->trouble.text);
+}
+
+static void draw(struct gb_watch *watch, struct gb_term *term)
+{
+    int rows = 0;
+    int cols = 0;
+    gb_term_size(term, &rows, &cols);
+    const struct gb_paint whole = gb_paint_at(term, (struct gb_rect){0, 0, rows, cols});
+    const struct gb_paint body =
+        gb_paint_at(term, (struct gb_rect){1, 0, rows - 2, cols});
+    erase();
+    if (rows < LEAST_ROWS || cols < LEAST_COLS) {
+        char text[96];
+        snprintf(text, sizeof text, "greenbody needs %d x %d, has %d x %d; q quits",
+                 LEAST_COLS, LEAST_ROWS, cols, rows);
+        gb_paint_wrap(&whole, 0, rows, GB_STYLE_PLAIN, text);
+    } else {
+        draw_header(watch, &whole);
+        gb_watch_draw(watch, &body);
+        draw_footer(watch, &whole);
+    }
+    gb_term_flush(term);
+}
+
+static void move_level(struct gb_watch *watch, int by)
+{
+    const int to = (int)watch->level + by;
+    watch->level = (size_t)CLAMP(to, 0, GB_RUNSET_VIEW_LEVELS - 1);
+}
+
+/* Only a calibration has a fit. */
+static int views(const struct gb_watch *watch)
+{
+    return watch->swarm.fit != NULL ? GB_WATCH_VIEWS : GB_WATCH_FIT;
+}
+
+static void show_view(struct gb_watch *watch, int view)
+{
+    if (view < views(watch)) {
+        watch->view = (enum gb_watch_view)view;
+    }
+}
+
+/* True: leave. */
+static bool act(struct gb_watch *watch, struct gb_term *term, enum gb_action action)
+{
+    switch (action) {
+    case GB_ACTION_QUIT:
+        return true;
+    case GB_ACTION_VIEW_CURVE:
+    case GB_ACTION_VIEW_HISTOGRAM:
+    case GB_ACTION_VIEW_ROSE:
+    case GB_ACTION_VIEW_TIME:
+        show_view(watch, (int)action - GB_ACTION_VIEW_CURVE);
+        break;
+    case GB_ACTION_NEXT_VIEW:
+    case GB_ACTION_NEXT_PANE:
+        show_view(watch, ((int)watch->view + 1) % views(watch));
+        break;
+    case GB_ACTION_PREVIOUS_VIEW:
+    case GB_ACTION_PREVIOUS_PANE:
+        show_view(watch, ((int)watch->view + views(watch) - 1) % views(watch));
+        break;
+    case GB_ACTION_LEFT:
+        move_level(watch, -1);
+        break;
+    case GB_ACTION_RIGHT:
+        move_level(watch, 1);
+        break;
+    case GB_ACTION_UP:
+        watch->top--;
+        break;
+    case GB_ACTION_DOWN:
+        watch->top++;
+        break;
+    case GB_ACTION_PAGE_UP:
+        watch->top -= PAGE;
+        break;
+    case GB_ACTION_PAGE_DOWN:
+        watch->top += PAGE;
+        break;
+    case GB_ACTION_LOG:
+        watch->linear = !watch->linear;
+        break;
+    case GB_ACTION_GLYPHS:
+        if (gb_term_utf8(term)) {
+            watch->glyphs = (watch->glyphs + 1) % GB_PLOT_GLYPHS;
+        }
+        break;
+    case GB_ACTION_REPAINT:
+        gb_term_repaint(term);
+        break;
+    default:
+        break;
+    }
+    return false;
+}
+
+/* What could not be read leaves what is shown, with a word; the next time may be better.
+ */
+static void reread(struct gb_watch *watch)
+{
+    struct gb_runset_view fresh;
+    char *directory = g_strdup(watch->swarm.directory);
+    watch->trouble = (struct gb_error){0};
+    if (gb_runset_view_read(&fresh, directory, &watch->trouble)) {
+        gb_runset_view_finish(&watch->swarm);
+        watch->swarm = fresh;
+    } else {
+        gb_runset_view_finish(&fresh);
+    }
+    g_free(directory);
+}
+
+/* -1: goes on; else the exit status. */
+static int handle(struct gb_watch *watch, struct gb_term *term,
+                  const struct gb_term_event *event)
+{
+    switch (event->kind) {
+    case GB_TERM_KEY:
+    case GB_TERM_TEXT:
+        return event->code < 127 || event->kind == GB_TERM_KEY
+                   ? (act(watch, term, gb_keys_action(event->code)) ? 0 : -1)
+                   : -1;
+    case GB_TERM_MOUSE:
+        watch->top += event->code == GB_TERM_WHEEL_UP     ? -1
+                      : event->code == GB_TERM_WHEEL_DOWN ? 1
+                                                          : 0;
+        return -1;
+    case GB_TERM_INTERRUPT:
+        return STATUS_SIGNAL + SIGINT;
+    case GB_TERM_TERMINATE:
+        return STATUS_SIGNAL + event->code;
+    case GB_TERM_GONE:
+        return STATUS_SIGNAL + SIGHUP;
+    case GB_TERM_NOTHING:
+    case GB_TERM_RESIZED:
+        break;
+    }
+    return -1;
+}
+
+static int loop(struct gb_watch *watch, struct gb_term *term, bool *gone)
+{
+    double due = clock_s() + again_s;
+    int status = -1;
+    draw(watch, term);
+    while (status < 0) {
+        const double left = due - clock_s();
+        const struct gb_term_event event =
+            gb_term_wait(term, left > 0.0 ? (int)(1e3 * left) + 1 : 0);
+        status = handle(watch, term, &event);
+        *gone = event.kind == GB_TERM_GONE;
+        if (clock_s() >= due) {
+            const double from = clock_s();
+            reread(watch);
+            due = clock_s() + MAX(again_s, share * (clock_s() - from));
+        }
+        if (status < 0) {
+            draw(watch, term);
+        }
+    }
+    return status;
+}
+
+static int first_glyphs(const struct gb_term *term, const struct gb_settings *settings)
+{
+    const bool utf8 = gb_term_utf8(term);
+    if (utf8 && settings->graph != GB_GRAPH_AUTO) {
+        return settings->graph - GB_GRAPH_BRAILLE;
+    }
+    return gb_term_braille(term) ? GB_PLOT_BRAILLE : utf8 ? GB_PLOT_BLOCK : GB_PLOT_ASCII;
+}
+
+int gb_watch_run(const char *directory, const struct gb_settings *settings,
+                 struct gb_error *err)
+{
+    struct gb_watch watch = {.view = GB_WATCH_CURVES};
+    struct gb_term *term = NULL;
+    bool gone = false;
+    if (!gb_runset_view_read(&watch.swarm, directory, err) ||
+        !gb_term_start(&term, settings, err)) {
+        gb_runset_view_finish(&watch.swarm);
+        return gb_status_exit_code(err->code);
+    }
+    gb_plot_init(&watch.plot);
+    watch.glyphs = first_glyphs(term, settings);
+    watch.level = gb_runset_view_level(&watch.swarm, usual_pa);
+    watch.view = watch.swarm.fit != NULL ? GB_WATCH_FIT : GB_WATCH_CURVES;
+    const int status = loop(&watch, term, &gone);
+    if (gone) {
+        gb_term_abandon(term);
+    } else {
+        gb_term_stop(term);
+    }
+    gb_term_destroy(term);
+    gb_plot_finish(&watch.plot);
+    gb_runset_view_finish(&watch.swarm);
+    return status;
+}

@@ -1,0 +1,37 @@
+#ifndef GB_TUI_WATCH_WATCH_H
+#define GB_TUI_WATCH_WATCH_H
+
+#include "greenbody/status.h"
+#include "tui/term/paint.h"
+#include "tui/term/settings.h"
+#include "tui/watch/runset_view.h"
+
+/* The screen of many runs: their curves as means with bands, a map over two varied keys
+ * at a pressure, the runs themselves, the fit of a calibration.  It only reads. */
+enum gb_watch_view {
+    GB_WATCH_CURVES,
+    GB_WATCH_MAP,
+    GB_WATCH_RUNS,
+    GB_WATCH_FIT, /* of a calibration */
+    GB_WATCH_VIEWS
+};
+
+struct gb_watch {
+    struct gb_runset_view swarm;
+    struct gb_error trouble; /* why it could not be read again; GB_OK: it could */
+    enum gb_watch_view view;
+    size_t level; /* pressure of the map */
+    bool linear;  /* pressure axis */
+    int top;      /* first run listed */
+    int glyphs;   /* enum gb_plot_glyphs */
+    struct gb_plot plot;
+};
+
+/* Shows a directory until the user leaves; returns the exit status. */
+int gb_watch_run(const char *directory, const struct gb_settings *settings,
+                 struct gb_error *err);
+
+/* Draws the view into a rectangle; drawing only (watch_draw.c). */
+void gb_watch_draw(struct gb_watch *watch, const struct gb_paint *paint);
+
+#endif

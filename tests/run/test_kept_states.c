@@ -1,0 +1,225 @@
+/* States kept along a run: where they were asked for, and the run is none the wiser. */
+#include <glib.h>
+#include <glib/gstdio.h>
+#include <string.h>
+
+#include "base/table.h"
+#include "common/scene.h"
+#include "io/state.h"
+#include "many/single_run.h"
+#include "run/run_recorder.h"
+#include "scene/keep_points.h"
+
+static const char *const wanted = "10 MPa; density = 0.26; every 50";
+
+static void test_parse(void)
+{
+    struct gb_keep_points marks;
+    struct gb_error err = {0};
+    g_assert_true(gb_keep_points_parse("", &marks, &err));
+    g_assert_cmpint(marks.count, ==, 0);
+    g_assert_true(gb_keep_points_parse(" 100 MPa;density=0.5 ; every 20;", &marks, &err));
+    g_assert_cmpint(marks.count, ==, 2);
+    g_assert_cmpint(marks.every, ==, 20);
+    g_assert_cmpfloat(marks.mark[0].value, ==, 100e6);
+    g_assert_true(!marks.mark[0].by_density && marks.mark[1].by_density);
+    g_assert_cmpfloat(marks.mark[1].value, ==, 0.5);
+    static const char *const bad[] = {"100",         "100 nm",  "density 0.5",
+                                      "density = 1", "every 0", "every 1; every 2",
+                                      "; 100 MPa",   "every",   "every 20 MPa"};
+    for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+        err = (struct gb_error){0};
+        g_assert_false(gb_keep_points_parse(bad[i], &marks, &err));
+        g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+        g_assert_nonnull(strstr(err.text, "output.snapshots_at"));
+    }
+}
+
+static struct gb_params scene(const char *marks)
+{
+    struct gb_params params =
+        scene_params("numerics.fidelity=fast", "loading.until=density=0.29", NULL);
+    g_strlcpy(params.snapshots_at, marks, sizeof params.snapshots_at);
+    return params;
+}
+
+static void run(const char *directory, const char *marks)
+{
+    const struct gb_params params = scene(marks);
+    struct gb_error err = {0};
+    if (!gb_single_run(&params, directory, NULL, &err)) {
+        g_error("%s", err.text);
+    }
+}
+
+static struct gb_state *state_of(const char *directory, const char *name)
+{
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    char *path = g_build_filename(directory, name, NULL);
+    if (!gb_state_read(&state, path, &err)) {
+        g_error("%s", err.text);
+    }
+    g_free(path);
+    return state;
+}
+
+static void remove_run(const char *directory)
+{
+    static const char *const folders[] = {"snapshots", "."};
+    for (size_t k = 0; k < G_N_ELEMENTS(folders); k++) {
+        char *folder = g_build_filename(directory, folders[k], NULL);
+        GDir *dir = g_dir_open(folder, 0, NULL);
+        const char *name;
+        while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+            char *path = g_build_filename(folder, name, NULL);
+            g_remove(path);
+            g_free(path);
+        }
+        if (dir != NULL) {
+            g_dir_close(dir);
+        }
+        g_rmdir(folder);
+        g_free(folder);
+    }
+    g_rmdir(directory);
+}
+
+static struct gb_table *curve_of(const char *directory)
+{
+    struct gb_table *table = NULL;
+    struct gb_error err = {0};
+    char *path = g_build_filename(directory, "curve.csv", NULL);
+    if (!gb_table_read(&table, path, "branch", &err)) {
+        g_error("%s", err.text);
+    }
+    g_free(path);
+    return table;
+}
+
+/* The first row at which a column reaches a value. */
+static size_t first_row(const struct gb_table *curve, const char *column, double value)
+{
+    const double *x = gb_table_column(curve, column, NULL);
+    size_t row = 0;
+    while (row < gb_table_rows(curve) && x[row] < value) {
+        row++;
+    }
+    g_assert_cmpuint(row, >, 0);
+    g_assert_cmpuint(row, <, gb_table_rows(curve));
+    return row;
+}
+
+static void check_at(const char *directory, const struct gb_table *curve, size_t row,
+                     const char *name)
+{
+    struct gb_state *state = state_of(directory, name);
+    g_assert_cmpfloat(state->point.density, ==,
+                      gb_table_column(curve, "density", NULL)[row]);
+    g_assert_cmpint(state->point.step, ==,
+                    (int64_t)gb_table_column(curve, "step", NULL)[row]);
+    gb_state_destroy(state);
+}
+
+static void check_same_end(const char *a, const char *b)
+{
+    struct gb_state *one = state_of(a, "state.h5");
+    struct gb_state *two = state_of(b, "state.h5");
+    g_assert_cmpint(one->count, ==, two->count);
+    g_assert_cmpint(memcmp(one->position, two->position, 24 * (size_t)one->count), ==, 0);
+    gb_state_destroy(one);
+    gb_state_destroy(two);
+}
+
+static void test_run(void)
+{
+    char *base = g_dir_make_tmp("album-XXXXXX", NULL);
+    char *kept = g_build_filename(base, "kept", NULL);
+    char *plain = g_build_filename(base, "plain", NULL);
+    run(kept, wanted);
+    run(plain, "");
+    struct gb_table *curve = curve_of(kept);
+    struct gb_table *other = curve_of(plain);
+    check_at(kept, curve, first_row(curve, "p_MPa", 10.0), "snapshots/p-10MPa.h5");
+    check_at(kept, curve, first_row(curve, "density", 0.26), "snapshots/density-0.26.h5");
+    check_at(kept, curve, 0, "snapshots/point-000001.h5");
+    check_at(kept, curve, 50, "snapshots/point-000051.h5");
+    g_assert_cmpuint(gb_table_rows(curve), ==, gb_table_rows(other));
+    check_same_end(kept, plain);
+    char *none = g_build_filename(plain, "snapshots", NULL);
+    g_assert_false(g_file_test(none, G_FILE_TEST_EXISTS));
+    g_free(none);
+    gb_table_destroy(curve);
+    gb_table_destroy(other);
+    remove_run(kept);
+    remove_run(plain);
+    g_rmdir(base);
+    g_free(kept);
+    g_free(plain);
+    g_free(base);
+}
+
+/* Some points, then away with it, as a kill does. */
+static void press(struct gb_run_recorder *keep, struct gb_experiment *experiment,
+                  int points)
+{
+    struct gb_error err = {0};
+    for (int k = 0; k < points;) {
+        char text[640];
+        const enum gb_advance how = gb_experiment_advance(experiment, 100, &err);
+        while (gb_experiment_event(experiment, text, sizeof text)) {
+        }
+        if (how == GB_ADVANCE_DONE) {
+            return;
+        }
+        if (how == GB_ADVANCE_POINT) {
+            k++;
+            g_assert_true(gb_run_recorder_point(keep, experiment,
+                                                gb_experiment_point(experiment), &err));
+        }
+        g_assert_true(how == GB_ADVANCE_POINT || how == GB_ADVANCE_MORE);
+    }
+}
+
+/* What was kept before the stop is left alone, what comes after it is kept. */
+static void test_resume(void)
+{
+    char *base = g_dir_make_tmp("album-XXXXXX", NULL);
+    char *place = g_build_filename(base, "run", NULL);
+    const struct gb_params params = scene("1 kPa; 10 MPa; 20 MPa; every 50");
+    struct gb_experiment *experiment = NULL;
+    struct gb_run_recorder *keep = NULL;
+    struct gb_snapshot shot = {0};
+    struct gb_error err = {0};
+    g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
+    g_assert_true(gb_run_recorder_create(&keep, place, &params, false, &err));
+    press(keep, experiment, 60);
+    g_assert_true(gb_run_recorder_conclude(keep, &shot, &err));
+    gb_run_recorder_destroy(keep);
+    gb_experiment_destroy(experiment);
+    char *first = g_build_filename(place, "snapshots", "point-000051.h5", NULL);
+    g_assert_cmpint(g_remove(first), ==, 0);
+    g_assert_true(gb_run_recorder_resume(&keep, &experiment, place, &err));
+    press(keep, experiment, 10000);
+    gb_run_recorder_destroy(keep);
+    gb_experiment_destroy(experiment);
+    struct gb_table *curve = curve_of(place);
+    check_at(place, curve, first_row(curve, "p_MPa", 20.0), "snapshots/p-20MPa.h5");
+    check_at(place, curve, 100, "snapshots/point-000101.h5");
+    g_assert_false(g_file_test(first, G_FILE_TEST_EXISTS));
+    gb_table_destroy(curve);
+    remove_run(place);
+    g_rmdir(base);
+    g_free(first);
+    g_free(place);
+    g_free(base);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/album/parse", test_parse);
+    g_test_add_func("/album/run", test_run);
+    g_test_add_func("/album/resume", test_resume);
+    return g_test_run();
+}
