@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Refuses words that docs/glossary.md replaced by terms of the field.
+
+Usage: words.py SOURCE_DIR
+
+Names: a part of an identifier between underscores, in C sources outside strings.
+Texts: whole words in comments, strings and pages.  Names in files are a contract and stand in
+strings; the few that hold an old word are listed in FILE_NAMES.
+"""
+import pathlib
+import re
+import sys
+
+# Parts of identifiers.
+NAMES = """
+    stray strays sight hair crowd amend amended amends flock flocks drive drives driven narrow
+    narrowed ahead spot spots ledger ledgers spare sift sifted deal dealt leap departure foretell
+    foretold foresee asked crew boss letter letters ranks errand errands overheard swarm husk life
+    pressing solo dress lens hush sheet album programme trial relief guess whoever somebody
+    nobody manieth place places way ways arm arms turn turns turned
+""".split()
+
+# Words of comments, messages and pages.
+TEXTS = """
+    whoever whomever somebody someone nobody anybody manieth foretold foretell foretells stray
+    strays flock flocks amend amends amended amendment amendments sift sifted errand errands
+    overheard swarm husk crew ledger
+""".split()
+
+# What strings may hold all the same: items of checkpoints, whose names are a contract.
+FILE_NAMES = re.compile(r'^(world|relax|bed|die|motion|load|programme|run)?/?'
+                        r'(amended|place|places|turned|arm|turn)$')
+
+# Identifiers of other libraries.
+FOREIGN = re.compile(r'^(gsl_|GSL_|H5|g_|G_|cairo_|pango_|PANGO_|png_|GL_|gl[A-Z]|MPI_|A_)')
+
+TOKEN = re.compile(r'''(?P<comment>/\*.*?\*/|//[^\n]*)
+                      |(?P<string>"(?:\\.|[^"\\\n])*")
+                      |(?P<char>'(?:\\.|[^'\\\n])*')
+                      |(?P<name>[A-Za-z_][A-Za-z0-9_]*)''', re.S | re.X)
+WORD = re.compile(r'[A-Za-z]+')
+
+
+def line_of(text, offset):
+    return text.count('\n', 0, offset) + 1
+
+
+def in_name(name):
+    if FOREIGN.match(name):
+        return None
+    return next((part for part in name.lower().split('_') if part in NAMES), None)
+
+
+def in_text(text):
+    return next((w for w in WORD.findall(text) if w.lower() in TEXTS), None)
+
+
+def check_c(path, text):
+    for token in TOKEN.finditer(text):
+        kind, value = token.lastgroup, token.group()
+        if kind == 'name':
+            word = in_name(value)
+        elif kind == 'string' and FILE_NAMES.match(value[1:-1]):
+            word = None
+        elif kind in ('comment', 'string'):
+            word = in_text(value)
+        else:
+            word = None
+        if word:
+            yield line_of(text, token.start()), word, value.split('\n')[0][:60]
+
+
+def check_page(path, text):
+    for number, line in enumerate(text.split('\n'), 1):
+        word = in_text(line)
+        if word:
+            yield number, word, line.strip()[:60]
+
+
+def files(root):
+    for folder in ('src', 'include', 'tests', 'docs', 'presets'):
+        for path in sorted((root / folder).rglob('*')):
+            if 'corpus' not in path.parts and path.name != 'words.py':
+                yield path
+    for name in ('README.md', 'CONTRIBUTING.md', 'CHANGELOG.md', 'bootstrap', 'meson.build'):
+        yield root / name
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    found = 0
+    for path in files(root):
+        if path.suffix in ('.c', '.h'):
+            check = check_c
+        elif path.suffix in ('.md', '.sh', '.in', '.build', '.ini') or path.name == 'bootstrap':
+            check = check_page
+        else:
+            continue
+        if path.name == 'glossary.md' or not path.exists():
+            continue
+        for number, word, where in check(path, path.read_text(encoding='utf-8')):
+            found += 1
+            print(f'{path.relative_to(root)}:{number}: "{word}" in: {where}')
+    print(f'words: {found} found' if found else 'words: none of the old ones')
+    return found > 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
