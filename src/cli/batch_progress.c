@@ -174,7 +174,7 @@ bool gb_batch_progress_work(struct gb_batch_progress *crowd, struct gb_ensemble 
                             int jobs, struct gb_error *err)
 {
     struct gb_pool *crew = NULL;
-    const struct gb_ensemble_watch watch = {is_cancelled, told, crowd};
+    const struct gb_ensemble_callbacks watch = {is_cancelled, told, crowd};
     if (jobs < 0 || jobs > JOBS_MOST) {
         return gb_error_set(err, GB_ERR_INPUT, "--jobs %d: accepted 1 to %d, 0 for all",
                             jobs, JOBS_MOST);

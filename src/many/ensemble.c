@@ -97,7 +97,7 @@ static size_t room(const struct gb_ensemble *ensemble, const struct gb_pool *cre
                    size_t waiting)
 {
     const size_t idle = gb_pool_idle(crew);
-    return idle > 0 || ensemble->enough != NULL ? idle : gb_pool_ahead(crew, waiting);
+    return idle > 0 || ensemble->enough != NULL ? idle : gb_pool_prefetch(crew, waiting);
 }
 
 /* Gives runs to workers; false when none can be started. */
@@ -108,7 +108,7 @@ static bool give(struct gb_ensemble *ensemble, struct gb_pool *crew, struct queu
     while (room(ensemble, crew, queue->waiting) > 0 &&
            (run = next_run(ensemble, queue)) != NULL) {
         const size_t ticket = (size_t)(run - ensemble->run);
-        if (!gb_pool_give(crew, ticket, &run->params, run->directory, err)) {
+        if (!gb_pool_submit(crew, ticket, &run->params, run->directory, err)) {
             return gb_pool_busy(crew) > 0; /* with fewer workers then */
         }
         run->given = true;
@@ -118,7 +118,8 @@ static bool give(struct gb_ensemble *ensemble, struct gb_pool *crew, struct queu
 }
 
 static void tell(const struct gb_ensemble *ensemble,
-                 const struct gb_ensemble_watch *watch, const struct gb_ensemble_run *run)
+                 const struct gb_ensemble_callbacks *watch,
+                 const struct gb_ensemble_run *run)
 {
     if (watch->told != NULL) {
         watch->told(ensemble, run, watch->data);
@@ -126,10 +127,10 @@ static void tell(const struct gb_ensemble *ensemble,
 }
 
 static void take(struct gb_ensemble *ensemble, struct gb_pool *crew, struct queue *queue,
-                 const struct gb_ensemble_watch *watch)
+                 const struct gb_ensemble_callbacks *watch)
 {
     struct gb_pool_report report;
-    if (!gb_pool_take(crew, patience_s, &report)) {
+    if (!gb_pool_receive(crew, patience_s, &report)) {
         tell(ensemble, watch, NULL);
         return;
     }
@@ -148,7 +149,7 @@ static void take(struct gb_ensemble *ensemble, struct gb_pool *crew, struct queu
 }
 
 bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *crew,
-                      const struct gb_ensemble_watch *watch, struct gb_error *err)
+                      const struct gb_ensemble_callbacks *watch, struct gb_error *err)
 {
     struct queue queue = {0};
     bool stopping = false;

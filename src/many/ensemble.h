@@ -47,7 +47,7 @@ struct gb_ensemble_run *gb_ensemble_at(const struct gb_ensemble *ensemble, size_
 bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err);
 
 /* Who is told about the work, and may end it. */
-struct gb_ensemble_watch {
+struct gb_ensemble_callbacks {
     bool (*cancelled)(void *data); /* polled at least five times a second */
     void (*told)(const struct gb_ensemble *ensemble, const struct gb_ensemble_run *run,
                  void *data); /* a run has ended; NULL: nothing new */
@@ -59,7 +59,7 @@ struct gb_ensemble_watch {
  * Errors: GB_ERR_CANCELLED (what was under way has stopped), GB_ERR_MACHINE when no
  * worker can be started at all. */
 bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *crew,
-                      const struct gb_ensemble_watch *watch, struct gb_error *err);
+                      const struct gb_ensemble_callbacks *watch, struct gb_error *err);
 
 /* How many replicas of a point count: those up to where `enough` was met first, else all.
  */

@@ -233,7 +233,7 @@ static void send_capacity(size_t workers)
 static void give_on(struct gb_mpi_pool *ranks, struct gb_pool *crew, enum stop stop)
 {
     while (!g_queue_is_empty(ranks->hand) &&
-           (stop != GOING || gb_pool_ahead(crew, 0) > 0)) {
+           (stop != GOING || gb_pool_prefetch(crew, 0) > 0)) {
         struct gb_pool_report report = {0};
         struct parcel *parcel = g_queue_pop_head(ranks->hand);
         report.ticket = parcel->ticket;
@@ -241,8 +241,8 @@ static void give_on(struct gb_mpi_pool *ranks, struct gb_pool *crew, enum stop s
             gb_error_set(&report.error, GB_ERR_CANCELLED, "stopped before it began");
             report.lost = stop == LEAVING;
             send_report(&report);
-        } else if (!gb_pool_give(crew, parcel->ticket, &parcel->params, parcel->directory,
-                                 &report.error)) {
+        } else if (!gb_pool_submit(crew, parcel->ticket, &parcel->params,
+                                   parcel->directory, &report.error)) {
             send_report(&report);
         }
         g_free(parcel);
@@ -299,7 +299,7 @@ bool gb_mpi_pool_serve(struct gb_mpi_pool *ranks, struct gb_pool *crew, size_t w
             stopped = true;
             gb_pool_stop(crew);
         }
-        if (gb_pool_take(crew, gb_pool_patience(crew), &report)) {
+        if (gb_pool_receive(crew, gb_pool_poll_interval(crew), &report)) {
             report.lost = stop == LEAVING && report.error.code == GB_ERR_CANCELLED;
             send_report(&report);
         }
@@ -342,7 +342,7 @@ size_t gb_mpi_pool_idle(const struct gb_mpi_pool *ranks)
     return idle;
 }
 
-size_t gb_mpi_pool_ahead(const struct gb_mpi_pool *ranks)
+size_t gb_mpi_pool_prefetch(const struct gb_mpi_pool *ranks)
 {
     size_t ahead = 0;
     for (int r = 1; ranks != NULL && r < ranks->count; r++) {
@@ -366,9 +366,9 @@ static int choose(const struct gb_mpi_pool *ranks)
     return ahead;
 }
 
-bool gb_mpi_pool_give(struct gb_mpi_pool *ranks, size_t ticket,
-                      const struct gb_params *params, const char *directory,
-                      struct gb_error *err)
+bool gb_mpi_pool_submit(struct gb_mpi_pool *ranks, size_t ticket,
+                        const struct gb_params *params, const char *directory,
+                        struct gb_error *err)
 {
     const int to = choose(ranks);
     if (to == 0 || strlen(directory) >= DIRECTORY_MAX) {
@@ -433,7 +433,7 @@ static bool take_lost(struct gb_mpi_pool *ranks, struct gb_pool_report *report)
     return false;
 }
 
-bool gb_mpi_pool_take(struct gb_mpi_pool *ranks, struct gb_pool_report *report)
+bool gb_mpi_pool_receive(struct gb_mpi_pool *ranks, struct gb_pool_report *report)
 {
     MPI_Status status;
     if (ranks == NULL) {
@@ -503,15 +503,15 @@ size_t gb_mpi_pool_idle(const struct gb_mpi_pool *ranks)
     return 0;
 }
 
-size_t gb_mpi_pool_ahead(const struct gb_mpi_pool *ranks)
+size_t gb_mpi_pool_prefetch(const struct gb_mpi_pool *ranks)
 {
     (void)ranks;
     return 0;
 }
 
-bool gb_mpi_pool_give(struct gb_mpi_pool *ranks, size_t ticket,
-                      const struct gb_params *params, const char *directory,
-                      struct gb_error *err)
+bool gb_mpi_pool_submit(struct gb_mpi_pool *ranks, size_t ticket,
+                        const struct gb_params *params, const char *directory,
+                        struct gb_error *err)
 {
     (void)ranks;
     (void)ticket;
@@ -520,7 +520,7 @@ bool gb_mpi_pool_give(struct gb_mpi_pool *ranks, size_t ticket,
     return gb_error_set(err, GB_ERR_INPUT, "built without Open MPI");
 }
 
-bool gb_mpi_pool_take(struct gb_mpi_pool *ranks, struct gb_pool_report *report)
+bool gb_mpi_pool_receive(struct gb_mpi_pool *ranks, struct gb_pool_report *report)
 {
     (void)ranks;
     (void)report;

@@ -44,11 +44,11 @@ bool gb_mpi_pool_serve(struct gb_mpi_pool *ranks, struct gb_pool *crew, size_t w
  * stop  asks all runs to stop */
 size_t gb_mpi_pool_workers(const struct gb_mpi_pool *ranks);
 size_t gb_mpi_pool_idle(const struct gb_mpi_pool *ranks);
-size_t gb_mpi_pool_ahead(const struct gb_mpi_pool *ranks);
-bool gb_mpi_pool_give(struct gb_mpi_pool *ranks, size_t ticket,
-                      const struct gb_params *params, const char *directory,
-                      struct gb_error *err);
-bool gb_mpi_pool_take(struct gb_mpi_pool *ranks, struct gb_pool_report *report);
+size_t gb_mpi_pool_prefetch(const struct gb_mpi_pool *ranks);
+bool gb_mpi_pool_submit(struct gb_mpi_pool *ranks, size_t ticket,
+                        const struct gb_params *params, const char *directory,
+                        struct gb_error *err);
+bool gb_mpi_pool_receive(struct gb_mpi_pool *ranks, struct gb_pool_report *report);
 void gb_mpi_pool_stop(struct gb_mpi_pool *ranks);
 
 #endif

@@ -64,7 +64,7 @@ bool gb_pool_create(struct gb_pool **out, size_t workers, gb_pool_work *work,
     return true;
 }
 
-double gb_pool_patience(const struct gb_pool *crew)
+double gb_pool_poll_interval(const struct gb_pool *crew)
 {
     const double calm = letters_share * (clock_s() - crew->stirred);
     return fmin(fmax(calm, letters_least_s), letters_most_s);
@@ -84,10 +84,10 @@ size_t gb_pool_idle(const struct gb_pool *crew)
            gb_mpi_pool_idle(crew->ranks);
 }
 
-size_t gb_pool_ahead(const struct gb_pool *crew, size_t waiting)
+size_t gb_pool_prefetch(const struct gb_pool *crew, size_t waiting)
 {
     const bool many = waiting > crew->count + gb_mpi_pool_workers(crew->ranks);
-    return room_here(crew) + (many ? gb_mpi_pool_ahead(crew->ranks) : 0);
+    return room_here(crew) + (many ? gb_mpi_pool_prefetch(crew->ranks) : 0);
 }
 
 size_t gb_pool_busy(const struct gb_pool *crew)
@@ -108,15 +108,15 @@ static bool give_here(struct gb_pool *crew, size_t ticket, const struct gb_param
     return given;
 }
 
-bool gb_pool_give(struct gb_pool *crew, size_t ticket, const struct gb_params *params,
-                  const char *directory, struct gb_error *err)
+bool gb_pool_submit(struct gb_pool *crew, size_t ticket, const struct gb_params *params,
+                    const char *directory, struct gb_error *err)
 {
     crew->stirred = clock_s();
     const bool idle = crew->busy < crew->count;
     if (idle || (room_here(crew) > 0 && gb_mpi_pool_idle(crew->ranks) == 0)) {
         return give_here(crew, ticket, params, directory, err);
     }
-    const bool given = gb_mpi_pool_give(crew->ranks, ticket, params, directory, err);
+    const bool given = gb_mpi_pool_submit(crew->ranks, ticket, params, directory, err);
     crew->away += given;
     return given;
 }
@@ -153,7 +153,7 @@ static bool take_here(struct gb_pool *crew, double seconds, struct gb_pool_repor
     return false;
 }
 
-bool gb_pool_take(struct gb_pool *crew, double seconds, struct gb_pool_report *report)
+bool gb_pool_receive(struct gb_pool *crew, double seconds, struct gb_pool_report *report)
 {
     const double until = clock_s() + seconds;
     const double stirred = crew->stirred;
@@ -161,12 +161,12 @@ bool gb_pool_take(struct gb_pool *crew, double seconds, struct gb_pool_report *r
         return take_here(crew, seconds, report);
     }
     do {
-        if (gb_mpi_pool_take(crew->ranks, report)) {
+        if (gb_mpi_pool_receive(crew->ranks, report)) {
             crew->away--;
             crew->stirred = clock_s();
             return true;
         }
-        if (take_here(crew, gb_pool_patience(crew), report)) {
+        if (take_here(crew, gb_pool_poll_interval(crew), report)) {
             return true;
         }
     } while (crew->stirred <= stirred && clock_s() < until);
@@ -193,7 +193,7 @@ void gb_pool_destroy(struct gb_pool *crew)
         gb_pool_stop(crew);
     }
     while (gb_pool_busy(crew) > 0) {
-        (void)gb_pool_take(crew, 1.0, &report);
+        (void)gb_pool_receive(crew, 1.0, &report);
     }
     for (size_t i = 0; i < crew->places; i++) {
         gb_worker_end(&crew->worker[i]);

@@ -18,7 +18,7 @@ static const double status_every_s = 1.5;
 enum { EVENT_MAX = 640 };
 
 struct solo {
-    struct gb_pool_boss boss;
+    struct gb_pool_callbacks boss;
     struct gb_run_recorder *keep;
     struct gb_experiment *experiment;
     struct gb_pace pace;
@@ -141,8 +141,8 @@ static bool conclude(struct solo *solo, const struct gb_error *stopped,
 {
     observe(solo, stopped->code == GB_OK ? GB_RUN_DONE : GB_RUN_STOPPED);
     solo->shot.error = *stopped;
-    if (solo->boss.pressed != NULL) {
-        solo->boss.pressed(solo->boss.data);
+    if (solo->boss.loaded != NULL) {
+        solo->boss.loaded(solo->boss.data);
     }
     return gb_run_recorder_conclude(solo->keep, &solo->shot, err);
 }
@@ -155,9 +155,9 @@ static void give_up(struct solo *solo, const struct gb_error *err)
 }
 
 bool gb_single_run(const struct gb_params *params, const char *directory,
-                   const struct gb_pool_boss *boss, struct gb_error *err)
+                   const struct gb_pool_callbacks *boss, struct gb_error *err)
 {
-    struct solo solo = {.boss = boss != NULL ? *boss : (struct gb_pool_boss){0}};
+    struct solo solo = {.boss = boss != NULL ? *boss : (struct gb_pool_callbacks){0}};
     struct gb_error stopped = {0};
     struct gb_error failure = {0};
     const bool kept = begin(&solo, params, directory, &failure) &&

@@ -58,7 +58,7 @@ static void tell_pressed(void *data)
 static void labour(gb_pool_work *work, pid_t parent, int fd)
 {
     struct parcel *parcel = gb_alloc_array(1, sizeof *parcel, NULL);
-    const struct gb_pool_boss boss = {is_asked_to_stop, tell_pressed, &fd};
+    const struct gb_pool_callbacks boss = {is_asked_to_stop, tell_pressed, &fd};
     signal(SIGINT, SIG_IGN);
     signal(SIGHUP, SIG_IGN);
     (void)prctl(PR_SET_PDEATHSIG, SIGTERM);

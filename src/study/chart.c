@@ -15,15 +15,15 @@
 /* Evaluations between two looks at whoever may want to cancel. */
 enum { SLICE = 2000 };
 
-bool gb_chart_choice_of(struct gb_chart_choice *choice, const struct gb_params *params,
-                        struct gb_error *err)
+bool gb_chart_setting_of(struct gb_chart_setting *choice, const struct gb_params *params,
+                         struct gb_error *err)
 {
     struct gb_model model;
     if (!gb_model_init(&model, params, err)) {
         return false;
     }
     const bool dynamic = model.kind == GB_KIND_DYNAMIC;
-    *choice = (struct gb_chart_choice){
+    *choice = (struct gb_chart_setting){
         .count = model.count,
         .strain_step = dynamic ? (double)NAN : model.strain_step / model.numerics.parts,
         .tolerance = dynamic ? (double)NAN : model.numerics.tolerance,
@@ -40,7 +40,7 @@ bool gb_chart_choice_of(struct gb_chart_choice *choice, const struct gb_params *
     return true;
 }
 
-void gb_chart_choose(struct gb_params *params, const struct gb_chart_choice *choice)
+void gb_chart_apply(struct gb_params *params, const struct gb_chart_setting *choice)
 {
     if (choice->count != params->count) {
         params->count = choice->count;
@@ -68,7 +68,7 @@ static bool same_number(double a, double b)
     return fabs(a - b) <= 1e-12 * fabs(a) || (isnan(a) && isnan(b));
 }
 
-bool gb_chart_same(const struct gb_chart_choice *a, const struct gb_chart_choice *b)
+bool gb_chart_same(const struct gb_chart_setting *a, const struct gb_chart_setting *b)
 {
     return strcmp(a->relaxer, b->relaxer) == 0 && a->count == b->count &&
            a->single == b->single && same_number(a->strain_step, b->strain_step) &&
@@ -77,7 +77,7 @@ bool gb_chart_same(const struct gb_chart_choice *a, const struct gb_chart_choice
            same_number(a->step_error, b->step_error);
 }
 
-char *gb_chart_describe(const struct gb_chart_choice *choice, char *buffer, size_t size)
+char *gb_chart_describe(const struct gb_chart_setting *choice, char *buffer, size_t size)
 {
     char numbers[96] = "";
     if (isfinite(choice->strain_step)) {
@@ -168,7 +168,7 @@ static struct gb_params scene_of(const struct gb_chart_run *run,
                                  int pressures)
 {
     struct gb_params params = *scene;
-    gb_chart_choose(&params, &run->choice);
+    gb_chart_apply(&params, &run->choice);
     params.seed = run->seed;
     params.threads = 1;
     params.unload_count = 0;

@@ -14,7 +14,7 @@ enum { GB_CHART_PRESSURES = 4 };
 
 /* The numbers that a chart compares.  Those that a scene has no use for are NaN (count:
  * never; relaxer: "verlet" in dynamic scenes). */
-struct gb_chart_choice {
+struct gb_chart_setting {
     char relaxer[24];
     int64_t count;
     double strain_step, tolerance; /* quasi-static; strain_step: relaxed at once */
@@ -25,23 +25,23 @@ struct gb_chart_choice {
 };
 
 /* What params choose, "auto" resolved as a run would.  Errors: as of gb_model_init. */
-bool gb_chart_choice_of(struct gb_chart_choice *choice, const struct gb_params *params,
-                        struct gb_error *err);
+bool gb_chart_setting_of(struct gb_chart_setting *choice, const struct gb_params *params,
+                         struct gb_error *err);
 /* Params with these choices; another count takes the shape of the cell along. */
-void gb_chart_choose(struct gb_params *params, const struct gb_chart_choice *choice);
-bool gb_chart_same(const struct gb_chart_choice *a, const struct gb_chart_choice *b);
+void gb_chart_apply(struct gb_params *params, const struct gb_chart_setting *choice);
+bool gb_chart_same(const struct gb_chart_setting *a, const struct gb_chart_setting *b);
 /* "fire, step 0.1 %, tolerance 0.02, cutoff 1.37 d, single precision, 1000 particles".
  * Returns buffer. */
-char *gb_chart_describe(const struct gb_chart_choice *choice, char *buffer, size_t size);
+char *gb_chart_describe(const struct gb_chart_setting *choice, char *buffer, size_t size);
 
 /* 32 or 64: of a number in its precision, as tables have it. */
-static inline double gb_chart_bits(const struct gb_chart_choice *choice)
+static inline double gb_chart_bits(const struct gb_chart_setting *choice)
 {
     return choice->single ? 32.0 : 64.0;
 }
 
 struct gb_chart_run {
-    struct gb_chart_choice choice;
+    struct gb_chart_setting choice;
     uint64_t seed;
     bool failed;        /* stopped by a guard */
     double evaluations; /* of the forces while it was pressed */

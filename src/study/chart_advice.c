@@ -37,12 +37,12 @@ static bool add_g(const struct gb_model *model, double half, int bins, double *s
 
 /* Mean g(r) over the first initial structures. */
 static bool look_at(struct gb_chart_size *size, const struct gb_chart_plan *plan,
-                    const struct gb_chart_choice *choice, struct gb_error *err)
+                    const struct gb_chart_setting *choice, struct gb_error *err)
 {
     struct gb_params params = plan->params;
     struct gb_model model;
     struct gb_cell cell;
-    gb_chart_choose(&params, choice);
+    gb_chart_apply(&params, choice);
     if (!gb_model_init(&model, &params, err)) {
         return false;
     }
@@ -79,10 +79,10 @@ static double cells_for(const struct gb_chart_size *size, int pressures, double 
     return most > 0.0 ? most : (double)NAN;
 }
 
-static bool differs_in_size_only(const struct gb_chart_choice *a,
-                                 const struct gb_chart_choice *b)
+static bool differs_in_size_only(const struct gb_chart_setting *a,
+                                 const struct gb_chart_setting *b)
 {
-    struct gb_chart_choice same = *a;
+    struct gb_chart_setting same = *a;
     same.count = b->count;
     return gb_chart_same(&same, b);
 }
@@ -99,7 +99,7 @@ bool gb_chart_advice_init(struct gb_chart_advice *advice,
                           struct gb_error *err)
 {
     *advice = (struct gb_chart_advice){.standard_error = standard_error};
-    const struct gb_chart_choice *own = &plan->choice[1];
+    const struct gb_chart_setting *own = &plan->choice[1];
     for (size_t i = 1; i < table->rows && advice->sizes < GB_CHART_SIZES; i++) {
         const struct gb_chart_row *row = &table->row[i];
         if (row->seeds < 2 || !differs_in_size_only(&row->choice, own)) {

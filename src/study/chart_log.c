@@ -203,7 +203,7 @@ static void add_number(GString *text, double value)
 static void add_row(const struct gb_chart_log *log, GString *text,
                     const struct gb_chart_run *run)
 {
-    const struct gb_chart_choice *c = &run->choice;
+    const struct gb_chart_setting *c = &run->choice;
     g_string_append(text, c->relaxer);
     const double number[] = {(double)c->count, c->strain_step,    c->tolerance,
                              c->cutoff,        gb_chart_bits(c),  c->time_step,
@@ -282,7 +282,7 @@ void gb_chart_log_close(struct gb_chart_log *log)
 }
 
 const struct gb_chart_run *gb_chart_log_find(const struct gb_chart_log *log,
-                                             const struct gb_chart_choice *choice,
+                                             const struct gb_chart_setting *choice,
                                              uint64_t seed)
 {
     for (guint i = 0; i < log->runs->len; i++) {

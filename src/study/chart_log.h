@@ -25,7 +25,7 @@ void gb_chart_log_close(struct gb_chart_log *log); /* zeroed is fine */
 
 /* What is known of a cell, or NULL. */
 const struct gb_chart_run *gb_chart_log_find(const struct gb_chart_log *log,
-                                             const struct gb_chart_choice *choice,
+                                             const struct gb_chart_setting *choice,
                                              uint64_t seed);
 
 /* Adds a cell and writes runs.csv. */

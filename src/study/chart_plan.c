@@ -28,13 +28,13 @@ static const char *const varied[] = {
 /* Adds what params choose, unless it is there already. */
 static bool add(GArray *choices, const struct gb_params *params, struct gb_error *err)
 {
-    struct gb_chart_choice choice;
-    if (!gb_params_check(params, err) || !gb_chart_choice_of(&choice, params, err)) {
+    struct gb_chart_setting choice;
+    if (!gb_params_check(params, err) || !gb_chart_setting_of(&choice, params, err)) {
         return false;
     }
     /* the preset's own stays a row even when it is the reference */
     for (guint i = choices->len == 1 ? 1 : 0; i < choices->len; i++) {
-        if (gb_chart_same(&g_array_index(choices, struct gb_chart_choice, i), &choice)) {
+        if (gb_chart_same(&g_array_index(choices, struct gb_chart_setting, i), &choice)) {
             return true;
         }
     }
@@ -103,7 +103,7 @@ static const double effort_most = 0.25;
 
 static void drop_dear(GArray *choices)
 {
-    const struct gb_chart_choice *all = (const void *)choices->data;
+    const struct gb_chart_setting *all = (const void *)choices->data;
     const guint last = choices->len - 1;
     if (last > 1 &&
         gb_chart_plan_effort(&all[last]) > effort_most * gb_chart_plan_effort(&all[0])) {
@@ -283,7 +283,7 @@ static bool plan_pressures(struct gb_chart_plan *plan, const char *text,
     return true;
 }
 
-double gb_chart_plan_effort(const struct gb_chart_choice *choice)
+double gb_chart_plan_effort(const struct gb_chart_setting *choice)
 {
     const double reach = choice->cutoff * choice->cutoff;
     if (isnan(choice->strain_step)) {
@@ -313,7 +313,7 @@ bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *para
                         const char *pressures, int seeds, struct gb_error *err)
 {
     *plan = (struct gb_chart_plan){.params = *params, .seeds = seeds};
-    GArray *choices = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_choice));
+    GArray *choices = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_setting));
     bool good = gb_die_scene_absent(params, "a chart", err) &&
                 plan_pressures(plan, pressures, err) &&
                 add_reference(choices, params, reference, err) &&
@@ -327,7 +327,7 @@ bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *para
                add_precisions(choices, params, err) && add_sizes(choices, params, err);
     }
     plan->choices = choices->len;
-    plan->choice = (struct gb_chart_choice *)(void *)g_array_free(choices, FALSE);
+    plan->choice = (struct gb_chart_setting *)(void *)g_array_free(choices, FALSE);
     if (good && plan->choices > 2) {
         qsort(plan->choice + 2, plan->choices - 2, sizeof *plan->choice, by_effort);
     }

@@ -8,8 +8,8 @@
 
 /* Which choices a chart measures, and in which order. */
 struct gb_chart_plan {
-    struct gb_params params;        /* the scene */
-    struct gb_chart_choice *choice; /* [0] is the reference, [1] the preset's own */
+    struct gb_params params;         /* the scene */
+    struct gb_chart_setting *choice; /* [0] is the reference, [1] the preset's own */
     size_t choices;
     double pressure_pa[GB_CHART_PRESSURES]; /* ascending */
     int pressures;
@@ -31,6 +31,6 @@ bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *para
 void gb_chart_plan_finish(struct gb_chart_plan *plan); /* zeroed is fine */
 
 /* Rough cost of a run, to do the cheap ones first: in no unit. */
-double gb_chart_plan_effort(const struct gb_chart_choice *choice);
+double gb_chart_plan_effort(const struct gb_chart_setting *choice);
 
 #endif

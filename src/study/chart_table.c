@@ -14,7 +14,7 @@ struct pairs {
 };
 
 static void gather(struct pairs *pairs, const struct gb_chart_log *log,
-                   const struct gb_chart_choice *choice)
+                   const struct gb_chart_setting *choice)
 {
     const struct gb_chart_plan *plan = log->plan;
     pairs->own = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_run));
@@ -232,7 +232,7 @@ static void add_head(GString *text, const struct gb_chart_plan *plan)
 static void add_row(GString *text, const struct gb_chart_row *row, bool reference,
                     int pressures)
 {
-    const struct gb_chart_choice *c = &row->choice;
+    const struct gb_chart_setting *c = &row->choice;
     const double number[] = {(double)c->count,   c->strain_step,
                              c->tolerance,       c->cutoff,
                              gb_chart_bits(c),   c->time_step,

@@ -10,7 +10,7 @@
 
 /* Error against cost, one row per choice, from the cells pressed so far. */
 struct gb_chart_row {
-    struct gb_chart_choice choice;
+    struct gb_chart_setting choice;
     int seeds;                 /* cells of it that also the reference has */
     int failed;                /* of them stopped by a guard: no errors are given then */
     double evaluations, cpu_s; /* means */

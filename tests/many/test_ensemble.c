@@ -36,11 +36,11 @@ static bool put(struct gb_store *store, int branch, double density, double p_pa)
 
 /* What gb_single_run leaves, without an engine. */
 static bool stand_in(const struct gb_params *params, const char *directory,
-                     const struct gb_pool_boss *boss, struct gb_error *err)
+                     const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
     struct gb_store *store = NULL;
     struct gb_snapshot shot = {.state = GB_RUN_DONE};
-    (void)boss;
+    (void)callbacks;
     if (!gb_store_create(&store, directory, params, true, err)) {
         return false;
     }
@@ -60,7 +60,7 @@ static bool stand_in(const struct gb_params *params, const char *directory,
 
 /* Every third replica fails in another way. */
 static bool unreliable(const struct gb_params *params, const char *directory,
-                       const struct gb_pool_boss *boss, struct gb_error *err)
+                       const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
     switch (params->seed % 6) {
     case 2:
@@ -70,16 +70,16 @@ static bool unreliable(const struct gb_params *params, const char *directory,
         return gb_error_set(err, GB_ERR_GUARD, "overlap of 0.6 d, \"too much\"");
     default:
         g_usleep(2000 * (params->seed * 5 % 7)); /* another order of ending */
-        return stand_in(params, directory, boss, err);
+        return stand_in(params, directory, callbacks, err);
     }
 }
 
 static bool endless(const struct gb_params *params, const char *directory,
-                    const struct gb_pool_boss *boss, struct gb_error *err)
+                    const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
     (void)params;
     (void)directory;
-    while (!boss->cancelled(boss->data)) {
+    while (!callbacks->cancelled(callbacks->data)) {
         g_usleep(1000);
     }
     return gb_error_set(err, GB_ERR_CANCELLED, "stopped");
@@ -105,10 +105,10 @@ static void make(struct gb_ensemble *ensemble, const struct gb_axes *axes,
 }
 
 static bool work(struct gb_ensemble *ensemble, size_t workers, gb_pool_work *how,
-                 const struct gb_ensemble_watch *watch, struct gb_error *err)
+                 const struct gb_ensemble_callbacks *watch, struct gb_error *err)
 {
     struct gb_pool *crew = NULL;
-    static const struct gb_ensemble_watch nobody = {0};
+    static const struct gb_ensemble_callbacks nobody = {0};
     g_assert_true(gb_ensemble_find_done(ensemble, err));
     g_assert_true(gb_pool_create(&crew, workers, how, NULL, err));
     const bool good = gb_ensemble_work(ensemble, crew, watch ? watch : &nobody, err);
@@ -354,7 +354,7 @@ static void test_cancel(void)
     struct gb_ensemble ensemble;
     struct gb_error err = {0};
     struct stopper stopper = {g_get_monotonic_time() + 50000};
-    const struct gb_ensemble_watch watch = {.cancelled = is_time, .data = &stopper};
+    const struct gb_ensemble_callbacks watch = {.cancelled = is_time, .data = &stopper};
     make(&ensemble, &axes, 5, "cancel");
     g_assert_false(work(&ensemble, 2, endless, &watch, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
@@ -388,7 +388,7 @@ static void leave(const char *what, uint64_t seed)
 /* While a run is kept the next one is pressed, never two: each is kept until the next one
  * begins, and none may begin before. */
 static bool relay(const struct gb_params *params, const char *directory,
-                  const struct gb_pool_boss *boss, struct gb_error *err)
+                  const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
     const uint64_t seed = params->seed;
     if (seed > 1 && !exists("pressed", seed - 1)) {
@@ -397,11 +397,11 @@ static bool relay(const struct gb_params *params, const char *directory,
     leave("begun", seed);
     g_usleep(20000); /* for another one that should not begin */
     leave("pressed", seed);
-    boss->pressed(boss->data);
+    callbacks->loaded(callbacks->data);
     while (seed < 4 && !exists("begun", seed + 1)) {
         g_usleep(1000);
     }
-    return stand_in(params, directory, boss, err);
+    return stand_in(params, directory, callbacks, err);
 }
 
 static void test_keeping(void)
@@ -422,11 +422,11 @@ static void test_keeping(void)
 
 /* What is kept for a while. */
 static bool slow_to_keep(const struct gb_params *params, const char *directory,
-                         const struct gb_pool_boss *boss, struct gb_error *err)
+                         const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
-    boss->pressed(boss->data);
+    callbacks->loaded(callbacks->data);
     g_usleep(20000);
-    return stand_in(params, directory, boss, err);
+    return stand_in(params, directory, callbacks, err);
 }
 
 /* Three of the first replicas are enough; nothing is begun ahead of them. */

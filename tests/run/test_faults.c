@@ -203,9 +203,9 @@ static void check_lost(enum loss loss, const struct gb_params *params, const cha
 {
     struct thief thief = thief_make(loss);
     struct place *place = &thief.place;
-    const struct gb_pool_boss boss = {.cancelled = steal, .data = &thief};
+    const struct gb_pool_callbacks callbacks = {.cancelled = steal, .data = &thief};
     struct gb_error err = {0};
-    g_assert_false(gb_single_run(params, place->directory, &boss, &err));
+    g_assert_false(gb_single_run(params, place->directory, &callbacks, &err));
     check_line(&err, GB_ERR_MACHINE);
     g_assert_nonnull(strstr(err.text, place->directory));
     g_assert_nonnull(strstr(err.text, "was moved or removed"));

@@ -23,9 +23,9 @@ static bool has_points(void *data)
 static void run_plainly(const struct gb_params *params, struct place *place, bool resumed)
 {
     struct gb_error err = {0};
-    const struct gb_pool_boss boss = {.cancelled = has_points, .data = place};
+    const struct gb_pool_callbacks callbacks = {.cancelled = has_points, .data = place};
     const bool done =
-        gb_single_run(params, place->directory, resumed ? &boss : NULL, &err);
+        gb_single_run(params, place->directory, resumed ? &callbacks : NULL, &err);
     if (done == resumed) {
         g_error("%s", err.text);
     }

@@ -69,10 +69,10 @@ static void test_choose(void)
     struct gb_chart_plan plan = plan_of(&params, NULL, 2);
     for (size_t i = 0; i < plan.choices; i++) {
         struct gb_params chosen = params;
-        struct gb_chart_choice back;
+        struct gb_chart_setting back;
         struct gb_error err = {0};
-        gb_chart_choose(&chosen, &plan.choice[i]);
-        g_assert_true(gb_chart_choice_of(&back, &chosen, &err));
+        gb_chart_apply(&chosen, &plan.choice[i]);
+        g_assert_true(gb_chart_setting_of(&back, &chosen, &err));
         g_assert_true(gb_chart_same(&back, &plan.choice[i]));
     }
     gb_chart_plan_finish(&plan);

@@ -130,7 +130,7 @@ static bool keep_table(const struct chart *chart, struct gb_error *err)
 }
 
 /* One cell, unless it is known.  False only when the chart cannot go on. */
-static bool measure(struct chart *chart, const struct gb_chart_choice *choice,
+static bool measure(struct chart *chart, const struct gb_chart_setting *choice,
                     uint64_t seed, struct gb_error *err)
 {
     if (gb_chart_log_find(&chart->log, choice, seed)) {
@@ -189,9 +189,9 @@ static bool write_preset(const struct chart *chart, const struct gb_chart_row *c
     if (!gb_preset_load(&preset, gb_preset_path(chart->preset), err)) {
         return false;
     }
-    struct gb_chart_choice choice = chosen->choice;
+    struct gb_chart_setting choice = chosen->choice;
     choice.count = gb_preset_params(preset)->count;
-    gb_chart_choose(gb_preset_params(preset), &choice);
+    gb_chart_apply(gb_preset_params(preset), &choice);
     const bool good = gb_params_check(gb_preset_params(preset), err) &&
                       gb_preset_save(preset, chart->write, false, err);
     gb_preset_destroy(preset);
