@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/vec.h"
-#include "scene/unequal_pair.h"
 #include "pack/kernel/pair_forces.h"
 #include "pack/kernel/virial.h"
+#include "scene/unequal_pair.h"
 
 double gb_observe_density(const struct gb_world *world)
 {
@@ -75,7 +75,7 @@ static double pair_energy(const struct gb_world *world, const struct gb_pair_lis
                                            gb_world_diameter(world, list->other[k]))
                                  : *equal;
     double r[3], sum = 0.0;
-    gb_world_arm(world, list, i, k, r);
+    gb_world_branch_vector(world, list, i, k, r);
     const double length = gb_vec_length(r), h = bond.law.span - length;
     if (near && gb_contacts_touch(contacts, k)) {
         const double deepest = gb_contacts_deepest(contacts, k);
@@ -125,7 +125,7 @@ void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts 
     const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
     const struct gb_contacts *contacts = gb_world_contacts(world);
-    const int32_t *degree = gb_world_degrees(world);
+    const int32_t *degree = gb_world_coordination(world);
     int64_t touching = 0, bridged = 0, rattlers = 0;
 #pragma omp parallel for num_threads(gb_world_threads(world)) schedule(static)          \
     if (gb_world_threads(world) > 1) reduction(+ : touching, bridged, rattlers)
@@ -165,7 +165,7 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
             if (gb_contacts_touch(contacts, k)) {
                 double r[3];
-                gb_world_arm(world, pairs, i, k, r);
+                gb_world_branch_vector(world, pairs, i, k, r);
                 const double length = gb_vec_length(r);
                 const double angle = acos(fmin(1.0, fabs(r[2]) / length));
                 const int b = (int)(angle / (0.5 * M_PI) * bins);

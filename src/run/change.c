@@ -20,7 +20,7 @@ bool gb_change_order(struct gb_experiment *experiment, struct gb_error *err)
     switch (
         gb_quasistatic_next(&experiment->load, pressure, density, experiment->factor)) {
     case GB_QUASISTATIC_UNLOAD:
-        return gb_world_save(experiment->world, &experiment->branch, err);
+        return gb_world_copy_save(experiment->world, &experiment->branch, err);
     case GB_QUASISTATIC_END:
         experiment->strain_due = false;
         experiment->over = true;

@@ -133,7 +133,7 @@ bool gb_checkpoint_load(struct gb_experiment *experiment, struct gb_record *reco
         }
     }
     experiment->have_good = experiment->motion == NULL && experiment->strain_due &&
-                            gb_world_save(experiment->world, &experiment->good, err);
+                            gb_world_copy_save(experiment->world, &experiment->good, err);
     return experiment->have_good || !experiment->strain_due;
 }
 

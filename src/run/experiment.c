@@ -271,7 +271,7 @@ static bool obey(struct gb_experiment *experiment, struct gb_error *err)
             restore_event(experiment);
             /* the evaluation brings the forces of the restored state, so that the
              * programme sees its pressure */
-            if (!gb_world_restore(experiment->world, experiment->branch, err) ||
+            if (!gb_world_copy_restore(experiment->world, experiment->branch, err) ||
                 !gb_world_evaluate(experiment->world, err)) {
                 return false;
             }
@@ -282,14 +282,14 @@ static bool obey(struct gb_experiment *experiment, struct gb_error *err)
             return true;
         case GB_QUASISTATIC_UNLOAD:
             unload_event(experiment);
-            if (!gb_world_save(experiment->world, &experiment->branch, err)) {
+            if (!gb_world_copy_save(experiment->world, &experiment->branch, err)) {
                 return false;
             }
             break;
         case GB_QUASISTATIC_STRAIN:
             break;
         }
-        experiment->have_good = gb_world_save(experiment->world, &experiment->good, err);
+        experiment->have_good = gb_world_copy_save(experiment->world, &experiment->good, err);
         experiment->strain_due = experiment->have_good;
         return experiment->have_good;
     }
@@ -301,7 +301,7 @@ static bool take_back(struct gb_experiment *experiment, struct gb_error *err)
     experiment->spent_iterations += experiment->relax->iterations;
     experiment->spent_evaluations += experiment->relax->evaluations;
     return experiment->have_good &&
-           gb_world_restore(experiment->world, experiment->good, err) &&
+           gb_world_copy_restore(experiment->world, experiment->good, err) &&
            gb_world_evaluate(experiment->world, err);
 }
 
@@ -546,7 +546,7 @@ static void copy_pairs(const struct gb_world *world, struct gb_state *state)
                 continue;
             }
             double r[3];
-            gb_world_arm(world, near, i, k, r);
+            gb_world_branch_vector(world, near, i, k, r);
             state->pair[2 * line] = (int32_t)i;
             state->pair[2 * line + 1] = near->other[k];
             double *force = state->pair_force + 3 * line;

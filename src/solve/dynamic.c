@@ -197,7 +197,7 @@ static bool keep(struct gb_dynamic *motion, const struct gb_world *world,
     motion->good_work = motion->verlet.work;
     motion->good_absorbed = motion->verlet.absorbed;
     motion->good_stage = motion->stage;
-    return gb_world_save(world, &motion->good, err);
+    return gb_world_copy_save(world, &motion->good, err);
 }
 
 /* Back to the last recorded point. */
@@ -213,7 +213,7 @@ static bool go_back(struct gb_dynamic *motion, struct gb_world *world,
     motion->verlet.absorbed = motion->good_absorbed;
     motion->stage = motion->good_stage;
     motion->left = 0;
-    return gb_world_restore(world, motion->good, err) && gb_world_evaluate(world, err);
+    return gb_world_copy_restore(world, motion->good, err) && gb_world_evaluate(world, err);
 }
 
 /* Half the step from the last recorded point on, or the end. */

@@ -43,7 +43,7 @@ static bool take_vectors(struct gb_relax *relax, const struct gb_model *model,
 {
     const struct gb_relaxer *method = relax->method;
     const size_t numbers = 3 * (size_t)model->count;
-    const bool driven = method->moving && gb_integrate_f32_will(model);
+    const bool driven = method->moving && gb_integrate_f32_applies(model);
     bool whole = true;
     for (int v = driven ? 2 : 0; v < method->vectors && whole; v++) {
         if (driven && v == method->turned) {
@@ -171,7 +171,7 @@ enum gb_relax_outcome gb_relax_advance(struct gb_relax *relax, struct gb_world *
                                        int64_t max_evaluations, struct gb_error *err)
 {
     const enum gb_relax_outcome outcome = advance(relax, world, max_evaluations, err);
-    gb_world_settle(world);
+    gb_world_synchronise(world);
     return outcome;
 }
 

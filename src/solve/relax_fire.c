@@ -33,8 +33,8 @@ void gb_relax_fire_rest(struct gb_relax *relax, struct gb_relax_fire_state *fire
                         const struct gb_relax_fire_tuning *tuning, struct gb_world *world)
 {
     const size_t bytes = 3 * (size_t)gb_world_model(world)->count * sizeof(double);
-    if (gb_integrate_f32_does(world)) {
-        gb_integrate_f32_rest(world);
+    if (gb_integrate_f32_in_use(world)) {
+        gb_integrate_f32_reset(world);
     } else {
         memset(relax->vector[0], 0, bytes);
         memset(relax->vector[1], 0, bytes);
@@ -186,7 +186,7 @@ static double slow_down(const struct pass *pass, int64_t begin, int64_t end)
         fall += (1.0 - factor * factor) * (speed2 + inertia * gb_vec_dot(w, w));
         for (int c = 0; c < 3; c++) {
             pass->b.position[i + c] -= back * v[c];
-            pass->b.turn[i + c] -= back * w[c];
+            pass->b.rotation[i + c] -= back * w[c];
             v[c] *= factor;
             w[c] *= factor;
         }
@@ -203,14 +203,14 @@ static void drive_span(struct pass *pass, int span)
     drive(pass->b.position + begin, pass->v + begin, pass->b.force + begin, end - begin,
           way, &moving);
     fastest(pass->v + begin, (end - begin) / 3, &most2);
-    drive(pass->b.turn + begin, pass->w + begin, pass->b.torque + begin, end - begin,
+    drive(pass->b.rotation + begin, pass->w + begin, pass->b.torque + begin, end - begin,
           turn, &turning);
     pass->speed2[span] = moving + inertia * turning;
     if (most2 > pass->most2) {
         pass->speed2[span] -= slow_down(pass, begin, end);
     }
     if (pass->turned) {
-        add_up(pass->turned + begin, pass->b.turn + begin, end - begin);
+        add_up(pass->turned + begin, pass->b.rotation + begin, end - begin);
     }
 }
 
@@ -241,7 +241,7 @@ static double drive_world(struct gb_relax *relax, struct gb_world *world,
 void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire,
                         const struct gb_relax_fire_tuning *tuning, struct gb_world *world)
 {
-    const struct gb_world_sums *sums = gb_world_sums(world);
+    const struct gb_force_sums *sums = gb_world_sums(world);
     const double force2 = sums->force2 + sums->torque2 / inertia;
     struct gb_integrate_f32 drive = {.inertia = inertia, .most = move_most};
     drive.back = adapt(fire, tuning, sums->power);
@@ -253,8 +253,8 @@ void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire
     drive.keep = rolling ? 1.0 - fire->mixing : 0.0;
     drive.step = fire->step;
     drive.kick = fire->step + steer;
-    fire->speed2 = gb_integrate_f32_does(world)
-                       ? gb_integrate_f32_move(world, &drive, relax->turned)
+    fire->speed2 = gb_integrate_f32_in_use(world)
+                       ? gb_integrate_f32_step(world, &drive, relax->turned)
                        : drive_world(relax, world, &drive);
 }
 

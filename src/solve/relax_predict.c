@@ -110,7 +110,7 @@ static void foretell(struct gb_relax *relax, struct gb_world *world, struct aske
         foretold(turned, asked);
         keep_turn(relax, i, turned);
         gb_vec_add(position, 1.0, way);
-        gb_vec_add(b.turn + 3 * i, 1.0, turned);
+        gb_vec_add(b.rotation + 3 * i, 1.0, turned);
     }
 }
 

@@ -57,7 +57,7 @@ double gb_relax_steepest_stiffest(const struct gb_world *world, double *sum)
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
             if (gb_contacts_touch(contacts, k)) {
                 double r[3];
-                gb_world_arm(world, pairs, i, k, r);
+                gb_world_branch_vector(world, pairs, i, k, r);
                 const double stiffness = contact_stiffness(
                     gb_world_model(world), gb_contacts_deepest(contacts, k),
                     1.0 - gb_vec_length(r));
@@ -89,7 +89,7 @@ void gb_relax_steepest_step(struct gb_world *world, double k)
     const double k_turn = k / inertia;
     for (int64_t i = 0; i < 3 * b.count; i++) {
         b.position[i] += k * b.force[i];
-        b.turn[i] += k_turn * b.torque[i];
+        b.rotation[i] += k_turn * b.torque[i];
     }
 }
 

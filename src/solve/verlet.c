@@ -65,7 +65,7 @@ bool gb_verlet_step(struct gb_verlet *verlet, struct gb_world *world, double tim
     const double half = 0.5 * time_step, turn = half / verlet->inertia;
     launch(verlet->velocity, b.force, half, b.position, time_step, n);
     /* turns are counted from the last evaluation, which has set them to zero */
-    launch(verlet->spin, b.torque, turn, b.turn, time_step, n);
+    launch(verlet->spin, b.torque, turn, b.rotation, time_step, n);
     const bool straining = factor[0] != 1.0 || factor[1] != 1.0 || factor[2] != 1.0;
     if (straining) {
         gb_world_strain(world, factor);
@@ -113,7 +113,7 @@ double gb_verlet_frequency(const struct gb_world *world, double *scratch)
                 continue;
             }
             double r[3];
-            gb_world_arm(world, near, i, k, r);
+            gb_world_branch_vector(world, near, i, k, r);
             const double h = 1.0 - gb_vec_length(r);
             const double from = deepest > 0.0 ? deepest : h;
             const double a = deepest > 0.0 ? gb_law_bridge_radius(&model->bridge, from, h)

@@ -117,7 +117,7 @@ static bool time_on(const struct gb_model *model, int threads, int batches,
     struct gb_relax *relax = NULL;
     const bool done = gb_world_create(&world, &threaded, position, err) &&
                       gb_relax_create(&relax, &threaded, err) &&
-                      gb_world_restore(world, copy, err) &&
+                      gb_world_copy_restore(world, copy, err) &&
                       time_batches(world, relax, batches, median, err);
     *hash = done ? gb_world_hash(world) : 0;
     gb_relax_destroy(relax);
@@ -147,7 +147,7 @@ static bool make_pressed(struct pressed *pressed, const struct gb_params *params
                       gb_relax_create(&relax, &pressed->model, err) &&
                       (gb_relax_start(relax, pressed->world), true) &&
                       press(pressed->world, relax, coordination, err) &&
-                      gb_world_save(pressed->world, &pressed->copy, err);
+                      gb_world_copy_save(pressed->world, &pressed->copy, err);
     if (done) {
         gb_observe_contacts(pressed->world, &counts, NULL, 0, NULL);
         pressed->coordination = counts.coordination;

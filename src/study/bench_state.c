@@ -110,7 +110,7 @@ bool gb_bench_state_run(struct gb_bench_state *bench, const struct gb_params *pa
         return false;
     }
     const bool good = gb_experiment_create(&experiment, params, NULL, NULL, err) &&
-                      gb_world_restore(experiment->world, copy, err) &&
+                      gb_world_copy_restore(experiment->world, copy, err) &&
                       gb_world_evaluate(experiment->world, err) &&
                       time_all(&timing, experiment, params, folder, err);
     if (good) {

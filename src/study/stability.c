@@ -78,7 +78,7 @@ static void disturb(const struct gb_stability_scene *scene)
     const int64_t n = 3 * b.count;
     for (int64_t i = 0; i < n; i++) {
         b.position[i] += disturbance * scene->mode[i];
-        b.turn[i] += disturbance * scene->mode[n + i] / sqrt(scene->inertia);
+        b.rotation[i] += disturbance * scene->mode[n + i] / sqrt(scene->inertia);
     }
 }
 

@@ -83,7 +83,7 @@ static bool place(struct gb_stability_scene *scene, enum gb_stability_place wher
 
 bool gb_stability_scene_reset(struct gb_stability_scene *scene, struct gb_error *err)
 {
-    return gb_world_restore(scene->world, scene->rest, err) &&
+    return gb_world_copy_restore(scene->world, scene->rest, err) &&
            gb_world_evaluate(scene->world, err);
 }
 
@@ -114,7 +114,7 @@ static bool multiply(struct gb_stability_scene *scene, const double *force_at_re
     const double root = sqrt(scene->inertia);
     for (int64_t i = 0; i < n; i++) {
         b.position[i] += small * mode[i];
-        b.turn[i] += small * mode[n + i] / root;
+        b.rotation[i] += small * mode[n + i] / root;
     }
     if (!gb_world_evaluate(scene->world, err)) {
         return false;
@@ -195,7 +195,7 @@ bool gb_stability_scene_init(struct gb_stability_scene *scene,
     gb_alloc_free(position);
     if (done) {
         gb_world_set_step(scene->world, 1.0);
-        done = settle(scene, err) && gb_world_save(scene->world, &scene->rest, err) &&
+        done = settle(scene, err) && gb_world_copy_save(scene->world, &scene->rest, err) &&
                find_mode(scene, err);
     }
     return done;

@@ -99,7 +99,7 @@ static inline void scene_press(struct gb_world *world, int steps, int moves, dou
             scene_evaluate(world);
             for (int64_t i = 0; i < 3 * b.count; i++) {
                 b.position[i] += k * b.force[i];
-                b.turn[i] += k * b.torque[i];
+                b.rotation[i] += k * b.torque[i];
             }
         }
     }

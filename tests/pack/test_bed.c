@@ -438,7 +438,8 @@ static void test_carrier(void)
         for (int friction = 0; friction < 2; friction++) {
             memset(batch, 0, sizeof batch);
             for (int wide = 0; wide < 2; wide++) {
-                const struct gb_bed_carrier carrier = gb_bed_carrier_pick(wide ? 0 : 128);
+                const struct gb_bed_transfer carrier =
+                    gb_bed_transfer_pick(wide ? 0 : 128);
                 memcpy(out[wide][0], row[3], sizeof row[3]);
                 memcpy(out[wide][1], row[4], sizeof row[4]);
                 const struct gb_bed_rows rows = {.place = (const gb_bed_row *)row[0],

@@ -285,7 +285,7 @@ static void random_batch(GRand *random, struct gb_batch *batch)
     }
 }
 
-static void round_batch(const struct gb_batch *batch, struct gb_batch_single *single)
+static void round_batch(const struct gb_batch *batch, struct gb_batch_f32 *single)
 {
     single->n = batch->n;
     single->cutoff2 = (float)batch->cutoff2;
@@ -378,11 +378,11 @@ static uint64_t walk_single(const struct gb_params *params, int width)
 {
     struct gb_model model = scene_model(params);
     struct gb_contacts contacts;
-    const struct gb_batch_single_kernel kernel = gb_batch_single_pick(&model, width);
+    const struct gb_batch_f32_kernel kernel = gb_batch_f32_pick(&model, width);
     open_contacts(&contacts, 3, false, true);
     GRand *random = g_rand_new_with_seed(5);
     static struct gb_batch batch;
-    static struct gb_batch_single single;
+    static struct gb_batch_f32 single;
     struct gb_tally tally = {0};
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
     for (int i = 0; i < 50; i++) {
@@ -419,9 +419,9 @@ static void test_single(void)
         struct gb_model model = scene_model(&params);
         struct gb_contacts fine, coarse;
         static struct gb_batch batch, step;
-        static struct gb_batch_single single;
+        static struct gb_batch_f32 single;
         const struct gb_batch_kernel kernel = gb_batch_pick(&model, 0);
-        const struct gb_batch_single_kernel other = gb_batch_single_pick(&model, 0);
+        const struct gb_batch_f32_kernel other = gb_batch_f32_pick(&model, 0);
         open_contacts(&fine, 3, false, false);
         open_contacts(&coarse, 3, false, true);
         GRand *random = g_rand_new_with_seed(7);

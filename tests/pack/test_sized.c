@@ -3,9 +3,9 @@
 
 #include "base/vec.h"
 #include "common/scene.h"
-#include "scene/unequal_pair.h"
 #include "measure/observe.h"
 #include "scene/tolerances.h"
+#include "scene/unequal_pair.h"
 
 /* Contacts of unequal spheres: their laws, and the sweep over packings of many sizes. */
 
@@ -198,7 +198,7 @@ static void check_balance(const struct gb_world *world)
     for (int64_t i = 0; i < b.count; i++) {
         for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
             double r[3], f[3];
-            gb_world_arm(world, &pairs->near, i, k, r);
+            gb_world_branch_vector(world, &pairs->near, i, k, r);
             scene_force(world, true, k, f);
             for (int c = 0; c < 3; c++) {
                 const int u = (c + 1) % 3, v = (c + 2) % 3;
@@ -368,8 +368,8 @@ static void test_pair_shear(void)
     b.position[5] = 5.0 + r;
     scene_evaluate(world);
     /* both roll about y the same way: the surfaces slide by r_i w + r_j w = r w */
-    b.turn[1] = roll * d[0];
-    b.turn[4] = roll * d[1];
+    b.rotation[1] = roll * d[0];
+    b.rotation[4] = roll * d[1];
     scene_evaluate(world);
     const double a = gb_law_unequal_radius(&law, h);
     const double shear =
@@ -385,8 +385,8 @@ static void test_pair_shear(void)
     const struct gb_bodies o = gb_world_bodies(other);
     o.position[5] = 5.0 + r;
     scene_evaluate(other);
-    o.turn[1] = roll * d[1] / (d[0] + d[1]) * d[0];
-    o.turn[4] = -roll * d[0] / (d[0] + d[1]) * d[1];
+    o.rotation[1] = roll * d[1] / (d[0] + d[1]) * d[0];
+    o.rotation[4] = -roll * d[0] / (d[0] + d[1]) * d[1];
     scene_evaluate(other);
     const double bend =
         gb_law_slip_roll_stiffness(&model.slip, a) * model.slip.motion * roll;

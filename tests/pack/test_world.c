@@ -230,7 +230,7 @@ static void check_dry(const struct gb_world *world, const struct gb_law_hertz *l
     for (int64_t i = 0; i < gb_world_model(world)->count; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
             double r[3], force[3];
-            gb_world_arm(world, near, i, k, r);
+            gb_world_branch_vector(world, near, i, k, r);
             scene_force(world, true, k, force);
             const double distance = gb_vec_length(r);
             const double normal = gb_vec_dot(force, r) / distance;
@@ -260,7 +260,7 @@ static void check_mindlin(const struct gb_model *model, const double *position,
     int64_t i = 0;
     const int64_t k = deepest_pair(world, &i);
     double r[3], across[3], before[3], force[3];
-    gb_world_arm(world, &gb_world_pairs(world)->near, i, k, r);
+    gb_world_branch_vector(world, &gb_world_pairs(world)->near, i, k, r);
     const double distance = gb_vec_length(r), step = 1e-4;
     const double axis[3] = {fabs(r[0]) < 0.5 ? 1.0 : 0.0, fabs(r[0]) < 0.5 ? 0.0 : 1.0,
                             0.0};
@@ -305,7 +305,7 @@ static bool listed(const struct gb_world *world, const struct gb_pair_list *list
     for (int64_t k = list->start[i]; k < list->start[i + 1]; k++) {
         double r[3];
         if (list->other[k] == j) {
-            gb_world_arm(world, list, i, k, r);
+            gb_world_branch_vector(world, list, i, k, r);
             return fabs(gb_vec_length(r) - distance) < 1e-9;
         }
     }
@@ -419,7 +419,7 @@ static void check_driven(double pace, int *outlived, int64_t *amended)
     const struct gb_neighbour_list *pairs = gb_world_pairs(world);
     GRand *dice = g_rand_new_with_seed(13);
     scene_press(world, 100, 3, 2.0);
-    gb_integrate_f32_rest(world);
+    gb_integrate_f32_reset(world);
     for (int step = 0; step < 200; step++) {
         const int64_t before = gb_world_rebuilds(world);
         for (int64_t k = 0; k < 3 * pairs->count; k++) {
@@ -427,7 +427,7 @@ static void check_driven(double pace, int *outlived, int64_t *amended)
             world->single.velocity[k] =
                 (float)(way * g_rand_double_range(dice, -0.5, 1.0));
         }
-        gb_integrate_f32_move(world, &by, NULL);
+        gb_integrate_f32_step(world, &by, NULL);
         const double travel = travel_of(world);
         evaluate_or_meet(world);
         *outlived +=
@@ -453,12 +453,12 @@ static void check_driven_on(void)
         .keep = 0.45, .step = 1.0, .inertia = 0.4, .most = 1.0};
     GRand *dice = g_rand_new_with_seed(19);
     scene_press(world, 100, 3, 2.0);
-    g_assert_true(gb_world_save(world, &copy, &err));
+    g_assert_true(gb_world_copy_save(world, &copy, &err));
     for (int round = 0; round < 40; round++) {
-        g_assert_true(gb_world_restore(world, copy, &err));
+        g_assert_true(gb_world_copy_restore(world, copy, &err));
         scene_evaluate(world);
-        gb_integrate_f32_rest(world);
-        gb_integrate_f32_move(world, &by, NULL);
+        gb_integrate_f32_reset(world);
+        gb_integrate_f32_step(world, &by, NULL);
         scene_evaluate(world);
         const double pace = 2.0 * gb_list_check_fresh(world) / sqrt(3.0);
         struct gb_bodies b = gb_world_movable(world);
@@ -469,7 +469,7 @@ static void check_driven_on(void)
             world->single.velocity[k] = (float)way;
         }
         evaluate_or_meet(world);
-        gb_integrate_f32_move(world, &by, NULL);
+        gb_integrate_f32_step(world, &by, NULL);
         evaluate_or_meet(world);
         check_listed(world);
     }
@@ -640,7 +640,7 @@ static void drive_anywhere(struct gb_world *world, GRand *dice)
         world->single.velocity[k] = (float)g_rand_double_range(dice, -5e-3, 5e-3);
         world->single.spin[k] = (float)g_rand_double_range(dice, -5e-3, 5e-3);
     }
-    gb_integrate_f32_move(world, &by, NULL);
+    gb_integrate_f32_step(world, &by, NULL);
     if (!gb_world_evaluate_along(world, NULL, NULL, &err)) {
         g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
     }
@@ -664,11 +664,11 @@ static void test_settled(void)
         world[w] = scene_world(&model);
     }
     scene_press(world[0], 120, 10, 2.0);
-    g_assert_true(gb_world_save(world[0], &copy, &err));
+    g_assert_true(gb_world_copy_save(world[0], &copy, &err));
     for (int w = 0; w < 3; w++) {
-        g_assert_true(gb_world_restore(world[w], copy, &err));
+        g_assert_true(gb_world_copy_restore(world[w], copy, &err));
         scene_evaluate(world[w]);
-        gb_integrate_f32_rest(world[w]);
+        gb_integrate_f32_reset(world[w]);
     }
     for (int step = 0; step < 60; step++) {
         const double factor[3] = {1.0, 0.9995, 0.9995};
@@ -686,11 +686,11 @@ static void test_settled(void)
             }
             drive_anywhere(world[w], dice[w]);
         }
-        gb_world_settle(world[1]);
+        gb_world_synchronise(world[1]);
         (void)gb_world_bodies(world[2]);
     }
     for (int w = 0; w < 4; w++) {
-        gb_world_settle(world[w]);
+        gb_world_synchronise(world[w]);
         g_assert_cmpuint(gb_world_hash(world[w]), ==, gb_world_hash(world[0]));
     }
     g_assert_cmpint(gb_world_rebuilds(world[0]), >, 2);
@@ -713,16 +713,16 @@ static void test_moved_by_hand(void)
         .keep = 1.0, .step = 1.0, .inertia = 0.4, .most = 1.0};
     struct gb_world *world = scene_world(&model);
     scene_evaluate(world);
-    gb_integrate_f32_rest(world);
-    gb_integrate_f32_move(world, &by, NULL);
+    gb_integrate_f32_reset(world);
+    gb_integrate_f32_step(world, &by, NULL);
     scene_evaluate(world);
     double *position = gb_world_bodies(world).position;
     double *before = g_memdup2(position, 3 * (size_t)model.count * sizeof *before);
     position[3 * 17 + 1] += 0.02;
     world->single.velocity[3 * 17 + 1] = 0.01F;
     world->single.velocity[3 * 18 + 2] = -0.01F;
-    gb_integrate_f32_move(world, &by, NULL);
-    gb_world_settle(world);
+    gb_integrate_f32_step(world, &by, NULL);
+    gb_world_synchronise(world);
     for (int64_t k = 0; k < 3 * model.count; k++) {
         const double way = k == 3 * 17 + 1 ? 0.03 : k == 3 * 18 + 2 ? -0.01 : 0.0;
         g_assert_cmpfloat_with_epsilon(gb_world_position(world)[k] - before[k], way,
@@ -740,7 +740,7 @@ static void test_degrees(gconstpointer data)
     const struct gb_model model = scene_model(&params);
     struct gb_world *world = scene_world(&model);
     scene_press(world, 150, 10, 2.0);
-    const int32_t *degree = gb_world_degrees(world);
+    const int32_t *degree = gb_world_coordination(world);
     int64_t most = 0;
     for (int64_t i = 0; i < model.count; i++) {
         int touching = 0, hairs = 0;
@@ -815,9 +815,9 @@ static void test_amended(void)
     scene_press(world, 150, 10, 2.0);
     stray_until_amended(world);
     const int64_t rebuilds = gb_world_rebuilds(world);
-    g_assert_true(gb_world_save(world, &copy, &err));
+    g_assert_true(gb_world_copy_save(world, &copy, &err));
     g_assert_true(gb_world_create(&fresh, &model, gb_world_position(world), &err));
-    g_assert_true(gb_world_restore(fresh, copy, &err));
+    g_assert_true(gb_world_copy_restore(fresh, copy, &err));
     g_assert_true(gb_world_record(world, &record, &err));
     record.loading = true;
     g_assert_true(gb_world_create(&loaded, &model, gb_world_position(world), &err));
@@ -972,10 +972,10 @@ static void test_copy(const void *data)
     struct gb_error err = {0};
     uint64_t hash[2];
     scene_press(world, 5, 30, 2.0);
-    g_assert_true(gb_world_save(world, &copy, &err));
+    g_assert_true(gb_world_copy_save(world, &copy, &err));
     for (int i = 0; i < 2; i++) {
         scene_press(world, 4, 30, 2.0);
-        g_assert_true(gb_world_restore(world, copy, &err));
+        g_assert_true(gb_world_copy_restore(world, copy, &err));
         scene_press(world, 4, 30, 2.0);
         hash[i] = gb_world_hash(world);
     }
@@ -991,7 +991,7 @@ static void test_not_finite(void)
     struct gb_world *world = scene_world(&model);
     struct gb_error err = {0};
     scene_evaluate(world);
-    gb_world_bodies(world).turn[3 * 17] = (double)NAN;
+    gb_world_bodies(world).rotation[3 * 17] = (double)NAN;
     g_assert_false(gb_world_evaluate(world, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
     g_assert_nonnull(strstr(err.text, "not a finite number"));
@@ -1037,8 +1037,9 @@ static void test_memory(const void *data)
         struct gb_error err = {0};
         gb_alloc_fail_after(++k);
         passed = gb_world_create(&world, &model, position, &err) &&
-                 gb_world_evaluate(world, &err) && gb_world_save(world, &copy, &err) &&
-                 gb_world_restore(world, copy, &err);
+                 gb_world_evaluate(world, &err) &&
+                 gb_world_copy_save(world, &copy, &err) &&
+                 gb_world_copy_restore(world, copy, &err);
         gb_alloc_fail_after(0);
         g_assert_true(passed || err.code == GB_ERR_MEMORY);
         gb_world_copy_destroy(copy);

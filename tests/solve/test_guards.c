@@ -39,9 +39,9 @@ static void test_jump(void)
     char text[400] = "";
     g_assert_true(gb_relax_create(&relax, &model, &err));
     scene_evaluate(world);
-    g_assert_true(gb_world_save(world, &before, &err));
+    g_assert_true(gb_world_copy_save(world, &before, &err));
     for (int attempt = 0; attempt <= GB_DEPARTURE_HALVINGS; attempt++) {
-        g_assert_true(gb_world_restore(world, before, &err));
+        g_assert_true(gb_world_copy_restore(world, before, &err));
         gb_relax_start(relax, world);
         g_assert_cmpint(gb_relax_advance(relax, world, 100000, &err), ==, GB_RELAX_DONE);
         g_assert_cmpint(gb_world_tally(world)->contacts, ==, 1);
@@ -71,7 +71,7 @@ static void test_departure(void)
     struct gb_error err = {0};
     const double factor[3] = {1.0, 0.99, 0.97};
     scene_evaluate(world);
-    g_assert_true(gb_world_save(world, &before, &err));
+    g_assert_true(gb_world_copy_save(world, &before, &err));
     gb_world_strain(world, factor);
     struct gb_nonaffine departure = gb_nonaffine_since(world, before);
     g_assert_cmpfloat(departure.farthest, <, 1e-12);

@@ -186,7 +186,7 @@ static void check_slowed(const char *precision)
     double *before = g_memdup2(b.position, 3 * (size_t)b.count * sizeof *before);
     int slowed = 0;
     relax->method->move(relax, world);
-    gb_world_settle(world);
+    gb_world_synchronise(world);
     for (int64_t i = 0; i < b.count; i++) {
         const double way = step * step * gb_vec_length(b.force + 3 * i);
         const double factor = step * step * (way > most ? most / way : 1.0);

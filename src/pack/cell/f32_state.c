@@ -34,7 +34,7 @@ bool gb_f32_state_init(struct gb_f32_state *single, const struct gb_model *model
                        struct gb_error *err)
 {
     const size_t n = (size_t)model->count;
-    single->kernel = gb_batch_single_pick(model, 0);
+    single->kernel = gb_batch_f32_pick(model, 0);
     single->spot = gb_alloc_array(n, sizeof *single->spot, err);
     single->total = gb_alloc_array(n, sizeof *single->total, err);
     single->velocity = gb_alloc_array(3 * n + 1, sizeof *single->velocity, err);

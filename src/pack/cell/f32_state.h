@@ -55,7 +55,7 @@ enum gb_f32_state_ahead {
 };
 
 struct gb_f32_state {
-    struct gb_batch_single_kernel kernel;
+    struct gb_batch_f32_kernel kernel;
     struct gb_spot *spot;                /* one a particle */
     float (*total)[GB_F32_STATE_WRENCH]; /* one a particle: force and torque */
     struct gb_f32_state_outward near;    /* rows: wrenches on j */

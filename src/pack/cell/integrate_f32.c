@@ -339,17 +339,17 @@ static void drive_all(struct gb_world *world, const struct pass *pass)
     }
 }
 
-bool gb_integrate_f32_does(const struct gb_world *world)
+bool gb_integrate_f32_in_use(const struct gb_world *world)
 {
     return world->in_single;
 }
 
-bool gb_integrate_f32_will(const struct gb_model *model)
+bool gb_integrate_f32_applies(const struct gb_model *model)
 {
     return model->numerics.single;
 }
 
-void gb_integrate_f32_rest(struct gb_world *world)
+void gb_integrate_f32_reset(struct gb_world *world)
 {
     const size_t bytes = 3 * (size_t)world->count * sizeof *world->single.velocity;
     memset(world->single.velocity, 0, bytes);
@@ -371,7 +371,7 @@ static void fill_axes(struct pass *pass, const struct gb_cell *cell)
     }
 }
 
-double gb_integrate_f32_move(struct gb_world *world, const struct gb_integrate_f32 *by,
+double gb_integrate_f32_step(struct gb_world *world, const struct gb_integrate_f32 *by,
                              float *turned)
 {
     const double bound = by->most / by->step;

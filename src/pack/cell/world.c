@@ -277,7 +277,7 @@ bool gb_world_evaluate_along(struct gb_world *world, const double *velocity,
     return done;
 }
 
-const struct gb_world_sums *gb_world_sums(const struct gb_world *world)
+const struct gb_force_sums *gb_world_sums(const struct gb_world *world)
 {
     return &world->sums;
 }
@@ -319,7 +319,7 @@ void gb_world_strain(struct gb_world *world, const double factor[3])
     gb_neighbour_list_strain(&world->pairs, factor);
 }
 
-void gb_world_settle(struct gb_world *world)
+void gb_world_synchronise(struct gb_world *world)
 {
     gb_sweep_f32_settle(world);
 }
@@ -336,7 +336,7 @@ struct gb_bodies gb_world_movable(struct gb_world *world)
 {
     hand_out(world);
     return (struct gb_bodies){
-        .count = world->count, .position = world->position, .turn = world->turn};
+        .count = world->count, .position = world->position, .rotation = world->turn};
 }
 
 const struct gb_cell *gb_world_cell(const struct gb_world *world)
@@ -389,7 +389,7 @@ const struct gb_contacts *gb_world_contacts(const struct gb_world *world)
     return &world->contacts;
 }
 
-const int32_t *gb_world_degrees(const struct gb_world *world)
+const int32_t *gb_world_coordination(const struct gb_world *world)
 {
     const struct gb_pair_list *near = &world->pairs.near;
     memset(world->degree, 0, (size_t)world->count * sizeof *world->degree);
@@ -401,8 +401,8 @@ const int32_t *gb_world_degrees(const struct gb_world *world)
     return world->degree;
 }
 
-void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list,
-                  int64_t i, int64_t k, double r[3])
+void gb_world_branch_vector(const struct gb_world *world, const struct gb_pair_list *list,
+                            int64_t i, int64_t k, double r[3])
 {
     gb_world_arm_of(world, list, i, k, r);
 }
@@ -437,8 +437,8 @@ bool gb_world_copy_ensure(const struct gb_world *world, struct gb_world_copy **c
     return true;
 }
 
-bool gb_world_save(const struct gb_world *world, struct gb_world_copy **copy,
-                   struct gb_error *err)
+bool gb_world_copy_save(const struct gb_world *world, struct gb_world_copy **copy,
+                        struct gb_error *err)
 {
     const size_t n = 3 * (size_t)world->count;
     if (!gb_world_copy_ensure(world, copy, err)) {
@@ -453,8 +453,8 @@ bool gb_world_save(const struct gb_world *world, struct gb_world_copy **copy,
                : gb_contact_history_write(&(*copy)->ledger, world, false, err);
 }
 
-bool gb_world_restore(struct gb_world *world, const struct gb_world_copy *copy,
-                      struct gb_error *err)
+bool gb_world_copy_restore(struct gb_world *world, const struct gb_world_copy *copy,
+                           struct gb_error *err)
 {
     const size_t n = 3 * (size_t)world->count;
     world->cell = copy->cell;

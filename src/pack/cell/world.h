@@ -20,7 +20,7 @@ struct gb_world;
 struct gb_bodies {
     int64_t count;
     double *position;
-    double *turn;        /* rotation since the last evaluation; consumed by it; in scenes
+    double *rotation;    /* since the last evaluation; consumed by it; in scenes
                           * of unequal sizes times the diameter, and torques over it */
     const double *force; /* of the last evaluation */
     const double *torque;
@@ -41,19 +41,19 @@ bool gb_world_evaluate(struct gb_world *world, struct gb_error *err);
 /* The same, and the power of the forces along these velocities (count x 3 each), of the
  * particles and of their turns; in a world that drives (pack/cell/integrate_f32.h) along its own.
  * What gb_world_bodies told before has to be asked anew, and the positions told otherwise
- * lag behind until gb_world_settle. */
+ * lag behind until gb_world_synchronise. */
 bool gb_world_evaluate_along(struct gb_world *world, const double *velocity,
                              const double *spin, struct gb_error *err);
 
 /* Positions are those of the last motion or evaluation from here on. */
-void gb_world_settle(struct gb_world *world);
+void gb_world_synchronise(struct gb_world *world);
 
 /* Sums over the particles, of the last evaluation. */
-struct gb_world_sums {
+struct gb_force_sums {
     double force2, torque2; /* squares */
     double power;           /* along the velocities it was given; else 0 */
 };
-const struct gb_world_sums *gb_world_sums(const struct gb_world *world);
+const struct gb_force_sums *gb_world_sums(const struct gb_world *world);
 
 /* Dynamic scenes: the time that lies between evaluations, for the viscous forces. */
 void gb_world_set_step(struct gb_world *world, double time_step);
@@ -82,11 +82,11 @@ double gb_world_residual(const struct gb_world *world);
 const struct gb_neighbour_list *gb_world_pairs(const struct gb_world *world);
 /* Contacts of every particle, one number each, counted anew; good until the next call, by
  * one thread at a time. */
-const int32_t *gb_world_degrees(const struct gb_world *world);
+const int32_t *gb_world_coordination(const struct gb_world *world);
 const struct gb_contacts *gb_world_contacts(const struct gb_world *world);
 /* x_i - x_other of pair k of a list, as of the last evaluation. */
-void gb_world_arm(const struct gb_world *world, const struct gb_pair_list *list,
-                  int64_t i, int64_t k, double r[3]);
+void gb_world_branch_vector(const struct gb_world *world, const struct gb_pair_list *list,
+                            int64_t i, int64_t k, double r[3]);
 
 int64_t gb_world_evaluations(const struct gb_world *world);
 int64_t gb_world_rebuilds(const struct gb_world *world);
@@ -94,10 +94,10 @@ int64_t gb_world_rebuilds(const struct gb_world *world);
 /* A copy of the state that matters (cell, positions, contact histories), to go back to.
  */
 struct gb_world_copy;
-bool gb_world_save(const struct gb_world *world, struct gb_world_copy **copy,
-                   struct gb_error *err); /* reuses *copy when not NULL */
-bool gb_world_restore(struct gb_world *world, const struct gb_world_copy *copy,
-                      struct gb_error *err);
+bool gb_world_copy_save(const struct gb_world *world, struct gb_world_copy **copy,
+                        struct gb_error *err); /* reuses *copy when not NULL */
+bool gb_world_copy_restore(struct gb_world *world, const struct gb_world_copy *copy,
+                           struct gb_error *err);
 void gb_world_copy_destroy(struct gb_world_copy *copy); /* NULL is fine */
 
 /* 64-bit hash over cell, positions and histories: equal states, equal hashes. */

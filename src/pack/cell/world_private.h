@@ -14,7 +14,7 @@
 /* Sums over one block of particles. */
 struct gb_sweep_block {
     struct gb_tally tally;
-    struct gb_world_sums sums;
+    struct gb_force_sums sums;
     double travel;                        /* longest way since the list was built */
     struct gb_list_check_missing missing; /* where somebody has strayed */
     double speed2; /* of a drive: sum of squared velocities, with inertia */
@@ -43,11 +43,11 @@ struct gb_world {
     struct gb_contact_history ledger;
     struct gb_contact_history spare; /* of checkpoints, which keep less */
     struct gb_sweep_block *block;
-    int32_t *degree; /* scratch of gb_world_degrees, one a particle */
+    int32_t *degree; /* scratch of gb_world_coordination, one a particle */
     int threads;
     struct gb_tally tally;
     double force_rms, torque_rms;
-    struct gb_world_sums sums;
+    struct gb_force_sums sums;
     /* of the evaluation under way: what its power is asked along; NULL: nothing */
     const double *velocity, *spin;
     bool listed;   /* the pair list exists */

@@ -108,7 +108,7 @@ void gb_bed_change_law(struct gb_bed *bed, const struct gb_bed_law *law)
     bed->law = *law;
     bed->pair_kernel = gb_bed_batch_pick(law, false, 0);
     bed->wall_kernel = gb_bed_batch_pick(law, true, 0);
-    bed->carrier = gb_bed_carrier_pick(0);
+    bed->carrier = gb_bed_transfer_pick(0);
     empty(&bed->pairs, bed->count);
     empty(&bed->walls, bed->count);
     bed->listed = false;

@@ -100,7 +100,7 @@ enum { GB_BATCH = 128, GB_LANES = 8 };
         real rate[8][GB_BATCH]; /* increments of what the springs see; 7: of h */          \
     };
 GB_BATCH_OF(gb_batch, double)
-GB_BATCH_OF(gb_batch_single, float)
+GB_BATCH_OF(gb_batch_f32, float)
 #undef GB_BATCH_OF
 
 /* Advances contacts [slot, slot + batch->n) and fills the outputs.
@@ -122,22 +122,21 @@ struct gb_batch_kernel {
 };
 
 /* The same in single precision, for scenes in 3D at rest. */
-struct gb_batch_single_kernel {
-    void (*advance)(const struct gb_model *model, struct gb_batch_single *batch,
+struct gb_batch_f32_kernel {
+    void (*advance)(const struct gb_model *model, struct gb_batch_f32 *batch,
                     struct gb_contacts *contacts, int64_t slot);
-    void (*tally)(struct gb_batch_single *batch, const struct gb_contacts *contacts,
+    void (*tally)(struct gb_batch_f32 *batch, const struct gb_contacts *contacts,
                   int64_t slot, struct gb_tally *tally);
-    void (*attract)(const struct gb_model *model, struct gb_batch_single *batch);
+    void (*attract)(const struct gb_model *model, struct gb_batch_f32 *batch);
     /* Arms and forces on the first particles as the last `advance` left them; nothing
      * changes. */
-    void (*recall)(const struct gb_model *model, struct gb_batch_single *batch,
+    void (*recall)(const struct gb_model *model, struct gb_batch_f32 *batch,
                    const struct gb_contacts *contacts, int64_t slot);
 };
 
 /* The variant for this scene and this processor; no variant pays for terms it leaves out.
  * widest: 0 picks by processor, 128, 256 or 512 limits the vectors (tests). */
 struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest);
-struct gb_batch_single_kernel gb_batch_single_pick(const struct gb_model *model,
-                                                   int widest);
+struct gb_batch_f32_kernel gb_batch_f32_pick(const struct gb_model *model, int widest);
 
 #endif

@@ -12,7 +12,7 @@
 #include "pack/kernel/batch.h"
 
 #define INLINE   static inline __attribute__((always_inline))
-#define BATCH    struct gb_batch_single
+#define BATCH    struct gb_batch_f32
 #define HAIR     (1.0F - 0x1p-20F)
 #define PLANE(p) ((real *)c->plane[p] + slot)
 

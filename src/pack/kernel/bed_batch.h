@@ -44,15 +44,15 @@ struct gb_bed_rows {
     const int32_t *first, *other;
     bool friction;
 };
-typedef void gb_bed_fill(const struct gb_bed_rows *rows, struct gb_bed_batch *batch);
-typedef void gb_bed_spill(const struct gb_bed_rows *rows,
-                          const struct gb_bed_batch *batch);
+typedef void gb_bed_gather(const struct gb_bed_rows *rows, struct gb_bed_batch *batch);
+typedef void gb_bed_scatter(const struct gb_bed_rows *rows,
+                            const struct gb_bed_batch *batch);
 
 /* The variant for this processor, widest as above; the same bits from all. */
-struct gb_bed_carrier {
-    gb_bed_fill *fill;
-    gb_bed_spill *spill;
+struct gb_bed_transfer {
+    gb_bed_gather *fill;
+    gb_bed_scatter *spill;
 };
-struct gb_bed_carrier gb_bed_carrier_pick(int widest);
+struct gb_bed_transfer gb_bed_transfer_pick(int widest);
 
 #endif

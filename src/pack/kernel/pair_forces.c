@@ -29,7 +29,7 @@ static void recall(struct gb_pair_forces *forces, int64_t k)
     const struct gb_neighbour_list *pairs = &forces->world->pairs;
     const int64_t left =
         gb_neighbour_list_slots(pairs, forces->near ? &pairs->near : &pairs->far) - k;
-    struct gb_batch_single batch;
+    struct gb_batch_f32 batch;
     batch.n = left < GB_BATCH ? (int)left : GB_BATCH;
     gb_sweep_f32_recall(forces->world, forces->near, k, &batch);
     for (int c = 0; c < 3; c++) {

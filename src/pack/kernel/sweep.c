@@ -250,7 +250,7 @@ GB_SIMD_WIDTHS(product_sum, (const double *a, const double *b, int64_t n, double
                (a, b, n, total))
 
 void gb_sweep_sum(const struct gb_world *world, int64_t begin, int64_t end,
-                  struct gb_world_sums *sums)
+                  struct gb_force_sums *sums)
 {
     const double *force = world->force + 3 * begin, *torque = world->torque + 3 * begin;
     const int64_t n = 3 * (end - begin);
@@ -264,7 +264,7 @@ void gb_sweep_sum(const struct gb_world *world, int64_t begin, int64_t end,
     sums->power = moving + turning;
 }
 
-void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums)
+void gb_sweep_conclude(struct gb_world *world, const struct gb_force_sums *sums)
 {
     world->sums = *sums;
     world->force_rms = sqrt(sums->force2 / (double)world->count);

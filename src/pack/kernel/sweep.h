@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 struct gb_world;
-struct gb_world_sums;
+struct gb_force_sums;
 
 /* Forces and torques of a world whose list still holds; histories advance, turns are used
  * up.  Where it does not, nothing is done and the answer is false.  Pairs are computed in
@@ -20,8 +20,8 @@ bool gb_sweep_list_holds(struct gb_world *world, double *travel);
 
 /* Sums over particles begin .. end - 1, and those over all of them into the world. */
 void gb_sweep_sum(const struct gb_world *world, int64_t begin, int64_t end,
-                  struct gb_world_sums *sums);
-void gb_sweep_conclude(struct gb_world *world, const struct gb_world_sums *sums);
+                  struct gb_force_sums *sums);
+void gb_sweep_conclude(struct gb_world *world, const struct gb_force_sums *sums);
 
 /* Particles whose tallies, and in single precision the forces of pairs among them, are
  * summed as one: in blocks that follow from their number alone, so that the order of the

@@ -71,7 +71,7 @@ void gb_sweep_f32_settle(struct gb_world *world)
  * most four) from place k of a batch on. */
 GB_ROW_INLINE void fill_four(const struct gb_f32_state *single,
                              const struct gb_pair_list *list,
-                             struct gb_batch_single *restrict batch, int64_t slot, int k,
+                             struct gb_batch_f32 *restrict batch, int64_t slot, int k,
                              int count, bool turns)
 {
     const gb_row scale = {single->scale[0], single->scale[1], single->scale[2], 0.0F};
@@ -99,7 +99,7 @@ GB_ROW_INLINE void fill_four(const struct gb_f32_state *single,
 
 GB_ROW_INLINE void fill_batch(const struct gb_f32_state *single,
                               const struct gb_pair_list *list,
-                              struct gb_batch_single *restrict batch, int64_t slot,
+                              struct gb_batch_f32 *restrict batch, int64_t slot,
                               bool turns)
 {
     int k = 0;
@@ -128,7 +128,7 @@ static struct way_out way_out(const struct gb_world *world,
 }
 
 /* Rows of force and torque for both particles of four pairs. */
-GB_ROW_INLINE void wrench_rows(const struct gb_batch_single *batch, int k,
+GB_ROW_INLINE void wrench_rows(const struct gb_batch_f32 *batch, int k,
                                gb_row_pair on_first[4], gb_row_pair on_other[4])
 {
     gb_row force[3], against[3], first[3], other[3];
@@ -144,7 +144,7 @@ GB_ROW_INLINE void wrench_rows(const struct gb_batch_single *batch, int k,
 
 /* Gives `count` pairs (at most four) of a list to their particles, from place k of a
  * batch on, pair by pair: sums have the order of the list. */
-GB_ROW_INLINE struct way_out give_four(const struct gb_batch_single *batch,
+GB_ROW_INLINE struct way_out give_four(const struct gb_batch_f32 *batch,
                                        const int32_t *first, const int32_t *other, int k,
                                        int count, struct way_out out)
 {
@@ -161,7 +161,7 @@ GB_ROW_INLINE struct way_out give_four(const struct gb_batch_single *batch,
 }
 
 /* As give_four, for pulls. */
-GB_ROW_INLINE struct way_out pull_four(const struct gb_batch_single *batch,
+GB_ROW_INLINE struct way_out pull_four(const struct gb_batch_f32 *batch,
                                        const int32_t *first, const int32_t *other, int k,
                                        int count, struct way_out out)
 {
@@ -178,13 +178,12 @@ GB_ROW_INLINE struct way_out pull_four(const struct gb_batch_single *batch,
     return out;
 }
 
-typedef struct way_out give(const struct gb_batch_single *batch, const int32_t *first,
+typedef struct way_out give(const struct gb_batch_f32 *batch, const int32_t *first,
                             const int32_t *other, int k, int count, struct way_out out);
 
 /* Unloads a batch, four pairs at a time. */
-GB_ROW_INLINE struct way_out spill(const struct gb_batch_single *batch,
-                                   const int32_t *first, const int32_t *other,
-                                   struct way_out out, give *four)
+GB_ROW_INLINE struct way_out spill(const struct gb_batch_f32 *batch, const int32_t *first,
+                                   const int32_t *other, struct way_out out, give *four)
 {
     int k = 0;
     for (; k + 4 <= batch->n; k += 4) {
@@ -212,10 +211,10 @@ GB_ROW_INLINE void sweep_near(struct gb_world *world, int64_t b, float cutoff2,
                               struct gb_tally *tally)
 {
     const struct gb_pair_list *near = &world->pairs.near;
-    const struct gb_batch_single_kernel *kernel = &world->single.kernel;
+    const struct gb_batch_f32_kernel *kernel = &world->single.kernel;
     const int64_t stop = near->stop[b];
     struct way_out out = way_out(world, &world->single.near, WRENCH, b);
-    struct gb_batch_single batch;
+    struct gb_batch_f32 batch;
     batch.cutoff2 = cutoff2;
     batch.damp = 0.0F;
     for (int64_t slot = near->start[gb_sweep_block_begin(world->count, b)]; slot < stop;
@@ -234,7 +233,7 @@ GB_ROW_INLINE void sweep_far(struct gb_world *world, int64_t b, float cutoff2)
     const struct gb_pair_list *far = &world->pairs.far;
     const int64_t stop = far->stop[b];
     struct way_out out = way_out(world, &world->single.far, PULL, b);
-    struct gb_batch_single batch;
+    struct gb_batch_f32 batch;
     batch.cutoff2 = cutoff2;
     for (int64_t slot = far->start[gb_sweep_block_begin(world->count, b)]; slot < stop;
          slot += batch.n) {
@@ -311,7 +310,7 @@ GB_ROW_INLINE void ask_for_next(const struct gb_world *world, int64_t begin, int
 }
 
 GB_SIMD_LOOP void collect_loop(struct gb_world *world, int64_t begin, int64_t end,
-                               struct gb_world_sums *sums)
+                               struct gb_force_sums *sums)
 {
     const struct gb_f32_state *single = &world->single;
     const gb_row none = {0.0F};
@@ -335,7 +334,7 @@ GB_SIMD_LOOP void collect_loop(struct gb_world *world, int64_t begin, int64_t en
         power += force * gb_row_load(single->velocity + 3 * j) +
                  torque * gb_row_load(single->spin + 3 * j);
     }
-    *sums = (struct gb_world_sums){0};
+    *sums = (struct gb_force_sums){0};
     for (int c = 0; c < 3; c++) {
         sums->force2 += (double)squares[c];
         sums->torque2 += (double)squares[TORQUE + c];
@@ -344,17 +343,17 @@ GB_SIMD_LOOP void collect_loop(struct gb_world *world, int64_t begin, int64_t en
 }
 GB_SIMD_WIDTHS(collect,
                (struct gb_world * world, int64_t begin, int64_t end,
-                struct gb_world_sums *sums),
+                struct gb_force_sums *sums),
                (world, begin, end, sums))
 
 void gb_sweep_f32_collect(struct gb_world *world, int64_t begin, int64_t end,
-                          struct gb_world_sums *sums)
+                          struct gb_force_sums *sums)
 {
     collect(world, begin, end, sums);
 }
 
 void gb_sweep_f32_recall(const struct gb_world *world, bool near, int64_t slot,
-                         struct gb_batch_single *batch)
+                         struct gb_batch_f32 *batch)
 {
     const double cutoff = gb_world_cutoff(world);
     batch->cutoff2 = (float)(cutoff * cutoff);

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#include "scene/unequal_pair.h"
 #include "pack/cell/world_private.h"
 #include "pack/kernel/sweep.h"
+#include "scene/unequal_pair.h"
 
 /* A spring is cut back to a hair below its cap, so that no rounding error makes one at
  * rest slide; as in batch_laws.h. */
@@ -47,7 +47,7 @@ static void load(const struct gb_world *world, int64_t k, struct touch *touch)
     const struct gb_contacts *contacts = &world->contacts;
     const int64_t i = near->first[k], j = near->other[k];
     gb_unequal_pair_init(&touch->law, world->model, world->diameter[i],
-                        world->diameter[j]);
+                         world->diameter[j]);
     touch->distance = sqrt(gb_world_arm_of(world, near, i, k, touch->r));
     touch->overlap = touch->law.span - touch->distance;
     touch->deepest = gb_contacts_deepest(contacts, k);
@@ -309,7 +309,7 @@ bool gb_sweep_sized_run(struct gb_world *world, double *travel)
         }
     }
     sum_up(world);
-    struct gb_world_sums sums;
+    struct gb_force_sums sums;
     gb_sweep_sum(world, 0, world->count, &sums);
     gb_sweep_conclude(world, &sums);
     return true;

@@ -26,7 +26,7 @@ static void add(double sum[3][3], const double force[3], const double r[3])
 }
 
 /* Adds the pairs of a batch, lane by lane. */
-GB_SIMD_LOOP void add_batch_loop(const struct gb_batch_single *batch,
+GB_SIMD_LOOP void add_batch_loop(const struct gb_batch_f32 *batch,
                                  double lane[3][3][GB_LANES])
 {
     for (int a = 0; a < 3; a++) {
@@ -46,8 +46,7 @@ GB_SIMD_LOOP void add_batch_loop(const struct gb_batch_single *batch,
         }
     }
 }
-GB_SIMD_WIDTHS(add_batch,
-               (const struct gb_batch_single *batch, double lane[3][3][GB_LANES]),
+GB_SIMD_WIDTHS(add_batch, (const struct gb_batch_f32 *batch, double lane[3][3][GB_LANES]),
                (batch, lane))
 
 /* Pairs [begin, end) of one list or the other in single precision. */
@@ -55,7 +54,7 @@ static void sum_single(const struct gb_world *world, bool near, int64_t begin,
                        int64_t end, double sum[3][3])
 {
     double lane[3][3][GB_LANES] = {0};
-    struct gb_batch_single batch;
+    struct gb_batch_f32 batch;
     for (int64_t slot = begin; slot < end; slot += batch.n) {
         batch.n = end - slot < GB_BATCH ? (int)(end - slot) : GB_BATCH;
         gb_sweep_f32_recall(world, near, slot, &batch);

@@ -9,7 +9,7 @@
 /* Variants: normal only, friction, friction and bridges; Hertz and Mindlin only. */
 #define VARIANT(name, attribute, friction_, bridges_, plain_)                            \
     attribute static void name##_advance(const struct gb_model *model,                   \
-                                         struct gb_batch_single *batch,                  \
+                                         struct gb_batch_f32 *batch,                     \
                                          struct gb_contacts *contacts, int64_t slot)     \
     {                                                                                    \
         const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
@@ -21,7 +21,7 @@
         }                                                                                \
     }                                                                                    \
     attribute static void name##_recall(                                                 \
-        const struct gb_model *model, struct gb_batch_single *batch,                     \
+        const struct gb_model *model, struct gb_batch_f32 *batch,                        \
         const struct gb_contacts *contacts, int64_t slot)                                \
     {                                                                                    \
         const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
@@ -32,7 +32,7 @@
             recall_3d(model, t, batch, contacts, slot);                                  \
         }                                                                                \
     }                                                                                    \
-    attribute static void name##_tally(struct gb_batch_single *batch,                    \
+    attribute static void name##_tally(struct gb_batch_f32 *batch,                       \
                                        const struct gb_contacts *contacts, int64_t slot, \
                                        struct gb_tally *tally)                           \
     {                                                                                    \
@@ -41,7 +41,7 @@
         tally_batch(t, batch, deepest + slot, tally);                                    \
     }                                                                                    \
     attribute static void name##_attract(const struct gb_model *model,                   \
-                                         struct gb_batch_single *batch)                  \
+                                         struct gb_batch_f32 *batch)                     \
     {                                                                                    \
         const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
         attract(model, t, batch, NULL, NULL);                                            \
@@ -64,16 +64,15 @@
     }
 
 VARIANTS(w128, )
-static const struct gb_batch_single_kernel table128[] = TABLE(w128);
+static const struct gb_batch_f32_kernel table128[] = TABLE(w128);
 #if defined(__x86_64__)
 VARIANTS(w256, GB_TARGET_256)
 VARIANTS(w512, GB_TARGET_512)
-static const struct gb_batch_single_kernel table256[] = TABLE(w256);
-static const struct gb_batch_single_kernel table512[] = TABLE(w512);
+static const struct gb_batch_f32_kernel table256[] = TABLE(w256);
+static const struct gb_batch_f32_kernel table512[] = TABLE(w512);
 #endif
 
-struct gb_batch_single_kernel gb_batch_single_pick(const struct gb_model *model,
-                                                   int widest)
+struct gb_batch_f32_kernel gb_batch_f32_pick(const struct gb_model *model, int widest)
 {
     const int terms = model->terms.plain      ? 3
                       : model->terms.bridges  ? 2

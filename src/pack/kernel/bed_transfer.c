@@ -45,7 +45,7 @@ static void spill_128(const struct gb_bed_rows *rows, const struct gb_bed_batch 
     spill_from(rows, batch, 0);
 }
 
-static const struct gb_bed_carrier carrier_128 = {fill_128, spill_128};
+static const struct gb_bed_transfer carrier_128 = {fill_128, spill_128};
 
 #if defined(__x86_64__) && defined(__has_builtin)
 #if __has_builtin(__builtin_shufflevector)
@@ -146,10 +146,10 @@ GB_TARGET_256 static void spill_256(const struct gb_bed_rows *rows,
     spill_from(rows, b, k);
 }
 
-static const struct gb_bed_carrier carrier_256 = {fill_256, spill_256};
+static const struct gb_bed_transfer carrier_256 = {fill_256, spill_256};
 #endif
 
-struct gb_bed_carrier gb_bed_carrier_pick(int widest)
+struct gb_bed_transfer gb_bed_transfer_pick(int widest)
 {
 #if defined(HAVE_256)
     return gb_simd_width(widest) >= 256 ? carrier_256 : carrier_128;
