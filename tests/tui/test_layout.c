@@ -94,8 +94,8 @@ static void test_promises(void)
 /* The pane with the focus is on the screen wherever there is one. */
 static void test_focus_is_seen(void)
 {
-    for (int rows = GB_LAYOUT_LEAST_ROWS; rows <= MOST_ROWS; rows++) {
-        for (int cols = GB_LAYOUT_LEAST_COLS; cols <= MOST_COLS; cols += 7) {
+    for (int rows = GB_LAYOUT_MIN_ROWS; rows <= MOST_ROWS; rows++) {
+        for (int cols = GB_LAYOUT_MIN_COLS; cols <= MOST_COLS; cols += 7) {
             for (int focus = 0; focus < GB_PANES; focus++) {
                 struct gb_layout layout;
                 gb_layout_make(&layout, rows, cols, (enum gb_pane)focus);

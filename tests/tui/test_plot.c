@@ -321,7 +321,7 @@ static void check_axis(double low, double high, bool log_y, int most)
     g_assert_true(isfinite(axis.low) && isfinite(axis.high));
     g_assert_cmpint(axis.ticks, >=, 1);
     for (int i = 0; i < axis.ticks; i++) {
-        const double place = gb_plot_axis_place(&axis, axis.tick[i]);
+        const double place = gb_plot_axis_position(&axis, axis.tick[i]);
         g_assert_cmpfloat(place, >=, -1e-6);
         g_assert_cmpfloat(place, <=, 1.0 + 1e-6);
         g_assert_true(i == 0 || axis.tick[i] > axis.tick[i - 1]);

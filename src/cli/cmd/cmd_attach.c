@@ -11,7 +11,7 @@
 #include "io/rundir.h"
 #include "run/runner.h"
 #include "tui/app/app.h"
-#include "tui/term/term_guess.h"
+#include "tui/term/term_profile.h"
 #include "tui/watch/watch.h"
 
 /* Of many runs: how they stand, once. */
@@ -102,7 +102,7 @@ int gb_cmd_attach(int argc, char **argv)
         struct gb_error err = {0};
         struct gb_settings settings;
         if (screening.diagnose && gb_screening_settings(&screening, &settings, &err)) {
-            gb_term_guess_print(stdout, STDOUT_FILENO, &settings);
+            gb_term_profile_print(stdout, STDOUT_FILENO, &settings);
         } else if (words[0] == NULL || words[1] != NULL) {
             gb_error_set(&err, GB_ERR_INPUT, "attach: one run directory is needed");
             status = gb_options_fail(&err);

@@ -9,7 +9,7 @@
 #include "tui/app/app.h"
 #include "tui/app/keys.h"
 #include "tui/session/run_lifecycle.h"
-#include "tui/term/term_guess.h"
+#include "tui/term/term_profile.h"
 
 static bool names_preset(char **words)
 {
@@ -85,7 +85,7 @@ int gb_cmd_workbench(int argc, char **argv)
         status = gb_options_fail(&err);
         err.code = GB_OK;
     } else if (screening.diagnose) {
-        gb_term_guess_print(stdout, STDOUT_FILENO, &settings);
+        gb_term_profile_print(stdout, STDOUT_FILENO, &settings);
         gb_run_lifecycle_print_runs(stdout, folder);
     } else if (gb_options_scene(&preset, words, sets, false, &err)) {
         status = gb_app_run(preset, folder, NULL, &settings, &err);

@@ -164,7 +164,8 @@ void gb_act_type(struct gb_app *app, const struct gb_term_event *event)
         return;
     }
     if (screen->params.editing && !small) {
-        gb_panel_params_type(&screen->params, &screen->session, event, &screen->message);
+        gb_panel_params_edit_key(&screen->params, &screen->session, event,
+                                 &screen->message);
         return;
     }
     /* characters share their numbers with curses' function keys */

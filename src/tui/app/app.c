@@ -11,7 +11,7 @@
 #include "base/alloc.h"
 #include "tui/app/act.h"
 #include "tui/app/asks.h"
-#include "tui/app/pointer.h"
+#include "tui/app/mouse.h"
 #include "tui/session/run_lifecycle.h"
 
 /* At most ten frames within any second, two when slow.  News of the engine alone is drawn
@@ -42,10 +42,10 @@ static void interrupt(struct gb_app *app)
 
 static void handle(struct gb_app *app, const struct gb_term_event *event)
 {
-    app->urgent = app->urgent || event->kind != GB_TERM_NOTHING;
+    app->urgent = app->urgent || event->kind != GB_TERM_TIMEOUT;
     app->dirty = app->dirty || app->urgent;
     switch (event->kind) {
-    case GB_TERM_NOTHING:
+    case GB_TERM_TIMEOUT:
     case GB_TERM_RESIZED:
         break;
     case GB_TERM_KEY:
@@ -53,7 +53,7 @@ static void handle(struct gb_app *app, const struct gb_term_event *event)
         gb_act_type(app, event);
         break;
     case GB_TERM_MOUSE:
-        gb_pointer_act(app, event);
+        gb_mouse_handle(app, event);
         break;
     case GB_TERM_INTERRUPT:
         interrupt(app);
@@ -61,7 +61,7 @@ static void handle(struct gb_app *app, const struct gb_term_event *event)
     case GB_TERM_TERMINATE:
         gb_asks_leave(app, STATUS_SIGNAL + event->code);
         break;
-    case GB_TERM_GONE:
+    case GB_TERM_HANGUP:
         app->gone = true;
         gb_asks_leave(app, STATUS_SIGNAL + SIGHUP);
         break;
@@ -72,8 +72,8 @@ static void handle(struct gb_app *app, const struct gb_term_event *event)
 static double frame_wait(const struct gb_app *app)
 {
     const double now = clock_s();
-    const double last = app->frame[(app->frames + app->most - 1) % app->most];
-    const double oldest = app->frame[app->frames % app->most];
+    const double last = app->frame[(app->frames + app->max - 1) % app->max];
+    const double oldest = app->frame[app->frames % app->max];
     const double spacing = app->urgent ? key_s : news_s;
     return fmax(last + spacing, oldest + second_s) - now;
 }
@@ -101,15 +101,15 @@ static void draw(struct gb_app *app)
     gb_term_flush(screen->term);
     gb_term_image_after(&screen->image, screen->term, gb_screen_picture(screen),
                         &screen->plot.field, clock_s());
-    app->frame[app->frames++ % app->most] = clock_s();
+    app->frame[app->frames++ % app->max] = clock_s();
     app->dirty = app->urgent = false;
 }
 
 /* True: there was something. */
-static bool overhear(struct gb_app *app)
+static bool poll_stderr(struct gb_app *app)
 {
     char line[160];
-    const bool heard = gb_stderr_tail_poll(&app->overheard, line, sizeof line);
+    const bool heard = gb_stderr_tail_poll(&app->stderr_tail, line, sizeof line);
     if (heard) {
         gb_session_note(&app->screen.session, "a library says: %s", line);
     }
@@ -123,7 +123,7 @@ static void loop(struct gb_app *app)
         handle(app, &event);
         app->dirty = gb_session_refresh(&app->screen.session) || app->dirty ||
                      gb_term_image_due(&app->screen.image, clock_s());
-        app->dirty = overhear(app) || app->dirty;
+        app->dirty = poll_stderr(app) || app->dirty;
         gb_asks_follow(app);
         if (app->dirty && !app->leave && frame_wait(app) <= 0.0) {
             draw(app);
@@ -160,10 +160,10 @@ static void close_screen(struct gb_app *app)
     struct gb_screen *screen = &app->screen;
     if (app->gone) {
         gb_term_abandon(screen->term);
-        app->status = gb_run_lifecycle_detached(&screen->session);
+        app->status = gb_run_lifecycle_run_detached(&screen->session);
     } else {
         gb_term_stop(screen->term);
-        gb_run_lifecycle_farewell(&screen->session);
+        gb_run_lifecycle_print_resume_hint(&screen->session);
     }
 }
 
@@ -180,8 +180,8 @@ int gb_app_run(struct gb_preset *preset, const char *folder, const char *attache
         return gb_status_exit_code(GB_ERR_MACHINE);
     }
     app->dirty = app->urgent = true;
-    gb_stderr_tail_init(&app->overheard);
-    app->most = settings->slow ? GB_APP_FRAMES_SLOW : GB_APP_FRAMES;
+    gb_stderr_tail_init(&app->stderr_tail);
+    app->max = settings->slow ? GB_APP_FRAMES_SLOW : GB_APP_FRAMES;
     first_focus(screen);
     gb_session_init(&screen->session, preset);
     screen->session.folder = folder;

@@ -10,7 +10,7 @@ enum { GB_APP_FRAMES = 10, GB_APP_FRAMES_SLOW = 2 };
 
 struct gb_app {
     struct gb_screen screen;
-    struct gb_stderr_tail overheard;
+    struct gb_stderr_tail stderr_tail;
     bool leave, dirty;
     bool gone;   /* the terminal */
     bool urgent; /* a key waits for its frame */
@@ -18,7 +18,7 @@ struct gb_app {
     double frame[GB_APP_FRAMES]; /* clock of the last frames, the next one takes the
                                     oldest */
     int frames;
-    int most; /* of them within a second */
+    int max; /* of them within a second */
 };
 
 #endif

@@ -8,7 +8,7 @@
 #include "tui/app/complete.h"
 #include "tui/session/many.h"
 #include "tui/session/repeat.h"
-#include "tui/session/saving.h"
+#include "tui/session/user_presets.h"
 #include "tui/session/whatif.h"
 
 void gb_asks_tell(struct gb_app *app, enum gb_style style, const char *text)
@@ -42,7 +42,7 @@ static void begin_run(struct gb_app *app)
 void gb_asks_start_run(struct gb_app *app)
 {
     char question[400];
-    if (gb_session_costly(&app->screen.session, question, sizeof question)) {
+    if (gb_session_cost_question(&app->screen.session, question, sizeof question)) {
         gb_dialog_show(&app->screen.dialog, GB_DIALOG_COSTLY, question);
     } else {
         begin_run(app);
@@ -53,7 +53,7 @@ void gb_asks_start_run(struct gb_app *app)
 void gb_asks_start_scene(struct gb_app *app)
 {
     const struct gb_params *params = gb_session_params(&app->screen.session);
-    if (gb_quick_enough(params) || !gb_session_try(&app->screen.session)) {
+    if (gb_quick_enough(params) || !gb_session_start_quick(&app->screen.session)) {
         gb_asks_start_run(app);
     }
 }
@@ -62,10 +62,10 @@ void gb_asks_start_scene(struct gb_app *app)
 void gb_asks_follow(struct gb_app *app)
 {
     char question[400];
-    if (!gb_session_take_due(&app->screen.session)) {
+    if (!gb_session_take_start_due(&app->screen.session)) {
         return;
     }
-    if (gb_session_costly(&app->screen.session, question, sizeof question)) {
+    if (gb_session_cost_question(&app->screen.session, question, sizeof question)) {
         static const char text[] = "the full cell takes long: r tells how long and asks";
         gb_session_note(&app->screen.session, "%s", text);
         if (!refuses(&app->screen.message)) {
@@ -90,7 +90,7 @@ void gb_asks_leave(struct gb_app *app, int status)
 
 void gb_asks_save(struct gb_app *app)
 {
-    char *name = gb_saving_suggest(app->screen.session.preset);
+    char *name = gb_user_presets_suggest(app->screen.session.preset);
     gb_dialog_show(&app->screen.dialog, GB_DIALOG_SAVE, name);
     g_free(name);
 }
@@ -100,7 +100,7 @@ static void save(struct gb_app *app)
     struct gb_dialog *dialog = &app->screen.dialog;
     struct gb_preset *preset = app->screen.session.preset;
     struct gb_error err = {0};
-    char *path = gb_saving_path(gb_dialog_answer(dialog), &err);
+    char *path = gb_user_presets_file(gb_dialog_answer(dialog), &err);
     if (path == NULL) {
         g_strlcpy(dialog->note, err.text, sizeof dialog->note);
         return;
@@ -148,7 +148,7 @@ static void load_data(struct gb_app *app)
     struct gb_dialog *dialog = &app->screen.dialog;
     struct gb_error err = {0};
     char *path = gb_complete_home(gb_dialog_answer(dialog));
-    const struct gb_choices *before = app->screen.session.choices;
+    const struct gb_chart_csv *before = app->screen.session.choices;
     if (!gb_session_load_data(&app->screen.session, path, &err)) {
         dialog->warned = false;
         g_strlcpy(dialog->note, err.text, sizeof dialog->note);
@@ -182,7 +182,7 @@ void gb_asks_fork(struct gb_app *app)
         gb_asks_tell(app, GB_STYLE_WARN, "a what-if needs a run under way: r starts one");
         return;
     }
-    gb_panel_params_quote(&screen->params, &screen->session, text, sizeof text);
+    gb_panel_params_assignment(&screen->params, &screen->session, text, sizeof text);
     gb_dialog_show(&screen->dialog, GB_DIALOG_FORK, text);
 }
 
@@ -230,7 +230,7 @@ void gb_asks_errand(struct gb_app *app, const char *what, const char *command,
         path = g_strdup_printf("%s%s%d%s", directory, middle, i, end);
     }
     const char *const words[] = {command, directory, "-o", path, NULL};
-    if (gb_child_command_start(&session->errand, what, path, false, words, &err)) {
+    if (gb_child_command_start(&session->child, what, path, false, words, &err)) {
         gb_asks_tell(app, GB_STYLE_PLAIN,
                      "is being made: the events will say where it is");
     } else {
@@ -314,8 +314,8 @@ void gb_asks_leave_live(struct gb_app *app)
 
 void gb_asks_quit(struct gb_app *app)
 {
-    const bool seen = app->screen.layout.kind != GB_LAYOUT_TOO_SMALL;
-    if (gb_session_live(&app->screen.session) && seen) {
+    const bool shown = app->screen.layout.kind != GB_LAYOUT_TOO_SMALL;
+    if (gb_session_live(&app->screen.session) && shown) {
         gb_asks_leave_live(app);
     } else {
         gb_asks_leave(app, 0);

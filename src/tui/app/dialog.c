@@ -61,12 +61,12 @@ void gb_dialog_browse(struct gb_dialog *dialog, const struct gb_params *current)
 {
     gb_dialog_close(dialog);
     dialog->kind = GB_DIALOG_OPEN;
-    gb_browse_start(&dialog->browse, current);
+    gb_preset_browser_init(&dialog->browser, current);
 }
 
 void gb_dialog_close(struct gb_dialog *dialog)
 {
-    gb_browse_finish(&dialog->browse);
+    gb_preset_browser_finish(&dialog->browser);
     g_free(dialog->text);
     memset(dialog, 0, sizeof *dialog);
 }
@@ -75,10 +75,10 @@ void gb_dialog_close(struct gb_dialog *dialog)
 static struct gb_paint box(const struct gb_paint *screen, int rows, int cols,
                            const char *title)
 {
-    const int most_rows = screen->rect.rows - 2;
-    const int most_cols = screen->rect.cols - 2;
-    rows = rows < most_rows ? rows : most_rows;
-    cols = cols < most_cols ? cols : most_cols;
+    const int max_rows = screen->rect.rows - 2;
+    const int max_cols = screen->rect.cols - 2;
+    rows = rows < max_rows ? rows : max_rows;
+    cols = cols < max_cols ? cols : max_cols;
     const struct gb_rect rect = {(screen->rect.rows - rows) / 2,
                                  (screen->rect.cols - cols) / 2, rows, cols};
     const struct gb_paint paint = gb_paint_at(screen->term, rect);
@@ -101,8 +101,8 @@ static void draw_help(struct gb_dialog *dialog, const struct gb_paint *screen)
         box(screen, (int)count + 2, HELP_COLS, "Keys (Up and Down scroll, Esc back)");
     const struct gb_paint paint = inside(&frame);
     dialog->page = paint.rect.rows;
-    const int most = (int)count - dialog->page;
-    dialog->top = dialog->focus < most ? dialog->focus : most;
+    const int max = (int)count - dialog->page;
+    dialog->top = dialog->focus < max ? dialog->focus : max;
     dialog->top = dialog->top < 0 ? 0 : dialog->top;
     dialog->focus = dialog->top;
     for (int i = 0; i < dialog->page && dialog->top + i < (int)count; i++) {
@@ -130,7 +130,7 @@ static void draw_open(struct gb_dialog *dialog, const struct gb_paint *screen)
     struct gb_paint paint = inside(&frame);
     draw_note(dialog, &paint, paint.rect.rows - note, note);
     paint.rect.rows -= note;
-    gb_browse_draw(&dialog->browse, &paint);
+    gb_preset_browser_draw(&dialog->browser, &paint);
 }
 
 static void draw_ask(const struct gb_dialog *dialog, const struct gb_paint *screen)
@@ -276,9 +276,9 @@ static bool edit(struct gb_dialog *dialog, const struct gb_term_event *event)
     const struct ask *ask = ask_of(dialog);
     bool taken = false;
     if (dialog->kind == GB_DIALOG_OPEN) {
-        taken = gb_browse_type(&dialog->browse, event);
+        taken = gb_preset_browser_handle(&dialog->browser, event);
     } else if (ask != NULL) {
-        taken = gb_prompt_take(&dialog->prompt, event);
+        taken = gb_prompt_handle(&dialog->prompt, event);
     }
     if (taken) {
         dialog->note[0] = '\0';
@@ -326,13 +326,14 @@ bool gb_dialog_type(struct gb_dialog *dialog, const struct gb_term_event *event)
     scroll_by_action(dialog, action);
     return action == GB_ACTION_ENTER && dialog->kind != GB_DIALOG_HELP &&
            dialog->kind != GB_DIALOG_COMMAND &&
-           (dialog->kind != GB_DIALOG_OPEN || gb_browse_name(&dialog->browse) != NULL);
+           (dialog->kind != GB_DIALOG_OPEN ||
+            gb_preset_browser_selected(&dialog->browser) != NULL);
 }
 
 const char *gb_dialog_answer(struct gb_dialog *dialog)
 {
     if (dialog->kind == GB_DIALOG_OPEN) {
-        return gb_browse_name(&dialog->browse);
+        return gb_preset_browser_selected(&dialog->browser);
     }
     return gb_prompt_text(&dialog->prompt);
 }

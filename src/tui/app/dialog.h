@@ -1,8 +1,8 @@
 #ifndef GB_TUI_APP_DIALOG_H
 #define GB_TUI_APP_DIALOG_H
 
-#include "tui/app/browse.h"
 #include "tui/app/keys.h"
+#include "tui/app/preset_browser.h"
 #include "tui/panel/prompt.h"
 #include "tui/term/paint.h"
 
@@ -27,7 +27,7 @@ enum gb_dialog_kind {
 struct gb_dialog {
     enum gb_dialog_kind kind;
     int top, focus, page;
-    struct gb_browse browse;
+    struct gb_preset_browser browser;
     char *text;     /* the command shown; owned */
     char note[400]; /* why the last answer was not taken; the question of a costly run */
     bool warned;    /* the note was a warning: the same answer again is taken */

@@ -23,7 +23,7 @@ static struct gb_rect rect(int row, int col, int rows, int cols)
     return (struct gb_rect){row, col, rows, cols};
 }
 
-static int at_most(int value, int limit)
+static int limited(int value, int limit)
 {
     return value < limit ? value : limit;
 }
@@ -55,7 +55,7 @@ static void make_full(struct gb_layout *layout, int rows, int cols)
     const struct gb_rect body = cut_edges(layout, rows, cols, 2);
     const int col = PARAMS_COLS;
     const int width = cols - col;
-    const int events = EVENTS_ROWS + at_most((rows - GB_LAYOUT_FULL_ROWS) / 4, 5);
+    const int events = EVENTS_ROWS + limited((rows - GB_LAYOUT_FULL_ROWS) / 4, 5);
     const int plot = body.rows - STATE_ROWS - events;
     layout->pane[GB_PANE_PARAMS] = rect(body.row, 0, body.rows, col);
     layout->pane[GB_PANE_PLOT] = rect(body.row, col, plot, width);
@@ -69,7 +69,7 @@ static void make_wide(struct gb_layout *layout, int rows, int cols)
     const bool roomy = cols >= ROOMY_COLS;
     const int left = roomy ? PARAMS_COLS_ROOMY : PARAMS_COLS;
     const int side = roomy ? SIDE_COLS_ROOMY : SIDE_COLS;
-    const int state = at_most(STATE_ROWS_SIDE, body.rows - EVENTS_ROWS - 1);
+    const int state = limited(STATE_ROWS_SIDE, body.rows - EVENTS_ROWS - 1);
     layout->pane[GB_PANE_PARAMS] = rect(body.row, 0, body.rows, left);
     layout->pane[GB_PANE_PLOT] = rect(body.row, left, body.rows, cols - left - side);
     layout->pane[GB_PANE_STATE] = rect(body.row, cols - side, state, side);
@@ -80,7 +80,7 @@ static void make_wide(struct gb_layout *layout, int rows, int cols)
 void gb_layout_make(struct gb_layout *layout, int rows, int cols, enum gb_pane focus)
 {
     memset(layout, 0, sizeof *layout);
-    if (rows < GB_LAYOUT_LEAST_ROWS || cols < GB_LAYOUT_LEAST_COLS) {
+    if (rows < GB_LAYOUT_MIN_ROWS || cols < GB_LAYOUT_MIN_COLS) {
         layout->kind = GB_LAYOUT_TOO_SMALL;
         layout->message = rect(0, 0, rows, cols);
     } else if (rows < GB_LAYOUT_FULL_ROWS || cols < GB_LAYOUT_FULL_COLS) {

@@ -20,8 +20,8 @@ enum gb_layout_kind {
 };
 
 enum {
-    GB_LAYOUT_LEAST_ROWS = 12,
-    GB_LAYOUT_LEAST_COLS = 40,
+    GB_LAYOUT_MIN_ROWS = 12,
+    GB_LAYOUT_MIN_COLS = 40,
     GB_LAYOUT_FULL_ROWS = 24,
     GB_LAYOUT_FULL_COLS = 80
 };

@@ -17,11 +17,12 @@ static void draw_header(struct gb_screen *screen)
     const struct gb_session *session = &screen->session;
     enum gb_style style = GB_STYLE_DIM;
     const char *word = "not started";
-    const struct gb_seen seen = gb_session_seen(session);
-    if (seen.quick) {
+    const struct gb_session_shown shown = gb_session_shown(session);
+    if (shown.quick) {
         style = GB_STYLE_SERIES;
-        word = gb_trial_live(&session->trial) ? "\u25b6 quick cell" : "\u2713 quick cell";
-    } else if (seen.curve != NULL) {
+        word = gb_quick_cell_live(&session->quick_cell) ? "\u25b6 quick cell"
+                                                        : "\u2713 quick cell";
+    } else if (shown.curve != NULL) {
         word = gb_panel_state_word(session->engine, &style);
     }
     char right[64];
@@ -59,7 +60,7 @@ static int footer_width(const struct gb_key *key, int gap)
  * quit, always.  at[i] is -1 for those that do not.  Returns their number. */
 enum { FOOTER_KEYS = 64 };
 
-static size_t place_footer(int cols, int at[FOOTER_KEYS])
+static size_t layout_footer(int cols, int at[FOOTER_KEYS])
 {
     size_t count = 0;
     const struct gb_key *key = gb_keys_table(&count);
@@ -88,7 +89,7 @@ static void draw_footer(struct gb_screen *screen)
     int at[FOOTER_KEYS];
     size_t count = 0;
     const struct gb_key *key = gb_keys_table(&count);
-    place_footer(paint.rect.cols, at);
+    layout_footer(paint.rect.cols, at);
     for (size_t i = 0; i < count; i++) {
         char name[16];
         brief_name(&key[i], name, sizeof name);
@@ -108,7 +109,7 @@ const struct gb_key *gb_screen_key_at(const struct gb_screen *screen, int row, i
     if (footer->rows == 0 || row != footer->row) {
         return NULL;
     }
-    place_footer(footer->cols, at);
+    layout_footer(footer->cols, at);
     for (size_t i = 0; i < count; i++) {
         if (at[i] >= 0 && col >= at[i] && col < at[i] + footer_width(&key[i], 0)) {
             return &key[i];
@@ -124,9 +125,9 @@ static void draw_message(struct gb_screen *screen)
     if (message.text[0] == '\0' || screen->params.editing) {
         struct gb_message shown = {.style = GB_STYLE_DIM};
         if (screen->focus == GB_PANE_PARAMS) {
-            gb_panel_params_explain(&screen->params, &screen->session, &shown);
+            gb_panel_params_describe(&screen->params, &screen->session, &shown);
         } else if (screen->focus == GB_PANE_PLOT) {
-            gb_panel_plot_explain(&screen->plot, &screen->session, &shown);
+            gb_panel_plot_describe(&screen->plot, &screen->session, &shown);
         } else if (screen->session.now.error.text[0] != '\0') {
             snprintf(shown.text, sizeof shown.text, "%s", screen->session.now.error.text);
             shown.style = GB_STYLE_WARN;
@@ -194,7 +195,7 @@ static void draw_too_small(const struct gb_screen *screen)
     const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.message);
     char text[96];
     snprintf(text, sizeof text, "greenbody needs %d x %d, has %d x %d; q quits",
-             GB_LAYOUT_LEAST_COLS, GB_LAYOUT_LEAST_ROWS, COLS, LINES);
+             GB_LAYOUT_MIN_COLS, GB_LAYOUT_MIN_ROWS, COLS, LINES);
     gb_paint_wrap(&paint, 0, paint.rect.rows, GB_STYLE_PLAIN, text);
 }
 
@@ -221,9 +222,9 @@ void gb_screen_draw(struct gb_screen *screen)
 
 const struct gb_view_sample *gb_screen_picture(const struct gb_screen *screen)
 {
-    const struct gb_seen seen = gb_session_seen(&screen->session);
+    const struct gb_session_shown shown = gb_session_shown(&screen->session);
     const bool wanted = screen->plot.pixels && screen->plot.view == GB_VIEW_PACKING &&
                         screen->dialog.kind == GB_DIALOG_NONE &&
                         gb_layout_shows(&screen->layout, GB_PANE_PLOT);
-    return wanted && seen.picture != NULL && seen.picture->valid ? seen.picture : NULL;
+    return wanted && shown.picture != NULL && shown.picture->valid ? shown.picture : NULL;
 }

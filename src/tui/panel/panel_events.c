@@ -2,12 +2,13 @@
 
 #include <stdio.h>
 
-static int limit(int value, int most)
+static int limit(int value, int max)
 {
-    return value < 0 ? 0 : value > most ? most : value;
+    return value < 0 ? 0 : value > max ? max : value;
 }
 
-static int farthest(const struct gb_panel_events *panel, const struct gb_session *session)
+static int scroll_max(const struct gb_panel_events *panel,
+                      const struct gb_session *session)
 {
     const int64_t kept =
         session->log_count < GB_SESSION_LOG ? session->log_count : GB_SESSION_LOG;
@@ -16,15 +17,15 @@ static int farthest(const struct gb_panel_events *panel, const struct gb_session
 
 /* Rows that all lines from the newest shown back would take. */
 static int total_rows(const struct gb_panel_events *panel, const struct gb_paint *paint,
-                      const struct gb_session *session, int most)
+                      const struct gb_session *session, int max)
 {
     int total = 0;
     for (int i = panel->back; total < panel->page; i++) {
-        const char *line = gb_session_line(session, i);
+        const char *line = gb_session_event_line(session, i);
         if (line == NULL) {
             break;
         }
-        total += gb_paint_wrapped(paint, most, line);
+        total += gb_paint_wrapped(paint, max, line);
     }
     return total;
 }
@@ -34,23 +35,23 @@ void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *
                           const struct gb_session *session, bool focus)
 {
     char title[GB_CHILD_COMMAND_LINE + 32] = "Events";
-    if (session->errand.progress[0] != '\0') {
-        snprintf(title, sizeof title, "Events: %s, %s", session->errand.what,
-                 session->errand.progress);
+    if (session->child.progress[0] != '\0') {
+        snprintf(title, sizeof title, "Events: %s, %s", session->child.what,
+                 session->child.progress);
     }
     gb_paint_title(paint, title, focus);
     panel->page = paint->rect.rows - 1;
-    panel->back = limit(panel->back, farthest(panel, session));
-    const int most = panel->page > 3 ? 3 : 1;
-    const int total = total_rows(panel, paint, session, most);
+    panel->back = limit(panel->back, scroll_max(panel, session));
+    const int max = panel->page > 3 ? 3 : 1;
+    const int total = total_rows(panel, paint, session, max);
     int end = 1 + (total < panel->page ? total : panel->page);
     const char *line = NULL;
     for (int i = panel->back; end > 1; i++) {
-        line = gb_session_line(session, i);
+        line = gb_session_event_line(session, i);
         if (line == NULL) {
             return;
         }
-        const int rows = gb_paint_wrapped(paint, most, line);
+        const int rows = gb_paint_wrapped(paint, max, line);
         if (end - rows < 1) {
             return;
         }
@@ -62,22 +63,22 @@ void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *
 bool gb_panel_events_act(struct gb_panel_events *panel, const struct gb_session *session,
                          enum gb_action action)
 {
-    const int most = farthest(panel, session);
+    const int max = scroll_max(panel, session);
     switch (action) {
     case GB_ACTION_UP:
-        panel->back = limit(panel->back + 1, most);
+        panel->back = limit(panel->back + 1, max);
         return true;
     case GB_ACTION_DOWN:
-        panel->back = limit(panel->back - 1, most);
+        panel->back = limit(panel->back - 1, max);
         return true;
     case GB_ACTION_PAGE_UP:
-        panel->back = limit(panel->back + panel->page, most);
+        panel->back = limit(panel->back + panel->page, max);
         return true;
     case GB_ACTION_PAGE_DOWN:
-        panel->back = limit(panel->back - panel->page, most);
+        panel->back = limit(panel->back - panel->page, max);
         return true;
     case GB_ACTION_HOME:
-        panel->back = most;
+        panel->back = max;
         return true;
     case GB_ACTION_END:
         panel->back = 0;

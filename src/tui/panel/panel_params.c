@@ -3,9 +3,9 @@
 
 #include "scene/applies.h"
 #include "scene/field.h"
-#include "tui/panel/listing.h"
 #include "tui/panel/panels.h"
-#include "tui/session/knob.h"
+#include "tui/panel/param_list.h"
+#include "tui/session/value_step.h"
 
 /* Longest key of the field table, and the mark before it. */
 enum { KEY_COL = 1, VALUE_COL = 18 };
@@ -16,19 +16,19 @@ static const struct gb_field *focused(const struct gb_panel_params *panel)
     return &gb_params_fields(&count)[panel->focus];
 }
 
-static struct gb_listing listed(const struct gb_panel_params *panel,
-                                struct gb_session *session)
+static struct gb_param_list listed(const struct gb_panel_params *panel,
+                                   struct gb_session *session)
 {
-    struct gb_listing listing;
-    gb_listing_init(&listing, gb_session_params(session), panel->all);
-    return listing;
+    struct gb_param_list list;
+    gb_param_list_init(&list, gb_session_params(session), panel->all);
+    return list;
 }
 
 /* Keeps the focus and, where there is room, its heading in sight. */
-static void scroll(struct gb_panel_params *panel, const struct gb_listing *listing)
+static void scroll(struct gb_panel_params *panel, const struct gb_param_list *list)
 {
-    const int line = listing->line[gb_listing_place(listing, panel->focus)];
-    const int last = listing->line[listing->count - 1] + 1;
+    const int line = list->line[gb_param_list_index(list, panel->focus)];
+    const int last = list->line[list->count - 1] + 1;
     if (line - 1 < panel->top) {
         panel->top = line - 1;
     }
@@ -66,15 +66,15 @@ static void draw_field(const struct gb_panel_params *panel, const struct gb_pain
     size_t count = 0;
     const struct gb_field *field = &gb_params_fields(&count)[index];
     const bool differs = gb_session_differs(session, field);
-    const bool here = index == panel->focus;
-    const bool idle = !gb_applies_field(gb_session_params(session), field);
-    enum gb_style style = differs ? GB_STYLE_CHANGED
-                          : idle  ? GB_STYLE_DIM
-                                  : GB_STYLE_PLAIN;
-    if (here && focus) {
+    const bool focused_row = index == panel->focus;
+    const bool unused = !gb_applies_field(gb_session_params(session), field);
+    enum gb_style style = differs  ? GB_STYLE_CHANGED
+                          : unused ? GB_STYLE_DIM
+                                   : GB_STYLE_PLAIN;
+    if (focused_row && focus) {
         style = GB_STYLE_SELECTED;
         gb_paint_cell(paint, row, 0, paint->rect.cols - 1, style, "");
-    } else if (here) {
+    } else if (focused_row) {
         style = GB_STYLE_BOLD;
     }
     gb_paint_text(paint, row, 0, differs ? GB_STYLE_CHANGED : style, differs ? "*" : " ");
@@ -96,21 +96,21 @@ void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *
     const int changes = gb_session_changes(session);
     snprintf(title, sizeof title, changes > 0 ? "Parameters * %d for r" : "Parameters",
              changes);
-    const struct gb_listing listing = listed(panel, session);
+    const struct gb_param_list list = listed(panel, session);
     size_t count = 0;
     const struct gb_field *field = gb_params_fields(&count);
     panel->page = paint->rect.rows - 1;
     if (!panel->editing) { /* a change of the scene may have hidden it */
-        panel->focus = listing.field[gb_listing_place(&listing, panel->focus)];
+        panel->focus = list.field[gb_param_list_index(&list, panel->focus)];
     }
-    scroll(panel, &listing);
-    for (int i = 0; i < listing.count; i++) {
-        const int row = 1 + listing.line[i] - panel->top;
-        if (listing.first[i]) {
-            draw_heading(paint, row - 1, field[listing.field[i]].group);
+    scroll(panel, &list);
+    for (int i = 0; i < list.count; i++) {
+        const int row = 1 + list.line[i] - panel->top;
+        if (list.first[i]) {
+            draw_heading(paint, row - 1, field[list.field[i]].group);
         }
         if (row >= 1 && row < paint->rect.rows) {
-            draw_field(panel, paint, session, listing.field[i], row, focus);
+            draw_field(panel, paint, session, list.field[i], row, focus);
         }
     }
     gb_paint_title(paint, title, focus);
@@ -119,7 +119,7 @@ void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *
 static void begin_edit(struct gb_panel_params *panel, struct gb_session *session)
 {
     const struct gb_field *field = focused(panel);
-    char value[GB_PROMPT_MOST];
+    char value[GB_PROMPT_MAX];
     gb_params_format(gb_session_params(session), field, value, sizeof value);
     panel->editing = true;
     panel->choice = 0;
@@ -145,16 +145,14 @@ static void undo(struct gb_panel_params *panel, struct gb_session *session,
     snprintf(message->text, sizeof message->text, "%s.%s is %.256s again, as in the run",
              field->group, field->key, value[0] != '\0' ? value : "empty");
     message->style = GB_STYLE_PLAIN;
-    gb_session_try(session);
+    gb_session_start_quick(session);
 }
 
 static bool move(struct gb_panel_params *panel, struct gb_session *session, int by)
 {
-    const struct gb_listing listing = listed(panel, session);
-    const int to = gb_listing_place(&listing, panel->focus) + by;
-    panel->focus = listing.field[to < 0               ? 0
-                                 : to < listing.count ? to
-                                                      : listing.count - 1];
+    const struct gb_param_list list = listed(panel, session);
+    const int to = gb_param_list_index(&list, panel->focus) + by;
+    panel->focus = list.field[to < 0 ? 0 : to < list.count ? to : list.count - 1];
     return true;
 }
 
@@ -185,7 +183,7 @@ static bool take(struct gb_session *session, const struct gb_field *field,
         message->style = GB_STYLE_WARN;
         return true;
     }
-    gb_session_try(session);
+    gb_session_start_quick(session);
     return true;
 }
 
@@ -197,7 +195,7 @@ static bool turn(struct gb_panel_params *panel, struct gb_session *session, int 
     char value[GB_PARAMS_VALUE_MAX];
     char text[GB_PARAMS_VALUE_MAX + 16];
     gb_params_format(gb_session_params(session), field, value, sizeof value);
-    if (!gb_knob_turn(field, value, direction, text, sizeof text)) {
+    if (!gb_value_step_next(field, value, direction, text, sizeof text)) {
         snprintf(message->text, sizeof message->text,
                  "%s cannot be turned: Enter edits it", field->key);
         message->style = GB_STYLE_WARN;
@@ -207,22 +205,22 @@ static bool turn(struct gb_panel_params *panel, struct gb_session *session, int 
     return true;
 }
 
-bool gb_panel_params_point(struct gb_panel_params *panel, struct gb_session *session,
+bool gb_panel_params_click(struct gb_panel_params *panel, struct gb_session *session,
                            int row, int col, bool *value)
 {
-    const struct gb_listing listing = listed(panel, session);
+    const struct gb_param_list list = listed(panel, session);
     *value = col >= VALUE_COL;
-    for (int i = 0; i < listing.count; i++) {
-        if (row >= 1 && 1 + listing.line[i] - panel->top == row) {
-            panel->focus = listing.field[i];
+    for (int i = 0; i < list.count; i++) {
+        if (row >= 1 && 1 + list.line[i] - panel->top == row) {
+            panel->focus = list.field[i];
             return true;
         }
     }
     return false;
 }
 
-void gb_panel_params_quote(const struct gb_panel_params *panel,
-                           struct gb_session *session, char *text, size_t size)
+void gb_panel_params_assignment(const struct gb_panel_params *panel,
+                                struct gb_session *session, char *text, size_t size)
 {
     const struct gb_field *field = focused(panel);
     char value[GB_PARAMS_VALUE_MAX];
@@ -265,9 +263,9 @@ bool gb_panel_params_act(struct gb_panel_params *panel, struct gb_session *sessi
     case GB_ACTION_PAGE_DOWN:
         return move(panel, session, panel->page > 2 ? panel->page - 2 : 1);
     case GB_ACTION_HOME:
-        return move(panel, session, -GB_LISTING_MOST);
+        return move(panel, session, -GB_PARAM_LIST_MAX);
     case GB_ACTION_END:
-        return move(panel, session, GB_LISTING_MOST);
+        return move(panel, session, GB_PARAM_LIST_MAX);
     case GB_ACTION_ALL:
         toggle_all(panel, message);
         return true;
@@ -322,11 +320,12 @@ static void choose(struct gb_panel_params *panel, int step)
     panel->choice = (panel->choice + step + count) % count;
 }
 
-void gb_panel_params_type(struct gb_panel_params *panel, struct gb_session *session,
-                          const struct gb_term_event *event, struct gb_message *message)
+void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *session,
+                              const struct gb_term_event *event,
+                              struct gb_message *message)
 {
     const bool choices = focused(panel)->choices != NULL;
-    if (!choices && gb_prompt_take(&panel->prompt, event)) {
+    if (!choices && gb_prompt_handle(&panel->prompt, event)) {
         message->text[0] = '\0';
         return;
     }
@@ -357,8 +356,8 @@ void gb_panel_params_type(struct gb_panel_params *panel, struct gb_session *sess
     }
 }
 
-void gb_panel_params_explain(const struct gb_panel_params *panel,
-                             struct gb_session *session, struct gb_message *message)
+void gb_panel_params_describe(const struct gb_panel_params *panel,
+                              struct gb_session *session, struct gb_message *message)
 {
     const struct gb_field *field = focused(panel);
     char accepted[256];

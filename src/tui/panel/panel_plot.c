@@ -70,7 +70,7 @@ const char *gb_panel_plot_stage(int branch)
 
 static bool dynamic(const struct gb_session *session)
 {
-    return gb_session_seen(session).params->kind == GB_KIND_DYNAMIC;
+    return gb_session_shown(session).params->kind == GB_KIND_DYNAMIC;
 }
 
 /* Everything that is known of a view; one row each, in the order of the keys. */
@@ -126,7 +126,7 @@ static void write_title(const struct gb_panel_plot *panel,
     snprintf(title, size, "%d %s%s%s%s", ((int)panel->view + 1) % 10,
              steps ? "Pressure against step" : view->title,
              view->log && panel->log ? " (log)" : "",
-             gb_session_seen(session).quick && !view->log ? ", quick cell" : "",
+             gb_session_shown(session).quick && !view->log ? ", quick cell" : "",
              session->frozen ? ", view frozen" : "");
 }
 
@@ -157,7 +157,8 @@ static int inset_rows(const struct gb_panel_plot *panel, const struct gb_rect *r
 static void draw_insets(struct gb_panel_plot *panel, const struct gb_paint *paint,
                         const struct gb_session *session, int rows)
 {
-    static const enum gb_plot_view laws[GB_PANEL_INSETS] = {GB_VIEW_FORCE, GB_VIEW_STRENGTH};
+    static const enum gb_plot_view laws[GB_PANEL_INSETS] = {GB_VIEW_FORCE,
+                                                            GB_VIEW_STRENGTH};
     const int count = paint->rect.cols >= GB_PANEL_INSETS * INSET_COLS ? 2 : 1;
     for (int i = 0; i < count; i++) {
         const int from = i * paint->rect.cols / count;
@@ -192,7 +193,7 @@ void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *pain
 static bool move(struct gb_panel_plot *panel, const struct gb_session *session,
                  long long by)
 {
-    const size_t points = gb_session_seen(session).points;
+    const size_t points = gb_session_shown(session).points;
     if (points == 0 || !views[panel->view].of_points) {
         return true;
     }
@@ -206,32 +207,34 @@ static bool move(struct gb_panel_plot *panel, const struct gb_session *session,
 
 /* Cells between a point of the curve and a cell of the field; across only where the view
  * has another quantity than the pressure on its y axis. */
-static double away(const struct gb_panel_plot *panel, const struct gb_session *session,
-                   const struct gb_point *point, int row, int col)
+static double distance_to(const struct gb_panel_plot *panel,
+                          const struct gb_session *session, const struct gb_point *point,
+                          int row, int col)
 {
     const struct gb_plot *plot = &panel->plot;
     const double x = gb_view_curve_x(panel, session, point);
-    const double across = gb_plot_axis_place(&plot->x, x) * plot->field_cols - 0.5 - col;
+    const double across =
+        gb_plot_axis_position(&plot->x, x) * plot->field_cols - 0.5 - col;
     if (!views[panel->view].log || !(panel->unit_pa > 0.0)) {
         return fabs(across);
     }
-    const double y = gb_plot_axis_place(&plot->y, point->p_pa / panel->unit_pa);
+    const double y = gb_plot_axis_position(&plot->y, point->p_pa / panel->unit_pa);
     return hypot(across, 2.0 * ((1.0 - y) * plot->field_rows - 0.5 - row));
 }
 
-void gb_panel_plot_point(struct gb_panel_plot *panel, const struct gb_session *session,
+void gb_panel_plot_click(struct gb_panel_plot *panel, const struct gb_session *session,
                          int row, int col)
 {
-    const struct gb_seen seen = gb_session_seen(session);
+    const struct gb_session_shown shown = gb_session_shown(session);
     const int down = row - 1 - panel->plot.top; /* the plot begins at 1, 1 */
     const int right = col - 1 - panel->plot.left;
     double nearest = HUGE_VAL;
     if (!views[panel->view].of_points || panel->plot.field_cols <= 0) {
         return;
     }
-    for (size_t i = 0; i < seen.points; i++) {
+    for (size_t i = 0; i < shown.points; i++) {
         const double distance =
-            away(panel, session, gb_curve_at(seen.curve, i), down, right);
+            distance_to(panel, session, gb_curve_at(shown.curve, i), down, right);
         if (distance < nearest) { /* NaN is none */
             nearest = distance;
             panel->cursor = i;
@@ -269,7 +272,7 @@ bool gb_panel_plot_act(struct gb_panel_plot *panel, const struct gb_session *ses
     case GB_ACTION_PAGE_DOWN:
         return move(panel, session, PAGE_POINTS);
     case GB_ACTION_HOME:
-        panel->cursor_on = gb_session_seen(session).points > 0;
+        panel->cursor_on = gb_session_shown(session).points > 0;
         panel->cursor = 0;
         return true;
     case GB_ACTION_END:
@@ -282,7 +285,7 @@ bool gb_panel_plot_act(struct gb_panel_plot *panel, const struct gb_session *ses
         panel->log = !panel->log;
         return true;
     case GB_ACTION_EARLIER:
-        panel->hide_earlier = !panel->hide_earlier;
+        panel->hide_previous = !panel->hide_previous;
         return true;
     case GB_ACTION_GLYPHS:
         next_glyphs(panel);
@@ -308,19 +311,19 @@ bool gb_panel_plot_act(struct gb_panel_plot *panel, const struct gb_session *ses
 }
 
 /* "compress, 10.5 ns", "unload:100MPa". */
-static void write_place(const struct gb_session *session, const struct gb_point *point,
-                        char *text, size_t size)
+static void write_point_label(const struct gb_session *session,
+                              const struct gb_point *point, char *text, size_t size)
 {
     if (dynamic(session)) {
         snprintf(text, size, "%s, %.5g ns", gb_panel_plot_stage(point->branch),
-                 gb_earlier_elapsed(GB_KIND_DYNAMIC, point));
+                 gb_previous_curve_elapsed(GB_KIND_DYNAMIC, point));
     } else {
         gb_curve_branch_name(point, text, size);
     }
 }
 
 /* "alumina.csv: curve minus experiment -0.3 +- 0.8 points of density, 9 of 12 reached" */
-static bool explain_misfit(const struct gb_session *session, struct gb_message *message)
+static bool describe_misfit(const struct gb_session *session, struct gb_message *message)
 {
     struct gb_measured_misfit misfit;
     if (session->measured == NULL) {
@@ -346,31 +349,31 @@ static bool explain_misfit(const struct gb_session *session, struct gb_message *
     return true;
 }
 
-void gb_panel_plot_explain(const struct gb_panel_plot *panel,
-                           const struct gb_session *session, struct gb_message *message)
+void gb_panel_plot_describe(const struct gb_panel_plot *panel,
+                            const struct gb_session *session, struct gb_message *message)
 {
-    const struct gb_seen seen = gb_session_seen(session);
+    const struct gb_session_shown shown = gb_session_shown(session);
     message->style = GB_STYLE_DIM;
-    if (!panel->cursor_on || panel->cursor >= seen.points ||
+    if (!panel->cursor_on || panel->cursor >= shown.points ||
         !views[panel->view].of_points) {
-        if (views[panel->view].log && explain_misfit(session, message)) {
+        if (views[panel->view].log && describe_misfit(session, message)) {
             return;
         }
         snprintf(message->text, sizeof message->text,
                  "%s; v or 1 to 9 and 0: another view", views[panel->view].hint);
         return;
     }
-    const struct gb_point *point = gb_curve_at(seen.curve, panel->cursor);
+    const struct gb_point *point = gb_curve_at(shown.curve, panel->cursor);
     char place[64];
     char p[32];
     char px[32];
     char pz[32];
-    write_place(session, point, place, sizeof place);
+    write_point_label(session, point, place, sizeof place);
     message->style = GB_STYLE_PLAIN;
     snprintf(message->text, sizeof message->text,
              "point %zu of %zu (%s)  density %.5f  p %s  px %s  pz %s  contacts %.3f  "
              "bridged %.1f %%",
-             panel->cursor + 1, seen.points, place, point->density,
+             panel->cursor + 1, shown.points, place, point->density,
              gb_units_format_short(point->p_pa, GB_DIM_PRESSURE, 5, p, sizeof p),
              gb_units_format_short(point->px_pa, GB_DIM_PRESSURE, 5, px, sizeof px),
              gb_units_format_short(point->pz_pa, GB_DIM_PRESSURE, 5, pz, sizeof pz),

@@ -24,14 +24,14 @@ static void write_number(char *text, size_t size, const char *format, double val
 static void write_pressure(const struct gb_snapshot *now, double value, char *text,
                            size_t size)
 {
-    const double most =
+    const double max =
         fmax(fmax(fabs(now->now.p_pa), fabs(now->now.pz_pa)), fabs(now->now.px_pa));
     if (!isfinite(value)) {
         snprintf(text, size, "-");
-    } else if (most >= 9.995e8) {
+    } else if (max >= 9.995e8) {
         snprintf(text, size, "%.3f GPa", value * 1e-9);
     } else {
-        snprintf(text, size, most >= 9.995e7 ? "%.1f MPa" : "%.2f MPa", value * 1e-6);
+        snprintf(text, size, max >= 9.995e7 ? "%.1f MPa" : "%.2f MPa", value * 1e-6);
     }
 }
 
@@ -234,7 +234,7 @@ static bool applies(const struct item *item, const struct gb_params *params)
 
 static struct choice choose(const struct gb_session *session)
 {
-    const struct gb_params *params = gb_session_seen(session).params;
+    const struct gb_params *params = gb_session_shown(session).params;
     const bool moving = params->kind == GB_KIND_DYNAMIC;
     const struct item *all = moving ? moving_items : still_items;
     const int *weight = moving ? moving_weight : still_weight;
@@ -288,14 +288,14 @@ static void draw_progress(const struct gb_paint *paint, const struct gb_session 
     char left[48];
     enum gb_style style = GB_STYLE_DIM;
     const char *word = "not started";
-    const struct gb_seen seen = gb_session_seen(session);
-    const struct gb_snapshot *now = seen.now;
-    if (seen.curve != NULL) {
+    const struct gb_session_shown shown = gb_session_shown(session);
+    const struct gb_snapshot *now = shown.now;
+    if (shown.curve != NULL) {
         word = gb_panel_state_word(now->state, &style);
     }
     write_left(now, left, sizeof left);
     /* the last step of a dynamic run ends a little before or behind its time */
-    const bool done = seen.curve != NULL && now->state == GB_RUN_DONE;
+    const bool done = shown.curve != NULL && now->state == GB_RUN_DONE;
     const double share = done ? 1.0 : now->progress;
     const double percent = floor(100.0 * share);
     const int inner = paint->rect.cols - 2;
@@ -353,9 +353,9 @@ static void draw_items(const struct gb_paint *paint, int first, int rows,
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
                          bool focus)
 {
-    const struct gb_seen seen = gb_session_seen(session);
-    const struct gb_snapshot *now = seen.now;
-    gb_paint_title(paint, seen.quick ? "State of the quick cell" : "State", focus);
+    const struct gb_session_shown shown = gb_session_shown(session);
+    const struct gb_snapshot *now = shown.now;
+    gb_paint_title(paint, shown.quick ? "State of the quick cell" : "State", focus);
     const struct choice choice = choose(session);
     const bool roomy = paint->rect.rows >= choice.count + 5;
     draw_progress(paint, session, roomy);

@@ -38,20 +38,21 @@ bool gb_panel_params_find(struct gb_panel_params *panel, struct gb_session *sess
                           const char *name);
 /* The parameter in a row of the pane gets the focus; false: there is none.  *value tells
  * whether the column is one of its value. */
-bool gb_panel_params_point(struct gb_panel_params *panel, struct gb_session *session,
+bool gb_panel_params_click(struct gb_panel_params *panel, struct gb_session *session,
                            int row, int col, bool *value);
 /* "contact.mu=0.1": the parameter with the focus, as edited. */
-void gb_panel_params_quote(const struct gb_panel_params *panel,
-                           struct gb_session *session, char *text, size_t size);
+void gb_panel_params_assignment(const struct gb_panel_params *panel,
+                                struct gb_session *session, char *text, size_t size);
 /* A key while editing. */
-void gb_panel_params_type(struct gb_panel_params *panel, struct gb_session *session,
-                          const struct gb_term_event *event, struct gb_message *message);
+void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *session,
+                              const struct gb_term_event *event,
+                              struct gb_message *message);
 /* The parameters, with the value being typed where it is a good one. */
 struct gb_params gb_panel_params_edited(struct gb_panel_params *panel,
                                         struct gb_session *session);
 /* Meaning and range of the parameter with the focus. */
-void gb_panel_params_explain(const struct gb_panel_params *panel,
-                             struct gb_session *session, struct gb_message *message);
+void gb_panel_params_describe(const struct gb_panel_params *panel,
+                              struct gb_session *session, struct gb_message *message);
 
 /* [plot] */
 /* In the order of their keys 1, 2, ... 9, 0. */
@@ -74,7 +75,7 @@ enum { GB_PANEL_INSETS = 2 };
 
 struct gb_panel_plot {
     enum gb_plot_view view;
-    bool log, hide_earlier;
+    bool log, hide_previous;
     bool shades; /* the screen can shade a relief */
     bool utf8;   /* and has more than ASCII */
     bool pixels; /* the packing is shown as a picture: its cells stay empty */
@@ -99,15 +100,15 @@ void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *pain
 bool gb_panel_plot_act(struct gb_panel_plot *panel, const struct gb_session *session,
                        enum gb_action action);
 /* The cursor goes to the point of the curve that is nearest to a cell of the pane. */
-void gb_panel_plot_point(struct gb_panel_plot *panel, const struct gb_session *session,
+void gb_panel_plot_click(struct gb_panel_plot *panel, const struct gb_session *session,
                          int row, int col);
 /* Room for count points in x and y. */
 bool gb_panel_plot_reserve(struct gb_panel_plot *panel, size_t count);
 /* "relax", "compress" or "hold": the branch of a point of a dynamic run. */
 const char *gb_panel_plot_stage(int branch);
 /* The point under the cursor, or what the view shows. */
-void gb_panel_plot_explain(const struct gb_panel_plot *panel,
-                           const struct gb_session *session, struct gb_message *message);
+void gb_panel_plot_describe(const struct gb_panel_plot *panel,
+                            const struct gb_session *session, struct gb_message *message);
 
 /* [state] */
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,

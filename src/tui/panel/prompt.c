@@ -10,7 +10,7 @@ void gb_prompt_set(struct gb_prompt *prompt, const char *text)
 {
     char *valid = g_utf8_make_valid(text, -1);
     prompt->length = 0;
-    for (const char *at = valid; *at != '\0' && prompt->length < GB_PROMPT_MOST;
+    for (const char *at = valid; *at != '\0' && prompt->length < GB_PROMPT_MAX;
          at = g_utf8_next_char(at)) {
         prompt->text[prompt->length++] = g_utf8_get_char(at);
     }
@@ -29,7 +29,7 @@ static void cut(struct gb_prompt *prompt, int end, int count)
 
 static bool insert(struct gb_prompt *prompt, uint32_t ch)
 {
-    if (prompt->length == GB_PROMPT_MOST) {
+    if (prompt->length == GB_PROMPT_MAX) {
         return true;
     }
     memmove(prompt->text + prompt->cursor + 1, prompt->text + prompt->cursor,
@@ -51,7 +51,7 @@ static void delete_forward(struct gb_prompt *prompt)
     }
 }
 
-bool gb_prompt_take(struct gb_prompt *prompt, const struct gb_term_event *event)
+bool gb_prompt_handle(struct gb_prompt *prompt, const struct gb_term_event *event)
 {
     if (event->kind == GB_TERM_TEXT) {
         return insert(prompt, (uint32_t)event->code);

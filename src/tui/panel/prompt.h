@@ -7,12 +7,12 @@
 #include "tui/term/paint.h"
 
 /* One line of text being typed: a value, a name. */
-enum { GB_PROMPT_MOST = GB_PARAMS_VALUE_MAX };
+enum { GB_PROMPT_MAX = GB_PARAMS_VALUE_MAX };
 
 struct gb_prompt {
-    uint32_t text[GB_PROMPT_MOST]; /* Unicode */
+    uint32_t text[GB_PROMPT_MAX]; /* Unicode */
     int length, cursor;
-    char utf8[4 * GB_PROMPT_MOST + 1];
+    char utf8[4 * GB_PROMPT_MAX + 1];
 };
 
 /* Begins with a text; the cursor stands behind it. */
@@ -20,7 +20,7 @@ void gb_prompt_set(struct gb_prompt *prompt, const char *text);
 
 /* Takes a key or a character; false when it is not for the prompt (Enter, Esc, Tab, ...).
  */
-bool gb_prompt_take(struct gb_prompt *prompt, const struct gb_term_event *event);
+bool gb_prompt_handle(struct gb_prompt *prompt, const struct gb_term_event *event);
 
 /* The text as UTF-8, valid until the next change. */
 const char *gb_prompt_text(struct gb_prompt *prompt);

@@ -9,7 +9,7 @@
 #include "base/alloc.h"
 #include "tui/plot/plot_raster.h"
 
-enum { TICK_COLS = 9, TICK_COLS_MOST = 12 };
+enum { TICK_COLS = 9, TICKS_MAX = 12 };
 
 static const uint32_t wide_marks[] = {' ',    0x25cf, 0x25cb, 0x25c6, 0x25c7,
                                       0x25b2, 0x25b3, 0x25a0, 0x25a1};
@@ -112,7 +112,7 @@ static void draw_y_axis(struct gb_plot *plot)
     }
     int last = plot->rows;
     for (int i = 0; i < plot->y.ticks; i++) {
-        const int row = field_row(plot, gb_plot_axis_place(&plot->y, plot->y.tick[i]));
+        const int row = field_row(plot, gb_plot_axis_position(&plot->y, plot->y.tick[i]));
         if (row >= last) {
             continue;
         }
@@ -132,7 +132,7 @@ static void draw_x_axis(struct gb_plot *plot)
     }
     int free_from = 0;
     for (int i = 0; i < plot->x.ticks; i++) {
-        const int col = field_col(plot, gb_plot_axis_place(&plot->x, plot->x.tick[i]));
+        const int col = field_col(plot, gb_plot_axis_position(&plot->x, plot->x.tick[i]));
         const int width = (int)strlen(plot->x.text[i]);
         int from = col - width / 2;
         from = from + width > plot->cols ? plot->cols - width : from;
@@ -155,9 +155,9 @@ static int widest_tick(const struct gb_plot_axis *axis)
     return width;
 }
 
-static int limit(int value, int least, int most)
+static int limit(int value, int min, int max)
 {
-    return value < least ? least : value > most ? most : value;
+    return value < min ? min : value > max ? max : value;
 }
 
 void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_ends[2],
@@ -175,7 +175,7 @@ void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_e
     plot->field_rows = rows;
     plot->field_cols = cols;
     gb_plot_axis_fit(&plot->x, x_ends[0], x_ends[1], plot->log_x,
-                     limit(cols / TICK_COLS + 1, 2, TICK_COLS_MOST));
+                     limit(cols / TICK_COLS + 1, 2, TICKS_MAX));
     draw_y_axis(plot);
     draw_x_axis(plot);
     gb_plot_text(plot, 0, left + 1, GB_PLOT_INK_TEXT, y_label);
@@ -223,15 +223,15 @@ static void draw_markers(struct gb_plot *plot, const struct gb_plot_series *seri
     int end_row = -1;
     int end_col = -1;
     for (size_t i = 0; i < series->count; i++) {
-        const double x = gb_plot_axis_place(&plot->x, series->x[i]);
-        const double y = gb_plot_axis_place(&plot->y, series->y[i]);
+        const double x = gb_plot_axis_position(&plot->x, series->x[i]);
+        const double y = gb_plot_axis_position(&plot->y, series->y[i]);
         if (!(x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0)) {
             continue;
         }
         end_row = field_row(plot, y);
         end_col = field_col(plot, x);
-        const int away = MAX(2 * abs(end_row - last_row), abs(end_col - last_col));
-        if (series->points || (series->spacing > 0 && away >= series->spacing)) {
+        const int distance_to = MAX(2 * abs(end_row - last_row), abs(end_col - last_col));
+        if (series->points || (series->spacing > 0 && distance_to >= series->spacing)) {
             put_marker(plot, end_row, end_col, ch, series->ink);
             last_row = end_row;
             last_col = end_col;
@@ -254,9 +254,9 @@ void gb_plot_line(struct gb_plot *plot, const struct gb_plot_series *series)
 
 void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int ink)
 {
-    const double from = gb_plot_axis_place(&plot->x, x_from);
-    const double to = gb_plot_axis_place(&plot->x, x_to);
-    const double top = gb_plot_axis_place(&plot->y, y);
+    const double from = gb_plot_axis_position(&plot->x, x_from);
+    const double to = gb_plot_axis_position(&plot->x, x_to);
+    const double top = gb_plot_axis_position(&plot->y, y);
     if (!(from >= 0.0 && to <= 1.0 && from <= to && top > 0.0)) {
         return;
     }
@@ -271,8 +271,8 @@ void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int
 
 void gb_plot_cursor(struct gb_plot *plot, double x, double y)
 {
-    const double px = gb_plot_axis_place(&plot->x, x);
-    const double py = gb_plot_axis_place(&plot->y, y);
+    const double px = gb_plot_axis_position(&plot->x, x);
+    const double py = gb_plot_axis_position(&plot->y, y);
     if (!(px >= 0.0 && px <= 1.0 && py >= 0.0 && py <= 1.0)) {
         return;
     }
@@ -318,7 +318,7 @@ static int taken(const struct gb_plot *plot, const struct box *box, int enough)
 }
 
 /* Moves the box to a place where it covers less than so far. */
-static void try_place(const struct gb_plot *plot, struct box *box, int row, int col)
+static void try_position(const struct gb_plot *plot, struct box *box, int row, int col)
 {
     struct box there = *box;
     there.row = row;
@@ -330,16 +330,16 @@ static void try_place(const struct gb_plot *plot, struct box *box, int row, int 
 }
 
 /* Left above the curves or right below them, where they seldom are, else anywhere. */
-static void find_place(const struct gb_plot *plot, struct box *box)
+static void find_position(const struct gb_plot *plot, struct box *box)
 {
     const int bottom = plot->top + plot->field_rows - 1 - box->rows;
     const int right = plot->left + plot->field_cols - box_cols(box);
     box->taken = INT_MAX;
-    try_place(plot, box, plot->top + 1, plot->left + 1);
-    try_place(plot, box, bottom, right);
+    try_position(plot, box, plot->top + 1, plot->left + 1);
+    try_position(plot, box, bottom, right);
     for (int row = plot->top + 1; row <= bottom; row++) {
         for (int col = plot->left + 1; col <= right && box->taken > 0; col++) {
-            try_place(plot, box, row, col);
+            try_position(plot, box, row, col);
         }
     }
 }
@@ -353,7 +353,7 @@ static bool find_free(const struct gb_plot *plot, struct box *box, int entries)
         if (box->rows > plot->field_rows - 2 || box_cols(box) > plot->field_cols - 1) {
             continue;
         }
-        find_place(plot, box);
+        find_position(plot, box);
         if (box->taken == 0) {
             return true;
         }
@@ -380,7 +380,7 @@ static int arrange(const struct gb_plot *plot, struct box *box, int count)
     if (!find_free(plot, box, count)) {
         box->columns = 1;
         box->rows = MIN(count, plot->field_rows - 2);
-        find_place(plot, box);
+        find_position(plot, box);
     }
     return MIN(count, box->rows * box->columns);
 }

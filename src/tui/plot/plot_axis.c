@@ -54,9 +54,9 @@ static double steps_inside(const struct gb_plot_axis *axis, double step, double 
 
 /* The ends are round to a fifth of a tick: whole ticks would leave up to half of a small
  * plot empty.  Fewer than two ticks would leave the scale open. */
-static void fit_linear(struct gb_plot_axis *axis, double low, double high, int most)
+static void fit_linear(struct gb_plot_axis *axis, double low, double high, int max)
 {
-    double step = nice_step((high - low) / (most > 2 ? most - 1 : 1));
+    double step = nice_step((high - low) / (max > 2 ? max - 1 : 1));
     const double fine = step / 5.0;
     double first = 0.0;
     axis->low = floor(low / fine + 1e-9) * fine;
@@ -88,7 +88,7 @@ static void add_log_tick(struct gb_plot_axis *axis, double value, double decade)
 
 /* Ticks at the decades; every second, third, ... when there is no room, 2 and 5 between
  * them when there is plenty or when there would be hardly any. */
-static void fit_log(struct gb_plot_axis *axis, double low, double high, int most)
+static void fit_log(struct gb_plot_axis *axis, double low, double high, int max)
 {
     axis->low = nice_floor(low);
     axis->high = nice_step(high);
@@ -98,8 +98,8 @@ static void fit_log(struct gb_plot_axis *axis, double low, double high, int most
     const double first = floor(log10(axis->low) + 1e-9);
     const double last = ceil(log10(axis->high) - 1e-9);
     const double decades = log10(axis->high / axis->low);
-    const bool between = decades < 1.2 || 3.0 * decades + 1.0 <= most;
-    const double stride = fmax(ceil((decades + 1.0) / most), 1.0);
+    const bool between = decades < 1.2 || 3.0 * decades + 1.0 <= max;
+    const double stride = fmax(ceil((decades + 1.0) / max), 1.0);
     for (double e = first; e <= last + 0.5; e += stride) {
         const double decade = pow(10.0, e);
         add_log_tick(axis, decade, decade);
@@ -111,7 +111,7 @@ static void fit_log(struct gb_plot_axis *axis, double low, double high, int most
 }
 
 void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool log,
-                      int most)
+                      int max)
 {
     memset(axis, 0, sizeof *axis);
     if (!isfinite(low) || !isfinite(high)) {
@@ -128,7 +128,7 @@ void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool l
         if (low <= 0.0) {
             low = high * pow(10.0, -log_decades);
         }
-        fit_log(axis, low, high, most);
+        fit_log(axis, low, high, max);
         return;
     }
     if (!(high - low > 1e-9 * fmax(fabs(low), fabs(high)))) {
@@ -136,10 +136,10 @@ void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool l
         low -= half;
         high += half;
     }
-    fit_linear(axis, low, high, most);
+    fit_linear(axis, low, high, max);
 }
 
-double gb_plot_axis_place(const struct gb_plot_axis *axis, double value)
+double gb_plot_axis_position(const struct gb_plot_axis *axis, double value)
 {
     if (!axis->log) {
         return (value - axis->low) / (axis->high - axis->low);

@@ -22,9 +22,9 @@ struct gb_plot_axis {
  * becomes three decades below high Never fails: equal or non-finite ends become an axis
  * from 0 to 1 or around the value. */
 void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool log,
-                      int most);
+                      int max);
 
 /* 0 at low, 1 at high; NaN for what a logarithm cannot show. */
-double gb_plot_axis_place(const struct gb_plot_axis *axis, double value);
+double gb_plot_axis_position(const struct gb_plot_axis *axis, double value);
 
 #endif

@@ -77,9 +77,9 @@ static bool clip(double a[2], double b[2])
     return true;
 }
 
-static int limit(double value, int most)
+static int limit(double value, int max)
 {
-    return value < 0.0 ? 0 : value > most ? most : (int)value;
+    return value < 0.0 ? 0 : value > max ? max : (int)value;
 }
 
 static void segment(struct gb_plot *plot, const double from[2], const double end[2],
@@ -114,8 +114,8 @@ void gb_plot_raster_line(struct gb_plot *plot, const struct gb_plot_series *seri
     }
     double before[2] = {NAN, NAN};
     for (size_t i = 0; i < series->count; i++) {
-        const double now[2] = {gb_plot_axis_place(&plot->x, series->x[i]),
-                               gb_plot_axis_place(&plot->y, series->y[i])};
+        const double now[2] = {gb_plot_axis_position(&plot->x, series->x[i]),
+                               gb_plot_axis_position(&plot->y, series->y[i])};
         if (!isfinite(now[0]) || !isfinite(now[1])) {
             before[0] = NAN;
             continue;

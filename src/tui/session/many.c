@@ -8,14 +8,14 @@
 #include "tui/app/asks.h"
 
 /* P1 averages ten cells; at 0.002 two powders of one experiment are told apart. */
-static const char usual_cells[] = "10 0.002@100MPa";
-static const char usual_keys[] = "contact.mu,contact.alpha";
+static const char default_cells[] = "10 0.002@100MPa";
+static const char default_keys[] = "contact.mu,contact.alpha";
 
-enum { CELLS_MOST = 1000 };
+enum { REPLICAS_MAX = 1000 };
 
 void gb_many_ask_cells(struct gb_app *app)
 {
-    gb_dialog_show(&app->screen.dialog, GB_DIALOG_CELLS, usual_cells);
+    gb_dialog_show(&app->screen.dialog, GB_DIALOG_CELLS, default_cells);
 }
 
 void gb_many_ask_fit(struct gb_app *app)
@@ -26,7 +26,7 @@ void gb_many_ask_fit(struct gb_app *app)
                      "a fit needs an experiment over the plot: e loads one");
         return;
     }
-    gb_dialog_show(&app->screen.dialog, GB_DIALOG_FIT, usual_keys);
+    gb_dialog_show(&app->screen.dialog, GB_DIALOG_FIT, default_keys);
 }
 
 /* The parameters shown as a preset of their own, DIRECTORY/scene.ini (g_free). */
@@ -86,11 +86,11 @@ static bool begin(struct gb_app *app, const char *what, const char **words, bool
     words[DIRECTORY] = directory;
     const bool begun =
         scene != NULL &&
-        gb_child_command_start(&session->errand, what, directory, true, words, &err);
+        gb_child_command_start(&session->child, what, directory, true, words, &err);
     if (begun) {
         gb_session_note(session, "%s: computed in %s", what, directory);
         if (cells) {
-            gb_band_follow(&session->band, directory, gb_session_params(session));
+            gb_replica_band_follow(&session->band, directory, gb_session_params(session));
         }
         gb_dialog_close(dialog);
     } else {
@@ -107,10 +107,10 @@ void gb_many_cells(struct gb_app *app)
     char **parts = g_strsplit(g_strstrip((char *)gb_dialog_answer(dialog)), " ", 2);
     guint64 cells = 0;
     if (parts[0] == NULL ||
-        !g_ascii_string_to_unsigned(parts[0], 10, 2, CELLS_MOST, &cells, NULL)) {
+        !g_ascii_string_to_unsigned(parts[0], 10, 2, REPLICAS_MAX, &cells, NULL)) {
         snprintf(dialog->note, sizeof dialog->note,
                  "accepted: 2 to %d cells, and SE@PRESSURE if they shall end earlier",
-                 CELLS_MOST);
+                 REPLICAS_MAX);
     } else {
         const bool target = parts[1] != NULL && *g_strstrip(parts[1]) != '\0';
         const char *words[] = {"sweep",

@@ -3,7 +3,7 @@
 #include <glib.h>
 #include <string.h>
 
-#include "tui/session/earlier.h"
+#include "tui/session/previous_curve.h"
 
 /* "p1-set2-38nm" when the file is found by that name, else its path. */
 static char *name_of(const char *path)
@@ -53,7 +53,7 @@ static void add_values(GString *text, gsize *line, const struct gb_params *own,
     size_t count = 0;
     const struct gb_field *field = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
-        if (!gb_earlier_same(own, file, &field[i])) {
+        if (!gb_params_diff_same(own, file, &field[i])) {
             char value[GB_PARAMS_VALUE_MAX];
             gb_params_format(own, &field[i], value, sizeof value);
             char *word = g_strdup_printf("%s.%s=%s", field[i].group, field[i].key, value);

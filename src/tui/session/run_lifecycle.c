@@ -112,7 +112,7 @@ void gb_run_lifecycle_take_over(struct gb_session *session, struct gb_message *m
     session->attached = NULL;
 }
 
-static bool wants_to_live(const struct gb_session *session)
+static bool survives_hangup(const struct gb_session *session)
 {
     return session->attached == NULL && gb_session_live(session) &&
            gb_session_params((struct gb_session *)session)->on_hangup ==
@@ -125,13 +125,13 @@ static void follow(struct gb_session *session)
     char question[400];
     struct gb_error err;
     gb_session_refresh(session);
-    if (gb_session_take_due(session) &&
-        !gb_session_costly(session, question, sizeof question)) {
+    if (gb_session_take_start_due(session) &&
+        !gb_session_cost_question(session, question, sizeof question)) {
         gb_session_start(session, &err);
     }
 }
 
-int gb_run_lifecycle_detached(struct gb_session *session)
+int gb_run_lifecycle_run_detached(struct gb_session *session)
 {
     const struct timespec patience = {.tv_sec = 1};
     sigset_t asked;
@@ -139,7 +139,7 @@ int gb_run_lifecycle_detached(struct gb_session *session)
     sigaddset(&asked, SIGINT);
     sigaddset(&asked, SIGTERM);
     sigaddset(&asked, SIGQUIT);
-    if (!wants_to_live(session)) {
+    if (!survives_hangup(session)) {
         return STATUS_SIGNAL + SIGHUP;
     }
     gb_session_note(session, "the terminal is gone; the run goes on");
@@ -156,7 +156,7 @@ int gb_run_lifecycle_detached(struct gb_session *session)
     return 0;
 }
 
-void gb_run_lifecycle_farewell(const struct gb_session *session)
+void gb_run_lifecycle_print_resume_hint(const struct gb_session *session)
 {
     const char *directory =
         session->runner != NULL ? gb_runner_directory(session->runner) : NULL;
@@ -164,8 +164,8 @@ void gb_run_lifecycle_farewell(const struct gb_session *session)
         fprintf(stderr, "greenbody: the run is kept; `greenbody resume %s` goes on\n",
                 directory);
     }
-    if (session->errand.pid != 0 && session->errand.talks) {
+    if (session->child.pid != 0 && session->child.long_running) {
         fprintf(stderr, "greenbody: %s go on in %s; `greenbody attach` shows them\n",
-                session->errand.what, session->errand.path);
+                session->child.what, session->child.path);
     }
 }

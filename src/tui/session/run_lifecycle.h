@@ -24,10 +24,10 @@ void gb_run_lifecycle_take_over(struct gb_session *session, struct gb_message *m
 
 /* The terminal is gone.  The run goes on to its end, or stops with a checkpoint, as
  * output.on_hangup says; meanwhile nothing else is done.  Returns the exit status. */
-int gb_run_lifecycle_detached(struct gb_session *session);
+int gb_run_lifecycle_run_detached(struct gb_session *session);
 
 /* Tells on standard error, the screen being given back, where a live run is kept. */
-void gb_run_lifecycle_farewell(const struct gb_session *session);
+void gb_run_lifecycle_print_resume_hint(const struct gb_session *session);
 
 /* $XDG_STATE_HOME/greenbody/runs (g_free). */
 char *gb_run_lifecycle_folder(void);

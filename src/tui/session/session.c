@@ -6,13 +6,13 @@
 #include <string.h>
 
 #include "run/cost.h"
-#include "tui/session/costly.h"
+#include "tui/session/cost_confirm.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/session/whatif.h"
 #include "tui/term/crash.h"
 
 /* A live run that has worked longer than this is not replaced unasked. */
-static const double replaced_most_s = 60.0;
+static const double replaced_max_s = 60.0;
 
 void gb_session_init(struct gb_session *session, struct gb_preset *preset)
 {
@@ -24,14 +24,14 @@ void gb_session_init(struct gb_session *session, struct gb_preset *preset)
 
 void gb_session_finish(struct gb_session *session)
 {
-    gb_trial_drop(&session->trial);
+    gb_quick_cell_drop(&session->quick_cell);
     gb_runner_destroy(session->runner);
-    for (int i = 0; i < session->earlier_count; i++) {
-        gb_earlier_drop(&session->earlier[i]);
+    for (int i = 0; i < session->previous_count; i++) {
+        gb_previous_curve_finish(&session->previous[i]);
     }
-    gb_band_finish(&session->band);
+    gb_replica_band_finish(&session->band);
     gb_measured_destroy(session->measured);
-    gb_choices_destroy(session->choices);
+    gb_chart_csv_destroy(session->choices);
     gb_preset_destroy(session->opened);
     session->runner = NULL;
     session->opened = NULL;
@@ -54,7 +54,7 @@ void gb_session_note(struct gb_session *session, const char *format, ...)
     session->log_count++;
 }
 
-const char *gb_session_line(const struct gb_session *session, int index)
+const char *gb_session_event_line(const struct gb_session *session, int index)
 {
     const int64_t at = session->log_count - 1 - index;
     if (index < 0 || at < 0 || index >= GB_SESSION_LOG) {
@@ -70,77 +70,79 @@ static void keep(struct gb_session *session, const struct gb_params *params,
 {
     const struct gb_curve *curve = gb_runner_curve(runner);
     const size_t count = gb_curve_count(curve);
-    struct gb_earlier earlier;
-    if (count < 2 || !gb_earlier_copy(&earlier, params, curve, count)) {
+    struct gb_previous_curve previous;
+    if (count < 2 || !gb_previous_curve_copy(&previous, params, curve, count)) {
         return;
     }
-    if (session->earlier_count == GB_SESSION_EARLIER) {
-        gb_earlier_drop(&session->earlier[0]);
-        memmove(session->earlier, session->earlier + 1,
-                (GB_SESSION_EARLIER - 1) * sizeof session->earlier[0]);
-        session->earlier_count--;
+    if (session->previous_count == GB_SESSION_PREVIOUS) {
+        gb_previous_curve_finish(&session->previous[0]);
+        memmove(session->previous, session->previous + 1,
+                (GB_SESSION_PREVIOUS - 1) * sizeof session->previous[0]);
+        session->previous_count--;
     }
-    earlier.letter = (char)('a' + session->kept++ % 26);
-    earlier.quick = quick;
-    session->earlier[session->earlier_count++] = earlier;
+    previous.letter = (char)('a' + session->kept++ % 26);
+    previous.quick = quick;
+    session->previous[session->previous_count++] = previous;
 }
 
-static bool trial_is_of(const struct gb_session *session, const struct gb_params *params)
+static bool quick_cell_matches(const struct gb_session *session,
+                               const struct gb_params *params)
 {
-    return session->trial.runner != NULL &&
-           gb_earlier_differences(&session->trial.asked, params) == 0;
+    return session->quick_cell.runner != NULL &&
+           gb_params_diff_count(&session->quick_cell.full_params, params) == 0;
 }
 
 /* The run has the parameters of the quick cell: it followed, or r did not wait for that.
  */
-static bool full_is_started(const struct gb_session *session)
+static bool full_run_started(const struct gb_session *session)
 {
     return session->runner != NULL &&
-           trial_is_of(session, gb_runner_params(session->runner));
+           quick_cell_matches(session, gb_runner_params(session->runner));
 }
 
 /* A quick curve has done its work once the full run of its scene has been started. */
-static void keep_trial(struct gb_session *session)
+static void keep_quick_curve(struct gb_session *session)
 {
-    if (session->trial.runner != NULL && !full_is_started(session)) {
-        keep(session, &session->trial.asked, session->trial.runner, true);
+    if (session->quick_cell.runner != NULL && !full_run_started(session)) {
+        keep(session, &session->quick_cell.full_params, session->quick_cell.runner, true);
     }
 }
 
 /* What tells the curves before from the one of these parameters. */
 static void describe_all(struct gb_session *session, const struct gb_params *params)
 {
-    for (int i = 0; i < session->earlier_count; i++) {
-        struct gb_earlier *earlier = &session->earlier[i];
-        char text[GB_EARLIER_DIFFERENCE];
-        gb_earlier_describe(&earlier->params, params, text, sizeof text);
-        snprintf(earlier->difference, sizeof earlier->difference, "%s%.80s",
-                 earlier->quick ? "quick: " : "", text);
+    for (int i = 0; i < session->previous_count; i++) {
+        struct gb_previous_curve *previous = &session->previous[i];
+        char text[GB_PARAMS_DIFF_TEXT];
+        gb_params_diff_describe(&previous->params, params, text, sizeof text);
+        snprintf(previous->difference, sizeof previous->difference, "%s%.80s",
+                 previous->quick ? "quick: " : "", text);
     }
 }
 
 /* What the quick cell foretells of the full one; NaN: nothing. */
-static bool foretell(const struct gb_session *session, double *seconds, char *text,
-                     size_t size)
+static bool estimate_cost(const struct gb_session *session, double *seconds, char *text,
+                          size_t size)
 {
-    const struct gb_trial *trial = &session->trial;
+    const struct gb_quick_cell *quick_cell = &session->quick_cell;
     const struct gb_params *params = gb_preset_params(session->preset);
     *seconds = NAN;
-    return trial->runner != NULL && trial->state == GB_RUN_DONE &&
-           trial_is_of(session, params) &&
-           gb_costly_after_quick(params, gb_runner_params(trial->runner),
-                                 gb_runner_snapshot(trial->runner, NULL)->seconds,
-                                 seconds, text, size);
+    return quick_cell->runner != NULL && quick_cell->state == GB_RUN_DONE &&
+           quick_cell_matches(session, params) &&
+           gb_cost_confirm_after_quick(
+               params, gb_runner_params(quick_cell->runner),
+               gb_runner_snapshot(quick_cell->runner, NULL)->seconds, seconds, text,
+               size);
 }
 
-bool gb_session_costly(struct gb_session *session, char *text, size_t size)
+bool gb_session_cost_question(struct gb_session *session, char *text, size_t size)
 {
     double seconds = NAN;
-    if (foretell(session, &seconds, text, size)) {
+    if (estimate_cost(session, &seconds, text, size)) {
         return true;
     }
-    return gb_costly_question(gb_session_params(session), session->particle_steps_per_s,
-                              text, size);
+    return gb_cost_confirm_question(gb_session_params(session),
+                                    session->particle_steps_per_s, text, size);
 }
 
 void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
@@ -151,10 +153,10 @@ void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
     }
     session->runner = runner;
     gb_runner_send(runner, GB_COMMAND_WATCH);
-    gb_crash_name(gb_runner_directory(runner));
+    gb_crash_set_run(gb_runner_directory(runner));
     session->runs++;
-    session->aside = false;
-    session->due = false;
+    session->yielded = false;
+    session->start_due = false;
     session->frozen = false;
     session->pause_wanted = false;
     session->waiting = false;
@@ -174,8 +176,8 @@ bool gb_session_start(struct gb_session *session, struct gb_error *err)
     if (!gb_run_lifecycle_start(&runner, session, params, err)) {
         return false;
     }
-    if (session->trial.runner != NULL && !trial_is_of(session, params)) {
-        gb_trial_drop(&session->trial);
+    if (session->quick_cell.runner != NULL && !quick_cell_matches(session, params)) {
+        gb_quick_cell_drop(&session->quick_cell);
     }
     session->forks = 0;
     gb_session_replace(session, runner);
@@ -188,33 +190,34 @@ bool gb_session_run_is_live(const struct gb_session *session)
     return session->runner != NULL && session->engine <= GB_RUN_PAUSED;
 }
 
-static void stand_aside(struct gb_session *session, bool aside)
+static void yield_engine(struct gb_session *session, bool yielded)
 {
-    if (session->aside != aside && session->runner != NULL &&
-        gb_runner_send(session->runner, aside ? GB_COMMAND_YIELD : GB_COMMAND_TAKE_UP)) {
-        session->aside = aside;
+    if (session->yielded != yielded && session->runner != NULL &&
+        gb_runner_send(session->runner,
+                       yielded ? GB_COMMAND_YIELD : GB_COMMAND_TAKE_UP)) {
+        session->yielded = yielded;
     }
 }
 
-bool gb_session_try(struct gb_session *session)
+bool gb_session_start_quick(struct gb_session *session)
 {
     const struct gb_params *params = gb_session_params(session);
     struct gb_error err = {0};
-    session->due = false;
+    session->start_due = false;
     if (session->runner != NULL && gb_session_changes(session) == 0) {
-        gb_trial_drop(&session->trial);
-        stand_aside(session, false);
+        gb_quick_cell_drop(&session->quick_cell);
+        yield_engine(session, false);
         return false;
     }
     if (!gb_params_check(params, NULL)) {
         return false;
     }
-    keep_trial(session);
-    stand_aside(session, gb_session_run_is_live(session));
+    keep_quick_curve(session);
+    yield_engine(session, gb_session_run_is_live(session));
     session->pause_wanted = false;
-    if (!gb_trial_start(&session->trial, params, &err)) {
-        gb_trial_drop(&session->trial);
-        stand_aside(session, false);
+    if (!gb_quick_cell_start(&session->quick_cell, params, &err)) {
+        gb_quick_cell_drop(&session->quick_cell);
+        yield_engine(session, false);
         return false;
     }
     session->frozen = false;
@@ -222,19 +225,19 @@ bool gb_session_try(struct gb_session *session)
     return true;
 }
 
-bool gb_session_take_due(struct gb_session *session)
+bool gb_session_take_start_due(struct gb_session *session)
 {
-    const bool due = session->due;
-    session->due = false;
-    return due;
+    const bool start_due = session->start_due;
+    session->start_due = false;
+    return start_due;
 }
 
-static void note_foretold(struct gb_session *session)
+static void note_estimate(struct gb_session *session)
 {
     char question[400];
     char duration[48];
     double seconds = NAN;
-    foretell(session, &seconds, question, sizeof question);
+    estimate_cost(session, &seconds, question, sizeof question);
     if (isfinite(seconds)) {
         gb_session_note(session, "the full cell of %lld: about %s",
                         (long long)gb_session_params(session)->count,
@@ -243,54 +246,55 @@ static void note_foretold(struct gb_session *session)
 }
 
 /* The full run follows, unless that would throw away work. */
-static void end_trial(struct gb_session *session)
+static void finish_quick_cell(struct gb_session *session)
 {
-    const struct gb_trial *trial = &session->trial;
-    const struct gb_snapshot *now = gb_runner_snapshot(trial->runner, NULL);
-    stand_aside(session, false);
-    if (trial->state != GB_RUN_DONE) {
+    const struct gb_quick_cell *quick_cell = &session->quick_cell;
+    const struct gb_snapshot *now = gb_runner_snapshot(quick_cell->runner, NULL);
+    yield_engine(session, false);
+    if (quick_cell->state != GB_RUN_DONE) {
         gb_session_note(session, "quick cell: %s", now->error.text);
         return;
     }
     gb_session_note(session, "quick cell of %lld: whole curve in %.1f s",
-                    (long long)gb_runner_params(trial->runner)->count, now->seconds);
-    if (full_is_started(session)) {
+                    (long long)gb_runner_params(quick_cell->runner)->count, now->seconds);
+    if (full_run_started(session)) {
         return;
     }
     const bool works =
-        gb_session_run_is_live(session) && session->now.seconds > replaced_most_s;
-    note_foretold(session);
+        gb_session_run_is_live(session) && session->now.seconds > replaced_max_s;
+    note_estimate(session);
     /* a pause that came too late for the quick cell is one all the same */
-    session->due = session->follow && !works && !session->pause_wanted;
-    if (!session->due) {
+    session->start_due = session->follow && !works && !session->pause_wanted;
+    if (!session->start_due) {
         gb_session_note(session, "%sr starts the full cell",
                         works ? "the run under way goes on: " : "");
     }
 }
 
-struct gb_seen gb_session_seen(const struct gb_session *session)
+struct gb_session_shown gb_session_shown(const struct gb_session *session)
 {
-    const struct gb_trial *trial = &session->trial;
-    if (trial->runner != NULL && (gb_trial_live(trial) || session->runner == NULL)) {
-        return (struct gb_seen){&trial->now,
-                                gb_runner_params(trial->runner),
-                                gb_runner_curve(trial->runner),
-                                trial->points,
-                                trial->picture,
-                                trial->state,
-                                true};
+    const struct gb_quick_cell *quick_cell = &session->quick_cell;
+    if (quick_cell->runner != NULL &&
+        (gb_quick_cell_live(quick_cell) || session->runner == NULL)) {
+        return (struct gb_session_shown){&quick_cell->now,
+                                         gb_runner_params(quick_cell->runner),
+                                         gb_runner_curve(quick_cell->runner),
+                                         quick_cell->points,
+                                         quick_cell->picture,
+                                         quick_cell->state,
+                                         true};
     }
     if (session->runner == NULL) {
-        return (struct gb_seen){.now = &session->now,
-                                .params = gb_preset_params(session->preset)};
+        return (struct gb_session_shown){.now = &session->now,
+                                         .params = gb_preset_params(session->preset)};
     }
-    return (struct gb_seen){&session->now,
-                            gb_runner_params(session->runner),
-                            gb_runner_curve(session->runner),
-                            session->points,
-                            session->picture,
-                            session->engine,
-                            false};
+    return (struct gb_session_shown){&session->now,
+                                     gb_runner_params(session->runner),
+                                     gb_runner_curve(session->runner),
+                                     session->points,
+                                     session->picture,
+                                     session->engine,
+                                     false};
 }
 
 bool gb_session_open(struct gb_session *session, const char *name, struct gb_error *err)
@@ -309,9 +313,9 @@ bool gb_session_load_data(struct gb_session *session, const char *path,
                           struct gb_error *err)
 {
     struct gb_measured *measured = NULL;
-    struct gb_choices *choices = NULL;
-    if (*path != '\0' && gb_choices_read(&choices, path, NULL)) {
-        gb_choices_destroy(session->choices);
+    struct gb_chart_csv *choices = NULL;
+    if (*path != '\0' && gb_chart_csv_read(&choices, path, NULL)) {
+        gb_chart_csv_destroy(session->choices);
         session->choices = choices;
         return true;
     }
@@ -325,10 +329,10 @@ bool gb_session_load_data(struct gb_session *session, const char *path,
 
 void gb_session_misfit(const struct gb_session *session, struct gb_measured_misfit *out)
 {
-    const struct gb_seen seen = gb_session_seen(session);
+    const struct gb_session_shown shown = gb_session_shown(session);
     *out = (struct gb_measured_misfit){.reached = 0};
-    if (session->measured != NULL && seen.curve != NULL) {
-        gb_measured_compare(session->measured, seen.curve, seen.points, out);
+    if (session->measured != NULL && shown.curve != NULL) {
+        gb_measured_compare(session->measured, shown.curve, shown.points, out);
     }
 }
 
@@ -388,42 +392,43 @@ static bool refresh_errand(struct gb_session *session)
     char text[GB_SNAPSHOT_EVENT];
     bool some = false;
     bool ended = false;
-    const bool live = session->errand.pid != 0;
-    enum gb_child_command_news news = GB_CHILD_COMMAND_NOTHING;
-    while ((news = gb_child_command_poll(&session->errand, text, sizeof text)) !=
-           GB_CHILD_COMMAND_NOTHING) {
+    const bool live = session->child.pid != 0;
+    enum gb_child_command_event news = GB_CHILD_COMMAND_NONE;
+    while ((news = gb_child_command_poll(&session->child, text, sizeof text)) !=
+           GB_CHILD_COMMAND_NONE) {
         if (news != GB_CHILD_COMMAND_PROGRESS) {
             gb_session_note(session, "%s", text);
         }
         some = true;
         ended = news == GB_CHILD_COMMAND_ENDED;
     }
-    return (live && gb_band_refresh(&session->band, ended)) || some;
+    return (live && gb_replica_band_refresh(&session->band, ended)) || some;
 }
 
 bool gb_session_refresh(struct gb_session *session)
 {
     bool ended = false;
-    const int before = session->trial.state;
-    const bool tried = gb_trial_refresh(&session->trial, session->frozen, &ended);
-    session->waiting = session->waiting && session->trial.state == before;
+    const int before = session->quick_cell.state;
+    const bool tried =
+        gb_quick_cell_refresh(&session->quick_cell, session->frozen, &ended);
+    session->waiting = session->waiting && session->quick_cell.state == before;
     const bool ran = refresh_run(session);
     gb_whatif_refresh(session);
     const bool made = refresh_errand(session);
     if (ended) {
-        end_trial(session);
+        finish_quick_cell(session);
     }
     return tried || ran || ended || made;
 }
 
 void gb_session_toggle_pause(struct gb_session *session)
 {
-    const bool quick = gb_trial_live(&session->trial);
+    const bool quick = gb_quick_cell_live(&session->quick_cell);
     if (!gb_session_live(session)) {
         return;
     }
     const bool wanted = !session->pause_wanted;
-    if (gb_runner_send(quick ? session->trial.runner : session->runner,
+    if (gb_runner_send(quick ? session->quick_cell.runner : session->runner,
                        wanted ? GB_COMMAND_PAUSE : GB_COMMAND_RESUME)) {
         session->pause_wanted = wanted;
         session->waiting = true;
@@ -440,22 +445,22 @@ void gb_session_toggle_freeze(struct gb_session *session)
 
 bool gb_session_live(const struct gb_session *session)
 {
-    return gb_trial_live(&session->trial) || gb_session_run_is_live(session);
+    return gb_quick_cell_live(&session->quick_cell) || gb_session_run_is_live(session);
 }
 
 bool gb_session_busy(const struct gb_session *session)
 {
-    const int state = gb_session_seen(session).state;
-    return session->errand.pid != 0 ||
-           ((session->runner != NULL || session->trial.runner != NULL) &&
+    const int state = gb_session_shown(session).state;
+    return session->child.pid != 0 ||
+           ((session->runner != NULL || session->quick_cell.runner != NULL) &&
             (state <= GB_RUN_RUNNING || session->waiting));
 }
 
 bool gb_session_differs(struct gb_session *session, const struct gb_field *field)
 {
     return session->runner != NULL &&
-           !gb_earlier_same(gb_session_params(session), gb_runner_params(session->runner),
-                            field);
+           !gb_params_diff_same(gb_session_params(session),
+                                gb_runner_params(session->runner), field);
 }
 
 int gb_session_changes(struct gb_session *session)

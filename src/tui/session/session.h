@@ -4,16 +4,16 @@
 #include "io/measured.h"
 #include "io/preset.h"
 #include "run/runner.h"
-#include "tui/app/choices.h"
-#include "tui/plot/band.h"
+#include "tui/session/chart_csv.h"
 #include "tui/session/child_command.h"
-#include "tui/session/earlier.h"
-#include "tui/session/trial.h"
+#include "tui/session/previous_curve.h"
+#include "tui/session/quick_cell.h"
+#include "tui/session/replica_band.h"
 
 /* What the workbench works on, without a screen: the parameters being edited, the run
  * under way, what it has shown so far and the runs before it. */
 
-enum { GB_SESSION_EARLIER = 6, GB_SESSION_LOG = 200, GB_SESSION_FORKS = 16 };
+enum { GB_SESSION_PREVIOUS = 6, GB_SESSION_LOG = 200, GB_SESSION_FORKS = 16 };
 
 struct gb_session {
     struct gb_preset *preset; /* what is edited */
@@ -21,29 +21,29 @@ struct gb_session {
     struct gb_runner *runner; /* NULL before the first start that worked */
     const char *folder;       /* in which runs get their directories; NULL: not kept */
     const char *attached;     /* directory whose run is shown first; NULL: none */
-    struct gb_trial trial;    /* the quick cell of the last change */
-    struct gb_snapshot now;   /* what the screen shows; stands still while frozen */
-    size_t points;            /* of the curve, shown */
+    struct gb_quick_cell quick_cell; /* the quick cell of the last change */
+    struct gb_snapshot now; /* what the screen shows; stands still while frozen */
+    size_t points;          /* of the curve, shown */
     const struct gb_view_sample *picture;
     int engine; /* enum gb_run_state now, even while the view is frozen */
     bool frozen;
     bool pause_wanted;
-    bool waiting; /* a command was sent, its effect not yet seen */
-    bool aside;   /* the run waits while the quick cell computes */
-    bool follow;  /* the full cell starts by itself behind the quick one */
-    bool due;     /* it is to be started now */
-    struct gb_earlier earlier[GB_SESSION_EARLIER];
-    int earlier_count, kept; /* now, and ever */
-    char whatif[200];        /* asked for, waits for a point; "": none */
+    bool waiting;   /* a command was sent, its effect not yet seen */
+    bool yielded;   /* the run waits while the quick cell computes */
+    bool follow;    /* the full cell starts by itself behind the quick one */
+    bool start_due; /* it is to be started now */
+    struct gb_previous_curve previous[GB_SESSION_PREVIOUS];
+    int previous_count, kept; /* now, and ever */
+    char whatif[200];         /* asked for, waits for a point; "": none */
     size_t
         fork_at[GB_SESSION_FORKS]; /* points of the curve, one behind the last before */
     int forks;
-    struct gb_child_command errand; /* a picture, a report, cells being made */
-    struct gb_band band;            /* mean of more cells */
-    struct gb_measured *measured;   /* an experiment over the plot, or NULL */
-    struct gb_choices *choices;     /* a chart of numerical choices, or NULL */
-    int runs;                       /* started so far */
-    double particle_steps_per_s;    /* of the last dynamic run; 0: none yet */
+    struct gb_child_command child; /* a picture, a report, cells being made */
+    struct gb_replica_band band;   /* mean of more cells */
+    struct gb_measured *measured;  /* an experiment over the plot, or NULL */
+    struct gb_chart_csv *choices;  /* a chart of numerical choices, or NULL */
+    int runs;                      /* started so far */
+    double particle_steps_per_s;   /* of the last dynamic run; 0: none yet */
     int64_t events_seen;
     char log[GB_SESSION_LOG][GB_SNAPSHOT_EVENT + 16];
     int64_t log_count; /* all lines ever; the last GB_SESSION_LOG are kept */
@@ -56,18 +56,18 @@ struct gb_params *gb_session_params(struct gb_session *session);
 
 /* Would the edited parameters take longer than is begun unasked?  Then the question is in
  * text. */
-bool gb_session_costly(struct gb_session *session, char *text, size_t size);
+bool gb_session_cost_question(struct gb_session *session, char *text, size_t size);
 
 /* Starts the quick cell of the edited parameters; the run under way stands aside for it.
  * Without a quick twin, or when the run has these parameters already, nothing is
  * computed.  False: no quick cell was started. */
-bool gb_session_try(struct gb_session *session);
+bool gb_session_start_quick(struct gb_session *session);
 
 /* Whether the full run is to be started now, behind its quick cell; asked once. */
-bool gb_session_take_due(struct gb_session *session);
+bool gb_session_take_start_due(struct gb_session *session);
 
 /* What the views of the moment show: the quick cell while it computes, else the run. */
-struct gb_seen {
+struct gb_session_shown {
     const struct gb_snapshot *now;
     const struct gb_params *params; /* as computed; of the preset when there is nothing */
     const struct gb_curve *curve;   /* NULL: nothing yet */
@@ -77,7 +77,7 @@ struct gb_seen {
     bool quick; /* it is the quick cell */
 };
 
-struct gb_seen gb_session_seen(const struct gb_session *session);
+struct gb_session_shown gb_session_shown(const struct gb_session *session);
 
 /* Starts a run with the edited parameters; the one before it joins the earlier runs.  On
  * error the old run goes on. */
@@ -118,6 +118,6 @@ int gb_session_changes(struct gb_session *session);
 void gb_session_note(struct gb_session *session, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* Line `index` counted back from the last (0); NULL when there is none. */
-const char *gb_session_line(const struct gb_session *session, int index);
+const char *gb_session_event_line(const struct gb_session *session, int index);
 
 #endif

@@ -18,62 +18,62 @@ static struct {
     size_t length;
     struct sigaction before[FAULTS];
     char state[4200], resume[4300]; /* path of the checkpoint, line that names it */
-} armed;
+} installed;
 
 static bool put(const char *text, size_t length)
 {
-    return write(armed.err, text, length) >= 0;
+    return write(installed.err, text, length) >= 0;
 }
 
 static void handle(int number)
 {
     static const char text[] =
         "greenbody: the program has failed; the terminal was restored\n";
-    if (write(armed.screen, armed.reset, armed.length) < 0) {
+    if (write(installed.screen, installed.reset, installed.length) < 0) {
         _exit(128 + number);
     }
-    tcsetattr(armed.screen, TCSANOW, &armed.modes);
-    dup2(armed.err, STDERR_FILENO);
+    tcsetattr(installed.screen, TCSANOW, &installed.modes);
+    dup2(installed.err, STDERR_FILENO);
     if (!put(text, sizeof text - 1) ||
-        (armed.state[0] != '\0' && access(armed.state, R_OK) == 0 &&
-         !put(armed.resume, strlen(armed.resume)))) {
+        (installed.state[0] != '\0' && access(installed.state, R_OK) == 0 &&
+         !put(installed.resume, strlen(installed.resume)))) {
         _exit(128 + number);
     }
     for (int i = 0; i < FAULTS; i++) {
-        sigaction(faults[i], &armed.before[i], NULL);
+        sigaction(faults[i], &installed.before[i], NULL);
     }
     raise(number);
 }
 
-void gb_crash_arm(int screen, int err, const struct termios *modes, const char *reset)
+void gb_crash_install(int screen, int err, const struct termios *modes, const char *reset)
 {
-    armed.screen = screen;
-    armed.err = err;
-    armed.modes = *modes;
-    snprintf(armed.reset, sizeof armed.reset, "%s", reset);
-    armed.length = strlen(armed.reset);
+    installed.screen = screen;
+    installed.err = err;
+    installed.modes = *modes;
+    snprintf(installed.reset, sizeof installed.reset, "%s", reset);
+    installed.length = strlen(installed.reset);
     struct sigaction action = {.sa_handler = handle};
     sigemptyset(&action.sa_mask);
     for (int i = 0; i < FAULTS; i++) {
-        sigaction(faults[i], &action, &armed.before[i]);
+        sigaction(faults[i], &action, &installed.before[i]);
     }
 }
 
-void gb_crash_disarm(void)
+void gb_crash_remove(void)
 {
     for (int i = 0; i < FAULTS; i++) {
-        sigaction(faults[i], &armed.before[i], NULL);
+        sigaction(faults[i], &installed.before[i], NULL);
     }
 }
 
-void gb_crash_name(const char *directory)
+void gb_crash_set_run(const char *directory)
 {
-    armed.state[0] = '\0'; /* until the line is whole */
+    installed.state[0] = '\0'; /* until the line is whole */
     if (directory == NULL) {
         return;
     }
-    snprintf(armed.resume, sizeof armed.resume,
+    snprintf(installed.resume, sizeof installed.resume,
              "greenbody: go on from the last checkpoint with: greenbody resume '%s'\n",
              directory);
-    snprintf(armed.state, sizeof armed.state, "%s/state.h5", directory);
+    snprintf(installed.state, sizeof installed.state, "%s/state.h5", directory);
 }

@@ -11,11 +11,12 @@
  * err     standard error as it was before the screen was taken
  * modes   of the terminal as found
  * reset   what leaves the alternate screen and shows the cursor; copied */
-void gb_crash_arm(int screen, int err, const struct termios *modes, const char *reset);
-void gb_crash_disarm(void);
+void gb_crash_install(int screen, int err, const struct termios *modes,
+                      const char *reset);
+void gb_crash_remove(void);
 
 /* The run directory whose last checkpoint, if there is one by then, is named in the
  * message; copied, NULL: none. */
-void gb_crash_name(const char *directory);
+void gb_crash_set_run(const char *directory);
 
 #endif

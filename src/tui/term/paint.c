@@ -226,9 +226,9 @@ void gb_paint_title(const struct gb_paint *paint, const char *title, bool focus)
     char text[256];
     snprintf(text, sizeof text, " %s ", title);
     line_row(paint, 0);
-    const int most = paint->rect.cols - 3;
+    const int max = paint->rect.cols - 3;
     const int width = gb_paint_width(text);
-    gb_paint_cell(paint, 0, 2, width < most ? width : most,
+    gb_paint_cell(paint, 0, 2, width < max ? width : max,
                   focus ? GB_STYLE_FOCUS : GB_STYLE_TITLE, text);
 }
 

@@ -5,16 +5,16 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "tui/plot/relief.h"
+#include "tui/plot/sphere_shading.h"
 #include "tui/term/settings.h"
 
 /* The shades of term_style.c, as red, green, blue. */
 static const uint8_t ramp[][3] = {{0, 0, 95},      {0, 95, 95},    {0, 95, 135},
                                   {0, 135, 175},   {0, 175, 215},  {95, 175, 215},
                                   {135, 215, 255}, {215, 255, 255}};
-static const uint8_t behind[3] = {12, 12, 16};
+static const uint8_t background[3] = {12, 12, 16};
 
-enum { RAMP = sizeof ramp / sizeof ramp[0], LEVELS = 28, PIXELS_MOST = 1600 * 1200 };
+enum { RAMP = sizeof ramp / sizeof ramp[0], LEVELS = 28, PIXELS_MAX = 1600 * 1200 };
 
 const char *gb_pixels_wipe(int images)
 {
@@ -52,7 +52,7 @@ int gb_pixels_detect(void)
 static void put_pixel(uint8_t *pixel, float shade)
 {
     if (shade < 0.0F) {
-        memcpy(pixel, behind, sizeof behind);
+        memcpy(pixel, background, sizeof background);
         return;
     }
     /* in levels, so that a picture is sent in runs of one colour */
@@ -95,14 +95,14 @@ char *gb_pixels_encode(int images, const struct gb_view_sample *picture, int row
 {
     const int wide = cols * cell.width, high = rows * cell.height;
     const size_t count = (size_t)wide * (size_t)high;
-    if (count == 0 || count > PIXELS_MOST) {
+    if (count == 0 || count > PIXELS_MAX) {
         return NULL;
     }
     float *shade = gb_alloc_array(count, sizeof *shade, NULL);
     uint8_t *rgb = gb_alloc_array(count, 3, NULL);
     char *text = NULL;
     if (shade != NULL && rgb != NULL) {
-        gb_relief_render(picture, high, wide, shade);
+        gb_sphere_shading_render(picture, high, wide, shade);
         for (size_t i = 0; i < count; i++) {
             put_pixel(rgb + 3 * i, shade[i]);
         }

@@ -96,14 +96,14 @@ bool gb_settings_read(struct gb_settings *settings, const char *path,
                       struct gb_error *err)
 {
     GKeyFile *file = g_key_file_new();
-    GError *trouble = NULL;
+    GError *error = NULL;
     bool good = true;
-    if (g_key_file_load_from_file(file, path, G_KEY_FILE_NONE, &trouble)) {
+    if (g_key_file_load_from_file(file, path, G_KEY_FILE_NONE, &error)) {
         good = take_all(settings, file, path, err);
-    } else if (!g_error_matches(trouble, G_FILE_ERROR, G_FILE_ERROR_NOENT)) {
-        good = gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, trouble->message);
+    } else if (!g_error_matches(error, G_FILE_ERROR, G_FILE_ERROR_NOENT)) {
+        good = gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, error->message);
     }
-    g_clear_error(&trouble);
+    g_clear_error(&error);
     g_key_file_free(file);
     return good;
 }

@@ -7,11 +7,11 @@
 
 #include "tui/term/term_tty.h"
 
-enum { MOST = 1024 };
+enum { TAIL_BYTES = 1024 };
 
-void gb_stderr_tail_init(struct gb_stderr_tail *overheard)
+void gb_stderr_tail_init(struct gb_stderr_tail *stderr_tail)
 {
-    overheard->length = -1;
+    stderr_tail->length = -1;
 }
 
 /* The last line of what stands there, without control characters. */
@@ -26,21 +26,21 @@ static bool last_line(char *text, char *line, size_t size)
     return *line != '\0';
 }
 
-bool gb_stderr_tail_poll(struct gb_stderr_tail *overheard, char *line, size_t size)
+bool gb_stderr_tail_poll(struct gb_stderr_tail *stderr_tail, char *line, size_t size)
 {
     struct stat now;
-    char text[MOST + 1];
+    char text[TAIL_BYTES + 1];
     if (fstat(STDERR_FILENO, &now) != 0 || !S_ISREG(now.st_mode)) {
         return false;
     }
-    const int64_t before = overheard->length;
-    overheard->length = now.st_size;
+    const int64_t before = stderr_tail->length;
+    stderr_tail->length = now.st_size;
     if (before < 0 || now.st_size <= before) {
         return false;
     }
-    const int64_t from = MAX(before, now.st_size - MOST);
+    const int64_t from = MAX(before, now.st_size - TAIL_BYTES);
     const int log = gb_term_tty_read_log();
-    const ssize_t n = log < 0 ? -1 : pread(log, text, MOST, from);
+    const ssize_t n = log < 0 ? -1 : pread(log, text, TAIL_BYTES, from);
     if (log >= 0) {
         close(log);
     }

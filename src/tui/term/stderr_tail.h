@@ -11,10 +11,10 @@ struct gb_stderr_tail {
     int64_t length; /* of the log, as far as it was read; -1: not looked at yet */
 };
 
-void gb_stderr_tail_init(struct gb_stderr_tail *overheard);
+void gb_stderr_tail_init(struct gb_stderr_tail *stderr_tail);
 
 /* The last whole line that was written to standard error since the call before; false:
  * there is none, or standard error is no file. */
-bool gb_stderr_tail_poll(struct gb_stderr_tail *overheard, char *line, size_t size);
+bool gb_stderr_tail_poll(struct gb_stderr_tail *stderr_tail, char *line, size_t size);
 
 #endif

@@ -14,7 +14,7 @@
 
 #include "base/alloc.h"
 #include "tui/term/crash.h"
-#include "tui/term/term_guess.h"
+#include "tui/term/term_profile.h"
 #include "tui/term/term_style.h"
 #include "tui/term/term_tty.h"
 
@@ -22,12 +22,12 @@
 enum { ESCAPE_MS = 40 };
 
 /* Pixels, where the terminal does not tell them. */
-enum { USUAL_CELL_WIDTH = 10 };
+enum { DEFAULT_CELL_WIDTH = 10 };
 
-static const int caught[] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,
-                             SIGTSTP, SIGCONT, SIGWINCH};
+static const int handled_signals[] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,
+                                      SIGTSTP, SIGCONT, SIGWINCH};
 
-enum { CAUGHT = sizeof caught / sizeof caught[0] };
+enum { HANDLED_SIGNALS = sizeof handled_signals / sizeof handled_signals[0] };
 
 struct gb_term {
     SCREEN *screen;
@@ -39,10 +39,10 @@ struct gb_term {
     int64_t since_us; /* clock at the start */
     int64_t repaints;
     bool shaded, mouse;
-    struct gb_term_guess guess;
+    struct gb_term_profile profile;
     struct termios modes;
     sigset_t mask_before;
-    struct sigaction before[CAUGHT], pipe_before;
+    struct sigaction before[HANDLED_SIGNALS], pipe_before;
     uint64_t style[GB_STYLE_COUNT];
 };
 
@@ -64,7 +64,7 @@ static bool start_screen(struct gb_term *term, const char *type, struct gb_error
     }
     set_modes();
     set_escdelay(ESCAPE_MS);
-    term->shaded = gb_term_style_init(term->style, term->guess.coloured);
+    term->shaded = gb_term_style_init(term->style, term->profile.coloured);
     term->keys = newpad(1, 1);
     keypad(term->keys, TRUE);
     nodelay(term->keys, TRUE);
@@ -75,9 +75,9 @@ static void catch_signals(struct gb_term *term)
 {
     sigset_t mask;
     sigemptyset(&mask);
-    for (int i = 0; i < CAUGHT; i++) {
-        sigaction(caught[i], NULL, &term->before[i]);
-        sigaddset(&mask, caught[i]);
+    for (int i = 0; i < HANDLED_SIGNALS; i++) {
+        sigaction(handled_signals[i], NULL, &term->before[i]);
+        sigaddset(&mask, handled_signals[i]);
     }
     const struct sigaction ignore = {.sa_handler = SIG_IGN};
     sigaction(SIGPIPE, &ignore, &term->pipe_before);
@@ -91,26 +91,26 @@ static void release_signals(struct gb_term *term)
     struct signalfd_siginfo late;
     while (read(term->signal_fd, &late, sizeof late) == (ssize_t)sizeof late) {
     }
-    for (int i = 0; i < CAUGHT; i++) {
-        sigaction(caught[i], &term->before[i], NULL);
+    for (int i = 0; i < HANDLED_SIGNALS; i++) {
+        sigaction(handled_signals[i], &term->before[i], NULL);
     }
     sigaction(SIGPIPE, &term->pipe_before, NULL);
     close(term->signal_fd);
     pthread_sigmask(SIG_SETMASK, &term->mask_before, NULL);
 }
 
-static void arm_crash(const struct gb_term *term)
+static void install_crash_handler(const struct gb_term *term)
 {
     char reset[192];
     const char *leave = tigetstr("rmcup");
     const char *cursor = tigetstr("cnorm");
     const char *plain = tigetstr("sgr0");
     g_snprintf(reset, sizeof reset, "%s%s%s%s\r\n",
-               term->guess.can_mouse ? "\033[?1006l\033[?1000l" : "",
+               term->profile.can_mouse ? "\033[?1006l\033[?1000l" : "",
                plain != NULL && plain != (char *)-1 ? plain : "",
                leave != NULL && leave != (char *)-1 ? leave : "",
                cursor != NULL && cursor != (char *)-1 ? cursor : "");
-    gb_crash_arm(term->out_fd, term->saved_err, &term->modes, reset);
+    gb_crash_install(term->out_fd, term->saved_err, &term->modes, reset);
 }
 
 static int duplicate(int fd)
@@ -166,16 +166,16 @@ bool gb_term_start(struct gb_term **out, const struct gb_settings *settings,
     if (!open_streams(term, err)) {
         goto fail;
     }
-    if (!gb_term_guess_make(&term->guess, term->out_fd, settings, err)) {
+    if (!gb_term_profile_detect(&term->profile, term->out_fd, settings, err)) {
         goto fail;
     }
     catch_signals(term);
-    if (!start_screen(term, term->guess.type, err)) {
+    if (!start_screen(term, term->profile.type, err)) {
         release_signals(term);
         goto fail;
     }
     gb_term_tty_redirect();
-    arm_crash(term);
+    install_crash_handler(term);
     gb_term_mouse(term, settings->mouse == 0);
     term->since_us = g_get_monotonic_time();
     *out = term;
@@ -188,7 +188,7 @@ fail:
 
 void gb_term_stop(struct gb_term *term)
 {
-    gb_crash_disarm();
+    gb_crash_remove();
     delwin(term->keys);
     endwin();
     delscreen(term->screen);
@@ -201,7 +201,7 @@ void gb_term_stop(struct gb_term *term)
 
 void gb_term_abandon(struct gb_term *term)
 {
-    gb_crash_disarm();
+    gb_crash_remove();
     close(term->signal_fd);
     term->signal_fd = -1;
     close_streams(term);
@@ -251,7 +251,7 @@ static struct gb_term_event resized(struct gb_term *term)
 static struct gb_term_event from_signal(struct gb_term *term)
 {
     struct signalfd_siginfo info;
-    const struct gb_term_event nothing = {.kind = GB_TERM_NOTHING};
+    const struct gb_term_event nothing = {.kind = GB_TERM_TIMEOUT};
     if (read(term->signal_fd, &info, sizeof info) != (ssize_t)sizeof info) {
         return nothing;
     }
@@ -263,7 +263,7 @@ static struct gb_term_event from_signal(struct gb_term *term)
         return (struct gb_term_event){.kind = GB_TERM_TERMINATE,
                                       .code = (int32_t)info.ssi_signo};
     case SIGHUP:
-        return (struct gb_term_event){.kind = GB_TERM_GONE, .code = SIGHUP};
+        return (struct gb_term_event){.kind = GB_TERM_HANGUP, .code = SIGHUP};
     case SIGTSTP:
         gb_term_suspend(term);
         gb_term_repaint(term);
@@ -282,7 +282,7 @@ static struct gb_term_event from_signal(struct gb_term *term)
 /* A press of the left button or a turn of the wheel; the rest is nothing. */
 static struct gb_term_event from_mouse(void)
 {
-    struct gb_term_event event = {.kind = GB_TERM_NOTHING};
+    struct gb_term_event event = {.kind = GB_TERM_TIMEOUT};
     MEVENT mouse;
     if (getmouse(&mouse) != OK) {
         return event;
@@ -297,7 +297,7 @@ static struct gb_term_event from_mouse(void)
     } else if (mouse.bstate & BUTTON5_PRESSED) {
         event.code = GB_TERM_WHEEL_DOWN;
     } else {
-        event.kind = GB_TERM_NOTHING;
+        event.kind = GB_TERM_TIMEOUT;
     }
     return event;
 }
@@ -324,7 +324,7 @@ static bool next_key(struct gb_term *term, struct gb_term_event *event)
 
 /* A closed terminal answers every read at once with nothing: asking it again would spin.
  */
-static bool is_gone(const struct gb_term *term, short revents)
+static bool is_closed(const struct gb_term *term, short revents)
 {
     int waiting = 0;
     if (revents & (POLLHUP | POLLERR | POLLNVAL)) {
@@ -336,7 +336,7 @@ static bool is_gone(const struct gb_term *term, short revents)
 
 struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms)
 {
-    struct gb_term_event event = {.kind = GB_TERM_NOTHING};
+    struct gb_term_event event = {.kind = GB_TERM_TIMEOUT};
     if (next_key(term, &event)) {
         return event;
     }
@@ -347,8 +347,8 @@ struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms)
     if (fds[0].revents != 0) {
         return from_signal(term);
     }
-    if (is_gone(term, fds[1].revents)) {
-        return (struct gb_term_event){.kind = GB_TERM_GONE, .code = SIGHUP};
+    if (is_closed(term, fds[1].revents)) {
+        return (struct gb_term_event){.kind = GB_TERM_HANGUP, .code = SIGHUP};
     }
     next_key(term, &event);
     return event;
@@ -375,12 +375,12 @@ void gb_term_size(const struct gb_term *term, int *rows, int *cols)
 
 bool gb_term_utf8(const struct gb_term *term)
 {
-    return term->guess.utf8;
+    return term->profile.utf8;
 }
 
 bool gb_term_braille(const struct gb_term *term)
 {
-    return term->guess.braille;
+    return term->profile.braille;
 }
 
 bool gb_term_shaded(const struct gb_term *term)
@@ -402,7 +402,7 @@ uint64_t gb_term_attributes(const struct gb_term *term, enum gb_style style)
 void gb_term_mouse(struct gb_term *term, bool on)
 {
     const mmask_t wanted = BUTTON1_PRESSED | BUTTON4_PRESSED | BUTTON5_PRESSED;
-    term->mouse = on && term->guess.can_mouse;
+    term->mouse = on && term->profile.can_mouse;
     mouseinterval(0); /* a press counts at once, clicks are not waited for */
     mousemask(term->mouse ? wanted : 0, NULL);
 }
@@ -414,17 +414,17 @@ bool gb_term_has_mouse(const struct gb_term *term)
 
 int gb_term_images(const struct gb_term *term)
 {
-    return term->guess.images;
+    return term->profile.images;
 }
 
 void gb_term_cell(const struct gb_term *term, int *width, int *height)
 {
     struct winsize size = {0};
-    const bool told = ioctl(term->out_fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 &&
-                      size.ws_row > 0 && size.ws_xpixel >= size.ws_col &&
-                      size.ws_ypixel >= size.ws_row;
-    *width = told ? size.ws_xpixel / size.ws_col : USUAL_CELL_WIDTH;
-    *height = told ? size.ws_ypixel / size.ws_row : 2 * USUAL_CELL_WIDTH;
+    const bool reported = ioctl(term->out_fd, TIOCGWINSZ, &size) == 0 &&
+                          size.ws_col > 0 && size.ws_row > 0 &&
+                          size.ws_xpixel >= size.ws_col && size.ws_ypixel >= size.ws_row;
+    *width = reported ? size.ws_xpixel / size.ws_col : DEFAULT_CELL_WIDTH;
+    *height = reported ? size.ws_ypixel / size.ws_row : 2 * DEFAULT_CELL_WIDTH;
 }
 
 int64_t gb_term_repaints(const struct gb_term *term)

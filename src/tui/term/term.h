@@ -30,14 +30,14 @@ enum gb_style {
 };
 
 enum gb_term_event_kind {
-    GB_TERM_NOTHING,   /* the time is over */
+    GB_TERM_TIMEOUT,   /* the time is over */
     GB_TERM_KEY,       /* curses key code or control character */
     GB_TERM_TEXT,      /* printable character */
     GB_TERM_MOUSE,     /* code: one of gb_term_mouse_code, at row, col */
     GB_TERM_RESIZED,   /* also after a suspension: paint everything */
     GB_TERM_INTERRUPT, /* SIGINT */
     GB_TERM_TERMINATE, /* SIGTERM, SIGQUIT */
-    GB_TERM_GONE       /* SIGHUP, or the terminal is closed: it must not be touched */
+    GB_TERM_HANGUP     /* SIGHUP, or the terminal is closed: it must not be touched */
 };
 
 enum gb_term_mouse_code { GB_TERM_CLICK, GB_TERM_WHEEL_UP, GB_TERM_WHEEL_DOWN };

@@ -55,7 +55,7 @@ void gb_term_tty_restore(int out, int err)
     dup2(err, STDERR_FILENO);
 }
 
-static bool places_cursor(const char *type, int fd)
+static bool can_position_cursor(const char *type, int fd)
 {
     int found = 0;
     if (setupterm(type, fd, &found) != OK) {
@@ -86,11 +86,11 @@ const char *gb_term_tty_type(int fd, struct gb_error *err)
         del_curterm(cur_term);
     }
     static const char *const fallback[] = {"xterm-256color", "xterm", "vt100"};
-    if (known && places_cursor(own, fd)) {
+    if (known && can_position_cursor(own, fd)) {
         return own;
     }
     for (size_t i = 0; !known && i < G_N_ELEMENTS(fallback); i++) {
-        if (places_cursor(fallback[i], fd)) {
+        if (can_position_cursor(fallback[i], fd)) {
             return fallback[i];
         }
     }

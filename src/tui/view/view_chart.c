@@ -25,7 +25,7 @@ static void draw_point(struct gb_plot *plot, double x, double y, int ink, int ma
     gb_plot_line(plot, &point);
 }
 
-static void draw_choices(struct gb_plot *plot, const struct gb_choices *choices)
+static void draw_settings(struct gb_plot *plot, const struct gb_chart_csv *choices)
 {
     for (size_t i = 0; i < choices->count; i++) {
         if (i == choices->chosen) {
@@ -44,7 +44,7 @@ static void draw_choices(struct gb_plot *plot, const struct gb_choices *choices)
 void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
     struct gb_plot *plot = &panel->plot;
-    const struct gb_choices *choices = session->choices;
+    const struct gb_chart_csv *choices = session->choices;
     double x_ends[2] = {HUGE_VAL, 0.0};
     double y_ends[2] = {HUGE_VAL, 0.0};
     for (size_t i = 0; choices != NULL && i < choices->count; i++) {
@@ -64,7 +64,7 @@ void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *se
     plot->log_x = true;
     gb_plot_axes(plot, x_ends, y_ends, true, "CPU time of a cell, s",
                  "error of density at most");
-    draw_choices(plot, choices);
+    draw_settings(plot, choices);
     struct gb_plot_entry entry[3] = {{INK_ALL, MARK_ALL, "a choice"},
                                      {INK_FRONT, MARK_FRONT, "nothing beats it"},
                                      {INK_CHOSEN, MARK_CHOSEN, ""}};

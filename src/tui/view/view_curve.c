@@ -8,7 +8,7 @@
 
 /* Decades of pressure that a logarithmic axis shows at most: below are the first
  * contacts, which say nothing. */
-static const double decades_most = 1e5;
+static const double decades_max = 1e5;
 
 enum {
     MARK_LOAD = 1,
@@ -22,12 +22,12 @@ enum {
 enum {
     INK_RELAX = GB_PLOT_INK_SERIES + 2,
     INK_HOLD = GB_PLOT_INK_SERIES + 4,
-    INK_TRIAL = GB_PLOT_INK_SERIES + 1,
+    INK_QUICK = GB_PLOT_INK_SERIES + 1,
     INK_MEASURED = GB_PLOT_INK_SERIES + 3,
     INK_BAND = GB_PLOT_INK_SERIES + 5
 };
 
-enum { STAGES = 3, ENTRIES = STAGES + 3 + GB_UNLOAD_MAX + GB_SESSION_EARLIER };
+enum { STAGES = 3, ENTRIES = STAGES + 3 + GB_UNLOAD_MAX + GB_SESSION_PREVIOUS };
 
 struct legend {
     struct gb_plot_entry entry[ENTRIES];
@@ -47,7 +47,7 @@ static void add_entry(struct legend *legend, const struct gb_plot_series *series
 
 /* Range of the data. */
 struct ends {
-    double x[2], y[2], least_positive;
+    double x[2], y[2], min_positive;
 };
 
 static void extend(struct ends *ends, double x, double y)
@@ -60,7 +60,7 @@ static void extend(struct ends *ends, double x, double y)
     ends->y[0] = fmin(ends->y[0], y);
     ends->y[1] = fmax(ends->y[1], y);
     if (y > 0.0) {
-        ends->least_positive = fmin(ends->least_positive, y);
+        ends->min_positive = fmin(ends->min_positive, y);
     }
 }
 
@@ -71,48 +71,49 @@ static const struct gb_curve *curve_of(const struct gb_session *session)
 
 static int kind_of(const struct gb_session *session)
 {
-    return gb_session_seen(session).params->kind;
+    return gb_session_shown(session).params->kind;
 }
 
 double gb_view_curve_x(const struct gb_panel_plot *panel,
                        const struct gb_session *session, const struct gb_point *point)
 {
-    return panel->view == GB_VIEW_TIME ? gb_earlier_elapsed(kind_of(session), point)
-                                       : point->density;
+    return panel->view == GB_VIEW_TIME
+               ? gb_previous_curve_elapsed(kind_of(session), point)
+               : point->density;
 }
 
 /* NULL: nanoseconds and steps share no axis. */
-static const double *earlier_x(const struct gb_panel_plot *panel,
-                               const struct gb_session *session,
-                               const struct gb_earlier *earlier)
+static const double *previous_x(const struct gb_panel_plot *panel,
+                                const struct gb_session *session,
+                                const struct gb_previous_curve *previous)
 {
     if (panel->view != GB_VIEW_TIME) {
-        return earlier->density;
+        return previous->density;
     }
-    return earlier->params.kind == kind_of(session) ? earlier->elapsed : NULL;
+    return previous->params.kind == kind_of(session) ? previous->elapsed : NULL;
 }
 
 /* The full run of the same scene makes the quick curve one of those that can be hidden.
  * Against time it has no place: its steps are longer. */
-static bool trial_behind(const struct gb_session *session)
+static bool quick_cell_superseded(const struct gb_session *session)
 {
-    return session->runner != NULL && !gb_trial_live(&session->trial) &&
-           gb_earlier_differences(&session->trial.asked,
-                                  gb_runner_params(session->runner)) == 0;
+    return session->runner != NULL && !gb_quick_cell_live(&session->quick_cell) &&
+           gb_params_diff_count(&session->quick_cell.full_params,
+                                gb_runner_params(session->runner)) == 0;
 }
 
-static bool trial_shown(const struct gb_panel_plot *panel,
-                        const struct gb_session *session)
+static bool quick_cell_shown(const struct gb_panel_plot *panel,
+                             const struct gb_session *session)
 {
-    return session->trial.points > 0 &&
+    return session->quick_cell.points > 0 &&
            (panel->view != GB_VIEW_TIME || kind_of(session) == GB_KIND_DYNAMIC) &&
-           !(panel->hide_earlier && trial_behind(session));
+           !(panel->hide_previous && quick_cell_superseded(session));
 }
 
-static const struct gb_runset_view_group *band_of(const struct gb_panel_plot *panel,
-                                                  const struct gb_session *session)
+static const struct gb_runset_view_group *shown_band(const struct gb_panel_plot *panel,
+                                                     const struct gb_session *session)
 {
-    return panel->view == GB_VIEW_CURVE ? gb_band_group(&session->band) : NULL;
+    return panel->view == GB_VIEW_CURVE ? gb_replica_band_group(&session->band) : NULL;
 }
 
 static struct ends find_ends(const struct gb_panel_plot *panel,
@@ -123,9 +124,10 @@ static struct ends find_ends(const struct gb_panel_plot *panel,
         const struct gb_point *point = gb_curve_at(curve_of(session), i);
         extend(&ends, gb_view_curve_x(panel, session, point), point->p_pa);
     }
-    const struct gb_trial *trial = &session->trial;
-    for (size_t i = 0; trial_shown(panel, session) && i < trial->points; i++) {
-        const struct gb_point *point = gb_curve_at(gb_runner_curve(trial->runner), i);
+    const struct gb_quick_cell *quick_cell = &session->quick_cell;
+    for (size_t i = 0; quick_cell_shown(panel, session) && i < quick_cell->points; i++) {
+        const struct gb_point *point =
+            gb_curve_at(gb_runner_curve(quick_cell->runner), i);
         extend(&ends, gb_view_curve_x(panel, session, point), point->p_pa);
     }
     const struct gb_measured *data = session->measured;
@@ -133,84 +135,87 @@ static struct ends find_ends(const struct gb_panel_plot *panel,
          i++) {
         extend(&ends, data->density[i], data->pressure_pa[i]);
     }
-    for (int k = 0; !panel->hide_earlier && k < session->earlier_count; k++) {
-        const struct gb_earlier *earlier = &session->earlier[k];
-        const double *x = earlier_x(panel, session, earlier);
-        for (size_t i = 0; x != NULL && i < earlier->count; i++) {
-            extend(&ends, x[i], earlier->pressure_pa[i]);
+    for (int k = 0; !panel->hide_previous && k < session->previous_count; k++) {
+        const struct gb_previous_curve *previous = &session->previous[k];
+        const double *x = previous_x(panel, session, previous);
+        for (size_t i = 0; x != NULL && i < previous->count; i++) {
+            extend(&ends, x[i], previous->pressure_pa[i]);
         }
     }
-    const struct gb_runset_view_group *band = band_of(panel, session);
+    const struct gb_runset_view_group *band = shown_band(panel, session);
     for (size_t k = 0; band != NULL && k < GB_RUNSET_VIEW_LEVELS; k++) {
-        extend(&ends, band->mean[k], session->band.swarm.level_pa[k]);
+        extend(&ends, band->mean[k], session->band.runset.level_pa[k]);
     }
     if (panel->log && ends.y[1] > 0.0) {
-        ends.y[0] = fmax(ends.least_positive, ends.y[1] / decades_most);
+        ends.y[0] = fmax(ends.min_positive, ends.y[1] / decades_max);
     } else {
         ends.y[0] = fmin(ends.y[0], 0.0);
     }
     return ends;
 }
 
-static void draw_earlier(struct gb_panel_plot *panel, const struct gb_session *session,
-                         double unit_pa, struct legend *legend)
+static void draw_previous(struct gb_panel_plot *panel, const struct gb_session *session,
+                          double unit_pa, struct legend *legend)
 {
-    for (int k = 0; k < session->earlier_count; k++) {
-        const struct gb_earlier *earlier = &session->earlier[k];
-        const double *x = earlier_x(panel, session, earlier);
+    for (int k = 0; k < session->previous_count; k++) {
+        const struct gb_previous_curve *previous = &session->previous[k];
+        const double *x = previous_x(panel, session, previous);
         if (x == NULL) {
             continue;
         }
-        if (!gb_panel_plot_reserve(panel, earlier->count)) {
+        if (!gb_panel_plot_reserve(panel, previous->count)) {
             return;
         }
-        for (size_t i = 0; i < earlier->count; i++) {
-            panel->y[i] = earlier->pressure_pa[i] / unit_pa;
+        for (size_t i = 0; i < previous->count; i++) {
+            panel->y[i] = previous->pressure_pa[i] / unit_pa;
         }
         const struct gb_plot_series series = {.x = x,
                                               .y = panel->y,
-                                              .count = earlier->count,
+                                              .count = previous->count,
                                               .ink = GB_PLOT_INK_DIM,
-                                              .marker = earlier->letter};
+                                              .marker = previous->letter};
         gb_plot_line(&panel->plot, &series);
-        add_entry(legend, &series, earlier->difference);
+        add_entry(legend, &series, previous->difference);
     }
 }
 
 /* Bright while it is the newest answer, dim once the full cell is on its way. */
-static void draw_trial(struct gb_panel_plot *panel, const struct gb_session *session,
-                       double unit_pa, struct legend *legend)
+static void draw_quick_cell(struct gb_panel_plot *panel, const struct gb_session *session,
+                            double unit_pa, struct legend *legend)
 {
-    const struct gb_trial *trial = &session->trial;
-    if (!trial_shown(panel, session) || !gb_panel_plot_reserve(panel, trial->points)) {
+    const struct gb_quick_cell *quick_cell = &session->quick_cell;
+    if (!quick_cell_shown(panel, session) ||
+        !gb_panel_plot_reserve(panel, quick_cell->points)) {
         return;
     }
-    for (size_t i = 0; i < trial->points; i++) {
-        const struct gb_point *point = gb_curve_at(gb_runner_curve(trial->runner), i);
+    for (size_t i = 0; i < quick_cell->points; i++) {
+        const struct gb_point *point =
+            gb_curve_at(gb_runner_curve(quick_cell->runner), i);
         panel->x[i] = gb_view_curve_x(panel, session, point);
         panel->y[i] = point->p_pa / unit_pa;
     }
-    const struct gb_plot_series series = {.x = panel->x,
-                                          .y = panel->y,
-                                          .count = trial->points,
-                                          .ink = trial_behind(session) ? GB_PLOT_INK_DIM
-                                                                       : INK_TRIAL,
-                                          .marker = 'q'};
+    const struct gb_plot_series series = {
+        .x = panel->x,
+        .y = panel->y,
+        .count = quick_cell->points,
+        .ink = quick_cell_superseded(session) ? GB_PLOT_INK_DIM : INK_QUICK,
+        .marker = 'q'};
     char name[GB_PLOT_NAME];
-    char difference[GB_EARLIER_DIFFERENCE] = "";
-    if (session->runner != NULL && !trial_behind(session)) {
-        gb_earlier_describe(&trial->asked, gb_runner_params(session->runner), difference,
-                            sizeof difference);
+    char difference[GB_PARAMS_DIFF_TEXT] = "";
+    if (session->runner != NULL && !quick_cell_superseded(session)) {
+        gb_params_diff_describe(&quick_cell->full_params,
+                                gb_runner_params(session->runner), difference,
+                                sizeof difference);
     }
     snprintf(name, sizeof name, "quick cell, N %lld%s%.40s",
-             (long long)gb_runner_params(trial->runner)->count,
+             (long long)gb_runner_params(quick_cell->runner)->count,
              difference[0] != '\0' ? ": " : "", difference);
     gb_plot_line(&panel->plot, &series);
     add_entry(legend, &series, name);
 }
 
 /* A quasi-static run has no stages: its first, relaxed state is a part of loading. */
-static bool belongs(const struct gb_point *point, int branch, int kind)
+static bool point_on_branch(const struct gb_point *point, int branch, int kind)
 {
     if (kind != GB_KIND_DYNAMIC && point->branch <= 0) {
         return branch == GB_BRANCH_LOAD;
@@ -229,28 +234,28 @@ static size_t gather(struct gb_panel_plot *panel, const struct gb_session *sessi
     bool gap = false;
     for (size_t i = 0; i < session->points; i++) {
         const struct gb_point *point = gb_curve_at(curve_of(session), i);
-        const bool mine = belongs(point, branch, kind_of(session));
-        if (mine && n == 0 && root != NULL) {
+        const bool on_branch = point_on_branch(point, branch, kind_of(session));
+        if (on_branch && n == 0 && root != NULL) {
             panel->x[n] = gb_view_curve_x(panel, session, root);
             panel->y[n++] = root->p_pa / unit_pa;
-        } else if (mine && gap && panel->view == GB_VIEW_TIME) {
+        } else if (on_branch && gap && panel->view == GB_VIEW_TIME) {
             panel->x[n] = NAN;
             panel->y[n++] = NAN;
         }
-        if (mine) {
+        if (on_branch) {
             panel->x[n] = gb_view_curve_x(panel, session, point);
             panel->y[n++] = point->p_pa / unit_pa;
             *from_pa = point->branch_from_pa;
         }
-        gap = !mine;
+        gap = !on_branch;
         root = point->branch <= 0 ? point : root;
     }
     return n;
 }
 
 /* What tells a branch from the others: name, colour, marker. */
-static struct gb_plot_series look_of(int branch, int kind, double from_pa, char *name,
-                                     size_t size)
+static struct gb_plot_series branch_style(int branch, int kind, double from_pa,
+                                          char *name, size_t size)
 {
     if (branch > 0) {
         char pressure[32];
@@ -281,7 +286,7 @@ static void draw_branch(struct gb_panel_plot *panel, const struct gb_session *se
         return;
     }
     struct gb_plot_series series =
-        look_of(branch, kind_of(session), from_pa, name, sizeof name);
+        branch_style(branch, kind_of(session), from_pa, name, sizeof name);
     series.x = panel->x;
     series.y = panel->y;
     series.count = count;
@@ -315,9 +320,9 @@ static void draw_branches(struct gb_panel_plot *panel, const struct gb_session *
 /* What stands in the empty field before there is a point. */
 static void draw_waiting(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const struct gb_seen seen = gb_session_seen(session);
-    const char *text = seen.curve == NULL ? "not started: r starts it"
-                       : seen.state == GB_RUN_PACKING
+    const struct gb_session_shown shown = gb_session_shown(session);
+    const char *text = shown.curve == NULL ? "not started: r starts it"
+                       : shown.state == GB_RUN_PACKING
                            ? "building the initial structure ..."
                            : "waiting for the first point ...";
     const struct gb_plot *plot = &panel->plot;
@@ -387,12 +392,12 @@ static void draw_measured(struct gb_panel_plot *panel, const struct gb_session *
 static void draw_beside(struct gb_panel_plot *panel, const struct gb_session *session,
                         double unit_pa, double off, struct gb_plot_series *series)
 {
-    const struct gb_runset_view_group *group = band_of(panel, session);
+    const struct gb_runset_view_group *group = shown_band(panel, session);
     double x[GB_RUNSET_VIEW_LEVELS];
     double y[GB_RUNSET_VIEW_LEVELS];
     for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
         x[k] = group->mean[k] + (off != 0.0 ? off * group->error[k] : 0.0);
-        y[k] = session->band.swarm.level_pa[k] / unit_pa;
+        y[k] = session->band.runset.level_pa[k] / unit_pa;
     }
     series->x = x;
     series->y = y;
@@ -404,9 +409,9 @@ static void draw_beside(struct gb_panel_plot *panel, const struct gb_session *se
 static void draw_band(struct gb_panel_plot *panel, const struct gb_session *session,
                       double unit_pa, struct legend *legend)
 {
-    const struct gb_band *band = &session->band;
-    const struct gb_runset_view_group *group = band_of(panel, session);
-    char difference[GB_EARLIER_DIFFERENCE] = "";
+    const struct gb_replica_band *band = &session->band;
+    const struct gb_runset_view_group *group = shown_band(panel, session);
+    char difference[GB_PARAMS_DIFF_TEXT] = "";
     char name[GB_PLOT_NAME];
     if (group == NULL) {
         return;
@@ -417,9 +422,9 @@ static void draw_band(struct gb_panel_plot *panel, const struct gb_session *sess
     draw_beside(panel, session, unit_pa, 1.0, &edge);
     draw_beside(panel, session, unit_pa, 0.0, &mean);
     if (session->runner != NULL &&
-        gb_earlier_differences(&band->params, gb_runner_params(session->runner)) > 0) {
-        gb_earlier_describe(&band->params, gb_runner_params(session->runner), difference,
-                            sizeof difference);
+        gb_params_diff_count(&band->params, gb_runner_params(session->runner)) > 0) {
+        gb_params_diff_describe(&band->params, gb_runner_params(session->runner),
+                                difference, sizeof difference);
     }
     snprintf(name, sizeof name, "mean of %zu %s%s%.40s", group->members,
              group->members == 1 ? "cell" : "cells", *difference ? ": " : "", difference);
@@ -450,9 +455,9 @@ static void draw_forks(struct gb_panel_plot *panel, const struct gb_session *ses
 static void draw_cursor(struct gb_panel_plot *panel, const struct gb_session *session,
                         double unit_pa)
 {
-    const struct gb_seen seen = gb_session_seen(session);
-    if (panel->cursor_on && panel->cursor < seen.points) {
-        const struct gb_point *point = gb_curve_at(seen.curve, panel->cursor);
+    const struct gb_session_shown shown = gb_session_shown(session);
+    if (panel->cursor_on && panel->cursor < shown.points) {
+        const struct gb_point *point = gb_curve_at(shown.curve, panel->cursor);
         gb_plot_cursor(&panel->plot, gb_view_curve_x(panel, session, point),
                        point->p_pa / unit_pa);
     }
@@ -467,16 +472,16 @@ void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *se
     gb_plot_axes(&panel->plot, ends.x, y_ends, panel->log, x_label(panel, session),
                  unit_pa > 1e6 ? "p, GPa" : "p, MPa");
     struct legend legend = {.count = 0};
-    if (!panel->hide_earlier) {
-        draw_earlier(panel, session, unit_pa, &legend);
+    if (!panel->hide_previous) {
+        draw_previous(panel, session, unit_pa, &legend);
     }
-    draw_trial(panel, session, unit_pa, &legend);
+    draw_quick_cell(panel, session, unit_pa, &legend);
     draw_band(panel, session, unit_pa, &legend);
     draw_measured(panel, session, unit_pa, &legend);
     if (session->points > 0 && gb_panel_plot_reserve(panel, 2 * session->points + 1)) {
         draw_branches(panel, session, unit_pa, &legend);
         draw_forks(panel, session, unit_pa);
-    } else if (session->trial.points == 0) {
+    } else if (session->quick_cell.points == 0) {
         draw_waiting(panel, session);
         return;
     }

@@ -4,27 +4,27 @@
 #include "tui/view/views.h"
 
 /* The first peak is a delta function: higher than this it only hides the rest. */
-static const double shown_most = 8.0;
+static const double shown_max = 8.0;
 
 void gb_view_distances_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const struct gb_view_sample *picture = gb_session_seen(session).picture;
+    const struct gb_view_sample *picture = gb_session_shown(session).picture;
     struct gb_plot *plot = &panel->plot;
     if (picture == NULL || !picture->valid || !(picture->rdf_reach > 0.0) ||
         !gb_panel_plot_reserve(panel, GB_PICTURE_RDF)) {
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no packing yet");
         return;
     }
-    double most = 2.0;
+    double max = 2.0;
     double peak = 0.0;
     for (int i = 0; i < GB_PICTURE_RDF; i++) {
         panel->x[i] = (i + 0.5) * picture->rdf_reach / GB_PICTURE_RDF;
-        panel->y[i] = fmin(picture->rdf[i], shown_most);
-        most = fmax(most, panel->y[i]);
+        panel->y[i] = fmin(picture->rdf[i], shown_max);
+        max = fmax(max, panel->y[i]);
         peak = fmax(peak, picture->rdf[i]);
     }
     const double x_ends[2] = {0.0, picture->rdf_reach};
-    const double y_ends[2] = {0.0, most};
+    const double y_ends[2] = {0.0, max};
     const double one[2] = {1.0, 1.0};
     char text[64];
     gb_plot_axes(plot, x_ends, y_ends, false, "r / d", "g(r)");

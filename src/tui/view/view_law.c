@@ -9,10 +9,10 @@
  * lengths; where a scene without bridges and adhesion ends, in diameters. */
 enum { POINTS = 160 };
 static const double bridge_lengths = 2.5;
-static const double depth_least = 0.012;
+static const double depth_min = 0.012;
 /* Share of the largest attraction down to which the gap is drawn. */
 static const double gap_share = 0.1;
-static const double gap_most = 0.1;
+static const double gap_max = 0.1;
 
 enum { INK_LAW = GB_PLOT_INK_SERIES, INK_BRIDGE = GB_PLOT_INK_SERIES + 1 };
 
@@ -30,9 +30,9 @@ static void find_range(const struct gb_model *model, double range[2])
 {
     range[0] = model->terms.attraction
                    ? 1.0 - gb_law_dispersion_reach(&model->dispersion, gap_share)
-                   : -depth_least / 3.0;
-    range[0] = fmax(range[0], -gap_most);
-    range[1] = fmax(depth_least, 2.0 * model->h_eq);
+                   : -depth_min / 3.0;
+    range[0] = fmax(range[0], -gap_max);
+    range[1] = fmax(depth_min, 2.0 * model->h_eq);
     if (has_bridges(model)) {
         range[1] = fmax(range[1], bridge_lengths * model->bridge.length);
     }
@@ -108,7 +108,7 @@ static bool freeze(const struct gb_panel_plot *panel, const struct gb_session *s
         return false;
     }
     if (session->runner != NULL &&
-        gb_earlier_differences(&panel->edited, gb_runner_params(session->runner)) > 0 &&
+        gb_params_diff_count(&panel->edited, gb_runner_params(session->runner)) > 0 &&
         !gb_model_init(before, gb_runner_params(session->runner), NULL)) {
         before->count = 0;
     }
@@ -174,10 +174,10 @@ void gb_view_law_force(struct gb_panel_plot *panel, const struct gb_session *ses
 }
 
 /* Mean normal stress that breaks a bridge partly (h > 0) or wholly (h = 0), GPa. */
-static void follow_strength(const struct gb_model *model, double most, struct line *line)
+static void follow_strength(const struct gb_model *model, double max, struct line *line)
 {
     for (int i = 0; i < POINTS; i++) {
-        const double h = most * i / (POINTS - 1);
+        const double h = max * i / (POINTS - 1);
         line->x[i] = nano_metre(model, h);
         line->y[i] = 1e-9 * model->pascal_per_stress *
                      gb_law_bridge_peel_stress(&model->bridge, &model->rod, h);
@@ -203,8 +203,8 @@ void gb_view_law_strength(struct gb_panel_plot *panel, const struct gb_session *
         return;
     }
     const bool compare = before.count > 0 && has_bridges(&before);
-    const double most = fmin(strength_depth, 0.9 - model.bridge.length);
-    follow_strength(&model, most, &line);
+    const double max = fmin(strength_depth, 0.9 - model.bridge.length);
+    follow_strength(&model, max, &line);
     double y_ends[2] = {0.0, 0.0};
     extend(y_ends, line.y, POINTS);
     if (compare) {

@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "base/alloc.h"
-#include "tui/plot/relief.h"
+#include "tui/plot/sphere_shading.h"
 #include "tui/view/views.h"
 
 /* Characters that grow darker, for screens without enough colours: one a cell. */
@@ -68,14 +68,14 @@ static void write_caption(struct gb_plot *plot, const struct gb_view_sample *pic
 
 void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const struct gb_seen seen = gb_session_seen(session);
+    const struct gb_session_shown shown = gb_session_shown(session);
     struct gb_plot *plot = &panel->plot;
-    if (seen.picture == NULL || !seen.picture->valid) {
+    if (shown.picture == NULL || !shown.picture->valid) {
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no packing yet");
         return;
     }
     if (panel->pixels) { /* the picture comes on top of these cells */
-        write_caption(plot, seen.picture, seen.params, true);
+        write_caption(plot, shown.picture, shown.params, true);
         return;
     }
     const size_t dots = (size_t)plot->rows * (size_t)plot->cols * 2;
@@ -83,7 +83,7 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
     if (shade == NULL) {
         return;
     }
-    gb_relief_render(seen.picture, 2 * plot->rows, plot->cols, shade);
+    gb_sphere_shading_render(shown.picture, 2 * plot->rows, plot->cols, shade);
     const bool ascii = plot->glyphs == GB_PLOT_ASCII;
     for (int r = 0; r < plot->rows; r++) {
         for (int c = 0; c < plot->cols; c++) {
@@ -98,5 +98,5 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
         }
     }
     gb_alloc_free(shade);
-    write_caption(plot, seen.picture, seen.params, false);
+    write_caption(plot, shown.picture, shown.params, false);
 }

@@ -20,11 +20,11 @@ static bool plastic(const struct gb_params *params)
     return params->normal == GB_NORMAL_STORAKERS;
 }
 
-static void follow(const struct gb_contact_pair *pair, bool flows, double most,
+static void follow(const struct gb_contact_pair *pair, bool flows, double max,
                    struct line *line)
 {
     for (int i = 0; i < POINTS; i++) {
-        const double h = most * i / (POINTS - 1);
+        const double h = max * i / (POINTS - 1);
         line->x[i] = 1e6 * h;
         line->y[i] = flows ? gb_law_storakers_load(&pair->law, pair->radius, h)
                            : gb_law_hertz_force(&pair->law.hertz, pair->radius, h);
@@ -32,12 +32,11 @@ static void follow(const struct gb_contact_pair *pair, bool flows, double most,
 }
 
 /* Opened again from the deepest overlap. */
-static void follow_back(const struct gb_contact_pair *pair, double most,
-                        struct line *line)
+static void follow_back(const struct gb_contact_pair *pair, double max, struct line *line)
 {
     for (int i = 0; i < POINTS; i++) {
-        const double h = most * (POINTS - 1 - i) / (POINTS - 1);
-        double deepest = most;
+        const double h = max * (POINTS - 1 - i) / (POINTS - 1);
+        double deepest = max;
         line->x[i] = 1e6 * h;
         line->y[i] = gb_law_storakers_follow(&pair->law, pair->radius, h, &deepest).force;
     }
@@ -52,18 +51,18 @@ static void draw(struct gb_plot *plot, const struct line *line, int ink, int mar
 
 /* The same for the run when its law is another one. */
 static bool draw_before(struct gb_plot *plot, const struct gb_params *edited,
-                        const struct gb_session *session, double most)
+                        const struct gb_session *session, double max)
 {
     struct gb_contact_pair pair;
     struct line line;
     const struct gb_params *run =
         session->runner != NULL ? gb_runner_params(session->runner) : NULL;
     if (run == NULL || run->normal == GB_NORMAL_ROD ||
-        gb_earlier_differences(edited, run) == 0 ||
+        gb_params_diff_count(edited, run) == 0 ||
         !gb_contact_pair_init(&pair, run, NULL)) {
         return false;
     }
-    follow(&pair, plastic(run), most, &line);
+    follow(&pair, plastic(run), max, &line);
     draw(plot, &line, GB_PLOT_INK_DIM, 3);
     return true;
 }
@@ -80,18 +79,18 @@ void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *ses
                      "the parameters do not fit together yet");
         return;
     }
-    const double most = depth * pair.diameter;
-    follow(&pair, plastic(params), most, &line);
-    const double x_ends[2] = {0.0, 1e6 * most};
+    const double max = depth * pair.diameter;
+    follow(&pair, plastic(params), max, &line);
+    const double x_ends[2] = {0.0, 1e6 * max};
     const double y_ends[2] = {0.0, line.y[POINTS - 1]};
     gb_plot_axes(plot, x_ends, y_ends, false, "overlap, um", "normal force, N");
     struct gb_plot_entry entry[3];
     int entries = 0;
-    if (draw_before(plot, params, session, most)) {
+    if (draw_before(plot, params, session, max)) {
         entry[entries++] = (struct gb_plot_entry){GB_PLOT_INK_DIM, 3, "as in the run"};
     }
     if (plastic(params)) {
-        follow_back(&pair, most, &back);
+        follow_back(&pair, max, &back);
         draw(plot, &back, INK_BACK, 2);
         entry[entries++] = (struct gb_plot_entry){INK_BACK, 2, "opened again"};
     }

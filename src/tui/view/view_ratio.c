@@ -15,22 +15,22 @@ static const double noise = 0.01;
 
 void gb_view_ratio_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const struct gb_seen seen = gb_session_seen(session);
+    const struct gb_session_shown shown = gb_session_shown(session);
     struct gb_plot *plot = &panel->plot;
     double x_ends[2] = {HUGE_VAL, -HUGE_VAL};
     const double y_ends[2] = {0.0, 1.2};
-    double most = 0.0;
+    double max = 0.0;
     size_t count = 0;
-    for (size_t i = 0; i < seen.points; i++) {
-        most = fmax(most, gb_curve_at(seen.curve, i)->pz_pa);
+    for (size_t i = 0; i < shown.points; i++) {
+        max = fmax(max, gb_curve_at(shown.curve, i)->pz_pa);
     }
-    if (seen.points < 2 || !gb_panel_plot_reserve(panel, seen.points)) {
+    if (shown.points < 2 || !gb_panel_plot_reserve(panel, shown.points)) {
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no points yet");
         return;
     }
-    for (size_t i = 0; i < seen.points; i++) {
-        const struct gb_point *point = gb_curve_at(seen.curve, i);
-        const double value = point->pz_pa > noise * most ? ratio(point) : (double)NAN;
+    for (size_t i = 0; i < shown.points; i++) {
+        const struct gb_point *point = gb_curve_at(shown.curve, i);
+        const double value = point->pz_pa > noise * max ? ratio(point) : (double)NAN;
         panel->x[count] = point->density;
         panel->y[count++] = value;
         if (isfinite(value)) {
@@ -47,7 +47,7 @@ void gb_view_ratio_draw(struct gb_panel_plot *panel, const struct gb_session *se
                                                 .count = count,
                                                 .ink = GB_PLOT_INK_SERIES,
                                                 .marker = MARK_LOAD});
-    if (panel->cursor_on && panel->cursor < seen.points) {
+    if (panel->cursor_on && panel->cursor < shown.points) {
         gb_plot_cursor(plot, panel->x[panel->cursor], panel->y[panel->cursor]);
     }
 }

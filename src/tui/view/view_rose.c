@@ -74,7 +74,7 @@ static void write_numbers(struct gb_plot *plot, const double rose[GB_SNAPSHOT_RO
 
 void gb_view_rose_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const struct gb_snapshot *now = gb_session_seen(session).now;
+    const struct gb_snapshot *now = gb_session_shown(session).now;
     const double *rose = now->rose;
     struct gb_plot *plot = &panel->plot;
     double radius = 0.0;

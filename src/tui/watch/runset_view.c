@@ -11,7 +11,7 @@
 #include "measure/fit/average.h"
 #include "scene/field.h"
 
-static const double least_pa = 1e6;
+static const double min_pa = 1e6;
 
 static bool has_file(const char *directory, const char *name)
 {
@@ -127,13 +127,13 @@ static char **read_fit(const char *directory)
     return some ? list : NULL;
 }
 
-static void read_states(struct gb_runset_view *swarm, GPtrArray *list)
+static void read_states(struct gb_runset_view *runset, GPtrArray *list)
 {
     double progress = 0.0;
-    swarm->runs = list->len;
-    swarm->run = g_new0(struct gb_runset_view_run, list->len + 1);
+    runset->runs = list->len;
+    runset->run = g_new0(struct gb_runset_view_run, list->len + 1);
     for (size_t i = 0; i < list->len; i++) {
-        struct gb_runset_view_run *run = &swarm->run[i];
+        struct gb_runset_view_run *run = &runset->run[i];
         struct gb_snapshot shot = {0};
         struct gb_follow_engine engine;
         struct gb_error err = {0};
@@ -144,12 +144,12 @@ static void read_states(struct gb_runset_view *swarm, GPtrArray *list)
             run->progress = shot.state == GB_RUN_DONE ? 1.0 : shot.progress;
             g_strlcpy(run->error, shot.error.text, sizeof run->error);
         }
-        swarm->done += run->state == GB_RUN_DONE;
-        swarm->failed += run->state == GB_RUN_FAILED;
-        swarm->live += run->state <= GB_RUN_PAUSED;
+        runset->done += run->state == GB_RUN_DONE;
+        runset->failed += run->state == GB_RUN_FAILED;
+        runset->live += run->state <= GB_RUN_PAUSED;
         progress += run->progress;
     }
-    swarm->progress = list->len > 0 ? progress / (double)list->len : 0.0;
+    runset->progress = list->len > 0 ? progress / (double)list->len : 0.0;
 }
 
 /* Those whose curve can be read by now: one that is just being begun has none yet. */
@@ -169,33 +169,33 @@ static GPtrArray *readable(const GPtrArray *list)
     return good;
 }
 
-static void set_levels(struct gb_runset_view *swarm, const struct gb_runset *set)
+static void set_levels(struct gb_runset_view *runset, const struct gb_runset *set)
 {
-    double most_pa = 10.0 * least_pa;
+    double max_pa = 10.0 * min_pa;
     for (size_t i = 0; i < set->count; i++) {
         const double *p = gb_table_column(set->run[i].table, "p_MPa", NULL);
         for (size_t k = 0; p != NULL && k < gb_table_rows(set->run[i].table); k++) {
-            most_pa = fmax(most_pa, 1e6 * p[k]); /* NaN is left out */
+            max_pa = fmax(max_pa, 1e6 * p[k]); /* NaN is left out */
         }
     }
     for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
         const double part = (double)k / (GB_RUNSET_VIEW_LEVELS - 1);
-        swarm->level_pa[k] = least_pa * pow(most_pa / least_pa, part);
+        runset->level_pa[k] = min_pa * pow(max_pa / min_pa, part);
     }
 }
 
 /* Mean and standard error over the replicas that got to each level. */
-static void average(struct gb_runset_view *swarm, const struct gb_runset *set,
+static void average(struct gb_runset_view *runset, const struct gb_runset *set,
                     size_t group)
 {
-    struct gb_runset_view_group *out = &swarm->group[group];
+    struct gb_runset_view_group *out = &runset->group[group];
     double *values = g_new(double, set->count);
     for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
         size_t count = 0;
         for (size_t i = 0; i < set->count; i++) {
             double read[GB_READING_QUANTITIES];
             if (set->run[i].group == group && set->run[i].table != NULL) {
-                gb_reading_loaded(set->run[i].table, swarm->level_pa[k], read);
+                gb_reading_loaded(set->run[i].table, runset->level_pa[k], read);
                 values[count++] = read[GB_READING_DENSITY];
             }
         }
@@ -205,7 +205,7 @@ static void average(struct gb_runset_view *swarm, const struct gb_runset *set,
 }
 
 /* Place of a value in a key's list, at its end when it is new. */
-static size_t place_of(struct gb_runset_view_key *key, const char *value)
+static size_t index_of_value(struct gb_runset_view_key *key, const char *value)
 {
     for (size_t i = 0; i < key->count; i++) {
         if (strcmp(key->values[i], value) == 0) {
@@ -240,7 +240,7 @@ static void sort_values(struct gb_runset_view_key *key, size_t *place, size_t gr
     }
 }
 
-static void find_keys(struct gb_runset_view *swarm, const struct gb_runset *set)
+static void find_keys(struct gb_runset_view *runset, const struct gb_runset *set)
 {
     size_t count = 0;
     const struct gb_field *field = gb_params_fields(&count);
@@ -251,14 +251,14 @@ static void find_keys(struct gb_runset_view *swarm, const struct gb_runset *set)
             char value[GB_PARAMS_VALUE_MAX];
             gb_params_format(&gb_runset_first(set, g)->params, &field[i], value,
                              sizeof value);
-            place[g] = place_of(&key, value);
+            place[g] = index_of_value(&key, value);
         }
-        if (key.count > 1 && swarm->keys++ < GB_RUNSET_VIEW_VARIED) {
-            const size_t k = swarm->keys - 1;
+        if (key.count > 1 && runset->keys++ < GB_RUNSET_VIEW_VARIED) {
+            const size_t k = runset->keys - 1;
             sort_values(&key, place, set->groups);
-            swarm->key[k] = key;
+            runset->key[k] = key;
             for (size_t g = 0; g < set->groups; g++) {
-                swarm->group[g].place[k] = place[g];
+                runset->group[g].place[k] = place[g];
             }
         } else {
             g_strfreev(key.values);
@@ -267,94 +267,94 @@ static void find_keys(struct gb_runset_view *swarm, const struct gb_runset *set)
     }
 }
 
-static bool read_groups(struct gb_runset_view *swarm, const GPtrArray *good,
+static bool read_groups(struct gb_runset_view *runset, const GPtrArray *good,
                         struct gb_error *err)
 {
     struct gb_runset set = {0};
     if (!gb_runset_read(&set, (char *const *)good->pdata, good->len, err)) {
         return false;
     }
-    swarm->groups = set.groups;
-    swarm->group = g_new0(struct gb_runset_view_group, set.groups + 1);
-    set_levels(swarm, &set);
+    runset->groups = set.groups;
+    runset->group = g_new0(struct gb_runset_view_group, set.groups + 1);
+    set_levels(runset, &set);
     for (size_t g = 0; g < set.groups; g++) {
-        swarm->group[g].label = gb_runset_label(&set, g);
-        swarm->group[g].members = gb_runset_members(&set, g);
-        average(swarm, &set, g);
+        runset->group[g].label = gb_runset_label(&set, g);
+        runset->group[g].members = gb_runset_members(&set, g);
+        average(runset, &set, g);
     }
-    find_keys(swarm, &set);
+    find_keys(runset, &set);
     gb_runset_finish(&set);
     return true;
 }
 
-bool gb_runset_view_read(struct gb_runset_view *swarm, const char *directory,
+bool gb_runset_view_read(struct gb_runset_view *runset, const char *directory,
                          struct gb_error *err)
 {
-    memset(swarm, 0, sizeof *swarm);
+    memset(runset, 0, sizeof *runset);
     GPtrArray *list = list_all(directory);
-    swarm->directory = g_strdup(directory);
-    swarm->fit = read_fit(directory);
+    runset->directory = g_strdup(directory);
+    runset->fit = read_fit(directory);
     bool read = true;
     if (list->len == 0) {
         read = gb_error_set(err, GB_ERR_INPUT, "%s: there is no run in it", directory);
     } else {
-        read_states(swarm, list);
+        read_states(runset, list);
         GPtrArray *good = readable(list);
-        read = good->len == 0 || read_groups(swarm, good, err);
+        read = good->len == 0 || read_groups(runset, good, err);
         g_ptr_array_free(good, TRUE);
     }
     g_ptr_array_free(list, TRUE);
     return read;
 }
 
-void gb_runset_view_finish(struct gb_runset_view *swarm)
+void gb_runset_view_finish(struct gb_runset_view *runset)
 {
-    for (size_t i = 0; i < swarm->runs; i++) {
-        g_free(swarm->run[i].name);
+    for (size_t i = 0; i < runset->runs; i++) {
+        g_free(runset->run[i].name);
     }
-    for (size_t g = 0; g < swarm->groups; g++) {
-        g_free(swarm->group[g].label);
+    for (size_t g = 0; g < runset->groups; g++) {
+        g_free(runset->group[g].label);
     }
     for (size_t k = 0; k < GB_RUNSET_VIEW_VARIED; k++) {
-        g_strfreev(swarm->key[k].values);
+        g_strfreev(runset->key[k].values);
     }
-    g_strfreev(swarm->fit);
-    g_free(swarm->run);
-    g_free(swarm->group);
-    g_free(swarm->directory);
-    memset(swarm, 0, sizeof *swarm);
+    g_strfreev(runset->fit);
+    g_free(runset->run);
+    g_free(runset->group);
+    g_free(runset->directory);
+    memset(runset, 0, sizeof *runset);
 }
 
-static size_t groups_at(const struct gb_runset_view *swarm, size_t level)
+static size_t groups_at(const struct gb_runset_view *runset, size_t level)
 {
     size_t count = 0;
-    for (size_t g = 0; g < swarm->groups; g++) {
-        count += swarm->group[g].reached[level] == swarm->group[g].members;
+    for (size_t g = 0; g < runset->groups; g++) {
+        count += runset->group[g].reached[level] == runset->group[g].members;
     }
     return count;
 }
 
-size_t gb_runset_view_level(const struct gb_runset_view *swarm, double pressure_pa)
+size_t gb_runset_view_level(const struct gb_runset_view *runset, double pressure_pa)
 {
     size_t best = 0;
     for (size_t k = 1; k < GB_RUNSET_VIEW_LEVELS; k++) {
-        if (fabs(log(swarm->level_pa[k] / pressure_pa)) <
-            fabs(log(swarm->level_pa[best] / pressure_pa))) {
+        if (fabs(log(runset->level_pa[k] / pressure_pa)) <
+            fabs(log(runset->level_pa[best] / pressure_pa))) {
             best = k;
         }
     }
     for (size_t k = best; k > 0; k--) {
-        best = groups_at(swarm, k - 1) > groups_at(swarm, best) ? k - 1 : best;
+        best = groups_at(runset, k - 1) > groups_at(runset, best) ? k - 1 : best;
     }
     return best;
 }
 
-const struct gb_runset_view_group *gb_runset_view_at(const struct gb_runset_view *swarm,
+const struct gb_runset_view_group *gb_runset_view_at(const struct gb_runset_view *runset,
                                                      size_t first, size_t second)
 {
-    for (size_t g = 0; g < swarm->groups; g++) {
-        if (swarm->group[g].place[0] == first && swarm->group[g].place[1] == second) {
-            return &swarm->group[g];
+    for (size_t g = 0; g < runset->groups; g++) {
+        if (runset->group[g].place[0] == first && runset->group[g].place[1] == second) {
+            return &runset->group[g];
         }
     }
     return NULL;

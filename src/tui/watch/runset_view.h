@@ -53,15 +53,15 @@ struct gb_runset_view {
 bool gb_runset_view_is(const char *directory);
 
 /* Reads all of it.  Errors: GB_ERR_INPUT when there is no run that can be read. */
-bool gb_runset_view_read(struct gb_runset_view *swarm, const char *directory,
+bool gb_runset_view_read(struct gb_runset_view *runset, const char *directory,
                          struct gb_error *err);
-void gb_runset_view_finish(struct gb_runset_view *swarm); /* zeroed is fine */
+void gb_runset_view_finish(struct gb_runset_view *runset); /* zeroed is fine */
 
 /* The level nearest to a pressure, or below it where more groups got there as a whole. */
-size_t gb_runset_view_level(const struct gb_runset_view *swarm, double pressure_pa);
+size_t gb_runset_view_level(const struct gb_runset_view *runset, double pressure_pa);
 
 /* The group at these values of the two varied keys; NULL: there is none yet. */
-const struct gb_runset_view_group *gb_runset_view_at(const struct gb_runset_view *swarm,
+const struct gb_runset_view_group *gb_runset_view_at(const struct gb_runset_view *runset,
                                                      size_t first, size_t second);
 
 #endif

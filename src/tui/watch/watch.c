@@ -9,12 +9,12 @@
 #include "tui/app/keys.h"
 
 /* The files are read again after this time, and after ten times what that took. */
-static const double again_s = 1.0;
+static const double reread_s = 1.0;
 static const double share = 10.0;
 /* The map begins at the pressure at which P1 compares powders. */
-static const double usual_pa = 100e6;
+static const double default_pa = 100e6;
 
-enum { STATUS_SIGNAL = 128, LEAST_ROWS = 12, LEAST_COLS = 40, PAGE = 10 };
+enum { STATUS_SIGNAL = 128, MIN_ROWS = 12, MIN_COLS = 40, PAGE = 10 };
 
 static double clock_s(void)
 {
@@ -24,16 +24,16 @@ static double clock_s(void)
 /* "8 runs: 5 done, 2 live, 1 failed  72 %" */
 static void draw_header(const struct gb_watch *watch, const struct gb_paint *paint)
 {
-    const struct gb_runset_view *swarm = &watch->swarm;
-    char *name = g_path_get_basename(swarm->directory);
+    const struct gb_runset_view *runset = &watch->runset;
+    char *name = g_path_get_basename(runset->directory);
     char text[160];
     snprintf(text, sizeof text, "%zu runs: %zu done, %zu under way, %zu failed %4.0f %%",
-             swarm->runs, swarm->done, swarm->live, swarm->failed,
-             100.0 * swarm->progress);
+             runset->runs, runset->done, runset->live, runset->failed,
+             100.0 * runset->progress);
     const int col = gb_paint_text(paint, 0, 1, GB_STYLE_BOLD, "greenbody") + 2;
     const int from = paint->rect.cols - gb_paint_width(text) - 1;
     gb_paint_cell(paint, 0, col, from - col - 1, GB_STYLE_PLAIN, name);
-    gb_paint_text(paint, 0, from, swarm->failed > 0 ? GB_STYLE_WARN : GB_STYLE_PLAIN,
+    gb_paint_text(paint, 0, from, runset->failed > 0 ? GB_STYLE_WARN : GB_STYLE_PLAIN,
                   text);
     g_free(name);
 }
@@ -45,10 +45,10 @@ static void draw_footer(const struct gb_watch *watch, const struct gb_paint *pai
         "1 curves  2 map  3 runs  v next  Left and Right pressure  q quit",
         "1 curves  2 map  3 runs  v next  Up and Down scroll  q quit",
         "1 curves  2 map  3 runs  4 fit  v next  q quit"};
-    const bool whole = watch->trouble.code == GB_OK;
+    const bool whole = watch->error.code == GB_OK;
     gb_paint_cell(paint, paint->rect.rows - 1, 1, paint->rect.cols - 2,
                   whole ? GB_STYLE_DIM : GB_STYLE_WARN,
-                  whole ? hints[watch->view] : watch->trouble.text);
+                  whole ? hints[watch->view] : watch->error.text);
 }
 
 static void draw(struct gb_watch *watch, struct gb_term *term)
@@ -60,10 +60,10 @@ static void draw(struct gb_watch *watch, struct gb_term *term)
     const struct gb_paint body =
         gb_paint_at(term, (struct gb_rect){1, 0, rows - 2, cols});
     erase();
-    if (rows < LEAST_ROWS || cols < LEAST_COLS) {
+    if (rows < MIN_ROWS || cols < MIN_COLS) {
         char text[96];
         snprintf(text, sizeof text, "greenbody needs %d x %d, has %d x %d; q quits",
-                 LEAST_COLS, LEAST_ROWS, cols, rows);
+                 MIN_COLS, MIN_ROWS, cols, rows);
         gb_paint_wrap(&whole, 0, rows, GB_STYLE_PLAIN, text);
     } else {
         draw_header(watch, &whole);
@@ -82,7 +82,7 @@ static void move_level(struct gb_watch *watch, int by)
 /* Only a calibration has a fit. */
 static int views(const struct gb_watch *watch)
 {
-    return watch->swarm.fit != NULL ? GB_WATCH_VIEWS : GB_WATCH_FIT;
+    return watch->runset.fit != NULL ? GB_WATCH_VIEWS : GB_WATCH_FIT;
 }
 
 static void show_view(struct gb_watch *watch, int view)
@@ -152,11 +152,11 @@ static bool act(struct gb_watch *watch, struct gb_term *term, enum gb_action act
 static void reread(struct gb_watch *watch)
 {
     struct gb_runset_view fresh;
-    char *directory = g_strdup(watch->swarm.directory);
-    watch->trouble = (struct gb_error){0};
-    if (gb_runset_view_read(&fresh, directory, &watch->trouble)) {
-        gb_runset_view_finish(&watch->swarm);
-        watch->swarm = fresh;
+    char *directory = g_strdup(watch->runset.directory);
+    watch->error = (struct gb_error){0};
+    if (gb_runset_view_read(&fresh, directory, &watch->error)) {
+        gb_runset_view_finish(&watch->runset);
+        watch->runset = fresh;
     } else {
         gb_runset_view_finish(&fresh);
     }
@@ -182,9 +182,9 @@ static int handle(struct gb_watch *watch, struct gb_term *term,
         return STATUS_SIGNAL + SIGINT;
     case GB_TERM_TERMINATE:
         return STATUS_SIGNAL + event->code;
-    case GB_TERM_GONE:
+    case GB_TERM_HANGUP:
         return STATUS_SIGNAL + SIGHUP;
-    case GB_TERM_NOTHING:
+    case GB_TERM_TIMEOUT:
     case GB_TERM_RESIZED:
         break;
     }
@@ -193,7 +193,7 @@ static int handle(struct gb_watch *watch, struct gb_term *term,
 
 static int loop(struct gb_watch *watch, struct gb_term *term, bool *gone)
 {
-    double due = clock_s() + again_s;
+    double due = clock_s() + reread_s;
     int status = -1;
     draw(watch, term);
     while (status < 0) {
@@ -201,11 +201,11 @@ static int loop(struct gb_watch *watch, struct gb_term *term, bool *gone)
         const struct gb_term_event event =
             gb_term_wait(term, left > 0.0 ? (int)(1e3 * left) + 1 : 0);
         status = handle(watch, term, &event);
-        *gone = event.kind == GB_TERM_GONE;
+        *gone = event.kind == GB_TERM_HANGUP;
         if (clock_s() >= due) {
             const double from = clock_s();
             reread(watch);
-            due = clock_s() + MAX(again_s, share * (clock_s() - from));
+            due = clock_s() + MAX(reread_s, share * (clock_s() - from));
         }
         if (status < 0) {
             draw(watch, term);
@@ -229,15 +229,15 @@ int gb_watch_run(const char *directory, const struct gb_settings *settings,
     struct gb_watch watch = {.view = GB_WATCH_CURVES};
     struct gb_term *term = NULL;
     bool gone = false;
-    if (!gb_runset_view_read(&watch.swarm, directory, err) ||
+    if (!gb_runset_view_read(&watch.runset, directory, err) ||
         !gb_term_start(&term, settings, err)) {
-        gb_runset_view_finish(&watch.swarm);
+        gb_runset_view_finish(&watch.runset);
         return gb_status_exit_code(err->code);
     }
     gb_plot_init(&watch.plot);
     watch.glyphs = first_glyphs(term, settings);
-    watch.level = gb_runset_view_level(&watch.swarm, usual_pa);
-    watch.view = watch.swarm.fit != NULL ? GB_WATCH_FIT : GB_WATCH_CURVES;
+    watch.level = gb_runset_view_level(&watch.runset, default_pa);
+    watch.view = watch.runset.fit != NULL ? GB_WATCH_FIT : GB_WATCH_CURVES;
     const int status = loop(&watch, term, &gone);
     if (gone) {
         gb_term_abandon(term);
@@ -246,6 +246,6 @@ int gb_watch_run(const char *directory, const struct gb_settings *settings,
     }
     gb_term_destroy(term);
     gb_plot_finish(&watch.plot);
-    gb_runset_view_finish(&watch.swarm);
+    gb_runset_view_finish(&watch.runset);
     return status;
 }

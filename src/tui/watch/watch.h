@@ -17,8 +17,8 @@ enum gb_watch_view {
 };
 
 struct gb_watch {
-    struct gb_runset_view swarm;
-    struct gb_error trouble; /* why it could not be read again; GB_OK: it could */
+    struct gb_runset_view runset;
+    struct gb_error error; /* why it could not be read again; GB_OK: it could */
     enum gb_watch_view view;
     size_t level; /* pressure of the map */
     bool linear;  /* pressure axis */

@@ -10,7 +10,7 @@
 enum {
     NAME_COLS = 14,
     CELL_COLS = 16,
-    CELL_LEAST = 7,
+    CELL_COLS_MIN = 7,
     ENTRIES = 64,
     STATE_COL = 2,
     ERROR_COL = 22
@@ -18,7 +18,7 @@ enum {
 
 static void write_pressure(const struct gb_watch *watch, char *text, size_t size)
 {
-    gb_units_format_short(watch->swarm.level_pa[watch->level], GB_DIM_PRESSURE, 3, text,
+    gb_units_format_short(watch->runset.level_pa[watch->level], GB_DIM_PRESSURE, 3, text,
                           size);
 }
 
@@ -26,19 +26,19 @@ static void write_pressure(const struct gb_watch *watch, char *text, size_t size
 
 static void find_ends(const struct gb_watch *watch, double x[2], double y[2])
 {
-    const struct gb_runset_view *swarm = &watch->swarm;
+    const struct gb_runset_view *runset = &watch->runset;
     x[0] = y[0] = HUGE_VAL;
     x[1] = y[1] = -HUGE_VAL;
-    for (size_t g = 0; g < swarm->groups; g++) {
+    for (size_t g = 0; g < runset->groups; g++) {
         for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
-            const double error = swarm->group[g].error[k];
-            const double mean = swarm->group[g].mean[k];
+            const double error = runset->group[g].error[k];
+            const double mean = runset->group[g].mean[k];
             const double wide = isfinite(error) ? error : 0.0;
             if (isfinite(mean)) {
                 x[0] = fmin(x[0], mean - wide);
                 x[1] = fmax(x[1], mean + wide);
-                y[0] = fmin(y[0], swarm->level_pa[k] / 1e6);
-                y[1] = fmax(y[1], swarm->level_pa[k] / 1e6);
+                y[0] = fmin(y[0], runset->level_pa[k] / 1e6);
+                y[1] = fmax(y[1], runset->level_pa[k] / 1e6);
             }
         }
     }
@@ -52,7 +52,7 @@ static void draw_curve(struct gb_watch *watch, const struct gb_runset_view_group
     double y[GB_RUNSET_VIEW_LEVELS];
     for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
         x[k] = group->mean[k] + (off != 0.0 ? off * group->error[k] : 0.0);
-        y[k] = watch->swarm.level_pa[k] / 1e6;
+        y[k] = watch->runset.level_pa[k] / 1e6;
     }
     gb_plot_line(&watch->plot, &(struct gb_plot_series){.x = x,
                                                         .y = y,
@@ -73,7 +73,7 @@ static void name_group(const struct gb_runset_view_group *group, char *name, siz
 static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
                         const double x[2], const double y[2], int foot, int *needed)
 {
-    const struct gb_runset_view *swarm = &watch->swarm;
+    const struct gb_runset_view *runset = &watch->runset;
     struct gb_plot_entry entry[ENTRIES];
     int entries = 0;
     if (!gb_plot_resize(&watch->plot, paint->rect.rows - 1, paint->rect.cols - 2,
@@ -82,17 +82,17 @@ static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
     }
     watch->plot.foot = foot;
     gb_plot_axes(&watch->plot, x, y, !watch->linear, "density", "p, MPa");
-    for (size_t g = 0; g < swarm->groups; g++) { /* bands below */
-        draw_curve(watch, &swarm->group[g], -1.0, GB_PLOT_INK_DIM, 0);
-        draw_curve(watch, &swarm->group[g], 1.0, GB_PLOT_INK_DIM, 0);
+    for (size_t g = 0; g < runset->groups; g++) { /* bands below */
+        draw_curve(watch, &runset->group[g], -1.0, GB_PLOT_INK_DIM, 0);
+        draw_curve(watch, &runset->group[g], 1.0, GB_PLOT_INK_DIM, 0);
     }
-    for (size_t g = 0; g < swarm->groups; g++) {
+    for (size_t g = 0; g < runset->groups; g++) {
         const int ink = GB_PLOT_INK_SERIES + (int)(g % GB_PLOT_COLOURS);
         const int marker = 1 + (int)(g % 7);
-        draw_curve(watch, &swarm->group[g], 0.0, ink, marker);
+        draw_curve(watch, &runset->group[g], 0.0, ink, marker);
         if (entries < ENTRIES) {
             entry[entries] = (struct gb_plot_entry){.ink = ink, .marker = marker};
-            name_group(&swarm->group[g], entry[entries].name, GB_PLOT_NAME);
+            name_group(&runset->group[g], entry[entries].name, GB_PLOT_NAME);
             entries++;
         }
     }
@@ -118,16 +118,16 @@ static void draw_curves(struct gb_watch *watch, const struct gb_paint *paint)
 /* --- the map ----------------------------------------------------------------------- */
 
 struct range {
-    double least, most;
+    double min, max;
 };
 
 static struct range range_of(const struct gb_watch *watch)
 {
     struct range range = {HUGE_VAL, -HUGE_VAL};
-    for (size_t g = 0; g < watch->swarm.groups; g++) {
-        const double mean = watch->swarm.group[g].mean[watch->level];
-        range.least = fmin(range.least, mean); /* NaN is left out */
-        range.most = fmax(range.most, mean);
+    for (size_t g = 0; g < watch->runset.groups; g++) {
+        const double mean = watch->runset.group[g].mean[watch->level];
+        range.min = fmin(range.min, mean); /* NaN is left out */
+        range.max = fmax(range.max, mean);
     }
     return range;
 }
@@ -143,9 +143,8 @@ static void draw_cell(const struct gb_watch *watch, const struct gb_paint *paint
     const double mean = group != NULL ? group->mean[watch->level] : (double)NAN;
     if (isfinite(mean)) {
         const double error = group->error[watch->level];
-        const double part = range.most > range.least
-                                ? (mean - range.least) / (range.most - range.least)
-                                : 1.0;
+        const double part =
+            range.max > range.min ? (mean - range.min) / (range.max - range.min) : 1.0;
         const char *shade = shades[(int)fmin(3.0, floor(4.0 * part))];
         const bool wide = cols >= CELL_COLS;
         const int n = wide ? snprintf(text, sizeof text, "%s%s %.4f", shade, shade, mean)
@@ -159,11 +158,11 @@ static void draw_cell(const struct gb_watch *watch, const struct gb_paint *paint
 
 static void draw_matrix(const struct gb_watch *watch, const struct gb_paint *paint)
 {
-    const struct gb_runset_view *swarm = &watch->swarm;
-    const struct gb_runset_view_key *across = &swarm->key[0], *down = &swarm->key[1];
+    const struct gb_runset_view *runset = &watch->runset;
+    const struct gb_runset_view_key *across = &runset->key[0], *down = &runset->key[1];
     const struct range range = range_of(watch);
     const int room = (paint->rect.cols - NAME_COLS - 1) / (int)across->count;
-    const int cols = room >= CELL_COLS ? CELL_COLS : MAX(room, CELL_LEAST);
+    const int cols = room >= CELL_COLS ? CELL_COLS : MAX(room, CELL_COLS_MIN);
     char text[128];
     snprintf(text, sizeof text, "%s.%s \u2192", across->field->group, across->field->key);
     gb_paint_text(paint, 3, NAME_COLS + 1, GB_STYLE_DIM, text);
@@ -178,7 +177,7 @@ static void draw_matrix(const struct gb_watch *watch, const struct gb_paint *pai
         gb_paint_cell(paint, row, 1, NAME_COLS - 1, GB_STYLE_BOLD, down->values[j]);
         for (size_t i = 0; i < across->count; i++) {
             draw_cell(watch, paint, row, NAME_COLS + 1 + (int)i * cols, cols,
-                      gb_runset_view_at(swarm, i, j), range);
+                      gb_runset_view_at(runset, i, j), range);
         }
     }
 }
@@ -187,8 +186,8 @@ static void draw_matrix(const struct gb_watch *watch, const struct gb_paint *pai
 static void draw_list(const struct gb_watch *watch, const struct gb_paint *paint)
 {
     const struct range range = range_of(watch);
-    for (size_t g = 0; g < watch->swarm.groups; g++) {
-        const struct gb_runset_view_group *group = &watch->swarm.group[g];
+    for (size_t g = 0; g < watch->runset.groups; g++) {
+        const struct gb_runset_view_group *group = &watch->runset.group[g];
         char name[80];
         name_group(group, name, sizeof name);
         draw_cell(watch, paint, 3 + (int)g, 1, CELL_COLS, group, range);
@@ -202,7 +201,7 @@ static void draw_map(const struct gb_watch *watch, const struct gb_paint *paint)
     write_pressure(watch, pressure, sizeof pressure);
     gb_paint_format(paint, 1, 1, GB_STYLE_PLAIN,
                     "density at %s, +- its standard error in units of 0.0001", pressure);
-    if (watch->swarm.keys == GB_RUNSET_VIEW_VARIED) {
+    if (watch->runset.keys == GB_RUNSET_VIEW_VARIED) {
         draw_matrix(watch, paint);
     } else {
         draw_list(watch, paint);
@@ -214,10 +213,10 @@ static void draw_map(const struct gb_watch *watch, const struct gb_paint *paint)
 static void draw_runs(struct gb_watch *watch, const struct gb_paint *paint)
 {
     const int page = paint->rect.rows - 1;
-    const int last = (int)watch->swarm.runs - page;
+    const int last = (int)watch->runset.runs - page;
     watch->top = MAX(MIN(watch->top, last), 0);
-    for (int i = 0; i < page && watch->top + i < (int)watch->swarm.runs; i++) {
-        const struct gb_runset_view_run *run = &watch->swarm.run[watch->top + i];
+    for (int i = 0; i < page && watch->top + i < (int)watch->runset.runs; i++) {
+        const struct gb_runset_view_run *run = &watch->runset.run[watch->top + i];
         enum gb_style style = GB_STYLE_PLAIN;
         const char *word = gb_panel_state_word(run->state, &style);
         gb_paint_text(paint, 1 + i, STATE_COL, style, word);
@@ -237,7 +236,7 @@ static void draw_fit(const struct gb_watch *watch, const struct gb_paint *paint)
     rect.cols -= 2;
     const struct gb_paint inside = gb_paint_at(paint->term, rect);
     int row = 1;
-    for (char **line = watch->swarm.fit; line != NULL && *line != NULL; line++) {
+    for (char **line = watch->runset.fit; line != NULL && *line != NULL; line++) {
         const int left = rect.rows - row;
         const int rows = left > 0 ? gb_paint_wrapped(&inside, left, *line) : 0;
         gb_paint_wrap(&inside, row, rows, GB_STYLE_PLAIN, *line);

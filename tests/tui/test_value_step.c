@@ -3,7 +3,7 @@
 #include <glib/gstdio.h>
 
 #include "tui/app/complete.h"
-#include "tui/session/knob.h"
+#include "tui/session/value_step.h"
 
 static void expect(const char *group, const char *key, const char *value, int direction,
                    const char *wanted)
@@ -11,7 +11,7 @@ static void expect(const char *group, const char *key, const char *value, int di
     char text[64] = "";
     const struct gb_field *field = gb_params_find(group, key);
     g_assert_nonnull(field);
-    const bool turned = gb_knob_turn(field, value, direction, text, sizeof text);
+    const bool turned = gb_value_step_next(field, value, direction, text, sizeof text);
     if (wanted == NULL) {
         g_assert_false(turned);
     } else {
@@ -53,8 +53,8 @@ static void test_there_and_back(void)
         char value[64];
         gb_params_init(&params);
         g_snprintf(value, sizeof value, "%.2g", 0.01 * i);
-        g_assert_true(gb_knob_turn(mu, value, 1, up, sizeof up));
-        g_assert_true(gb_knob_turn(mu, up, -1, back, sizeof back));
+        g_assert_true(gb_value_step_next(mu, value, 1, up, sizeof up));
+        g_assert_true(gb_value_step_next(mu, up, -1, back, sizeof back));
         g_assert_cmpfloat_with_epsilon(g_ascii_strtod(back, NULL),
                                        g_ascii_strtod(value, NULL), 0.06);
         g_assert_true(gb_params_set(&params, mu, up, NULL));
@@ -105,9 +105,9 @@ static void test_paths(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/tui/knob/numbers", test_numbers);
-    g_test_add_func("/tui/knob/choices", test_choices);
-    g_test_add_func("/tui/knob/there-and-back", test_there_and_back);
+    g_test_add_func("/tui/value_step/numbers", test_numbers);
+    g_test_add_func("/tui/value_step/choices", test_choices);
+    g_test_add_func("/tui/value_step/there-and-back", test_there_and_back);
     g_test_add_func("/tui/complete/paths", test_paths);
     return g_test_run();
 }

@@ -1,9 +1,9 @@
-#include "tui/session/saving.h"
+#include "tui/session/user_presets.h"
 
 #include <glib.h>
 #include <string.h>
 
-char *gb_saving_suggest(const struct gb_preset *preset)
+char *gb_user_presets_suggest(const struct gb_preset *preset)
 {
     const char *path = gb_preset_path(preset);
     char *base = g_path_get_basename(*path != '\0' ? path : "preset.ini");
@@ -16,7 +16,7 @@ char *gb_saving_suggest(const struct gb_preset *preset)
     return name;
 }
 
-char *gb_saving_path(const char *name, struct gb_error *err)
+char *gb_user_presets_file(const char *name, struct gb_error *err)
 {
     if (strchr(name, '/') != NULL) {
         return g_strdup(name);

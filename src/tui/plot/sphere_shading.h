@@ -1,5 +1,5 @@
-#ifndef GB_TUI_PLOT_RELIEF_H
-#define GB_TUI_PLOT_RELIEF_H
+#ifndef GB_TUI_PLOT_SPHERE_SHADING_H
+#define GB_TUI_PLOT_SPHERE_SHADING_H
 
 #include "greenbody/snapshot.h"
 
@@ -9,7 +9,7 @@
  * shade   rows x cols, from the top: 0..1, negative where nothing is
  * Dots are square; the window of the picture is scaled to fit and stands in the middle.
  */
-void gb_relief_render(const struct gb_view_sample *picture, int rows, int cols,
-                      float *shade);
+void gb_sphere_shading_render(const struct gb_view_sample *picture, int rows, int cols,
+                              float *shade);
 
 #endif

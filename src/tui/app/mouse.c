@@ -1,4 +1,4 @@
-#include "tui/app/pointer.h"
+#include "tui/app/mouse.h"
 
 #include <ncurses.h>
 
@@ -46,20 +46,20 @@ static void click(struct gb_app *app, enum gb_pane pane, int row, int col)
     bool value = false;
     screen->focus = pane;
     if (pane == GB_PANE_PARAMS) {
-        gb_panel_params_point(&screen->params, &screen->session, row, col, &value);
+        gb_panel_params_click(&screen->params, &screen->session, row, col, &value);
     } else if (pane == GB_PANE_PLOT && row == 0) {
         gb_act_do(app, GB_ACTION_NEXT_VIEW);
     } else if (pane == GB_PANE_PLOT) {
-        gb_panel_plot_point(&screen->plot, &screen->session, row, col);
+        gb_panel_plot_click(&screen->plot, &screen->session, row, col);
     }
 }
 
 /* Turning what is not in focus would begin runs by accident. */
-static bool over_knob(struct gb_app *app, int row, int col)
+static bool over_value(struct gb_app *app, int row, int col)
 {
     struct gb_panel_params probe = app->screen.params;
     bool value = false;
-    return gb_panel_params_point(&probe, &app->screen.session, row, col, &value) &&
+    return gb_panel_params_click(&probe, &app->screen.session, row, col, &value) &&
            value && probe.focus == app->screen.params.focus;
 }
 
@@ -67,7 +67,7 @@ static void wheel(struct gb_app *app, enum gb_pane pane, int row, int col, bool 
 {
     struct gb_screen *screen = &app->screen;
     const bool knob =
-        pane == GB_PANE_PARAMS && screen->focus == pane && over_knob(app, row, col);
+        pane == GB_PANE_PARAMS && screen->focus == pane && over_value(app, row, col);
     screen->focus = pane;
     if (knob) {
         gb_act_do(app, up ? GB_ACTION_MORE : GB_ACTION_LESS);
@@ -78,7 +78,7 @@ static void wheel(struct gb_app *app, enum gb_pane pane, int row, int col, bool 
     }
 }
 
-void gb_pointer_act(struct gb_app *app, const struct gb_term_event *event)
+void gb_mouse_handle(struct gb_app *app, const struct gb_term_event *event)
 {
     struct gb_screen *screen = &app->screen;
     const enum gb_pane pane = pane_at(&screen->layout, event->row, event->col);

@@ -1,4 +1,4 @@
-#include "tui/term/term_guess.h"
+#include "tui/term/term_profile.h"
 
 #include <glib.h>
 #include <langinfo.h>
@@ -19,7 +19,7 @@ static const char *from_env(const char *name)
     return value != NULL ? value : "";
 }
 
-static bool is_inside(const char *type)
+static bool in_multiplexer(const char *type)
 {
     return *from_env("TMUX") != '\0' || *from_env("STY") != '\0' ||
            g_str_has_prefix(type, "screen") || g_str_has_prefix(type, "tmux");
@@ -27,26 +27,26 @@ static bool is_inside(const char *type)
 
 /* A terminal with all colours is often named xterm, which has eight: its entry with more
  * is taken where there is one. */
-static void prefer_colours(struct gb_term_guess *guess, int fd)
+static void prefer_colours(struct gb_term_profile *profile, int fd)
 {
     const char *colorterm = from_env("COLORTERM");
     const bool rich =
         strcmp(colorterm, "truecolor") == 0 || strcmp(colorterm, "24bit") == 0;
-    if (!rich || guess->colours >= 256 || guess->inside ||
-        strcmp(guess->type, "linux") == 0) {
+    if (!rich || profile->colours >= 256 || profile->inside ||
+        strcmp(profile->type, "linux") == 0) {
         return;
     }
-    char name[sizeof guess->better];
-    g_snprintf(name, sizeof name, "%s-256color", guess->type);
+    char name[sizeof profile->better];
+    g_snprintf(name, sizeof name, "%s-256color", profile->type);
     const int colours = gb_term_tty_colours(name, fd);
     if (colours >= 256) {
-        g_strlcpy(guess->better, name, sizeof guess->better);
-        guess->type = guess->better;
-        guess->colours = colours;
+        g_strlcpy(profile->better, name, sizeof profile->better);
+        profile->type = profile->better;
+        profile->colours = colours;
     }
 }
 
-static bool knows_mouse(const char *type, int fd)
+static bool reports_mouse(const char *type, int fd)
 {
     int found = 0;
     if (setupterm(type, fd, &found) != OK) {
@@ -58,14 +58,14 @@ static bool knows_mouse(const char *type, int fd)
     return has;
 }
 
-static bool wants_colour(const struct gb_settings *settings)
+static bool colour_wanted(const struct gb_settings *settings)
 {
     return settings->colour == GB_COLOUR_ALWAYS ||
            (settings->colour == GB_COLOUR_AUTO && *from_env("NO_COLOR") == '\0');
 }
 
-static int guess_images(const struct gb_term_guess *guess,
-                        const struct gb_settings *settings)
+static int detect_images(const struct gb_term_profile *profile,
+                         const struct gb_settings *settings)
 {
     if (!gb_pixels_available() || settings->images == GB_IMAGES_NONE) {
         return GB_IMAGES_NONE;
@@ -75,28 +75,30 @@ static int guess_images(const struct gb_term_guess *guess,
     }
     /* a picture is a hundred times as long as a frame: not unasked over a network */
     const bool far = *from_env("SSH_CONNECTION") != '\0';
-    return guess->inside || far || !guess->coloured ? GB_IMAGES_NONE : gb_pixels_detect();
+    return profile->inside || far || !profile->coloured ? GB_IMAGES_NONE
+                                                        : gb_pixels_detect();
 }
 
-bool gb_term_guess_make(struct gb_term_guess *guess, int fd,
-                        const struct gb_settings *settings, struct gb_error *err)
+bool gb_term_profile_detect(struct gb_term_profile *profile, int fd,
+                            const struct gb_settings *settings, struct gb_error *err)
 {
     setlocale(LC_ALL, "");
     setlocale(LC_NUMERIC, "C"); /* numbers keep their point everywhere */
-    *guess = (struct gb_term_guess){.own = from_env("TERM"), .images = GB_IMAGES_NONE};
+    *profile =
+        (struct gb_term_profile){.own = from_env("TERM"), .images = GB_IMAGES_NONE};
     const bool ascii = settings->ascii != 0;
-    guess->utf8 = !ascii && strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
-    guess->type = gb_term_tty_type(fd, err);
-    if (guess->type == NULL) {
+    profile->utf8 = !ascii && strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+    profile->type = gb_term_tty_type(fd, err);
+    if (profile->type == NULL) {
         return false;
     }
-    guess->inside = is_inside(guess->own);
-    guess->colours = gb_term_tty_colours(guess->type, fd);
-    prefer_colours(guess, fd);
-    guess->coloured = guess->colours >= 8 && wants_colour(settings);
-    guess->braille = guess->utf8 && strcmp(guess->type, "linux") != 0;
-    guess->can_mouse = knows_mouse(guess->type, fd);
-    guess->images = guess_images(guess, settings);
+    profile->inside = in_multiplexer(profile->own);
+    profile->colours = gb_term_tty_colours(profile->type, fd);
+    prefer_colours(profile, fd);
+    profile->coloured = profile->colours >= 8 && colour_wanted(settings);
+    profile->braille = profile->utf8 && strcmp(profile->type, "linux") != 0;
+    profile->can_mouse = reports_mouse(profile->type, fd);
+    profile->images = detect_images(profile, settings);
     return true;
 }
 
@@ -119,47 +121,47 @@ static void print_place(FILE *out, int fd)
     fprintf(out, "; 80 x 24 shows everything, 40 x 12 is the least\n");
 }
 
-static void print_terminal(FILE *out, const struct gb_term_guess *guess,
+static void print_terminal(FILE *out, const struct gb_term_profile *profile,
                            const struct gb_settings *settings)
 {
     static const char *const graphs[] = {"", "braille", "block", "ascii"};
     const char *graph = settings->graph != GB_GRAPH_AUTO ? graphs[settings->graph]
-                        : guess->braille                 ? "braille"
-                        : guess->utf8                    ? "block"
+                        : profile->braille               ? "braille"
+                        : profile->utf8                  ? "block"
                                                          : "ascii";
-    fprintf(out, "terminal   TERM=%s, taken as %s%s\n", guess->own, guess->type,
-            guess->inside ? ", inside of tmux or screen" : "");
+    fprintf(out, "terminal   TERM=%s, taken as %s%s\n", profile->own, profile->type,
+            profile->inside ? ", inside of tmux or screen" : "");
     fprintf(out, "colours    %d of terminfo, COLORTERM=%s, NO_COLOR=%s, --color=%s: %s\n",
-            guess->colours, from_env("COLORTERM"), from_env("NO_COLOR"),
+            profile->colours, from_env("COLORTERM"), from_env("NO_COLOR"),
             gb_settings_word(settings, "color"),
-            !guess->coloured        ? "none are used"
-            : guess->colours >= 256 ? "256 are used"
-            : guess->colours >= 16  ? "16 are used"
-                                    : "8 are used");
+            !profile->coloured        ? "none are used"
+            : profile->colours >= 256 ? "256 are used"
+            : profile->colours >= 16  ? "16 are used"
+                                      : "8 are used");
     fprintf(out, "plots      %s\n", graph);
     fprintf(out, "mouse      %s, terminfo knows it: %s\n",
-            gb_settings_word(settings, "mouse"), yes_no(guess->can_mouse));
+            gb_settings_word(settings, "mouse"), yes_no(profile->can_mouse));
     fprintf(out, "images     %s (libchafa: %s, --images=%s)\n",
-            guess->images == GB_IMAGES_SIXEL   ? "sixel"
-            : guess->images == GB_IMAGES_KITTY ? "kitty"
-                                               : "none, the packing is drawn in cells",
+            profile->images == GB_IMAGES_SIXEL   ? "sixel"
+            : profile->images == GB_IMAGES_KITTY ? "kitty"
+                                                 : "none, the packing is drawn in cells",
             yes_no(gb_pixels_available()), gb_settings_word(settings, "images"));
     fprintf(out, "frames     at most %d a second\n", settings->slow ? 2 : 10);
 }
 
-void gb_term_guess_print(FILE *out, int fd, const struct gb_settings *settings)
+void gb_term_profile_print(FILE *out, int fd, const struct gb_settings *settings)
 {
-    struct gb_term_guess guess;
+    struct gb_term_profile profile;
     struct gb_error err = {0};
-    const bool works = gb_term_guess_make(&guess, fd, settings, &err);
+    const bool works = gb_term_profile_detect(&profile, fd, settings, &err);
     char *path = gb_settings_path();
     char *log = gb_term_tty_log();
     fprintf(out, "locale     %s, %s: UTF-8 %s%s\n", setlocale(LC_CTYPE, NULL),
-            nl_langinfo(CODESET), guess.utf8 ? "is used" : "is not used",
+            nl_langinfo(CODESET), profile.utf8 ? "is used" : "is not used",
             settings->ascii ? " (--ascii)" : "");
     print_place(out, fd);
     if (works) {
-        print_terminal(out, &guess, settings);
+        print_terminal(out, &profile, settings);
     } else {
         fprintf(out, "terminal   none: %s\n", err.text);
     }

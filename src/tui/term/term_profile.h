@@ -1,5 +1,5 @@
-#ifndef GB_TUI_TERM_TERM_GUESS_H
-#define GB_TUI_TERM_TERM_GUESS_H
+#ifndef GB_TUI_TERM_TERM_PROFILE_H
+#define GB_TUI_TERM_TERM_PROFILE_H
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 
 /* What the terminal is taken for, by its capabilities, its environment and what the user
  * says.  --diagnose prints it. */
-struct gb_term_guess {
+struct gb_term_profile {
     const char *own;  /* $TERM, "" when it is not set */
     const char *type; /* the terminfo entry in use */
     char better[64];  /* holds type where it is not own */
@@ -23,10 +23,10 @@ struct gb_term_guess {
 
 /* Sets the locale as well.  Error (GB_ERR_MACHINE): no terminal type works; the rest is
  * filled all the same. */
-bool gb_term_guess_make(struct gb_term_guess *guess, int fd,
-                        const struct gb_settings *settings, struct gb_error *err);
+bool gb_term_profile_detect(struct gb_term_profile *profile, int fd,
+                            const struct gb_settings *settings, struct gb_error *err);
 
 /* One line for each guess, with what it rests on. */
-void gb_term_guess_print(FILE *out, int fd, const struct gb_settings *settings);
+void gb_term_profile_print(FILE *out, int fd, const struct gb_settings *settings);
 
 #endif

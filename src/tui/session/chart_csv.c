@@ -1,4 +1,4 @@
-#include "tui/app/choices.h"
+#include "tui/session/chart_csv.h"
 
 #include <glib.h>
 #include <math.h>
@@ -20,7 +20,7 @@ static bool find_columns(const struct gb_table *table, const char *const *names,
     return true;
 }
 
-static void write_name(struct gb_choices *choices, const struct gb_table *table,
+static void write_name(struct gb_chart_csv *choices, const struct gb_table *table,
                        size_t row)
 {
     const double *step = gb_table_column(table, "step", NULL);
@@ -30,7 +30,7 @@ static void write_name(struct gb_choices *choices, const struct gb_table *table,
              tolerance != NULL ? tolerance[row] : (double)NAN);
 }
 
-static bool fill(struct gb_choices *choices, const struct gb_table *table,
+static bool fill(struct gb_chart_csv *choices, const struct gb_table *table,
                  struct gb_error *err)
 {
     enum { SECONDS, ERROR, FRONT, CHOSEN, COLUMNS };
@@ -60,24 +60,24 @@ static bool fill(struct gb_choices *choices, const struct gb_table *table,
     return true;
 }
 
-bool gb_choices_read(struct gb_choices **out, const char *path, struct gb_error *err)
+bool gb_chart_csv_read(struct gb_chart_csv **out, const char *path, struct gb_error *err)
 {
     struct gb_table *table = NULL;
     if (!gb_table_read(&table, path, "relaxer", err)) {
         return false;
     }
-    struct gb_choices *choices = gb_alloc_array(1, sizeof *choices, err);
+    struct gb_chart_csv *choices = gb_alloc_array(1, sizeof *choices, err);
     const bool good = choices != NULL && fill(choices, table, err);
     gb_table_destroy(table);
     if (!good) {
-        gb_choices_destroy(choices);
+        gb_chart_csv_destroy(choices);
         return false;
     }
     *out = choices;
     return true;
 }
 
-void gb_choices_destroy(struct gb_choices *choices)
+void gb_chart_csv_destroy(struct gb_chart_csv *choices)
 {
     if (choices != NULL) {
         gb_alloc_free(choices->seconds);

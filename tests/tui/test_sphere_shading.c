@@ -1,7 +1,7 @@
 /* Packings drawn as lit spheres. */
 #include <glib.h>
 
-#include "tui/plot/relief.h"
+#include "tui/plot/sphere_shading.h"
 
 enum { ROWS = 40, COLS = 40 };
 
@@ -44,7 +44,7 @@ static float brightest(void)
 static void test_one(void)
 {
     struct gb_view_sample *picture = one_sphere(3, 0.0F);
-    gb_relief_render(picture, ROWS, COLS, shade);
+    gb_sphere_shading_render(picture, ROWS, COLS, shade);
     g_assert_cmpint(covered(), >=, 9);
     g_assert_cmpint(covered(), <=, 16);
     g_assert_cmpfloat(shade[20 * COLS + 20], >, 0.3F);
@@ -59,9 +59,9 @@ static void test_depth(void)
 {
     struct gb_view_sample *near = one_sphere(3, 0.0F);
     struct gb_view_sample *far = one_sphere(3, 8.0F);
-    gb_relief_render(near, ROWS, COLS, shade);
+    gb_sphere_shading_render(near, ROWS, COLS, shade);
     const float front = brightest();
-    gb_relief_render(far, ROWS, COLS, shade);
+    gb_sphere_shading_render(far, ROWS, COLS, shade);
     const float back = brightest();
     g_assert_cmpfloat(back, <, 0.7F * front);
     near->count = 2;
@@ -70,7 +70,7 @@ static void test_depth(void)
         near->place[order][1] = 0.0F;
         near->place[1 - order][0] = near->place[1 - order][2] = 4.5F;
         near->place[1 - order][1] = 8.0F;
-        gb_relief_render(near, ROWS, COLS, shade);
+        gb_sphere_shading_render(near, ROWS, COLS, shade);
         g_assert_cmpfloat(brightest(), ==, front);
     }
     g_free(near);
@@ -88,8 +88,8 @@ static void test_sizes(void)
     }
     for (int rows = 1; rows <= ROWS; rows += 3) {
         for (int cols = 1; cols <= COLS; cols += 3) {
-            float *exact = g_new(float, rows *cols);
-            gb_relief_render(picture, rows, cols, exact);
+            float *exact = g_new(float, (gsize)(rows * cols));
+            gb_sphere_shading_render(picture, rows, cols, exact);
             g_assert_cmpfloat(exact[(rows / 2) * cols + cols / 2], >=, 0.0F);
             g_free(exact);
         }
@@ -100,8 +100,8 @@ static void test_sizes(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/tui/relief/one", test_one);
-    g_test_add_func("/tui/relief/depth", test_depth);
-    g_test_add_func("/tui/relief/sizes", test_sizes);
+    g_test_add_func("/tui/sphere_shading/one", test_one);
+    g_test_add_func("/tui/sphere_shading/depth", test_depth);
+    g_test_add_func("/tui/sphere_shading/sizes", test_sizes);
     return g_test_run();
 }

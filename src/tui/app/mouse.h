@@ -1,11 +1,11 @@
-#ifndef GB_TUI_APP_POINTER_H
-#define GB_TUI_APP_POINTER_H
+#ifndef GB_TUI_APP_MOUSE_H
+#define GB_TUI_APP_MOUSE_H
 
 #include "tui/app/app_private.h"
 
 /* The mouse: a click takes the pane, its row or its point, a key of the footer, the title
  * of the plot (the next view); the wheel scrolls, and turns the parameter with the focus
  * where it is over its value.  All of it can be done by keys, too. */
-void gb_pointer_act(struct gb_app *app, const struct gb_term_event *event);
+void gb_mouse_handle(struct gb_app *app, const struct gb_term_event *event);
 
 #endif

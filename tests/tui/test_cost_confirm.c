@@ -1,7 +1,7 @@
 #include <glib.h>
 #include <string.h>
 
-#include "tui/session/costly.h"
+#include "tui/session/cost_confirm.h"
 
 /* P2's discs at a rate of loading, before anything is measured, on one core. */
 static struct gb_params planar(const char *rate, const char *time_step)
@@ -36,7 +36,7 @@ static bool asks(const char *rate, const char *time_step, double measured)
 {
     const struct gb_params params = planar(rate, time_step);
     char text[400] = "";
-    const bool asked = gb_costly_question(&params, measured, text, sizeof text);
+    const bool asked = gb_cost_confirm_question(&params, measured, text, sizeof text);
     g_test_message("%s %s: %s", rate, time_step, text);
     return asked;
 }
@@ -64,7 +64,7 @@ static void test_text(void)
 {
     struct gb_params params = planar("6.8e4 1/s", "0.04 T");
     char text[400];
-    g_assert_true(gb_costly_question(&params, 1e7, text, sizeof text));
+    g_assert_true(gb_cost_confirm_question(&params, 1e7, text, sizeof text));
     g_assert_nonnull(strstr(text, "8 h 55 min"));
     g_assert_nonnull(strstr(text, "3.2e+08 steps of 29.6 fs"));
     g_assert_nonnull(strstr(text, "as the last run"));
@@ -73,7 +73,7 @@ static void test_text(void)
     g_assert_cmpuint(strlen(text), <, sizeof text - 1);
     params = planar("6.8e8 1/s", "auto");
     params.hold_s = 1e-4;
-    g_assert_true(gb_costly_question(&params, 0.0, text, sizeof text));
+    g_assert_true(gb_cost_confirm_question(&params, 0.0, text, sizeof text));
     g_assert_nonnull(strstr(text, "loading.relax or hold"));
     g_assert_nonnull(strstr(text, "(assumed)"));
     g_assert_null(strstr(text, "time_step"));
@@ -85,18 +85,18 @@ static void test_others(void)
     struct gb_params params;
     char text[400];
     gb_params_init(&params);
-    g_assert_false(gb_costly_question(&params, 1.0, text, sizeof text));
+    g_assert_false(gb_cost_confirm_question(&params, 1.0, text, sizeof text));
     params = planar("6.8e4 1/s", "auto");
     params.until_density = params.structure_density / 2.0;
-    g_assert_false(gb_costly_question(&params, 0.0, text, sizeof text));
+    g_assert_false(gb_cost_confirm_question(&params, 0.0, text, sizeof text));
 }
 
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/tui/costly/rates", test_rates);
-    g_test_add_func("/tui/costly/measured", test_measured);
-    g_test_add_func("/tui/costly/text", test_text);
-    g_test_add_func("/tui/costly/others", test_others);
+    g_test_add_func("/tui/cost_confirm/rates", test_rates);
+    g_test_add_func("/tui/cost_confirm/measured", test_measured);
+    g_test_add_func("/tui/cost_confirm/text", test_text);
+    g_test_add_func("/tui/cost_confirm/others", test_others);
     return g_test_run();
 }

@@ -1,5 +1,5 @@
-#ifndef GB_TUI_APP_BROWSE_H
-#define GB_TUI_APP_BROWSE_H
+#ifndef GB_TUI_APP_PRESET_BROWSER_H
+#define GB_TUI_APP_PRESET_BROWSER_H
 
 #include "io/preset.h"
 #include "tui/app/keys.h"
@@ -9,7 +9,7 @@
 /* The list of presets: what is typed filters the names, beside it stands what the one
  * under the cursor is, where it comes from and what differs from the parameters on the
  * screen, or from another preset that Tab has marked. */
-struct gb_browse {
+struct gb_preset_browser {
     char **names; /* all; owned */
     int *shown;   /* indices of those that fit the filter; owned */
     int count, focus, top, page;
@@ -21,14 +21,17 @@ struct gb_browse {
 };
 
 /* current: the parameters on the screen. */
-void gb_browse_start(struct gb_browse *browse, const struct gb_params *current);
-void gb_browse_finish(struct gb_browse *browse); /* zeroed is fine */
+void gb_preset_browser_init(struct gb_preset_browser *browser,
+                            const struct gb_params *current);
+void gb_preset_browser_finish(struct gb_preset_browser *browser); /* zeroed is fine */
 
-void gb_browse_draw(struct gb_browse *browse, const struct gb_paint *inside);
+void gb_preset_browser_draw(struct gb_preset_browser *browser,
+                            const struct gb_paint *inside);
 /* Moves, filters, marks; false when the event is for somebody else (Enter, Esc). */
-bool gb_browse_type(struct gb_browse *browse, const struct gb_term_event *event);
+bool gb_preset_browser_handle(struct gb_preset_browser *browser,
+                              const struct gb_term_event *event);
 
 /* Name under the cursor; NULL when nothing fits the filter. */
-const char *gb_browse_name(const struct gb_browse *browse);
+const char *gb_preset_browser_selected(const struct gb_preset_browser *browser);
 
 #endif

@@ -1,5 +1,5 @@
-#ifndef GB_TUI_APP_CHOICES_H
-#define GB_TUI_APP_CHOICES_H
+#ifndef GB_TUI_SESSION_CHART_CSV_H
+#define GB_TUI_SESSION_CHART_CSV_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -8,7 +8,7 @@
 
 /* The table of numerical choices that `greenbody chart` writes (chart.csv): what each one
  * costs and how far it errs. */
-struct gb_choices {
+struct gb_chart_csv {
     size_t count;
     double *seconds, *error; /* of CPU time a cell; bound of the error in density */
     bool *front;             /* nothing is both cheaper and better */
@@ -17,7 +17,7 @@ struct gb_choices {
 };
 
 /* Errors: one line (GB_ERR_INPUT when it is another table). */
-bool gb_choices_read(struct gb_choices **out, const char *path, struct gb_error *err);
-void gb_choices_destroy(struct gb_choices *choices); /* NULL is fine */
+bool gb_chart_csv_read(struct gb_chart_csv **out, const char *path, struct gb_error *err);
+void gb_chart_csv_destroy(struct gb_chart_csv *choices); /* NULL is fine */
 
 #endif

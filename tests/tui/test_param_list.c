@@ -1,7 +1,7 @@
 #include <glib.h>
 
 #include "scene/applies.h"
-#include "tui/panel/listing.h"
+#include "tui/panel/param_list.h"
 
 static struct gb_params scene(const char *first, ...)
 {
@@ -24,9 +24,9 @@ static bool listed(const struct gb_params *params, const char *group, const char
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     const int row = (int)(gb_params_find(group, key) - fields);
-    struct gb_listing listing;
-    gb_listing_init(&listing, params, false);
-    return listing.field[gb_listing_place(&listing, row)] == row;
+    struct gb_param_list listing;
+    gb_param_list_init(&listing, params, false);
+    return listing.field[gb_param_list_index(&listing, row)] == row;
 }
 
 /* A scene lists what it uses. */
@@ -59,9 +59,9 @@ static void test_all(void)
     const struct gb_params params = scene(NULL);
     size_t count = 0;
     gb_params_fields(&count);
-    g_assert_cmpuint(count, <=, GB_LISTING_MOST);
-    struct gb_listing listing;
-    gb_listing_init(&listing, &params, true);
+    g_assert_cmpuint(count, <=, GB_PARAM_LIST_MAX);
+    struct gb_param_list listing;
+    gb_param_list_init(&listing, &params, true);
     g_assert_cmpint(listing.count, ==, (int)count);
     g_assert_true(listing.first[0]);
     g_assert_cmpint(listing.line[0], ==, 1);
@@ -69,7 +69,7 @@ static void test_all(void)
         g_assert_cmpint(listing.field[i], ==, i);
         g_assert_cmpint(listing.line[i] - listing.line[i - 1], ==,
                         listing.first[i] ? 3 : 1);
-        g_assert_cmpint(gb_listing_place(&listing, i), ==, i);
+        g_assert_cmpint(gb_param_list_index(&listing, i), ==, i);
     }
 }
 
@@ -77,13 +77,13 @@ static void test_all(void)
 static void test_place(void)
 {
     const struct gb_params params = scene("scene.kind=quasistatic", NULL);
-    struct gb_listing listing;
+    struct gb_param_list listing;
     size_t count = 0;
     gb_params_fields(&count);
-    gb_listing_init(&listing, &params, false);
+    gb_param_list_init(&listing, &params, false);
     g_assert_cmpint(listing.count, <, (int)count);
     for (int row = 0; row < (int)count; row++) {
-        const int place = gb_listing_place(&listing, row);
+        const int place = gb_param_list_index(&listing, row);
         g_assert_cmpint(listing.field[place], <=, row);
         if (place + 1 < listing.count) {
             g_assert_cmpint(listing.field[place + 1], >, row);

@@ -1,4 +1,4 @@
-#include "tui/session/costly.h"
+#include "tui/session/cost_confirm.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,8 +17,8 @@ static void write_advice(const struct gb_params *params, const struct gb_cost *c
              isnan(gb_params_time_step_s(params)) ? "" : ", numerics.time_step = auto");
 }
 
-bool gb_costly_question(const struct gb_params *params, double particle_steps_per_s,
-                        char *text, size_t size)
+bool gb_cost_confirm_question(const struct gb_params *params, double particle_steps_per_s,
+                              char *text, size_t size)
 {
     struct gb_cost cost;
     struct gb_error err = {0};
@@ -41,8 +41,9 @@ bool gb_costly_question(const struct gb_params *params, double particle_steps_pe
     return true;
 }
 
-bool gb_costly_after_quick(const struct gb_params *full, const struct gb_params *quick,
-                           double quick_s, double *seconds, char *text, size_t size)
+bool gb_cost_confirm_after_quick(const struct gb_params *full,
+                                 const struct gb_params *quick, double quick_s,
+                                 double *seconds, char *text, size_t size)
 {
     char duration[48];
     struct gb_error err = {0};

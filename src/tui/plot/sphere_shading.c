@@ -1,4 +1,4 @@
-#include "tui/plot/relief.h"
+#include "tui/plot/sphere_shading.h"
 
 #include <math.h>
 
@@ -26,7 +26,7 @@ static struct frame fit(const struct gb_view_sample *picture, int rows, int cols
 }
 
 /* Light on a sphere at (x, z) from its middle, in radii; depth behind the front in d. */
-static float lit(double x, double z, double depth)
+static float brightness(double x, double z, double depth)
 {
     const double y = -sqrt(fmax(0.0, 1.0 - x * x - z * z));
     const double lambert = fmax(0.0, x * light[0] + y * light[1] + z * light[2]);
@@ -52,7 +52,7 @@ static void draw_sphere(const struct frame *frame, const struct gb_view_sample *
             const double x = (c + 0.5 - col) / reach;
             const double z = (row - r - 0.5) / reach;
             if (x * x + z * z <= 1.0) {
-                shade[r * frame->cols + c] = lit(x, z, depth);
+                shade[r * frame->cols + c] = brightness(x, z, depth);
             }
         }
     }
@@ -66,12 +66,12 @@ static int layer_of(const struct gb_view_sample *picture, int i)
     if (picture->dimension != 3) {
         return 0;
     }
-    const double deep = picture->place[i][1] / fmax(picture->window[1], 1e-9);
-    return (int)(fmin(fmax(deep, 0.0), 0.999) * LAYERS);
+    const double depth_share = picture->place[i][1] / fmax(picture->window[1], 1e-9);
+    return (int)(fmin(fmax(depth_share, 0.0), 0.999) * LAYERS);
 }
 
-void gb_relief_render(const struct gb_view_sample *picture, int rows, int cols,
-                      float *shade)
+void gb_sphere_shading_render(const struct gb_view_sample *picture, int rows, int cols,
+                              float *shade)
 {
     /* a counting sort by layer: first[l] is where the layer's chain begins */
     int first[LAYERS];

@@ -1,4 +1,4 @@
-#include "tui/session/knob.h"
+#include "tui/session/value_step.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,14 +7,14 @@
 
 /* A step of a knob: a tenth to a twentieth of the value, so that it stays a short number.
  */
-static double step_of(double value)
+static double increment_of(double value)
 {
     const double decade = pow(10.0, floor(log10(fabs(value)) + 1e-9));
     const double mantissa = fabs(value) / decade;
     return decade * (mantissa < 2.0 - 1e-9 ? 0.1 : mantissa < 5.0 - 1e-9 ? 0.2 : 0.5);
 }
 
-static void turn_choice(const struct gb_field *field, const char *value, int direction,
+static void step_choice(const struct gb_field *field, const char *value, int direction,
                         char *text, size_t size)
 {
     int count = 0;
@@ -26,7 +26,7 @@ static void turn_choice(const struct gb_field *field, const char *value, int dir
 }
 
 /* "9.7 nm" becomes "10.2 nm": whatever follows the number stays as it is. */
-static bool turn_number(const struct gb_field *field, const char *value, int direction,
+static bool step_number(const struct gb_field *field, const char *value, int direction,
                         char *text, size_t size)
 {
     char *rest = NULL;
@@ -38,22 +38,22 @@ static bool turn_number(const struct gb_field *field, const char *value, int dir
         snprintf(text, size, "%.0f%s", fmax(number + direction, 0.0), rest);
         return true;
     }
-    const double step = number != 0.0 ? step_of(number) : 0.01;
+    const double step = number != 0.0 ? increment_of(number) : 0.01;
     /* down from 1 the steps are those of 0.9 */
-    const double down = number != 0.0 ? step_of(number * (1.0 - 1e-6)) : step;
+    const double down = number != 0.0 ? increment_of(number * (1.0 - 1e-6)) : step;
     const double next = direction > 0 ? number + step : number - down;
     snprintf(text, size, "%.6g%s",
              field->type == GB_FIELD_INTEGER ? floor(next + 0.5) : next, rest);
     return true;
 }
 
-bool gb_knob_turn(const struct gb_field *field, const char *value, int direction,
-                  char *text, size_t size)
+bool gb_value_step_next(const struct gb_field *field, const char *value, int direction,
+                        char *text, size_t size)
 {
     if (field->choices != NULL) {
-        turn_choice(field, value, direction, text, size);
+        step_choice(field, value, direction, text, size);
         return true;
     }
     return field->type != GB_FIELD_TEXT && field->type != GB_FIELD_PRESSURES &&
-           turn_number(field, value, direction, text, size);
+           step_number(field, value, direction, text, size);
 }

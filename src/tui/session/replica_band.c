@@ -1,10 +1,10 @@
-#include "tui/plot/band.h"
+#include "tui/session/replica_band.h"
 
 #include <glib.h>
 #include <string.h>
 
 /* Read again after this time, and after ten times what reading took. */
-static const double again_s = 1.0;
+static const double reread_s = 1.0;
 static const double share = 10.0;
 
 static double clock_s(void)
@@ -12,16 +12,16 @@ static double clock_s(void)
     return 1e-6 * (double)g_get_monotonic_time();
 }
 
-void gb_band_follow(struct gb_band *band, const char *directory,
-                    const struct gb_params *params)
+void gb_replica_band_follow(struct gb_replica_band *band, const char *directory,
+                            const struct gb_params *params)
 {
-    gb_band_finish(band);
+    gb_replica_band_finish(band);
     band->directory = g_strdup(directory);
     band->params = *params;
 }
 
 /* What cannot be read leaves what is shown: the next time may be better. */
-bool gb_band_refresh(struct gb_band *band, bool at_once)
+bool gb_replica_band_refresh(struct gb_replica_band *band, bool at_once)
 {
     struct gb_runset_view fresh;
     struct gb_error err = {0};
@@ -30,25 +30,26 @@ bool gb_band_refresh(struct gb_band *band, bool at_once)
         return false;
     }
     const bool good = gb_runset_view_read(&fresh, band->directory, &err);
-    band->due = clock_s() + MAX(again_s, share * (clock_s() - from));
+    band->due = clock_s() + MAX(reread_s, share * (clock_s() - from));
     if (good) {
-        gb_runset_view_finish(&band->swarm);
-        band->swarm = fresh;
+        gb_runset_view_finish(&band->runset);
+        band->runset = fresh;
     } else {
         gb_runset_view_finish(&fresh);
     }
     return good;
 }
 
-void gb_band_finish(struct gb_band *band)
+void gb_replica_band_finish(struct gb_replica_band *band)
 {
-    gb_runset_view_finish(&band->swarm);
+    gb_runset_view_finish(&band->runset);
     g_free(band->directory);
     memset(band, 0, sizeof *band);
 }
 
-const struct gb_runset_view_group *gb_band_group(const struct gb_band *band)
+const struct gb_runset_view_group *
+gb_replica_band_group(const struct gb_replica_band *band)
 {
-    return band->directory != NULL && band->swarm.groups > 0 ? &band->swarm.group[0]
-                                                             : NULL;
+    return band->directory != NULL && band->runset.groups > 0 ? &band->runset.group[0]
+                                                              : NULL;
 }

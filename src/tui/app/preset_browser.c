@@ -1,0 +1,234 @@
+#include "tui/app/preset_browser.h"
+
+#include <glib.h>
+#include <ncurses.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "tui/session/previous_curve.h"
+
+enum { LIST_COLS = 26, PREVIEW_FROM = LIST_COLS + 24, HEAD_LINES = 4, DIFFERENCE = 400 };
+
+static int length_of(char **names)
+{
+    return names == NULL ? 0 : (int)g_strv_length(names);
+}
+
+const char *gb_preset_browser_selected(const struct gb_preset_browser *browser)
+{
+    return browser->count > 0 ? browser->names[browser->shown[browser->focus]] : NULL;
+}
+
+/* The first lines of the file that are comments: source and purpose. */
+static char *read_head(const char *name)
+{
+    char *path = gb_preset_find(name);
+    char *content = NULL;
+    GString *head = g_string_new(NULL);
+    if (path != NULL && g_file_get_contents(path, &content, NULL, NULL)) {
+        char **lines = g_strsplit(content, "\n", HEAD_LINES + 1);
+        for (int i = 0; i < HEAD_LINES && lines[i] != NULL && lines[i][0] == '#'; i++) {
+            g_string_append_printf(head, "%s%s", head->len > 0 ? " " : "",
+                                   g_strstrip(lines[i] + 1));
+        }
+        g_strfreev(lines);
+    }
+    g_free(content);
+    g_free(path);
+    return g_string_free(head, FALSE);
+}
+
+static void drop_preview(struct gb_preset_browser *browser)
+{
+    gb_preset_destroy(browser->preset);
+    g_free(browser->head);
+    browser->preset = NULL;
+    browser->head = NULL;
+}
+
+static void read_preview(struct gb_preset_browser *browser)
+{
+    struct gb_error err = {0};
+    const char *name = gb_preset_browser_selected(browser);
+    drop_preview(browser);
+    if (name == NULL) {
+        return;
+    }
+    if (gb_preset_load(&browser->preset, name, &err)) {
+        browser->head = read_head(name);
+    } else {
+        browser->preset = NULL;
+        browser->head = g_strdup(err.text);
+    }
+}
+
+static void go_to(struct gb_preset_browser *browser, int to)
+{
+    browser->focus = CLAMP(to, 0, MAX(browser->count - 1, 0));
+    read_preview(browser);
+}
+
+/* Keeps the names in which the filter occurs, whatever its case. */
+static void apply_filter(struct gb_preset_browser *browser)
+{
+    const int all = length_of(browser->names);
+    char *wanted = g_ascii_strdown(gb_prompt_text(&browser->filter), -1);
+    browser->count = 0;
+    for (int i = 0; i < all; i++) {
+        char *name = g_ascii_strdown(browser->names[i], -1);
+        if (strstr(name, wanted) != NULL) {
+            browser->shown[browser->count++] = i;
+        }
+        g_free(name);
+    }
+    g_free(wanted);
+    go_to(browser, 0);
+}
+
+void gb_preset_browser_init(struct gb_preset_browser *browser,
+                            const struct gb_params *current)
+{
+    memset(browser, 0, sizeof *browser);
+    browser->names = gb_preset_list();
+    browser->shown = g_new0(int, (gsize)length_of(browser->names) + 1);
+    browser->base = *current;
+    g_strlcpy(browser->base_name, "the screen", sizeof browser->base_name);
+    gb_prompt_set(&browser->filter, "");
+    apply_filter(browser);
+}
+
+void gb_preset_browser_finish(struct gb_preset_browser *browser)
+{
+    drop_preview(browser);
+    g_strfreev(browser->names);
+    g_free(browser->shown);
+    memset(browser, 0, sizeof *browser);
+}
+
+static void scroll_to_focus(struct gb_preset_browser *browser)
+{
+    browser->top = MIN(browser->top, browser->focus);
+    browser->top = MAX(browser->top, browser->focus - browser->page + 1);
+    browser->top = MAX(MIN(browser->top, browser->count - browser->page), 0);
+}
+
+static void draw_list(struct gb_preset_browser *browser, const struct gb_paint *paint,
+                      int cols)
+{
+    gb_paint_text(paint, 0, 0, GB_STYLE_DIM, "Filter:");
+    gb_prompt_draw(&browser->filter, paint, 0, 8, cols - 9);
+    browser->page = paint->rect.rows - 2;
+    scroll_to_focus(browser);
+    if (browser->count == 0) {
+        gb_paint_text(paint, 2, 0, GB_STYLE_DIM,
+                      length_of(browser->names) > 0 ? "no name fits"
+                                                    : "no preset was found");
+    }
+    for (int i = 0; i < browser->page && browser->top + i < browser->count; i++) {
+        const int at = browser->top + i;
+        gb_paint_cell(paint, 2 + i, 0, cols - 1,
+                      at == browser->focus ? GB_STYLE_SELECTED : GB_STYLE_PLAIN,
+                      browser->names[browser->shown[at]]);
+    }
+}
+
+static void write_scene(const struct gb_params *params, char *text, size_t size)
+{
+    char diameter[32];
+    char until[48];
+    char geometry[32];
+    gb_units_format_short(params->diameter_m, GB_DIM_LENGTH, 4, diameter,
+                          sizeof diameter);
+    gb_params_format(params, gb_params_find("loading", "until"), until, sizeof until);
+    gb_params_format(params, gb_params_find("loading", "geometry"), geometry,
+                     sizeof geometry);
+    snprintf(text, size, "%dD, %lld particles of %s, %s, until %s", params->dimension,
+             (long long)params->count, diameter, geometry, until);
+}
+
+static void draw_preview(const struct gb_preset_browser *browser,
+                         const struct gb_paint *paint)
+{
+    char text[256];
+    char difference[DIFFERENCE];
+    int row = 0;
+    if (browser->preset == NULL) {
+        gb_paint_wrap(paint, 0, paint->rect.rows, GB_STYLE_WARN,
+                      browser->head != NULL ? browser->head : "");
+        return;
+    }
+    const struct gb_params *params = gb_preset_params(browser->preset);
+    row += gb_paint_wrap(paint, row, 2, GB_STYLE_BOLD, params->title);
+    write_scene(params, text, sizeof text);
+    row += gb_paint_wrap(paint, row, 2, GB_STYLE_PLAIN, text);
+    row += 1 + gb_paint_wrap(paint, row, MAX(paint->rect.rows / 3, 1), GB_STYLE_DIM,
+                             browser->head);
+    gb_params_diff_describe(params, &browser->base, difference, sizeof difference);
+    snprintf(text, sizeof text, "Differs from %s:", browser->base_name);
+    row += gb_paint_wrap(paint, row, 1, GB_STYLE_PLAIN, text);
+    gb_paint_wrap(paint, row, paint->rect.rows - row, GB_STYLE_CHANGED, difference);
+}
+
+void gb_preset_browser_draw(struct gb_preset_browser *browser,
+                            const struct gb_paint *inside)
+{
+    const int cols = inside->rect.cols;
+    const bool beside = cols >= PREVIEW_FROM;
+    struct gb_rect left = inside->rect;
+    struct gb_rect right = inside->rect;
+    if (beside) {
+        left.cols = LIST_COLS;
+        right.col += LIST_COLS;
+        right.cols -= LIST_COLS;
+    } else { /* one above the other */
+        left.rows = inside->rect.rows / 2 + 1;
+        right.row += left.rows;
+        right.rows -= left.rows;
+    }
+    const struct gb_paint list = gb_paint_at(inside->term, left);
+    const struct gb_paint preview = gb_paint_at(inside->term, right);
+    draw_list(browser, &list, left.cols);
+    draw_preview(browser, &preview);
+}
+
+/* The preset under the cursor becomes what others are compared with. */
+static void mark(struct gb_preset_browser *browser)
+{
+    if (browser->preset != NULL) {
+        browser->base = *gb_preset_params(browser->preset);
+        g_strlcpy(browser->base_name, gb_preset_browser_selected(browser),
+                  sizeof browser->base_name);
+    }
+}
+
+bool gb_preset_browser_handle(struct gb_preset_browser *browser,
+                              const struct gb_term_event *event)
+{
+    if (event->kind == GB_TERM_KEY) {
+        switch (event->code) {
+        case KEY_UP:
+            go_to(browser, browser->focus - 1);
+            return true;
+        case KEY_DOWN:
+            go_to(browser, browser->focus + 1);
+            return true;
+        case KEY_PPAGE:
+            go_to(browser, browser->focus - browser->page);
+            return true;
+        case KEY_NPAGE:
+            go_to(browser, browser->focus + browser->page);
+            return true;
+        case '\t':
+            mark(browser);
+            return true;
+        default:
+            break;
+        }
+    }
+    if (gb_prompt_handle(&browser->filter, event)) {
+        apply_filter(browser);
+        return true;
+    }
+    return false;
+}

@@ -1,0 +1,56 @@
+#include "tui/session/quick_cell.h"
+
+#include <string.h>
+
+#include "run/quick.h"
+
+bool gb_quick_cell_start(struct gb_quick_cell *quick_cell,
+                         const struct gb_params *full_params, struct gb_error *err)
+{
+    struct gb_params quick;
+    struct gb_runner *runner = NULL;
+    if (!gb_quick_params(full_params, &quick) ||
+        !gb_runner_create(&runner, &quick, err)) {
+        return false;
+    }
+    gb_quick_cell_drop(quick_cell);
+    quick_cell->full_params = *full_params;
+    quick_cell->runner = runner;
+    gb_runner_send(runner, GB_COMMAND_WATCH);
+    quick_cell->state = GB_RUN_PACKING;
+    quick_cell->now.seconds_left = -1.0;
+    return true;
+}
+
+void gb_quick_cell_drop(struct gb_quick_cell *quick_cell)
+{
+    gb_runner_destroy(quick_cell->runner);
+    memset(quick_cell, 0, sizeof *quick_cell);
+}
+
+bool gb_quick_cell_refresh(struct gb_quick_cell *quick_cell, bool frozen, bool *ended)
+{
+    bool changed = false;
+    *ended = false;
+    if (quick_cell->runner == NULL) {
+        return false;
+    }
+    const bool was_live = gb_quick_cell_live(quick_cell);
+    const struct gb_snapshot *snapshot = gb_runner_snapshot(quick_cell->runner, &changed);
+    quick_cell->state = snapshot->state;
+    *ended = was_live && !gb_quick_cell_live(quick_cell);
+    quick_cell->missed = quick_cell->missed || changed;
+    if (!quick_cell->missed || frozen) {
+        return false;
+    }
+    quick_cell->missed = false;
+    quick_cell->now = *snapshot;
+    quick_cell->points = gb_curve_count(gb_runner_curve(quick_cell->runner));
+    quick_cell->picture = gb_runner_picture(quick_cell->runner, NULL);
+    return true;
+}
+
+bool gb_quick_cell_live(const struct gb_quick_cell *quick_cell)
+{
+    return quick_cell->runner != NULL && quick_cell->state <= GB_RUN_PAUSED;
+}
