@@ -29,7 +29,7 @@ below() {
 layer_of_public() {
     case $1 in
     status.h) echo base ;;
-    model.h | params.h) echo scene ;;
+    params.h) echo scene ;;
     curve.h | snapshot.h) echo io ;;
     *) echo unknown ;;
     esac

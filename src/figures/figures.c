@@ -14,7 +14,7 @@
 #include "figures/figures_relaxation.h"
 #include "figures/figures_state.h"
 #include "figures/figures_sweep.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "measure/theory.h"
 
 #define RHO "<i>\xcf\x81</i>"

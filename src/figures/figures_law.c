@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 
 enum { POINTS = 401 };
 

@@ -2,7 +2,7 @@
 #define GB_IO_STATE_RECORD_H
 
 #include "base/record.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "io/state.h"
 
 /* The packing that a record was taken of, for pictures and other programs.  Touches no

@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 
 /* Asymptote of planar pressing at high pressure, P2 (5)-(8): friction holds the particles
  * where they are, all pairs are pressed alike. */

@@ -6,7 +6,7 @@
 
 #include "base/record.h"
 #include "greenbody/curve.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "greenbody/params.h"
 #include "greenbody/snapshot.h"
 #include "io/state.h"

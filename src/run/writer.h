@@ -4,7 +4,7 @@
 #include <stdbool.h>
 
 #include "base/record.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "io/store.h"
 
 /* Writes states and status beside the engine: the engine fills a record, a thread of its

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "greenbody/params.h"
 #include "greenbody/status.h"
 

@@ -1,4 +1,4 @@
-#include "greenbody/model.h"
+#include "scene/model.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>

@@ -1,7 +1,7 @@
 #ifndef GB_SCENE_UNEQUAL_PAIR_H
 #define GB_SCENE_UNEQUAL_PAIR_H
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "law/law_unequal.h"
 
 /* The laws of a model for two particles of the given diameters (in the model's lengths). */

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "base/record.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "pack/die/bed.h"
 
 /* P3's experiment: powder falls through a funnel into the die, settles, is flattened by a

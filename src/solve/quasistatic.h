@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "base/record.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 
 /* The loading programme of P1 section IV as a state machine: told the pressure and
  * density of each relaxed state, it says what comes next.  It owns no world and saves

@@ -9,7 +9,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "measure/observe.h"
 #include "pack/cell/world.h"
 #include "pack/structure/grow.h"

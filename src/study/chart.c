@@ -8,7 +8,7 @@
 #include <glib.h>
 
 #include "base/units.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "measure/fit/average.h"
 #include "run/experiment.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "measure/fit/average.h"
 #include "measure/structure.h"
 #include "pack/structure/grow.h"

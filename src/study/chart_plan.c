@@ -6,7 +6,7 @@
 
 #include <glib.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "scene/die_scene.h"
 #include "scene/tolerances.h"
 #include "solve/relax.h"

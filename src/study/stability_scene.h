@@ -1,7 +1,7 @@
 #ifndef GB_STUDY_STABILITY_SCENE_H
 #define GB_STUDY_STABILITY_SCENE_H
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "pack/cell/world.h"
 
 enum gb_stability_place {

@@ -5,7 +5,7 @@
 
 #include <glib.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 
 /* A die of seconds: a hundred and fifty spheres of three sizes, poured and pressed fast;
  * then assignments "group.key=value", NULL at the end. */

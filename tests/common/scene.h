@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "pack/cell/world.h"
 #include "pack/kernel/pair_forces.h"
 #include "pack/structure/grow.h"

@@ -5,7 +5,7 @@
 #include <glib.h>
 
 #include "common/exact.h"
-#include "greenbody/model.h"
+#include "scene/model.h"
 
 /* The table has 13 significant digits. */
 static const double tolerance = 1e-10;

@@ -2,7 +2,7 @@
 
 #include <glib.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "io/preset.h"
 
 /* Pressed from all sides, a cell keeps its shape: it is a square or a cube from the start. */

@@ -3,7 +3,7 @@
 
 #include <glib.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "law/law_viscous.h"
 
 /* P2's scene at v1, by the keys a preset would set. */

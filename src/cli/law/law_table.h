@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "scene/contact_pair.h"
 
 /* Nearest neighbours and volume per particle (in r^3) of a lattice. */

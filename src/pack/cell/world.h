@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "greenbody/status.h"
 #include "pack/cell/cell.h"
 #include "pack/cell/neighbour_list.h"

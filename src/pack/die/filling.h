@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "pack/die/bed.h"
 
 /* The powder of a scene with kind = die, loose in the funnel above its die and obeying

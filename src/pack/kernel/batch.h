@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "greenbody/status.h"
 
 /* Contact histories of the near pairs, structure of arrays, so that a batch of them runs

@@ -1,7 +1,7 @@
 #ifndef GB_PACK_STRUCTURE_ASSIGN_SIZES_H
 #define GB_PACK_STRUCTURE_ASSIGN_SIZES_H
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 
 /* The sizes of a powder in the order that a seed gives them (gb_sizes_fill, shuffled).
  *

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "greenbody/status.h"
 
 /* Numbers the particles of a model along a Hilbert curve, so that neighbours in space are

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "pack/structure/grid.h"
 
 /* Centres closer than (1 - GB_ROLL_TOUCH) r_eq overlap.  Above the rounding of a place on

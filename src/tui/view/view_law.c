@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "greenbody/model.h"
+#include "scene/model.h"
 #include "tui/view/views.h"
 
 /* Points of a curve; how deep beyond the formation of a bridge it is drawn, in bridge

@@ -1,5 +1,5 @@
-#ifndef GREENBODY_MODEL_H
-#define GREENBODY_MODEL_H
+#ifndef GB_SCENE_MODEL_H
+#define GB_SCENE_MODEL_H
 
 #include <stdbool.h>
 #include <stdint.h>
