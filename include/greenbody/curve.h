@@ -36,7 +36,7 @@ struct gb_point {
     double central;          /* density of a ball in the middle */
     double height_m;         /* of the powder */
     double height_change;    /* over the height before pressing; negative */
-    double wanted_pa;        /* pressure of the programme */
+    double target_pa;        /* pressure of the programme */
     double floor_over_punch; /* forces; far from 1: not quasi-static */
 };
 

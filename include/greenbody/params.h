@@ -53,7 +53,7 @@ struct gb_sizetable {
     bool by_volume; /* shares are of the volume, not of the number */
     struct gb_sizetable_row {
         double diameter_m;
-        double share; /* the shares sum to 1 within GB_SHARES_SLACK */
+        double fraction; /* the fractions sum to 1 within GB_SIZE_FRACTIONS_TOLERANCE */
     } row[GB_SIZES_MAX];
 };
 
@@ -83,7 +83,7 @@ struct gb_params {
     int distribution;          /* enum gb_distribution */
     double median_m;           /* of lognormal; NaN: auto, the diameter */
     double sigma;              /* of lognormal: deviation of ln d */
-    double least_m, largest_m; /* where lognormal is cut; NaN: not cut */
+    double diameter_min_m, diameter_max_m; /* where lognormal is cut; NaN: not cut */
     struct gb_sizetable sizes; /* of table */
     /* [contact] */
     int normal; /* enum gb_normal */
@@ -112,7 +112,7 @@ struct gb_params {
     double die_angle_deg; /* of the funnel's wall to the axis */
     double fill_gravity;  /* in g = 9.80665 m/s2, while pouring ... */
     double rest_gravity;  /* ... and from then on */
-    double ease_s;        /* time from one to the other */
+    double gravity_ramp_s;        /* time from one to the other */
     double flatten_m;
     double punch_mass; /* in masses of the powder */
     double central_m;  /* diameter of the sphere of the central density */
@@ -129,7 +129,7 @@ struct gb_params {
     double record_density;     /* relative growth of density between recorded points */
     double record_time_s;      /* between recorded points of relax and hold */
     int ramp;                  /* enum gb_ramp; this and the next two: dies */
-    double pressing_s;         /* NaN: auto */
+    double ramp_s;         /* NaN: auto */
     double record_pressure_pa; /* between recorded points */
     /* [numerics]: NaN or negative means "auto", picked by fidelity when the model is made
      */

@@ -40,7 +40,7 @@ struct gb_snapshot {
     struct gb_error error;         /* why it failed or stopped */
 };
 
-enum { GB_PICTURE_POINTS = 4096, GB_PICTURE_RDF = 160 };
+enum { GB_VIEW_SAMPLE_POINTS = 4096, GB_VIEW_SAMPLE_RDF = 160 };
 
 /* The packing as the screen can draw it: plain data through a triple buffer of its own,
  * taken less often than the snapshot.  Reduced lengths. */
@@ -51,10 +51,10 @@ struct gb_view_sample {
     double edge[3];   /* of the whole cell */
     double window[3]; /* the part that is shown; its front is y = 0 */
     int count;
-    float place[GB_PICTURE_POINTS][3];
-    float radius[GB_PICTURE_POINTS];
+    float position[GB_VIEW_SAMPLE_POINTS][3];
+    float radius[GB_VIEW_SAMPLE_POINTS];
     double rdf_reach;           /* g(r) ends there; 0: it is missing */
-    double rdf[GB_PICTURE_RDF]; /* bin k: [k, k+1) rdf_reach / GB_PICTURE_RDF */
+    double rdf[GB_VIEW_SAMPLE_RDF]; /* bin k: [k, k+1) rdf_reach / GB_VIEW_SAMPLE_RDF */
 };
 
 #endif

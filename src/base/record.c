@@ -164,7 +164,7 @@ bool gb_record_array(struct gb_record *record, const char *name, enum gb_record_
     return true;
 }
 
-bool gb_record_singles(struct gb_record *record, const char *name, int64_t rows,
+bool gb_record_f32(struct gb_record *record, const char *name, int64_t rows,
                        int columns, const char *unit, float *data, struct gb_error *err)
 {
     const int64_t count = rows * columns;
@@ -196,7 +196,7 @@ bool gb_record_members(struct gb_record *record, const struct gb_record_member *
     return true;
 }
 
-void gb_record_drop(struct gb_record *record, const char *prefix)
+void gb_record_remove(struct gb_record *record, const char *prefix)
 {
     int kept = 0;
     for (int k = 0; k < record->count; k++) {

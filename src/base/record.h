@@ -62,7 +62,7 @@ bool gb_record_array(struct gb_record *record, const char *name, enum gb_record_
                      struct gb_error *err);
 
 /* The same for floats in memory, which are doubles in the record. */
-bool gb_record_singles(struct gb_record *record, const char *name, int64_t rows,
+bool gb_record_f32(struct gb_record *record, const char *name, int64_t rows,
                        int columns, const char *unit, float *data, struct gb_error *err);
 
 /* Rows of an array that is about to be loaded; its type and columns are checked. */
@@ -84,7 +84,7 @@ bool gb_record_members(struct gb_record *record, const struct gb_record_member *
                        size_t count, void *object, struct gb_error *err);
 
 /* Takes out all items whose names begin so. */
-void gb_record_drop(struct gb_record *record, const char *prefix);
+void gb_record_remove(struct gb_record *record, const char *prefix);
 
 /* Name of the first item in which the two differ, and its first row that does; NULL when
  * they are equal to the last bit. */

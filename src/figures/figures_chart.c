@@ -62,20 +62,20 @@ static const char *pressure_of(const char *column)
 }
 
 /* Name of the column of errors at a pressure, 0: at the last one; NULL: there is none. */
-static const char *find_pressure(const struct chart *chart, double wanted_pa)
+static const char *find_pressure(const struct chart *chart, double target_pa)
 {
     const char *found = NULL, *name;
     for (size_t k = 0; (name = gb_table_name(chart->table, k)) != NULL; k++) {
         const char *text = pressure_of(name);
         const double pa = text ? 1e6 * g_ascii_strtod(text, NULL) : (double)NAN;
-        if (text && (wanted_pa == 0.0 || fabs(pa - wanted_pa) <= 1e-5 * wanted_pa)) {
+        if (text && (target_pa == 0.0 || fabs(pa - target_pa) <= 1e-5 * target_pa)) {
             found = text;
         }
     }
     return found;
 }
 
-static bool refuse_pressure(const struct chart *chart, double wanted_pa,
+static bool refuse_pressure(const struct chart *chart, double target_pa,
                             struct gb_error *err)
 {
     GString *known = g_string_new(NULL);
@@ -94,7 +94,7 @@ static bool refuse_pressure(const struct chart *chart, double wanted_pa,
     } else {
         gb_error_set(err, GB_ERR_INPUT,
                      "--pressure %g MPa: accepted those of the chart: %s",
-                     wanted_pa / 1e6, known->str);
+                     target_pa / 1e6, known->str);
     }
     g_string_free(known, TRUE);
     return false;

@@ -78,7 +78,7 @@ static void draw_theory(struct gb_series *series, const struct gb_hardening *law
 {
     for (size_t g = 0; g < G_N_ELEMENTS(geometries); g++) {
         const int geometry = geometries[g].geometry;
-        const double end = gb_hardening_end(law, geometry);
+        const double end = gb_hardening_density_max(law, geometry);
         double *density =
             gb_series_column(series, "density_theory_%s", geometries[g].name);
         double *mpa = gb_series_column(series, "theory_%s_MPa", geometries[g].name);

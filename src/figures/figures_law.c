@@ -54,7 +54,7 @@ static bool freeze_rods(struct gb_model *model, const struct gb_params *scene,
     if (!gb_model_init(model, scene, err)) {
         return false;
     }
-    return !model->dry ||
+    return !model->cohesionless ||
            gb_error_set(err, GB_ERR_INPUT, "%s: accepted contact.normal = rod", figure);
 }
 

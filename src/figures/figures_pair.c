@@ -24,7 +24,7 @@ static double force_of(const struct gb_contact_pair *pair, struct gb_law_branch 
 
 static double step_of(const struct gb_contact_pair *pair, struct gb_law_branch branch)
 {
-    return 1e9 * gb_contact_pair_step(pair, branch.stiffness);
+    return 1e9 * gb_contact_pair_critical_step(pair, branch.stiffness);
 }
 
 static struct gb_law_branch branch_at(const struct gb_contact_pair *pair, int model,

@@ -12,7 +12,7 @@
  * was kept for just this value: a step of the loading can jump over it. */
 static const double tolerance = 0.05;
 
-static bool parse_point(const char *text, struct gb_mark *point, struct gb_error *err)
+static bool parse_point(const char *text, struct gb_keep_point *point, struct gb_error *err)
 {
     char **sides = g_strsplit(text, "=", 2);
     bool good = sides[0] != NULL && sides[1] != NULL;
@@ -32,13 +32,13 @@ static bool parse_point(const char *text, struct gb_mark *point, struct gb_error
                                 text);
 }
 
-static double value_of(const struct gb_state *state, const struct gb_mark *point)
+static double value_of(const struct gb_state *state, const struct gb_keep_point *point)
 {
     return point->by_density ? state->point.density : state->point.p_pa;
 }
 
 /* Whether a state was asked for with just this point. */
-static bool is_kept_for(const char *path, const struct gb_mark *point)
+static bool is_kept_for(const char *path, const struct gb_keep_point *point)
 {
     char name[64];
     char *base = g_path_get_basename(path);
@@ -50,7 +50,7 @@ static bool is_kept_for(const char *path, const struct gb_mark *point)
 }
 
 /* Relative distance; states of unloading come after those of loading. */
-static double distance(const struct gb_state *state, const struct gb_mark *point)
+static double distance(const struct gb_state *state, const struct gb_keep_point *point)
 {
     const double away =
         fabs(value_of(state, point) - point->value) / fmax(fabs(point->value), 1e-12);
@@ -58,7 +58,7 @@ static double distance(const struct gb_state *state, const struct gb_mark *point
 }
 
 static void describe(GString *list, const struct gb_state *state,
-                     const struct gb_mark *point)
+                     const struct gb_keep_point *point)
 {
     char value[48];
     if (point->by_density) {
@@ -100,7 +100,7 @@ static GPtrArray *list_paths(const char *place)
 }
 
 static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
-                         const struct gb_mark *point, GString *seen, struct gb_error *err)
+                         const struct gb_keep_point *point, GString *seen, struct gb_error *err)
 {
     double best = INFINITY;
     for (guint k = 0; k < paths->len; k++) {
@@ -125,7 +125,7 @@ static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
 bool gb_states_read(struct gb_state **out, const char *place, const char *at,
                     struct gb_error *err)
 {
-    struct gb_mark point = {0};
+    struct gb_keep_point point = {0};
     *out = NULL;
     if (at != NULL && !parse_point(at, &point, err)) {
         return false;

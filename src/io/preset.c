@@ -97,7 +97,7 @@ static bool is_known_group(const char *group)
 static bool set_value(struct gb_params *params, const struct gb_field *field,
                       const char *value, const char *path, struct gb_error *err)
 {
-    if (field->type != GB_FIELD_SIZES || !gb_size_table_names_file(value) ||
+    if (field->type != GB_FIELD_SIZES || !gb_size_table_is_path(value) ||
         g_path_is_absolute(value)) {
         return gb_params_set(params, field, value, err);
     }

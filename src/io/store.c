@@ -262,7 +262,7 @@ static void append_die(GString *row, const struct gb_point *point)
 {
     const double values[] = {1e9 * point->time_s,     point->central,
                              1e6 * point->height_m,   point->height_change,
-                             1e-6 * point->wanted_pa, point->floor_over_punch};
+                             1e-6 * point->target_pa, point->floor_over_punch};
     for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
         append_number(row, values[k]);
     }

@@ -45,7 +45,7 @@ double gb_law_dispersion_energy(const struct gb_law_dispersion *law, double r)
     return r < 1.0 ? gap - law->contact * (1.0 - r) : gap;
 }
 
-double gb_law_dispersion_reach(const struct gb_law_dispersion *law, double share)
+double gb_law_dispersion_range(const struct gb_law_dispersion *law, double share)
 {
     if (law->contact == 0.0) {
         return 1.0;

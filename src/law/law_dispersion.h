@@ -20,6 +20,6 @@ double gb_law_dispersion_slope(const struct gb_law_dispersion *law, double r);
 /* Potential energy, 0 at infinity; -dU/dr = -f_a. */
 double gb_law_dispersion_energy(const struct gb_law_dispersion *law, double r);
 /* Distance r >= 1 at which f_a has fallen to share of f_a(1). */
-double gb_law_dispersion_reach(const struct gb_law_dispersion *law, double share);
+double gb_law_dispersion_range(const struct gb_law_dispersion *law, double share);
 
 #endif

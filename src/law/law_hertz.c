@@ -56,12 +56,12 @@ double gb_law_hertz_overlap(const struct gb_law_hertz *law, double radius, doubl
     return root * root;
 }
 
-double gb_law_hertz_shear(const struct gb_law_hertz *law, double radius, double h)
+double gb_law_hertz_shear_stiffness(const struct gb_law_hertz *law, double radius, double h)
 {
     return h > 0.0 ? 8.0 * law->shear * sqrt(radius * h) : 0.0;
 }
 
-double gb_law_hertz_yield(const struct gb_law_hertz *law, double radius, double yield)
+double gb_law_hertz_yield_force(const struct gb_law_hertz *law, double radius, double yield)
 {
     const double pressure = M_PI * pressure_over_yield * yield;
     const double slope = radius / law->modulus;
@@ -73,12 +73,12 @@ double gb_law_hertz_damping(double stiffness, double reduced_mass, double xi)
     return 2.0 * xi * sqrt(reduced_mass * stiffness);
 }
 
-double gb_law_hertz_damped(double elastic, double damping, double approach)
+double gb_law_hertz_damped_force(double elastic, double damping, double approach)
 {
     return fmax(elastic + damping * approach, 0.0);
 }
 
-double gb_law_hertz_step(double stiffness, double mass, double xi)
+double gb_law_hertz_critical_step(double stiffness, double mass, double xi)
 {
     if (!(stiffness > 0.0)) {
         return INFINITY;

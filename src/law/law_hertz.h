@@ -33,12 +33,12 @@ double gb_law_hertz_energy(const struct gb_law_hertz *law, double radius, double
 /* h at which the force is `force`; 0 for force <= 0.  Inverse of (2). */
 double gb_law_hertz_overlap(const struct gb_law_hertz *law, double radius, double force);
 /* k_t(h), (12). */
-double gb_law_hertz_shear(const struct gb_law_hertz *law, double radius, double h);
+double gb_law_hertz_shear_stiffness(const struct gb_law_hertz *law, double radius, double h);
 
 /* F_Y at which the weaker of the two materials, of yield stress `yield`, starts to flow
  * below the contact: greatest pressure 1.61 yield, by von Mises at nu = 0.3.  For two
  * equal spheres this is (30); gb_law_hertz_overlap gives the overlap. */
-double gb_law_hertz_yield(const struct gb_law_hertz *law, double radius, double yield);
+double gb_law_hertz_yield_force(const struct gb_law_hertz *law, double radius, double yield);
 
 /* c_n = xi C_cr, (7), (8): fraction xi of the critical damping of reduced mass m_i m_j /
  * (m_i + m_j) (against a wall: the particle's mass) on the tangent stiffness of the
@@ -47,12 +47,12 @@ double gb_law_hertz_damping(double stiffness, double reduced_mass, double xi);
 
 /* F_n of (1) at approach speed v = dh/dt: elastic force plus dashpot, (6).  A dry contact
  * never pulls: 0 where the dashpot would outweigh the spring. */
-double gb_law_hertz_damped(double elastic, double damping, double approach);
+double gb_law_hertz_damped_force(double elastic, double damping, double approach);
 
 /* Critical time step of one particle on a spring, (24), (28), (29): 2/omega (sqrt(1 +
  * xi^2) - xi), omega^2 = stiffness/mass; INFINITY without a spring.  P3 puts in the
  * stiffest contact of the particle and leaves the rest to its safety factor (26): a pair
  * vibrates at sqrt 2 times this omega. */
-double gb_law_hertz_step(double stiffness, double mass, double xi);
+double gb_law_hertz_critical_step(double stiffness, double mass, double xi);
 
 #endif

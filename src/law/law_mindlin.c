@@ -4,7 +4,7 @@
 
 #include "base/vec.h"
 
-void gb_law_mindlin_turn(double force[3], const double normal[3])
+void gb_law_mindlin_rotate(double force[3], const double normal[3])
 {
     const double before = gb_vec_length(force);
     gb_vec_add(force, -gb_vec_dot(force, normal), normal);

@@ -14,7 +14,7 @@
 
 /* Turns a carried shear force into the plane across the new normal, keeping its length:
  * the contact has rolled along, nothing has slid.  A force along the normal is lost. */
-void gb_law_mindlin_turn(double force[3], const double normal[3]);
+void gb_law_mindlin_rotate(double force[3], const double normal[3]);
 
 /* What slides at the contact point: the tangential part of the velocity of i's surface
  * over j's.  Velocities of the centres, angular velocities, and the distances from the

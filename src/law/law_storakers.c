@@ -49,7 +49,7 @@ double gb_law_storakers_plastic_stiffness(const struct gb_law_storakers *law,
     return (1.0 + 0.5 * law->exponent) * gb_law_storakers_plastic(law, radius, h) / h;
 }
 
-double gb_law_storakers_crossing(const struct gb_law_storakers *law, double radius)
+double gb_law_storakers_transition(const struct gb_law_storakers *law, double radius)
 {
     const double ratio = 0.75 * law->factor * law->strength / law->hertz.modulus;
     return radius * pow(ratio, 2.0 / (1.0 - law->exponent));
@@ -73,7 +73,7 @@ double gb_law_storakers_load(const struct gb_law_storakers *law, double radius, 
     return gb_law_storakers_loading(law, radius, h).force;
 }
 
-double gb_law_storakers_rebound(const struct gb_law_storakers *law, double radius,
+double gb_law_storakers_recovery(const struct gb_law_storakers *law, double radius,
                                 double deepest)
 {
     const double elastic = gb_law_hertz_force(&law->hertz, radius, deepest);
@@ -88,11 +88,11 @@ double gb_law_storakers_rebound(const struct gb_law_storakers *law, double radiu
 static double elastic_overlap(const struct gb_law_storakers *law, double radius,
                               double deepest, double h)
 {
-    const double rebound = gb_law_storakers_rebound(law, radius, deepest);
+    const double rebound = gb_law_storakers_recovery(law, radius, deepest);
     return rebound == deepest ? h : rebound - (deepest - h);
 }
 
-struct gb_law_branch gb_law_storakers_follow(const struct gb_law_storakers *law,
+struct gb_law_branch gb_law_storakers_update(const struct gb_law_storakers *law,
                                              double radius, double h, double *deepest)
 {
     if (!(h > 0.0)) {
@@ -114,17 +114,17 @@ static double plastic_work(const struct gb_law_storakers *law, double radius, do
     return gb_law_storakers_plastic(law, radius, h) * h / (2.0 + 0.5 * law->exponent);
 }
 
-double gb_law_storakers_work(const struct gb_law_storakers *law, double radius, double h)
+double gb_law_storakers_loading_work(const struct gb_law_storakers *law, double radius, double h)
 {
     if (law->printed) {
         return plastic_work(law, radius, h);
     }
-    const double border = fmin(h, gb_law_storakers_crossing(law, radius));
+    const double border = fmin(h, gb_law_storakers_transition(law, radius));
     return gb_law_hertz_energy(&law->hertz, radius, border) +
            (plastic_work(law, radius, h) - plastic_work(law, radius, border));
 }
 
-double gb_law_storakers_returned(const struct gb_law_storakers *law, double radius,
+double gb_law_storakers_unloading_energy(const struct gb_law_storakers *law, double radius,
                                  double deepest, double h)
 {
     if (!(h > 0.0)) {

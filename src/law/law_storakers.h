@@ -44,7 +44,7 @@ double gb_law_storakers_plastic_stiffness(const struct gb_law_storakers *law,
                                           double radius, double h);
 
 /* Overlap at which (2) and (16) meet: elastic below, plastic above. */
-double gb_law_storakers_crossing(const struct gb_law_storakers *law, double radius);
+double gb_law_storakers_transition(const struct gb_law_storakers *law, double radius);
 
 /* Force and tangent stiffness dF/dh of the active branch. */
 struct gb_law_branch {
@@ -57,7 +57,7 @@ struct gb_law_branch gb_law_storakers_loading(const struct gb_law_storakers *law
                                               double radius, double h);
 
 /* Elastic part of the deepest overlap, h_max - h0: what springs back. */
-double gb_law_storakers_rebound(const struct gb_law_storakers *law, double radius,
+double gb_law_storakers_recovery(const struct gb_law_storakers *law, double radius,
                                 double deepest);
 
 /* Force and tangent at overlap h of a contact whose deepest overlap was *deepest, which
@@ -65,15 +65,15 @@ double gb_law_storakers_rebound(const struct gb_law_storakers *law, double radiu
  * from h0 down.  At h <= 0 the contact is over and *deepest back at 0: the next touch is
  * at another place of the surfaces, and nothing depends on how long a neighbour list
  * remembers the pair. */
-struct gb_law_branch gb_law_storakers_follow(const struct gb_law_storakers *law,
+struct gb_law_branch gb_law_storakers_update(const struct gb_law_storakers *law,
                                              double radius, double h, double *deepest);
 
 /* Work that loads a fresh contact to overlap h. */
-double gb_law_storakers_work(const struct gb_law_storakers *law, double radius, double h);
+double gb_law_storakers_loading_work(const struct gb_law_storakers *law, double radius, double h);
 
 /* Energy that a contact at overlap h <= deepest gives back until it opens.  The loop of
  * a contact loaded to h costs work(h) - returned(h, h). */
-double gb_law_storakers_returned(const struct gb_law_storakers *law, double radius,
+double gb_law_storakers_unloading_energy(const struct gb_law_storakers *law, double radius,
                                  double deepest, double h);
 
 #endif

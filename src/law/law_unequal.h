@@ -21,9 +21,9 @@
  *
  * In units of D these are the laws of equal spheres with factors of c = d'/D. */
 struct gb_law_unequal {
-    double span;           /* D, in the model's lengths, as everything without a note */
-    double round;          /* c */
-    double inverse[2];     /* 1/d_i, 1/d_j */
+    double mean_diameter;           /* D, in the model's lengths, as everything without a note */
+    double diameter_ratio;          /* c */
+    double inverse_diameter[2];     /* 1/d_i, 1/d_j */
     struct gb_law_rod rod; /* in D, with the factors of c */
     double bridge_length;
     double strength, shift, offset; /* of (3), in D; offset: (d_i - d_j)/2 squared */
@@ -41,17 +41,17 @@ void gb_law_unequal_init(struct gb_law_unequal *law, const struct gb_law_rod *ro
 double gb_law_unequal_elastic(const struct gb_law_unequal *law, double deepest, double h,
                               double *stiffness);
 /* What f_e gives back. */
-double gb_law_unequal_energy(const struct gb_law_unequal *law, double deepest, double h);
+double gb_law_unequal_elastic_energy(const struct gb_law_unequal *law, double deepest, double h);
 /* Contact radius where twice its square over d'/2 is an overlap: sqrt(h d')/2. */
 double gb_law_unequal_radius(const struct gb_law_unequal *law, double h);
 /* M(a) of (9) at overlap h. */
 double gb_law_unequal_moment(const struct gb_law_unequal *law, double h);
 /* f_a at centre distance r; constant where they touch. */
-double gb_law_unequal_pull(const struct gb_law_unequal *law, double r);
+double gb_law_unequal_attraction(const struct gb_law_unequal *law, double r);
 /* Its energy, 0 at infinity. */
-double gb_law_unequal_depth(const struct gb_law_unequal *law, double r);
+double gb_law_unequal_attraction_energy(const struct gb_law_unequal *law, double r);
 /* Overlap at which f_e = f_a, for one of the model's materials; 0 without attraction.
- * Beyond GB_OVERLAP_MOST of D the laws do not hold. */
-double gb_law_unequal_rest(const struct gb_law_unequal *law);
+ * Beyond GB_OVERLAP_MAX of D the laws do not hold. */
+double gb_law_unequal_equilibrium(const struct gb_law_unequal *law);
 
 #endif

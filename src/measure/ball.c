@@ -50,7 +50,7 @@ static double distance(const double *a, const double *b)
     return sqrt(x * x + y * y + z * z);
 }
 
-double gb_ball_inside(int64_t count, const double *position, const double *radius,
+double gb_ball_solid_volume(int64_t count, const double *position, const double *radius,
                       const double centre[3], double ball_radius)
 {
     double sum = 0.0;
@@ -74,11 +74,11 @@ double gb_ball_density_central(int64_t count, const double *position,
                                const double *radius, const double centre[3],
                                double ball_radius)
 {
-    return gb_ball_inside(count, position, radius, centre, ball_radius) /
+    return gb_ball_solid_volume(count, position, radius, centre, ball_radius) /
            gb_ball_volume(ball_radius);
 }
 
-double gb_ball_shared(int64_t count, const double *position, const double *radius,
+double gb_ball_overlap_volume(int64_t count, const double *position, const double *radius,
                       const int64_t *start, const int32_t *other)
 {
     double sum = 0.0;

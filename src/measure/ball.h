@@ -24,11 +24,11 @@ double gb_ball_slab(double radius, double low, double high);
 /* Solid of spheres within a ball, the sum of gb_ball_lens.  Where spheres are pressed
  * into each other the shared volume counts twice, as in P3: of z contacts of overlap h in
  * units of the diameter, a part 3/4 z h^2 of the solid, 4.5e-6 for 6 contacts of 0.1 %
- * (50 MPa) and 4.5e-4 for 1 %.  gb_ball_shared gives it exactly.
+ * (50 MPa) and 4.5e-4 for 1 %.  gb_ball_overlap_volume gives it exactly.
  *
  * position   count x 3
  * radius     count */
-double gb_ball_inside(int64_t count, const double *position, const double *radius,
+double gb_ball_solid_volume(int64_t count, const double *position, const double *radius,
                       const double centre[3], double ball_radius);
 
 /* Density of a whole specimen in a die: solid of all spheres over the cylinder from floor
@@ -47,7 +47,7 @@ double gb_ball_density_central(int64_t count, const double *position,
  * spheres share count once per pair.
  *
  * start   count + 1 */
-double gb_ball_shared(int64_t count, const double *position, const double *radius,
+double gb_ball_overlap_volume(int64_t count, const double *position, const double *radius,
                       const int64_t *start, const int32_t *other);
 
 #endif

@@ -157,7 +157,7 @@ double gb_hardening_pressure(const struct gb_hardening *law, int geometry, doubl
            yield_at(law, shear);
 }
 
-double gb_hardening_end(const struct gb_hardening *law, int geometry)
+double gb_hardening_density_max(const struct gb_hardening *law, int geometry)
 {
     const double most = law->shear[law->count - 1];
     double low = law->start;

@@ -45,6 +45,6 @@ double gb_hardening_pressure(const struct gb_hardening *law, int geometry,
 
 /* The density up to which a geometry can be foretold: where its shear is the greatest the
  * law knows. */
-double gb_hardening_end(const struct gb_hardening *law, int geometry);
+double gb_hardening_density_max(const struct gb_hardening *law, int geometry);
 
 #endif

@@ -56,8 +56,8 @@ static struct bond bond_of(const struct gb_model *model, double first, double se
 {
     struct bond bond;
     gb_unequal_pair_init(&bond.law, model, first, second);
-    bond.reach = bond.law.span + model->numerics.cutoff - 1.0;
-    bond.base = gb_law_unequal_depth(&bond.law, bond.reach);
+    bond.reach = bond.law.mean_diameter + model->numerics.cutoff - 1.0;
+    bond.base = gb_law_unequal_attraction_energy(&bond.law, bond.reach);
     return bond;
 }
 
@@ -70,23 +70,23 @@ static double pair_energy(const struct gb_world *world, const struct gb_pair_lis
     const struct gb_model *model = gb_world_model(world);
     const struct gb_contacts *contacts = gb_world_contacts(world);
     const bool near = list == &gb_world_pairs(world)->near;
-    const struct bond bond = model->sized
+    const struct bond bond = model->polydisperse
                                  ? bond_of(model, gb_world_diameter(world, i),
                                            gb_world_diameter(world, list->other[k]))
                                  : *equal;
     double r[3], sum = 0.0;
     gb_world_branch_vector(world, list, i, k, r);
-    const double length = gb_vec_length(r), h = bond.law.span - length;
+    const double length = gb_vec_length(r), h = bond.law.mean_diameter - length;
     if (near && gb_contacts_touch(contacts, k)) {
         const double deepest = gb_contacts_deepest(contacts, k);
         const bool printed = deepest > 0.0 && model->bridge.radius_current;
         const double wide = printed ? h + bond.law.bridge_length : fmax(deepest, 0.0);
-        sum = gb_law_unequal_energy(&bond.law, deepest, h) +
+        sum = gb_law_unequal_elastic_energy(&bond.law, deepest, h) +
               spring_energy(model, contacts, k,
                             gb_law_unequal_radius(&bond.law, deepest > 0.0 ? wide : h));
     }
     if (model->terms.attraction && length < bond.reach) {
-        sum += gb_law_unequal_depth(&bond.law, length) - bond.base;
+        sum += gb_law_unequal_attraction_energy(&bond.law, length) - bond.base;
     }
     return sum;
 }

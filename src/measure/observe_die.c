@@ -20,9 +20,9 @@ double gb_observe_die_central(const struct gb_bed *bed, double height, double ra
     }
     for (int64_t i = 0; i < bed->count; i++) {
         double r[3] = {0.0, 0.0, 0.0};
-        gb_vec_add(r, 1.0, bed->place[i]);
+        gb_vec_add(r, 1.0, bed->position[i]);
         gb_vec_add(r, -1.0, centre);
-        solid += gb_ball_lens(bed->place[i][3], radius, gb_vec_length(r));
+        solid += gb_ball_lens(bed->position[i][3], radius, gb_vec_length(r));
     }
     return solid / gb_ball_volume(radius);
 }
@@ -52,7 +52,7 @@ static void count_each(const struct gb_bed *bed, bool walls, int32_t *each)
 void gb_observe_die_contacts(const struct gb_bed *bed, struct gb_contact_counts *counts,
                              double *share, int bins, int32_t *each)
 {
-    int32_t *held = bed->tallies;
+    int32_t *held = bed->counts;
     *counts = (struct gb_contact_counts){0};
     count_each(bed, true, held);
     for (int64_t i = 0; i < bed->count; i++) {
@@ -79,8 +79,8 @@ void gb_observe_die_force(const struct gb_bed *bed, int64_t slot, double unit[3]
                           double force[3])
 {
     const struct gb_bed_contacts *contacts = &bed->pairs.contacts;
-    const double *xi = bed->place[bed->pairs.first[slot]];
-    const double *xj = bed->place[bed->pairs.other[slot]];
+    const double *xi = bed->position[bed->pairs.first[slot]];
+    const double *xj = bed->position[bed->pairs.other[slot]];
     for (int k = 0; k < 3; k++) {
         unit[k] = xi[k] - xj[k];
     }

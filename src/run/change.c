@@ -36,7 +36,7 @@ static bool same_terms(const struct gb_model *a, const struct gb_model *b)
 {
     return a->terms.attraction == b->terms.attraction &&
            a->terms.bridges == b->terms.bridges &&
-           a->terms.friction == b->terms.friction && a->dry == b->dry;
+           a->terms.friction == b->terms.friction && a->cohesionless == b->cohesionless;
 }
 
 /* Everything that the next one has becomes the experiment's.  The world points to the

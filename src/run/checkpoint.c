@@ -32,7 +32,7 @@
         {#name "/central", GB_RECORD_DOUBLE, 1, AT(name.central), "1"},                  \
         {#name "/height", GB_RECORD_DOUBLE, 1, AT(name.height_m), "m"},                  \
         {#name "/height_change", GB_RECORD_DOUBLE, 1, AT(name.height_change), "1"},      \
-        {#name "/wanted", GB_RECORD_DOUBLE, 1, AT(name.wanted_pa), "Pa"},                \
+        {#name "/wanted", GB_RECORD_DOUBLE, 1, AT(name.target_pa), "Pa"},                \
         {#name "/floor_over_punch", GB_RECORD_DOUBLE, 1, AT(name.floor_over_punch),      \
          "1"},                                                                           \
     {                                                                                    \

@@ -54,11 +54,11 @@ bool gb_die_run_bare(struct gb_die_run **out, const struct gb_params *params,
     if (!make(&run, params, model, err)) {
         return false;
     }
-    if (!gb_filling_bare(&run->bed, params, model, err)) {
+    if (!gb_filling_allocate(&run->bed, params, model, err)) {
         gb_die_run_destroy(run);
         return false;
     }
-    gb_bed_change_law(run->bed, &law);
+    gb_bed_set_law(run->bed, &law);
     *out = run;
     return true;
 }
@@ -112,12 +112,12 @@ void gb_die_run_measure(const struct gb_die_run *run, struct gb_point *point)
         .elastic = NAN,
         .dissipated = NAN,
         .energy_residual = NAN,
-        .central = gb_observe_die_central(run->bed, report.height, model->die.central),
+        .central = gb_observe_die_central(run->bed, report.height, model->die.central_radius),
         .height_m = report.height * model->metre_per_length,
         .height_change = report.height0 > 0.0
                              ? (report.height - report.height0) / report.height0
                              : (double)NAN,
-        .wanted_pa = report.wanted * pascal,
+        .target_pa = report.wanted * pascal,
         .floor_over_punch = report.floor_over_punch,
     };
 }
@@ -125,7 +125,7 @@ void gb_die_run_measure(const struct gb_die_run *run, struct gb_point *point)
 static bool is_unsteady(const struct gb_point *point)
 {
     return isfinite(point->floor_over_punch) &&
-           fabs(point->floor_over_punch - 1.0) > GB_FLOOR_OVER_PUNCH_SLACK;
+           fabs(point->floor_over_punch - 1.0) > GB_FLOOR_OVER_PUNCH_TOLERANCE;
 }
 
 void gb_die_run_judge(struct gb_die_run *run, const struct gb_point *point, char *text,
@@ -178,7 +178,7 @@ static double half_width(const struct gb_bed *bed)
 {
     double half = bed->die.radius;
     for (int64_t i = 0; i < bed->count && bed->die.funnel; i++) {
-        const double *x = bed->place[i];
+        const double *x = bed->position[i];
         half = fmax(half, fmax(fabs(x[0]), fabs(x[1])) + x[3]);
     }
     return half;
@@ -195,16 +195,16 @@ bool gb_die_run_state(const struct gb_die_run *run, struct gb_state **out,
         return false;
     }
     struct gb_state *state = *out;
-    const double top = fmax(gb_bed_top(bed), bed->die.punch ? bed->die.punch_place : 0.0);
+    const double top = fmax(gb_bed_top(bed), bed->die.punch ? bed->die.punch_position : 0.0);
     state->die_radius = bed->die.radius;
     state->cell[0] = state->cell[1] = 2.0 * radius;
     state->cell[2] = top;
     gb_observe_die_contacts(bed, &counts, NULL, 0, state->contacts);
     for (int64_t i = 0; i < bed->count; i++) {
-        const double place[3] = {bed->place[i][0] + radius, bed->place[i][1] + radius,
-                                 bed->place[i][2]};
-        memcpy(state->position + 3 * i, place, sizeof place);
-        state->radius[i] = bed->place[i][3];
+        const double position[3] = {bed->position[i][0] + radius, bed->position[i][1] + radius,
+                                 bed->position[i][2]};
+        memcpy(state->position + 3 * i, position, sizeof position);
+        state->radius[i] = bed->position[i][3];
     }
     copy_pairs(bed, state);
     gb_die_run_measure(run, &state->point);

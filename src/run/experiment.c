@@ -10,7 +10,7 @@
 #include "measure/observe.h"
 #include "pack/cell/nonaffine.h"
 #include "pack/kernel/pair_forces.h"
-#include "pack/structure/grow.h"
+#include "pack/structure/chain_growth.h"
 #include "pack/structure/hilbert.h"
 #include "run/change.h"
 #include "run/checkpoint.h"
@@ -50,10 +50,10 @@ static bool grow_world(struct gb_experiment *experiment, bool (*cancelled)(void 
     if (!position) {
         return false;
     }
-    struct gb_grow grow = gb_grow_of(model);
+    struct gb_chain_growth grow = gb_chain_growth_from_model(model);
     grow.cancelled = cancelled;
     grow.data = data;
-    const bool done = gb_grow_place(&grow, position, err) &&
+    const bool done = gb_chain_growth_place(&grow, position, err) &&
                       gb_hilbert_sort(model, position, err) &&
                       gb_world_create(&experiment->world, model, position, err);
     gb_alloc_free(position);
@@ -202,7 +202,7 @@ static void measure(const struct gb_experiment *experiment, struct gb_point *poi
         .central = NAN, /* and these of dies */
         .height_m = NAN,
         .height_change = NAN,
-        .wanted_pa = NAN,
+        .target_pa = NAN,
         .floor_over_punch = NAN,
     };
 }

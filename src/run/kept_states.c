@@ -28,7 +28,7 @@ void gb_kept_states_pass(struct gb_kept_states *album, const struct gb_point *po
     }
 }
 
-static bool reaches(const struct gb_kept_states *album, const struct gb_mark *mark,
+static bool reaches(const struct gb_kept_states *album, const struct gb_keep_point *mark,
                     const struct gb_point *point)
 {
     const double before = mark->by_density ? album->density : album->p_pa;
@@ -36,7 +36,7 @@ static bool reaches(const struct gb_kept_states *album, const struct gb_mark *ma
     return point->branch == GB_BRANCH_LOAD && before < mark->value && now >= mark->value;
 }
 
-char *gb_kept_states_name(const struct gb_mark *mark, char *name, size_t size)
+char *gb_kept_states_name(const struct gb_keep_point *mark, char *name, size_t size)
 {
     char value[48];
     char *to = value;
@@ -79,8 +79,8 @@ static int list_due(const struct gb_kept_states *album, const struct gb_point *p
     const struct gb_keep_points *marks = &album->marks;
     int count = 0;
     for (int i = 0; i < marks->count; i++) {
-        if (reaches(album, &marks->mark[i], point)) {
-            gb_kept_states_name(&marks->mark[i], names[count++], sizeof names[0]);
+        if (reaches(album, &marks->point[i], point)) {
+            gb_kept_states_name(&marks->point[i], names[count++], sizeof names[0]);
         }
     }
     if (marks->every > 0 && (number - 1) % marks->every == 0) {

@@ -16,7 +16,7 @@ struct gb_kept_states {
 };
 
 /* Name of the state that is kept for a mark, without its ending. */
-char *gb_kept_states_name(const struct gb_mark *mark, char *name, size_t size);
+char *gb_kept_states_name(const struct gb_keep_point *mark, char *name, size_t size);
 
 /* The marks of checked params. */
 void gb_kept_states_init(struct gb_kept_states *album, const struct gb_params *params);

@@ -63,7 +63,7 @@ static bool repeat(struct gb_experiment *experiment, const struct gb_verify *ver
 
 static void compare(struct gb_verify *verify, struct pair *pair)
 {
-    gb_record_drop(&pair->kept, "journal/"); /* of the directory, not of the state */
+    gb_record_remove(&pair->kept, "journal/"); /* of the directory, not of the state */
     const char *name = gb_record_difference(&pair->kept, &pair->other, &verify->row);
     verify->kept = gb_record_hash(&pair->kept);
     verify->repeated = gb_record_hash(&pair->other);

@@ -20,7 +20,7 @@ static const double depth_least = 2.5;
 static void choose_window(const struct gb_state *state, double window[3])
 {
     const double *edge = state->cell;
-    const double part = fmin(1.0, filling * GB_PICTURE_POINTS / (double)state->count);
+    const double part = fmin(1.0, filling * GB_VIEW_SAMPLE_POINTS / (double)state->count);
     memcpy(window, edge, 3 * sizeof *window);
     double share = part;
     if (state->dimension == 3) {
@@ -37,7 +37,7 @@ static void copy_front(const struct gb_state *state, bool die,
                        struct gb_view_sample *picture)
 {
     const double cut = die ? 0.5 * state->cell[1] : 0.0;
-    for (int64_t i = 0; i < state->count && picture->count < GB_PICTURE_POINTS; i++) {
+    for (int64_t i = 0; i < state->count && picture->count < GB_VIEW_SAMPLE_POINTS; i++) {
         const double *at = state->position + 3 * i;
         const double place[3] = {at[0], at[1] - cut, at[2]};
         bool inside = place[1] >= 0.0;
@@ -47,7 +47,7 @@ static void copy_front(const struct gb_state *state, bool die,
         if (inside) {
             const int k = picture->count++;
             for (int c = 0; c < 3; c++) {
-                picture->place[k][c] = (float)place[c];
+                picture->position[k][c] = (float)place[c];
             }
             picture->radius[k] = (float)state->radius[i];
         }
@@ -66,7 +66,7 @@ static void measure_distances(const struct gb_state *state,
         }
     }
     gb_cell_init(&cell, state->dimension, state->cell);
-    if (gb_structure_rdf(&cell, state->count, state->position, reach, GB_PICTURE_RDF,
+    if (gb_structure_rdf(&cell, state->count, state->position, reach, GB_VIEW_SAMPLE_RDF,
                          picture->rdf, NULL)) {
         picture->rdf_reach = reach;
     }

@@ -89,8 +89,8 @@ bool gb_contact_pair_init(struct gb_contact_pair *pair, const struct gb_params *
     return true;
 }
 
-double gb_contact_pair_step(const struct gb_contact_pair *pair, double stiffness)
+double gb_contact_pair_critical_step(const struct gb_contact_pair *pair, double stiffness)
 {
-    return gb_law_hertz_step(stiffness, fmin(pair->mass[0], pair->mass[1]),
+    return gb_law_hertz_critical_step(stiffness, fmin(pair->mass[0], pair->mass[1]),
                              pair->damping);
 }

@@ -29,7 +29,7 @@ static double largest_named(const struct gb_params *params)
     case GB_DISTRIBUTION_TABLE:
         return params->sizes.row[params->sizes.count - 1].diameter_m;
     case GB_DISTRIBUTION_LOGNORMAL:
-        return isnan(params->largest_m) ? 0.0 : params->largest_m;
+        return isnan(params->diameter_max_m) ? 0.0 : params->diameter_max_m;
     default:
         return params->diameter_m;
     }
@@ -89,7 +89,7 @@ bool gb_die_scene_check(const struct gb_params *params, struct gb_error *err)
     return true;
 }
 
-bool gb_die_scene_absent(const struct gb_params *params, const char *what,
+bool gb_die_scene_require_periodic(const struct gb_params *params, const char *what,
                          struct gb_error *err)
 {
     return params->kind != GB_KIND_DIE ||
@@ -104,7 +104,7 @@ static double given_or(double value, double otherwise)
     return isnan(value) ? otherwise : value;
 }
 
-struct gb_die_scene gb_die_scene_of(const struct gb_params *params)
+struct gb_die_scene gb_die_scene_reduce(const struct gb_params *params)
 {
     if (params->kind != GB_KIND_DIE) {
         return (struct gb_die_scene){0};
@@ -118,12 +118,12 @@ struct gb_die_scene gb_die_scene_of(const struct gb_params *params)
         .height = given_or(params->die_height_m, 0.0) / d,
         .outlet = 0.5 * given_or(params->die_outlet_m, 0.75 * params->die_diameter_m) / d,
         .angle = params->die_angle_deg * M_PI / 180.0,
-        .loose = loose_density,
+        .loose_density = loose_density,
         .fill_gravity = params->fill_gravity * gravity,
         .gravity = params->rest_gravity * gravity,
-        .ease = params->ease_s / unit,
-        .flatten = params->flatten_m / d,
-        .pressing = given_or(params->pressing_s, fast ? 20e-6 : 100e-6) / unit,
+        .gravity_ramp = params->gravity_ramp_s / unit,
+        .flatten_travel = params->flatten_m / d,
+        .ramp_time = given_or(params->ramp_s, fast ? 20e-6 : 100e-6) / unit,
         .pressure = params->until_pressure_pa / params->young_pa,
         .quadratic =
             params->ramp == GB_RAMP_QUADRATIC || (params->ramp == GB_RAMP_AUTO && fast),
@@ -134,7 +134,7 @@ struct gb_die_scene gb_die_scene_of(const struct gb_params *params)
                                                : GB_SAFETY_BALANCED),
         .time_step = isnan(step) ? 0.0 : step / unit,
         .inertia_scale = params->inertia_scale,
-        .central = 0.5 * params->central_m / d,
+        .central_radius = 0.5 * params->central_m / d,
         .second_per_time = unit,
     };
 }
@@ -161,7 +161,7 @@ static void note_ramp(const struct gb_model *model, char *buffer, size_t size)
 {
     const struct gb_die_scene *die = &model->die;
     char time[48], pressure[48];
-    write_time(die, die->pressing, time, sizeof time);
+    write_time(die, die->ramp_time, time, sizeof time);
     gb_units_format_short(die->pressure * model->pascal_per_stress, GB_DIM_PRESSURE, 4,
                           pressure, sizeof pressure);
     snprintf(buffer, size, "punch of %g powder masses: 0 to %s in %s, %s",

@@ -13,11 +13,11 @@
 bool gb_die_scene_check(const struct gb_params *params, struct gb_error *err);
 
 /* For what needs a periodic cell: false and GB_ERR_INPUT for scenes with kind = die. */
-bool gb_die_scene_absent(const struct gb_params *params, const char *what,
+bool gb_die_scene_require_periodic(const struct gb_params *params, const char *what,
                          struct gb_error *err);
 
 /* The keys of a die in reduced units; all zero for other kinds. */
-struct gb_die_scene gb_die_scene_of(const struct gb_params *params);
+struct gb_die_scene gb_die_scene_reduce(const struct gb_params *params);
 
 /* Line `index` (0, 1, ...) of what a die carries; NULL after the last.  The text lives in
  * buffer. */

@@ -56,7 +56,7 @@ bool gb_dynamic_scene_check(const struct gb_params *params, struct gb_error *err
     return check_end(params, err);
 }
 
-struct gb_dynamics gb_dynamic_scene_of(const struct gb_params *params)
+struct gb_dynamics gb_dynamic_scene_reduce(const struct gb_params *params)
 {
     if (params->kind != GB_KIND_DYNAMIC) {
         return (struct gb_dynamics){0};

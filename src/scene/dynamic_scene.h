@@ -13,7 +13,7 @@
 bool gb_dynamic_scene_check(const struct gb_params *params, struct gb_error *err);
 
 /* The dynamic keys in reduced units; all zero for other kinds. */
-struct gb_dynamics gb_dynamic_scene_of(const struct gb_params *params);
+struct gb_dynamics gb_dynamic_scene_reduce(const struct gb_params *params);
 
 /* Line `index` (0, 1, ...) of what a dynamic scene carries; NULL after the last and for
  * other kinds.  The text lives in buffer. */

@@ -28,44 +28,44 @@ static bool parse_every(const char *text, int64_t *every)
     return *rest == '\0' && *every >= 1 && *every <= every_most;
 }
 
-static bool parse_mark(const char *text, struct gb_mark *mark)
+static bool parse_point(const char *text, struct gb_keep_point *point)
 {
     const char *value = text;
-    mark->by_density = g_str_has_prefix(text, "density");
-    if (mark->by_density) {
+    point->by_density = g_str_has_prefix(text, "density");
+    if (point->by_density) {
         value += strlen("density");
         value += strspn(value, " \t");
         if (*value++ != '=') {
             return false;
         }
     }
-    return gb_units_parse(value, mark->by_density ? GB_DIM_NONE : GB_DIM_PRESSURE,
-                          &mark->value, NULL) &&
-           (mark->by_density
-                ? mark->value > 0.0 && mark->value < 1.0
-                : mark->value >= pressure_least && mark->value <= pressure_most);
+    return gb_units_parse(value, point->by_density ? GB_DIM_NONE : GB_DIM_PRESSURE,
+                          &point->value, NULL) &&
+           (point->by_density
+                ? point->value > 0.0 && point->value < 1.0
+                : point->value >= pressure_least && point->value <= pressure_most);
 }
 
-static bool parse_entry(const char *text, struct gb_keep_points *marks)
+static bool parse_entry(const char *text, struct gb_keep_points *points)
 {
-    if (marks->every == 0 && parse_every(text, &marks->every)) {
+    if (points->every == 0 && parse_every(text, &points->every)) {
         return true;
     }
-    return marks->count < GB_KEEP_POINTS_MAX &&
-           parse_mark(text, &marks->mark[marks->count]) && ++marks->count > 0;
+    return points->count < GB_KEEP_POINTS_MAX &&
+           parse_point(text, &points->point[points->count]) && ++points->count > 0;
 }
 
-bool gb_keep_points_parse(const char *text, struct gb_keep_points *marks,
+bool gb_keep_points_parse(const char *text, struct gb_keep_points *points,
                           struct gb_error *err)
 {
-    *marks = (struct gb_keep_points){0};
+    *points = (struct gb_keep_points){0};
     char **entries = g_strsplit(text, ";", -1);
     bool good = true;
     for (size_t i = 0; good && entries[i] != NULL; i++) {
         char *entry = g_strstrip(entries[i]);
         /* a ';' at the end, or nothing at all */
         const bool nothing = entry[0] == '\0' && entries[i + 1] == NULL;
-        good = nothing || parse_entry(entry, marks) || refuse(entry, err);
+        good = nothing || parse_entry(entry, points) || refuse(entry, err);
     }
     g_strfreev(entries);
     return good;

@@ -7,19 +7,19 @@
  * density = 0.5; every 20", the last for each 20th recorded point. */
 enum { GB_KEEP_POINTS_MAX = 16 };
 
-struct gb_mark {
+struct gb_keep_point {
     bool by_density;
     double value; /* Pa, or density */
 };
 
 struct gb_keep_points {
     int count;
-    struct gb_mark mark[GB_KEEP_POINTS_MAX];
+    struct gb_keep_point point[GB_KEEP_POINTS_MAX];
     int64_t every; /* recorded points; 0: none */
 };
 
 /* Errors: GB_ERR_INPUT, naming the entry and what is accepted. */
-bool gb_keep_points_parse(const char *text, struct gb_keep_points *marks,
+bool gb_keep_points_parse(const char *text, struct gb_keep_points *points,
                           struct gb_error *err);
 
 #endif

@@ -30,7 +30,7 @@ static double equilibrium_overlap(const struct gb_law_rod *rod, double adhesion)
         return 0.0;
     }
     struct normal_laws laws = {rod, adhesion};
-    if (normal_force(GB_OVERLAP_MOST, &laws) <= 0.0) {
+    if (normal_force(GB_OVERLAP_MAX, &laws) <= 0.0) {
         return NAN;
     }
     gsl_function function = {normal_force, &laws};
@@ -38,7 +38,7 @@ static double equilibrium_overlap(const struct gb_law_rod *rod, double adhesion)
     if (!solver) {
         return NAN;
     }
-    double low = 0.0, high = GB_OVERLAP_MOST;
+    double low = 0.0, high = GB_OVERLAP_MAX;
     gsl_root_fsolver_set(solver, &function, low, high);
     int status = GSL_CONTINUE;
     for (int i = 0; i < 200 && status == GSL_CONTINUE; i++) {
@@ -72,7 +72,7 @@ static void pick_for_predict(struct gb_numerics *numerics, const struct gb_param
                      : params->geometry == GB_GEOMETRY_BIAXIAL ? 2
                                                                : 1;
     const bool fast = params->fidelity == GB_FIDELITY_FAST;
-    *part = (fast ? GB_PREDICT_PART_FAST : GB_PREDICT_PART_BALANCED) / sqrt(axes);
+    *part = (fast ? GB_PREDICT_STRAIN_PART_FAST : GB_PREDICT_STRAIN_PART_BALANCED) / sqrt(axes);
     numerics->tolerance =
         bridges ? (fast ? GB_PREDICT_TOLERANCE_FAST : GB_PREDICT_TOLERANCE_BALANCED)
                 : (fast ? GB_UNBRIDGED_TOLERANCE_FAST : GB_UNBRIDGED_TOLERANCE_BALANCED);
@@ -85,7 +85,7 @@ static void pick_relaxation(struct gb_model *model, const struct gb_params *para
     double part = params->strain_step;
     if (params->fidelity == GB_FIDELITY_REFERENCE) {
         numerics->tolerance = GB_TOLERANCE_REFERENCE;
-        part = GB_PART_REFERENCE;
+        part = GB_STRAIN_PART_REFERENCE;
     } else if (strcmp(numerics->relaxer, "predict") == 0) {
         pick_for_predict(numerics, params, model->terms.bridges, &part);
     } else {
@@ -108,7 +108,7 @@ static const char *automatic_relaxer(const struct gb_params *params)
 /* Scenes whose sweep there is in single precision: no viscous forces, no plane. */
 static bool bears_single(const struct gb_model *model)
 {
-    return model->kind == GB_KIND_QUASISTATIC && model->dimension == 3 && !model->sized;
+    return model->kind == GB_KIND_QUASISTATIC && model->dimension == 3 && !model->polydisperse;
 }
 
 /* Single precision halves memory and time; P1's own relaxer is kept as printed. */
@@ -117,7 +117,7 @@ static bool pick_precision(const struct gb_model *model, const struct gb_params 
     return params->precision == GB_PRECISION_SINGLE ||
            (params->precision == GB_PRECISION_AUTO && bears_single(model) &&
             strcmp(model->numerics.relaxer, "steepest") != 0 &&
-            model->numerics.tolerance >= GB_SINGLE_TOLERANCE_LEAST);
+            model->numerics.tolerance >= GB_F32_TOLERANCE_MIN);
 }
 
 static void pick_numerics(struct gb_model *model, const struct gb_params *params)
@@ -128,36 +128,36 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
              named ? params->relaxer : automatic_relaxer(params));
     pick_relaxation(model, params);
     numerics->single = pick_precision(model, params);
-    const double share = by_fidelity(params->fidelity, GB_CUTOFF_SHARE_FAST,
-                                     GB_CUTOFF_SHARE_BALANCED, GB_CUTOFF_SHARE_REFERENCE);
+    const double share = by_fidelity(params->fidelity, GB_CUTOFF_FRACTION_FAST,
+                                     GB_CUTOFF_FRACTION_BALANCED, GB_CUTOFF_FRACTION_REFERENCE);
     const double given = params->cutoff.relative
                              ? params->cutoff.value
                              : params->cutoff.value / model->metre_per_length;
     numerics->cutoff = isfinite(given) && given > 0.0
                            ? given
-                           : gb_law_dispersion_reach(&model->dispersion, share);
+                           : gb_law_dispersion_range(&model->dispersion, share);
     if (!model->terms.attraction && !(isfinite(given) && given > 0.0)) {
         numerics->cutoff = 1.0;
     }
     numerics->cutoff =
-        fmax(numerics->cutoff, model->terms.attraction ? GB_CUTOFF_LEAST : 1.0);
-    numerics->skin = model->kind == GB_KIND_DYNAMIC ? GB_SKIN_MOVING : GB_SKIN;
+        fmax(numerics->cutoff, model->terms.attraction ? GB_CUTOFF_MIN : 1.0);
+    numerics->skin = model->kind == GB_KIND_DYNAMIC ? GB_SKIN_DYNAMIC : GB_SKIN;
     numerics->threads = params->threads > 0 ? (int)params->threads : 0;
     numerics->max_evaluations =
-        params->max_evaluations > 0 ? params->max_evaluations : GB_EVALUATIONS_MOST;
+        params->max_evaluations > 0 ? params->max_evaluations : GB_EVALUATIONS_MAX;
 }
 
 /* Hertz, Mindlin and Coulomb: the first term of (1), and (5) with its friction only;
  * springs of half the relative motion with (5)'s stiffness are Mindlin's. */
 static void leave_dry_grains(struct gb_model *model)
 {
-    model->dry = true;
+    model->cohesionless = true;
     model->rod.rod = model->rod.pivot = 0.0;
     model->dispersion.strength = model->dispersion.contact = 0.0;
     model->adhesion = 0.0;
-    model->force_floor = gb_law_rod_force(&model->rod, GB_OVERLAP_FLOOR);
+    model->force_floor = gb_law_rod_force(&model->rod, GB_FORCE_FLOOR_OVERLAP);
     model->bridge.length = 1.0;
-    model->bridge.strength = model->slip.strength = GB_STRENGTH_OF_GRAINS;
+    model->bridge.strength = model->slip.strength = GB_STRENGTH_COHESIONLESS;
     model->slip.mu_pivot = 0.0;
     model->slip.motion = 0.5;
 }
@@ -171,7 +171,7 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
                            params->d0_m / d);
     model->adhesion = model->dispersion.contact;
     model->force_floor =
-        fmax(model->adhesion, gb_law_rod_force(&model->rod, GB_OVERLAP_FLOOR));
+        fmax(model->adhesion, gb_law_rod_force(&model->rod, GB_FORCE_FLOOR_OVERLAP));
     model->bridge = (struct gb_law_bridge){
         .length = gb_params_bridge_length_m(params) / d,
         .strength = gb_params_shear_strength_pa(params) / young,
@@ -188,7 +188,7 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
     model->terms.bridges = model->bridge.length < 1.0;
     model->terms.friction =
         model->terms.bridges || params->mu > 0.0 || model->slip.mu_pivot > 0.0;
-    model->terms.plain = model->dry && model->terms.friction;
+    model->terms.plain = model->cohesionless && model->terms.friction;
 }
 
 static void freeze_programme(struct gb_model *model, const struct gb_params *params)
@@ -205,23 +205,23 @@ static void freeze_programme(struct gb_model *model, const struct gb_params *par
     }
 }
 
-/* The sizes of the powder; one of them in every scene but those of gb_sizes_apply. */
+/* The sizes of the powder; one of them in every scene but those of gb_sizes_polydisperse. */
 static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
                          struct gb_error *err)
 {
     const double d = model->metre_per_length;
-    model->least = model->largest = model->mean_cube = 1.0;
-    model->sized = gb_sizes_apply(params);
-    if (!model->sized) {
+    model->diameter_min = model->diameter_max = model->mean_cube = 1.0;
+    model->polydisperse = gb_sizes_polydisperse(params);
+    if (!model->polydisperse) {
         return true;
     }
     if (!gb_sizes_init(&model->sizes, params, err)) {
         return false;
     }
     model->mean_cube = gb_sizes_moment(&model->sizes, 3) / (d * d * d);
-    gb_sizes_ends(&model->sizes, params->count, &model->least, &model->largest);
-    model->least /= d;
-    model->largest /= d;
+    gb_sizes_range(&model->sizes, params->count, &model->diameter_min, &model->diameter_max);
+    model->diameter_min /= d;
+    model->diameter_max /= d;
     return true;
 }
 
@@ -229,12 +229,12 @@ static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
 static double deepest_rest(const struct gb_model *model)
 {
     struct gb_law_unequal law;
-    if (!model->sized) {
+    if (!model->polydisperse) {
         return equilibrium_overlap(&model->rod, model->adhesion);
     }
-    gb_unequal_pair_init(&law, model, model->least, model->least);
-    const double share = gb_law_unequal_rest(&law) / law.span;
-    return share < GB_OVERLAP_MOST ? share : (double)NAN;
+    gb_unequal_pair_init(&law, model, model->diameter_min, model->diameter_min);
+    const double share = gb_law_unequal_equilibrium(&law) / law.mean_diameter;
+    return share < GB_OVERLAP_MAX ? share : (double)NAN;
 }
 
 bool gb_model_init(struct gb_model *model, const struct gb_params *params,
@@ -251,8 +251,8 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .pascal_per_stress = params->young_pa,
         .metre_per_length = d,
         .newton_per_force = params->young_pa * d * d,
-        .dynamics = gb_dynamic_scene_of(params),
-        .die = gb_die_scene_of(params),
+        .dynamics = gb_dynamic_scene_reduce(params),
+        .die = gb_die_scene_reduce(params),
     };
     if (!freeze_sizes(model, params, err)) {
         return false;
@@ -279,14 +279,14 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
             "contact.alpha = %g, particles.diameter = %g nm: the adhesion "
             "%.3g E d^2 presses pairs deeper than %g d; accepted: a larger "
             "alpha or diameter, or a smaller material.epsilon",
-            params->alpha, 1e9 * d, model->adhesion, GB_OVERLAP_MOST);
+            params->alpha, 1e9 * d, model->adhesion, GB_OVERLAP_MAX);
     }
     pick_numerics(model, params);
     const double reach =
-        model->numerics.cutoff + model->numerics.skin + model->largest - 1.0;
+        model->numerics.cutoff + model->numerics.skin + model->diameter_max - 1.0;
     for (int k = 0; k < 3; k++) {
         const bool periodic = params->dimension == 3 || k != 1;
-        if (periodic && model->edges[k] < GB_EDGE_OVER_REACH * reach) {
+        if (periodic && model->edges[k] < GB_EDGE_OVER_RANGE_MIN * reach) {
             return gb_error_set(
                 err, GB_ERR_INPUT,
                 "particles.count = %lld, structure.base: the cell is %.3g d "
@@ -310,13 +310,13 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
     case 0:
         snprintf(buffer, size, "bridges: %s",
                  terms->bridges ? "carried"
-                 : model->dry   ? "left out (contact.normal = hertz)"
+                 : model->cohesionless   ? "left out (contact.normal = hertz)"
                               : "left out (contact.bridge_length is a diameter or more)");
         return buffer;
     case 1:
         snprintf(buffer, size, "friction, pivoting and their history: %s",
                  !terms->friction ? "left out (mu = 0, no bridges)"
-                 : model->dry     ? "carried, but for pivoting (contact.normal = hertz)"
+                 : model->cohesionless     ? "carried, but for pivoting (contact.normal = hertz)"
                                   : "carried");
         return buffer;
     case 2:
@@ -324,7 +324,7 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
             buffer, size,
             terms->attraction
                 ? "attraction: carried to %.3f d, where it is %.1e of its contact value"
-            : model->dry ? "attraction: left out (contact.normal = hertz)"
+            : model->cohesionless ? "attraction: left out (contact.normal = hertz)"
                          : "attraction: left out (material.epsilon = 0)",
             numerics->cutoff,
             gb_law_dispersion_force(&model->dispersion, numerics->cutoff) /

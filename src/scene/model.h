@@ -53,12 +53,12 @@ struct gb_die_scene {
     double height;       /* where the funnel begins */
     double outlet;       /* radius of the funnel's opening */
     double angle;        /* of the funnel's wall to the axis, rad */
-    double loose;        /* density of the powder placed in the funnel */
+    double loose_density; /* density of the powder placed in the funnel */
     double fill_gravity; /* while pouring */
     double gravity;      /* at rest and in pressing */
-    double ease;         /* time from one to the other */
-    double flatten;      /* way of the punch down from its first contact */
-    double pressing;     /* time of the ramp */
+    double gravity_ramp; /* time from one to the other */
+    double flatten_travel; /* of the punch, from its first contact */
+    double ramp_time;    /* of the pressure */
     double pressure;     /* at its end */
     bool quadratic;      /* p = p_max (t/T)^2 instead of p_max t/T */
     double record;       /* pressure between recorded points */
@@ -66,7 +66,7 @@ struct gb_die_scene {
     double safety;       /* of the time step */
     double time_step;    /* 0: by the critical one */
     double inertia_scale;
-    double central; /* radius of the sphere that measures the central density */
+    double central_radius; /* of the sphere that measures the central density */
     double second_per_time;
 };
 
@@ -80,12 +80,12 @@ struct gb_model {
     double edges[3]; /* initial cell, d */
     double start_density;
     double r_meso;
-    bool sized;            /* particles of more than one size; else none of these: */
+    bool polydisperse;     /* more than one size; else the next four are 0 or 1 */
     struct gb_sizes sizes; /* in m */
-    double least, largest; /* diameters, d; 1 */
+    double diameter_min, diameter_max; /* d; 1 */
     double mean_cube;      /* of diameters, d^3; 1 */
     struct gb_terms terms;
-    bool dry; /* grains without attraction, bridges and rods: contact.normal = hertz */
+    bool cohesionless; /* no attraction, bridges or rods: contact.normal = hertz */
     struct gb_law_rod rod;
     struct gb_law_bridge bridge;
     struct gb_law_dispersion dispersion;

@@ -115,11 +115,11 @@ static const struct gb_field fields[] = {
     {"particles", "sigma", GB_FIELD_NUMBER, AT(sigma), RANGE(1e-3, 1.0),
      .fallback = "0.5", .meaning = "standard deviation of ln d in a log-normal law",
      .source = "P1 (17)"},
-    {"particles", "least", GB_FIELD_NUMBER, AT(least_m), .dimension = GB_DIM_LENGTH,
+    {"particles", "least", GB_FIELD_NUMBER, AT(diameter_min_m), .dimension = GB_DIM_LENGTH,
      RANGE(1e-9, 1e-3), AUTO(NAN), .fallback = "auto",
      .meaning = "diameter below which a log-normal law is cut; auto: not cut",
      .source = "P3 5"},
-    {"particles", "largest", GB_FIELD_NUMBER, AT(largest_m), .dimension = GB_DIM_LENGTH,
+    {"particles", "largest", GB_FIELD_NUMBER, AT(diameter_max_m), .dimension = GB_DIM_LENGTH,
      RANGE(1e-9, 1e-3), AUTO(NAN), .fallback = "auto",
      .meaning = "diameter above which a log-normal law is cut; auto: not cut",
      .source = "P3 5"},
@@ -224,7 +224,7 @@ static const struct gb_field fields[] = {
     {"die", "gravity", GB_FIELD_NUMBER, AT(rest_gravity), RANGE(1e-3, 1e8),
      .fallback = "200", .meaning = "gravity of the powder at rest and pressed, in g",
      .source = "numerical"},
-    {"die", "ease", GB_FIELD_NUMBER, AT(ease_s), .dimension = GB_DIM_TIME,
+    {"die", "ease", GB_FIELD_NUMBER, AT(gravity_ramp_s), .dimension = GB_DIM_TIME,
      RANGE(1e-9, 1.0), .fallback = "20 us",
      .meaning = "time in which gravity goes down from filling to rest",
      .source = "numerical"},
@@ -280,7 +280,7 @@ static const struct gb_field fields[] = {
     {"loading", "ramp", GB_FIELD_CHOICE, AT(ramp), .choices = ramps, .fallback = "auto",
      .meaning = "pressure of a punch against time: t or t^2; auto: quadratic when fast",
      .source = "P3 5; numerical"},
-    {"loading", "time", GB_FIELD_NUMBER, AT(pressing_s), .dimension = GB_DIM_TIME,
+    {"loading", "time", GB_FIELD_NUMBER, AT(ramp_s), .dimension = GB_DIM_TIME,
      RANGE(1e-9, 1.0), AUTO(NAN), .fallback = "auto",
      .meaning = "time in which a punch reaches its pressure; auto: 100 us, fast 20 us",
      .source = "P3 5; numerical"},
@@ -506,7 +506,7 @@ double gb_params_time_step_s(const struct gb_params *params)
 double gb_params_reference_m(const struct gb_params *params)
 {
     struct gb_sizes sizes;
-    return gb_sizes_apply(params) && gb_sizes_init(&sizes, params, NULL)
+    return gb_sizes_polydisperse(params) && gb_sizes_init(&sizes, params, NULL)
                ? gb_sizes_moment(&sizes, 1)
                : params->diameter_m;
 }
@@ -515,7 +515,7 @@ double gb_params_reference_m(const struct gb_params *params)
 static double mean_cube(const struct gb_params *params)
 {
     struct gb_sizes sizes;
-    return gb_sizes_apply(params) && gb_sizes_init(&sizes, params, NULL)
+    return gb_sizes_polydisperse(params) && gb_sizes_init(&sizes, params, NULL)
                ? gb_sizes_moment(&sizes, 3) / pow(gb_sizes_moment(&sizes, 1), 3.0)
                : 1.0;
 }
@@ -564,10 +564,10 @@ static double largest_over_mean(const struct gb_params *params)
 {
     struct gb_sizes sizes;
     double least = 1.0, largest = 1.0;
-    if (!gb_sizes_apply(params) || !gb_sizes_init(&sizes, params, NULL)) {
+    if (!gb_sizes_polydisperse(params) || !gb_sizes_init(&sizes, params, NULL)) {
         return 1.0;
     }
-    gb_sizes_ends(&sizes, params->count, &least, &largest);
+    gb_sizes_range(&sizes, params->count, &least, &largest);
     return largest / gb_sizes_moment(&sizes, 1);
 }
 
@@ -633,7 +633,7 @@ static bool check_normal(const struct gb_params *params, struct gb_error *err)
 {
     const bool still = params->kind == GB_KIND_QUASISTATIC;
     if (params->normal == GB_NORMAL_ROD ||
-        (params->normal == GB_NORMAL_HERTZ && still && !gb_sizes_apply(params))) {
+        (params->normal == GB_NORMAL_HERTZ && still && !gb_sizes_polydisperse(params))) {
         return true;
     }
     if (params->normal == GB_NORMAL_HERTZ && still) {

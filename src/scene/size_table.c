@@ -13,7 +13,7 @@
 static const char by_number[] = "number:", by_volume[] = "volume:";
 static const char share_number[] = "share_number", share_volume[] = "share_volume";
 
-bool gb_size_table_names_file(const char *text)
+bool gb_size_table_is_path(const char *text)
 {
     return *text != '\0' && !g_str_has_prefix(text, by_number) &&
            !g_str_has_prefix(text, by_volume);
@@ -33,8 +33,8 @@ static bool check_row(const struct gb_sizetable *table, int i, struct gb_error *
                             "diameter %s: accepted above %s of the row before", given,
                             before);
     }
-    return (row->share >= 0.0 && row->share <= 1.0 + GB_SHARES_SLACK) ||
-           gb_error_set(err, GB_ERR_INPUT, "share %g: accepted 0 to 1", row->share);
+    return (row->fraction >= 0.0 && row->fraction <= 1.0 + GB_SIZE_FRACTIONS_TOLERANCE) ||
+           gb_error_set(err, GB_ERR_INPUT, "share %g: accepted 0 to 1", row->fraction);
 }
 
 bool gb_size_table_check(const struct gb_sizetable *table, int *row, struct gb_error *err)
@@ -52,11 +52,11 @@ bool gb_size_table_check(const struct gb_sizetable *table, int *row, struct gb_e
             *row = i;
             return false;
         }
-        sum += table->row[i].share;
+        sum += table->row[i].fraction;
     }
-    return table->count == 0 || fabs(sum - 1.0) <= GB_SHARES_SLACK ||
+    return table->count == 0 || fabs(sum - 1.0) <= GB_SIZE_FRACTIONS_TOLERANCE ||
            gb_error_set(err, GB_ERR_INPUT, "the shares sum to %.6g: accepted 1 within %g",
-                        sum, GB_SHARES_SLACK);
+                        sum, GB_SIZE_FRACTIONS_TOLERANCE);
 }
 
 /* "1.5 um 0.25": the share is the last word. */
@@ -68,7 +68,7 @@ static bool read_pair(char *text, struct gb_sizetable_row *row)
     }
     *last = '\0';
     return gb_units_parse(text, GB_DIM_LENGTH, &row->diameter_m, NULL) &&
-           gb_units_parse(last + 1, GB_DIM_NONE, &row->share, NULL);
+           gb_units_parse(last + 1, GB_DIM_NONE, &row->fraction, NULL);
 }
 
 static bool read_line(struct gb_sizetable *table, const char *text, struct gb_error *err)
@@ -156,7 +156,7 @@ static bool take_row(const struct gb_table *csv, const struct columns *columns, 
     } else {
         g_strlcpy(text, gb_table_word(csv, i), sizeof text);
     }
-    row->share = columns->share[i];
+    row->fraction = columns->share[i];
     return gb_units_parse(text, GB_DIM_LENGTH, &row->diameter_m, err);
 }
 
@@ -205,7 +205,7 @@ bool gb_size_table_read(struct gb_sizetable *table, const char *text,
                         struct gb_error *err)
 {
     struct gb_sizetable read = {0};
-    if (gb_size_table_names_file(text) ? !read_csv(&read, text, err)
+    if (gb_size_table_is_path(text) ? !read_csv(&read, text, err)
                                        : *text != '\0' && !read_line(&read, text, err)) {
         return false;
     }
@@ -221,7 +221,7 @@ char *gb_size_table_write(const struct gb_sizetable *table, char *buffer, size_t
         char diameter[64], share[64];
         gb_units_format(table->row[i].diameter_m, GB_DIM_LENGTH, diameter,
                         sizeof diameter);
-        gb_units_format(table->row[i].share, GB_DIM_NONE, share, sizeof share);
+        gb_units_format(table->row[i].fraction, GB_DIM_NONE, share, sizeof share);
         const size_t used = strlen(buffer);
         snprintf(buffer + used, size - used, "%s %s %s", i > 0 ? ";" : "", diameter,
                  share);
@@ -246,12 +246,12 @@ static bool check_scene(const struct gb_params *params, struct gb_error *err)
 static bool check_lognormal(const struct gb_params *params, struct gb_error *err)
 {
     const double median = gb_params_median_m(params);
-    const bool low = params->least_m >= median, high = params->largest_m <= median;
+    const bool low = params->diameter_min_m >= median, high = params->diameter_max_m <= median;
     if (!low && !high) {
         return true;
     }
     char cut[64], middle[64];
-    gb_units_format(low ? params->least_m : params->largest_m, GB_DIM_LENGTH, cut,
+    gb_units_format(low ? params->diameter_min_m : params->diameter_max_m, GB_DIM_LENGTH, cut,
                     sizeof cut);
     gb_units_format(median, GB_DIM_LENGTH, middle, sizeof middle);
     return gb_error_set(err, GB_ERR_INPUT,

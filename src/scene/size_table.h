@@ -25,10 +25,10 @@ bool gb_size_table_read(struct gb_sizetable *table, const char *text,
 char *gb_size_table_write(const struct gb_sizetable *table, char *buffer, size_t size);
 
 /* Does the text name a file? */
-bool gb_size_table_names_file(const char *text);
+bool gb_size_table_is_path(const char *text);
 
 /* Diameters finite, positive and ascending, shares not negative and summing to 1 within
- * GB_SHARES_SLACK; no rows at all are fine.
+ * GB_SIZE_FRACTIONS_TOLERANCE; no rows at all are fine.
  *
  * row   the one that is wrong, from 0; -1: all together; NULL is fine */
 bool gb_size_table_check(const struct gb_sizetable *table, int *row,

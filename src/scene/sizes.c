@@ -21,7 +21,7 @@ static void freeze_table(struct gb_sizes *sizes, const struct gb_sizetable *tabl
     for (int i = 0; i < table->count; i++) {
         const struct gb_sizetable_row *row = &table->row[i];
         const double ratio = row->diameter_m / table->row[0].diameter_m;
-        sum += table->by_volume ? row->share / (ratio * ratio * ratio) : row->share;
+        sum += table->by_volume ? row->fraction / (ratio * ratio * ratio) : row->fraction;
         sizes->diameter_m[i] = row->diameter_m;
         sizes->below[i] = sum;
     }
@@ -35,7 +35,7 @@ static double cut_at(const struct gb_sizes *sizes, double diameter_m, double unc
     return isnan(diameter_m) ? uncut : log(diameter_m / sizes->median_m) / sizes->sigma;
 }
 
-bool gb_sizes_apply(const struct gb_params *params)
+bool gb_sizes_polydisperse(const struct gb_params *params)
 {
     return params->kind == GB_KIND_QUASISTATIC &&
            params->distribution != GB_DISTRIBUTION_MONO;
@@ -53,8 +53,8 @@ bool gb_sizes_init(struct gb_sizes *sizes, const struct gb_params *params,
     if (params->distribution == GB_DISTRIBUTION_LOGNORMAL) {
         sizes->median_m = gb_params_median_m(params);
         sizes->sigma = params->sigma;
-        sizes->z_least = cut_at(sizes, params->least_m, -INFINITY);
-        sizes->z_largest = cut_at(sizes, params->largest_m, INFINITY);
+        sizes->z_least = cut_at(sizes, params->diameter_min_m, -INFINITY);
+        sizes->z_largest = cut_at(sizes, params->diameter_max_m, INFINITY);
     } else if (params->distribution == GB_DISTRIBUTION_TABLE) {
         freeze_table(sizes, &params->sizes);
     }
@@ -122,7 +122,7 @@ void gb_sizes_fill(const struct gb_sizes *sizes, int64_t count, double *diameter
     }
 }
 
-void gb_sizes_ends(const struct gb_sizes *sizes, int64_t count, double *least,
+void gb_sizes_range(const struct gb_sizes *sizes, int64_t count, double *least,
                    double *largest)
 {
     const double n = (double)count,

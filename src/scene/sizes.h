@@ -23,7 +23,7 @@ struct gb_sizes {
 
 /* Is it a scene of nanoparticles of more than one size?  (Beds in a die draw their own.)
  */
-bool gb_sizes_apply(const struct gb_params *params);
+bool gb_sizes_polydisperse(const struct gb_params *params);
 
 /* Errors: those of gb_params_check about sizes (GB_ERR_INPUT). */
 bool gb_sizes_init(struct gb_sizes *sizes, const struct gb_params *params,
@@ -38,7 +38,7 @@ bool gb_sizes_init(struct gb_sizes *sizes, const struct gb_params *params,
 void gb_sizes_fill(const struct gb_sizes *sizes, int64_t count, double *diameter_m);
 
 /* The least and the largest of them, m. */
-void gb_sizes_ends(const struct gb_sizes *sizes, int64_t count, double *least,
+void gb_sizes_range(const struct gb_sizes *sizes, int64_t count, double *least,
                    double *largest);
 
 /* Mean of d^power by number, m^power; the law's own, not that of a draw. */

@@ -6,19 +6,19 @@
 /* Share of f_a(d) to which the attraction has fallen at the automatic cutoff, by
  * fidelity. Larger: attraction is lost and the force jumps where pairs cross the cutoff,
  * so that tight relaxations stall.  Smaller: longer neighbour lists, slower sweeps. */
-#define GB_CUTOFF_SHARE_FAST      3e-3
-#define GB_CUTOFF_SHARE_BALANCED  1e-3
-#define GB_CUTOFF_SHARE_REFERENCE 2e-4
+#define GB_CUTOFF_FRACTION_FAST      3e-3
+#define GB_CUTOFF_FRACTION_BALANCED  1e-3
+#define GB_CUTOFF_FRACTION_REFERENCE 2e-4
 
 /* The cutoff never lies closer than this (d): contacts need a margin to be found in time.
  */
-#define GB_CUTOFF_LEAST 1.05
+#define GB_CUTOFF_MIN 1.05
 
 /* Margin of the neighbour list beyond the cutoff (d).  Larger: rarer rebuilds, more pairs
  * to look at in every sweep.  No result depends on it. */
 #define GB_SKIN 0.08
 /* Where particles fly the lists wear out faster: P2's scene takes 3 % less with this. */
-#define GB_SKIN_MOVING 0.15
+#define GB_SKIN_DYNAMIC 0.15
 
 /* rms residual over force scale at which a strain step counts as relaxed, by fidelity. */
 #define GB_TOLERANCE_FAST      2e-2
@@ -36,43 +36,43 @@
 /* Largest strain that predict relaxes at once at fast and balanced, along one axis; over
  * the root of their number where several are pressed.  At 5e-4 along each of three the
  * density at 100 MPa came out 0.006 too high. */
-#define GB_PREDICT_PART_FAST     1e-3
-#define GB_PREDICT_PART_BALANCED 5e-4
+#define GB_PREDICT_STRAIN_PART_FAST     1e-3
+#define GB_PREDICT_STRAIN_PART_BALANCED 5e-4
 
 /* predict foretells no particle to go or turn farther than this many times the strain (d,
  * rad): those that just fell into a hole will not do it again.  At 2 the density of set
  * II at 100 MPa comes out 0.007 too low.  Without a bound a cell takes a fifth more
  * evaluations, pressures below 20 MPa come out too low, and packings without bridges are
  * shaken looser. */
-#define GB_FORETOLD_MOST 8.0
+#define GB_PREDICT_RATIO_MAX 8.0
 
 /* Where contacts carry less than they stick with, the tolerance of predict falls with the
  * mean contact force over f_a(d) times RISE, down to this share of it.  A larger share
  * saves evaluations below 10 MPa and makes the pressure there come out too high: at 1 the
  * first step of set II has 5 MPa instead of 0.6. */
-#define GB_PREDICT_LIGHT 0.2
-#define GB_LIGHT_RISE    3.0
+#define GB_PREDICT_TOLERANCE_FRACTION_MIN 0.2
+#define GB_PREDICT_TOLERANCE_SLOPE    3.0
 
 /* Tightest tolerance at which numerics.precision = auto is single.  Rounding leaves a
  * residual of 1e-5; tighter relaxations of a share of it would go round. */
-#define GB_SINGLE_TOLERANCE_LEAST 5e-3
+#define GB_F32_TOLERANCE_MIN 5e-3
 
 /* Largest strain relaxed at once at fidelity = reference, by any relaxer.  The error in
  * density at 100 MPa grows by 0.0015 for each 1e-3. */
-#define GB_PART_REFERENCE 2e-4
+#define GB_STRAIN_PART_REFERENCE 2e-4
 
 /* Shear strength of contacts without cement (E): none, but finite, so that it times nothing
  * is nothing. */
-#define GB_STRENGTH_OF_GRAINS 1e6
+#define GB_STRENGTH_COHESIONLESS 1e6
 
 /* The force scale of the stopping rule never falls below f_e at this overlap (d): without
  * adhesion a loose packing carries no force at all, and a share of nothing cannot be
  * reached. At 1e-4 the floor is worth about 0.1 MPa in alumina. */
-#define GB_OVERLAP_FLOOR 1e-4
+#define GB_FORCE_FLOOR_OVERLAP 1e-4
 
 /* Force evaluations after which a strain step is recorded unrelaxed.  Too few cut the
  * reference relaxer short, which takes thousands at tight tolerances. */
-#define GB_EVALUATIONS_MOST 200000
+#define GB_EVALUATIONS_MAX 200000
 
 /* A step recorded unrelaxed with a residual above this many tolerances stops the run. */
 #define GB_RESIDUAL_STOP 30.0
@@ -81,21 +81,21 @@
  * round, mostly between two states of a breaking bridge or of a pair at the cutoff: it is
  * restarted once and then given up.  Fewer cut the reference relaxer short. */
 #define GB_STALL_EVALUATIONS 5000
-#define GB_STALL_SHARE       0.01
+#define GB_STALL_FRACTION       0.01
 
 /* Way (d) beside the affine motion in one strain step beyond which a particle may have
  * passed contacts by: the step is halved, twice at most; what is left then is a jump of
  * the packing itself.  At 0.1 % none of 928 steps of a cell of 1000 has one beyond 0.2,
  * at 1 % two of 94.  Smaller values halve steps that are as they should be. */
-#define GB_DEPARTURE_MOST     0.2
-#define GB_DEPARTURE_HALVINGS 2
+#define GB_NONAFFINE_MAX     0.2
+#define GB_NONAFFINE_HALVINGS_MAX 2
 
 /* Overlap (d) beyond which the contact laws have lost their meaning: h -> 1 is singular,
  * and two centres about to cross mean that a strain step was too large. */
-#define GB_OVERLAP_MOST 0.5
+#define GB_OVERLAP_MAX 0.5
 
 /* Unloading ends when the pressure is below this share of where it began. */
-#define GB_UNLOADED_SHARE 1e-3
+#define GB_UNLOADED_FRACTION 1e-3
 
 /* Dynamic scenes.  Error of the end pressure when omega * step = 1; the square of omega *
  * step scales it.  From the known 2 % at 0.5 T in P2's scene, where omega is near 2 / T
@@ -105,29 +105,29 @@
 
 /* Share of the critical step that is taken where the guard has to choose.  Friction caps
  * hide instabilities closer to 1. */
-#define GB_STEP_CRITICAL_SHARE 0.5
+#define GB_STEP_CRITICAL_FRACTION 0.5
 
 /* Share of sliding contacts above which the time step is doubted and halved.  P2's scene
  * at v1 has 0.03 in the loose state and up to 0.24 near density 0.9 (0.35 with
  * relative_motion = full), the same at 0.04 T and at 0.5 T; unstable steps reach 0.7 to 1
  * within 200 steps while the kinetic energy looks innocent. */
-#define GB_SLIDING_MOST 0.4
+#define GB_SLIDING_FRACTION_MAX 0.4
 /* If half the step keeps this much of the share, friction is the cause (small mu without
  * bridges: 0.41 at any step), not the step. */
-#define GB_SLIDING_SAME 0.8
+#define GB_SLIDING_RATIO_UNCHANGED 0.8
 
 /* Halvings of the time step after which a dynamic run stops. */
-#define GB_STEP_HALVINGS_MOST 6
+#define GB_STEP_HALVINGS_MAX 6
 
 /* How far the shares of a table of sizes may be from summing to 1; they are then scaled.
  * Smaller: tables written with three or four digits are refused.  Larger: a forgotten
  * row passes. */
-#define GB_SHARES_SLACK 2e-3
+#define GB_SIZE_FRACTIONS_TOLERANCE 2e-3
 
 /* Pairs per sphere, on average, beyond which a search for neighbours is given up.  Dense
  * packings have 5 to 10 with a usual skin; spheres that all lie on one spot would fill
  * the memory. */
-#define GB_SIFT_CROWD 100
+#define GB_HGRID_PAIRS_PER_SPHERE_MAX 100
 
 /* Die scenes.  Share of the critical time step by fidelity.  0.9 gives the curve of 0.1
  * within 0.001, 1.8 blows up. */
@@ -141,7 +141,7 @@
 #define GB_REST_UNBALANCED 0.02
 /* ... at so many looks in a row.  Looser: particles still fall while the height is taken.
  */
-#define GB_REST_LOOKS 4
+#define GB_REST_CHECKS 4
 
 /* The same two while pouring, when all that matters is that nothing falls any more. */
 #define GB_POURED_FALL       0.1
@@ -152,17 +152,17 @@
  * taken for the top of the powder: punch and height go by it.  One that falls bears 0,
  * one at rest 1.  Smaller: one that slides down the wall passes.  Near 1: rest is not
  * seen while the highest particle trembles. */
-#define GB_REST_BORNE 0.5
+#define GB_REST_SUPPORT_MIN 0.5
 
 /* Force on the floor over force on the punch: further from 1 than this, inertia carries
  * a part of the pressure and the point is not quasi-static. */
-#define GB_FLOOR_OVER_PUNCH_SLACK 0.05
+#define GB_FLOOR_OVER_PUNCH_TOLERANCE 0.05
 
 /* While gravity is eased a gas slows the powder down in the first share of the time of
  * easing, and from then on in the second one.  Without it a bed of smooth spheres turns
  * about the die's axis for ever: those at the wall roll, and nothing holds the others.
  * Stronger: loose particles take long to fall. */
-#define GB_EASE_DRAG 0.1
+#define GB_GRAVITY_RAMP_DRAG 0.1
 #define GB_REST_DRAG 1.0
 
 /* A particle pushed by the flattening punch could rise by a quarter of this (d).  Larger:
@@ -171,6 +171,6 @@
 
 /* Length of a cell edge over the reach of the neighbour list: below 2 a pair would meet
  * two images of the same particle. */
-#define GB_EDGE_OVER_REACH 2.0
+#define GB_EDGE_OVER_RANGE_MIN 2.0
 
 #endif

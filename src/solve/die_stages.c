@@ -84,7 +84,7 @@ static enum gb_die_stages_outcome trip(struct gb_die_stages *programme,
     programme->now = programme->good;
     programme->now.leap.limit = 0.5 * step;
     programme->now.leap.step = 0.0;
-    if (++programme->halvings > GB_STEP_HALVINGS_MOST) {
+    if (++programme->halvings > GB_STEP_HALVINGS_MAX) {
         gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %.3g ps", why,
                      1e12 * step * programme->scene.second_per_time);
         return GB_DIE_STAGES_STOPPED;
@@ -100,11 +100,11 @@ static bool top_is_borne(const struct gb_bed *bed, double gravity)
     int64_t highest = 0;
     double top = 0.0;
     for (int64_t i = 0; i < bed->count; i++) {
-        const double reach = bed->place[i][2] + bed->place[i][3];
+        const double reach = bed->position[i][2] + bed->position[i][3];
         highest = reach > top ? i : highest;
         top = fmax(reach, top);
     }
-    return bed->force[highest][2] > GB_REST_BORNE * bed->mass[highest] * gravity;
+    return bed->force[highest][2] > GB_REST_SUPPORT_MIN * bed->mass[highest] * gravity;
 }
 
 /* Mean kinetic energy against a fall, resultant forces against those of the contacts, and
@@ -115,9 +115,9 @@ static bool at_rest(const struct gb_die_stages *programme, const struct gb_bed *
     const bool pours = programme->now.stage == GB_DIE_STAGES_POUR;
     const double gravity = programme->now.leap.gravity;
     const double weight = gravity * gb_bed_solid_volume(bed) / (M_PI / 6.0);
-    return gb_bed_kinetic(bed).moving <
+    return gb_bed_kinetic_energy(bed).translational <
                (pours ? GB_POURED_FALL : GB_REST_FALL) * weight &&
-           gb_bed_unbalanced(bed, gravity) <
+           gb_bed_unbalanced_force(bed, gravity) <
                (pours ? GB_POURED_UNBALANCED : GB_REST_UNBALANCED) &&
            top_is_borne(bed, gravity);
 }
@@ -126,7 +126,7 @@ static int64_t left_in_funnel(const struct gb_bed *bed)
 {
     int64_t left = 0;
     for (int64_t i = 0; i < bed->count; i++) {
-        left += bed->place[i][2] > bed->die.height;
+        left += bed->position[i][2] > bed->die.height;
     }
     return left;
 }
@@ -150,9 +150,9 @@ static void begin_flatten(struct gb_die_stages *programme, struct gb_bed *bed)
 {
     bed->die.funnel = false;
     bed->die.punch = true;
-    bed->die.punch_place = programme->now.punch_from = gb_bed_top(bed);
-    bed->die.punch_speed = -flatten_speed(&programme->scene);
-    gb_bed_forget_lists(bed);
+    bed->die.punch_position = programme->now.punch_from = gb_bed_top(bed);
+    bed->die.punch_velocity = -flatten_speed(&programme->scene);
+    gb_bed_invalidate_lists(bed);
     enter(programme, GB_DIE_STAGES_FLATTEN);
 }
 
@@ -162,10 +162,10 @@ static bool begin_press(struct gb_die_stages *programme, struct gb_bed *bed,
     const struct gb_die_scene *scene = &programme->scene;
     struct progress *now = &programme->now;
     now->height0 = gb_bed_top(bed);
-    now->punch = (struct gb_punch){.length = scene->pressing,
+    now->punch = (struct gb_punch){.length = scene->ramp_time,
                                    .pressure = scene->pressure,
                                    .quadratic = scene->quadratic};
-    gb_bed_change_law(bed, &programme->law);
+    gb_bed_set_law(bed, &programme->law);
     gb_punch_begin(&now->punch, &now->leap, bed, now->height0, scene->punch_mass);
     now->leap.drag = now->leap.step = 0.0;
     now->leap.gravity = scene->gravity;
@@ -188,7 +188,7 @@ static bool stays_at_rest(struct gb_die_stages *programme, const struct gb_bed *
         return false;
     }
     now->calm = at_rest(programme, bed) ? now->calm + 1 : 0;
-    return now->calm >= GB_REST_LOOKS;
+    return now->calm >= GB_REST_CHECKS;
 }
 
 static void say_stage(const struct gb_die_stages *programme, const char *what, char *text,
@@ -221,18 +221,18 @@ static bool end_of_stage(struct gb_die_stages *programme, struct gb_bed *bed, ch
             return false;
         }
         say_stage(programme, "poured", text, size);
-        now->leap.drag = 1.0 / (GB_EASE_DRAG * scene->ease);
+        now->leap.drag = 1.0 / (GB_GRAVITY_RAMP_DRAG * scene->gravity_ramp);
         enter(programme, GB_DIE_STAGES_EASE);
         return true;
     case GB_DIE_STAGES_EASE:
         now->leap.gravity =
             scene->fill_gravity * pow(scene->gravity / scene->fill_gravity,
-                                      fmin(now->stage_time / scene->ease, 1.0));
-        if (now->stage_time < scene->ease) {
+                                      fmin(now->stage_time / scene->gravity_ramp, 1.0));
+        if (now->stage_time < scene->gravity_ramp) {
             return false;
         }
         say_stage(programme, "gravity eased", text, size);
-        now->leap.drag = 1.0 / (GB_REST_DRAG * scene->ease);
+        now->leap.drag = 1.0 / (GB_REST_DRAG * scene->gravity_ramp);
         enter(programme, GB_DIE_STAGES_SETTLE);
         return true;
     case GB_DIE_STAGES_SETTLE:
@@ -243,20 +243,20 @@ static bool end_of_stage(struct gb_die_stages *programme, struct gb_bed *bed, ch
         begin_flatten(programme, bed);
         return true;
     case GB_DIE_STAGES_FLATTEN:
-        if (now->punch_from - bed->die.punch_place < scene->flatten) {
+        if (now->punch_from - bed->die.punch_position < scene->flatten_travel) {
             return false;
         }
         say_stage(programme, "flattened", text, size);
-        bed->die.punch_speed = -bed->die.punch_speed;
+        bed->die.punch_velocity = -bed->die.punch_velocity;
         enter(programme, GB_DIE_STAGES_LIFT);
         return true;
     case GB_DIE_STAGES_LIFT:
-        if (bed->tally.punch > 0.0 && bed->die.punch_place < now->punch_from) {
+        if (bed->tally.punch > 0.0 && bed->die.punch_position < now->punch_from) {
             return false; /* elastic powder follows the punch a little */
         }
         bed->die.punch = false;
-        bed->die.punch_speed = 0.0;
-        gb_bed_forget_lists(bed);
+        bed->die.punch_velocity = 0.0;
+        gb_bed_invalidate_lists(bed);
         enter(programme, GB_DIE_STAGES_REST);
         return true;
     case GB_DIE_STAGES_REST:
@@ -277,7 +277,7 @@ static bool due(struct gb_die_stages *programme)
     const struct gb_die_scene *scene = &programme->scene;
     struct progress *now = &programme->now;
     const double wanted = gb_punch_wanted(&now->punch, now->punch.time);
-    if (now->punch.time >= scene->pressing) {
+    if (now->punch.time >= scene->ramp_time) {
         return true;
     }
     if (wanted < now->next_record) {
@@ -289,10 +289,10 @@ static bool due(struct gb_die_stages *programme)
 
 static void write_place(const struct gb_bed *bed, int64_t i, char *why, size_t size)
 {
-    const double *x = bed->place[i];
+    const double *x = bed->position[i];
     if (!isfinite(x[0] + x[1] + x[2])) {
         snprintf(why, size, "particle %lld: its place is not a number", (long long)i);
-    } else if (bed->die.punch && x[2] >= bed->die.punch_place) {
+    } else if (bed->die.punch && x[2] >= bed->die.punch_position) {
         snprintf(why, size, "the punch is below the powder: particle %lld is above it",
                  (long long)i);
     } else {
@@ -313,18 +313,18 @@ struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *pro
         .time = now->time,
         .pressed = punch->time,
         .steps = now->since_point,
-        .height = bed->die.punch ? bed->die.punch_place : gb_bed_top(bed),
+        .height = bed->die.punch ? bed->die.punch_position : gb_bed_top(bed),
         .height0 = now->height0,
         .floor_over_punch = punch->carried > 0.0 ? punch->floor / punch->carried : NAN,
         .wanted = wanted,
         .carried = wanted + (punch->carried - punch->wanted) / weight,
         .side = {punch->side[0] / weight, punch->side[1] / weight},
-        .residual = gb_bed_unbalanced(bed, now->leap.gravity),
+        .residual = gb_bed_unbalanced_force(bed, now->leap.gravity),
         .time_step = now->leap.step,
     };
     report.progress = now->stage == GB_DIE_STAGES_OVER ? 1.0
                       : now->stage == GB_DIE_STAGES_PRESS
-                          ? 0.5 + 0.5 * punch->time / programme->scene.pressing
+                          ? 0.5 + 0.5 * punch->time / programme->scene.ramp_time
                           : 0.5 * (double)now->stage / GB_DIE_STAGES_PRESS;
     return report;
 }
@@ -374,7 +374,7 @@ static bool after_point(struct gb_die_stages *programme, const struct gb_bed *be
     now->pointed = false;
     now->since_point = 0;
     gb_punch_clear(&now->punch);
-    if (now->punch.time >= programme->scene.pressing) {
+    if (now->punch.time >= programme->scene.ramp_time) {
         enter(programme, GB_DIE_STAGES_OVER);
     }
     return keep(programme, bed, err);

@@ -53,7 +53,7 @@ bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
     }
     motion->model = model;
     motion->limit = INFINITY;
-    motion->sliding_most = GB_SLIDING_MOST;
+    motion->sliding_most = GB_SLIDING_FRACTION_MAX;
     motion->density = start_density(world);
     motion->stage = motion->recorded = GB_DYNAMIC_RELAX;
     motion->stage_end = model->dynamics.relax;
@@ -98,7 +98,7 @@ static double bound_given(struct gb_dynamic *motion, double critical, char *text
     if (step <= critical) {
         return step;
     }
-    motion->limit = GB_STEP_CRITICAL_SHARE * critical;
+    motion->limit = GB_STEP_CRITICAL_FRACTION * critical;
     snprintf(text, size,
              "guard: time step %.3g T above the critical %.3g T: %.3g T is taken", step,
              critical, motion->limit);
@@ -112,7 +112,7 @@ static double pick_step(struct gb_dynamic *motion, double frequency, double crit
 {
     const double share = sqrt(motion->model->dynamics.step_error / GB_STEP_ERROR_UNIT);
     const double accurate = share / fmax(frequency, 1e-3);
-    const double stable = GB_STEP_CRITICAL_SHARE * critical;
+    const double stable = GB_STEP_CRITICAL_FRACTION * critical;
     if (stable < 0.5 * accurate && !motion->told) {
         motion->told = true;
         snprintf(
@@ -225,7 +225,7 @@ static enum gb_dynamic_outcome trip(struct gb_dynamic *motion, struct gb_world *
     if (!go_back(motion, world, err)) {
         return GB_DYNAMIC_STOPPED;
     }
-    if (++motion->halvings > GB_STEP_HALVINGS_MOST) {
+    if (++motion->halvings > GB_STEP_HALVINGS_MAX) {
         gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %.3g T", why,
                      motion->step);
         return GB_DYNAMIC_STOPPED;
@@ -262,7 +262,7 @@ static enum gb_dynamic_outcome judge_sliding(struct gb_dynamic *motion,
                                              size_t size, struct gb_error *err)
 {
     const double share = sliding_share(motion);
-    if (motion->slid > 0.0 && share > GB_SLIDING_SAME * motion->slid) {
+    if (motion->slid > 0.0 && share > GB_SLIDING_RATIO_UNCHANGED * motion->slid) {
         acquit(motion, share, text, size);
         return GB_DYNAMIC_POINT;
     }

@@ -67,11 +67,11 @@ enum gb_guard_action gb_guard_departure(struct gb_guard *guard,
                                         const struct gb_nonaffine *departure, char *text,
                                         size_t size)
 {
-    if (departure->farthest <= GB_DEPARTURE_MOST) {
+    if (departure->farthest <= GB_NONAFFINE_MAX) {
         guard->jumps = 0;
         return GB_GUARD_ACCEPT;
     }
-    if (guard->jumps >= GB_DEPARTURE_HALVINGS) {
+    if (guard->jumps >= GB_NONAFFINE_HALVINGS_MAX) {
         guard->jumps = 0;
         snprintf(
             text, size,

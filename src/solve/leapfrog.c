@@ -67,8 +67,8 @@ static double drift(struct gb_bed *bed, double step)
 {
     double most[4] = {0.0};
     for (int64_t i = 0; i < bed->count; i++) {
-        double *x = bed->place[i];
-        const double *v = bed->speed[i], *from = bed->listed_at[i];
+        double *x = bed->position[i];
+        const double *v = bed->velocity[i], *from = bed->listed_position[i];
         for (int c = 0; c < 4; c++) {
             x[c] += step * v[c];
             const double moved = fabs(x[c] - from[c]);
@@ -85,9 +85,9 @@ static double kick(struct gb_bed *bed, double step, double gravity, double drag)
     const double slow = fmax(1.0 - step * drag, 0.0);
     double most[4] = {0.0};
     for (int64_t i = 0; i < bed->count; i++) {
-        double *v = bed->speed[i], *w = bed->spin[i];
+        double *v = bed->velocity[i], *w = bed->spin[i];
         const double *f = bed->force[i], *m = bed->torque[i];
-        const double push = step * bed->per_mass[i], turn = step * bed->per_inertia[i];
+        const double push = step * bed->inverse_mass[i], turn = step * bed->inverse_inertia[i];
         for (int c = 0; c < 4; c++) {
             v[c] = slow * v[c] + (push * f[c] + fall[c]);
             w[c] = slow * w[c] + turn * m[c];
@@ -107,14 +107,14 @@ bool gb_leapfrog_step(struct gb_leapfrog *leap, struct gb_bed *bed, struct gb_er
         leap->step = next_step(leap, bed);
     }
     leap->moved2 = drift(bed, leap->step);
-    bed->die.punch_place += leap->step * bed->die.punch_speed;
+    bed->die.punch_position += leap->step * bed->die.punch_velocity;
     if (!gb_bed_evaluate(bed, leap->step, leap->moved2, err)) {
         return false;
     }
     const double next = next_step(leap, bed), half = 0.5 * (leap->step + next);
     leap->fastest = kick(bed, half, leap->gravity, leap->drag);
     if (leap->punch_mass > 0.0) {
-        bed->die.punch_speed += half * (bed->tally.punch - leap->load) / leap->punch_mass;
+        bed->die.punch_velocity += half * (bed->tally.punch - leap->load) / leap->punch_mass;
     }
     leap->step = next;
     return true;

@@ -6,11 +6,11 @@ void gb_punch_begin(struct gb_punch *punch, struct gb_leapfrog *leap, struct gb_
                     double height, double mass)
 {
     bed->die.punch = true;
-    bed->die.punch_place = height;
-    bed->die.punch_speed = 0.0;
+    bed->die.punch_position = height;
+    bed->die.punch_velocity = 0.0;
     leap->punch_mass = mass * gb_bed_solid_volume(bed) / (M_PI / 6.0);
     leap->load = 0.0;
-    gb_bed_forget_lists(bed);
+    gb_bed_invalidate_lists(bed);
     punch->area = M_PI * bed->die.radius * bed->die.radius;
     punch->time = 0.0;
     gb_punch_clear(punch);
@@ -26,7 +26,7 @@ void gb_punch_follow(struct gb_punch *punch, struct gb_leapfrog *leap,
                      const struct gb_bed *bed)
 {
     const struct gb_bed_tally *tally = &bed->tally;
-    const double volume = punch->area * bed->die.punch_place, step = leap->step;
+    const double volume = punch->area * bed->die.punch_position, step = leap->step;
     punch->weight += step;
     punch->carried += step * tally->punch / punch->area;
     punch->wanted += step * leap->load / punch->area;

@@ -101,7 +101,7 @@ static double expansion(struct gb_quasistatic *load, double pressure)
 static bool unloaded(struct gb_quasistatic *load, double pressure)
 {
     const double grown = pow(1.0 / (1.0 - load->step), load->expansions);
-    const bool done = pressure <= GB_UNLOADED_SHARE * load->top_pressure;
+    const bool done = pressure <= GB_UNLOADED_FRACTION * load->top_pressure;
     load->endless = !done && grown > expansion_most;
     return done || load->endless;
 }

@@ -108,7 +108,7 @@ void gb_relax_start(struct gb_relax *relax, struct gb_world *world)
  * the method begins again. */
 static bool stalls(struct gb_relax *relax, struct gb_world *world)
 {
-    if (relax->residual < (1.0 - GB_STALL_SHARE) * relax->best) {
+    if (relax->residual < (1.0 - GB_STALL_FRACTION) * relax->best) {
         relax->best = relax->residual;
         relax->best_at = relax->evaluations;
     }
@@ -131,7 +131,7 @@ static double allowed(const struct gb_relax *relax, const struct gb_world *world
     const struct gb_tally *tally = gb_world_tally(world);
     const double carried = tally->normal_sum / (fmax(1.0, (double)tally->contacts) *
                                                 gb_world_model(world)->force_floor);
-    const double share = GB_LIGHT_RISE * carried;
+    const double share = GB_PREDICT_TOLERANCE_SLOPE * carried;
     return relax->tolerance * fmin(1.0, fmax(relax->method->light, share));
 }
 

@@ -59,7 +59,7 @@ static struct asked ask(struct predict *state, const double edge[3])
 static void foretold(double way[3], struct asked asked)
 {
     const double length = asked.share * gb_vec_length(way);
-    const double most = GB_FORETOLD_MOST * asked.size;
+    const double most = GB_PREDICT_RATIO_MAX * asked.size;
     const double factor = length > most ? most / length * asked.share : asked.share;
     for (int c = 0; c < 3; c++) {
         way[c] *= factor;
@@ -138,7 +138,7 @@ static bool record(struct gb_relax *relax, int64_t count, struct gb_record *reco
                              relax->state, err) &&
            gb_record_array(record, "relax/place", GB_RECORD_DOUBLE, count, 3, "1",
                            relax->vector[PLACE], err) &&
-           (relax->turned ? gb_record_singles(record, "relax/turned", count, 3, "rad",
+           (relax->turned ? gb_record_f32(record, "relax/turned", count, 3, "rad",
                                               relax->turned, err)
                           : gb_record_array(record, "relax/turned", GB_RECORD_DOUBLE,
                                             count, 3, "rad", relax->vector[TURNED], err));
@@ -151,7 +151,7 @@ const struct gb_relaxer gb_relax_predict = {
     .vectors = 4,
     .moving = true,
     .turned = TURNED,
-    .light = GB_PREDICT_LIGHT,
+    .light = GB_PREDICT_TOLERANCE_FRACTION_MIN,
     .start = start,
     .move = move,
     .record = record,

@@ -12,7 +12,7 @@
 #include "scene/model.h"
 #include "measure/observe.h"
 #include "pack/cell/world.h"
-#include "pack/structure/grow.h"
+#include "pack/structure/chain_growth.h"
 #include "pack/structure/hilbert.h"
 #include "run/experiment.h"
 #include "scene/die_scene.h"
@@ -51,9 +51,9 @@ static bool grow(struct gb_world **world, const struct gb_model *model, double *
     if (!position) {
         return false;
     }
-    const struct gb_grow order = gb_grow_of(model);
+    const struct gb_chain_growth order = gb_chain_growth_from_model(model);
     const gint64 start = g_get_monotonic_time();
-    const bool done = gb_grow_place(&order, position, err);
+    const bool done = gb_chain_growth_place(&order, position, err);
     *seconds = seconds_since(start);
     const bool made = done && gb_hilbert_sort(model, position, err) &&
                       gb_world_create(world, model, position, err);
@@ -141,7 +141,7 @@ static bool make_pressed(struct pressed *pressed, const struct gb_params *params
     struct gb_contact_counts counts;
     const size_t before = gb_alloc_bytes();
     *pressed = (struct pressed){0};
-    const bool done = gb_die_scene_absent(params, "the benchmark of one preset", err) &&
+    const bool done = gb_die_scene_require_periodic(params, "the benchmark of one preset", err) &&
                       gb_model_init(&pressed->model, params, err) &&
                       grow(&pressed->world, &pressed->model, &pressed->grow_s, err) &&
                       gb_relax_create(&relax, &pressed->model, err) &&

@@ -77,9 +77,9 @@ static bool time_law(struct gb_bed *bed, const char *law, double mu, double *sec
         return false;
     }
     const struct gb_bed_law frozen = gb_filling_pressing_law(&params);
-    gb_bed_change_law(bed, &frozen);
+    gb_bed_set_law(bed, &frozen);
     gb_leapfrog_init(&leap, 0.5, 0.0);
-    bed->die.punch_speed = 0.0;
+    bed->die.punch_velocity = 0.0;
     for (int b = -1; b < BATCHES; b++) { /* the first one warms up */
         const clock_t start = clock();
         for (int k = 0; k < BATCH; k++) {

@@ -8,7 +8,7 @@
 #include "scene/model.h"
 #include "measure/fit/average.h"
 #include "measure/structure.h"
-#include "pack/structure/grow.h"
+#include "pack/structure/chain_growth.h"
 
 /* A g(r) whose ripple is below this counts as 1.  At density 0.24 it is 0.02 from 2.6 to
  * 3.6 d, 0.004 from 3.5 to 4.5 d, of which the most is noise. */
@@ -24,8 +24,8 @@ static bool add_g(const struct gb_model *model, double half, int bins, double *s
     gb_cell_init(&cell, model->dimension, model->edges);
     double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
     double *g = gb_alloc_array((size_t)bins, sizeof *g, err);
-    const struct gb_grow grow = gb_grow_of(model);
-    const bool done = position && g && gb_grow_place(&grow, position, err) &&
+    const struct gb_chain_growth grow = gb_chain_growth_from_model(model);
+    const bool done = position && g && gb_chain_growth_place(&grow, position, err) &&
                       gb_structure_rdf(&cell, model->count, position, half, bins, g, err);
     for (int k = 0; k < bins && done; k++) {
         sum[k] += g[k];

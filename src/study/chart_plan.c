@@ -157,8 +157,8 @@ static bool add_grid(GArray *choices, const struct gb_params *params,
 static bool add_cutoffs(GArray *choices, const struct gb_params *params,
                         struct gb_error *err)
 {
-    static const double share[] = {GB_CUTOFF_SHARE_FAST, GB_CUTOFF_SHARE_BALANCED,
-                                   GB_CUTOFF_SHARE_REFERENCE};
+    static const double share[] = {GB_CUTOFF_FRACTION_FAST, GB_CUTOFF_FRACTION_BALANCED,
+                                   GB_CUTOFF_FRACTION_REFERENCE};
     struct gb_model model;
     if (!gb_model_init(&model, params, err)) {
         return false;
@@ -166,7 +166,7 @@ static bool add_cutoffs(GArray *choices, const struct gb_params *params,
     for (size_t k = 0; k < G_N_ELEMENTS(share) && model.terms.attraction; k++) {
         struct gb_params changed = *params;
         changed.cutoff = (struct gb_relative){
-            fmax(gb_law_dispersion_reach(&model.dispersion, share[k]), GB_CUTOFF_LEAST),
+            fmax(gb_law_dispersion_range(&model.dispersion, share[k]), GB_CUTOFF_MIN),
             true};
         if (!add(choices, &changed, err)) {
             return false;
@@ -314,7 +314,7 @@ bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *para
 {
     *plan = (struct gb_chart_plan){.params = *params, .seeds = seeds};
     GArray *choices = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_setting));
-    bool good = gb_die_scene_absent(params, "a chart", err) &&
+    bool good = gb_die_scene_require_periodic(params, "a chart", err) &&
                 plan_pressures(plan, pressures, err) &&
                 add_reference(choices, params, reference, err) &&
                 add(choices, params, err);

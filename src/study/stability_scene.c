@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/vec.h"
-#include "pack/structure/grow.h"
+#include "pack/structure/chain_growth.h"
 #include "solve/relax.h"
 
 /* Disturbances in d: far below every overlap, far above rounding. */
@@ -77,8 +77,8 @@ static bool place(struct gb_stability_scene *scene, enum gb_stability_place wher
     default:
         break;
     }
-    const struct gb_grow grow = gb_grow_of(&scene->model);
-    return gb_grow_place(&grow, position, err);
+    const struct gb_chain_growth grow = gb_chain_growth_from_model(&scene->model);
+    return gb_chain_growth_place(&grow, position, err);
 }
 
 bool gb_stability_scene_reset(struct gb_stability_scene *scene, struct gb_error *err)

@@ -35,10 +35,10 @@ static bool settle(struct gb_bed **bed, const GArray *spheres, struct gb_error *
     const struct gb_die die = {.radius = far + 10.0};
     const bool done = gb_bed_create(bed, count, radius, &die, &law, 1.0, err);
     for (int64_t i = 0; done && i < count; i++) {
-        memcpy((*bed)->place[i], sphere[i].x, sizeof sphere->x);
-        memcpy((*bed)->speed[i], sphere[i].v, sizeof sphere->v);
+        memcpy((*bed)->position[i], sphere[i].x, sizeof sphere->x);
+        memcpy((*bed)->velocity[i], sphere[i].v, sizeof sphere->v);
         memcpy((*bed)->spin[i], sphere[i].w, sizeof sphere->w);
-        (*bed)->place[i][2] += 10.0 - low;
+        (*bed)->position[i][2] += 10.0 - low;
     }
     g_free(radius);
     return done;
@@ -52,8 +52,8 @@ static double virial(const struct gb_bed *bed)
         if (bed->pairs.contacts.normal[s] > 0.0) {
             double unit[3], force[3];
             gb_observe_die_force(bed, s, unit, force);
-            const double *a = bed->place[bed->pairs.first[s]];
-            const double *b = bed->place[bed->pairs.other[s]];
+            const double *a = bed->position[bed->pairs.first[s]];
+            const double *b = bed->position[bed->pairs.other[s]];
             for (int k = 0; k < 3; k++) {
                 sum += force[k] * (a[k] - b[k]) / 3.0;
             }

@@ -22,7 +22,7 @@ int main(int argc, char **argv)
             fprintf(stderr, "%s\n", err.text);
             return 2;
         }
-        gb_record_drop(&records[k], "journal/"); /* seconds, and bytes of files */
+        gb_record_remove(&records[k], "journal/"); /* seconds, and bytes of files */
     }
     const char *name = gb_record_difference(&records[0], &records[1], &row);
     if (name != NULL) {

@@ -49,10 +49,10 @@ static inline struct gb_bed *bed_create(int64_t count, const double *radius,
 
 static inline void bed_place(struct gb_bed *bed, int64_t i, double x, double y, double z)
 {
-    bed->place[i][0] = x;
-    bed->place[i][1] = y;
-    bed->place[i][2] = z;
-    gb_bed_forget_lists(bed);
+    bed->position[i][0] = x;
+    bed->position[i][1] = y;
+    bed->position[i][2] = z;
+    gb_bed_invalidate_lists(bed);
 }
 
 static inline void bed_evaluate(struct gb_bed *bed, double step)

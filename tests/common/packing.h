@@ -8,14 +8,14 @@
 #include "base/alloc.h"
 #include "measure/structure.h"
 #include "pack/cell/cell.h"
-#include "pack/structure/grow.h"
+#include "pack/structure/chain_growth.h"
 
 /* Equilibrium overlap of alumina at d = 9.7 nm, P1's parameters. */
 static const double packing_h_eq = 1.568325077091e-2;
 
 /* A grown packing without a model: cell and positions. */
 struct packing {
-    struct gb_grow grow;
+    struct gb_chain_growth grow;
     struct gb_cell cell;
     double *position;
 };
@@ -24,9 +24,9 @@ struct packing {
 static inline void packing_init(struct packing *packing, int dimension, int64_t count,
                                 double base, double density, double h_eq, uint64_t seed)
 {
-    struct gb_grow *grow = &packing->grow;
+    struct gb_chain_growth *grow = &packing->grow;
     struct gb_error err = {0};
-    *grow = (struct gb_grow){.dimension = dimension,
+    *grow = (struct gb_chain_growth){.dimension = dimension,
                              .count = count,
                              .r_eq = 1.0 - h_eq,
                              .r_meso = 2.0,
@@ -45,7 +45,7 @@ static inline void packing_make(struct packing *packing, int dimension, int64_t 
 {
     struct gb_error err = {0};
     packing_init(packing, dimension, count, base, density, h_eq, seed);
-    if (!gb_grow_place(&packing->grow, packing->position, &err)) {
+    if (!gb_chain_growth_place(&packing->grow, packing->position, &err)) {
         g_error("%s", err.text);
     }
 }

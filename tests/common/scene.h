@@ -9,7 +9,7 @@
 #include "scene/model.h"
 #include "pack/cell/world.h"
 #include "pack/kernel/pair_forces.h"
-#include "pack/structure/grow.h"
+#include "pack/structure/chain_growth.h"
 
 /* Parameters of a small alumina packing, then assignments "group.key=value", NULL at the
  * end. */
@@ -46,8 +46,8 @@ static inline double *scene_positions(const struct gb_model *model)
 {
     struct gb_error err = {0};
     double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, &err);
-    const struct gb_grow grow = gb_grow_of(model);
-    if (!position || !gb_grow_place(&grow, position, &err)) {
+    const struct gb_chain_growth grow = gb_chain_growth_from_model(model);
+    if (!position || !gb_chain_growth_place(&grow, position, &err)) {
         g_error("%s", err.text);
     }
     return position;

@@ -360,7 +360,7 @@ static void test_sizes(void)
     gb_preset_destroy(preset);
     g_assert_cmpint(g_remove(table), ==, 0);
     preset = load(elsewhere);
-    g_assert_cmpfloat(gb_preset_params(preset)->sizes.row[1].share, ==, 0.75);
+    g_assert_cmpfloat(gb_preset_params(preset)->sizes.row[1].fraction, ==, 0.75);
     gb_preset_destroy(preset);
     struct gb_error err = {0};
     g_assert_false(gb_preset_load(&preset, path, &err));

@@ -100,7 +100,7 @@ struct contact {
 static double work(const void *at, double h)
 {
     const struct contact *c = at;
-    return gb_law_storakers_work(&c->law, c->radius, h);
+    return gb_law_storakers_loading_work(&c->law, c->radius, h);
 }
 
 static double load(const void *at, double h)
@@ -112,14 +112,14 @@ static double load(const void *at, double h)
 static double returned(const void *at, double h)
 {
     const struct contact *c = at;
-    return gb_law_storakers_returned(&c->law, c->radius, c->deepest, h);
+    return gb_law_storakers_unloading_energy(&c->law, c->radius, c->deepest, h);
 }
 
 /* Along the deepest of the contact as it is, without going on from there. */
 static struct gb_law_branch below(const struct contact *c, double h)
 {
     double deepest = c->deepest;
-    return gb_law_storakers_follow(&c->law, c->radius, h, &deepest);
+    return gb_law_storakers_update(&c->law, c->radius, h, &deepest);
 }
 
 static double unload(const void *at, double h)
@@ -130,7 +130,7 @@ static double unload(const void *at, double h)
 static void check_slopes(struct contact *c, double h)
 {
     const double step = 1e-3 * h;
-    const double meeting = gb_law_storakers_crossing(&c->law, c->radius);
+    const double meeting = gb_law_storakers_transition(&c->law, c->radius);
     if (c->law.printed || fabs(h - meeting) > 3.0 * step) {
         const struct gb_law_branch branch =
             gb_law_storakers_loading(&c->law, c->radius, h);
@@ -138,7 +138,7 @@ static void check_slopes(struct contact *c, double h)
         assert_close(exact_slope(load, c, h, step), branch.stiffness, 1e-8);
     }
     c->deepest = h;
-    const double rebound = gb_law_storakers_rebound(&c->law, c->radius, h);
+    const double rebound = gb_law_storakers_recovery(&c->law, c->radius, h);
     const double now = h - 0.3 * fmin(rebound, h), small = 1e-3 * fmin(rebound, h);
     const struct gb_law_branch back = below(c, now);
     assert_close(exact_slope(returned, c, now, small), back.force, 1e-8);
@@ -161,7 +161,7 @@ static void test_continuity(void)
     const double eps = 1e-12;
     for (size_t i = 0; i < G_N_ELEMENTS(exponents) * G_N_ELEMENTS(radii); i++) {
         struct contact c = {nial_law(exponents[i % 4], false), radii[i / 4], 0.0};
-        const double meeting = gb_law_storakers_crossing(&c.law, c.radius);
+        const double meeting = gb_law_storakers_transition(&c.law, c.radius);
         assert_close(gb_law_hertz_force(&c.law.hertz, c.radius, meeting),
                      gb_law_storakers_plastic(&c.law, c.radius, meeting), 1e-12);
         assert_close(load(&c, meeting * (1.0 + eps)), load(&c, meeting * (1.0 - eps)),
@@ -173,7 +173,7 @@ static void test_continuity(void)
         for (double h = 0.1 * meeting; h < 100.0 * meeting; h *= 2.0) {
             c.deepest = h;
             assert_close(unload(&c, h * (1.0 - eps)), load(&c, h), 1e-9);
-            const double left = h - gb_law_storakers_rebound(&c.law, c.radius, h);
+            const double left = h - gb_law_storakers_recovery(&c.law, c.radius, h);
             g_assert_cmpfloat(left, >=, 0.0);
             g_assert_cmpfloat(unload(&c, left), <, 1e-12 * load(&c, h));
             g_assert_cmpfloat(unload(&c, 0.9 * left), ==, 0.0);
@@ -198,7 +198,7 @@ static double go(struct contact *c, double from, double to, double *taken)
         const double middle = 0.5 * (last + h);
         const double half = fresh ? load(c, middle) : below(c, middle).force;
         const struct gb_law_branch now =
-            gb_law_storakers_follow(&c->law, c->radius, h, &c->deepest);
+            gb_law_storakers_update(&c->law, c->radius, h, &c->deepest);
         *taken += (h - last) * (force + 4.0 * half + now.force) / 6.0;
         last = h;
         force = now.force;
@@ -211,7 +211,7 @@ static void test_cycles(void)
 {
     for (size_t i = 0; i < G_N_ELEMENTS(exponents) * G_N_ELEMENTS(radii); i++) {
         struct contact c = {nial_law(exponents[i % 4], false), radii[i / 4], 0.0};
-        const double meeting = gb_law_storakers_crossing(&c.law, c.radius);
+        const double meeting = gb_law_storakers_transition(&c.law, c.radius);
         double taken = 0.0;
         for (double h = 0.0; h <= 1.0; h += 0.125) { /* in and out along one line */
             const double in = load(&c, 0.999 * meeting * h);
@@ -224,7 +224,7 @@ static void test_cycles(void)
         go(&c, 0.999 * meeting, 0.0, &taken);
         g_assert_cmpfloat(fabs(taken), <, 1e-7 * put);
         g_assert_cmpfloat(work(&c, 0.999 * meeting), ==,
-                          gb_law_storakers_returned(&c.law, c.radius, 0.999 * meeting,
+                          gb_law_storakers_unloading_energy(&c.law, c.radius, 0.999 * meeting,
                                                     0.999 * meeting));
         const double far = 8.0 * meeting;
         taken = 0.0;
@@ -232,7 +232,7 @@ static void test_cycles(void)
         go(&c, meeting, far, &taken);
         assert_close(taken, work(&c, far), 1e-6);
         const double loop =
-            work(&c, far) - gb_law_storakers_returned(&c.law, c.radius, far, far);
+            work(&c, far) - gb_law_storakers_unloading_energy(&c.law, c.radius, far, far);
         /* out to a partial unloading and back in: no loss; then open */
         go(&c, far, 0.9 * far, &taken);
         g_assert_cmpfloat(go(&c, 0.9 * far, far, &taken), ==, load(&c, far));
@@ -255,7 +255,7 @@ static double least_balance(GRand *random, const struct gb_law_storakers *law,
         const double to = leg == 19 ? 0.0 : deep * g_rand_double_range(random, -0.1, 1.0);
         go(&c, fmax(h, 0.0), fmax(to, 0.0), &taken);
         h = to;
-        least = fmin(least, taken / gb_law_storakers_work(law, radius, deep));
+        least = fmin(least, taken / gb_law_storakers_loading_work(law, radius, deep));
     }
     return least;
 }
@@ -285,7 +285,7 @@ static void test_no_energy_from_nothing(void)
     const double put = taken;
     go(&c, h, 1e-9 * h, &taken);
     g_assert_cmpfloat_with_epsilon((put - taken) / put, 1.28, 0.005);
-    assert_close(gb_law_storakers_returned(&printed, 5e-6, h, h) / work(&c, h),
+    assert_close(gb_law_storakers_unloading_energy(&printed, 5e-6, h, h) / work(&c, h),
                  (put - taken) / put, 1e-5);
 }
 
@@ -299,8 +299,8 @@ static void test_wall(void)
         double deep = 2.0 * h, deeper = 2.0 * h;
         assert_close(gb_law_storakers_load(&law, wall, h),
                      gb_law_storakers_load(&law, large, h), 2e-6);
-        assert_close(gb_law_storakers_follow(&law, wall, 1.99 * h, &deep).force,
-                     gb_law_storakers_follow(&law, large, 1.99 * h, &deeper).force, 1e-4);
+        assert_close(gb_law_storakers_update(&law, wall, 1.99 * h, &deep).force,
+                     gb_law_storakers_update(&law, large, 1.99 * h, &deeper).force, 1e-4);
     }
 }
 

@@ -185,7 +185,7 @@ static void test_density(void)
     const double density = gb_ball_density_central(n, x, r, centre, 9.0);
     g_test_message("density in a ball: %.6f, of the lattice %.6f", density, expected);
     close_to(density, expected, 3e-3);
-    close_to(gb_ball_inside(n, x, r, centre, 100.0), n * gb_ball_volume(r[0]), 1e-12);
+    close_to(gb_ball_solid_volume(n, x, r, centre, 100.0), n * gb_ball_volume(r[0]), 1e-12);
     close_to(gb_ball_density_whole(n, r, 4.0, 50.0),
              n * gb_ball_volume(r[0]) / (800.0 * G_PI), 1e-12);
     /* a ball inside one particle is full */
@@ -202,7 +202,7 @@ static void test_shared(void)
     const double r[] = {0.5, 0.5, 0.5};
     const int64_t start[] = {0, 2, 2, 2};
     const int32_t other[] = {1, 2};
-    const double shared = gb_ball_shared(3, x, r, start, other);
+    const double shared = gb_ball_overlap_volume(3, x, r, start, other);
     close_to(shared, 2.0 * gb_ball_lens(0.5, 0.5, 1 - h), 1e-15);
     /* two contacts among three spheres: z = 4/3 */
     close_to(shared / (3.0 * gb_ball_volume(0.5)), 0.75 * 4.0 / 3.0 * h * h, h);

@@ -115,7 +115,7 @@ static void test_correlated(void)
         }
         g_assert_true(gb_fit_decay(&fit, t, p, POINTS, &err));
         g_assert_cmpint(fit.terms, ==, 2);
-        g_assert_cmpfloat(fit.stretch, >, 3.0);
+        g_assert_cmpfloat(fit.correlation, >, 3.0);
         covered[0] += covers(&fit.p0, table[0]);
         for (int k = 0; k < 2; k++) {
             covered[1 + 2 * k] += covers(&fit.amplitude[k], table[1 + 2 * k]);

@@ -58,7 +58,7 @@ static void test_law(void)
                 gb_hardening_pressure(&law, geometries[from], density[i]), pressure[i],
                 1e-7);
         }
-        g_assert_cmpfloat_with_epsilon(gb_hardening_end(&law, geometries[from]), 0.7,
+        g_assert_cmpfloat_with_epsilon(gb_hardening_density_max(&law, geometries[from]), 0.7,
                                        1e-9);
         gb_hardening_finish(&law);
     }
@@ -79,7 +79,7 @@ static void test_ends(void)
     g_assert_true(isnan(gb_hardening_pressure(&law, GB_GEOMETRY_UNIAXIAL, 0.701)));
     g_assert_true(isnan(gb_hardening_pressure(&law, GB_GEOMETRY_ISOTROPIC, 0.2)));
     g_assert_true(isnan(gb_hardening_pressure(&law, GB_GEOMETRY_ISOTROPIC, 1.0)));
-    const double end = gb_hardening_end(&law, GB_GEOMETRY_ISOTROPIC);
+    const double end = gb_hardening_density_max(&law, GB_GEOMETRY_ISOTROPIC);
     g_assert_cmpfloat(end, >, 0.75);
     g_assert_cmpfloat(end, <, 1.0);
     g_assert_cmpfloat_with_epsilon(gb_hardening_shear(GB_GEOMETRY_ISOTROPIC, 0.24, end),

@@ -6,7 +6,7 @@
 #include "common/bed.h"
 #include "law/law_mindlin.h"
 #include "pack/die/bed_copy.h"
-#include "pack/die/pour.h"
+#include "pack/die/random_insertion.h"
 #include "pack/kernel/bed_batch.h"
 #include "pack/kernel/bed_laws.h"
 
@@ -59,17 +59,17 @@ static void advance_scalar(const struct gb_bed_law *law, const struct motion *m,
     struct gb_law_branch branch = {gb_law_hertz_force(hertz, rr, h),
                                    gb_law_hertz_stiffness(hertz, rr, h)};
     if (law->storakers) {
-        branch = gb_law_storakers_follow(&law->normal, rr, h, &state->deepest);
+        branch = gb_law_storakers_update(&law->normal, rr, h, &state->deepest);
     }
     const double reduced = m->mass[0] * m->mass[1] / (m->mass[0] + m->mass[1]);
     const double damping = gb_law_hertz_damping(branch.stiffness, reduced, law->damping);
     const double fn =
-        h > 0.0 ? gb_law_hertz_damped(branch.force, damping, -gb_vec_dot(m->slip, n))
+        h > 0.0 ? gb_law_hertz_damped_force(branch.force, damping, -gb_vec_dot(m->slip, n))
                 : 0.0;
     const double arm[2] = {m->radius[0] * r / reach, m->radius[1] * r / reach};
     const double still[3] = {0.0, 0.0, 0.0};
     gb_law_mindlin_slip(n, m->slip, still, m->spin[0], m->spin[1], arm[0], arm[1], slip);
-    gb_law_mindlin_turn(state->shear, n);
+    gb_law_mindlin_rotate(state->shear, n);
     gb_law_mindlin_advance(state->shear, slip, law->shear * branch.stiffness, step, mu,
                            fn);
     for (int k = 0; k < 3; k++) {
@@ -213,7 +213,7 @@ static struct gb_bed *cluster(const struct gb_bed_law *law, int64_t count)
         bed_place(bed, i, 4.0 * g_rand_double(rand), 4.0 * g_rand_double(rand),
                   20.0 + 4.0 * g_rand_double(rand));
         for (int k = 0; k < 3; k++) {
-            bed->speed[i][k] = 1e-2 * (g_rand_double(rand) - 0.5);
+            bed->velocity[i][k] = 1e-2 * (g_rand_double(rand) - 0.5);
             bed->spin[i][k] = 1e-2 * (g_rand_double(rand) - 0.5);
         }
     }
@@ -235,7 +235,7 @@ static void test_momentum(void)
     bed_evaluate(bed, 0.3);
     for (int64_t i = 0; i < bed->count; i++) {
         double moment[3];
-        gb_vec_cross(bed->place[i], bed->force[i], moment);
+        gb_vec_cross(bed->position[i], bed->force[i], moment);
         gb_vec_add(force, 1.0, bed->force[i]);
         gb_vec_add(torque, 1.0, moment);
         gb_vec_add(torque, 1.0, bed->torque[i]);
@@ -265,9 +265,9 @@ static void test_list(void)
         for (int64_t j = i + 1; j < bed->count; j++) {
             double r[3];
             for (int k = 0; k < 3; k++) {
-                r[k] = bed->place[i][k] - bed->place[j][k];
+                r[k] = bed->position[i][k] - bed->position[j][k];
             }
-            touching += gb_vec_length(r) < bed->place[i][3] + bed->place[j][3];
+            touching += gb_vec_length(r) < bed->position[i][3] + bed->position[j][3];
         }
     }
     g_assert_cmpint(listed, ==, touching);
@@ -283,7 +283,7 @@ static void test_walls(void)
     const double force = gb_law_hertz_force(&law.normal.hertz, radius, h);
     struct gb_die die = bed_die(4.0);
     die.punch = true;
-    die.punch_place = 6.0;
+    die.punch_position = 6.0;
     struct gb_bed *bed = bed_create(1, &radius, &die, &law);
     bed_place(bed, 0, 0.0, 0.0, radius - h);
     bed_evaluate(bed, 0.0);
@@ -320,7 +320,7 @@ static void test_funnel(void)
             x[0] = 8.0 * (g_rand_double(rand) - 0.5);
             x[1] = 8.0 * (g_rand_double(rand) - 0.5);
             x[2] = 12.0 * g_rand_double(rand);
-        } while (!gb_die_holds(&die, x));
+        } while (!gb_die_contains(&die, x));
         const double rho = sqrt(x[0] * x[0] + x[1] * x[1]);
         double nearest = HUGE_VAL;
         for (int k = -2000; k <= 20000; k++) {
@@ -361,11 +361,11 @@ static void test_copy(void)
         }
         for (int step = 0; step < 50; step++) {
             for (int64_t i = 0; i < bed->count; i++) {
-                gb_vec_add(bed->place[i], 0.1, bed->speed[i]);
+                gb_vec_add(bed->position[i], 0.1, bed->velocity[i]);
             }
             bed_evaluate(bed, 0.1);
             for (int64_t i = 0; i < bed->count; i++) {
-                gb_vec_add(bed->speed[i], 1e-4, bed->force[i]);
+                gb_vec_add(bed->velocity[i], 1e-4, bed->force[i]);
             }
         }
         hash[pass] = gb_bed_copy_hash(bed);
@@ -399,19 +399,19 @@ static void test_pour(void)
     struct gb_bed *bed = bed_create(N, radius, &die, &law);
     double first = 0.0;
     for (uint64_t seed = 1; seed < 4; seed++) {
-        g_assert_true(gb_pour_place(bed, seed < 3 ? 1 : 2, 0.2, NULL, NULL, &err));
-        g_assert_true(seed == 1 || (first == bed->place[7][0]) == (seed == 2));
-        first = bed->place[7][0];
+        g_assert_true(gb_random_insertion_place(bed, seed < 3 ? 1 : 2, 0.2, NULL, NULL, &err));
+        g_assert_true(seed == 1 || (first == bed->position[7][0]) == (seed == 2));
+        first = bed->position[7][0];
         bed_evaluate(bed, 0.0);
         g_assert_cmpfloat(bed->tally.stiffest, ==, 0.0); /* nothing touches */
         g_assert_cmpint(gb_bed_escaped(bed), ==, -1);
         for (int i = 0; i < N; i++) {
-            g_assert_cmpfloat(bed->place[i][2], >, die.height);
+            g_assert_cmpfloat(bed->position[i][2], >, die.height);
         }
     }
-    g_assert_false(gb_pour_place(bed, 1, 0.2, stop, NULL, &err));
+    g_assert_false(gb_random_insertion_place(bed, 1, 0.2, stop, NULL, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
-    g_assert_false(gb_pour_place(bed, 1, 0.7, NULL, NULL, &err)); /* too dense */
+    g_assert_false(gb_random_insertion_place(bed, 1, 0.7, NULL, NULL, &err)); /* too dense */
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     gb_bed_destroy(bed);
 }
@@ -442,8 +442,8 @@ static void test_carrier(void)
                     gb_bed_transfer_pick(wide ? 0 : 128);
                 memcpy(out[wide][0], row[3], sizeof row[3]);
                 memcpy(out[wide][1], row[4], sizeof row[4]);
-                const struct gb_bed_rows rows = {.place = (const gb_bed_row *)row[0],
-                                                 .speed = (const gb_bed_row *)row[1],
+                const struct gb_bed_rows rows = {.position = (const gb_bed_row *)row[0],
+                                                 .velocity = (const gb_bed_row *)row[1],
                                                  .spin = (const gb_bed_row *)row[2],
                                                  .force = out[wide][0],
                                                  .torque = out[wide][1],

@@ -86,7 +86,7 @@ static void test_sort(void)
         g_assert_true(memcmp(position, before, sizeof before) == 0);
     }
     /* sizes are dealt out in the order in which particles were grown */
-    model.sized = true;
+    model.polydisperse = true;
     memcpy(before, position, sizeof before);
     for (int c = 0; c < 3; c++) { /* the last one first, which a sort would undo */
         position[c] = before[3 * COUNT - 3 + c];

@@ -36,15 +36,15 @@ static void test_equal(void)
         close_to(slope, gb_law_rod_stiffness(&model.rod, h), 1e-14);
         close_to(gb_law_unequal_elastic(&law, h, 0.7 * h, NULL),
                  gb_law_bridge_force(&model.rod, h, 0.7 * h), 1e-12);
-        close_to(gb_law_unequal_energy(&law, 0.0, h), gb_law_rod_energy(&model.rod, h),
+        close_to(gb_law_unequal_elastic_energy(&law, 0.0, h), gb_law_rod_energy(&model.rod, h),
                  1e-14);
         close_to(gb_law_unequal_moment(&law, h), gb_law_rod_moment(&model.rod, h), 1e-14);
         close_to(gb_law_unequal_radius(&law, h), 0.5 * sqrt(h), 1e-14);
     }
     for (double r = 0.95; r < 1.6; r += 0.01) {
-        close_to(gb_law_unequal_pull(&law, r),
+        close_to(gb_law_unequal_attraction(&law, r),
                  gb_law_dispersion_force(&model.dispersion, r), 1e-12);
-        close_to(gb_law_unequal_depth(&law, r),
+        close_to(gb_law_unequal_attraction_energy(&law, r),
                  gb_law_dispersion_energy(&model.dispersion, r), 1e-9);
     }
 }
@@ -64,10 +64,10 @@ static void test_scale(void)
                  4.0 * gb_law_rod_force(&own.rod, h), 1e-13);
         close_to(gb_law_unequal_moment(&law, 2.0 * h),
                  8.0 * gb_law_rod_moment(&own.rod, h), 1e-13);
-        close_to(gb_law_unequal_pull(&law, 2.0 * (1.0 + h)),
+        close_to(gb_law_unequal_attraction(&law, 2.0 * (1.0 + h)),
                  4.0 * gb_law_dispersion_force(&own.dispersion, 1.0 + h), 1e-12);
     }
-    close_to(gb_law_unequal_rest(&law), 2.0 * own.h_eq, 1e-12);
+    close_to(gb_law_unequal_equilibrium(&law), 2.0 * own.h_eq, 1e-12);
     close_to(law.bridge_length, 2.0 * own.bridge.length, 1e-14);
 }
 
@@ -81,24 +81,24 @@ static void test_potential(void)
         struct gb_law_unequal law, other;
         gb_unequal_pair_init(&law, &model, sizes[s][0], sizes[s][1]);
         gb_unequal_pair_init(&other, &model, sizes[s][1], sizes[s][0]);
-        const double step = 1e-5 * law.span;
+        const double step = 1e-5 * law.mean_diameter;
         for (double h = 1e-3; h < 0.3; h *= 2.0) {
-            const double from = h * law.span;
-            const double slope = (gb_law_unequal_energy(&law, 0.0, from + step) -
-                                  gb_law_unequal_energy(&law, 0.0, from - step)) /
+            const double from = h * law.mean_diameter;
+            const double slope = (gb_law_unequal_elastic_energy(&law, 0.0, from + step) -
+                                  gb_law_unequal_elastic_energy(&law, 0.0, from - step)) /
                                  (2.0 * step);
             const double force = gb_law_unequal_elastic(&law, 0.0, from, NULL);
             close_to(slope, force, 1e-4);
             g_assert_cmpfloat(force, ==, gb_law_unequal_elastic(&other, 0.0, from, NULL));
         }
         for (double gap = 0.01; gap < 0.5; gap *= 2.0) {
-            const double r = (1.0 + gap) * law.span;
-            const double slope = (gb_law_unequal_depth(&law, r + step) -
-                                  gb_law_unequal_depth(&law, r - step)) /
+            const double r = (1.0 + gap) * law.mean_diameter;
+            const double slope = (gb_law_unequal_attraction_energy(&law, r + step) -
+                                  gb_law_unequal_attraction_energy(&law, r - step)) /
                                  (2.0 * step);
-            close_to(slope, gb_law_unequal_pull(&law, r), 1e-5);
+            close_to(slope, gb_law_unequal_attraction(&law, r), 1e-5);
         }
-        const double rest = gb_law_unequal_rest(&law);
+        const double rest = gb_law_unequal_equilibrium(&law);
         close_to(gb_law_unequal_elastic(&law, 0.0, rest, NULL), law.adhesion, 1e-12);
     }
 }
@@ -118,7 +118,7 @@ static void test_limits(void)
     gb_unequal_pair_init(&law, &model, 1.0, 1e5);
     const double alpha_d0 = model.dispersion.shift, gap = 0.01;
     const double hamaker = 6.0 * model.dispersion.strength;
-    close_to(gb_law_unequal_pull(&law, law.span + gap),
+    close_to(gb_law_unequal_attraction(&law, law.mean_diameter + gap),
              hamaker / (12.0 * (gap + alpha_d0) * (gap + alpha_d0)),
              4.0 * (gap + alpha_d0));
 }
@@ -222,7 +222,7 @@ static void test_packing(void)
         scene_params(LOGNORMAL, "particles.sigma=0.3", "particles.largest=20 nm",
                      "particles.count=400", NULL);
     const struct gb_model model = scene_model(&params);
-    g_assert_true(model.sized);
+    g_assert_true(model.polydisperse);
     struct gb_world *world = scene_world(&model);
     scene_evaluate(world);
     struct gb_contact_counts counts;
@@ -236,8 +236,8 @@ static void test_packing(void)
         const double d = gb_world_diameter(world, i);
         sum += d;
         cube += d * d * d;
-        g_assert_cmpfloat(d, >=, model.least);
-        g_assert_cmpfloat(d, <=, model.largest);
+        g_assert_cmpfloat(d, >=, model.diameter_min);
+        g_assert_cmpfloat(d, <=, model.diameter_max);
     }
     close_to(sum / (double)model.count, 1.0, 1e-3);
     close_to(cube / (double)model.count, model.mean_cube, 1e-9);
@@ -336,8 +336,8 @@ static void test_pair(void)
     static const double path[] = {0.5,   0.05,  -0.005, -0.02, -0.05,
                                   -0.04, -0.03, -0.01,  0.01,  -0.005};
     for (size_t s = 0; s < G_N_ELEMENTS(path); s++) {
-        const double h = -path[s] * law.span;
-        b.position[5] = 5.0 + law.span - h;
+        const double h = -path[s] * law.mean_diameter;
+        b.position[5] = 5.0 + law.mean_diameter - h;
         scene_evaluate(world);
         struct gb_law_bridge bridge = model.bridge;
         bridge.length = law.bridge_length;
@@ -345,7 +345,7 @@ static void test_pair(void)
         const double reach = model.numerics.cutoff - 1.0;
         const double expected =
             h > 0.0      ? gb_law_unequal_elastic(&law, deepest, h, NULL) - law.adhesion
-            : -h < reach ? -gb_law_unequal_pull(&law, law.span - h)
+            : -h < reach ? -gb_law_unequal_attraction(&law, law.mean_diameter - h)
                          : 0.0;
         close_to(b.force[5], expected, 1e-9);
         g_assert_cmpfloat(b.force[2], ==, -b.force[5]);
@@ -364,7 +364,7 @@ static void test_pair_shear(void)
     struct gb_world *world = pair(&model, d);
     gb_unequal_pair_init(&law, &model, d[0], d[1]);
     const struct gb_bodies b = gb_world_bodies(world);
-    const double h = 0.03 * law.span, r = law.span - h, roll = 1e-5;
+    const double h = 0.03 * law.mean_diameter, r = law.mean_diameter - h, roll = 1e-5;
     b.position[5] = 5.0 + r;
     scene_evaluate(world);
     /* both roll about y the same way: the surfaces slide by r_i w + r_j w = r w */

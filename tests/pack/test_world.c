@@ -273,7 +273,7 @@ static void check_mindlin(const struct gb_model *model, const double *position,
     const double shear =
         (gb_vec_dot(force, across) - gb_vec_dot(before, across)) / gb_vec_length(across);
     const double expected =
-        -step * gb_law_hertz_shear(law, radius, 1.0 - distance) +
+        -step * gb_law_hertz_shear_stiffness(law, radius, 1.0 - distance) +
         step * gb_law_hertz_force(law, radius, 1.0 - distance) / distance;
     g_assert_cmpfloat_with_epsilon(shear, expected, precision * fabs(expected));
     gb_world_destroy(world);

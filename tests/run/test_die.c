@@ -73,8 +73,8 @@ static void test_whole(void)
         g_assert_cmpint(point[i].step, ==, i);
         g_assert_cmpfloat(point[i].density, >, point[i - 1].density);
         g_assert_cmpfloat(point[i].height_change, <, point[i - 1].height_change);
-        g_assert_cmpfloat_with_epsilon(1e-6 * point[i].wanted_pa, 5.0 * i, 0.02);
-        g_assert_cmpfloat_with_epsilon(point[i].p_pa / point[i].wanted_pa, 1.0, 0.01);
+        g_assert_cmpfloat_with_epsilon(1e-6 * point[i].target_pa, 5.0 * i, 0.02);
+        g_assert_cmpfloat_with_epsilon(point[i].p_pa / point[i].target_pa, 1.0, 0.01);
         g_assert_cmpfloat_with_epsilon(point[i].floor_over_punch, 1.0, 0.05);
         g_assert_cmpfloat(point[i].px_pa, >, 0.1 * point[i].p_pa);
         g_assert_cmpfloat(point[i].px_pa, <, 1.2 * point[i].p_pa);
@@ -156,17 +156,17 @@ static void check_fault(void (*spoil)(struct gb_bed *bed), const char *word)
 
 static void spoil_number(struct gb_bed *bed)
 {
-    bed->place[11][1] = NAN;
+    bed->position[11][1] = NAN;
 }
 
 static void spoil_escape(struct gb_bed *bed)
 {
-    bed->place[11][0] = 2.0 * bed->die.radius;
+    bed->position[11][0] = 2.0 * bed->die.radius;
 }
 
 static void spoil_punch(struct gb_bed *bed)
 {
-    bed->die.punch_place = 0.5 * bed->die.punch_place;
+    bed->die.punch_position = 0.5 * bed->die.punch_position;
 }
 
 static void test_faults(void)
@@ -180,7 +180,7 @@ static int64_t highest(const struct gb_bed *bed)
 {
     int64_t best = 0;
     for (int64_t i = 0; i < bed->count; i++) {
-        const double *x = bed->place[i], *y = bed->place[best];
+        const double *x = bed->position[i], *y = bed->position[best];
         best = x[2] + x[3] > y[2] + y[3] ? i : best;
     }
     return best;
@@ -206,8 +206,8 @@ static void test_straggler(void)
     for (int64_t i = 0; i < bed->count; i++) {
         small = bed->mass[i] < bed->mass[small] ? i : small;
     }
-    bed->place[small][2] = gb_bed_top(bed) + 6.0;
-    gb_bed_forget_lists(bed);
+    bed->position[small][2] = gb_bed_top(bed) + 6.0;
+    gb_bed_invalidate_lists(bed);
     while (gb_experiment_advance(experiment, 1000, &err) == GB_ADVANCE_MORE) {
     }
     const int64_t top = highest(bed);

@@ -114,7 +114,7 @@ static void book(struct result *result, const struct gb_die_stages_report *repor
         if (fabs(mpa - marks_mpa[k]) < 0.2) {
             result->whole[k] = gb_observe_die_density(bed, report->height);
             result->central[k] =
-                gb_observe_die_central(bed, report->height, model->die.central);
+                gb_observe_die_central(bed, report->height, model->die.central_radius);
         }
     }
     if (mpa > 1.9) {
@@ -182,7 +182,7 @@ static struct bed_result study(int seed, size_t models_pressed)
     const struct gb_die_stages_report report = gb_die_stages_report(programme, bed);
     result.height_um = 1e6 * report.height * model.metre_per_length;
     result.whole = gb_observe_die_density(bed, report.height);
-    result.central = gb_observe_die_central(bed, report.height, model.die.central);
+    result.central = gb_observe_die_central(bed, report.height, model.die.central_radius);
     g_test_message(
         "bed %d: H0 %.2f um, density %.4f whole, %.4f central; filled in %.1f s", seed,
         result.height_um, result.whole, result.central, seconds_since(start));

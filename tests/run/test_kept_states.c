@@ -21,9 +21,9 @@ static void test_parse(void)
     g_assert_true(gb_keep_points_parse(" 100 MPa;density=0.5 ; every 20;", &marks, &err));
     g_assert_cmpint(marks.count, ==, 2);
     g_assert_cmpint(marks.every, ==, 20);
-    g_assert_cmpfloat(marks.mark[0].value, ==, 100e6);
-    g_assert_true(!marks.mark[0].by_density && marks.mark[1].by_density);
-    g_assert_cmpfloat(marks.mark[1].value, ==, 0.5);
+    g_assert_cmpfloat(marks.point[0].value, ==, 100e6);
+    g_assert_true(!marks.point[0].by_density && marks.point[1].by_density);
+    g_assert_cmpfloat(marks.point[1].value, ==, 0.5);
     static const char *const bad[] = {"100",         "100 nm",  "density 0.5",
                                       "density = 1", "every 0", "every 1; every 2",
                                       "; 100 MPa",   "every",   "every 20 MPa"};

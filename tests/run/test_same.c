@@ -113,7 +113,7 @@ static void run(struct gb_params params, int way, struct result *result)
                               &err)) {
         g_error("%s", err.text);
     }
-    gb_record_drop(&result->state, "journal/");
+    gb_record_remove(&result->state, "journal/");
     place_finish(&place);
 }
 

@@ -25,7 +25,7 @@ static void test_line(void)
         gb_size_table_read(&table, "number: 0.5um 0.25;1 um 0.5; 2 um 0.25;", &err));
     g_assert_cmpint(table.count, ==, 3);
     g_assert_false(table.by_volume);
-    g_assert_true(table.row[0].diameter_m == 0.5e-6 && table.row[1].share == 0.5);
+    g_assert_true(table.row[0].diameter_m == 0.5e-6 && table.row[1].fraction == 0.5);
     g_assert_cmpstr(gb_size_table_write(&table, text, sizeof text), ==,
                     "number: 500 nm 0.25; 1 um 0.5; 2 um 0.25");
     g_assert_true(gb_size_table_read(&table, "volume: 1 um 1", &err));
@@ -44,7 +44,7 @@ static void test_round_trip(void)
     char text[GB_PARAMS_VALUE_MAX];
     for (int i = 0; i < GB_SIZES_MAX; i++) {
         table.row[i].diameter_m = 1.0e-9 / 3.0 * (3.0 + i * G_PI * 1e-3);
-        table.row[i].share =
+        table.row[i].fraction =
             i % 2 ? 2.0 / (GB_SIZES_MAX * (1.0 + 1e-13 * i)) : 1e-300 / (i + 3.0);
     }
     gb_size_table_write(&table, text, sizeof text);
@@ -53,7 +53,7 @@ static void test_round_trip(void)
     g_assert_cmpint(back.count, ==, table.count);
     for (int i = 0; i < GB_SIZES_MAX; i++) {
         g_assert_true(back.row[i].diameter_m == table.row[i].diameter_m);
-        g_assert_true(back.row[i].share == table.row[i].share);
+        g_assert_true(back.row[i].fraction == table.row[i].fraction);
     }
 }
 
@@ -70,7 +70,7 @@ static void test_csv(void)
     g_assert_true(b.by_volume && b.count == 2);
     for (int i = 0; i < 2; i++) {
         g_assert_true(a.row[i].diameter_m == b.row[i].diameter_m);
-        g_assert_true(a.row[i].share == b.row[i].share);
+        g_assert_true(a.row[i].fraction == b.row[i].fraction);
     }
 }
 
@@ -189,9 +189,9 @@ static void test_check(void)
     g_assert_cmpint(row, ==, 1);
     table.row[1].diameter_m = 2e-6;
     g_assert_true(gb_size_table_check(&table, NULL, NULL));
-    table.row[1].share += 0.99 * GB_SHARES_SLACK;
+    table.row[1].fraction += 0.99 * GB_SIZE_FRACTIONS_TOLERANCE;
     g_assert_true(gb_size_table_check(&table, NULL, NULL));
-    table.row[1].share += 0.02 * GB_SHARES_SLACK;
+    table.row[1].fraction += 0.02 * GB_SIZE_FRACTIONS_TOLERANCE;
     g_assert_false(gb_size_table_check(&table, NULL, NULL));
 }
 

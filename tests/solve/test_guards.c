@@ -40,7 +40,7 @@ static void test_jump(void)
     g_assert_true(gb_relax_create(&relax, &model, &err));
     scene_evaluate(world);
     g_assert_true(gb_world_copy_save(world, &before, &err));
-    for (int attempt = 0; attempt <= GB_DEPARTURE_HALVINGS; attempt++) {
+    for (int attempt = 0; attempt <= GB_NONAFFINE_HALVINGS_MAX; attempt++) {
         g_assert_true(gb_world_copy_restore(world, before, &err));
         gb_relax_start(relax, world);
         g_assert_cmpint(gb_relax_advance(relax, world, 100000, &err), ==, GB_RELAX_DONE);
@@ -51,10 +51,10 @@ static void test_jump(void)
         const enum gb_guard_action action =
             gb_guard_departure(&guard, &departure, text, sizeof text);
         g_assert_cmpint(action, ==,
-                        attempt < GB_DEPARTURE_HALVINGS ? GB_GUARD_RETRY
+                        attempt < GB_NONAFFINE_HALVINGS_MAX ? GB_GUARD_RETRY
                                                         : GB_GUARD_ACCEPT);
         g_assert_nonnull(
-            strstr(text, attempt < GB_DEPARTURE_HALVINGS ? "halved" : "jumps by"));
+            strstr(text, attempt < GB_NONAFFINE_HALVINGS_MAX ? "halved" : "jumps by"));
     }
     gb_world_copy_destroy(before);
     gb_relax_destroy(relax);

@@ -29,7 +29,7 @@ static int collision(double time, const double y[], double dydt[], void *data)
                                                 0.5 * duo->mass, duo->law.damping);
     const double elastic = gb_law_hertz_force(hertz, star, y[0]);
     dydt[0] = y[1];
-    dydt[1] = -2.0 / duo->mass * gb_law_hertz_damped(elastic, dashpot, y[1]);
+    dydt[1] = -2.0 / duo->mass * gb_law_hertz_damped_force(elastic, dashpot, y[1]);
     return 0;
 }
 
@@ -56,13 +56,13 @@ static double speed_after(const struct duo *duo, double speed, double safety,
     motion.fastest = speed;
     bed_place(bed, 0, -duo->radius, 0.0, 5.0);
     bed_place(bed, 1, duo->radius, 0.0, 5.0);
-    bed->speed[0][0] = 0.5 * speed;
-    bed->speed[1][0] = -0.5 * speed;
+    bed->velocity[0][0] = 0.5 * speed;
+    bed->velocity[1][0] = -0.5 * speed;
     for (double time = 0.0; time < length; time += motion.step) {
         leap(&motion, bed);
     }
-    const double after = bed->speed[1][0] - bed->speed[0][0];
-    g_assert_cmpfloat(fabs(bed->speed[1][0] + bed->speed[0][0]), <, 1e-15);
+    const double after = bed->velocity[1][0] - bed->velocity[0][0];
+    g_assert_cmpfloat(fabs(bed->velocity[1][0] + bed->velocity[0][0]), <, 1e-15);
     gb_bed_destroy(bed);
     return after;
 }
@@ -105,8 +105,8 @@ static double potential(const struct gb_bed_list *list)
 
 static double kinetic(const struct gb_bed *bed)
 {
-    const struct gb_bed_kinetic all = gb_bed_kinetic(bed);
-    return all.moving + all.turning;
+    const struct gb_bed_kinetic_energy all = gb_bed_kinetic_energy(bed);
+    return all.translational + all.rotational;
 }
 
 /* Smooth elastic spheres thrown about in a closed die lose nothing to the method. */
@@ -114,7 +114,7 @@ static void test_closed(void)
 {
     struct gb_die die = bed_die(2.0);
     die.punch = true;
-    die.punch_place = 5.0;
+    die.punch_position = 5.0;
     const struct gb_bed_law law = bed_law();
     double radius[SPHERES];
     for (int i = 0; i < SPHERES; i++) {
@@ -125,7 +125,7 @@ static void test_closed(void)
         bed_place(bed, i, 0.9 * (i % ACROSS - 1), 0.9 * (i / ACROSS % ACROSS - 1),
                   0.6 + 1.2 * (i / (ACROSS * ACROSS)));
         for (int c = 0; c < 3; c++) {
-            bed->speed[i][c] = 2e-3 * sin(1.0 + i + 37.0 * c);
+            bed->velocity[i][c] = 2e-3 * sin(1.0 + i + 37.0 * c);
         }
     }
     struct gb_leapfrog motion;

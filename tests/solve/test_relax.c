@@ -121,8 +121,8 @@ static void test_light(void)
         first = step == 0 ? last : first;
         gb_world_strain(world, factor);
     }
-    g_assert_cmpfloat(first, <=, GB_PREDICT_LIGHT * 2e-2);
-    g_assert_cmpfloat(last, >, GB_PREDICT_LIGHT * 2e-2);
+    g_assert_cmpfloat(first, <=, GB_PREDICT_TOLERANCE_FRACTION_MIN * 2e-2);
+    g_assert_cmpfloat(last, >, GB_PREDICT_TOLERANCE_FRACTION_MIN * 2e-2);
     g_assert_cmpfloat(last, <=, 2e-2);
     gb_relax_destroy(relax);
     gb_world_destroy(world);
@@ -151,7 +151,7 @@ static void test_foretold(void)
         gb_vec_add(before + 3 * i, -1.0, gb_world_position(world) + 3 * i);
         farthest = fmax(farthest, gb_vec_length(before + 3 * i));
     }
-    const double most = GB_FORETOLD_MOST * sqrt(2.0) * -log(0.999);
+    const double most = GB_PREDICT_RATIO_MAX * sqrt(2.0) * -log(0.999);
     g_assert_cmpfloat_with_epsilon(farthest, most, 1e-9); /* somebody would go farther */
     g_free(before);
     gb_relax_destroy(relax);

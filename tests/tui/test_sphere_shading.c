@@ -16,7 +16,7 @@ static struct gb_view_sample *one_sphere(int dimension, float y)
     picture->count = 1;
     picture->place[0][0] = picture->place[0][2] = 4.5F;
     picture->place[0][1] = y;
-    for (int i = 0; i < GB_PICTURE_POINTS; i++) {
+    for (int i = 0; i < GB_VIEW_SAMPLE_POINTS; i++) {
         picture->radius[i] = 0.5F;
     }
     return picture;
@@ -81,7 +81,7 @@ static void test_depth(void)
 static void test_sizes(void)
 {
     struct gb_view_sample *picture = one_sphere(2, 0.0F);
-    picture->count = GB_PICTURE_POINTS;
+    picture->count = GB_VIEW_SAMPLE_POINTS;
     for (int i = 0; i < picture->count; i++) {
         picture->place[i][0] = (float)(i % 64) * 9.0F / 63.0F;
         picture->place[i][2] = (float)(i / 64) * 9.0F / 63.0F;

@@ -43,7 +43,7 @@ static bool prepare(struct pack *pack, char **words, char **sets, struct gb_erro
         return false;
     }
     pack->packing.params = *gb_preset_params(pack->preset);
-    return gb_die_scene_absent(&pack->packing.params, "pack", err) &&
+    return gb_die_scene_require_periodic(&pack->packing.params, "pack", err) &&
            gb_rundir_check(pack->directory, pack->force, err);
 }
 

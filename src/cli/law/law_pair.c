@@ -42,14 +42,14 @@ void gb_law_pair_follow_storakers(const struct gb_law_table_input *input, double
 {
     const struct gb_contact_pair *pair = input->pair;
     print_branch(input->x,
-                 gb_law_storakers_follow(&pair->law, pair->radius, input->x, deepest));
+                 gb_law_storakers_update(&pair->law, pair->radius, input->x, deepest));
 }
 
 void gb_law_pair_mindlin(const struct gb_law_table_input *input)
 {
     const struct gb_contact_pair *pair = input->pair;
     printf("%.17g,%.17g,%.17g\n", input->x,
-           gb_law_hertz_shear(&pair->law.hertz, pair->radius, input->x),
+           gb_law_hertz_shear_stiffness(&pair->law.hertz, pair->radius, input->x),
            pair->mu * elastic(input).force);
 }
 
@@ -63,15 +63,15 @@ void gb_law_pair_steps(const struct gb_law_table_input *input)
 {
     const struct gb_contact_pair *pair = input->pair;
     printf("%.17g,%.17g,%.17g,%.17g\n", input->x,
-           gb_contact_pair_step(pair, elastic(input).stiffness),
-           gb_contact_pair_step(pair, plastic(input, false).stiffness),
-           gb_contact_pair_step(pair, plastic(input, true).stiffness));
+           gb_contact_pair_critical_step(pair, elastic(input).stiffness),
+           gb_contact_pair_critical_step(pair, plastic(input, false).stiffness),
+           gb_contact_pair_critical_step(pair, plastic(input, true).stiffness));
 }
 
 void gb_law_pair_yield(const struct gb_law_table_input *input)
 {
     const struct gb_contact_pair *pair = input->pair;
     const struct gb_law_hertz *law = &pair->law.hertz;
-    const double force = gb_law_hertz_yield(law, pair->radius, pair->yield_pa);
+    const double force = gb_law_hertz_yield_force(law, pair->radius, pair->yield_pa);
     printf("%.17g,%.17g\n", gb_law_hertz_overlap(law, pair->radius, force), force);
 }

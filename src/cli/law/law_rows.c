@@ -316,7 +316,7 @@ bool gb_law_rows_print(const struct gb_law_rows_request *request,
         if (!gb_params_check(params, err) || !gb_model_init(&model, params, err)) {
             return false;
         }
-        if (model.dry) {
+        if (model.cohesionless) {
             return gb_error_set(err, GB_ERR_INPUT,
                                 "law %s: accepted contact.normal = rod; law hertz is "
                                 "that of dry grains",

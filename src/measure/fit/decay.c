@@ -151,7 +151,7 @@ static int jacobian(const gsl_vector *x, void *data, gsl_matrix *j)
 static double correlation(const double *f, size_t n, double mean)
 {
     double square = 0.0;
-    double stretch = 1.0;
+    double correlation = 1.0;
     for (size_t i = 0; i < n; i++) {
         square += (f[i] - mean) * (f[i] - mean);
     }
@@ -163,9 +163,9 @@ static double correlation(const double *f, size_t n, double mean)
         if (product < died_away * square) {
             break;
         }
-        stretch += 2.0 * product / square;
+        correlation += 2.0 * product / square;
     }
-    return stretch;
+    return correlation;
 }
 
 static void take_result(struct gb_decay *found, gsl_multifit_nlinear_workspace *work,
@@ -176,7 +176,7 @@ static void take_result(struct gb_decay *found, gsl_multifit_nlinear_workspace *
     for (size_t i = 0; i < f->size; i++) {
         found->squares += gsl_vector_get(f, i) * gsl_vector_get(f, i);
     }
-    found->stretch = correlation(f->data, f->size, 0.0);
+    found->correlation = correlation(f->data, f->size, 0.0);
     gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(work), 0.0, covariance);
     for (size_t a = 0; a < covariance->size1; a++) {
         found->x[a] = gsl_vector_get(gsl_multifit_nlinear_position(work), a);
@@ -223,7 +223,7 @@ static bool iterate(struct gb_decay *found, const struct gb_decay_points *points
                                                        0.0, NULL, NULL, &info, work);
         take_result(found, work, covariance);
         /* no progress at the bottom, where only rounding is left, is an end as well */
-        found->settled = (status == GSL_SUCCESS || status == GSL_ENOPROG) &&
+        found->converged = (status == GSL_SUCCESS || status == GSL_ENOPROG) &&
                          isfinite(found->squares) && tau_in_range(found, points);
     } else {
         gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit of %zu points",
@@ -241,12 +241,12 @@ void gb_decay_constant(struct gb_decay *found, const struct gb_decay_points *poi
     for (size_t i = 0; i < points->count; i++) {
         sum += points->p[i];
     }
-    *found = (struct gb_decay){.settled = true, .x = {sum / n}};
+    *found = (struct gb_decay){.converged = true, .x = {sum / n}};
     for (size_t i = 0; i < points->count; i++) {
         found->squares += pow(points->p[i] - found->x[0], 2.0);
     }
     found->covariance[0][0] = 1.0 / n;
-    found->stretch = correlation(points->p, points->count, found->x[0]);
+    found->correlation = correlation(points->p, points->count, found->x[0]);
 }
 
 static void swap_values(double *a, double *b)

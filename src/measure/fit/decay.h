@@ -30,11 +30,11 @@ void gb_decay_points_finish(struct gb_decay_points *points);
 /* Parameters p0, then (amplitude, ln tau) per term with tau ascending. */
 struct gb_decay {
     int terms;
-    bool settled; /* converged, to time constants that the points can tell */
+    bool converged; /* converged, to time constants that the points can tell */
     double x[GB_DECAY_PARAMETERS];
     double covariance[GB_DECAY_PARAMETERS][GB_DECAY_PARAMETERS]; /* of unit variance */
     double squares;
-    double stretch; /* points per independent point, 1 for independent residuals */
+    double correlation; /* points per independent point, 1 for independent residuals */
 };
 
 void gb_decay_constant(struct gb_decay *found, const struct gb_decay_points *points);

@@ -29,14 +29,14 @@ static double scatter_of(const struct gb_decay *found,
 static double independent_degrees(const struct gb_decay *found,
                                   const struct gb_decay_points *points)
 {
-    const double independent = (double)points->count / found->stretch;
+    const double independent = (double)points->count / found->correlation;
     return fmax(independent - 1.0 - 2.0 * found->terms, 1.0);
 }
 
 static double error_of(const struct gb_decay *found, const struct gb_decay_points *points,
                        int k)
 {
-    return scatter_of(found, points) * sqrt(found->stretch * found->covariance[k][k]);
+    return scatter_of(found, points) * sqrt(found->correlation * found->covariance[k][k]);
 }
 
 /* Half the 95 % interval of parameter k. */
@@ -66,7 +66,7 @@ static double f_ratio(const struct gb_decay *poor, const struct gb_decay *rich,
                       const struct gb_decay_points *points)
 {
     return 0.5 * (poor->squares - rich->squares) /
-           ((rich->squares + points->floor) / degrees_of(rich, points)) / rich->stretch;
+           ((rich->squares + points->floor) / degrees_of(rich, points)) / rich->correlation;
 }
 
 static struct gb_fit_value value_of(const struct gb_decay *found,
@@ -99,7 +99,7 @@ static void report(struct gb_fit_decay *fit, const struct gb_decay *found,
                                              (double)NAN};
     fit->terms = found->terms;
     fit->degrees = degrees_of(found, points);
-    fit->stretch = found->stretch;
+    fit->correlation = found->correlation;
     fit->scatter = points->p_unit * scatter_of(found, points);
     fit->p0 = value_of(found, points, 0, points->p_unit, points->p_shift);
     for (int k = 0; k < GB_FIT_TERMS; k++) {
@@ -121,8 +121,8 @@ static enum gb_fit_reason objection(const struct gb_decay *poor,
     if (!(*f > *f_most)) {
         return GB_FIT_INSIGNIFICANT;
     }
-    if (!rich->settled) {
-        return GB_FIT_UNSETTLED;
+    if (!rich->converged) {
+        return GB_FIT_NOT_CONVERGED;
     }
     return is_certain(rich, points) ? GB_FIT_FULL : GB_FIT_UNCERTAIN;
 }
@@ -133,15 +133,15 @@ static bool fit_all(struct gb_decay found[GB_FIT_TERMS + 1],
                     const struct gb_decay_points *points, struct gb_error *err)
 {
     gb_decay_constant(&found[0], points);
-    double stretch = found[0].stretch;
+    double correlation = found[0].correlation;
     for (int terms = 1; terms <= GB_FIT_TERMS; terms++) {
         if (!gb_decay_terms(&found[terms], terms, points, err)) {
             return false;
         }
-        stretch = fmin(stretch, found[terms].settled ? found[terms].stretch : stretch);
+        correlation = fmin(correlation, found[terms].converged ? found[terms].correlation : correlation);
     }
     for (int terms = 0; terms <= GB_FIT_TERMS; terms++) {
-        found[terms].stretch = stretch;
+        found[terms].correlation = correlation;
     }
     return true;
 }
@@ -171,7 +171,7 @@ static bool choose(struct gb_fit_decay *fit, const struct gb_decay_points *point
         fit->reason = (int)against;
         terms--;
     }
-    if (terms == 0 && fit->reason == GB_FIT_UNSETTLED) {
+    if (terms == 0 && fit->reason == GB_FIT_NOT_CONVERGED) {
         return gb_error_set(err, GB_ERR_NOT_CONVERGED,
                             "the fit of an exponential did not settle in %d iterations: "
                             "the points show no time constant between their spacing and "

@@ -17,7 +17,7 @@ enum gb_fit_reason {
     GB_FIT_FULL,          /* it is not: both are there */
     GB_FIT_INSIGNIFICANT, /* the F test does not want the next one */
     GB_FIT_UNCERTAIN,     /* an interval of the richer fit contains zero or has no end */
-    GB_FIT_UNSETTLED      /* the iteration of the richer fit did not converge */
+    GB_FIT_NOT_CONVERGED      /* the iteration of the richer fit did not converge */
 };
 
 enum { GB_FIT_TERMS = 2, GB_FIT_DECAY_POINTS = 8 };
@@ -31,7 +31,7 @@ struct gb_fit_decay {
     struct gb_fit_value tau[GB_FIT_TERMS];
     double scatter;   /* standard deviation of the points about the fit */
     int degrees;      /* of freedom */
-    double stretch;   /* points per independent point, from the residuals */
+    double correlation;   /* points per independent point, from the residuals */
     double f, f_most; /* F of the next exponential and its bound; of the last one when
                        * terms is 2 */
 };

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "measure/fit/valley.h"
+#include "measure/fit/exponent_profile.h"
 
 enum { UNKNOWNS = 3 };
 
@@ -47,7 +47,7 @@ static double line_squares(const struct rates *rates, double n, double *a, doubl
     return squares;
 }
 
-static double valley_of_rates(double exponent, const void *data)
+static double squares_of_rates(double exponent, const void *data)
 {
     double a = 0.0;
     double k = 0.0;
@@ -148,11 +148,11 @@ bool gb_power_fit(struct gb_power *fit, const double *v, const double *p,
                   const double *error, size_t count, struct gb_error *err)
 {
     struct rates rates = {v, p, error, count, 1.0};
-    const struct gb_valley valley = {valley_of_rates, &rates};
+    const struct gb_exponent_profile profile = {squares_of_rates, &rates};
     double n = NAN;
     double a = NAN;
     double k = NAN;
-    if (!check_rates(&rates, err) || !gb_valley_find(&valley, &n, err)) {
+    if (!check_rates(&rates, err) || !gb_exponent_profile_minimum(&profile, &n, err)) {
         return false;
     }
     fit->chi2 = line_squares(&rates, n, &a, &k);
@@ -216,7 +216,7 @@ static double slope_within(const struct within *within, double exponent, double 
     return *xx > 0.0 ? fmax(yy - xy * xy / *xx, 0.0) : yy;
 }
 
-static double valley_within(double exponent, const void *data)
+static double squares_within_densities(double exponent, const void *data)
 {
     double slope = 0.0;
     double xx = 0.0;
@@ -289,7 +289,7 @@ bool gb_power_exponent(struct gb_fit_value *exponent, const struct gb_power_law 
                        struct gb_error *err)
 {
     struct within within = {law, points, count, false};
-    const struct gb_valley valley = {valley_within, &within};
+    const struct gb_exponent_profile profile = {squares_within_densities, &within};
     const int degrees = (int)count - count_densities(points, count) - 2;
     double n = NAN;
     double quantile = NAN;
@@ -300,16 +300,16 @@ bool gb_power_exponent(struct gb_fit_value *exponent, const struct gb_power_law 
         return gb_error_set(err, GB_ERR_INPUT,
                             "%zu points do not determine exponent and k_v", count);
     }
-    if (!gb_valley_find(&valley, &n, err)) {
+    if (!gb_exponent_profile_minimum(&profile, &n, err)) {
         return false;
     }
-    const double least = valley_within(n, &within);
+    const double least = squares_within_densities(n, &within);
     const double factor = spread(least, degrees, within.given, &quantile);
     const double level = least + factor * quantile * quantile;
     *exponent = (struct gb_fit_value){
         .value = n,
-        .low = gb_valley_level(&valley, level, n, GB_VALLEY_LEAST),
-        .high = gb_valley_level(&valley, level, n, GB_VALLEY_MOST),
+        .low = gb_exponent_profile_crossing(&profile, level, n, GB_EXPONENT_PROFILE_MIN),
+        .high = gb_exponent_profile_crossing(&profile, level, n, GB_EXPONENT_PROFILE_MAX),
     };
     exponent->error = 0.5 * (exponent->high - exponent->low) / quantile;
     return true;

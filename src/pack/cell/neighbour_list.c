@@ -521,7 +521,7 @@ bool gb_neighbour_list_build(struct gb_neighbour_list *pairs, const struct gb_ce
                              int threads, struct gb_error *err)
 {
     const double reach = pairs->largest - 1.0 + cutoff + skin;
-    if (gb_cell_shortest(cell) < GB_EDGE_OVER_REACH * reach) {
+    if (gb_cell_shortest(cell) < GB_EDGE_OVER_RANGE_MIN * reach) {
         return gb_error_set(
             err, GB_ERR_GUARD,
             "the cell has shrunk to %.3g d, less than twice the neighbour "

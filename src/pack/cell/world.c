@@ -36,12 +36,12 @@ static int thread_count(const struct gb_model *model)
 
 static bool take_sizes(struct gb_world *world, struct gb_error *err)
 {
-    if (!world->model->sized) {
+    if (!world->model->polydisperse) {
         return true;
     }
     world->diameter = gb_alloc_array((size_t)world->count, sizeof *world->diameter, err);
     world->pairs.diameter = world->diameter;
-    world->pairs.largest = world->model->largest;
+    world->pairs.largest = world->model->diameter_max;
     return world->diameter && gb_assign_sizes_model(world->model, world->diameter, err);
 }
 
@@ -57,7 +57,7 @@ bool gb_world_create(struct gb_world **out, const struct gb_model *model,
     world->count = model->count;
     world->threads = thread_count(model);
     world->kernel = gb_batch_pick(model, 0);
-    world->row = model->sized ? GB_SIZED_ROW : model->dimension == 3 ? 6 : 3;
+    world->row = model->polydisperse ? GB_SIZED_ROW : model->dimension == 3 ? 6 : 3;
     world->in_single = model->numerics.single;
     gb_cell_init(&world->cell, model->dimension, model->edges);
     world->position = gb_alloc_array(3 * n, sizeof(double), err);
@@ -211,7 +211,7 @@ static bool check_sweep(struct gb_world *world, struct gb_error *err)
                             "force on particle %lld is not a finite number",
                             (long long)first_bad_particle(world));
     }
-    if (world->tally.deepest > GB_OVERLAP_MOST) {
+    if (world->tally.deepest > GB_OVERLAP_MAX) {
         return gb_error_set(
             err, GB_ERR_GUARD,
             "two particles overlap by %.3g d: the strain step is too large "

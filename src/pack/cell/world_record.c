@@ -68,7 +68,7 @@ static bool exchange_ledger(struct gb_contact_history *ledger, int planes, bool 
     return gb_record_array(record, pairs, GB_RECORD_INT32, rows, 2, "1", ledger->pair,
                            err) &&
            (single
-                ? gb_record_singles(record, values, rows, planes, "d", ledger->value, err)
+                ? gb_record_f32(record, values, rows, planes, "d", ledger->value, err)
                 : gb_record_array(record, values, GB_RECORD_DOUBLE, rows, planes, "d",
                                   ledger->value, err));
 }

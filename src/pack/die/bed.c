@@ -14,10 +14,10 @@ static const double skin_least = 0.01, skin_most = 1.0;
 
 static bool allocate(struct gb_bed *bed, struct gb_error *err)
 {
-    gb_bed_row **const rows[] = {&bed->place, &bed->speed,  &bed->spin,
-                                 &bed->force, &bed->torque, &bed->listed_at};
-    struct gb_bed_list *const lists[] = {&bed->pairs, &bed->spare_pairs, &bed->walls,
-                                         &bed->spare_walls};
+    gb_bed_row **const rows[] = {&bed->position, &bed->velocity,  &bed->spin,
+                                 &bed->force, &bed->torque, &bed->listed_position};
+    struct gb_bed_list *const lists[] = {&bed->pairs, &bed->previous_pairs, &bed->walls,
+                                         &bed->previous_walls};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
         *rows[k] = gb_alloc_array((size_t)bed->count, sizeof **rows[k], err);
         if (!*rows[k]) {
@@ -29,11 +29,11 @@ static bool allocate(struct gb_bed *bed, struct gb_error *err)
             return false;
         }
     }
-    bed->tallies = gb_alloc_array((size_t)bed->count, sizeof *bed->tallies, err);
-    if (!bed->tallies) {
+    bed->counts = gb_alloc_array((size_t)bed->count, sizeof *bed->counts, err);
+    if (!bed->counts) {
         return false;
     }
-    double **const numbers[] = {&bed->mass, &bed->per_mass, &bed->per_inertia};
+    double **const numbers[] = {&bed->mass, &bed->inverse_mass, &bed->inverse_inertia};
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         *numbers[k] = gb_alloc_array((size_t)bed->count, sizeof **numbers[k], err);
         if (!*numbers[k]) {
@@ -54,22 +54,22 @@ bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
     bed->count = count;
     bed->die = *die;
     bed->inertia_scale = inertia_scale;
-    if (!allocate(bed, err) || !gb_hgrid_init(&bed->sift, count, err)) {
+    if (!allocate(bed, err) || !gb_hgrid_init(&bed->hgrid, count, err)) {
         gb_bed_destroy(bed);
         return false;
     }
     bed->smallest = HUGE_VAL;
     for (int64_t i = 0; i < count; i++) {
         const double d = 2.0 * radius[i];
-        bed->place[i][3] = radius[i];
+        bed->position[i][3] = radius[i];
         bed->mass[i] = d * d * d;
-        bed->per_mass[i] = 1.0 / bed->mass[i];
-        bed->per_inertia[i] =
+        bed->inverse_mass[i] = 1.0 / bed->mass[i];
+        bed->inverse_inertia[i] =
             1.0 / (0.4 * bed->mass[i] * radius[i] * radius[i] * inertia_scale);
         bed->smallest = fmin(bed->smallest, radius[i]);
     }
     bed->skin = 0.1 * bed->smallest;
-    gb_bed_change_law(bed, law);
+    gb_bed_set_law(bed, law);
     *out = bed;
     return true;
 }
@@ -79,21 +79,21 @@ void gb_bed_destroy(struct gb_bed *bed)
     if (!bed) {
         return;
     }
-    gb_alloc_free(bed->place);
-    gb_alloc_free(bed->speed);
+    gb_alloc_free(bed->position);
+    gb_alloc_free(bed->velocity);
     gb_alloc_free(bed->spin);
     gb_alloc_free(bed->force);
     gb_alloc_free(bed->torque);
-    gb_alloc_free(bed->listed_at);
-    gb_alloc_free(bed->tallies);
+    gb_alloc_free(bed->listed_position);
+    gb_alloc_free(bed->counts);
     gb_alloc_free(bed->mass);
-    gb_alloc_free(bed->per_mass);
-    gb_alloc_free(bed->per_inertia);
-    gb_hgrid_finish(&bed->sift);
+    gb_alloc_free(bed->inverse_mass);
+    gb_alloc_free(bed->inverse_inertia);
+    gb_hgrid_finish(&bed->hgrid);
     gb_bed_list_finish(&bed->pairs);
-    gb_bed_list_finish(&bed->spare_pairs);
+    gb_bed_list_finish(&bed->previous_pairs);
     gb_bed_list_finish(&bed->walls);
-    gb_bed_list_finish(&bed->spare_walls);
+    gb_bed_list_finish(&bed->previous_walls);
     gb_alloc_free(bed);
 }
 
@@ -103,7 +103,7 @@ static void empty(struct gb_bed_list *list, int64_t particles)
     memset(list->start, 0, ((size_t)particles + 1) * sizeof *list->start);
 }
 
-void gb_bed_change_law(struct gb_bed *bed, const struct gb_bed_law *law)
+void gb_bed_set_law(struct gb_bed *bed, const struct gb_bed_law *law)
 {
     bed->law = *law;
     bed->pair_kernel = gb_bed_batch_pick(law, false, 0);
@@ -114,7 +114,7 @@ void gb_bed_change_law(struct gb_bed *bed, const struct gb_bed_law *law)
     bed->listed = false;
 }
 
-void gb_bed_forget_lists(struct gb_bed *bed)
+void gb_bed_invalidate_lists(struct gb_bed *bed)
 {
     bed->listed = false;
 }
@@ -123,7 +123,7 @@ void gb_bed_forget_lists(struct gb_bed *bed)
  * touch add exact zeros in an order that is the same for any list. */
 static void adapt_skin(struct gb_bed *bed)
 {
-    const double lasted = (double)(bed->evaluations - bed->listed_when);
+    const double lasted = (double)(bed->evaluations - bed->listed_evaluation);
     if (bed->listed && lasted > 0.0) {
         const double wanted = fmin(fmax(list_lasts / lasted, 0.5), 2.0);
         bed->skin = fmin(fmax(bed->skin * wanted, skin_least * bed->smallest),
@@ -134,7 +134,7 @@ static void adapt_skin(struct gb_bed *bed)
 static bool refresh_lists(struct gb_bed *bed, double moved2, struct gb_error *err)
 {
     const double moved = sqrt(moved2);
-    const double punch = fabs(bed->die.punch_place - bed->punch_listed_at);
+    const double punch = fabs(bed->die.punch_position - bed->punch_listed_position);
     if (bed->listed && 2.0 * moved < bed->skin &&
         (!bed->die.punch || moved + punch < bed->skin)) {
         return true;
@@ -143,9 +143,9 @@ static bool refresh_lists(struct gb_bed *bed, double moved2, struct gb_error *er
     if (!gb_bed_list_rebuild(bed, err)) {
         return false;
     }
-    memcpy(bed->listed_at, bed->place, (size_t)bed->count * sizeof *bed->place);
-    bed->punch_listed_at = bed->die.punch_place;
-    bed->listed_when = bed->evaluations;
+    memcpy(bed->listed_position, bed->position, (size_t)bed->count * sizeof *bed->position);
+    bed->punch_listed_position = bed->die.punch_position;
+    bed->listed_evaluation = bed->evaluations;
     bed->listed = true;
     bed->rebuilds++;
     return true;
@@ -153,8 +153,8 @@ static bool refresh_lists(struct gb_bed *bed, double moved2, struct gb_error *er
 
 static void sweep_pairs(struct gb_bed *bed, struct gb_bed_batch *b)
 {
-    struct gb_bed_rows rows = {.place = (const gb_bed_row *)bed->place,
-                               .speed = (const gb_bed_row *)bed->speed,
+    struct gb_bed_rows rows = {.position = (const gb_bed_row *)bed->position,
+                               .velocity = (const gb_bed_row *)bed->velocity,
                                .spin = (const gb_bed_row *)bed->spin,
                                .force = bed->force,
                                .torque = bed->torque,
@@ -176,16 +176,16 @@ static void fill_walls(const struct gb_bed *bed, struct gb_bed_batch *b, int64_t
     for (int k = 0; k < b->n; k++) {
         const int64_t i = bed->walls.first[slot + k];
         const enum gb_die_wall wall = (enum gb_die_wall)bed->walls.other[slot + k];
-        const double *x = bed->place[i], radius = x[3];
+        const double *x = bed->position[i], radius = x[3];
         double unit[3] = {0.0, 0.0, 1.0};
         b->overlap[k] = fmax(gb_die_overlap(&bed->die, wall, x, radius, unit), -radius);
         b->lever[k] = 1.0 - b->overlap[k] / radius;
         for (int c = 0; c < 3; c++) {
             b->unit[c][k] = unit[c];
-            b->slip[c][k] = bed->speed[i][c];
+            b->slip[c][k] = bed->velocity[i][c];
             b->roll[c][k] = radius * bed->spin[i][c];
         }
-        b->slip[2][k] -= wall == GB_DIE_PUNCH ? bed->die.punch_speed : 0.0;
+        b->slip[2][k] -= wall == GB_DIE_PUNCH ? bed->die.punch_velocity : 0.0;
     }
 }
 
@@ -215,11 +215,11 @@ static void spill_walls(struct gb_bed *bed, const struct gb_bed_batch *b, int64_
     for (int k = 0; k < b->n; k++) {
         const int64_t i = bed->walls.first[slot + k];
         const double force[3] = {b->force[0][k], b->force[1][k], b->force[2][k]};
-        bear(&bed->tally, (enum gb_die_wall)bed->walls.other[slot + k], bed->place[i],
+        bear(&bed->tally, (enum gb_die_wall)bed->walls.other[slot + k], bed->position[i],
              force);
         for (int c = 0; c < 3; c++) {
             bed->force[i][c] += force[c];
-            bed->torque[i][c] += friction ? bed->place[i][3] * b->moment[c][k] : 0.0;
+            bed->torque[i][c] += friction ? bed->position[i][3] * b->moment[c][k] : 0.0;
         }
     }
 }
@@ -258,7 +258,7 @@ bool gb_bed_evaluate(struct gb_bed *bed, double step, double moved2, struct gb_e
 int64_t gb_bed_escaped(const struct gb_bed *bed)
 {
     for (int64_t i = 0; i < bed->count; i++) {
-        if (!gb_die_holds(&bed->die, bed->place[i])) {
+        if (!gb_die_contains(&bed->die, bed->position[i])) {
             return i;
         }
     }
@@ -279,12 +279,12 @@ static double square(const double row[4])
     return row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
 }
 
-struct gb_bed_kinetic gb_bed_kinetic(const struct gb_bed *bed)
+struct gb_bed_kinetic_energy gb_bed_kinetic_energy(const struct gb_bed *bed)
 {
-    struct gb_bed_kinetic sum = {0.0, 0.0};
+    struct gb_bed_kinetic_energy sum = {0.0, 0.0};
     for (int64_t i = 0; i < bed->count; i++) {
-        sum.moving += 0.5 * bed->mass[i] * square(bed->speed[i]);
-        sum.turning += 0.5 * square(bed->spin[i]) / bed->per_inertia[i];
+        sum.translational += 0.5 * bed->mass[i] * square(bed->velocity[i]);
+        sum.rotational += 0.5 * square(bed->spin[i]) / bed->inverse_inertia[i];
     }
     return sum;
 }
@@ -293,7 +293,7 @@ double gb_bed_top(const struct gb_bed *bed)
 {
     double top = 0.0;
     for (int64_t i = 0; i < bed->count; i++) {
-        top = fmax(top, bed->place[i][2] + bed->place[i][3]);
+        top = fmax(top, bed->position[i][2] + bed->position[i][3]);
     }
     return top;
 }
@@ -310,7 +310,7 @@ static double normal_sum(const struct gb_bed_list *list, int64_t *touching)
     return sum;
 }
 
-double gb_bed_unbalanced(const struct gb_bed *bed, double gravity)
+double gb_bed_unbalanced_force(const struct gb_bed *bed, double gravity)
 {
     int64_t touching = 0;
     double force2 = 0.0;

@@ -32,8 +32,8 @@ struct gb_bed_tally {
 
 struct gb_bed {
     int64_t count;
-    gb_bed_row *place, *speed, *spin, *force, *torque;
-    double *mass, *per_mass, *per_inertia; /* and one over mass and 2/5 m R^2 x scale */
+    gb_bed_row *position, *velocity, *spin, *force, *torque;
+    double *mass, *inverse_mass, *inverse_inertia; /* and one over mass and 2/5 m R^2 x scale */
     double inertia_scale;                  /* of 2/5 m R^2; P3 takes 10 */
     struct gb_die die;
     struct gb_bed_law law;
@@ -42,16 +42,16 @@ struct gb_bed {
     struct gb_bed_list pairs, walls;
     struct gb_bed_tally tally;
     double smallest;  /* radius */
-    int32_t *tallies; /* one per particle, for measures to count in */
+    int32_t *counts; /* one per particle, for measures to count in */
     int64_t evaluations, rebuilds;
     /* the lists hold while nothing has moved further than half the skin */
     double skin;
-    struct gb_hgrid sift;
-    gb_bed_row *listed_at;
-    double punch_listed_at;
-    int64_t listed_when; /* evaluations then */
+    struct gb_hgrid hgrid;
+    gb_bed_row *listed_position;
+    double punch_listed_position;
+    int64_t listed_evaluation; /* evaluations then */
     bool listed;
-    struct gb_bed_list spare_pairs, spare_walls;
+    struct gb_bed_list previous_pairs, previous_walls;
 };
 
 /* count      spheres, with these radii; at rest at the origin
@@ -62,7 +62,7 @@ bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
 void gb_bed_destroy(struct gb_bed *bed); /* NULL is fine */
 
 /* Another law from now on; all contacts begin anew. */
-void gb_bed_change_law(struct gb_bed *bed, const struct gb_bed_law *law);
+void gb_bed_set_law(struct gb_bed *bed, const struct gb_bed_law *law);
 
 /* Forces and torques at the present places and speeds; carries the history of every
  * contact over the step since the last evaluation.  moved2: largest squared displacement
@@ -71,20 +71,20 @@ bool gb_bed_evaluate(struct gb_bed *bed, double step, double moved2,
                      struct gb_error *err);
 
 /* The lists are made anew at the next evaluation: places were changed by hand. */
-void gb_bed_forget_lists(struct gb_bed *bed);
+void gb_bed_invalidate_lists(struct gb_bed *bed);
 
 /* First particle that is not a number or beyond a wall; -1: none. */
 int64_t gb_bed_escaped(const struct gb_bed *bed);
 
 /* Sums over a bed, right after an evaluation. */
 double gb_bed_solid_volume(const struct gb_bed *bed);
-struct gb_bed_kinetic {
-    double moving, turning; /* of the centres, about them */
+struct gb_bed_kinetic_energy {
+    double translational, rotational; /* of the centres, about them */
 };
-struct gb_bed_kinetic gb_bed_kinetic(const struct gb_bed *bed);
+struct gb_bed_kinetic_energy gb_bed_kinetic_energy(const struct gb_bed *bed);
 double gb_bed_top(const struct gb_bed *bed); /* of the highest particle */
 /* rms resultant force (gravity g acts along -z) over the mean normal force of the
  * contacts; INFINITY without contacts. */
-double gb_bed_unbalanced(const struct gb_bed *bed, double gravity);
+double gb_bed_unbalanced_force(const struct gb_bed *bed, double gravity);
 
 #endif

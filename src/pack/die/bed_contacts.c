@@ -16,8 +16,8 @@ bool gb_bed_contacts_init(struct gb_bed_contacts *contacts, int64_t room,
         return false;
     }
     double **const plane[PLANES] = {
-        &contacts->hertz,    &contacts->damp,   &contacts->light,    &contacts->cross,
-        &contacts->deepest,  &contacts->rest,   &contacts->shear[0], &contacts->shear[1],
+        &contacts->hertz,    &contacts->damping,   &contacts->inverse_mass,    &contacts->transition,
+        &contacts->deepest,  &contacts->permanent,   &contacts->shear[0], &contacts->shear[1],
         &contacts->shear[2], &contacts->normal,
     };
     for (int p = 0; p < PLANES; p++) {
@@ -39,11 +39,11 @@ void gb_bed_contacts_set(struct gb_bed_contacts *c, int64_t slot,
     const double r = gb_law_hertz_radius(radius[0], radius[1]);
     const double reduced = gb_law_hertz_radius(mass[0], mass[1]); /* the same formula */
     c->hertz[slot] = 4.0 / 3.0 * law->normal.hertz.modulus * sqrt(r);
-    c->damp[slot] = gb_law_hertz_damping(1.0, reduced, law->damping);
-    c->light[slot] = 1.0 / fmin(mass[0], mass[1]);
-    c->cross[slot] =
-        law->storakers ? gb_law_storakers_crossing(&law->normal, r) : HUGE_VAL;
-    c->deepest[slot] = c->rest[slot] = 0.0;
+    c->damping[slot] = gb_law_hertz_damping(1.0, reduced, law->damping);
+    c->inverse_mass[slot] = 1.0 / fmin(mass[0], mass[1]);
+    c->transition[slot] =
+        law->storakers ? gb_law_storakers_transition(&law->normal, r) : HUGE_VAL;
+    c->deepest[slot] = c->permanent[slot] = 0.0;
     c->shear[0][slot] = c->shear[1][slot] = c->shear[2][slot] = 0.0;
     c->normal[slot] = -1.0;
 }

@@ -23,10 +23,10 @@ struct gb_bed_contacts {
     int64_t room;
     double *slab;
     double *hertz;          /* (4/3) E* sqrt R*: force over h^1.5 */
-    double *damp;           /* 2 xi sqrt m*: dashpot over the root of the stiffness */
-    double *light;          /* one over the lesser mass */
-    double *cross;          /* overlap at which Storakers' law becomes plastic */
-    double *deepest, *rest; /* h_max, and h0 where unloading ends; Storakers only */
+    double *damping;           /* 2 xi sqrt m*: dashpot over the root of the stiffness */
+    double *inverse_mass;          /* one over the lesser mass */
+    double *transition;          /* overlap at which Storakers' law becomes plastic */
+    double *deepest, *permanent; /* h_max, and h0 where unloading ends; Storakers only */
     double *shear[3];       /* force on the first; across the normal of last time */
     double *normal;         /* f_n of the last evaluation; -1: not touching */
 };

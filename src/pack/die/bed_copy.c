@@ -48,21 +48,21 @@ bool gb_bed_copy_take(const struct gb_bed *bed, struct gb_bed_copy **copy,
     if (!*copy && !make_copy(copy, bed->count, err)) {
         return false;
     }
-    gb_bed_row *const rows[ROW_KINDS] = {bed->place, bed->speed, bed->spin};
+    gb_bed_row *const rows[ROW_KINDS] = {bed->position, bed->velocity, bed->spin};
     for (int k = 0; k < ROW_KINDS; k++) {
         memcpy((*copy)->rows + k * bed->count, rows[k],
                (size_t)bed->count * sizeof *rows[k]);
     }
     (*copy)->die = bed->die;
     (*copy)->skin = bed->skin;
-    return gb_bed_list_keep(&(*copy)->pairs, &bed->pairs, bed->count, err) &&
-           gb_bed_list_keep(&(*copy)->walls, &bed->walls, bed->count, err);
+    return gb_bed_list_copy_touching(&(*copy)->pairs, &bed->pairs, bed->count, err) &&
+           gb_bed_list_copy_touching(&(*copy)->walls, &bed->walls, bed->count, err);
 }
 
 bool gb_bed_copy_restore(struct gb_bed *bed, const struct gb_bed_copy *copy,
                          struct gb_error *err)
 {
-    gb_bed_row *const rows[ROW_KINDS] = {bed->place, bed->speed, bed->spin};
+    gb_bed_row *const rows[ROW_KINDS] = {bed->position, bed->velocity, bed->spin};
     for (int k = 0; k < ROW_KINDS; k++) {
         memcpy(rows[k], copy->rows + k * bed->count,
                (size_t)bed->count * sizeof *rows[k]);
@@ -70,8 +70,8 @@ bool gb_bed_copy_restore(struct gb_bed *bed, const struct gb_bed_copy *copy,
     bed->die = copy->die;
     bed->skin = copy->skin;
     bed->listed = false; /* made anew at the next evaluation, from these: */
-    return gb_bed_list_keep(&bed->pairs, &copy->pairs, bed->count, err) &&
-           gb_bed_list_keep(&bed->walls, &copy->walls, bed->count, err);
+    return gb_bed_list_copy_touching(&bed->pairs, &copy->pairs, bed->count, err) &&
+           gb_bed_list_copy_touching(&bed->walls, &copy->walls, bed->count, err);
 }
 
 static uint64_t mix(uint64_t hash, const void *data, size_t bytes)
@@ -103,10 +103,10 @@ uint64_t gb_bed_copy_hash(const struct gb_bed *bed)
 {
     const size_t bytes = (size_t)bed->count * sizeof(gb_bed_row);
     uint64_t hash = UINT64_C(14695981039346656037);
-    hash = mix(hash, bed->place, bytes);
-    hash = mix(hash, bed->speed, bytes);
+    hash = mix(hash, bed->position, bytes);
+    hash = mix(hash, bed->velocity, bytes);
     hash = mix(hash, bed->spin, bytes);
-    hash = mix(hash, &bed->die.punch_place, sizeof bed->die.punch_place);
-    hash = mix(hash, &bed->die.punch_speed, sizeof bed->die.punch_speed);
+    hash = mix(hash, &bed->die.punch_position, sizeof bed->die.punch_position);
+    hash = mix(hash, &bed->die.punch_velocity, sizeof bed->die.punch_velocity);
     return mix_list(mix_list(hash, &bed->pairs), &bed->walls);
 }

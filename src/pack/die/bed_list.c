@@ -43,7 +43,7 @@ static void add_slot(struct gb_bed_list *list, int64_t i, int64_t other,
                      const struct gb_bed *bed)
 {
     const bool wall = list == &bed->walls;
-    const double radius[2] = {bed->place[i][3], wall ? HUGE_VAL : bed->place[other][3]};
+    const double radius[2] = {bed->position[i][3], wall ? HUGE_VAL : bed->position[other][3]};
     const double mass[2] = {bed->mass[i], wall ? HUGE_VAL : bed->mass[other]};
     list->first[list->count] = (int32_t)i;
     list->other[list->count] = (int32_t)other;
@@ -52,7 +52,7 @@ static void add_slot(struct gb_bed_list *list, int64_t i, int64_t other,
 
 static double *history(const struct gb_bed_contacts *contacts, int k)
 {
-    double *const plane[GB_BED_HISTORY] = {contacts->deepest, contacts->rest,
+    double *const plane[GB_BED_HISTORY] = {contacts->deepest, contacts->permanent,
                                            contacts->shear[0], contacts->shear[1],
                                            contacts->shear[2]};
     return plane[k];
@@ -67,7 +67,7 @@ static void copy_slot(struct gb_bed_contacts *to, int64_t slot,
     to->normal[slot] = from->normal[old];
 }
 
-void gb_bed_list_inherit(struct gb_bed_list *to, const struct gb_bed_list *from,
+void gb_bed_list_transfer(struct gb_bed_list *to, const struct gb_bed_list *from,
                          int64_t particles)
 {
     for (int64_t i = 0; i < particles; i++) {
@@ -83,7 +83,7 @@ void gb_bed_list_inherit(struct gb_bed_list *to, const struct gb_bed_list *from,
     }
 }
 
-bool gb_bed_list_keep(struct gb_bed_list *to, const struct gb_bed_list *from,
+bool gb_bed_list_copy_touching(struct gb_bed_list *to, const struct gb_bed_list *from,
                       int64_t particles, struct gb_error *err)
 {
     int64_t touching = 0;
@@ -122,7 +122,7 @@ static bool list_walls(struct gb_bed *bed, struct gb_error *err)
 {
     double unit[3];
     struct gb_bed_list *list = &bed->walls;
-    swap(list, &bed->spare_walls);
+    swap(list, &bed->previous_walls);
     if (!make_room(list, bed->count, GB_DIE_WALLS * bed->count, err)) {
         return false;
     }
@@ -131,14 +131,14 @@ static bool list_walls(struct gb_bed *bed, struct gb_error *err)
         list->start[i] = list->count;
         for (int wall = 0; wall < GB_DIE_WALLS; wall++) {
             const double overlap = gb_die_overlap(&bed->die, (enum gb_die_wall)wall,
-                                                  bed->place[i], bed->place[i][3], unit);
+                                                  bed->position[i], bed->position[i][3], unit);
             if (overlap > -bed->skin) {
                 add_slot(list, i, wall, bed);
             }
         }
     }
     list->start[bed->count] = list->count;
-    gb_bed_list_inherit(list, &bed->spare_walls, bed->count);
+    gb_bed_list_transfer(list, &bed->previous_walls, bed->count);
     return true;
 }
 
@@ -150,8 +150,8 @@ static struct gb_hgrid_box box_of(const struct gb_bed *bed)
                                .high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
     for (int64_t i = 0; i < bed->count; i++) {
         for (int k = 0; k < 3; k++) {
-            box.low[k] = fmin(box.low[k], bed->place[i][k]);
-            box.high[k] = fmax(box.high[k], bed->place[i][k]);
+            box.low[k] = fmin(box.low[k], bed->position[i][k]);
+            box.high[k] = fmax(box.high[k], bed->position[i][k]);
         }
     }
     return box;
@@ -161,23 +161,23 @@ static bool list_pairs(struct gb_bed *bed, struct gb_error *err)
 {
     struct gb_bed_list *list = &bed->pairs;
     const struct gb_hgrid_box box = box_of(bed);
-    if (!gb_hgrid_build(&bed->sift, &box, bed->count, (const gb_bed_row *)bed->place,
+    if (!gb_hgrid_build(&bed->hgrid, &box, bed->count, (const gb_bed_row *)bed->position,
                         NULL, bed->skin, err)) {
         return false;
     }
-    swap(list, &bed->spare_pairs);
-    if (!make_room(list, bed->count, bed->sift.pair_count, err)) {
+    swap(list, &bed->previous_pairs);
+    if (!make_room(list, bed->count, bed->hgrid.pair_count, err)) {
         return false;
     }
     list->count = 0;
     for (int64_t i = 0; i < bed->count; i++) {
         list->start[i] = list->count;
-        for (int64_t k = bed->sift.start[i]; k < bed->sift.start[i + 1]; k++) {
-            add_slot(list, i, bed->sift.other[k], bed);
+        for (int64_t k = bed->hgrid.start[i]; k < bed->hgrid.start[i + 1]; k++) {
+            add_slot(list, i, bed->hgrid.other[k], bed);
         }
     }
     list->start[bed->count] = list->count;
-    gb_bed_list_inherit(list, &bed->spare_pairs, bed->count);
+    gb_bed_list_transfer(list, &bed->previous_pairs, bed->count);
     return true;
 }
 

@@ -11,11 +11,11 @@ void gb_bed_list_finish(struct gb_bed_list *list);
 bool gb_bed_list_rebuild(struct gb_bed *bed, struct gb_error *err);
 
 /* Gives the contacts of `to` the histories that `from` holds for the same pairs. */
-void gb_bed_list_inherit(struct gb_bed_list *to, const struct gb_bed_list *from,
+void gb_bed_list_transfer(struct gb_bed_list *to, const struct gb_bed_list *from,
                          int64_t particles);
 
 /* The touching contacts of a list, with their histories. */
-bool gb_bed_list_keep(struct gb_bed_list *to, const struct gb_bed_list *from,
+bool gb_bed_list_copy_touching(struct gb_bed_list *to, const struct gb_bed_list *from,
                       int64_t particles, struct gb_error *err);
 
 #endif

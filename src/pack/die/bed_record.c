@@ -11,8 +11,8 @@
 static const struct gb_record_member members[] = {
     {"bed/funnel", GB_RECORD_BOOL, 1, AT(die.funnel), "1"},
     {"bed/punch", GB_RECORD_BOOL, 1, AT(die.punch), "1"},
-    {"bed/punch_place", GB_RECORD_DOUBLE, 1, AT(die.punch_place), "d"},
-    {"bed/punch_speed", GB_RECORD_DOUBLE, 1, AT(die.punch_speed), "d/T"},
+    {"bed/punch_place", GB_RECORD_DOUBLE, 1, AT(die.punch_position), "d"},
+    {"bed/punch_speed", GB_RECORD_DOUBLE, 1, AT(die.punch_velocity), "d/T"},
     {"bed/stiffest", GB_RECORD_DOUBLE, 1, AT(tally.stiffest), "1/T^2"},
     {"bed/floor_force", GB_RECORD_DOUBLE, 1, AT(tally.floor), "E d^2"},
     {"bed/punch_force", GB_RECORD_DOUBLE, 1, AT(tally.punch), "E d^2"},
@@ -39,7 +39,7 @@ static bool check_places(const struct gb_bed *bed, const double *mass,
                          struct gb_error *err)
 {
     for (int64_t i = 0; i < bed->count; i++) {
-        const double *x = bed->place[i];
+        const double *x = bed->position[i];
         const double d = 2.0 * x[3];
         const double far = fabs(x[0]) + fabs(x[1]) + fabs(x[2]);
         if (!(far < 1e9) || fabs(d * d * d - mass[i]) > 1e-9 * mass[i]) {
@@ -96,7 +96,7 @@ static bool exchange_list(struct gb_bed *bed, bool walls, struct gb_bed_list *li
     }
     list->count = count;
     struct gb_bed_contacts *c = &list->contacts;
-    double *const plane[6] = {c->deepest,  c->rest,     c->shear[0],
+    double *const plane[6] = {c->deepest,  c->permanent,     c->shear[0],
                               c->shear[1], c->shear[2], c->normal};
     int32_t *const index[2] = {list->first, list->other};
     for (int k = 0; k < 8; k++) {
@@ -118,10 +118,10 @@ static bool exchange_contacts(struct gb_bed *bed, bool walls, struct gb_record *
 {
     struct gb_bed_list *own = walls ? &bed->walls : &bed->pairs;
     struct gb_bed_list kept = {0};
-    bool done = record->loading || gb_bed_list_keep(&kept, own, bed->count, err);
+    bool done = record->loading || gb_bed_list_copy_touching(&kept, own, bed->count, err);
     done = done && exchange_list(bed, walls, &kept, record, err);
     if (done && record->loading) {
-        done = gb_bed_list_keep(own, &kept, bed->count, err);
+        done = gb_bed_list_copy_touching(own, &kept, bed->count, err);
         bed->listed = false;
     }
     gb_bed_list_finish(&kept);
@@ -132,8 +132,8 @@ bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error
 {
     return gb_record_members(record, members, sizeof members / sizeof members[0], bed,
                              err) &&
-           rows(bed, record, "bed/place", "d", bed->place, err) &&
-           rows(bed, record, "bed/speed", "d/T", bed->speed, err) &&
+           rows(bed, record, "bed/place", "d", bed->position, err) &&
+           rows(bed, record, "bed/speed", "d/T", bed->velocity, err) &&
            rows(bed, record, "bed/spin", "1/T", bed->spin, err) &&
            rows(bed, record, "bed/force", "E d^2", bed->force, err) &&
            rows(bed, record, "bed/torque", "E d^3", bed->torque, err) &&

@@ -76,7 +76,7 @@ double gb_die_overlap(const struct gb_die *die, enum gb_die_wall wall, const dou
     case GB_DIE_SIDE:
         return side_overlap(die, x, radius, unit);
     case GB_DIE_PUNCH:
-        return die->punch ? plane_overlap(die->punch_place - x[2], radius, -1.0, unit)
+        return die->punch ? plane_overlap(die->punch_position - x[2], radius, -1.0, unit)
                           : -INFINITY;
     case GB_DIE_FUNNEL:
         return funnel_overlap(die, x, radius, unit);
@@ -86,15 +86,15 @@ double gb_die_overlap(const struct gb_die *die, enum gb_die_wall wall, const dou
     return -INFINITY;
 }
 
-double gb_die_room(const struct gb_die *die, double z)
+double gb_die_radius_at(const struct gb_die *die, double z)
 {
     return die->funnel && z > die->height
                ? die->outlet + (z - die->height) * die->sine / die->cosine
                : die->radius;
 }
 
-bool gb_die_holds(const struct gb_die *die, const double x[3])
+bool gb_die_contains(const struct gb_die *die, const double x[3])
 {
-    const bool below = !die->punch || x[2] < die->punch_place;
-    return x[2] > 0.0 && below && across(x) < gb_die_room(die, x[2]) && x[2] < HUGE_VAL;
+    const bool below = !die->punch || x[2] < die->punch_position;
+    return x[2] > 0.0 && below && across(x) < gb_die_radius_at(die, x[2]) && x[2] < HUGE_VAL;
 }

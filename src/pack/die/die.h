@@ -15,7 +15,7 @@ struct gb_die {
     double sine, cosine; /* of the angle between the cone's wall and the axis */
     /* The punch: a plane that presses from above. */
     bool punch;
-    double punch_place, punch_speed; /* along z */
+    double punch_position, punch_velocity; /* along z */
 };
 
 enum gb_die_wall { GB_DIE_FLOOR, GB_DIE_SIDE, GB_DIE_PUNCH, GB_DIE_FUNNEL, GB_DIE_WALLS };
@@ -27,9 +27,9 @@ double gb_die_overlap(const struct gb_die *die, enum gb_die_wall wall, const dou
 
 /* Is the centre where powder may be: inside the walls, whether it touches them or not?
  * False for what is not a number. */
-bool gb_die_holds(const struct gb_die *die, const double x[3]);
+bool gb_die_contains(const struct gb_die *die, const double x[3]);
 
 /* Radius of the room at height z, on the axis of which a centre may be. */
-double gb_die_room(const struct gb_die *die, double z);
+double gb_die_radius_at(const struct gb_die *die, double z);
 
 #endif

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "pack/die/pour.h"
+#include "pack/die/random_insertion.h"
 #include "pack/structure/assign_sizes.h"
 
 /* Density of the loosest filling for which an automatic height leaves room, with its
@@ -84,7 +84,7 @@ static bool size_die(struct gb_die *die, const struct gb_params *params,
     return true;
 }
 
-bool gb_filling_bare(struct gb_bed **out, const struct gb_params *params,
+bool gb_filling_allocate(struct gb_bed **out, const struct gb_params *params,
                      const struct gb_model *model, struct gb_error *err)
 {
     const struct gb_bed_law law = gb_filling_law(params);
@@ -104,10 +104,10 @@ bool gb_filling_create(struct gb_bed **out, const struct gb_params *params,
                        void *data, struct gb_error *err)
 {
     struct gb_bed *bed = NULL;
-    if (!gb_filling_bare(&bed, params, model, err)) {
+    if (!gb_filling_allocate(&bed, params, model, err)) {
         return false;
     }
-    if (!gb_pour_place(bed, params->seed, model->die.loose, cancelled, data, err)) {
+    if (!gb_random_insertion_place(bed, params->seed, model->die.loose_density, cancelled, data, err)) {
         gb_bed_destroy(bed);
         return false;
     }

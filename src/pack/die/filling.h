@@ -17,7 +17,7 @@ bool gb_filling_create(struct gb_bed **out, const struct gb_params *params,
                        void *data, struct gb_error *err);
 
 /* The same bed before its spheres have a place: they are to be loaded. */
-bool gb_filling_bare(struct gb_bed **out, const struct gb_params *params,
+bool gb_filling_allocate(struct gb_bed **out, const struct gb_params *params,
                      const struct gb_model *model, struct gb_error *err);
 
 /* Law of filling: Hertz without friction between particles, P3 section 5. */

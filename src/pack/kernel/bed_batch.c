@@ -25,9 +25,9 @@ INLINE void respond(const struct gb_bed_law *law, struct bed_terms t,
                     struct gb_bed_batch *restrict b, struct gb_bed_contacts *restrict c,
                     int64_t slot)
 {
-    const double *restrict hertz = c->hertz + slot, *restrict damp = c->damp + slot;
-    const double *restrict light = c->light + slot, *restrict cross = c->cross + slot;
-    double *restrict deepest = c->deepest + slot, *restrict rest = c->rest + slot;
+    const double *restrict hertz = c->hertz + slot, *restrict damping = c->damping + slot;
+    const double *restrict inverse_mass = c->inverse_mass + slot, *restrict transition = c->transition + slot;
+    double *restrict deepest = c->deepest + slot, *restrict permanent = c->permanent + slot;
     double *restrict sx = c->shear[0] + slot, *restrict sy = c->shear[1] + slot;
     double *restrict sz = c->shear[2] + slot, *restrict normal = c->normal + slot;
     const double share = (2.0 + law->normal.exponent) / 3.0;
@@ -45,13 +45,13 @@ INLINE void respond(const struct gb_bed_law *law, struct bed_terms t,
         double yields = 0.0;
         if (t.storakers) {
             const double reached = deepest[k], live = larger(h, 1e-300);
-            const double fresh = loaded_part(t, share, live, cross[k]);
+            const double fresh = loaded_part(t, share, live, transition[k]);
             const bool loads = h >= reached;
-            const double flat = touching * (loads ? h - fresh : rest[k]);
+            const double flat = touching * (loads ? h - fresh : permanent[k]);
             part = larger(h - flat, 0.0);
             yields = mask(loads & (flat != 0.0));
             deepest[k] = larger(touching * reached, h);
-            rest[k] = flat;
+            permanent[k] = flat;
         }
         const double root = sqrt(part);
         const double elastic = hertz[k] * part * root, steep = 1.5 * hertz[k] * root;
@@ -60,9 +60,9 @@ INLINE void respond(const struct gb_bed_law *law, struct bed_terms t,
             const double soft = slope * elastic / larger(h, 1e-300);
             stiffness = yields * soft + (1.0 - yields) * steep;
         }
-        const double dashpot = damp[k] * sqrt(stiffness) * parting;
+        const double dashpot = damping[k] * sqrt(stiffness) * parting;
         const double fn = larger(elastic - dashpot, 0.0);
-        const double rate = steep * light[k];
+        const double rate = steep * inverse_mass[k];
         stiffest = rate > stiffest ? rate : stiffest;
         double fx = fn * nx, fy = fn * ny, fz = fn * nz;
         if (t.friction) {

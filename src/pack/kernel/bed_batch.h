@@ -39,7 +39,7 @@ typedef double gb_bed_row[4];
 /* What a batch of pairs takes from its particles and gives them back; the particles of
  * pair k are first[k] and other[k].  Without friction neither spin nor torque is used. */
 struct gb_bed_rows {
-    const gb_bed_row *place, *speed, *spin;
+    const gb_bed_row *position, *velocity, *spin;
     gb_bed_row *force, *torque;
     const int32_t *first, *other;
     bool friction;

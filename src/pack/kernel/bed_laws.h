@@ -80,10 +80,10 @@ INLINE double exp2_of(double t)
  * With h_x the overlap where (2) and (16) meet, F = (16) means y = h_x (h/h_x)^((2+m)/3):
  * one power of a ratio near 1 instead of two of h.  Below h_x the lesser force is Hertz'
  * own and y = h; the printed law follows (16) there too. */
-INLINE double loaded_part(struct bed_terms t, double share, double h, double cross)
+INLINE double loaded_part(struct bed_terms t, double share, double h, double transition)
 {
-    const double ratio = h / cross;
-    const double plastic = cross * exp2_of(share * log2_of(ratio));
+    const double ratio = h / transition;
+    const double plastic = transition * exp2_of(share * log2_of(ratio));
     return (t.printed | (ratio > 1.0)) ? plastic : h;
 }
 

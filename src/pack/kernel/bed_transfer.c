@@ -6,10 +6,10 @@ static void fill_from(const struct gb_bed_rows *rows, struct gb_bed_batch *b, in
 {
     for (int k = from; k < b->n; k++) {
         const int32_t i = rows->first[k], j = rows->other[k];
-        const double *xi = rows->place[i], *xj = rows->place[j];
+        const double *xi = rows->position[i], *xj = rows->position[j];
         for (int c = 0; c < 3; c++) {
             b->arm[c][k] = xi[c] - xj[c];
-            b->slip[c][k] = rows->speed[i][c] - rows->speed[j][c];
+            b->slip[c][k] = rows->velocity[i][c] - rows->velocity[j][c];
         }
         b->reach[k] = xi[3] + xj[3];
         for (int c = 0; c < 3 && rows->friction; c++) {
@@ -23,7 +23,7 @@ static void spill_from(const struct gb_bed_rows *rows, const struct gb_bed_batch
 {
     for (int k = from; k < b->n; k++) {
         const int32_t i = rows->first[k], j = rows->other[k];
-        const double ri = rows->place[i][3], rj = rows->place[j][3];
+        const double ri = rows->position[i][3], rj = rows->position[j][3];
         for (int c = 0; c < 3; c++) {
             rows->force[i][c] += b->force[c][k];
             rows->force[j][c] -= b->force[c][k];
@@ -75,8 +75,8 @@ typedef double v4 __attribute__((vector_size(32), aligned(8), may_alias));
 GB_TARGET_256 static void fill_256(const struct gb_bed_rows *rows, struct gb_bed_batch *b)
 {
     const int32_t *restrict first = rows->first, *restrict other = rows->other;
-    const gb_bed_row *restrict place = rows->place;
-    const gb_bed_row *restrict speed = rows->speed, *restrict spin = rows->spin;
+    const gb_bed_row *restrict position = rows->position;
+    const gb_bed_row *restrict velocity = rows->velocity, *restrict spin = rows->spin;
     const bool friction = rows->friction;
     const int n = b->n;
     int k = 0;
@@ -84,9 +84,9 @@ GB_TARGET_256 static void fill_256(const struct gb_bed_rows *rows, struct gb_bed
         v4 arm[4], slip[4], roll[4] = {{0}};
         for (int p = 0; p < 4; p++) {
             const int32_t i = first[k + p], j = other[k + p];
-            const v4 xi = ROW(place, i), xj = ROW(place, j);
+            const v4 xi = ROW(position, i), xj = ROW(position, j);
             arm[p] = SHUFFLE(xi - xj, xi + xj, 0, 1, 2, 7);
-            slip[p] = ROW(speed, i) - ROW(speed, j);
+            slip[p] = ROW(velocity, i) - ROW(velocity, j);
             if (friction) {
                 const v4 ri = SHUFFLE(xi, xi, 3, 3, 3, 3),
                          rj = SHUFFLE(xj, xj, 3, 3, 3, 3);
@@ -114,7 +114,7 @@ GB_TARGET_256 static void spill_256(const struct gb_bed_rows *rows,
                                     const struct gb_bed_batch *b)
 {
     const int32_t *restrict first = rows->first, *restrict other = rows->other;
-    const gb_bed_row *restrict place = rows->place;
+    const gb_bed_row *restrict position = rows->position;
     gb_bed_row *force_of = rows->force, *torque_of = rows->torque;
     const bool friction = rows->friction;
     const int n = b->n;
@@ -138,7 +138,7 @@ GB_TARGET_256 static void spill_256(const struct gb_bed_rows *rows,
         TRANSPOSE(moment[0], moment[1], moment[2], moment[3]);
         for (int p = 0; p < 4; p++) {
             const int32_t i = first[k + p], j = other[k + p];
-            const v4 xi = ROW(place, i), xj = ROW(place, j);
+            const v4 xi = ROW(position, i), xj = ROW(position, j);
             *(v4 *)torque_of[i] += SHUFFLE(xi, xi, 3, 3, 3, 3) * moment[p];
             *(v4 *)torque_of[j] += SHUFFLE(xj, xj, 3, 3, 3, 3) * moment[p];
         }

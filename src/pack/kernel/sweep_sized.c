@@ -49,14 +49,14 @@ static void load(const struct gb_world *world, int64_t k, struct touch *touch)
     gb_unequal_pair_init(&touch->law, world->model, world->diameter[i],
                          world->diameter[j]);
     touch->distance = sqrt(gb_world_arm_of(world, near, i, k, touch->r));
-    touch->overlap = touch->law.span - touch->distance;
+    touch->overlap = touch->law.mean_diameter - touch->distance;
     touch->deepest = gb_contacts_deepest(contacts, k);
     touch->pivot = gb_contacts_value(contacts, contacts->pivot, k);
     for (int c = 0; c < 3; c++) {
         const double ti = world->turn[3 * i + c], tj = world->turn[3 * j + c];
         touch->n[c] = touch->r[c] / touch->distance;
         touch->turn_sum[c] = ti + tj;
-        touch->turn_apart[c] = ti * touch->law.inverse[0] - tj * touch->law.inverse[1];
+        touch->turn_apart[c] = ti * touch->law.inverse_diameter[0] - tj * touch->law.inverse_diameter[1];
         touch->shear[c] = gb_contacts_value(contacts, contacts->shear[c], k);
         touch->roll[c] = gb_contacts_value(contacts, contacts->roll[c], k);
     }
@@ -101,7 +101,7 @@ static void move_springs(const struct gb_model *model, struct touch *touch,
                          const double arm[3])
 {
     const double share = model->slip.motion, *n = touch->n, *w = touch->turn_sum;
-    const double lever = 0.5 * touch->distance / touch->law.span;
+    const double lever = 0.5 * touch->distance / touch->law.mean_diameter;
     const double motion[3] = {touch->r[0] - arm[0] - lever * (w[1] * n[2] - w[2] * n[1]),
                               touch->r[1] - arm[1] - lever * (w[2] * n[0] - w[0] * n[2]),
                               touch->r[2] - arm[2] - lever * (w[0] * n[1] - w[1] * n[0])};
@@ -197,7 +197,7 @@ static void load_springs(const struct gb_model *model, struct touch *touch,
 static void push(const struct gb_model *model, struct touch *touch, double row[9])
 {
     double shear[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
-    const double *n = touch->n, lever = 0.5 * touch->distance / touch->law.span;
+    const double *n = touch->n, lever = 0.5 * touch->distance / touch->law.mean_diameter;
     touch->f_elastic =
         gb_law_unequal_elastic(&touch->law, touch->deepest, touch->overlap, NULL);
     if (model->terms.friction) {
@@ -207,8 +207,8 @@ static void push(const struct gb_model *model, struct touch *touch, double row[9
         const int u = (c + 1) % 3, v = (c + 2) % 3;
         const double both = -lever * (n[u] * shear[v] - n[v] * shear[u]);
         row[c] = (touch->f_elastic - touch->law.adhesion) * n[c] + shear[c];
-        row[3 + c] = both - moment[c] * touch->law.inverse[1];
-        row[6 + c] = both + moment[c] * touch->law.inverse[0];
+        row[3 + c] = both - moment[c] * touch->law.inverse_diameter[1];
+        row[6 + c] = both + moment[c] * touch->law.inverse_diameter[0];
     }
 }
 
@@ -217,8 +217,8 @@ static void pull_apart(const struct gb_model *model, const struct gb_law_unequal
                        const double r[3], double distance, double force[3])
 {
     const bool reached =
-        model->terms.attraction && distance - law->span < model->numerics.cutoff - 1.0;
-    const double pull = reached ? gb_law_unequal_pull(law, distance) / distance : 0.0;
+        model->terms.attraction && distance - law->mean_diameter < model->numerics.cutoff - 1.0;
+    const double pull = reached ? gb_law_unequal_attraction(law, distance) / distance : 0.0;
     for (int c = 0; c < 3; c++) {
         force[c] = -pull * r[c];
     }
@@ -244,7 +244,7 @@ static void sweep_near(struct gb_world *world, int64_t k)
     } else {
         pull_apart(world->model, &touch.law, touch.r, touch.distance, row);
     }
-    row[SHARE] = touch.overlap / touch.law.span;
+    row[SHARE] = touch.overlap / touch.law.mean_diameter;
     store(world, k, &touch);
 }
 

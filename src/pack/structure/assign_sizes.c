@@ -33,12 +33,12 @@ bool gb_assign_sizes(const struct gb_sizes *sizes, int64_t count, uint64_t seed,
 bool gb_assign_sizes_model(const struct gb_model *model, double *diameter,
                            struct gb_error *err)
 {
-    if (model->sized &&
+    if (model->polydisperse &&
         !gb_assign_sizes(&model->sizes, model->count, model->seed, diameter, err)) {
         return false;
     }
     for (int64_t i = 0; i < model->count; i++) {
-        diameter[i] = model->sized ? diameter[i] / model->metre_per_length : 1.0;
+        diameter[i] = model->polydisperse ? diameter[i] / model->metre_per_length : 1.0;
     }
     return true;
 }

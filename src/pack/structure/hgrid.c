@@ -13,69 +13,69 @@ static const int64_t spheres_most = (int64_t)1 << 28;
 /* Pairs that may be found however few the spheres are. */
 static const int64_t pairs_least = 1 << 16;
 
-static void drop_pairs(struct gb_hgrid *sift)
+static void drop_pairs(struct gb_hgrid *hgrid)
 {
-    gb_alloc_free(sift->other);
-    gb_alloc_free(sift->found);
-    gb_alloc_free(sift->earlier);
-    sift->other = sift->found = sift->earlier = NULL;
-    sift->pair_capacity = 0;
+    gb_alloc_free(hgrid->other);
+    gb_alloc_free(hgrid->found);
+    gb_alloc_free(hgrid->earlier);
+    hgrid->other = hgrid->found = hgrid->earlier = NULL;
+    hgrid->pair_capacity = 0;
 }
 
-void gb_hgrid_finish(struct gb_hgrid *sift)
+void gb_hgrid_finish(struct gb_hgrid *hgrid)
 {
-    drop_pairs(sift);
-    gb_alloc_free(sift->start);
-    gb_alloc_free(sift->sphere);
-    gb_alloc_free(sift->name);
-    gb_alloc_free(sift->cell);
-    gb_alloc_free(sift->cell_start);
-    gb_alloc_free(sift->later_start);
-    *sift = (struct gb_hgrid){0};
+    drop_pairs(hgrid);
+    gb_alloc_free(hgrid->start);
+    gb_alloc_free(hgrid->sphere);
+    gb_alloc_free(hgrid->name);
+    gb_alloc_free(hgrid->cell);
+    gb_alloc_free(hgrid->cell_start);
+    gb_alloc_free(hgrid->later_start);
+    *hgrid = (struct gb_hgrid){0};
 }
 
-bool gb_hgrid_init(struct gb_hgrid *sift, int64_t capacity, struct gb_error *err)
+bool gb_hgrid_init(struct gb_hgrid *hgrid, int64_t capacity, struct gb_error *err)
 {
-    *sift = (struct gb_hgrid){.capacity = capacity, .levels = GB_HGRID_LEVELS};
+    *hgrid = (struct gb_hgrid){.capacity = capacity, .levels = GB_HGRID_LEVELS};
     if (capacity < 0 || capacity > spheres_most) {
         return gb_error_set(err, GB_ERR_INPUT, "%lld spheres: accepted up to %lld",
                             (long long)capacity, (long long)spheres_most);
     }
     const size_t n = (size_t)capacity;
     const size_t cells =
-        GB_SIFT_CELLS_PER_SPHERE * n + GB_HGRID_LEVELS * GB_SIFT_CELLS_LEAST + 1;
-    sift->start = gb_alloc_array(n + 1, sizeof *sift->start, err);
-    sift->later_start = gb_alloc_array(n + 1, sizeof *sift->later_start, err);
-    sift->sphere = gb_alloc_array(n, sizeof *sift->sphere, err);
-    sift->name = gb_alloc_array(n, sizeof *sift->name, err);
-    sift->cell = gb_alloc_array(n, sizeof *sift->cell, err);
-    sift->cell_start = gb_alloc_array(cells, sizeof *sift->cell_start, err);
-    if (!sift->start || !sift->later_start || !sift->sphere || !sift->name ||
-        !sift->cell || !sift->cell_start) {
-        gb_hgrid_finish(sift);
+        GB_HGRID_CELLS_PER_SPHERE * n + GB_HGRID_LEVELS * GB_HGRID_CELLS_MIN + 1;
+    hgrid->start = gb_alloc_array(n + 1, sizeof *hgrid->start, err);
+    hgrid->later_start = gb_alloc_array(n + 1, sizeof *hgrid->later_start, err);
+    hgrid->sphere = gb_alloc_array(n, sizeof *hgrid->sphere, err);
+    hgrid->name = gb_alloc_array(n, sizeof *hgrid->name, err);
+    hgrid->cell = gb_alloc_array(n, sizeof *hgrid->cell, err);
+    hgrid->cell_start = gb_alloc_array(cells, sizeof *hgrid->cell_start, err);
+    if (!hgrid->start || !hgrid->later_start || !hgrid->sphere || !hgrid->name ||
+        !hgrid->cell || !hgrid->cell_start) {
+        gb_hgrid_finish(hgrid);
         return false;
     }
     return true;
 }
 
-static bool ready(struct gb_hgrid *sift, int64_t count, struct gb_error *err)
+static bool ready(struct gb_hgrid *hgrid, int64_t count, struct gb_error *err)
 {
-    sift->pair_count = 0;
-    if (count <= sift->capacity && sift->start) {
+    hgrid->pair_count = 0;
+    if (count <= hgrid->capacity && hgrid->start) {
         return true;
     }
-    const int levels = sift->start ? sift->levels : GB_HGRID_LEVELS;
-    gb_hgrid_finish(sift);
-    const bool good = gb_hgrid_init(sift, count, err);
-    sift->levels = levels;
+    const int levels = hgrid->start ? hgrid->levels : GB_HGRID_LEVELS;
+    gb_hgrid_finish(hgrid);
+    const bool good = gb_hgrid_init(hgrid, count, err);
+    hgrid->levels = levels;
     return good;
 }
 
 /* Room for `need` pairs; keeps those found so far. */
-static bool reserve(struct gb_sift_search *search, int64_t need, struct gb_error *err)
+static bool reserve(struct gb_hgrid_search *search, int64_t need, struct gb_error *err)
 {
-    struct gb_hgrid *sift = search->sift;
-    const int64_t crowd = GB_SIFT_CROWD * search->count;
+    struct gb_hgrid *hgrid = search->hgrid;
+    const int64_t crowd = GB_HGRID_PAIRS_PER_SPHERE_MAX * search->count;
     if (search->found > (crowd > pairs_least ? crowd : pairs_least)) {
         return gb_error_set(err, GB_ERR_GUARD,
                             "the spheres crowd: more than %lld pairs among %lld",
@@ -91,18 +91,18 @@ static bool reserve(struct gb_sift_search *search, int64_t need, struct gb_error
         return false;
     }
     if (search->found > 0) {
-        memcpy(found, sift->found, 2 * (size_t)search->found * sizeof *found);
+        memcpy(found, hgrid->found, 2 * (size_t)search->found * sizeof *found);
     }
-    drop_pairs(sift);
-    sift->found = found;
-    sift->other = other;
-    sift->earlier = earlier;
-    sift->pair_capacity = (int64_t)room;
+    drop_pairs(hgrid);
+    hgrid->found = found;
+    hgrid->other = other;
+    hgrid->earlier = earlier;
+    hgrid->pair_capacity = (int64_t)room;
     return true;
 }
 
 /* Finite, not negative; and the largest reach. */
-static bool check_spheres(struct gb_sift_search *search, const double (*sphere)[4],
+static bool check_spheres(struct gb_hgrid_search *search, const double (*sphere)[4],
                           const double *margin, double skin, struct gb_error *err)
 {
     for (int64_t i = 0; i < search->count; i++) {
@@ -128,8 +128,8 @@ struct span {
     int low, high;
 };
 
-static struct span span_of(const struct gb_sift_search *search,
-                           const struct gb_sift_level *level, int k, double x,
+static struct span span_of(const struct gb_hgrid_search *search,
+                           const struct gb_hgrid_level *level, int k, double x,
                            double range)
 {
     const int cells = level->cells[k];
@@ -150,19 +150,19 @@ static int into(int index, int cells)
 }
 
 /* Sorted spheres [from, to) against sphere p. */
-static bool scan(struct gb_sift_search *search, int64_t p, int64_t from, int64_t to,
+static bool scan(struct gb_hgrid_search *search, int64_t p, int64_t from, int64_t to,
                  struct gb_error *err)
 {
-    struct gb_hgrid *sift = search->sift;
-    if (search->found + (to - from) > sift->pair_capacity &&
+    struct gb_hgrid *hgrid = search->hgrid;
+    if (search->found + (to - from) > hgrid->pair_capacity &&
         !reserve(search, search->found + (to - from) + 8 * search->count, err)) {
         return false;
     }
-    const struct gb_sift_sphere a = sift->sphere[p];
-    const int32_t name = sift->name[p];
+    const struct gb_hgrid_sphere a = hgrid->sphere[p];
+    const int32_t name = hgrid->name[p];
     int64_t found = search->found;
     for (int64_t q = from; q < to; q++) {
-        const struct gb_sift_sphere *b = &sift->sphere[q];
+        const struct gb_hgrid_sphere *b = &hgrid->sphere[q];
         double square = 0.0;
         for (int k = 0; k < 3; k++) {
             const double r = fabs(a.x[k] - b->x[k]), other = search->edge[k] - r;
@@ -170,9 +170,9 @@ static bool scan(struct gb_sift_search *search, int64_t p, int64_t from, int64_t
             square += nearest * nearest;
         }
         const double reach = a.reach + b->reach;
-        const int32_t met = sift->name[q];
-        sift->found[2 * found] = met < name ? met : name;
-        sift->found[2 * found + 1] = met < name ? name : met;
+        const int32_t met = hgrid->name[q];
+        hgrid->found[2 * found] = met < name ? met : name;
+        hgrid->found[2 * found + 1] = met < name ? name : met;
         found += square < reach * reach;
     }
     search->found = found;
@@ -180,11 +180,11 @@ static bool scan(struct gb_sift_search *search, int64_t p, int64_t from, int64_t
 }
 
 /* One row of cells along x, which may go round the period once. */
-static bool scan_row(struct gb_sift_search *search, const struct gb_sift_level *level,
+static bool scan_row(struct gb_hgrid_search *search, const struct gb_hgrid_level *level,
                      int64_t p, int32_t row, struct span x, bool own,
                      struct gb_error *err)
 {
-    const int32_t *start = search->sift->cell_start + level->first_cell + row;
+    const int32_t *start = search->hgrid->cell_start + level->first_cell + row;
     const int cells = level->cells[0];
     struct span part[2] = {x, {0, -1}};
     if (x.low < 0) {
@@ -210,10 +210,10 @@ static bool scan_row(struct gb_sift_search *search, const struct gb_sift_level *
 
 /* Neighbours of sorted sphere p in a level: its own, where those behind p are taken, or
  * one of larger spheres. */
-static bool scan_level(struct gb_sift_search *search, const struct gb_sift_level *level,
+static bool scan_level(struct gb_hgrid_search *search, const struct gb_hgrid_level *level,
                        int64_t p, bool own, struct gb_error *err)
 {
-    const struct gb_sift_sphere *s = &search->sift->sphere[p];
+    const struct gb_hgrid_sphere *s = &search->hgrid->sphere[p];
     const double range = s->reach + level->widest;
     const int *cells = level->cells;
     struct span span[3];
@@ -232,13 +232,13 @@ static bool scan_level(struct gb_sift_search *search, const struct gb_sift_level
     return true;
 }
 
-static bool find_pairs(struct gb_sift_search *search, struct gb_error *err)
+static bool find_pairs(struct gb_hgrid_search *search, struct gb_error *err)
 {
     int64_t p = 0;
     for (int l = 0; l < GB_HGRID_LEVELS; l++) {
         for (const int64_t end = p + search->level[l].count; p < end; p++) {
             for (int m = 0; m <= l; m++) {
-                const struct gb_sift_level *level = &search->level[m];
+                const struct gb_hgrid_level *level = &search->level[m];
                 if (level->count > 0 && !scan_level(search, level, p, m == l, err)) {
                     return false;
                 }
@@ -257,39 +257,39 @@ static void add_up(int64_t *start, int64_t count)
 }
 
 /* Sorts the pairs by their later sphere, then, keeping that order, by the earlier one. */
-static void sort_pairs(struct gb_sift_search *search)
+static void sort_pairs(struct gb_hgrid_search *search)
 {
-    struct gb_hgrid *sift = search->sift;
+    struct gb_hgrid *hgrid = search->hgrid;
     const int64_t n = search->count, pairs = search->found;
-    int64_t *start = sift->start, *later = sift->later_start;
+    int64_t *start = hgrid->start, *later = hgrid->later_start;
     memset(start, 0, ((size_t)n + 1) * sizeof *start);
     memset(later, 0, ((size_t)n + 1) * sizeof *later);
     for (int64_t k = 0; k < pairs; k++) {
-        start[sift->found[2 * k] + 1]++;
-        later[sift->found[2 * k + 1] + 1]++;
+        start[hgrid->found[2 * k] + 1]++;
+        later[hgrid->found[2 * k + 1] + 1]++;
     }
     add_up(start, n);
     add_up(later, n);
     for (int64_t k = 0; k < pairs; k++) {
-        sift->earlier[later[sift->found[2 * k + 1]]++] = sift->found[2 * k];
+        hgrid->earlier[later[hgrid->found[2 * k + 1]]++] = hgrid->found[2 * k];
     }
     int64_t k = 0; /* later[j] has become the end of list j */
     for (int64_t j = 0; j < n; j++) {
         for (; k < later[j]; k++) {
-            sift->other[start[sift->earlier[k]]++] = (int32_t)j;
+            hgrid->other[start[hgrid->earlier[k]]++] = (int32_t)j;
         }
     }
     memmove(start + 1, start, (size_t)n * sizeof *start);
     start[0] = 0;
-    sift->pair_count = pairs;
+    hgrid->pair_count = pairs;
 }
 
-bool gb_hgrid_build(struct gb_hgrid *sift, const struct gb_hgrid_box *box, int64_t count,
+bool gb_hgrid_build(struct gb_hgrid *hgrid, const struct gb_hgrid_box *box, int64_t count,
                     const double (*sphere)[4], const double *margin, double skin,
                     struct gb_error *err)
 {
-    struct gb_sift_search search = {.sift = sift, .count = count};
-    if (!ready(sift, count, err) || !check_spheres(&search, sphere, margin, skin, err) ||
+    struct gb_hgrid_search search = {.hgrid = hgrid, .count = count};
+    if (!ready(hgrid, count, err) || !check_spheres(&search, sphere, margin, skin, err) ||
         !gb_hgrid_levels_bounds(&search, box, sphere, err)) {
         return false;
     }

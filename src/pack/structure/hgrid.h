@@ -30,7 +30,7 @@ struct gb_hgrid {
     int levels; /* at most; 1: the plain grid, to compare with */
 
     int64_t capacity, pair_capacity, cell_capacity;
-    struct gb_sift_sphere *sphere; /* sorted by level, then by grid cell */
+    struct gb_hgrid_sphere *sphere; /* sorted by level, then by grid cell */
     int32_t *name;                 /* of each sorted sphere */
     int32_t *cell;                 /* of each sphere */
     int32_t *cell_start;
@@ -41,8 +41,8 @@ struct gb_hgrid {
 
 /* Room for so many spheres; more are taken too, but then memory is allocated.
  * Errors: GB_ERR_MEMORY; GB_ERR_INPUT for more than 2^31 - 2. */
-bool gb_hgrid_init(struct gb_hgrid *sift, int64_t capacity, struct gb_error *err);
-void gb_hgrid_finish(struct gb_hgrid *sift);
+bool gb_hgrid_init(struct gb_hgrid *hgrid, int64_t capacity, struct gb_error *err);
+void gb_hgrid_finish(struct gb_hgrid *hgrid);
 
 /* All pairs whose gap is below skin + margin_i + margin_j; along periodic axes the gap to
  * the nearest image.  Nothing is allocated once there is room for the pairs.
@@ -51,12 +51,12 @@ void gb_hgrid_finish(struct gb_hgrid *sift);
  * margin   one per sphere, 0 or more: fast ones may need more room than others; NULL:
  * none skin     0 or more Errors: GB_ERR_MEMORY; GB_ERR_GUARD naming a sphere that is not
  * finite or has a negative radius, when a periodic edge is shorter than two reaches of
- * the largest sphere, or when spheres crowd (on average more than GB_SIFT_CROWD pairs
+ * the largest sphere, or when spheres crowd (on average more than GB_HGRID_PAIRS_PER_SPHERE_MAX pairs
  * each).  The list is empty then.
  *
  * Deterministic.  Whether a pair on the very edge of the skin is listed may depend on
  * rounding; no force depends on such a pair. */
-bool gb_hgrid_build(struct gb_hgrid *sift, const struct gb_hgrid_box *box, int64_t count,
+bool gb_hgrid_build(struct gb_hgrid *hgrid, const struct gb_hgrid_box *box, int64_t count,
                     const double (*sphere)[4], const double *margin, double skin,
                     struct gb_error *err);
 

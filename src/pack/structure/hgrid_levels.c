@@ -18,15 +18,15 @@ double gb_hgrid_levels_reach(const double sphere[4], const double *margin, int64
     return sphere[3] + 0.5 * skin + (margin ? margin[i] : 0.0);
 }
 
-static int level_of(const struct gb_sift_search *search, double reach)
+static int level_of(const struct gb_hgrid_search *search, double reach)
 {
     const double ratio = search->widest / reach;
-    const int last = search->sift->levels - 1;
+    const int last = search->hgrid->levels - 1;
     return ratio < (double)(1 << last) ? ilogb(ratio) : last;
 }
 
 /* The grids cover the box along periodic axes, elsewhere what of it holds spheres. */
-bool gb_hgrid_levels_bounds(struct gb_sift_search *search, const struct gb_hgrid_box *box,
+bool gb_hgrid_levels_bounds(struct gb_hgrid_search *search, const struct gb_hgrid_box *box,
                             const double (*sphere)[4], struct gb_error *err)
 {
     for (int k = 0; k < 3; k++) {
@@ -57,10 +57,10 @@ bool gb_hgrid_levels_bounds(struct gb_sift_search *search, const struct gb_hgrid
     return true;
 }
 
-static void shape_level(const struct gb_sift_search *search, struct gb_sift_level *level)
+static void shape_level(const struct gb_hgrid_search *search, struct gb_hgrid_level *level)
 {
     const double most =
-        fmax(GB_SIFT_CELLS_LEAST, GB_SIFT_CELLS_PER_SPHERE * (double)level->count);
+        fmax(GB_HGRID_CELLS_MIN, GB_HGRID_CELLS_PER_SPHERE * (double)level->count);
     double extent[3], cells[3] = {1.0, 1.0, 1.0};
     double width = cell_width * level->widest, product = INFINITY;
     for (int k = 0; k < 3; k++) {
@@ -81,14 +81,14 @@ static void shape_level(const struct gb_sift_search *search, struct gb_sift_leve
 }
 
 /* Grid index of a place along an axis, outside of [0, cells) clamped. */
-int gb_hgrid_levels_index(const struct gb_sift_search *search,
-                          const struct gb_sift_level *level, int k, double x)
+int gb_hgrid_levels_index(const struct gb_hgrid_search *search,
+                          const struct gb_hgrid_level *level, int k, double x)
 {
     const double at = (x - search->low[k]) * level->per_width[k];
     return (int)clamp(at, 0.0, level->cells[k] - 1);
 }
 
-static double wrapped(const struct gb_sift_search *search, int k, double x)
+static double wrapped(const struct gb_hgrid_search *search, int k, double x)
 {
     const double edge = search->edge[k], low = search->low[k];
     if (isinf(edge) || (x >= low && x < search->high[k])) {
@@ -98,59 +98,59 @@ static double wrapped(const struct gb_sift_search *search, int k, double x)
 }
 
 /* Levels, their grids, and which cell each sphere lies in. */
-void gb_hgrid_levels_assign(struct gb_sift_search *search, const double (*sphere)[4],
+void gb_hgrid_levels_assign(struct gb_hgrid_search *search, const double (*sphere)[4],
                             const double *margin, double skin)
 {
-    struct gb_hgrid *sift = search->sift;
+    struct gb_hgrid *hgrid = search->hgrid;
     for (int64_t i = 0; i < search->count; i++) {
         const double reach = gb_hgrid_levels_reach(sphere[i], margin, i, skin);
-        struct gb_sift_level *level = &search->level[level_of(search, reach)];
+        struct gb_hgrid_level *level = &search->level[level_of(search, reach)];
         level->count++;
         level->widest = fmax(level->widest, reach);
     }
     int32_t cells = 0;
     for (int l = 0; l < GB_HGRID_LEVELS; l++) {
-        struct gb_sift_level *level = &search->level[l];
+        struct gb_hgrid_level *level = &search->level[l];
         level->first_cell = cells;
         if (level->count > 0) {
             shape_level(search, level);
             cells += level->cells[0] * level->cells[1] * level->cells[2];
         }
     }
-    memset(sift->cell_start, 0, ((size_t)cells + 1) * sizeof *sift->cell_start);
+    memset(hgrid->cell_start, 0, ((size_t)cells + 1) * sizeof *hgrid->cell_start);
     for (int64_t i = 0; i < search->count; i++) {
         const double reach = gb_hgrid_levels_reach(sphere[i], margin, i, skin);
-        const struct gb_sift_level *level = &search->level[level_of(search, reach)];
+        const struct gb_hgrid_level *level = &search->level[level_of(search, reach)];
         int c = 0;
         for (int k = 2; k >= 0; k--) {
             const double x = wrapped(search, k, sphere[i][k]);
             c = c * level->cells[k] + gb_hgrid_levels_index(search, level, k, x);
         }
-        sift->cell[i] = level->first_cell + c;
-        sift->cell_start[sift->cell[i] + 1]++;
+        hgrid->cell[i] = level->first_cell + c;
+        hgrid->cell_start[hgrid->cell[i] + 1]++;
     }
     for (int32_t c = 0; c < cells; c++) {
-        sift->cell_start[c + 1] += sift->cell_start[c];
+        hgrid->cell_start[c + 1] += hgrid->cell_start[c];
     }
 }
 
 /* Counting sort by cell; a place is taken from the front of its cell, whose start moves
  * along and is put back at the end. */
-void gb_hgrid_levels_sort(struct gb_sift_search *search, const double (*sphere)[4],
+void gb_hgrid_levels_sort(struct gb_hgrid_search *search, const double (*sphere)[4],
                           const double *margin, double skin)
 {
-    struct gb_hgrid *sift = search->sift;
-    const struct gb_sift_level *last = &search->level[GB_HGRID_LEVELS - 1];
+    struct gb_hgrid *hgrid = search->hgrid;
+    const struct gb_hgrid_level *last = &search->level[GB_HGRID_LEVELS - 1];
     int32_t cells = last->first_cell;
     cells += last->count > 0 ? last->cells[0] * last->cells[1] * last->cells[2] : 0;
     for (int64_t i = 0; i < search->count; i++) {
-        const int32_t p = sift->cell_start[sift->cell[i]]++;
+        const int32_t p = hgrid->cell_start[hgrid->cell[i]]++;
         for (int k = 0; k < 3; k++) {
-            sift->sphere[p].x[k] = wrapped(search, k, sphere[i][k]);
+            hgrid->sphere[p].x[k] = wrapped(search, k, sphere[i][k]);
         }
-        sift->sphere[p].reach = gb_hgrid_levels_reach(sphere[i], margin, i, skin);
-        sift->name[p] = (int32_t)i;
+        hgrid->sphere[p].reach = gb_hgrid_levels_reach(sphere[i], margin, i, skin);
+        hgrid->name[p] = (int32_t)i;
     }
-    memmove(sift->cell_start + 1, sift->cell_start, (size_t)cells * sizeof(int32_t));
-    sift->cell_start[0] = 0;
+    memmove(hgrid->cell_start + 1, hgrid->cell_start, (size_t)cells * sizeof(int32_t));
+    hgrid->cell_start[0] = 0;
 }

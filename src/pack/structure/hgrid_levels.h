@@ -11,14 +11,14 @@ enum { GB_HGRID_LEVELS = 16 };
 
 /* Grid cells per sphere of a level at most; where spheres are rarer the cells are wider.
  */
-enum { GB_SIFT_CELLS_PER_SPHERE = 2, GB_SIFT_CELLS_LEAST = 64 };
+enum { GB_HGRID_CELLS_PER_SPHERE = 2, GB_HGRID_CELLS_MIN = 64 };
 
-struct gb_sift_sphere {
+struct gb_hgrid_sphere {
     double x[3]; /* wrapped into the box */
     double reach;
 };
 
-struct gb_sift_level {
+struct gb_hgrid_level {
     double widest; /* largest reach */
     int64_t count; /* spheres */
     int cells[3];
@@ -26,14 +26,14 @@ struct gb_sift_level {
     int32_t first_cell;  /* in cell_start */
 };
 
-struct gb_sift_search {
-    struct gb_hgrid *sift;
+struct gb_hgrid_search {
+    struct gb_hgrid *hgrid;
     double low[3], high[3]; /* of the grids */
     double edge[3];         /* INFINITY where not periodic */
     int64_t count;
     int64_t found; /* pairs so far */
     double widest;
-    struct gb_sift_level level[GB_HGRID_LEVELS]; /* the largest spheres first */
+    struct gb_hgrid_level level[GB_HGRID_LEVELS]; /* the largest spheres first */
 };
 
 /* How far a sphere reaches: pairs closer than the sum of two reaches are wanted. */
@@ -41,17 +41,17 @@ double gb_hgrid_levels_reach(const double sphere[4], const double *margin, int64
                              double skin);
 
 /* Sets where the grids lie.  Errors: GB_ERR_GUARD for a periodic edge too short. */
-bool gb_hgrid_levels_bounds(struct gb_sift_search *search, const struct gb_hgrid_box *box,
+bool gb_hgrid_levels_bounds(struct gb_hgrid_search *search, const struct gb_hgrid_box *box,
                             const double (*sphere)[4], struct gb_error *err);
 
 /* Shapes the grids and notes which cell each sphere lies in; then sorts the spheres. */
-void gb_hgrid_levels_assign(struct gb_sift_search *search, const double (*sphere)[4],
+void gb_hgrid_levels_assign(struct gb_hgrid_search *search, const double (*sphere)[4],
                             const double *margin, double skin);
-void gb_hgrid_levels_sort(struct gb_sift_search *search, const double (*sphere)[4],
+void gb_hgrid_levels_sort(struct gb_hgrid_search *search, const double (*sphere)[4],
                           const double *margin, double skin);
 
 /* Grid index of a place along an axis, outside of [0, cells) clamped. */
-int gb_hgrid_levels_index(const struct gb_sift_search *search,
-                          const struct gb_sift_level *level, int k, double x);
+int gb_hgrid_levels_index(const struct gb_hgrid_search *search,
+                          const struct gb_hgrid_level *level, int k, double x);
 
 #endif

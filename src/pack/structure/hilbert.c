@@ -77,7 +77,7 @@ bool gb_hilbert_sort(const struct gb_model *model, double *position, struct gb_e
     const double flat = fmax(model->edges[0], model->edges[2]);
     const double longest = dimension == 3 ? fmax(flat, model->edges[1]) : flat;
     const size_t n = (size_t)count;
-    if (model->sized) {
+    if (model->polydisperse) {
         return true;
     }
     struct entry *order = gb_alloc_array(n, sizeof *order, err);

@@ -5,23 +5,23 @@
 
 #include "scene/unequal_pair.h"
 
-double gb_roll_touch(const struct gb_roll *roll, int64_t j)
+double gb_roll_contact_distance(const struct gb_roll *roll, int64_t j)
 {
     struct gb_law_unequal law;
     if (!roll->diameter) {
         return roll->r_eq;
     }
     gb_unequal_pair_init(&law, roll->model, roll->own, roll->diameter[j]);
-    return law.span - gb_law_unequal_rest(&law);
+    return law.mean_diameter - gb_law_unequal_equilibrium(&law);
 }
 
 bool gb_roll_overlaps(const struct gb_roll *roll, const double place[3])
 {
     struct gb_grid_ball ball;
     struct gb_grid_hit hit;
-    gb_grid_ball_init(&ball, roll->grid, place, (1.0 - GB_ROLL_TOUCH) * roll->r_eq);
+    gb_grid_ball_init(&ball, roll->grid, place, (1.0 - GB_ROLL_TOLERANCE) * roll->r_eq);
     while (gb_grid_ball_next(&ball, &hit)) {
-        const double apart = (1.0 - GB_ROLL_TOUCH) * gb_roll_touch(roll, hit.index);
+        const double apart = (1.0 - GB_ROLL_TOLERANCE) * gb_roll_contact_distance(roll, hit.index);
         if (!roll->diameter || hit.square < apart * apart) {
             return true;
         }
@@ -55,7 +55,7 @@ static bool nearest_partner(const struct gb_roll *roll, double reach, const doub
     while (gb_grid_ball_next(&ball, &hit)) {
         const double distance = square_of_difference(hit.r, offset);
         if (hit.square > 0.0 && distance < nearest) {
-            const double touch = gb_roll_touch(roll, hit.index);
+            const double touch = gb_roll_contact_distance(roll, hit.index);
             if (roll->diameter && hit.square > (reach + touch) * (reach + touch)) {
                 continue;
             }
@@ -103,7 +103,7 @@ bool gb_roll_onto(const struct gb_roll *roll, int64_t j, const double offset[3],
                   double place[3])
 {
     const double *centre = roll->grid->position + 3 * j;
-    const double reach = gb_roll_touch(roll, j);
+    const double reach = gb_roll_contact_distance(roll, j);
     struct partner partner = {.touch = roll->r_eq};
     double found[3];
     if (!nearest_partner(roll, reach, centre, offset, &partner) ||

@@ -7,9 +7,9 @@
 #include "scene/model.h"
 #include "pack/structure/grid.h"
 
-/* Centres closer than (1 - GB_ROLL_TOUCH) r_eq overlap.  Above the rounding of a place on
+/* Centres closer than (1 - GB_ROLL_TOLERANCE) r_eq overlap.  Above the rounding of a place on
  * two spheres, so that the hexagons of 2D can close; below any distance that matters. */
-#define GB_ROLL_TOUCH 1e-9
+#define GB_ROLL_TOLERANCE 1e-9
 
 /* A new particle among those that are there, and where it touches them. */
 struct gb_roll {
@@ -22,7 +22,7 @@ struct gb_roll {
 };
 
 /* The distance at which the new particle rests on particle j. */
-double gb_roll_touch(const struct gb_roll *roll, int64_t j);
+double gb_roll_contact_distance(const struct gb_roll *roll, int64_t j);
 
 /* Does a particle at place overlap one that is there already? */
 bool gb_roll_overlaps(const struct gb_roll *roll, const double place[3]);

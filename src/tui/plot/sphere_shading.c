@@ -39,7 +39,7 @@ static float brightness(double x, double z, double depth)
 static void draw_sphere(const struct frame *frame, const struct gb_view_sample *picture,
                         int i, float *shade)
 {
-    const float *place = picture->place[i];
+    const float *place = picture->position[i];
     const double reach = fmax(picture->radius[i] * frame->scale, 0.5);
     const double col = frame->left + (place[0] + margin) * frame->scale;
     const double row =
@@ -66,7 +66,7 @@ static int layer_of(const struct gb_view_sample *picture, int i)
     if (picture->dimension != 3) {
         return 0;
     }
-    const double depth_share = picture->place[i][1] / fmax(picture->window[1], 1e-9);
+    const double depth_share = picture->position[i][1] / fmax(picture->window[1], 1e-9);
     return (int)(fmin(fmax(depth_share, 0.0), 0.999) * LAYERS);
 }
 
@@ -75,7 +75,7 @@ void gb_sphere_shading_render(const struct gb_view_sample *picture, int rows, in
 {
     /* a counting sort by layer: first[l] is where the layer's chain begins */
     int first[LAYERS];
-    int16_t next[GB_PICTURE_POINTS];
+    int16_t next[GB_VIEW_SAMPLE_POINTS];
     for (int i = 0; i < rows * cols; i++) {
         shade[i] = -1.0F;
     }

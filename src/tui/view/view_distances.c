@@ -11,14 +11,14 @@ void gb_view_distances_draw(struct gb_panel_plot *panel, const struct gb_session
     const struct gb_view_sample *picture = gb_session_shown(session).picture;
     struct gb_plot *plot = &panel->plot;
     if (picture == NULL || !picture->valid || !(picture->rdf_reach > 0.0) ||
-        !gb_panel_plot_reserve(panel, GB_PICTURE_RDF)) {
+        !gb_panel_plot_reserve(panel, GB_VIEW_SAMPLE_RDF)) {
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no packing yet");
         return;
     }
     double max = 2.0;
     double peak = 0.0;
-    for (int i = 0; i < GB_PICTURE_RDF; i++) {
-        panel->x[i] = (i + 0.5) * picture->rdf_reach / GB_PICTURE_RDF;
+    for (int i = 0; i < GB_VIEW_SAMPLE_RDF; i++) {
+        panel->x[i] = (i + 0.5) * picture->rdf_reach / GB_VIEW_SAMPLE_RDF;
         panel->y[i] = fmin(picture->rdf[i], shown_max);
         max = fmax(max, panel->y[i]);
         peak = fmax(peak, picture->rdf[i]);
@@ -32,7 +32,7 @@ void gb_view_distances_draw(struct gb_panel_plot *panel, const struct gb_session
                            .x = x_ends, .y = one, .count = 2, .ink = GB_PLOT_INK_AXIS});
     gb_plot_line(plot, &(struct gb_plot_series){.x = panel->x,
                                                 .y = panel->y,
-                                                .count = GB_PICTURE_RDF,
+                                                .count = GB_VIEW_SAMPLE_RDF,
                                                 .ink = GB_PLOT_INK_SERIES});
     snprintf(text, sizeof text, "first peak %.3g, density %.4f", peak, picture->density);
     gb_plot_text(plot, 1, plot->left + plot->field_cols / 3, GB_PLOT_INK_TEXT, text);

@@ -29,7 +29,7 @@ static bool has_bridges(const struct gb_model *model)
 static void find_range(const struct gb_model *model, double range[2])
 {
     range[0] = model->terms.attraction
-                   ? 1.0 - gb_law_dispersion_reach(&model->dispersion, gap_share)
+                   ? 1.0 - gb_law_dispersion_range(&model->dispersion, gap_share)
                    : -depth_min / 3.0;
     range[0] = fmax(range[0], -gap_max);
     range[1] = fmax(depth_min, 2.0 * model->h_eq);

@@ -38,7 +38,7 @@ static void follow_back(const struct gb_contact_pair *pair, double max, struct l
         const double h = max * (POINTS - 1 - i) / (POINTS - 1);
         double deepest = max;
         line->x[i] = 1e6 * h;
-        line->y[i] = gb_law_storakers_follow(&pair->law, pair->radius, h, &deepest).force;
+        line->y[i] = gb_law_storakers_update(&pair->law, pair->radius, h, &deepest).force;
     }
 }
 

@@ -1,4 +1,4 @@
-#include "pack/die/pour.h"
+#include "pack/die/random_insertion.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
@@ -37,7 +37,7 @@ static double cone_top(const struct gb_die *die, double volume)
 static bool boxes_open(struct boxes *boxes, const struct gb_die *die, double top,
                        double largest, int64_t count, struct gb_error *err)
 {
-    const double room = gb_die_room(die, top);
+    const double room = gb_die_radius_at(die, top);
     const double span[3] = {2.0 * room, 2.0 * room, top - die->height};
     boxes->size = 2.0 * largest;
     int64_t cells = 1;
@@ -70,7 +70,7 @@ static bool meets(const struct gb_bed *bed, int32_t item, const struct boxes *bo
                   const double x[3], double radius)
 {
     for (; item > 0; item = boxes->next[item - 1]) {
-        const double *other = bed->place[item - 1];
+        const double *other = bed->position[item - 1];
         const double dx = x[0] - other[0], dy = x[1] - other[1], dz = x[2] - other[2];
         const double reach = radius + other[3];
         if (dx * dx + dy * dy + dz * dz < reach * reach) {
@@ -101,12 +101,12 @@ static bool is_free(const struct pour *pour, const double x[3], double radius)
 static bool draw(struct pour *pour, double radius, double x[3])
 {
     const struct gb_die *die = &pour->bed->die;
-    const double room = gb_die_room(die, pour->top);
+    const double room = gb_die_radius_at(die, pour->top);
     x[0] = room * (2.0 * gsl_rng_uniform(&pour->rng) - 1.0);
     x[1] = room * (2.0 * gsl_rng_uniform(&pour->rng) - 1.0);
     x[2] = die->height + (pour->top - die->height) * gsl_rng_uniform(&pour->rng);
     double unit[3];
-    return gb_die_holds(die, x) &&
+    return gb_die_contains(die, x) &&
            gb_die_overlap(die, GB_DIE_FUNNEL, x, radius, unit) < 0.0;
 }
 
@@ -115,12 +115,12 @@ static bool place_one(struct pour *pour, int64_t i, struct gb_error *err)
     struct gb_bed *bed = pour->bed;
     double x[3];
     for (int tried = 0; tried < TRIES_MOST; tried++) {
-        if (draw(pour, bed->place[i][3], x) && is_free(pour, x, bed->place[i][3])) {
+        if (draw(pour, bed->position[i][3], x) && is_free(pour, x, bed->position[i][3])) {
             int at[3];
             cell_of(&pour->boxes, x, at);
             int32_t *first = box_at(&pour->boxes, at[0], at[1], at[2]);
             for (int k = 0; k < 3; k++) {
-                bed->place[i][k] = x[k];
+                bed->position[i][k] = x[k];
             }
             pour->boxes.next[i] = *first;
             *first = (int32_t)(i + 1);
@@ -130,7 +130,7 @@ static bool place_one(struct pour *pour, int64_t i, struct gb_error *err)
     return gb_error_set(err, GB_ERR_INPUT,
                         "die.outlet, particles.diameter: no room in the funnel for a "
                         "particle of %.3g d; accepted: a wider die or smaller particles",
-                        2.0 * bed->place[i][3]);
+                        2.0 * bed->position[i][3]);
 }
 
 static bool place_all(struct pour *pour, bool (*cancelled)(void *data), void *data,
@@ -147,7 +147,7 @@ static bool place_all(struct pour *pour, bool (*cancelled)(void *data), void *da
     return true;
 }
 
-bool gb_pour_place(struct gb_bed *bed, uint64_t seed, double density,
+bool gb_random_insertion_place(struct gb_bed *bed, uint64_t seed, double density,
                    bool (*cancelled)(void *data), void *data, struct gb_error *err)
 {
     struct pour pour = {.bed = bed};
@@ -157,11 +157,11 @@ bool gb_pour_place(struct gb_bed *bed, uint64_t seed, double density,
     bool done = pour.order && gb_random_open(&pour.rng, seed, err);
     if (done) {
         gsl_sort_index(pour.order, bed->mass, 1, count);
-        const double largest = bed->place[pour.order[count - 1]][3];
+        const double largest = bed->position[pour.order[count - 1]][3];
         done = boxes_open(&pour.boxes, &bed->die, pour.top, largest, bed->count, err) &&
                place_all(&pour, cancelled, data, err);
     }
-    gb_bed_forget_lists(bed);
+    gb_bed_invalidate_lists(bed);
     gb_alloc_free(pour.order);
     gb_random_close(&pour.rng);
     gb_alloc_free(pour.boxes.first);

@@ -1,4 +1,4 @@
-#include "measure/fit/valley.h"
+#include "measure/fit/exponent_profile.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
@@ -9,20 +9,20 @@ enum { PLACES = 120, ITERATIONS = 200 };
 
 static double squares_at(double exponent, void *data)
 {
-    const struct gb_valley *valley = data;
-    return valley->squares(exponent, valley->data);
+    const struct gb_exponent_profile *profile = data;
+    return profile->squares(exponent, profile->data);
 }
 
 static double place(int k)
 {
-    return GB_VALLEY_LEAST *
-           pow(GB_VALLEY_MOST / GB_VALLEY_LEAST, (double)k / (PLACES - 1));
+    return GB_EXPONENT_PROFILE_MIN *
+           pow(GB_EXPONENT_PROFILE_MAX / GB_EXPONENT_PROFILE_MIN, (double)k / (PLACES - 1));
 }
 
 /* Between two places around the deepest one. */
-static bool refine(const struct gb_valley *valley, int best, double *exponent)
+static bool refine(const struct gb_exponent_profile *profile, int best, double *exponent)
 {
-    gsl_function function = {squares_at, (void *)valley};
+    gsl_function function = {squares_at, (void *)profile};
     gsl_min_fminimizer *work = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
     if (work == NULL) {
         return false;
@@ -43,13 +43,13 @@ static bool refine(const struct gb_valley *valley, int best, double *exponent)
     return true;
 }
 
-bool gb_valley_find(const struct gb_valley *valley, double *exponent,
+bool gb_exponent_profile_minimum(const struct gb_exponent_profile *profile, double *exponent,
                     struct gb_error *err)
 {
     int best = 0;
     double least = INFINITY;
     for (int k = 0; k < PLACES; k++) {
-        const double squares = valley->squares(place(k), valley->data);
+        const double squares = profile->squares(place(k), profile->data);
         if (squares < least) {
             least = squares;
             best = k;
@@ -61,14 +61,14 @@ bool gb_valley_find(const struct gb_valley *valley, double *exponent,
                             "exponent is %s",
                             best == 0 ? "0, a logarithm" : "4 or more");
     }
-    return refine(valley, best, exponent) ||
+    return refine(profile, best, exponent) ||
            gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit");
 }
 
-double gb_valley_level(const struct gb_valley *valley, double level, double inside,
+double gb_exponent_profile_crossing(const struct gb_exponent_profile *profile, double level, double inside,
                        double outside)
 {
-    if (valley->squares(outside, valley->data) <= level) {
+    if (profile->squares(outside, profile->data) <= level) {
         return outside;
     }
     double low = fmin(inside, outside);
@@ -76,7 +76,7 @@ double gb_valley_level(const struct gb_valley *valley, double level, double insi
     const bool rising = outside > inside;
     for (int i = 0; i < ITERATIONS && high - low > 1e-12 * high; i++) {
         const double middle = 0.5 * (low + high);
-        const bool beyond = valley->squares(middle, valley->data) > level;
+        const bool beyond = profile->squares(middle, profile->data) > level;
         if (beyond == rising) {
             high = middle;
         } else {

@@ -1,5 +1,5 @@
-#ifndef GB_PACK_DIE_POUR_H
-#define GB_PACK_DIE_POUR_H
+#ifndef GB_PACK_DIE_RANDOM_INSERTION_H
+#define GB_PACK_DIE_RANDOM_INSERTION_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -15,7 +15,7 @@
  * cancelled   may be NULL; polled, true fails with GB_ERR_CANCELLED
  * Errors: GB_ERR_INPUT when a sphere finds no place, GB_ERR_MEMORY.
  * Source: P3 section 5. */
-bool gb_pour_place(struct gb_bed *bed, uint64_t seed, double density,
+bool gb_random_insertion_place(struct gb_bed *bed, uint64_t seed, double density,
                    bool (*cancelled)(void *data), void *data, struct gb_error *err);
 
 #endif

@@ -1,5 +1,5 @@
-#ifndef GB_PACK_STRUCTURE_GROW_H
-#define GB_PACK_STRUCTURE_GROW_H
+#ifndef GB_PACK_STRUCTURE_CHAIN_GROWTH_H
+#define GB_PACK_STRUCTURE_CHAIN_GROWTH_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -10,7 +10,7 @@
 
 /* Chain-growth initial structure of P1, section III, in 3D and 2D: periodic, connected.
  */
-struct gb_grow {
+struct gb_chain_growth {
     int dimension;
     int64_t count;
     double edges[3]; /* d; y is 1 in 2D */
@@ -24,7 +24,7 @@ struct gb_grow {
 };
 
 /* The structure a model begins with; cancelled is left NULL. */
-struct gb_grow gb_grow_of(const struct gb_model *model);
+struct gb_chain_growth gb_chain_growth_from_model(const struct gb_model *model);
 
 /* Places the particles.
  *
@@ -32,6 +32,6 @@ struct gb_grow gb_grow_of(const struct gb_model *model);
  * Errors: GB_ERR_INPUT "structure.density = 0.7: not reached, stopped at 0.44 (...)" when
  * no place is left, GB_ERR_MEMORY, GB_ERR_CANCELLED.
  * Deterministic: same struct, same bits.  Cost about linear in count. */
-bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error *err);
+bool gb_chain_growth_place(const struct gb_chain_growth *grow, double *position, struct gb_error *err);
 
 #endif

@@ -1,4 +1,4 @@
-#include "pack/structure/grow.h"
+#include "pack/structure/chain_growth.h"
 
 #include <gsl/gsl_randist.h>
 #include <math.h>
@@ -43,7 +43,7 @@ struct candidate {
 };
 
 struct growth {
-    const struct gb_grow *grow;
+    const struct gb_chain_growth *grow;
     struct gb_grid *grid;
     double *diameter; /* d; NULL: all are equal */
     gsl_rng rng;
@@ -60,7 +60,7 @@ static struct gb_roll next_one(const struct growth *growth)
         roll.model = growth->grow->model;
         roll.diameter = growth->diameter;
         roll.own = growth->diameter[growth->grid->count];
-        roll.r_eq = 0.5 * (roll.own + roll.model->largest);
+        roll.r_eq = 0.5 * (roll.own + roll.model->diameter_max);
     }
     return roll;
 }
@@ -115,7 +115,7 @@ static int collect_candidates(struct growth *growth, const struct gb_roll *roll,
                      ray_length(growth, origin, direction));
     while (count < growth->room && gb_grid_ray_next(&ray, &hit)) {
         const double across = fmax(0.0, hit.square - hit.along * hit.along);
-        const double touch = gb_roll_touch(roll, hit.index);
+        const double touch = gb_roll_contact_distance(roll, hit.index);
         if (growth->diameter && across >= touch * touch) {
             continue; /* the ray passes it by */
         }
@@ -188,7 +188,7 @@ static bool shoot(struct growth *growth, int64_t origin)
     if (growth->grid->count == 1) {
         /* Nothing to roll onto: the second particle just touches the first. */
         for (int k = 0; k < 3; k++) {
-            place[k] = start[k] + gb_roll_touch(&roll, 0) * direction[k];
+            place[k] = start[k] + gb_roll_contact_distance(&roll, 0) * direction[k];
         }
         gb_grid_insert(growth->grid, place);
         return true;
@@ -204,7 +204,7 @@ static bool shoot(struct growth *growth, int64_t origin)
 
 static double density(const struct growth *growth, int64_t count)
 {
-    const struct gb_grow *grow = growth->grow;
+    const struct gb_chain_growth *grow = growth->grow;
     const double one = grow->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
     const double mean = grow->model ? grow->model->mean_cube : 1.0;
     return one * mean * (double)count / gb_cell_volume(&growth->grid->cell);
@@ -212,7 +212,7 @@ static double density(const struct growth *growth, int64_t count)
 
 static bool fill(struct growth *growth, struct gb_error *err)
 {
-    const struct gb_grow *grow = growth->grow;
+    const struct gb_chain_growth *grow = growth->grow;
     struct gb_grid *grid = growth->grid;
     int64_t origin = 0;
     int failures = 0;
@@ -243,7 +243,7 @@ static bool fill(struct growth *growth, struct gb_error *err)
     return true;
 }
 
-static bool check(const struct gb_grow *grow, const struct gb_cell *cell,
+static bool check(const struct gb_chain_growth *grow, const struct gb_cell *cell,
                   struct gb_error *err)
 {
     if (grow->count < 1) {
@@ -276,14 +276,14 @@ static void place_first(struct growth *growth)
     gb_grid_insert(growth->grid, place);
 }
 
-struct gb_grow gb_grow_of(const struct gb_model *model)
+struct gb_chain_growth gb_chain_growth_from_model(const struct gb_model *model)
 {
-    return (struct gb_grow){
+    return (struct gb_chain_growth){
         .dimension = model->dimension,
         .count = model->count,
         .edges = {model->edges[0], model->edges[1], model->edges[2]},
-        .r_eq = model->sized ? model->largest : 1.0 - model->h_eq,
-        .model = model->sized ? model : NULL,
+        .r_eq = model->polydisperse ? model->diameter_max : 1.0 - model->h_eq,
+        .model = model->polydisperse ? model : NULL,
         .r_meso = model->r_meso,
         .seed = model->seed,
     };
@@ -300,7 +300,7 @@ static bool deal(struct growth *growth, struct gb_error *err)
            gb_assign_sizes_model(growth->grow->model, growth->diameter, err);
 }
 
-bool gb_grow_place(const struct gb_grow *grow, double *position, struct gb_error *err)
+bool gb_chain_growth_place(const struct gb_chain_growth *grow, double *position, struct gb_error *err)
 {
     struct growth growth = {.grow = grow};
     struct gb_cell cell;
