@@ -14,8 +14,8 @@ static struct gb_view_sample *one_sphere(int dimension, float y)
     picture->dimension = dimension;
     picture->window[0] = picture->window[1] = picture->window[2] = 9.0;
     picture->count = 1;
-    picture->place[0][0] = picture->place[0][2] = 4.5F;
-    picture->place[0][1] = y;
+    picture->position[0][0] = picture->position[0][2] = 4.5F;
+    picture->position[0][1] = y;
     for (int i = 0; i < GB_VIEW_SAMPLE_POINTS; i++) {
         picture->radius[i] = 0.5F;
     }
@@ -66,10 +66,10 @@ static void test_depth(void)
     g_assert_cmpfloat(back, <, 0.7F * front);
     near->count = 2;
     for (int order = 0; order < 2; order++) {
-        near->place[order][0] = near->place[order][2] = 4.5F;
-        near->place[order][1] = 0.0F;
-        near->place[1 - order][0] = near->place[1 - order][2] = 4.5F;
-        near->place[1 - order][1] = 8.0F;
+        near->position[order][0] = near->position[order][2] = 4.5F;
+        near->position[order][1] = 0.0F;
+        near->position[1 - order][0] = near->position[1 - order][2] = 4.5F;
+        near->position[1 - order][1] = 8.0F;
         gb_sphere_shading_render(near, ROWS, COLS, shade);
         g_assert_cmpfloat(brightest(), ==, front);
     }
@@ -83,8 +83,8 @@ static void test_sizes(void)
     struct gb_view_sample *picture = one_sphere(2, 0.0F);
     picture->count = GB_VIEW_SAMPLE_POINTS;
     for (int i = 0; i < picture->count; i++) {
-        picture->place[i][0] = (float)(i % 64) * 9.0F / 63.0F;
-        picture->place[i][2] = (float)(i / 64) * 9.0F / 63.0F;
+        picture->position[i][0] = (float)(i % 64) * 9.0F / 63.0F;
+        picture->position[i][2] = (float)(i / 64) * 9.0F / 63.0F;
     }
     for (int rows = 1; rows <= ROWS; rows += 3) {
         for (int cols = 1; cols <= COLS; cols += 3) {
