@@ -178,15 +178,15 @@ static bool report(struct gb_foreground *run, struct gb_error *err)
     return true;
 }
 
-static enum gb_advance advance(struct gb_foreground *run, int64_t evaluations)
+static enum gb_step_outcome advance(struct gb_foreground *run, int64_t evaluations)
 {
     if (gb_warmup_ended(&run->warmup)) {
         return run->warmup.how;
     }
     const double from = gb_foreground_elapsed(run);
-    const enum gb_advance how =
+    const enum gb_step_outcome how =
         gb_experiment_advance(run->experiment, evaluations, &run->stopped);
-    gb_pace_sliced(&run->pace, gb_foreground_elapsed(run) - from, how == GB_ADVANCE_MORE);
+    gb_pace_sliced(&run->pace, gb_foreground_elapsed(run) - from, how == GB_STEP_MORE);
     return how;
 }
 
@@ -200,13 +200,12 @@ static bool press(struct gb_foreground *run, enum gb_run_state *state,
         return false;
     }
     while (caught == 0) {
-        const enum gb_advance how = advance(run, gb_pace_slice(&run->pace));
-        if (!keep_events(run, err) ||
-            (how == GB_ADVANCE_POINT && !keep_point(run, err))) {
+        const enum gb_step_outcome how = advance(run, gb_pace_slice(&run->pace));
+        if (!keep_events(run, err) || (how == GB_STEP_POINT && !keep_point(run, err))) {
             return false;
         }
-        if (how == GB_ADVANCE_DONE || how == GB_ADVANCE_STOPPED) {
-            *state = how == GB_ADVANCE_DONE ? GB_RUN_DONE : GB_RUN_STOPPED;
+        if (how == GB_STEP_DONE || how == GB_STEP_STOPPED) {
+            *state = how == GB_STEP_DONE ? GB_RUN_DONE : GB_RUN_STOPPED;
             return true;
         }
         if ((hung && !obey_hangup(run, err)) ||

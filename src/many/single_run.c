@@ -117,14 +117,13 @@ static bool press(struct solo *solo, struct gb_error *stopped, struct gb_error *
 {
     while (!is_cancelled(solo)) {
         const double from = elapsed(solo);
-        const enum gb_advance how =
+        const enum gb_step_outcome how =
             gb_experiment_advance(solo->experiment, gb_pace_slice(&solo->pace), stopped);
-        gb_pace_sliced(&solo->pace, elapsed(solo) - from, how == GB_ADVANCE_MORE);
-        if (!keep_events(solo, err) ||
-            (how == GB_ADVANCE_POINT && !keep_point(solo, err))) {
+        gb_pace_sliced(&solo->pace, elapsed(solo) - from, how == GB_STEP_MORE);
+        if (!keep_events(solo, err) || (how == GB_STEP_POINT && !keep_point(solo, err))) {
             return false;
         }
-        if (how == GB_ADVANCE_DONE || how == GB_ADVANCE_STOPPED) {
+        if (how == GB_STEP_DONE || how == GB_STEP_STOPPED) {
             return true;
         }
         if (!keep_due(solo, err)) {

@@ -9,7 +9,7 @@
 /* An experiment into a record and back, whole: gb_experiment_resume on that record goes
  * on to the last bit as the experiment itself.
  *
- * Taken only right after GB_ADVANCE_POINT.  There the relaxer remembers only what it
+ * Taken only right after GB_STEP_POINT.  There the relaxer remembers only what it
  * lists itself, the way back is the present state, and all events are due to be taken:
  * little is left to keep.
  *

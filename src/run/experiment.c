@@ -289,7 +289,8 @@ static bool obey(struct gb_experiment *experiment, struct gb_error *err)
         case GB_QUASISTATIC_STRAIN:
             break;
         }
-        experiment->have_good = gb_world_copy_save(experiment->world, &experiment->good, err);
+        experiment->have_good =
+            gb_world_copy_save(experiment->world, &experiment->good, err);
         experiment->strain_due = experiment->have_good;
         return experiment->have_good;
     }
@@ -305,12 +306,12 @@ static bool take_back(struct gb_experiment *experiment, struct gb_error *err)
            gb_world_evaluate(experiment->world, err);
 }
 
-static enum gb_advance stop(struct gb_experiment *experiment)
+static enum gb_step_outcome stop(struct gb_experiment *experiment)
 {
     struct gb_error ignored;
     take_back(experiment, &ignored);
     experiment->over = experiment->stopped = true;
-    return GB_ADVANCE_STOPPED;
+    return GB_STEP_STOPPED;
 }
 
 /* What a dynamic run knows beside the state: stage, time, energies in J. */
@@ -353,7 +354,7 @@ static bool change(struct gb_experiment *experiment, struct gb_error *err)
     return true;
 }
 
-static enum gb_advance record(struct gb_experiment *experiment, struct gb_error *err)
+static enum gb_step_outcome record(struct gb_experiment *experiment, struct gb_error *err)
 {
     measure(experiment, &experiment->point);
     experiment->point.iterations =
@@ -366,39 +367,39 @@ static enum gb_advance record(struct gb_experiment *experiment, struct gb_error 
     gb_quasistatic_recover(&experiment->load);
     if (!obey(experiment, err) || !change(experiment, err)) {
         experiment->over = experiment->stopped = true;
-        return GB_ADVANCE_STOPPED;
+        return GB_STEP_STOPPED;
     }
-    return GB_ADVANCE_POINT;
+    return GB_STEP_POINT;
 }
 
-static enum gb_advance advance_motion(struct gb_experiment *experiment, int64_t max_steps,
-                                      struct gb_error *err)
+static enum gb_step_outcome advance_motion(struct gb_experiment *experiment,
+                                           int64_t max_steps, struct gb_error *err)
 {
     char text[GB_EXPERIMENT_TEXT];
-    const enum gb_dynamic_outcome outcome = gb_dynamic_advance(
+    const enum gb_step_outcome outcome = gb_dynamic_advance(
         experiment->motion, experiment->world, max_steps, text, sizeof text, err);
     add_event(experiment, text);
     switch (outcome) {
-    case GB_DYNAMIC_MORE:
-        return GB_ADVANCE_MORE;
-    case GB_DYNAMIC_POINT:
+    case GB_STEP_MORE:
+        return GB_STEP_MORE;
+    case GB_STEP_POINT:
         measure(experiment, &experiment->point);
         measure_motion(experiment, &experiment->point);
         experiment->shown = experiment->point;
         experiment->step++;
-        return GB_ADVANCE_POINT;
-    case GB_DYNAMIC_DONE:
+        return GB_STEP_POINT;
+    case GB_STEP_DONE:
         experiment->over = true;
-        return GB_ADVANCE_DONE;
-    case GB_DYNAMIC_STOPPED:
+        return GB_STEP_DONE;
+    case GB_STEP_STOPPED:
         break;
     }
     add_event(experiment, err->text);
     experiment->over = experiment->stopped = true;
-    return GB_ADVANCE_STOPPED;
+    return GB_STEP_STOPPED;
 }
 
-static enum gb_advance record_die(struct gb_experiment *experiment)
+static enum gb_step_outcome record_die(struct gb_experiment *experiment)
 {
     char text[GB_EXPERIMENT_TEXT];
     gb_die_run_measure(experiment->die, &experiment->point);
@@ -406,31 +407,31 @@ static enum gb_advance record_die(struct gb_experiment *experiment)
     experiment->shown = experiment->point;
     gb_die_run_judge(experiment->die, &experiment->point, text, sizeof text);
     add_event(experiment, text);
-    return GB_ADVANCE_POINT;
+    return GB_STEP_POINT;
 }
 
-static enum gb_advance advance_die(struct gb_experiment *experiment, int64_t max_steps,
-                                   struct gb_error *err)
+static enum gb_step_outcome advance_die(struct gb_experiment *experiment,
+                                        int64_t max_steps, struct gb_error *err)
 {
     char text[GB_EXPERIMENT_TEXT];
-    const enum gb_die_stages_outcome outcome =
+    const enum gb_step_outcome outcome =
         gb_die_stages_advance(experiment->die->programme, experiment->die->bed, max_steps,
                               text, sizeof text, err);
     add_event(experiment, text);
     switch (outcome) {
-    case GB_DIE_STAGES_MORE:
-        return GB_ADVANCE_MORE;
-    case GB_DIE_STAGES_POINT:
+    case GB_STEP_MORE:
+        return GB_STEP_MORE;
+    case GB_STEP_POINT:
         return record_die(experiment);
-    case GB_DIE_STAGES_DONE:
+    case GB_STEP_DONE:
         experiment->over = true;
-        return GB_ADVANCE_DONE;
-    case GB_DIE_STAGES_STOPPED:
+        return GB_STEP_DONE;
+    case GB_STEP_STOPPED:
         break;
     }
     add_event(experiment, err->text);
     experiment->over = experiment->stopped = true;
-    return GB_ADVANCE_STOPPED;
+    return GB_STEP_STOPPED;
 }
 
 /* The first relaxation has nothing to be compared with. */
@@ -446,11 +447,11 @@ static enum gb_guard_action judge_departure(struct gb_experiment *experiment, ch
     return gb_guard_departure(&experiment->guard, &departure, text, size);
 }
 
-enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
-                                      int64_t max_evaluations, struct gb_error *err)
+enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
+                                           int64_t max_evaluations, struct gb_error *err)
 {
     if (experiment->over) {
-        return GB_ADVANCE_DONE;
+        return GB_STEP_DONE;
     }
     struct gb_error local;
     struct gb_error *why = err ? err : &local;
@@ -466,7 +467,7 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
     const enum gb_relax_outcome outcome =
         gb_relax_advance(experiment->relax, experiment->world, max_evaluations, why);
     if (outcome == GB_RELAX_MORE) {
-        return GB_ADVANCE_MORE;
+        return GB_STEP_MORE;
     }
     char text[GB_EXPERIMENT_TEXT];
     enum gb_guard_action action = gb_guard_judge(
@@ -474,7 +475,7 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
     if (action == GB_GUARD_ACCEPT) {
         add_event(experiment, text);
         if (go_on(experiment)) {
-            return GB_ADVANCE_MORE;
+            return GB_STEP_MORE;
         }
         action = judge_departure(experiment, text, sizeof text);
     }
@@ -489,7 +490,7 @@ enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
         add_event(experiment, text);
         gb_quasistatic_halve(&experiment->load, experiment->factor);
         experiment->strain_due = true;
-        return GB_ADVANCE_MORE;
+        return GB_STEP_MORE;
     case GB_GUARD_STOP:
         break;
     }

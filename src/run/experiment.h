@@ -10,6 +10,7 @@
 #include "greenbody/params.h"
 #include "greenbody/snapshot.h"
 #include "io/state.h"
+#include "solve/step_outcome.h"
 
 /* Params + loading programme -> points.  No threads, no files, no printing. */
 struct gb_experiment;
@@ -26,16 +27,9 @@ bool gb_experiment_resume(struct gb_experiment **out, const struct gb_params *pa
                           struct gb_record *record, struct gb_error *err);
 void gb_experiment_destroy(struct gb_experiment *experiment); /* NULL is fine */
 
-enum gb_advance {
-    GB_ADVANCE_MORE,   /* one slice done, no new point */
-    GB_ADVANCE_POINT,  /* a point was recorded: gb_experiment_point */
-    GB_ADVANCE_DONE,   /* the programme has ended */
-    GB_ADVANCE_STOPPED /* a guard stopped it (err); the last good state is kept */
-};
-
 /* One bounded slice of work: at most max_evaluations force evaluations. */
-enum gb_advance gb_experiment_advance(struct gb_experiment *experiment,
-                                      int64_t max_evaluations, struct gb_error *err);
+enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
+                                           int64_t max_evaluations, struct gb_error *err);
 
 /* The last recorded point; its seconds field is the caller's to fill. */
 const struct gb_point *gb_experiment_point(const struct gb_experiment *experiment);

@@ -316,13 +316,13 @@ static bool slice(struct gb_runner *runner)
 {
     struct gb_error err = {0};
     const double from = clock_s();
-    const enum gb_advance how =
+    const enum gb_step_outcome how =
         gb_experiment_advance(runner->experiment, gb_pace_slice(&runner->pace), &err);
-    gb_pace_sliced(&runner->pace, clock_s() - from, how == GB_ADVANCE_MORE);
+    gb_pace_sliced(&runner->pace, clock_s() - from, how == GB_STEP_MORE);
     switch (how) {
-    case GB_ADVANCE_MORE:
+    case GB_STEP_MORE:
         return true;
-    case GB_ADVANCE_POINT: {
+    case GB_STEP_POINT: {
         struct gb_point point = *gb_experiment_point(runner->experiment);
         point.seconds = elapsed(runner);
         if (!gb_curve_append(runner->curve, &point, &err)) {
@@ -334,10 +334,10 @@ static bool slice(struct gb_runner *runner)
         hand_over(runner, &point);
         return true;
     }
-    case GB_ADVANCE_DONE:
+    case GB_STEP_DONE:
         change_state(runner, GB_RUN_DONE);
         return false;
-    case GB_ADVANCE_STOPPED:
+    case GB_STEP_STOPPED:
         end_with(runner, &err);
         return false;
     }

@@ -41,22 +41,22 @@ static bool repeat(struct gb_experiment *experiment, const struct gb_verify *ver
     int64_t step = verify->from;
     char text[640];
     while (step < verify->to) {
-        const enum gb_advance how = gb_experiment_advance(experiment, SLICE, err);
+        const enum gb_step_outcome how = gb_experiment_advance(experiment, SLICE, err);
         while (gb_experiment_event(experiment, text, sizeof text)) {
         }
         if (cancelled(data)) {
             return gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
         }
-        if (how == GB_ADVANCE_STOPPED) {
+        if (how == GB_STEP_STOPPED) {
             return false;
         }
-        if (how == GB_ADVANCE_DONE) {
+        if (how == GB_STEP_DONE) {
             return gb_error_set(err, GB_ERR_GUARD,
                                 "the repeated run ends at step %lld, before the "
                                 "checkpoint of step %lld",
                                 (long long)step, (long long)verify->to);
         }
-        step += how == GB_ADVANCE_POINT;
+        step += how == GB_STEP_POINT;
     }
     return true;
 }

@@ -13,7 +13,7 @@ static double seconds_since(gint64 start)
 
 bool gb_warmup_ended(const struct gb_warmup *warmup)
 {
-    return warmup->how == GB_ADVANCE_DONE || warmup->how == GB_ADVANCE_STOPPED;
+    return warmup->how == GB_STEP_DONE || warmup->how == GB_STEP_STOPPED;
 }
 
 static void slice(struct gb_warmup *warmup, struct gb_experiment *experiment,
@@ -21,7 +21,7 @@ static void slice(struct gb_warmup *warmup, struct gb_experiment *experiment,
 {
     const gint64 start = g_get_monotonic_time();
     warmup->how = gb_experiment_advance(experiment, gb_pace_slice(pace), stopped);
-    gb_pace_sliced(pace, seconds_since(start), warmup->how == GB_ADVANCE_MORE);
+    gb_pace_sliced(pace, seconds_since(start), warmup->how == GB_STEP_MORE);
 }
 
 void gb_warmup_run(struct gb_warmup *warmup, struct gb_experiment *experiment,
@@ -35,7 +35,7 @@ void gb_warmup_run(struct gb_warmup *warmup, struct gb_experiment *experiment,
     warmup->points = g_array_new(FALSE, FALSE, sizeof(struct gb_point));
     while (*caught == 0 && !gb_warmup_ended(warmup) && seconds_since(start) < seconds) {
         slice(warmup, experiment, &pace, stopped);
-        if (warmup->how == GB_ADVANCE_POINT) {
+        if (warmup->how == GB_STEP_POINT) {
             struct gb_point point = *gb_experiment_point(experiment);
             point.seconds = gone + seconds_since(start);
             g_array_append_val(warmup->points, point);

@@ -12,7 +12,7 @@
 struct gb_warmup {
     GArray *points;              /* struct gb_point, recorded meanwhile */
     struct gb_record record;     /* of the last one */
-    enum gb_advance how;         /* what the last slice ended with */
+    enum gb_step_outcome how;    /* what the last slice ended with */
     double particle_steps_per_s; /* 0: nothing was evaluated */
 };
 

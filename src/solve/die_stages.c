@@ -73,13 +73,13 @@ static bool keep(struct gb_die_stages *programme, const struct gb_bed *bed,
 }
 
 /* Half the step from the last good state on, or the end. */
-static enum gb_die_stages_outcome trip(struct gb_die_stages *programme,
-                                       struct gb_bed *bed, const char *why, char *text,
-                                       size_t size, struct gb_error *err)
+static enum gb_step_outcome trip(struct gb_die_stages *programme, struct gb_bed *bed,
+                                 const char *why, char *text, size_t size,
+                                 struct gb_error *err)
 {
     const double step = programme->now.leap.step;
     if (!gb_bed_copy_restore(bed, programme->kept, err)) {
-        return GB_DIE_STAGES_STOPPED;
+        return GB_STEP_STOPPED;
     }
     programme->now = programme->good;
     programme->now.leap.limit = 0.5 * step;
@@ -87,11 +87,11 @@ static enum gb_die_stages_outcome trip(struct gb_die_stages *programme,
     if (++programme->halvings > GB_STEP_HALVINGS_MAX) {
         gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %.3g ps", why,
                      1e12 * step * programme->scene.second_per_time);
-        return GB_DIE_STAGES_STOPPED;
+        return GB_STEP_STOPPED;
     }
     snprintf(text, size, "guard: %s; time step halved to %.3g ps", why,
              0.5e12 * step * programme->scene.second_per_time);
-    return GB_DIE_STAGES_MORE;
+    return GB_STEP_MORE;
 }
 
 /* Is the highest particle carried, or does it still fall? */
@@ -329,9 +329,8 @@ struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *pro
     return report;
 }
 
-static enum gb_die_stages_outcome step_once(struct gb_die_stages *programme,
-                                            struct gb_bed *bed, char *text, size_t size,
-                                            struct gb_error *err)
+static enum gb_step_outcome step_once(struct gb_die_stages *programme, struct gb_bed *bed,
+                                      char *text, size_t size, struct gb_error *err)
 {
     struct progress *now = &programme->now;
     const int64_t rebuilds = bed->rebuilds;
@@ -339,7 +338,7 @@ static enum gb_die_stages_outcome step_once(struct gb_die_stages *programme,
         char why[sizeof err->text];
         snprintf(why, sizeof why, "%s", err->text);
         return err->code == GB_ERR_GUARD ? trip(programme, bed, why, text, size, err)
-                                         : GB_DIE_STAGES_STOPPED;
+                                         : GB_STEP_STOPPED;
     }
     now->time += now->leap.step;
     now->stage_time += now->leap.step;
@@ -355,15 +354,15 @@ static enum gb_die_stages_outcome step_once(struct gb_die_stages *programme,
     }
     if (now->stage == GB_DIE_STAGES_PRESS) {
         gb_punch_follow(&now->punch, &now->leap, bed);
-        return due(programme) ? GB_DIE_STAGES_POINT : GB_DIE_STAGES_MORE;
+        return due(programme) ? GB_STEP_POINT : GB_STEP_MORE;
     }
     err->code = GB_OK;
     if (!end_of_stage(programme, bed, text, size, err)) {
-        return err->code == GB_OK ? GB_DIE_STAGES_MORE : GB_DIE_STAGES_STOPPED;
+        return err->code == GB_OK ? GB_STEP_MORE : GB_STEP_STOPPED;
     }
-    return now->stage == GB_DIE_STAGES_PRESS ? GB_DIE_STAGES_POINT
-           : keep(programme, bed, err)       ? GB_DIE_STAGES_MORE
-                                             : GB_DIE_STAGES_STOPPED;
+    return now->stage == GB_DIE_STAGES_PRESS ? GB_STEP_POINT
+           : keep(programme, bed, err)       ? GB_STEP_MORE
+                                             : GB_STEP_STOPPED;
 }
 
 /* A recorded point is a state to go back to. */
@@ -380,31 +379,29 @@ static bool after_point(struct gb_die_stages *programme, const struct gb_bed *be
     return keep(programme, bed, err);
 }
 
-enum gb_die_stages_outcome gb_die_stages_advance(struct gb_die_stages *programme,
-                                                 struct gb_bed *bed, int64_t max_steps,
-                                                 char *text, size_t size,
-                                                 struct gb_error *err)
+enum gb_step_outcome gb_die_stages_advance(struct gb_die_stages *programme,
+                                           struct gb_bed *bed, int64_t max_steps,
+                                           char *text, size_t size, struct gb_error *err)
 {
     struct progress *now = &programme->now;
     text[0] = '\0';
     if (!programme->have_good && !keep(programme, bed, err)) {
-        return GB_DIE_STAGES_STOPPED;
+        return GB_STEP_STOPPED;
     }
     if (now->pointed && !after_point(programme, bed, err)) {
-        return GB_DIE_STAGES_STOPPED;
+        return GB_STEP_STOPPED;
     }
     if (now->stage == GB_DIE_STAGES_OVER) {
-        return GB_DIE_STAGES_DONE;
+        return GB_STEP_DONE;
     }
     for (int64_t k = 0; k < max_steps && text[0] == '\0'; k++) {
-        const enum gb_die_stages_outcome outcome =
-            step_once(programme, bed, text, size, err);
-        if (outcome != GB_DIE_STAGES_MORE) {
-            now->pointed = outcome == GB_DIE_STAGES_POINT;
+        const enum gb_step_outcome outcome = step_once(programme, bed, text, size, err);
+        if (outcome != GB_STEP_MORE) {
+            now->pointed = outcome == GB_STEP_POINT;
             return outcome;
         }
     }
-    return GB_DIE_STAGES_MORE;
+    return GB_STEP_MORE;
 }
 
 bool gb_die_stages_record(struct gb_die_stages *programme, struct gb_record *record,

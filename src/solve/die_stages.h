@@ -8,6 +8,7 @@
 #include "base/record.h"
 #include "scene/model.h"
 #include "pack/die/bed.h"
+#include "solve/step_outcome.h"
 
 /* P3's experiment: powder falls through a funnel into the die, settles, is flattened by a
  * punch that is lifted again, and pressed.  Gravity is raised while it falls and eased
@@ -26,13 +27,6 @@ enum gb_die_stages_stage {
     GB_DIE_STAGES_OVER
 };
 
-enum gb_die_stages_outcome {
-    GB_DIE_STAGES_MORE,   /* the slice is used up */
-    GB_DIE_STAGES_POINT,  /* time to record */
-    GB_DIE_STAGES_DONE,   /* the ramp has ended */
-    GB_DIE_STAGES_STOPPED /* err says why; the bed is back at the last good state */
-};
-
 /* The bed lies loose in its funnel and obeys the law of filling; `law` is that of
  * pressing. */
 bool gb_die_stages_create(struct gb_die_stages **out, const struct gb_die_scene *scene,
@@ -46,10 +40,9 @@ bool gb_die_stages_begin(struct gb_die_stages *programme, struct gb_bed *bed,
 
 /* At most max_steps time steps.  text (size bytes) receives one line when a stage ended
  * or a guard acted. */
-enum gb_die_stages_outcome gb_die_stages_advance(struct gb_die_stages *programme,
-                                                 struct gb_bed *bed, int64_t max_steps,
-                                                 char *text, size_t size,
-                                                 struct gb_error *err);
+enum gb_step_outcome gb_die_stages_advance(struct gb_die_stages *programme,
+                                           struct gb_bed *bed, int64_t max_steps,
+                                           char *text, size_t size, struct gb_error *err);
 
 /* What goes into a recorded point, reduced units. */
 struct gb_die_stages_report {

@@ -213,25 +213,26 @@ static bool go_back(struct gb_dynamic *motion, struct gb_world *world,
     motion->verlet.absorbed = motion->good_absorbed;
     motion->stage = motion->good_stage;
     motion->left = 0;
-    return gb_world_copy_restore(world, motion->good, err) && gb_world_evaluate(world, err);
+    return gb_world_copy_restore(world, motion->good, err) &&
+           gb_world_evaluate(world, err);
 }
 
 /* Half the step from the last recorded point on, or the end. */
-static enum gb_dynamic_outcome trip(struct gb_dynamic *motion, struct gb_world *world,
-                                    const char *why, char *text, size_t size,
-                                    struct gb_error *err)
+static enum gb_step_outcome trip(struct gb_dynamic *motion, struct gb_world *world,
+                                 const char *why, char *text, size_t size,
+                                 struct gb_error *err)
 {
     motion->limit = 0.5 * motion->step;
     if (!go_back(motion, world, err)) {
-        return GB_DYNAMIC_STOPPED;
+        return GB_STEP_STOPPED;
     }
     if (++motion->halvings > GB_STEP_HALVINGS_MAX) {
         gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %.3g T", why,
                      motion->step);
-        return GB_DYNAMIC_STOPPED;
+        return GB_STEP_STOPPED;
     }
     snprintf(text, size, "guard: %s; time step halved to %.3g T", why, motion->limit);
-    return GB_DYNAMIC_MORE;
+    return GB_STEP_MORE;
 }
 
 /* Share of the contacts that slid since the last point. */
@@ -257,14 +258,14 @@ static void acquit(struct gb_dynamic *motion, double share, char *text, size_t s
 
 /* Friction caps hide an unstable step from the kinetic energy; the sliding contacts show
  * it.  Many contacts may also slide for a good reason, which half the step tells. */
-static enum gb_dynamic_outcome judge_sliding(struct gb_dynamic *motion,
-                                             struct gb_world *world, char *text,
-                                             size_t size, struct gb_error *err)
+static enum gb_step_outcome judge_sliding(struct gb_dynamic *motion,
+                                          struct gb_world *world, char *text, size_t size,
+                                          struct gb_error *err)
 {
     const double share = sliding_share(motion);
     if (motion->slid > 0.0 && share > GB_SLIDING_RATIO_UNCHANGED * motion->slid) {
         acquit(motion, share, text, size);
-        return GB_DYNAMIC_POINT;
+        return GB_STEP_POINT;
     }
     if (share > motion->sliding_most) {
         char why[96];
@@ -276,31 +277,31 @@ static enum gb_dynamic_outcome judge_sliding(struct gb_dynamic *motion,
         return trip(motion, world, why, text, size, err);
     }
     motion->slid = 0.0;
-    return GB_DYNAMIC_POINT;
+    return GB_STEP_POINT;
 }
 
-static enum gb_dynamic_outcome begin(struct gb_dynamic *motion, struct gb_world *world,
-                                     char *text, size_t size, struct gb_error *err)
+static enum gb_step_outcome begin(struct gb_dynamic *motion, struct gb_world *world,
+                                  char *text, size_t size, struct gb_error *err)
 {
     settle_stage(motion);
     if (motion->stage == GB_DYNAMIC_OVER) {
-        return GB_DYNAMIC_DONE;
+        return GB_STEP_DONE;
     }
     if (!keep(motion, world, err)) {
-        return GB_DYNAMIC_STOPPED;
+        return GB_STEP_STOPPED;
     }
     plan(motion, allowed_step(motion, world, text, size));
-    return GB_DYNAMIC_MORE;
+    return GB_STEP_MORE;
 }
 
-enum gb_dynamic_outcome gb_dynamic_advance(struct gb_dynamic *motion,
-                                           struct gb_world *world, int64_t max_steps,
-                                           char *text, size_t size, struct gb_error *err)
+enum gb_step_outcome gb_dynamic_advance(struct gb_dynamic *motion, struct gb_world *world,
+                                        int64_t max_steps, char *text, size_t size,
+                                        struct gb_error *err)
 {
     text[0] = '\0';
     if (motion->left == 0) {
-        const enum gb_dynamic_outcome outcome = begin(motion, world, text, size, err);
-        if (outcome != GB_DYNAMIC_MORE) {
+        const enum gb_step_outcome outcome = begin(motion, world, text, size, err);
+        if (outcome != GB_STEP_MORE) {
             return outcome;
         }
     }
@@ -309,7 +310,7 @@ enum gb_dynamic_outcome gb_dynamic_advance(struct gb_dynamic *motion,
             char why[sizeof err->text];
             snprintf(why, sizeof why, "%s", err->text);
             return err->code == GB_ERR_GUARD ? trip(motion, world, why, text, size, err)
-                                             : GB_DYNAMIC_STOPPED;
+                                             : GB_STEP_STOPPED;
         }
         motion->time += motion->step;
         motion->left--;
@@ -317,7 +318,7 @@ enum gb_dynamic_outcome gb_dynamic_advance(struct gb_dynamic *motion,
         motion->contacts += gb_world_tally(world)->contacts;
     }
     if (motion->left > 0) {
-        return GB_DYNAMIC_MORE;
+        return GB_STEP_MORE;
     }
     motion->recorded = motion->stage;
     return judge_sliding(motion, world, text, size, err);

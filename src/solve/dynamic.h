@@ -7,6 +7,7 @@
 #include "base/record.h"
 #include "greenbody/status.h"
 #include "pack/cell/world.h"
+#include "solve/step_outcome.h"
 
 /* High-speed pressing of P2: relax in a fixed cell, compress at a rate to a density,
  * hold.  Steps of gb_verlet between recorded points; a guard that watches the share of
@@ -20,13 +21,6 @@ enum gb_dynamic_stage {
     GB_DYNAMIC_OVER
 };
 
-enum gb_dynamic_outcome {
-    GB_DYNAMIC_MORE,   /* the slice is used up */
-    GB_DYNAMIC_POINT,  /* time to record: forces, places and velocities belong together */
-    GB_DYNAMIC_DONE,   /* the last stage has ended */
-    GB_DYNAMIC_STOPPED /* err says why; the world is back at the last recorded point */
-};
-
 /* The world must have been evaluated. */
 bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
                        struct gb_error *err);
@@ -34,9 +28,9 @@ void gb_dynamic_destroy(struct gb_dynamic *motion); /* NULL is fine */
 
 /* At most max_steps time steps.  text (size bytes) receives one line when a guard acted.
  */
-enum gb_dynamic_outcome gb_dynamic_advance(struct gb_dynamic *motion,
-                                           struct gb_world *world, int64_t max_steps,
-                                           char *text, size_t size, struct gb_error *err);
+enum gb_step_outcome gb_dynamic_advance(struct gb_dynamic *motion, struct gb_world *world,
+                                        int64_t max_steps, char *text, size_t size,
+                                        struct gb_error *err);
 
 /* What goes into a recorded point, reduced units. */
 struct gb_dynamic_report {

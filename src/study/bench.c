@@ -386,18 +386,18 @@ bool gb_bench_planar(double *particle_steps_per_s, struct gb_error *err)
     }
     double seconds = 0.0;
     int64_t steps = 0;
-    enum gb_advance how = GB_ADVANCE_MORE;
-    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
+    enum gb_step_outcome how = GB_STEP_MORE;
+    while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         const struct gb_point *point = gb_experiment_point(experiment);
         const bool timed = point->branch == GB_BRANCH_LOAD && point->density >= from;
         const double start = now(true);
         how = gb_experiment_advance(experiment, 1000, err);
-        if (timed && how == GB_ADVANCE_POINT) {
+        if (timed && how == GB_STEP_POINT) {
             seconds += now(true) - start;
             steps += point->evaluations;
         }
     }
     gb_experiment_destroy(experiment);
     *particle_steps_per_s = (double)(steps * params.count) / seconds;
-    return how == GB_ADVANCE_DONE;
+    return how == GB_STEP_DONE;
 }

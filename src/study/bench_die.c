@@ -59,11 +59,11 @@ static bool press(struct gb_die_stages *programme, struct gb_bed *bed,
                   struct gb_error *err)
 {
     char text[640];
-    enum gb_die_stages_outcome how = GB_DIE_STAGES_MORE;
-    while (how == GB_DIE_STAGES_MORE || how == GB_DIE_STAGES_POINT) {
+    enum gb_step_outcome how = GB_STEP_MORE;
+    while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         how = gb_die_stages_advance(programme, bed, 100000, text, sizeof text, err);
     }
-    return how == GB_DIE_STAGES_DONE;
+    return how == GB_STEP_DONE;
 }
 
 /* Median time of a step under a law, the punch standing still where it is. */

@@ -145,11 +145,11 @@ static bool advance(struct gb_chart_run *run, struct gb_experiment *experiment,
                     void *data, struct gb_error *err)
 {
     const double start = gb_chart_cpu_s();
-    enum gb_advance how = GB_ADVANCE_MORE;
-    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
+    enum gb_step_outcome how = GB_STEP_MORE;
+    while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         how = gb_experiment_advance(experiment, SLICE, err);
         run->cpu_s = gb_chart_cpu_s() - start;
-        if (how == GB_ADVANCE_POINT) {
+        if (how == GB_STEP_POINT) {
             run->evaluations += (double)gb_experiment_point(experiment)->evaluations;
             add_point(branch, gb_experiment_point(experiment));
         }
@@ -157,7 +157,7 @@ static bool advance(struct gb_chart_run *run, struct gb_experiment *experiment,
             return gb_error_set(err, GB_ERR_CANCELLED, "cancelled");
         }
     }
-    run->failed = how == GB_ADVANCE_STOPPED;
+    run->failed = how == GB_STEP_STOPPED;
     const bool guarded =
         run->failed && (err->code == GB_ERR_GUARD || err->code == GB_ERR_NOT_CONVERGED);
     return !run->failed || guarded;

@@ -75,14 +75,14 @@ static void press(const struct gb_params *params)
 {
     struct gb_experiment *experiment = NULL;
     struct gb_error err = {0};
-    enum gb_advance how = GB_ADVANCE_MORE;
+    enum gb_step_outcome how = GB_STEP_MORE;
     if (!gb_experiment_create(&experiment, params, NULL, NULL, &err)) {
         fail(err.text);
     }
-    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
+    while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         how = gb_experiment_advance(experiment, 100, &err);
     }
-    if (how != GB_ADVANCE_DONE) {
+    if (how != GB_STEP_DONE) {
         fail(err.text);
     }
     gb_experiment_destroy(experiment);

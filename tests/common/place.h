@@ -113,19 +113,19 @@ static inline void place_go_on(const struct place *place)
                               &err)) {
         g_error("%s", err.text);
     }
-    enum gb_advance how = GB_ADVANCE_MORE;
-    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
+    enum gb_step_outcome how = GB_STEP_MORE;
+    while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         char text[640];
         how = gb_experiment_advance(experiment, 1000, &err);
         while (gb_experiment_event(experiment, text, sizeof text)) {
             g_assert_true(gb_run_recorder_event(keep, 0, text, &err));
         }
-        if (how == GB_ADVANCE_POINT) {
+        if (how == GB_STEP_POINT) {
             g_assert_true(gb_run_recorder_point(keep, experiment,
                                                 gb_experiment_point(experiment), &err));
         }
     }
-    g_assert_cmpint(how, ==, GB_ADVANCE_DONE);
+    g_assert_cmpint(how, ==, GB_STEP_DONE);
     g_assert_true(gb_run_recorder_conclude(keep, &shot, &err));
     gb_run_recorder_destroy(keep);
     gb_experiment_destroy(experiment);

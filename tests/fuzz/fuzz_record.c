@@ -21,7 +21,7 @@ static void make(void)
         !gb_experiment_create(&experiment, &params, NULL, NULL, &err)) {
         abort();
     }
-    while (gb_experiment_advance(experiment, 1000, &err) != GB_ADVANCE_POINT) {
+    while (gb_experiment_advance(experiment, 1000, &err) != GB_STEP_POINT) {
     }
     if (!gb_checkpoint_take(experiment, &kept, &err)) {
         abort();

@@ -28,11 +28,11 @@ static void go_on(struct gb_experiment *experiment, int points)
     struct gb_error err = {0};
     while (points > 0) {
         char text[640];
-        const enum gb_advance how = gb_experiment_advance(experiment, 1000, &err);
-        if (how == GB_ADVANCE_DONE || how == GB_ADVANCE_STOPPED) {
+        const enum gb_step_outcome how = gb_experiment_advance(experiment, 1000, &err);
+        if (how == GB_STEP_DONE || how == GB_STEP_STOPPED) {
             g_error("the run ends too early: %s", err.text);
         }
-        points -= how == GB_ADVANCE_POINT;
+        points -= how == GB_STEP_POINT;
         while (gb_experiment_event(experiment, text, sizeof text)) {
         }
     }
@@ -152,11 +152,11 @@ static void test_terms(void)
     struct gb_params params = scene("contact.bridge_length=1 d");
     g_assert_true(gb_changes_add(&params, 3, "bridge_length=0.008 d", &err));
     g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
-    enum gb_advance how = GB_ADVANCE_MORE;
-    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
+    enum gb_step_outcome how = GB_STEP_MORE;
+    while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         how = gb_experiment_advance(experiment, 1000, &err);
     }
-    g_assert_cmpint(how, ==, GB_ADVANCE_STOPPED);
+    g_assert_cmpint(how, ==, GB_STEP_STOPPED);
     g_assert_nonnull(strstr(err.text, "from the start"));
     gb_experiment_destroy(experiment);
 }
@@ -208,7 +208,7 @@ static void test_runner(void)
     /* the child's parameters alone repeat it */
     struct gb_experiment *experiment = NULL;
     g_assert_true(gb_experiment_create(&experiment, &again, NULL, NULL, &err));
-    while (gb_experiment_advance(experiment, 1000, &err) != GB_ADVANCE_DONE) {
+    while (gb_experiment_advance(experiment, 1000, &err) != GB_STEP_DONE) {
     }
     g_assert_cmpfloat(gb_experiment_point(experiment)->density, ==, end.density);
     g_assert_cmpfloat(gb_experiment_point(experiment)->pz_pa, ==, end.pz_pa);

@@ -41,18 +41,18 @@ static void take(struct gb_experiment *experiment, struct gb_record *record)
 static bool step(struct gb_experiment *experiment, int64_t slice, GString *events)
 {
     struct gb_error err = {0};
-    enum gb_advance how = GB_ADVANCE_MORE;
-    while (how == GB_ADVANCE_MORE) {
+    enum gb_step_outcome how = GB_STEP_MORE;
+    while (how == GB_STEP_MORE) {
         char text[640];
         how = gb_experiment_advance(experiment, slice, &err);
         while (gb_experiment_event(experiment, text, sizeof text)) {
             g_string_append_printf(events, "%s\n", text);
         }
     }
-    if (how == GB_ADVANCE_STOPPED) {
+    if (how == GB_STEP_STOPPED) {
         g_string_append_printf(events, "stopped: %s\n", err.text);
     }
-    return how == GB_ADVANCE_POINT;
+    return how == GB_STEP_POINT;
 }
 
 static void compare(const struct gb_record *a, const struct gb_record *b, int64_t at)

@@ -15,7 +15,7 @@ struct curve {
     struct gb_point point[POINTS_MOST];
     int count;
     GString *events;
-    enum gb_advance how;
+    enum gb_step_outcome how;
     struct gb_error err;
     uint64_t hash, filled; /* at the end, and when pressing began */
 };
@@ -39,13 +39,13 @@ static struct curve run(const struct gb_params *params, int64_t slice)
     do {
         curve.how = gb_experiment_advance(experiment, slice, &curve.err);
         take_events(experiment, curve.events);
-        if (curve.how == GB_ADVANCE_POINT) {
+        if (curve.how == GB_STEP_POINT) {
             g_assert_cmpint(curve.count, <, POINTS_MOST);
             curve.filled =
                 curve.count == 0 ? gb_bed_copy_hash(experiment->die->bed) : curve.filled;
             curve.point[curve.count++] = *gb_experiment_point(experiment);
         }
-    } while (curve.how == GB_ADVANCE_MORE || curve.how == GB_ADVANCE_POINT);
+    } while (curve.how == GB_STEP_MORE || curve.how == GB_STEP_POINT);
     curve.hash = gb_bed_copy_hash(experiment->die->bed);
     gb_experiment_destroy(experiment);
     return curve;
@@ -61,7 +61,7 @@ static void test_whole(void)
 {
     const struct gb_params params = die_params(NULL);
     struct curve curve = run(&params, 1000);
-    g_assert_cmpint(curve.how, ==, GB_ADVANCE_DONE);
+    g_assert_cmpint(curve.how, ==, GB_STEP_DONE);
     g_assert_cmpint(curve.count, ==, 11);
     const struct gb_point *point = curve.point;
     g_assert_cmpint(point[0].branch, ==, GB_BRANCH_RELAX);
@@ -108,7 +108,7 @@ static void test_clogged(void)
     const struct gb_params params =
         die_params("die.outlet=7.5 um", "die.angle=60", "particles.count=300", NULL);
     struct curve curve = run(&params, 1000);
-    g_assert_cmpint(curve.how, ==, GB_ADVANCE_STOPPED);
+    g_assert_cmpint(curve.how, ==, GB_STEP_STOPPED);
     g_assert_cmpint(curve.err.code, ==, GB_ERR_GUARD);
     g_assert_nonnull(strstr(curve.err.text, "clogged"));
     finish(&curve);
@@ -121,7 +121,7 @@ static void test_step_above_critical(void)
         die_params("loading.until=20 MPa", "numerics.time_step=3 ns", NULL);
     const struct gb_params good = die_params("loading.until=20 MPa", NULL);
     struct curve a = run(&wild, 1000), b = run(&good, 1000);
-    g_assert_cmpint(a.how, ==, GB_ADVANCE_DONE);
+    g_assert_cmpint(a.how, ==, GB_STEP_DONE);
     g_assert_nonnull(strstr(a.events->str, "time step"));
     g_assert_cmpfloat_with_epsilon(a.point[a.count - 1].density,
                                    b.point[b.count - 1].density, 0.02);
@@ -137,13 +137,13 @@ static void check_fault(void (*spoil)(struct gb_bed *bed), const char *word)
     struct gb_experiment *experiment = NULL;
     GString *events = g_string_new(NULL);
     g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
-    while (gb_experiment_advance(experiment, 1000, &err) != GB_ADVANCE_POINT) {
+    while (gb_experiment_advance(experiment, 1000, &err) != GB_STEP_POINT) {
     }
-    g_assert_cmpint(gb_experiment_advance(experiment, 50, &err), ==, GB_ADVANCE_MORE);
+    g_assert_cmpint(gb_experiment_advance(experiment, 50, &err), ==, GB_STEP_MORE);
     take_events(experiment, events);
     g_string_truncate(events, 0);
     spoil(experiment->die->bed);
-    while (gb_experiment_advance(experiment, 1000, &err) == GB_ADVANCE_MORE) {
+    while (gb_experiment_advance(experiment, 1000, &err) == GB_STEP_MORE) {
     }
     take_events(experiment, events);
     g_assert_nonnull(strstr(events->str, word));
@@ -197,8 +197,7 @@ static void test_straggler(void)
     GString *events = g_string_new(NULL);
     g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
     while (!strstr(events->str, "gravity eased")) {
-        g_assert_cmpint(gb_experiment_advance(experiment, 1000, &err), ==,
-                        GB_ADVANCE_MORE);
+        g_assert_cmpint(gb_experiment_advance(experiment, 1000, &err), ==, GB_STEP_MORE);
         take_events(experiment, events);
     }
     struct gb_bed *bed = experiment->die->bed;
@@ -208,7 +207,7 @@ static void test_straggler(void)
     }
     bed->position[small][2] = gb_bed_top(bed) + 6.0;
     gb_bed_invalidate_lists(bed);
-    while (gb_experiment_advance(experiment, 1000, &err) == GB_ADVANCE_MORE) {
+    while (gb_experiment_advance(experiment, 1000, &err) == GB_STEP_MORE) {
     }
     const int64_t top = highest(bed);
     const double weight = bed->mass[top] * experiment->die->model->die.gravity;
@@ -255,8 +254,8 @@ static void test_state(void)
     const struct gb_params params = die_params("loading.until=5 MPa", NULL);
     struct gb_experiment *experiment = NULL;
     g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
-    enum gb_advance how = GB_ADVANCE_MORE;
-    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
+    enum gb_step_outcome how = GB_STEP_MORE;
+    while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         how = gb_experiment_advance(experiment, 5000, &err);
         struct gb_state *state = NULL;
         g_assert_true(gb_experiment_state(experiment, &state, &err));
@@ -272,7 +271,7 @@ static void test_state(void)
         }
         gb_state_destroy(state);
     }
-    g_assert_cmpint(how, ==, GB_ADVANCE_DONE);
+    g_assert_cmpint(how, ==, GB_STEP_DONE);
     gb_experiment_destroy(experiment);
 }
 
@@ -288,19 +287,19 @@ static void test_resume(void)
     struct gb_experiment *experiment = NULL, *second = NULL;
     g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
     for (int points = 0; points < 3;) {
-        const enum gb_advance how = gb_experiment_advance(experiment, 1000, &err);
-        if (how != GB_ADVANCE_POINT) {
+        const enum gb_step_outcome how = gb_experiment_advance(experiment, 1000, &err);
+        if (how != GB_STEP_POINT) {
             continue;
         }
         points++;
         g_assert_true(
             gb_checkpoint_take(experiment, points == 2 ? &record : &whole, &err));
     }
-    g_assert_cmpint(gb_experiment_advance(experiment, 1000, &err), ==, GB_ADVANCE_DONE);
+    g_assert_cmpint(gb_experiment_advance(experiment, 1000, &err), ==, GB_STEP_DONE);
     if (!gb_experiment_resume(&second, &params, &record, &err)) {
         g_error("%s", err.text);
     }
-    while (gb_experiment_advance(second, 333, &err) != GB_ADVANCE_POINT) {
+    while (gb_experiment_advance(second, 333, &err) != GB_STEP_POINT) {
     }
     g_assert_true(gb_checkpoint_take(second, &resumed, &err));
     const char *different = gb_record_difference(&whole, &resumed, &row);

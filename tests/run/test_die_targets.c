@@ -91,16 +91,16 @@ static bool next_point(struct gb_die_stages *programme, struct gb_bed *bed)
     struct gb_error err = {0};
     for (;;) {
         switch (gb_die_stages_advance(programme, bed, 100000, text, sizeof text, &err)) {
-        case GB_DIE_STAGES_MORE:
+        case GB_STEP_MORE:
             if (text[0] != '\0') {
                 g_test_message("%s", text);
             }
             break;
-        case GB_DIE_STAGES_POINT:
+        case GB_STEP_POINT:
             return true;
-        case GB_DIE_STAGES_DONE:
+        case GB_STEP_DONE:
             return false;
-        case GB_DIE_STAGES_STOPPED:
+        case GB_STEP_STOPPED:
             g_error("%s", err.text);
         }
     }

@@ -18,7 +18,7 @@ static struct gb_experiment *create(const struct gb_params *params)
 struct trace {
     GArray *points; /* struct gb_point */
     GString *events;
-    enum gb_advance end;
+    enum gb_step_outcome end;
     struct gb_error err;
     uint64_t hash;
 };
@@ -38,11 +38,11 @@ static struct trace run(const struct gb_params *params, int64_t slice)
     struct gb_experiment *experiment = create(params);
     do {
         trace.end = gb_experiment_advance(experiment, slice, &trace.err);
-        if (trace.end == GB_ADVANCE_POINT) {
+        if (trace.end == GB_STEP_POINT) {
             g_array_append_vals(trace.points, gb_experiment_point(experiment), 1);
         }
         take_events(&trace, experiment);
-    } while (trace.end == GB_ADVANCE_MORE || trace.end == GB_ADVANCE_POINT);
+    } while (trace.end == GB_STEP_MORE || trace.end == GB_STEP_POINT);
     trace.hash = gb_world_hash(gb_experiment_world(experiment));
     gb_experiment_destroy(experiment);
     return trace;
@@ -67,7 +67,7 @@ static void test_programme(void)
         scene_params("loading.until=40 MPa", "loading.unload_from=20 MPa",
                      "loading.step=0.4 %", "numerics.tolerance=1e-2", NULL);
     struct trace trace = run(&params, 1000);
-    g_assert_cmpint(trace.end, ==, GB_ADVANCE_DONE);
+    g_assert_cmpint(trace.end, ==, GB_STEP_DONE);
     g_assert_cmpint(at(&trace, 0)->branch, ==, -1);
     double top = 0.0, after = NAN, unloaded = NAN, density = 0.0;
     for (guint i = 1; i < trace.points->len; i++) {
@@ -107,7 +107,7 @@ static void test_repeat(void)
             threads[i], "particles.count=400", "loading.until=density = 0.27",
             "numerics.tolerance=1e-2", "loading.step=0.5 %", NULL);
         struct trace trace = run(&params, slice[i]);
-        g_assert_cmpint(trace.end, ==, GB_ADVANCE_DONE);
+        g_assert_cmpint(trace.end, ==, GB_STEP_DONE);
         hash[i] = trace.hash;
         drop(&trace);
     }
@@ -132,7 +132,7 @@ static void test_scenes(void)
             scene_params(scene[s][0], scene[s][1], "loading.until=10 MPa",
                          "loading.step=0.5 %", "numerics.tolerance=2e-2", NULL);
         struct trace trace = run(&params, 1000);
-        if (trace.end != GB_ADVANCE_DONE) {
+        if (trace.end != GB_STEP_DONE) {
             g_error("%s %s: %s", scene[s][0], scene[s][1], trace.err.text);
         }
         const struct gb_point *last = at(&trace, trace.points->len - 1);
@@ -151,7 +151,7 @@ static void test_stop(void)
         "contact.bridge_length=1 d", "particles.diameter=38 nm", "loading.step=2 %",
         "numerics.tolerance=3e-2", NULL);
     struct trace trace = run(&params, 1000);
-    g_assert_cmpint(trace.end, ==, GB_ADVANCE_STOPPED);
+    g_assert_cmpint(trace.end, ==, GB_STEP_STOPPED);
     g_assert_cmpint(trace.err.code, ==, GB_ERR_GUARD);
     g_assert_nonnull(strstr(trace.err.text, "cell has shrunk"));
     g_assert_nonnull(strstr(trace.events->str, "halved"));
@@ -171,7 +171,7 @@ static void test_parts(void)
             "loading.unload_from=", "numerics.tolerance=2e-2",
             i == 0 ? "numerics.strain_part=0.4 %" : "numerics.strain_part=0.15 %", NULL);
         trace[i] = run(&params, 1000);
-        g_assert_cmpint(trace[i].end, ==, GB_ADVANCE_DONE);
+        g_assert_cmpint(trace[i].end, ==, GB_STEP_DONE);
         g_assert_cmpuint(trace[i].points->len, >, 50);
     }
     int64_t evaluations[2] = {0};
@@ -202,7 +202,7 @@ static void test_departures(void)
                          "loading.step=2 %", "loading.until=20 MPa",
                          "numerics.tolerance=1e-5", "numerics.relaxer=fire", text, NULL);
         struct trace trace = run(&params, 1000);
-        g_assert_cmpint(trace.end, ==, GB_ADVANCE_DONE);
+        g_assert_cmpint(trace.end, ==, GB_STEP_DONE);
         if (strstr(trace.events->str, "may pass contacts by; strain step halved")) {
             tripped++;
         }
@@ -242,8 +242,9 @@ static void test_memory(void)
         gb_alloc_fail_after(++k);
         passed = gb_experiment_create(&experiment, &params, NULL, NULL, &err);
         for (int i = 0; i < 10 && passed; i++) {
-            const enum gb_advance result = gb_experiment_advance(experiment, 1000, &err);
-            passed = result != GB_ADVANCE_STOPPED;
+            const enum gb_step_outcome result =
+                gb_experiment_advance(experiment, 1000, &err);
+            passed = result != GB_STEP_STOPPED;
         }
         gb_alloc_fail_after(0);
         g_assert_true(passed || err.code == GB_ERR_MEMORY);
@@ -260,7 +261,7 @@ static void test_state(void)
         scene_params("loading.until=5 MPa", "loading.step=0.5 %", NULL);
     struct gb_experiment *experiment = create(&params);
     struct gb_error err = {0};
-    while (gb_experiment_advance(experiment, 1000, &err) != GB_ADVANCE_DONE) {
+    while (gb_experiment_advance(experiment, 1000, &err) != GB_STEP_DONE) {
         g_assert_cmpint(err.code, ==, GB_OK);
     }
     struct gb_state *state = NULL;

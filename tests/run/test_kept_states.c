@@ -166,18 +166,18 @@ static void press(struct gb_run_recorder *keep, struct gb_experiment *experiment
     struct gb_error err = {0};
     for (int k = 0; k < points;) {
         char text[640];
-        const enum gb_advance how = gb_experiment_advance(experiment, 100, &err);
+        const enum gb_step_outcome how = gb_experiment_advance(experiment, 100, &err);
         while (gb_experiment_event(experiment, text, sizeof text)) {
         }
-        if (how == GB_ADVANCE_DONE) {
+        if (how == GB_STEP_DONE) {
             return;
         }
-        if (how == GB_ADVANCE_POINT) {
+        if (how == GB_STEP_POINT) {
             k++;
             g_assert_true(gb_run_recorder_point(keep, experiment,
                                                 gb_experiment_point(experiment), &err));
         }
-        g_assert_true(how == GB_ADVANCE_POINT || how == GB_ADVANCE_MORE);
+        g_assert_true(how == GB_STEP_POINT || how == GB_STEP_MORE);
     }
 }
 

@@ -25,14 +25,15 @@ static struct curve compute(const struct gb_params *params)
         g_error("%s", err.text);
     }
     for (;;) {
-        const enum gb_advance result = gb_experiment_advance(experiment, 100000, &err);
-        if (result == GB_ADVANCE_STOPPED) {
+        const enum gb_step_outcome result =
+            gb_experiment_advance(experiment, 100000, &err);
+        if (result == GB_STEP_STOPPED) {
             g_error("%s", err.text);
         }
-        if (result == GB_ADVANCE_DONE) {
+        if (result == GB_STEP_DONE) {
             break;
         }
-        if (result == GB_ADVANCE_POINT) {
+        if (result == GB_STEP_POINT) {
             g_array_append_vals(curve.points, gb_experiment_point(experiment), 1);
         }
     }

@@ -164,7 +164,7 @@ static void test_momentum(void)
 }
 
 struct outcome {
-    enum gb_dynamic_outcome end;
+    enum gb_step_outcome end;
     double density, residual, kinetic_least, dissipated_least;
     int points, guards;
     char first[200]; /* what the first guard said */
@@ -190,7 +190,7 @@ static struct outcome press(const struct gb_params *params, int64_t slice)
         if (text[0] != '\0' && out.guards++ == 0) {
             g_strlcpy(out.first, text, sizeof out.first);
         }
-        if (out.end == GB_DYNAMIC_POINT) {
+        if (out.end == GB_STEP_POINT) {
             const struct gb_dynamic_report report = gb_dynamic_report(motion);
             out.points++;
             out.residual = fabs(report.work - report.kinetic - report.absorbed) /
@@ -199,7 +199,7 @@ static struct outcome press(const struct gb_params *params, int64_t slice)
             out.dissipated_least = fmin(out.dissipated_least, lost - dissipated);
             dissipated = lost;
         }
-    } while (out.end == GB_DYNAMIC_MORE || out.end == GB_DYNAMIC_POINT);
+    } while (out.end == GB_STEP_MORE || out.end == GB_STEP_POINT);
     out.density = gb_observe_density(world);
     out.hash = gb_world_hash(world);
     gb_dynamic_destroy(motion);
@@ -221,7 +221,7 @@ static void test_energy(void)
     const struct gb_params params =
         planar("numerics.time_step=0.04 T", "structure.seed=2");
     const struct outcome out = press(&params, 1000);
-    g_assert_cmpint(out.end, ==, GB_DYNAMIC_DONE);
+    g_assert_cmpint(out.end, ==, GB_STEP_DONE);
     g_assert_cmpfloat_with_epsilon(out.density, 0.95, 1e-9);
     g_test_message("energy residual %.2e of the work", out.residual);
     g_assert_cmpfloat(out.residual, <, 1e-3);
@@ -251,17 +251,17 @@ static void test_guards(void)
     const struct gb_params automatic =
         planar("numerics.time_step=auto", "structure.seed=2");
     struct outcome out = press(&half, 1000);
-    g_assert_cmpint(out.end, ==, GB_DYNAMIC_DONE);
+    g_assert_cmpint(out.end, ==, GB_STEP_DONE);
     g_assert_cmpint(out.guards, ==, 0);
     out = press(&whole, 1000);
-    g_assert_cmpint(out.end, ==, GB_DYNAMIC_DONE);
+    g_assert_cmpint(out.end, ==, GB_STEP_DONE);
     g_assert_cmpint(out.guards, >, 0);
     out = press(&wild, 1000);
-    g_assert_cmpint(out.end, ==, GB_DYNAMIC_DONE);
+    g_assert_cmpint(out.end, ==, GB_STEP_DONE);
     g_assert_cmpint(out.guards, >, 0);
     g_assert_cmpfloat(out.residual, <, 2e-2);
     out = press(&automatic, 1000);
-    g_assert_cmpint(out.end, ==, GB_DYNAMIC_DONE);
+    g_assert_cmpint(out.end, ==, GB_STEP_DONE);
     g_assert_cmpint(out.guards, ==, 0);
     g_assert_cmpfloat(out.residual, <, 2e-3);
 }
@@ -282,12 +282,12 @@ static void test_sliding(void)
         params.rate_per_s = 6.8e7;
         params.record_density = 0.02;
         struct outcome out = press(&params, 1000);
-        g_assert_cmpint(out.end, ==, GB_DYNAMIC_DONE);
+        g_assert_cmpint(out.end, ==, GB_STEP_DONE);
         g_assert_cmpint(out.guards, ==, 0);
         params.time_step.value = 1.0;
         out = press(&params, 1000);
         g_test_message("%s", out.first);
-        g_assert_cmpint(out.end, ==, GB_DYNAMIC_DONE);
+        g_assert_cmpint(out.end, ==, GB_STEP_DONE);
         g_assert_cmpint(out.guards, >=, 1);
         const bool by_sliding = strstr(out.first, "of the contacts slide; time step "
                                                   "halved to 0.5 T") != NULL;
@@ -305,7 +305,7 @@ static void test_slippery(void)
     params.bridge_length = (struct gb_relative){1.0, true};
     const struct outcome out = press(&params, 1000);
     g_test_message("%d lines, first: %s", out.guards, out.first);
-    g_assert_cmpint(out.end, ==, GB_DYNAMIC_DONE);
+    g_assert_cmpint(out.end, ==, GB_STEP_DONE);
     g_assert_cmpfloat_with_epsilon(out.density, 0.95, 1e-9);
     g_assert_cmpint(out.guards, >=, 2); /* halved, and given back */
     g_assert_cmpint(out.guards, <=, 8);

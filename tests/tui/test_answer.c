@@ -88,13 +88,13 @@ static double press(const struct gb_params *params)
     if (!gb_experiment_create(&experiment, params, NULL, NULL, &err)) {
         g_error("%s", err.text);
     }
-    enum gb_advance how = GB_ADVANCE_MORE;
-    while (how == GB_ADVANCE_MORE || how == GB_ADVANCE_POINT) {
+    enum gb_step_outcome how = GB_STEP_MORE;
+    while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         how = gb_experiment_advance(experiment, 1000, &err);
-        points += how == GB_ADVANCE_POINT;
+        points += how == GB_STEP_POINT;
     }
     const double seconds = processor_s() - from;
-    g_assert_cmpint(how, ==, GB_ADVANCE_DONE);
+    g_assert_cmpint(how, ==, GB_STEP_DONE);
     g_assert_cmpfloat(gb_experiment_point(experiment)->p_pa, >=, 0.99e9);
     g_assert_cmpint(points, >, 100);
     gb_experiment_destroy(experiment);
