@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/screening.h"
+#include "pack/kernel/simd.h"
 
 struct command {
     const char *name;
@@ -86,7 +87,7 @@ static void print_version(void)
            GB_WITH_PICTURES ? "pictures" : "no pictures", threads,
            GB_WITH_MPI ? "MPI" : "no MPI", glib_major_version, glib_minor_version,
            gsl_version);
-    printf("threads: %u\n", g_get_num_processors());
+    printf("threads: %u, vectors: %d bits\n", g_get_num_processors(), gb_simd_width(0));
 }
 
 static int unknown(const char *word)
@@ -184,10 +185,13 @@ int main(int argc, char **argv)
     setlocale(LC_NUMERIC, "C");
     gsl_set_error_handler_off();
     signal(SIGPIPE, SIG_IGN); /* a write to a closed pipe fails instead, with EPIPE */
+    struct gb_error err;
+    if (!gb_simd_check(&err)) {
+        return gb_options_fail(&err);
+    }
     const int status = dispatch(argc, argv);
     errno = 0;
     if (fflush(stdout) != 0 && status == 0) {
-        struct gb_error err;
         gb_options_output_failed(&err);
         return gb_options_fail(&err);
     }

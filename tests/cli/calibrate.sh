@@ -7,7 +7,7 @@
 refused() { # name, command: status 2, one line on stderr, nothing left behind
     name=$1
     shift
-    timeout 20 "$@" >stdout 2>stderr
+    in_patience "$@" >stdout 2>stderr
     [ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && [ ! -s stdout ] && [ ! -e out ]
     result "$name" $?
 }

@@ -3,6 +3,7 @@
 # arguments and works in a folder of its own, which goes away at the end.  What the program
 # said last lies in the files stdout and stderr.
 set -u
+. "$(dirname "$0")/../common/patience.sh"
 
 greenbody=$1
 presets=$2

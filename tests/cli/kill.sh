@@ -96,18 +96,45 @@ for kind in quasistatic dynamic die; do
 done
 
 # --- asked politely -----------------------------------------------------------------------
-for signal in INT:130 TERM:143; do
-    rm -rf broken
-    begin broken quasistatic
-    engine=$!
-    until [ -e broken/curve.csv ] && [ "$(wc -l <broken/curve.csv)" -gt 20 ]; do
-        sleep 0.01
+stands() {
+    grep -qs '^State:.T' "/proc/$engine/status"
+}
+
+gone() {
+    ! grep -qs '^State:.[^Z]' "/proc/$engine/status"
+}
+
+stands_or_gone() {
+    stands || gone
+}
+
+pressed_or_gone() {
+    [ -e broken/curve.csv ] && [ "$(wc -l <broken/curve.csv)" -gt 20 ] || gone
+}
+
+# An engine that stands still in the middle of its run: it does not get through with it while
+# it is looked at.  Begun anew where it was done before it was met.
+catch() { # kind
+    while :; do
+        rm -rf broken
+        begin broken "$1"
+        engine=$!
+        until_true pressed_or_gone
+        kill -STOP $engine 2>/dev/null
+        until_true stands_or_gone
+        stands && return
+        wait $engine
     done
+}
+
+for signal in INT:130 TERM:143; do
+    catch quasistatic
     "$greenbody" resume broken >stdout 2>stderr
     is "a run under way is not resumed" [ $? -eq 2 ]
     "$greenbody" verify broken >stdout 2>stderr
     is "nor verified" [ $? -eq 2 ]
     kill -s "${signal%:*}" $engine
+    kill -CONT $engine
     wait $engine
     is "${signal%:*} gives ${signal#*:}" [ $? -eq "${signal#*:}" ]
     grep -q "\"points\" : $(rows broken | sed 1d | wc -l)," broken/status.json

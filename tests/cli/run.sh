@@ -13,7 +13,7 @@ refused() {
     name=$1
     expected=$2
     shift 2
-    timeout 20 "$@" >stdout 2>stderr
+    in_patience "$@" >stdout 2>stderr
     status=$?
     [ $status -eq "$expected" ] && [ "$(wc -l <stderr)" -eq 1 ] && [ ! -s stdout ] &&
         [ ! -e out ] && [ ! -e runs ]
@@ -62,6 +62,13 @@ is 'the stored preset repeats the run' [ $? -eq 0 ]
 is 'quiet is quiet' [ ! -s stderr ]
 cut -d, -f1-13 out/curve.csv | cmp -s - second.cut
 result 'with the same curve' $?
+for level in sse2 avx2 avx512; do
+    GB_SIMD=$level run --out out --force
+    cut -d, -f1-13 out/curve.csv | cmp -s - second.cut
+    result "with the vectors of $level, too" $?
+done
+is 'sse2 means the narrowest' \
+    sh -c "GB_SIMD=sse2 '$greenbody' --version | grep -q 'vectors: 128 bits'"
 touch out/thesis.tex
 run --out out --force
 is 'a directory with foreign files is refused' [ $? -eq 2 ]
@@ -73,17 +80,16 @@ is 'without --out it goes to runs/' [ -f runs/default-1/curve.csv ]
 rm -rf runs
 
 # --- a signal ---------------------------------------------------------------------------
+presses() {
+    [ -e out/status.json ] && grep -q '^load' out/curve.csv
+}
+
 for signal in INT:130 TERM:143; do
     # a shell ignores INT in what it puts in the background; env gives it back
     env --default-signal=INT "$greenbody" run default --set particles.count=3000 \
-        --set numerics.fidelity=reference --out out >stdout 2>stderr &
+        --set loading.step=0.01% --set numerics.fidelity=reference --out out >stdout 2>stderr &
     pid=$!
-    tries=0
-    until [ -e out/status.json ] && grep -q '^load' out/curve.csv; do
-        tries=$((tries + 1))
-        [ $tries -lt 600 ] || break
-        sleep 0.05
-    done
+    until_true presses
     kill -s "${signal%:*}" $pid
     wait $pid
     is "${signal%:*} gives ${signal#*:}" [ $? -eq "${signal#*:}" ]
@@ -103,6 +109,7 @@ rm -rf out
 
 # --- wrong input ------------------------------------------------------------------------
 refused 'no preset' 2 "$greenbody" run --out out
+refused 'unknown vectors' 2 env GB_SIMD=mmx "$greenbody" run default --out out
 refused 'two presets' 2 "$greenbody" run default p1-set2-9.7nm --out out
 refused 'unknown option' 2 "$greenbody" run default --colour --out out
 refused 'unknown preset' 2 "$greenbody" run no-such-preset --out out

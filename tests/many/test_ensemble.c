@@ -74,11 +74,31 @@ static bool unreliable(const struct gb_params *params, const char *directory,
     }
 }
 
+static char *name_of(const char *what, uint64_t seed)
+{
+    return g_strdup_printf("%s/%s-%d", folder, what, (int)seed);
+}
+
+static bool exists(const char *what, uint64_t seed)
+{
+    char *path = name_of(what, seed);
+    const bool found = g_file_test(path, G_FILE_TEST_EXISTS);
+    g_free(path);
+    return found;
+}
+
+static void leave(const char *what, uint64_t seed)
+{
+    char *path = name_of(what, seed);
+    g_assert_true(g_file_set_contents(path, "", 0, NULL));
+    g_free(path);
+}
+
 static bool endless(const struct gb_params *params, const char *directory,
                     const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
-    (void)params;
     (void)directory;
+    leave("endless", params->seed);
     while (!callbacks->cancelled(callbacks->data)) {
         g_usleep(1000);
     }
@@ -339,13 +359,11 @@ static void test_restart(void)
     gb_axes_finish(&axes);
 }
 
-struct stopper {
-    int64_t at_us;
-};
-
-static bool is_time(void *data)
+/* Once both workers are at work. */
+static bool both_work(void *data)
 {
-    return g_get_monotonic_time() >= ((const struct stopper *)data)->at_us;
+    (void)data;
+    return exists("endless", 1) && exists("endless", 2);
 }
 
 static void test_cancel(void)
@@ -353,8 +371,7 @@ static void test_cancel(void)
     struct gb_axes axes = {0};
     struct gb_ensemble ensemble;
     struct gb_error err = {0};
-    struct stopper stopper = {g_get_monotonic_time() + 50000};
-    const struct gb_ensemble_callbacks watch = {.cancelled = is_time, .data = &stopper};
+    const struct gb_ensemble_callbacks watch = {.cancelled = both_work};
     make(&ensemble, &axes, 5, "cancel");
     g_assert_false(work(&ensemble, 2, endless, &watch, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
@@ -363,26 +380,6 @@ static void test_cancel(void)
         g_assert_cmpint(ensemble.run[i].error.code, ==, i < 2 ? GB_ERR_CANCELLED : GB_OK);
     }
     gb_ensemble_finish(&ensemble);
-}
-
-static char *name_of(const char *what, uint64_t seed)
-{
-    return g_strdup_printf("%s/%s-%d", folder, what, (int)seed);
-}
-
-static bool exists(const char *what, uint64_t seed)
-{
-    char *path = name_of(what, seed);
-    const bool found = g_file_test(path, G_FILE_TEST_EXISTS);
-    g_free(path);
-    return found;
-}
-
-static void leave(const char *what, uint64_t seed)
-{
-    char *path = name_of(what, seed);
-    g_assert_true(g_file_set_contents(path, "", 0, NULL));
-    g_free(path);
 }
 
 /* While a run is kept the next one is pressed, never two: each is kept until the next one

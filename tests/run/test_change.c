@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "common/patience.h"
 #include "common/scene.h"
 #include "pack/cell/world.h"
 #include "run/checkpoint.h"
@@ -161,12 +162,33 @@ static void test_terms(void)
     gb_experiment_destroy(experiment);
 }
 
-static void wait_for_fork(struct gb_runner *runner)
+static bool has_ended(void *runner)
 {
-    for (int i = 0; i < 3000 && !gb_runner_forked(runner, NULL); i++) {
-        g_usleep(10000);
+    return gb_runner_snapshot(runner, NULL)->state >= GB_RUN_DONE;
+}
+
+static bool has_forked_or_ended(void *runner)
+{
+    return gb_runner_forked(runner, NULL) || has_ended(runner);
+}
+
+/* A run that has handed over its state.  It is begun anew where it was over before this
+ * thread could ask. */
+static struct gb_runner *start_parent(const struct gb_params *params)
+{
+    struct gb_error err = {0};
+    struct gb_runner *parent = NULL;
+    struct gb_runner *child = NULL;
+    for (;;) {
+        g_assert_true(gb_runner_create(&parent, params, &err));
+        g_assert_false(gb_runner_create_fork(&child, "mu=0.4", parent, NULL, &err));
+        g_assert_true(gb_runner_send(parent, GB_COMMAND_FORK));
+        patience_wait(has_forked_or_ended, parent, "the state that was asked for");
+        if (gb_runner_forked(parent, NULL)) {
+            return parent;
+        }
+        gb_runner_destroy(parent);
     }
-    g_assert_true(gb_runner_forked(runner, NULL));
 }
 
 static const struct gb_point *last_point(const struct gb_runner *runner)
@@ -180,14 +202,10 @@ static const struct gb_point *last_point(const struct gb_runner *runner)
 static void test_runner(void)
 {
     struct gb_error err = {0};
-    struct gb_runner *parent = NULL;
+    const struct gb_params params = scene(NULL);
+    struct gb_runner *parent = start_parent(&params);
     struct gb_runner *child = NULL;
-    struct gb_params params = scene(NULL);
     int64_t step = -1;
-    g_assert_true(gb_runner_create(&parent, &params, &err));
-    g_assert_false(gb_runner_create_fork(&child, "mu=0.4", parent, NULL, &err));
-    g_assert_true(gb_runner_send(parent, GB_COMMAND_FORK));
-    wait_for_fork(parent);
     g_assert_true(gb_runner_forked(parent, &step));
     if (!gb_runner_create_fork(&child, "mu=0.4", parent, NULL, &err)) {
         g_error("%s", err.text);
@@ -195,10 +213,7 @@ static void test_runner(void)
     g_assert_false(gb_runner_forked(parent, NULL));
     g_assert_cmpint((int64_t)gb_curve_count(gb_runner_curve(child)), >, step);
     gb_runner_destroy(parent);
-    for (int i = 0; i < 6000 && gb_runner_snapshot(child, NULL)->state < GB_RUN_DONE;
-         i++) {
-        g_usleep(10000);
-    }
+    patience_wait(has_ended, child, "the end of the run");
     g_assert_cmpint(gb_runner_snapshot(child, NULL)->state, ==, GB_RUN_DONE);
     g_assert_cmpfloat_with_epsilon(last_point(child)->density, 0.32, 1e-6);
     g_assert_cmpint(gb_curve_at(gb_runner_curve(child), 0)->step, ==, 0);

@@ -61,20 +61,51 @@ static void pause_once(struct gb_runner *runner)
     g_assert_true(gb_runner_send(runner, GB_COMMAND_RESUME));
 }
 
-static void run_watched(const struct gb_params *params, const struct place *place,
-                        bool resumed)
+static struct gb_runner *start_watched(const struct gb_params *params,
+                                       const struct place *place)
 {
     struct gb_error err = {0};
     struct gb_runner *runner = NULL;
     g_assert_true(gb_runner_create_in(&runner, params, place->directory, &err));
     g_assert_true(gb_runner_send(runner, GB_COMMAND_WATCH));
     watch(runner, STOP_AFTER);
-    if (resumed) {
-        gb_runner_destroy(runner);
-        if (!gb_runner_resume(&runner, place->directory, &err)) {
-            g_error("%s", err.text);
-        }
+    return runner;
+}
+
+static bool was_stopped(const struct place *place)
+{
+    char *path = g_build_filename(place->directory, "status.json", NULL);
+    char *text = NULL;
+    g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
+    const bool stopped = strstr(text, "\"stopped\"") != NULL;
+    g_free(text);
+    g_free(path);
+    return stopped;
+}
+
+/* Stopped in its midst and resumed.  It is begun anew where it was over before this
+ * thread had seen its first points. */
+static struct gb_runner *resume_watched(const struct gb_params *params,
+                                        const struct place *place)
+{
+    struct gb_error err = {0};
+    struct gb_runner *runner = NULL;
+    gb_runner_destroy(start_watched(params, place));
+    while (!was_stopped(place)) {
+        place_clear(place);
+        gb_runner_destroy(start_watched(params, place));
     }
+    if (!gb_runner_resume(&runner, place->directory, &err)) {
+        g_error("%s", err.text);
+    }
+    return runner;
+}
+
+static void run_watched(const struct gb_params *params, const struct place *place,
+                        bool resumed)
+{
+    struct gb_runner *runner =
+        resumed ? resume_watched(params, place) : start_watched(params, place);
     pause_once(runner);
     watch(runner, SIZE_MAX);
     const struct gb_snapshot *shot = gb_runner_snapshot(runner, NULL);

@@ -1,7 +1,9 @@
 # shellcheck shell=sh
 # A real terminal for the tests of the workbench, to be sourced: sets $greenbody and $presets
-# from the arguments.  Waits for what the screen shows, with a deadline, and never for a time.
+# from the arguments.  Waits for what the screen shows, as patience.sh does, and never for a
+# time.
 set -u
+. "$(dirname "$0")/../common/patience.sh"
 
 greenbody=$1
 presets=$2
@@ -9,8 +11,6 @@ socket=greenbody-test-$$
 here=$(mktemp -d) || exit 1
 tests=0
 bad=0
-# seconds a user would wait, times what the surroundings ask for (under a sanitizer: 10)
-deadline_s=$((120 * ${GB_TEST_PATIENCE:-1}))
 # Takes far longer than any of what is done with it.
 # shellcheck disable=SC2034  # for those that source this
 long='default particles.count=6000 loading.step=0.02% numerics.fidelity=reference'
@@ -47,15 +47,6 @@ result() { # name, 0 when good
         screen | sed 's/^/# /'
         bad=1
     fi
-}
-
-# command...: until it succeeds or the deadline is over
-until_true() {
-    end=$(($(date +%s) + deadline_s))
-    while ! "$@"; do
-        [ "$(date +%s)" -lt "$end" ] || return 1
-        sleep 0.05
-    done
 }
 
 has() {

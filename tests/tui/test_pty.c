@@ -16,12 +16,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/patience.h"
 #include "tui/term/pixels.h"
 
-/* The targets of speed are asserted of medians with 'long', on a machine that does
- * nothing else; here of what other work cannot spoil. */
+/* The targets of speed are asserted with 'long', on a machine that does nothing else;
+ * here what no other work and no slow machine can spoil. */
 static const char *program, *presets;
-static char *home;
+static char *home, *reports; /* reports: what a sanitizer says, which no terminal keeps */
 
 struct child {
     pid_t pid;
@@ -35,8 +36,44 @@ struct child {
     char tail[64];
 };
 
+/* Reports of a sanitizer go to files: the terminal may be gone when one comes. */
+static void keep_reports(const char *name)
+{
+    const char *options = g_getenv(name);
+    char *more =
+        g_strdup_printf("%s:log_path=%s", options != NULL ? options : "", reports);
+    g_setenv(name, more, TRUE);
+    g_free(more);
+}
+
+static void tell_reports(void)
+{
+    char *folder = g_path_get_dirname(reports);
+    char *begins = g_path_get_basename(reports);
+    GDir *dir = g_dir_open(folder, 0, NULL);
+    const char *name;
+    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+        char *path = g_build_filename(folder, name, NULL);
+        char *text = NULL;
+        if (g_str_has_prefix(name, begins) &&
+            g_file_get_contents(path, &text, NULL, NULL)) {
+            fprintf(stderr, "%s\n", text);
+        }
+        g_free(text);
+        g_free(path);
+    }
+    if (dir != NULL) {
+        g_dir_close(dir);
+    }
+    g_free(begins);
+    g_free(folder);
+}
+
 static void become_program(char **words)
 {
+    keep_reports("ASAN_OPTIONS");
+    keep_reports("TSAN_OPTIONS");
+    keep_reports("UBSAN_OPTIONS");
     setenv("TERM", "xterm-256color", 1);
     setenv("LC_ALL", "C.UTF-8", 1);
     setenv("GB_PRESET_DIR", presets, 1);
@@ -51,13 +88,14 @@ static void become_program(char **words)
 }
 
 /* At fidelity = reference, so that no engine is through with its run while the screen is
- * looked at. */
-static void open_program(struct child *child, int rows, int cols, const char *setting)
+ * looked at.  Settings are words. */
+static void open_program(struct child *child, int rows, int cols, const char *settings)
 {
     struct winsize size = {.ws_row = (unsigned short)rows,
                            .ws_col = (unsigned short)cols};
-    char *words[] = {g_strdup(program), g_strdup("default"), g_strdup(setting),
-                     g_strdup("numerics.fidelity=reference"), NULL};
+    char *line =
+        g_strdup_printf("greenbody default numerics.fidelity=reference %s", settings);
+    char **words = g_strsplit(line, " ", -1);
     memset(child, 0, sizeof *child);
     child->pid = forkpty(&child->fd, NULL, NULL, &size);
     g_assert_cmpint(child->pid, >=, 0);
@@ -65,9 +103,8 @@ static void open_program(struct child *child, int rows, int cols, const char *se
         become_program(words);
     }
     tcgetattr(child->fd, &child->before);
-    for (int i = 0; i < 4; i++) {
-        g_free(words[i]);
-    }
+    g_strfreev(words);
+    g_free(line);
 }
 
 static void look_for_texts(struct child *child, const char *text, size_t length)
@@ -129,27 +166,42 @@ static void send_text(struct child *child, const char *text, size_t length)
 /* Until so many frames have come, however long that takes. */
 static void receive_bursts(struct child *child, int64_t bursts)
 {
-    for (int i = 0; i < 600 && child->bursts < bursts; i++) {
-        receive(child, 0.2, false);
+    const gint64 from = g_get_monotonic_time();
+    while (child->bursts < bursts) {
+        patience_check(from, "frames");
+        g_assert_true(receive(child, 0.2, false));
     }
-    g_assert_cmpint(child->bursts, >=, bursts);
 }
 
 static int wait_for_end(struct child *child)
 {
+    const gint64 from = g_get_monotonic_time();
     int status = 0;
-    for (int i = 0; i < 6000; i++) {
+    while (waitpid(child->pid, &status, WNOHANG) != child->pid) {
+        if (g_get_monotonic_time() - from > patience_us()) {
+            kill(child->pid, SIGKILL);
+            waitpid(child->pid, &status, 0);
+            g_error("the program does not end");
+        }
         if (!receive(child, 0.02, false)) {
             g_usleep(20000);
         }
-        if (waitpid(child->pid, &status, WNOHANG) == child->pid) {
-            receive(child, 0.05, false);
-            return status;
-        }
     }
-    kill(child->pid, SIGKILL);
-    waitpid(child->pid, &status, 0);
-    g_error("the program does not end");
+    receive(child, 0.05, false);
+    return status;
+}
+
+/* It has ended by itself, with one of two statuses. */
+static void check_status(int status, int good, int as_good)
+{
+    if (!WIFEXITED(status) ||
+        (WEXITSTATUS(status) != good && WEXITSTATUS(status) != as_good)) {
+        tell_reports();
+    }
+    g_assert_true(WIFEXITED(status));
+    if (WEXITSTATUS(status) != as_good) {
+        g_assert_cmpint(WEXITSTATUS(status), ==, good);
+    }
 }
 
 static void check_restored(struct child *child)
@@ -167,9 +219,7 @@ static void check_restored(struct child *child)
 static void quit(struct child *child)
 {
     kill(child->pid, SIGTERM);
-    const int status = wait_for_end(child);
-    g_assert_true(WIFEXITED(status));
-    g_assert_cmpint(WEXITSTATUS(status), ==, 143);
+    check_status(wait_for_end(child), 143, 143);
     check_restored(child);
 }
 
@@ -196,95 +246,106 @@ static void test_running(void)
     struct child child;
     long long frames = 0;
     double seconds = 0.0;
-    open_program(&child, 40, 120, "particles.count=4000");
-    receive_bursts(&child, 40);
-    quit(&child);
-    read_frames(&frames, &seconds);
+    for (int bursts = 40; frames < 20; bursts *= 2) { /* a busy machine tears frames */
+        open_program(&child, 40, 120, "particles.count=4000");
+        receive_bursts(&child, bursts);
+        quit(&child);
+        read_frames(&frames, &seconds);
+    }
     const double mean = (double)child.bytes / (double)MAX(frames, 1);
     g_test_message("%lld bytes in %lld frames: %.0f bytes a frame, %.1f frames/s",
                    (long long)child.bytes, frames, mean, (double)frames / seconds);
-    g_assert_cmpint(frames, >=, 20);
     g_assert_cmpfloat((double)frames, <=, 10.0 * (seconds + 1.0));
     g_assert_cmpfloat(mean, <, 2048.0);
 }
 
-/* Paused, after the last frame has come: nothing at all. */
+/* Paused, after the last frame has come, however late: nothing at all for three seconds,
+ * in which an engine that works has twenty frames of news. */
 static void test_paused(void)
 {
     struct child child;
     open_program(&child, 40, 120, "particles.count=6000");
     receive_bursts(&child, 5);
     send_text(&child, "p", 1);
-    for (int i = 0; i < 120; i++) { /* until a second of silence, which must come */
+    const gint64 from = g_get_monotonic_time();
+    do {
+        patience_check(from, "silence");
         child.bytes = 0;
-        receive(&child, 1.0, false);
-        if (child.bytes == 0) {
-            break;
-        }
-    }
-    g_assert_cmpint(child.bytes, ==, 0);
-    receive(&child, 2.0, false);
-    g_assert_cmpint(child.bytes, ==, 0);
+        g_assert_true(receive(&child, 3.0, false));
+    } while (child.bytes > 0);
     quit(&child);
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
+/* From a key until a text is on the screen. */
+struct answer {
+    double seconds;
+    int64_t frames; /* begun meanwhile */
+};
 
-/* Seconds from a key until a text is on the screen. */
-static double await(struct child *child, const char *key, const char *text)
+static struct answer await(struct child *child, const char *key, const char *text)
 {
     const gint64 from = g_get_monotonic_time();
+    const int64_t before = child->bursts;
     child->awaited = text;
     child->saw_awaited = false;
     child->tail[0] = '\0';
     send_text(child, key, strlen(key));
     while (!child->saw_awaited) {
         g_assert_true(receive(child, 0.5, true));
-        g_assert_cmpint(g_get_monotonic_time() - from, <, G_USEC_PER_SEC * 120);
+        patience_check(from, text);
     }
-    return 1e-6 * (double)(g_get_monotonic_time() - from);
+    return (struct answer){.seconds = 1e-6 * (double)(g_get_monotonic_time() - from),
+                           .frames = child->bursts - before};
 }
 
 enum { LATENCY_KEYS = 25 };
 
-/* The list of keys while the engine computes N = 8000 on all cores; sorted. */
-static void measure_latency(double waited[LATENCY_KEYS])
+static int compare_seconds(const void *a, const void *b)
+{
+    const double x = ((const struct answer *)a)->seconds;
+    const double y = ((const struct answer *)b)->seconds;
+    return (x > y) - (x < y);
+}
+
+/* The list of keys while the engine computes N = 8000 on all cores; sorted by time.
+ * Returns the fewest frames that an answer took. */
+static int64_t measure_latency(struct answer waited[LATENCY_KEYS])
 {
     struct child child;
+    int64_t fewest = INT64_MAX;
     open_program(&child, 40, 120, "particles.count=8000");
     receive_bursts(&child, 20);
     for (int i = 0; i < LATENCY_KEYS; i++) {
         waited[i] = await(&child, "?", "scroll,");
-        send_text(&child, "?", 1);
+        fewest = MIN(fewest, waited[i].frames);
+        await(&child, "?", "against density");
         receive(&child, 0.31, false);
     }
     quit(&child);
-    qsort(waited, LATENCY_KEYS, sizeof waited[0], compare_doubles);
+    qsort(waited, LATENCY_KEYS, sizeof waited[0], compare_seconds);
     g_test_message(
         "answer after %.0f ms (least), %.0f ms (median), %.0f ms (worst of %d)",
-        1e3 * waited[0], 1e3 * waited[LATENCY_KEYS / 2], 1e3 * waited[LATENCY_KEYS - 1],
-        LATENCY_KEYS);
+        1e3 * waited[0].seconds, 1e3 * waited[LATENCY_KEYS / 2].seconds,
+        1e3 * waited[LATENCY_KEYS - 1].seconds, LATENCY_KEYS);
+    return fewest;
 }
 
-/* On a machine that does other work, too, a key can wait for that work, but not all of
- * them: an answer that this program itself held back would come late every time. */
+/* A key is answered by the very next frame.  One that is drawn or on its way while the
+ * key comes is no answer, and a busy machine tears frames to pieces, but not every time:
+ * an answer that this program itself held back would have news of the engine before it
+ * always. */
 static void test_latency(void)
 {
-    double waited[LATENCY_KEYS];
-    measure_latency(waited);
-    g_assert_cmpfloat(waited[0], <, 0.05);
+    struct answer waited[LATENCY_KEYS];
+    g_assert_cmpint(measure_latency(waited), <=, 1);
 }
 
 /* The target itself, for a machine that does nothing else. */
 static void test_latency_median(void)
 {
-    double waited[LATENCY_KEYS];
+    struct answer waited[LATENCY_KEYS];
     measure_latency(waited);
-    g_assert_cmpfloat(waited[LATENCY_KEYS / 2], <, 0.05);
+    g_assert_cmpfloat(waited[LATENCY_KEYS / 2].seconds, <, 0.05);
 }
 
 /* The packing in real pixels where that is asked for: a picture comes with its view, and
@@ -330,22 +391,28 @@ static int count_lines(const char *folder, const char *name)
 /* Lines of a curve after which there is something to keep. */
 enum { POINTS = 8 };
 
-/* Somebody who asks for the end a second time, while the engine is still being stopped,
- * does not lose the run. */
+/* Asking for the end a second time, while the engine is still being stopped, does not
+ * lose the run.  Its steps are so small that points come soon and the end never; r begins
+ * it beside its quick cell, which may take minutes. */
 static void test_asked_twice(void)
 {
     char *const before = home;
     struct child child;
     home = g_build_filename(before, "twice", NULL);
     g_assert_cmpint(g_mkdir(home, 0700), ==, 0);
-    open_program(&child, 24, 80, "particles.count=8000");
-    for (int i = 0; i < 1200 && count_lines(home, "curve.csv") < POINTS; i++) {
-        receive(&child, 0.1, false);
+    open_program(&child, 24, 80, "particles.count=3000 loading.step=0.001%");
+    receive_bursts(&child, 1);
+    send_text(&child, "r", 1);
+    gint64 from = g_get_monotonic_time();
+    while (count_lines(home, "curve.csv") < POINTS) {
+        patience_check(from, "points of the curve");
+        g_assert_true(receive(&child, 0.1, false));
     }
-    g_assert_cmpint(count_lines(home, "curve.csv"), >=, POINTS);
     await(&child, "q", "Quit?");
     send_text(&child, "y", 1);
+    from = g_get_monotonic_time();
     while (!child.saw_leave) {
+        patience_check(from, "the terminal given back");
         g_assert_true(receive(&child, 10.0, true));
     }
     kill(child.pid, SIGTERM);
@@ -396,8 +463,7 @@ static bool has_ended(struct child *child)
         return false;
     }
     receive(child, 0.05, false);
-    g_assert_true(WIFEXITED(status)); /* q, and y where it asks */
-    g_assert_cmpint(WEXITSTATUS(status), ==, 0);
+    check_status(status, 0, 0); /* q, and y where it asks */
     check_restored(child);
     return true;
 }
@@ -436,8 +502,7 @@ static void storm(int keys, int resizes)
     }
     const int status = wait_for_end(&child);
     g_test_message("status %d", status);
-    g_assert_true(WIFEXITED(status));
-    g_assert_true(WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 143);
+    check_status(status, 143, 0);
     check_restored(&child);
 }
 
@@ -458,6 +523,7 @@ int main(int argc, char **argv)
     program = argv[1];
     presets = argv[2];
     home = g_dir_make_tmp("gb-pty-XXXXXX", NULL);
+    reports = g_build_filename(home, "sanitizer", NULL);
     if (argc > 3) {
         g_test_add_func("/tui/pty/latency-median", test_latency_median);
         g_test_add_func("/tui/pty/long-storm", test_long_storm);
@@ -473,6 +539,7 @@ int main(int argc, char **argv)
     char *command = g_strdup_printf("rm -rf '%s'", home);
     g_spawn_command_line_sync(command, NULL, NULL, NULL, NULL);
     g_free(command);
+    g_free(reports);
     g_free(home);
     return status;
 }

@@ -11,7 +11,7 @@ fi
 
 # The program starts itself anew to set this; valgrind cannot follow there.
 export GOMP_SPINCOUNT=3000
-deadline_s=$((deadline_s * 5)) # and is thirty times as slow
+patience_s=$((patience_s * 4)) # and is thirty times as slow
 suppressed=$(cd "$(dirname "$0")/.." && pwd)/valgrind.supp
 cd "$here" || exit 1
 cat >checked <<END

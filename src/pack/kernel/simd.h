@@ -1,6 +1,10 @@
 #ifndef GB_PACK_KERNEL_SIMD_H
 #define GB_PACK_KERNEL_SIMD_H
 
+#include <stdbool.h>
+
+#include "greenbody/status.h"
+
 /* Loops compiled once per vector width of the processor family, chosen at run time. */
 #if defined(__x86_64__)
 #define GB_TARGET_256 __attribute__((target("avx2")))
@@ -13,12 +17,19 @@
 #endif
 #endif
 
-/* Bits of the widest vectors that this processor and the caller (0: no limit) allow: 128,
- * 256 or 512. */
+/* The widest vectors that the environment allows: GB_SIMD = sse2, avx2 or avx512 holds
+ * the program to those of an older processor.  Read once, before main. */
+extern int gb_simd_most;
+
+/* False: GB_SIMD is set to something else. */
+bool gb_simd_check(struct gb_error *err);
+
+/* Bits of the widest vectors that this processor, the environment and the caller (0: no
+ * limit) allow: 128, 256 or 512. */
 static inline int gb_simd_width(int widest)
 {
 #if defined(__x86_64__)
-    const int most = widest > 0 ? widest : 512;
+    const int most = widest > 0 && widest < gb_simd_most ? widest : gb_simd_most;
     if (most >= 512 && __builtin_cpu_supports("avx512f") &&
         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("avx512bw")) {

@@ -69,6 +69,10 @@ static void put_pixel(uint8_t *pixel, float shade)
 static char *print(int images, const uint8_t *rgb, int high, int wide, int rows, int cols,
                    struct gb_pixels_cell cell)
 {
+#if GB_CHAFA_POOL
+    /* no pool of threads for a picture of a second's pace: the cores are the engine's */
+    chafa_set_n_threads(1);
+#endif
     ChafaTermInfo *info = describe_terminal();
     ChafaTermInfo *all = chafa_term_db_get_fallback_info(chafa_term_db_get_default());
     ChafaCanvasConfig *config = chafa_canvas_config_new();

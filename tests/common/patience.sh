@@ -1,0 +1,23 @@
+# shellcheck shell=sh
+# Waits for events, to be sourced.  The limit is one that only a hang meets: a slow or busy
+# machine, an old processor and a sanitizer together take far less.  Where they would not,
+# GB_TEST_PATIENCE multiplies it.
+patience_s=$((900 * ${GB_TEST_PATIENCE:-1}))
+
+# command...: until it succeeds; 1 when it never does.  After a hang nothing is waited for as
+# long again, so that a broken program does not keep its tests busy for hours.
+until_true() {
+    until_true_end=$(($(date +%s) + patience_s))
+    while ! "$@"; do
+        [ "$(date +%s)" -lt "$until_true_end" ] || {
+            patience_s=20
+            return 1
+        }
+        sleep 0.05
+    done
+}
+
+# Runs a command that ends by itself: status 124 when it does not.
+in_patience() {
+    timeout "$patience_s" "$@"
+}
