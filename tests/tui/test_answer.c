@@ -1,7 +1,8 @@
 /* From a knob to its curves: the laws within the frame, the whole quick curve of 1000
- * particles to 1 GPa within two seconds.  Processor time of one core, which other work on
- * the machine stretches little; with 'hard' the targets themselves, else bounds that only
- * a change of the program breaks.  Usage: test_answer [hard] */
+ * particles to 1 GPa within two seconds of processor time of one core.  These targets are
+ * asserted with 'hard', on a machine that does nothing else; else what does not depend on
+ * the machine: both laws come, and the curve costs no more evaluations than it did.
+ * Usage: test_answer [hard] */
 #include <glib.h>
 #include <math.h>
 #include <string.h>
@@ -73,11 +74,14 @@ static void test_laws(void)
         least = fmin(least, draw_laws(&panel, &session));
     }
     g_test_message("both laws in %.2f ms", 1e3 * least);
-    g_assert_cmpfloat(least, <, 0.1);
+    g_assert_true(!hard || least < 0.1);
     gb_panel_plot_finish(&panel);
     gb_session_finish(&session);
     gb_preset_destroy(preset);
 }
+
+/* Twice as many as today. */
+enum { EVALUATIONS_MOST = 1000000 };
 
 static double press(const struct gb_params *params)
 {
@@ -97,6 +101,9 @@ static double press(const struct gb_params *params)
     g_assert_cmpint(how, ==, GB_STEP_DONE);
     g_assert_cmpfloat(gb_experiment_point(experiment)->p_pa, >=, 0.99e9);
     g_assert_cmpint(points, >, 100);
+    const int64_t evaluations = gb_experiment_evaluations(experiment);
+    g_test_message("%lld evaluations", (long long)evaluations);
+    g_assert_cmpint(evaluations, <, EVALUATIONS_MOST);
     gb_experiment_destroy(experiment);
     return seconds;
 }
@@ -114,7 +121,7 @@ static void test_quick_curve(void)
     }
     g_test_message("quick curve of %lld particles to 1 GPa in %.2f s of one core",
                    (long long)quick.count, least);
-    g_assert_cmpfloat(least, <, hard ? 2.0 : 30.0);
+    g_assert_true(!hard || least < 2.0);
 }
 
 int main(int argc, char **argv)

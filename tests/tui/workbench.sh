@@ -31,9 +31,9 @@ shows "opens the default preset" 'Pressure against density'
 }
 grows "the curve grows"
 is "dots of braille" until_true has_braille
-is "parameters are listed" has 'Parameters'
-is "state is shown" has 'State'
-is "events are shown" has 'Events'
+shows "parameters are listed" 'Parameters'
+shows "state is shown" 'State'
+shows "events are shown" 'Events'
 
 # --- editing
 # By itself the full cell follows in a second or two, and the marks of an edit are gone: where
@@ -183,14 +183,14 @@ is "the terminal is back after y" terminal_is_back
 # --- a run that takes long is asked about; stages of a dynamic run
 start p2-v5
 shows "a long run is asked about" 'A long run: start it?'
-is "with its time" has 'This run will take about'
-is "with what makes it cheaper" has 'loading.rate'
-is "and is not started" has 'not started'
+shows "with its time" 'This run will take about'
+shows "with what makes it cheaper" 'loading.rate'
+shows "and is not started" 'not started'
 keys n
 hides "n leaves it" 'A long run: start it?'
 shows "what follows is said" 'r asks again'
-is "its parameters stay" has 'P2 2D, rate v5'
-is "still not started" has 'not started: declined'
+shows "its parameters stay" 'P2 2D, rate v5'
+shows "still not started" 'not started: declined'
 keys r
 shows "r asks again" 'A long run: start it?'
 keys Escape
@@ -209,7 +209,7 @@ shows "energies have a unit" 'work  *[0-9.]* [a-z]*J'
 keys f
 shows "a what-if is refused with the reason" 'only quasi-static runs'
 hides "its quick cell comes to its end behind it" '▶ quick cell'
-is "the refusal stays" has 'only quasi-static runs'
+shows "the refusal stays" 'only quasi-static runs'
 is "and so does the run that r started" has_not 'same parameters'
 keys 4
 shows "4 shows pressure against time" '4 Pressure against time'
@@ -256,7 +256,7 @@ shows "opens a fourth time" 'Parameters'
 is "a checkpoint is written" until_true eval 'ls "$here"/state/greenbody/runs/*/state.h5 >"$here/ls" 2>&1'
 kill -SEGV "$(cat "$here/pid")"
 shows "a crash is told" 'the program has failed'
-is "with its last checkpoint" has 'greenbody resume'
+shows "with its last checkpoint" 'greenbody resume'
 shows "with a status of its own" 'status=[1-9]' # 139, or what a sanitizer says
 is "the terminal is back after a crash" terminal_is_back
 
