@@ -36,5 +36,5 @@ bool gb_simd_check(struct gb_error *err)
     const char *name = getenv("GB_SIMD");
     return name == NULL || bits_of(name) > 0 ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "GB_SIMD = %.40s: accepted: sse2, avx2, avx512", name);
+                        "GB_SIMD = %.40s: must be one of sse2, avx2, avx512", name);
 }
