@@ -72,7 +72,7 @@ struct gb_params {
     double epsilon_j;
     double yield_pa;
     double hardening;   /* exponent m */
-    double hollomon_pa; /* NaN: auto, gb_params_hollomon_pa */
+    double hollomon_pa; /* NaN: auto, gb_derived_hollomon_pa */
     double young_j_pa;  /* this and the next three: the second body of a pair; */
     double poisson_j;   /* NaN: as the first */
     double density_j_kg_m3;
@@ -101,7 +101,7 @@ struct gb_params {
     int storakers;                     /* enum gb_storakers */
     double radius_i_m, radius_j_m;     /* of a pair; NaN: d/2, infinite: a wall */
     /* [structure] */
-    double structure_density; /* NaN: auto, gb_params_structure_density */
+    double structure_density; /* NaN: auto, gb_derived_structure_density */
     struct gb_relative base;  /* relative with value 0: auto, P1's aspect ratio */
     struct gb_relative r_meso;
     uint64_t seed;
@@ -215,30 +215,5 @@ bool gb_params_check(const struct gb_params *params, struct gb_error *err);
 /* The part of it that looks at each field alone, for what is no scene: values of a law.
  */
 bool gb_params_check_fields(const struct gb_params *params, struct gb_error *err);
-
-/* Resolved lengths and pressures, SI. */
-double gb_params_bridge_length_m(const struct gb_params *params);
-double gb_params_shear_strength_pa(const struct gb_params *params);
-/* Median diameter of the log-normal law. */
-double gb_params_median_m(const struct gb_params *params);
-/* What "d" means in values of a preset and in reduced units: particles.diameter; where a
- * quasi-static scene has sizes, their mean by number. */
-double gb_params_reference_m(const struct gb_params *params);
-/* sigma_0 of Hollomon's law; auto passes through the yield point.  Source: P3 section 4.
- */
-double gb_params_hollomon_pa(const struct gb_params *params);
-/* Density of the initial structure; auto is 0.24 in 3D and 0.5 in 2D (P1, P2). */
-double gb_params_structure_density(const struct gb_params *params);
-
-/* The reduced unit of time T = sqrt(m/(E d)) = sqrt(pi rho_m d^2/(6 E)), 0.74 ps for
- * alumina of 10 nm.  Source: P2 section 2. */
-double gb_params_unit_time_s(const struct gb_params *params);
-/* Time step of dynamic scenes; NaN: auto. */
-double gb_params_time_step_s(const struct gb_params *params);
-
-/* Edges of the initial cell in particle diameters (x, y, z); y is 1 in 2D, where the
- * scene lies in the x-z plane.  base = auto: in 3D the aspect ratio of P1's cells (18 x
- * 18 x 53.87 for 8000 particles), in 2D a square. */
-void gb_params_cell(const struct gb_params *params, double edges[3]);
 
 #endif

@@ -34,7 +34,7 @@ void *gb_alloc_array(size_t count, size_t size, struct gb_error *err)
     const size_t total = sizeof(struct head) + lines * ALIGNMENT;
     struct head *head = must_fail() ? NULL : aligned_alloc(ALIGNMENT, total);
     if (!head) {
-        gb_error_set(err, GB_ERR_MEMORY, "out of memory: %zu bytes asked for", total);
+        gb_error_set(err, GB_ERR_MEMORY, "out of memory: %zu bytes requested", total);
         return NULL;
     }
     memset(head, 0, total);

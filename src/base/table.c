@@ -65,7 +65,7 @@ static bool load(struct gb_table *table, struct gb_error *err)
     if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode)) {
         gb_error_set(err, GB_ERR_INPUT, "%s: is not a regular file", table->path);
     } else if (info.st_size > GB_TABLE_BYTES_MAX) {
-        gb_error_set(err, GB_ERR_INPUT, "%s: larger than a table may be, %d bytes",
+        gb_error_set(err, GB_ERR_INPUT, "%s: must be at most %d bytes",
                      table->path, GB_TABLE_BYTES_MAX);
     } else {
         const size_t size = (size_t)info.st_size;
@@ -138,8 +138,8 @@ static bool read_header(struct gb_table *table, struct cursor *at, struct gb_err
         }
         if (*cell == '\0' || strchr(cell, '"') || find(table, cell) < table->columns) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "%s:%d: column %zu is named '%.40s'; accepted different "
-                                "names without quotes",
+                                "%s:%d: column %zu: name '%.40s' must be unique, not "
+                                "empty and without quotes",
                                 table->path, at->line, table->columns + 1, cell);
         }
         table->name[table->columns++] = cell;
@@ -171,7 +171,7 @@ static bool read_cell(const struct gb_table *table, const struct cursor *at,
         return true;
     }
     return gb_error_set(err, GB_ERR_INPUT,
-                        "%s:%d: %.40s = '%.40s'; accepted a number or nothing",
+                        "%s:%d: %.40s = '%.40s': must be a number or empty",
                         table->path, at->line, table->name[column], cell);
 }
 
@@ -192,7 +192,7 @@ static bool read_row(struct gb_table *table, const struct cursor *at, char *rest
         column++;
     }
     if (column != table->columns) {
-        return gb_error_set(err, GB_ERR_INPUT, "%s:%d: %zu cells, but %zu columns",
+        return gb_error_set(err, GB_ERR_INPUT, "%s:%d: %zu cells: must be %zu, one per column",
                             table->path, at->line, column, table->columns);
     }
     table->line[table->rows++] = at->line;
@@ -213,7 +213,7 @@ static bool parse(struct gb_table *table, const char *words, struct gb_error *er
     struct cursor at = {table->text, table->text + table->length, 0};
     const void *nul = memchr(table->text, '\0', table->length);
     if (nul != NULL) {
-        return gb_error_set(err, GB_ERR_INPUT, "%s: holds NUL bytes; accepted text",
+        return gb_error_set(err, GB_ERR_INPUT, "%s: contains NUL bytes: must be text",
                             table->path);
     }
     if (g_str_has_prefix(table->text, byte_order_mark)) {

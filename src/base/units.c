@@ -234,8 +234,10 @@ bool gb_units_parse(const char *text, enum gb_dimension dimension, double *value
     if (!read || !evaluate(&literal, 0, &value)) {
         return gb_error_set(err, GB_ERR_INPUT, "'%.60s' is not a number", text);
     }
-    return gb_error_set(err, GB_ERR_INPUT, "'%.60s': units accepted: %s", text,
-                        gb_units_accepted(dimension));
+    return dimension == GB_DIM_NONE
+               ? gb_error_set(err, GB_ERR_INPUT, "'%.60s': must have no unit", text)
+               : gb_error_set(err, GB_ERR_INPUT, "'%.60s': unit must be one of: %s", text,
+                              gb_units_accepted(dimension));
 }
 
 /* d.ddd times 10^exponent. */

@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "measure/fit/average.h"
 #include "measure/fit/power.h"
+#include "scene/derived.h"
 
 /* P2 (9). */
 static const double published_exponent = 0.25;
@@ -254,7 +255,7 @@ static void fill_rows(struct gb_series *series, const struct gb_runset *set,
     }
     draw_densities(series, columns[0]);
     note_common(series, points, series->rows,
-                gb_params_structure_density(&set->run[0].params));
+                gb_derived_structure_density(&set->run[0].params));
     g_free(points);
     g_free(runs);
     g_free(fitted);

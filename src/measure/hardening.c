@@ -76,8 +76,8 @@ static bool check(const double *density, size_t count, struct gb_error *err)
         if (!(density[i] > 0.0 && density[i] < 1.0) ||
             (i > 0 && !(density[i] > density[i - 1]))) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "point %zu of a curve: density %g; accepted densities "
-                                "between 0 and 1 that rise",
+                                "point %zu of the compaction curve: density %g: must be "
+                                "between 0 and 1 and ascending",
                                 i + 1, density[i]);
         }
     }
@@ -112,8 +112,8 @@ bool gb_hardening_init(struct gb_hardening *law, int geometry, const double *den
     if (law->count < 2) {
         gb_hardening_finish(law);
         return gb_error_set(err, GB_ERR_INPUT,
-                            "a hardening law takes two points with a pressure above 0 at "
-                            "least");
+                            "hardening law: must have at least two points with a pressure "
+                            "above 0");
     }
     return true;
 }

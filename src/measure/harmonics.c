@@ -66,7 +66,7 @@ bool gb_harmonics_fit(struct gb_harmonics *rose, int dimension, const double *ax
     *rose = (struct gb_harmonics){.count = count};
     if (count < terms) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "a rose of %zu forces: at least %zu are accepted", count,
+                            "rose of %zu forces: must be at least %zu", count,
                             terms);
     }
     rose->mean = add_up(matrix, right, terms, axis, value, count);
@@ -76,7 +76,7 @@ bool gb_harmonics_fit(struct gb_harmonics *rose, int dimension, const double *ax
     if (gsl_linalg_cholesky_decomp1(&a.matrix) != GSL_SUCCESS ||
         gsl_linalg_cholesky_solve(&a.matrix, &b.vector, &x.vector) != GSL_SUCCESS) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "a rose of %zu forces: their directions are too few", count);
+                            "rose of %zu forces: too few different directions", count);
     }
     return true;
 }

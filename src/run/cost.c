@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "run/experiment.h"
+#include "scene/derived.h"
 
 /* What auto is taken to choose, in T: ten times P2's own step.  An assumption, since only
  * the run itself finds its step. */
@@ -55,12 +56,12 @@ bool gb_cost_estimate(const struct gb_params *params, double particle_steps_per_
     if (!check(params, particle_steps_per_s, err)) {
         return false;
     }
-    const double given = gb_params_time_step_s(params);
+    const double given = gb_derived_time_step_s(params);
     const double step =
-        isnan(given) ? step_of_auto * gb_params_unit_time_s(params) : given;
+        isnan(given) ? step_of_auto * gb_derived_unit_time_s(params) : given;
     /* d rho/dt = v rho */
     const double growth =
-        log(params->until_density / gb_params_structure_density(params));
+        log(params->until_density / gb_derived_structure_density(params));
     struct gb_cost cost = {
         .time_step_s = step,
         .step_assumed = isnan(given),
@@ -135,7 +136,7 @@ static double quasistatic_s(const struct gb_params *params)
 {
     static const double quick_sweeps = 4.8e3, quick_growth = 0.81;
     const double growth =
-        log(density_assumed(params) / gb_params_structure_density(params));
+        log(density_assumed(params) / gb_derived_structure_density(params));
     return quick_sweeps * sweeps_over_quick(params) * growth / quick_growth *
            (double)params->count * sweep_s / threads_of(params);
 }

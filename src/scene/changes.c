@@ -38,12 +38,13 @@ static bool refuse(const char *text, const struct entry *entry, struct gb_error 
 {
     if (entry->assignment == NULL) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "loading.changes = %.60s: accepted STEP KEY=VALUE, separated "
+                            "loading.changes = %.60s: must be STEP KEY=VALUE, separated "
                             "by ';', in the order of steps",
                             text);
     }
     char *names = g_strjoinv(", ", (char **)allowed);
-    gb_error_set(err, GB_ERR_INPUT, "%.60s: a run under way accepts changes of %s",
+    gb_error_set(err, GB_ERR_INPUT,
+                 "%.60s: cannot change during a run; keys that can: %s",
                  entry->assignment, names);
     g_free(names);
     return false;
@@ -111,8 +112,9 @@ bool gb_changes_check(const struct gb_params *params, struct gb_error *err)
         return true;
     }
     if (params->kind != GB_KIND_QUASISTATIC) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "loading.changes: accepted with scene.kind = quasistatic");
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "loading.changes: must be empty unless scene.kind = quasistatic");
     }
     struct checking checking = {*params, err};
     checking.params.changes[0] = '\0';
@@ -202,7 +204,7 @@ bool gb_changes_add(struct gb_params *params, int64_t step, const char *assignme
     if (fits) {
         g_strlcpy(more.changes, all->str, sizeof more.changes);
     } else {
-        gb_error_set(err, GB_ERR_INPUT, "loading.changes: accepted up to %zu bytes",
+        gb_error_set(err, GB_ERR_INPUT, "loading.changes: must be at most %zu bytes",
                      sizeof more.changes - 1);
     }
     g_strfreev(parts);

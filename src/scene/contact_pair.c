@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/units.h"
+#include "scene/derived.h"
 
 struct body {
     struct gb_elastic elastic;
@@ -22,7 +23,7 @@ static struct body first_body(const struct gb_params *params)
         .radius = given_or(params->radius_i_m, 0.5 * params->diameter_m),
         .density = params->density_kg_m3,
         .yield = params->yield_pa,
-        .hollomon = gb_params_hollomon_pa(params),
+        .hollomon = gb_derived_hollomon_pa(params),
         .yield_key = "material.yield",
         .young_key = "material.young",
     };
@@ -55,7 +56,7 @@ static bool check_body(const struct body *body, struct gb_error *err)
     char yield[64], young[64];
     gb_units_format(body->yield, GB_DIM_PRESSURE, yield, sizeof yield);
     gb_units_format(body->elastic.young, GB_DIM_PRESSURE, young, sizeof young);
-    return gb_error_set(err, GB_ERR_INPUT, "%s = %s: accepted up to %s = %s",
+    return gb_error_set(err, GB_ERR_INPUT, "%s = %s: must be at most %s = %s",
                         body->yield_key, yield, body->young_key, young);
 }
 
@@ -70,7 +71,7 @@ bool gb_contact_pair_init(struct gb_contact_pair *pair, const struct gb_params *
     const struct body i = first_body(params), j = second_body(params);
     if (isinf(i.radius) && isinf(j.radius)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "contact.radius_i = wall: accepted a length where "
+                            "contact.radius_i = wall: must be a length when "
                             "contact.radius_j is a wall");
     }
     if (!check_body(&i, err) || !check_body(&j, err)) {
@@ -92,5 +93,5 @@ bool gb_contact_pair_init(struct gb_contact_pair *pair, const struct gb_params *
 double gb_contact_pair_critical_step(const struct gb_contact_pair *pair, double stiffness)
 {
     return gb_law_hertz_critical_step(stiffness, fmin(pair->mass[0], pair->mass[1]),
-                             pair->damping);
+                                      pair->damping);
 }

@@ -22,6 +22,7 @@ bool gb_contact_pair_init(struct gb_contact_pair *pair, const struct gb_params *
                           struct gb_error *err);
 
 /* Critical time step (27)-(29), s, of the two on a spring of this stiffness. */
-double gb_contact_pair_critical_step(const struct gb_contact_pair *pair, double stiffness);
+double gb_contact_pair_critical_step(const struct gb_contact_pair *pair,
+                                     double stiffness);
 
 #endif

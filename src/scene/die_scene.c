@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "base/units.h"
+#include "scene/derived.h"
 #include "scene/tolerances.h"
 
 /* Standard gravity, m/s2. */
@@ -12,14 +13,14 @@ static const double standard_gravity = 9.80665;
 /* Density of the powder placed at random in the funnel. */
 static const double loose_density = 0.2;
 
-static bool refuse_length(const char *key, double value, const char *accepted,
+static bool refuse_length(const char *key, double value, const char *relation,
                           double bound, struct gb_error *err)
 {
     char given[64], limit[64];
     gb_units_format(value, GB_DIM_LENGTH, given, sizeof given);
     gb_units_format(bound, GB_DIM_LENGTH, limit, sizeof limit);
-    return gb_error_set(err, GB_ERR_INPUT, "%s = %s: accepted %s %s", key, given,
-                        accepted, limit);
+    return gb_error_set(err, GB_ERR_INPUT, "%s = %s: must be %s %s", key, given, relation,
+                        limit);
 }
 
 /* The largest size that the keys name; 0 where a distribution is not cut. */
@@ -40,40 +41,40 @@ static bool check_lengths(const struct gb_params *params, struct gb_error *err)
     const double largest = largest_named(params), die = params->die_diameter_m;
     const double outlet = params->die_outlet_m;
     if (largest >= die) {
-        return refuse_length("die.diameter", die, "more than the largest particle,",
+        return refuse_length("die.diameter", die, "above the largest particle diameter,",
                              largest, err);
     }
     if (outlet > die) {
-        return refuse_length("die.outlet", outlet, "up to die.diameter,", die, err);
+        return refuse_length("die.outlet", outlet, "at most die.diameter,", die, err);
     }
     return params->central_m <= die || refuse_length("die.central", params->central_m,
-                                                     "up to die.diameter,", die, err);
+                                                     "at most die.diameter,", die, err);
 }
 
 static bool check_scene(const struct gb_params *params, struct gb_error *err)
 {
     if (params->dimension != 3) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "scene.dimension = 2: accepted 3 with scene.kind = die");
+                            "scene.dimension = 2: must be 3 with scene.kind = die");
     }
     if (params->geometry != GB_GEOMETRY_DIE) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "loading.geometry: accepted die with scene.kind = die");
+                            "loading.geometry: must be die with scene.kind = die");
     }
     if (params->normal == GB_NORMAL_ROD) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "contact.normal = rod: accepted hertz or storakers with "
+                            "contact.normal = rod: must be hertz or storakers with "
                             "scene.kind = die");
     }
     if (isnan(params->until_pressure_pa)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "loading.until = density = %g: accepted a pressure with "
-                            "scene.kind = die, whose punch obeys one",
+                            "loading.until = density = %g: must be a pressure with "
+                            "scene.kind = die, where the punch pressure is prescribed",
                             params->until_density);
     }
     return params->unload_count == 0 ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "loading.unload_from: accepted empty with scene.kind = die");
+                        "loading.unload_from: must be empty with scene.kind = die");
 }
 
 bool gb_die_scene_check(const struct gb_params *params, struct gb_error *err)
@@ -83,19 +84,19 @@ bool gb_die_scene_check(const struct gb_params *params, struct gb_error *err)
     }
     if (params->rest_gravity > params->fill_gravity) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "die.gravity = %g: accepted up to die.fill_gravity = %g",
+                            "die.gravity = %g: must be at most die.fill_gravity = %g",
                             params->rest_gravity, params->fill_gravity);
     }
     return true;
 }
 
 bool gb_die_scene_require_periodic(const struct gb_params *params, const char *what,
-                         struct gb_error *err)
+                                   struct gb_error *err)
 {
     return params->kind != GB_KIND_DIE ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "scene.kind = die: %s takes quasistatic or dynamic scenes, in a "
-                        "periodic cell",
+                        "scene.kind = die: %s needs a periodic cell, scene.kind = "
+                        "quasistatic or dynamic",
                         what);
 }
 
@@ -109,10 +110,10 @@ struct gb_die_scene gb_die_scene_reduce(const struct gb_params *params)
     if (params->kind != GB_KIND_DIE) {
         return (struct gb_die_scene){0};
     }
-    const double d = params->diameter_m, unit = gb_params_unit_time_s(params);
+    const double d = params->diameter_m, unit = gb_derived_unit_time_s(params);
     const double gravity = standard_gravity * unit * unit / d;
     const bool fast = params->fidelity == GB_FIDELITY_FAST;
-    const double step = gb_params_time_step_s(params);
+    const double step = gb_derived_time_step_s(params);
     return (struct gb_die_scene){
         .radius = 0.5 * params->die_diameter_m / d,
         .height = given_or(params->die_height_m, 0.0) / d,

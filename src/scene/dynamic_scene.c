@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "law/law_viscous.h"
+#include "scene/derived.h"
 
 /* J = m d^2 / 10, a solid sphere, also for the discs of 2D scenes.  Source: P2 (1). */
 static const double inertia_sphere = 0.1;
@@ -18,15 +19,15 @@ static bool check_end(const struct gb_params *params, struct gb_error *err)
         gb_units_format(params->until_pressure_pa, GB_DIM_PRESSURE, pressure,
                         sizeof pressure);
         return gb_error_set(err, GB_ERR_INPUT,
-                            "loading.until = %s: accepted density = ... above "
+                            "loading.until = %s: must be density = ... above "
                             "structure.density = %g with scene.kind = dynamic",
-                            pressure, gb_params_structure_density(params));
+                            pressure, gb_derived_structure_density(params));
     }
     if (params->unload_count > 0) {
         gb_units_format(params->unload_from_pa[0], GB_DIM_PRESSURE, pressure,
                         sizeof pressure);
         return gb_error_set(err, GB_ERR_INPUT,
-                            "loading.unload_from = %s: accepted empty with "
+                            "loading.unload_from = %s: must be empty with "
                             "scene.kind = dynamic",
                             pressure);
     }
@@ -40,7 +41,7 @@ bool gb_dynamic_scene_check(const struct gb_params *params, struct gb_error *err
     }
     if (params->dimension == 2 && params->geometry != GB_GEOMETRY_ISOTROPIC) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "loading.geometry = %s: accepted isotropic with scene.kind = "
+                            "loading.geometry = %s: must be isotropic with scene.kind = "
                             "dynamic and scene.dimension = 2",
                             params->geometry == GB_GEOMETRY_UNIAXIAL ? "uniaxial"
                                                                      : "biaxial");
@@ -49,7 +50,7 @@ bool gb_dynamic_scene_check(const struct gb_params *params, struct gb_error *err
         gb_law_viscous_time(params->viscosity_pa_s, params->young_pa, params->poisson);
     if (!isfinite(lag)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "material.poisson = %g: accepted above 0 with "
+                            "material.poisson = %g: must be above 0 with "
                             "contact.viscosity above 0 and scene.kind = dynamic",
                             params->poisson);
     }
@@ -61,10 +62,10 @@ struct gb_dynamics gb_dynamic_scene_reduce(const struct gb_params *params)
     if (params->kind != GB_KIND_DYNAMIC) {
         return (struct gb_dynamics){0};
     }
-    const double unit = gb_params_unit_time_s(params);
+    const double unit = gb_derived_unit_time_s(params);
     const double lag =
         gb_law_viscous_time(params->viscosity_pa_s, params->young_pa, params->poisson);
-    const double step = gb_params_time_step_s(params);
+    const double step = gb_derived_time_step_s(params);
     return (struct gb_dynamics){
         .viscous = lag / unit,
         .rate = params->rate_per_s * unit,

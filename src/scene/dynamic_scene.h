@@ -4,9 +4,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "scene/model.h"
 #include "greenbody/params.h"
 #include "greenbody/status.h"
+#include "scene/model.h"
 
 /* What dynamic scenes ask for beyond the ranges of their keys; true for other kinds,
  * whose runs do not look at these keys.  Errors: GB_ERR_INPUT naming the keys. */

@@ -4,24 +4,29 @@
 #include "greenbody/params.h"
 
 /* Text <-> one member of gb_params, by the row of the field table.  Errors of reading are
- * `group.key = given: accepted ...`; params is untouched then. */
+ * "group.key = given: must be ..."; params is untouched then. */
 bool gb_field_read(const struct gb_field *field, struct gb_params *params,
                    const char *text, struct gb_error *err);
 char *gb_field_write(const struct gb_field *field, const struct gb_params *params,
                      char *buffer, size_t size);
 
-/* What is accepted, for messages, help and the editor: "0 to 2", "auto, or 1 nm to 1 mm".
- */
+/* Accepted values for lists: "0 to 2", "auto, or 1 nm to 1 mm".  Returns buffer. */
 char *gb_field_accepted(const struct gb_field *field, char *buffer, size_t size);
+/* The same after the words "must be": "between 0 and 2".  Returns buffer. */
+char *gb_field_accepted_sentence(const struct gb_field *field, char *buffer, size_t size);
 
-/* Is the value in memory within its range?  (Relative fields given as a length or
- * pressure are compared as the multiple they come to.) */
+/* Is the value in memory within its range?  Relative fields given as a length, pressure or
+ * time are compared after division by their reference. */
 bool gb_field_valid(const struct gb_field *field, const struct gb_params *params);
 
-/* Bounds of the density that may end a run; the table has room for one range a field. */
+/* Bounds of loading.until = density: the row of the table holds those of the pressure. */
 #define GB_FIELD_DENSITY_MIN 0.02
 #define GB_FIELD_DENSITY_MAX 0.99
 
+/* Does the value stand for "auto"? */
+bool gb_field_is_auto(const struct gb_field *field, double value);
+/* The number in a member of type number, relative or integer; false for other types. */
+bool gb_field_number(const struct gb_field *field, const void *member, double *number);
 /* A finite number within the row's range. */
 bool gb_field_in_range(const struct gb_field *field, double value);
 /* Least and largest size of a checked table within the row's range. */

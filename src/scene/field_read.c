@@ -13,18 +13,20 @@ static void *member(struct gb_params *params, const struct gb_field *field)
     return (char *)params + field->offset;
 }
 
-/* Units are listed only where the unit is what went wrong. */
-static bool refuse(const struct gb_field *field, const char *text, bool units,
+/* What is wrong with a value; only for UNIT the message lists the units. */
+enum fault { VALUE, UNIT };
+
+static bool refuse(const struct gb_field *field, const char *text, enum fault fault,
                    struct gb_error *err)
 {
     char accepted[256];
-    gb_field_accepted(field, accepted, sizeof accepted);
-    const bool has_unit =
-        field->dimension != GB_DIM_NONE && field->dimension != GB_DIM_FRACTION;
-    return gb_error_set(
-        err, GB_ERR_INPUT, "%s.%s = %.80s: accepted %s%s%s", field->group, field->key,
-        text, accepted, units && has_unit ? "; units " : "",
-        units && has_unit ? gb_units_accepted((enum gb_dimension)field->dimension) : "");
+    gb_field_accepted_sentence(field, accepted, sizeof accepted);
+    const enum gb_dimension dimension = (enum gb_dimension)field->dimension;
+    const bool units =
+        fault == UNIT && dimension != GB_DIM_NONE && dimension != GB_DIM_FRACTION;
+    return gb_error_set(err, GB_ERR_INPUT, "%s.%s = %.80s: must be %s%s%s", field->group,
+                        field->key, text, accepted, units ? "; units " : "",
+                        units ? gb_units_accepted(dimension) : "");
 }
 
 static bool read_number(const struct gb_field *field, const char *text, double *out,
@@ -36,10 +38,10 @@ static bool read_number(const struct gb_field *field, const char *text, double *
         return true;
     }
     if (!gb_units_parse(text, (enum gb_dimension)field->dimension, &value, NULL)) {
-        return refuse(field, text, true, err);
+        return refuse(field, text, UNIT, err);
     }
     if (!gb_field_in_range(field, value)) {
-        return refuse(field, text, false, err);
+        return refuse(field, text, VALUE, err);
     }
     *out = value;
     return true;
@@ -51,7 +53,7 @@ static bool read_integer(const struct gb_field *field, const char *text, int64_t
     double value = 0.0;
     if (!gb_units_parse(text, GB_DIM_NONE, &value, NULL) || value != floor(value) ||
         !gb_field_in_range(field, value)) {
-        return refuse(field, text, false, err);
+        return refuse(field, text, VALUE, err);
     }
     *out = (int64_t)value;
     return true;
@@ -62,7 +64,7 @@ static bool read_seed(const struct gb_field *field, const char *text, uint64_t *
 {
     guint64 value = 0;
     if (!g_ascii_string_to_unsigned(text, 10, 0, UINT64_MAX, &value, NULL)) {
-        return refuse(field, text, false, err);
+        return refuse(field, text, VALUE, err);
     }
     *out = value;
     return true;
@@ -76,23 +78,23 @@ static bool read_relative(const struct gb_field *field, const char *text,
     const char *end = NULL;
     double value = 0.0;
     if (!gb_units_number(text, &end, &value)) {
-        return refuse(field, text, true, err);
+        return refuse(field, text, UNIT, err);
     }
     while (*end == ' ' || *end == '\t') {
         end++;
     }
     if (strcmp(end, field->relative) == 0) {
         if (!gb_field_in_range(field, value)) {
-            return refuse(field, text, false, err);
+            return refuse(field, text, VALUE, err);
         }
         *out = (struct gb_relative){value, true};
         return true;
     }
     if (!gb_units_parse(text, (enum gb_dimension)field->dimension, &value, NULL)) {
-        return refuse(field, text, true, err);
+        return refuse(field, text, UNIT, err);
     }
     if (!(value >= 0.0)) {
-        return refuse(field, text, false, err);
+        return refuse(field, text, VALUE, err);
     }
     *out = (struct gb_relative){value, false};
     return true;
@@ -103,7 +105,7 @@ static bool read_choice(const struct gb_field *field, const char *text, int *out
 {
     const int index = gb_field_find_choice(field, text);
     if (index < 0) {
-        return refuse(field, text, false, err);
+        return refuse(field, text, VALUE, err);
     }
     *out = gb_field_choice_value(field, index);
     return true;
@@ -115,7 +117,7 @@ static bool read_text(const struct gb_field *field, const char *text, char *out,
     const size_t length = strlen(text);
     if (length >= field->size || !gb_field_plain_text(text) ||
         (field->choices && gb_field_find_choice(field, text) < 0)) {
-        return refuse(field, text, false, err);
+        return refuse(field, text, VALUE, err);
     }
     memset(out, 0, field->size); /* equal values are equal bytes */
     memcpy(out, text, length);
@@ -140,7 +142,7 @@ static bool read_until(const struct gb_field *field, const char *text,
     double density = 0.0;
     if (*at != '=' || !gb_units_parse(at + 1, GB_DIM_NONE, &density, NULL) ||
         !(density >= GB_FIELD_DENSITY_MIN && density <= GB_FIELD_DENSITY_MAX)) {
-        return refuse(field, text, false, err);
+        return refuse(field, text, VALUE, err);
     }
     params->until_density = density;
     params->until_pressure_pa = NAN;
@@ -163,16 +165,16 @@ static bool read_pressures(const struct gb_field *field, const char *text,
     for (int i = 0; parts[i] && good; i++) {
         g_strstrip(parts[i]);
         if (parts[i][0] == '\0') {
-            continue; /* a trailing ';' is GLib's own way of writing a list */
+            continue; /* GLib ends a list by ';' */
         }
         double value = 0.0;
         if (count == GB_UNLOAD_MAX) {
-            good = refuse(field, text, false, err);
+            good = refuse(field, text, VALUE, err);
         } else if (!gb_units_parse(parts[i], (enum gb_dimension)field->dimension, &value,
                                    NULL)) {
-            good = refuse(field, text, true, err);
+            good = refuse(field, text, UNIT, err);
         } else if (!gb_field_in_range(field, value)) {
-            good = refuse(field, text, false, err);
+            good = refuse(field, text, VALUE, err);
         } else {
             list[count++] = value;
         }
@@ -180,7 +182,7 @@ static bool read_pressures(const struct gb_field *field, const char *text,
     g_strfreev(parts);
     qsort(list, (size_t)count, sizeof list[0], compare_numbers);
     for (int i = 1; i < count && good; i++) {
-        good = list[i] > list[i - 1] || refuse(field, text, false, err);
+        good = list[i] > list[i - 1] || refuse(field, text, VALUE, err);
     }
     if (good) {
         memset(params->unload_from_pa, 0, sizeof params->unload_from_pa);
@@ -200,7 +202,7 @@ static bool read_sizes(const struct gb_field *field, const char *text,
                             why.text);
     }
     if (!gb_field_sizes_in_range(field, &table)) {
-        return refuse(field, text, false, err);
+        return refuse(field, text, VALUE, err);
     }
     *out = table;
     return true;

@@ -12,7 +12,7 @@ static bool refuse(const char *entry, struct gb_error *err)
 {
     return gb_error_set(
         err, GB_ERR_INPUT,
-        "output.snapshots_at = %.60s: accepted up to %d pressures, "
+        "output.snapshots_at = %.60s: must be up to %d pressures, "
         "densities or numbers of points, separated by ';', as in 100 MPa; "
         "density = 0.5; every 20",
         entry, GB_KEEP_POINTS_MAX);

@@ -7,10 +7,11 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "scene/unequal_pair.h"
+#include "scene/derived.h"
 #include "scene/die_scene.h"
 #include "scene/dynamic_scene.h"
 #include "scene/tolerances.h"
+#include "scene/unequal_pair.h"
 
 struct normal_laws {
     const struct gb_law_rod *rod;
@@ -72,7 +73,8 @@ static void pick_for_predict(struct gb_numerics *numerics, const struct gb_param
                      : params->geometry == GB_GEOMETRY_BIAXIAL ? 2
                                                                : 1;
     const bool fast = params->fidelity == GB_FIDELITY_FAST;
-    *part = (fast ? GB_PREDICT_STRAIN_PART_FAST : GB_PREDICT_STRAIN_PART_BALANCED) / sqrt(axes);
+    *part = (fast ? GB_PREDICT_STRAIN_PART_FAST : GB_PREDICT_STRAIN_PART_BALANCED) /
+            sqrt(axes);
     numerics->tolerance =
         bridges ? (fast ? GB_PREDICT_TOLERANCE_FAST : GB_PREDICT_TOLERANCE_BALANCED)
                 : (fast ? GB_UNBRIDGED_TOLERANCE_FAST : GB_UNBRIDGED_TOLERANCE_BALANCED);
@@ -108,7 +110,8 @@ static const char *automatic_relaxer(const struct gb_params *params)
 /* Scenes whose sweep there is in single precision: no viscous forces, no plane. */
 static bool bears_single(const struct gb_model *model)
 {
-    return model->kind == GB_KIND_QUASISTATIC && model->dimension == 3 && !model->polydisperse;
+    return model->kind == GB_KIND_QUASISTATIC && model->dimension == 3 &&
+           !model->polydisperse;
 }
 
 /* Single precision halves memory and time; P1's own relaxer is kept as printed. */
@@ -128,8 +131,9 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
              named ? params->relaxer : automatic_relaxer(params));
     pick_relaxation(model, params);
     numerics->single = pick_precision(model, params);
-    const double share = by_fidelity(params->fidelity, GB_CUTOFF_FRACTION_FAST,
-                                     GB_CUTOFF_FRACTION_BALANCED, GB_CUTOFF_FRACTION_REFERENCE);
+    const double share =
+        by_fidelity(params->fidelity, GB_CUTOFF_FRACTION_FAST,
+                    GB_CUTOFF_FRACTION_BALANCED, GB_CUTOFF_FRACTION_REFERENCE);
     const double given = params->cutoff.relative
                              ? params->cutoff.value
                              : params->cutoff.value / model->metre_per_length;
@@ -173,8 +177,8 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
     model->force_floor =
         fmax(model->adhesion, gb_law_rod_force(&model->rod, GB_FORCE_FLOOR_OVERLAP));
     model->bridge = (struct gb_law_bridge){
-        .length = gb_params_bridge_length_m(params) / d,
-        .strength = gb_params_shear_strength_pa(params) / young,
+        .length = gb_derived_bridge_length_m(params) / d,
+        .strength = gb_derived_shear_strength_pa(params) / young,
         .radius_current = params->bridge_radius == GB_BRIDGE_RADIUS_CURRENT,
     };
     const double mu_pivot = isfinite(params->mu_pivot) ? params->mu_pivot : params->mu;
@@ -219,7 +223,8 @@ static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
         return false;
     }
     model->mean_cube = gb_sizes_moment(&model->sizes, 3) / (d * d * d);
-    gb_sizes_range(&model->sizes, params->count, &model->diameter_min, &model->diameter_max);
+    gb_sizes_range(&model->sizes, params->count, &model->diameter_min,
+                   &model->diameter_max);
     model->diameter_min /= d;
     model->diameter_max /= d;
     return true;
@@ -240,7 +245,7 @@ static double deepest_rest(const struct gb_model *model)
 bool gb_model_init(struct gb_model *model, const struct gb_params *params,
                    struct gb_error *err)
 {
-    const double d = gb_params_reference_m(params);
+    const double d = gb_derived_reference_m(params);
     *model = (struct gb_model){
         .kind = params->kind,
         .dimension = params->dimension,
@@ -260,14 +265,14 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
     if (params->precision == GB_PRECISION_SINGLE && !bears_single(model)) {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "numerics.precision = single: accepted in quasi-static scenes "
-            "in 3D with particles of one size only");
+            "numerics.precision = single: must be auto or double unless the scene is "
+            "quasi-static, in 3D and of one particle size");
     }
     freeze_laws(model, params);
     if (params->kind == GB_KIND_DIE) { /* no cell, and laws of its own beside these */
         return true;
     }
-    gb_params_cell(params, model->edges);
+    gb_derived_cell(params, model->edges);
     const double shape = params->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
     model->start_density = (double)params->count * model->mean_cube * shape /
                            (model->edges[0] * model->edges[1] * model->edges[2]);
@@ -277,8 +282,8 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         return gb_error_set(
             err, GB_ERR_INPUT,
             "contact.alpha = %g, particles.diameter = %g nm: the adhesion "
-            "%.3g E d^2 presses pairs deeper than %g d; accepted: a larger "
-            "alpha or diameter, or a smaller material.epsilon",
+            "%.3g E d^2 presses pairs deeper than %g d; increase alpha or "
+            "diameter, or decrease material.epsilon",
             params->alpha, 1e9 * d, model->adhesion, GB_OVERLAP_MAX);
     }
     pick_numerics(model, params);
@@ -290,8 +295,8 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
             return gb_error_set(
                 err, GB_ERR_INPUT,
                 "particles.count = %lld, structure.base: the cell is %.3g d "
-                "wide along %c, less than twice the neighbour reach %.3g d; "
-                "accepted: more particles, or another base",
+                "wide along %c, less than twice the interaction range %.3g d; "
+                "increase the count or change the base",
                 (long long)params->count, model->edges[k], "xyz"[k], reach);
         }
     }
@@ -310,14 +315,16 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
     case 0:
         snprintf(buffer, size, "bridges: %s",
                  terms->bridges ? "carried"
-                 : model->cohesionless   ? "left out (contact.normal = hertz)"
-                              : "left out (contact.bridge_length is a diameter or more)");
+                 : model->cohesionless
+                     ? "left out (contact.normal = hertz)"
+                     : "left out (contact.bridge_length is a diameter or more)");
         return buffer;
     case 1:
         snprintf(buffer, size, "friction, pivoting and their history: %s",
                  !terms->friction ? "left out (mu = 0, no bridges)"
-                 : model->cohesionless     ? "carried, but for pivoting (contact.normal = hertz)"
-                                  : "carried");
+                 : model->cohesionless
+                     ? "carried, but for pivoting (contact.normal = hertz)"
+                     : "carried");
         return buffer;
     case 2:
         snprintf(
@@ -325,7 +332,7 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
             terms->attraction
                 ? "attraction: carried to %.3f d, where it is %.1e of its contact value"
             : model->cohesionless ? "attraction: left out (contact.normal = hertz)"
-                         : "attraction: left out (material.epsilon = 0)",
+                                  : "attraction: left out (material.epsilon = 0)",
             numerics->cutoff,
             gb_law_dispersion_force(&model->dispersion, numerics->cutoff) /
                 model->adhesion);

@@ -49,22 +49,22 @@ struct gb_dynamics {
 /* A die and what is done in it, reduced units (the time is that of dynamic scenes,
  * lengths in d). Source: P3 section 5. */
 struct gb_die_scene {
-    double radius;       /* of the cylinder */
-    double height;       /* where the funnel begins */
-    double outlet;       /* radius of the funnel's opening */
-    double angle;        /* of the funnel's wall to the axis, rad */
-    double loose_density; /* density of the powder placed in the funnel */
-    double fill_gravity; /* while pouring */
-    double gravity;      /* at rest and in pressing */
-    double gravity_ramp; /* time from one to the other */
+    double radius;         /* of the cylinder */
+    double height;         /* where the funnel begins */
+    double outlet;         /* radius of the funnel's opening */
+    double angle;          /* of the funnel's wall to the axis, rad */
+    double loose_density;  /* density of the powder placed in the funnel */
+    double fill_gravity;   /* while pouring */
+    double gravity;        /* at rest and in pressing */
+    double gravity_ramp;   /* time from one to the other */
     double flatten_travel; /* of the punch, from its first contact */
-    double ramp_time;    /* of the pressure */
-    double pressure;     /* at its end */
-    bool quadratic;      /* p = p_max (t/T)^2 instead of p_max t/T */
-    double record;       /* pressure between recorded points */
-    double punch_mass;   /* in masses of the bed */
-    double safety;       /* of the time step */
-    double time_step;    /* 0: by the critical one */
+    double ramp_time;      /* of the pressure */
+    double pressure;       /* at its end */
+    bool quadratic;        /* p = p_max (t/T)^2 instead of p_max t/T */
+    double record;         /* pressure between recorded points */
+    double punch_mass;     /* in masses of the bed */
+    double safety;         /* of the time step */
+    double time_step;      /* 0: by the critical one */
     double inertia_scale;
     double central_radius; /* of the sphere that measures the central density */
     double second_per_time;
@@ -83,7 +83,7 @@ struct gb_model {
     bool polydisperse;     /* more than one size; else the next four are 0 or 1 */
     struct gb_sizes sizes; /* in m */
     double diameter_min, diameter_max; /* d; 1 */
-    double mean_cube;      /* of diameters, d^3; 1 */
+    double mean_cube;                  /* of diameters, d^3; 1 */
     struct gb_terms terms;
     bool cohesionless; /* no attraction, bridges or rods: contact.normal = hertz */
     struct gb_law_rod rod;

@@ -8,6 +8,7 @@
 
 #include "base/table.h"
 #include "base/units.h"
+#include "scene/derived.h"
 #include "scene/tolerances.h"
 
 static const char by_number[] = "number:", by_volume[] = "volume:";
@@ -25,16 +26,17 @@ static bool check_row(const struct gb_sizetable *table, int i, struct gb_error *
     char given[64], before[64];
     gb_units_format(row->diameter_m, GB_DIM_LENGTH, given, sizeof given);
     if (!isfinite(row->diameter_m) || !(row->diameter_m > 0.0)) {
-        return gb_error_set(err, GB_ERR_INPUT, "diameter %s: accepted above 0", given);
+        return gb_error_set(err, GB_ERR_INPUT, "diameter %s: must be above 0", given);
     }
     if (i > 0 && !(row->diameter_m > row[-1].diameter_m)) {
         gb_units_format(row[-1].diameter_m, GB_DIM_LENGTH, before, sizeof before);
         return gb_error_set(err, GB_ERR_INPUT,
-                            "diameter %s: accepted above %s of the row before", given,
+                            "diameter %s: must be above %s, the one before it", given,
                             before);
     }
     return (row->fraction >= 0.0 && row->fraction <= 1.0 + GB_SIZE_FRACTIONS_TOLERANCE) ||
-           gb_error_set(err, GB_ERR_INPUT, "share %g: accepted 0 to 1", row->fraction);
+           gb_error_set(err, GB_ERR_INPUT, "share %g: must be between 0 and 1",
+                        row->fraction);
 }
 
 bool gb_size_table_check(const struct gb_sizetable *table, int *row, struct gb_error *err)
@@ -43,8 +45,8 @@ bool gb_size_table_check(const struct gb_sizetable *table, int *row, struct gb_e
     row = row ? row : &nowhere;
     *row = -1;
     if (table->count < 0 || table->count > GB_SIZES_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "%d rows: accepted up to %d", table->count,
-                            GB_SIZES_MAX);
+        return gb_error_set(err, GB_ERR_INPUT, "%d rows: must be at most %d",
+                            table->count, GB_SIZES_MAX);
     }
     double sum = 0.0;
     for (int i = 0; i < table->count; i++) {
@@ -55,7 +57,7 @@ bool gb_size_table_check(const struct gb_sizetable *table, int *row, struct gb_e
         sum += table->row[i].fraction;
     }
     return table->count == 0 || fabs(sum - 1.0) <= GB_SIZE_FRACTIONS_TOLERANCE ||
-           gb_error_set(err, GB_ERR_INPUT, "the shares sum to %.6g: accepted 1 within %g",
+           gb_error_set(err, GB_ERR_INPUT, "the shares sum to %.6g: must be 1 within %g",
                         sum, GB_SIZE_FRACTIONS_TOLERANCE);
 }
 
@@ -82,10 +84,11 @@ static bool read_line(struct gb_sizetable *table, const char *text, struct gb_er
         }
         char *given = g_strdup(part[i]);
         if (table->count == GB_SIZES_MAX) {
-            good = gb_error_set(err, GB_ERR_INPUT, "more than %d sizes", GB_SIZES_MAX);
+            good =
+                gb_error_set(err, GB_ERR_INPUT, "must be at most %d sizes", GB_SIZES_MAX);
         } else if (!read_pair(part[i], &table->row[table->count++])) {
             good = gb_error_set(err, GB_ERR_INPUT,
-                                "%.60s: accepted a diameter and a share, as in 1.5 um "
+                                "%.60s: must be a diameter and a share, as in 1.5 um "
                                 "0.25",
                                 given);
         }
@@ -93,7 +96,7 @@ static bool read_line(struct gb_sizetable *table, const char *text, struct gb_er
     }
     g_strfreev(part);
     if (good && table->count == 0) {
-        good = gb_error_set(err, GB_ERR_INPUT, "%s no sizes", text);
+        good = gb_error_set(err, GB_ERR_INPUT, "%s must be followed by sizes", text);
     }
     int row = -1;
     struct gb_error why = {0};
@@ -123,14 +126,14 @@ static bool find_columns(const struct gb_table *csv, struct gb_sizetable *table,
             strcmp(name, share_number) == 0 || strcmp(name, share_volume) == 0;
         if ((is_size && diameter) || (is_share && share)) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "%s: columns %s and %.40s: one is enough",
+                                "%s: columns %s and %.40s: must be one of them",
                                 gb_table_path(csv), is_size ? diameter : share, name);
         }
         diameter = is_size ? name : diameter;
         share = is_share ? name : share;
     }
     if (!diameter || !share) {
-        return gb_error_set(err, GB_ERR_INPUT, "%s: no column of %s; accepted %s",
+        return gb_error_set(err, GB_ERR_INPUT, "%s: no column of %s; must be %s",
                             gb_table_path(csv), diameter ? "shares" : "diameters",
                             diameter ? "share_number or share_volume"
                                      : "diameter, or diameter_um and the like");
@@ -170,8 +173,8 @@ static bool take_rows(const struct gb_table *csv, struct gb_sizetable *table,
         return false;
     }
     if (rows < 1 || rows > GB_SIZES_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "%s: %zu rows: accepted 1 to %d", path,
-                            rows, GB_SIZES_MAX);
+        return gb_error_set(err, GB_ERR_INPUT, "%s: %zu rows: must be between 1 and %d",
+                            path, rows, GB_SIZES_MAX);
     }
     struct gb_error why = {0};
     for (size_t i = 0; i < rows; i++) {
@@ -206,7 +209,7 @@ bool gb_size_table_read(struct gb_sizetable *table, const char *text,
 {
     struct gb_sizetable read = {0};
     if (gb_size_table_is_path(text) ? !read_csv(&read, text, err)
-                                       : *text != '\0' && !read_line(&read, text, err)) {
+                                    : *text != '\0' && !read_line(&read, text, err)) {
         return false;
     }
     *table = read;
@@ -236,7 +239,7 @@ static bool check_scene(const struct gb_params *params, struct gb_error *err)
                           (params->kind == GB_KIND_QUASISTATIC && params->dimension == 2);
     return !one_size || params->distribution == GB_DISTRIBUTION_MONO ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "particles.distribution = %s: accepted mono with scene.kind = "
+                        "particles.distribution = %s: must be mono with scene.kind = "
                         "dynamic or scene.dimension = 2",
                         params->distribution == GB_DISTRIBUTION_TABLE ? "table"
                                                                       : "lognormal");
@@ -245,17 +248,17 @@ static bool check_scene(const struct gb_params *params, struct gb_error *err)
 /* A cut on the wrong side of the median would leave next to nothing of the law. */
 static bool check_lognormal(const struct gb_params *params, struct gb_error *err)
 {
-    const double median = gb_params_median_m(params);
-    const bool low = params->diameter_min_m >= median, high = params->diameter_max_m <= median;
+    const double median = gb_derived_median_m(params);
+    const bool low = params->diameter_min_m >= median,
+               high = params->diameter_max_m <= median;
     if (!low && !high) {
         return true;
     }
     char cut[64], middle[64];
-    gb_units_format(low ? params->diameter_min_m : params->diameter_max_m, GB_DIM_LENGTH, cut,
-                    sizeof cut);
+    gb_units_format(low ? params->diameter_min_m : params->diameter_max_m, GB_DIM_LENGTH,
+                    cut, sizeof cut);
     gb_units_format(median, GB_DIM_LENGTH, middle, sizeof middle);
-    return gb_error_set(err, GB_ERR_INPUT,
-                        "particles.%s = %s: accepted %s the median, %s",
+    return gb_error_set(err, GB_ERR_INPUT, "particles.%s = %s: must be %s the median, %s",
                         low ? "least" : "largest", cut, low ? "below" : "above", middle);
 }
 
@@ -263,7 +266,7 @@ bool gb_size_table_check_params(const struct gb_params *params, struct gb_error 
 {
     if (params->distribution == GB_DISTRIBUTION_TABLE && params->sizes.count == 0) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "particles.table: empty; accepted a table of sizes, because "
+                            "particles.table: must not be empty with "
                             "particles.distribution = table");
     }
     return (params->distribution != GB_DISTRIBUTION_LOGNORMAL ||

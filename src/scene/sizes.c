@@ -3,6 +3,7 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
+#include "scene/derived.h"
 #include "scene/size_table.h"
 
 /* Probability of a standard normal between a and b, without loss in either tail. */
@@ -51,7 +52,7 @@ bool gb_sizes_init(struct gb_sizes *sizes, const struct gb_params *params,
     *sizes = (struct gb_sizes){.distribution = params->distribution,
                                .median_m = params->diameter_m};
     if (params->distribution == GB_DISTRIBUTION_LOGNORMAL) {
-        sizes->median_m = gb_params_median_m(params);
+        sizes->median_m = gb_derived_median_m(params);
         sizes->sigma = params->sigma;
         sizes->z_least = cut_at(sizes, params->diameter_min_m, -INFINITY);
         sizes->z_largest = cut_at(sizes, params->diameter_max_m, INFINITY);
@@ -123,7 +124,7 @@ void gb_sizes_fill(const struct gb_sizes *sizes, int64_t count, double *diameter
 }
 
 void gb_sizes_range(const struct gb_sizes *sizes, int64_t count, double *least,
-                   double *largest)
+                    double *largest)
 {
     const double n = (double)count,
                  probability = between(sizes->z_least, sizes->z_largest) / n;

@@ -39,7 +39,7 @@ void gb_sizes_fill(const struct gb_sizes *sizes, int64_t count, double *diameter
 
 /* The least and the largest of them, m. */
 void gb_sizes_range(const struct gb_sizes *sizes, int64_t count, double *least,
-                   double *largest);
+                    double *largest);
 
 /* Mean of d^power by number, m^power; the law's own, not that of a draw. */
 double gb_sizes_moment(const struct gb_sizes *sizes, int power);

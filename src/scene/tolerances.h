@@ -51,7 +51,7 @@
  * saves evaluations below 10 MPa and makes the pressure there come out too high: at 1 the
  * first step of set II has 5 MPa instead of 0.6. */
 #define GB_PREDICT_TOLERANCE_FRACTION_MIN 0.2
-#define GB_PREDICT_TOLERANCE_SLOPE    3.0
+#define GB_PREDICT_TOLERANCE_SLOPE        3.0
 
 /* Tightest tolerance at which numerics.precision = auto is single.  Rounding leaves a
  * residual of 1e-5; tighter relaxations of a share of it would go round. */
@@ -81,13 +81,13 @@
  * round, mostly between two states of a breaking bridge or of a pair at the cutoff: it is
  * restarted once and then given up.  Fewer cut the reference relaxer short. */
 #define GB_STALL_EVALUATIONS 5000
-#define GB_STALL_FRACTION       0.01
+#define GB_STALL_FRACTION    0.01
 
 /* Way (d) beside the affine motion in one strain step beyond which a particle may have
  * passed contacts by: the step is halved, twice at most; what is left then is a jump of
  * the packing itself.  At 0.1 % none of 928 steps of a cell of 1000 has one beyond 0.2,
  * at 1 % two of 94.  Smaller values halve steps that are as they should be. */
-#define GB_NONAFFINE_MAX     0.2
+#define GB_NONAFFINE_MAX          0.2
 #define GB_NONAFFINE_HALVINGS_MAX 2
 
 /* Overlap (d) beyond which the contact laws have lost their meaning: h -> 1 is singular,
@@ -163,7 +163,7 @@
  * about the die's axis for ever: those at the wall roll, and nothing holds the others.
  * Stronger: loose particles take long to fall. */
 #define GB_GRAVITY_RAMP_DRAG 0.1
-#define GB_REST_DRAG 1.0
+#define GB_REST_DRAG         1.0
 
 /* A particle pushed by the flattening punch could rise by a quarter of this (d).  Larger:
  * faster, and particles are thrown up. */

@@ -1,8 +1,8 @@
 #ifndef GB_SCENE_UNEQUAL_PAIR_H
 #define GB_SCENE_UNEQUAL_PAIR_H
 
-#include "scene/model.h"
 #include "law/law_unequal.h"
+#include "scene/model.h"
 
 /* The laws of a model for two particles of the given diameters (in the model's lengths). */
 void gb_unequal_pair_init(struct gb_law_unequal *law, const struct gb_model *model,

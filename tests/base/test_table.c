@@ -43,9 +43,9 @@ static void test_good(void)
 static const char *const refused[][2] = {
     {"", "no header row"},
     {"# only\n\n", "no header row"},
-    {"a,b\n1\n", ":2: 1 cells, but 2 columns"},
-    {"a,b\n1,2,3\n", ":2: 3 cells, but 2 columns"},
-    {"a,b\n1,2\n# x\n1,nan\n", ":4: b = 'nan'; accepted a number"},
+    {"a,b\n1\n", ":2: 1 cells: must be 2"},
+    {"a,b\n1,2,3\n", ":2: 3 cells: must be 2"},
+    {"a,b\n1,2\n# x\n1,nan\n", ":4: b = 'nan': must be a number"},
     {"a,b\n1,inf\n", "b = 'inf'"},
     {"a,b\n1,0x10\n", "b = '0x10'"},
     {"a,b\n1,1e999\n", "b = '1e999'"},
@@ -53,8 +53,8 @@ static const char *const refused[][2] = {
     {"a,b\n1,\"2\"\n", "b = '\"2\"'"},
     {"a,b\n1,\x1b[2J\n", "b = '?[2J'"},
     {"a,b\n1,\xff\xfe\n", "b = '?\?'"},
-    {"a,a\n", ":1: column 2 is named 'a'"},
-    {"a,,b\n", ":1: column 2 is named ''"},
+    {"a,a\n", ":1: column 2: name 'a' must be unique"},
+    {"a,,b\n", ":1: column 2: name '' must be unique"},
     {"a,\"b\"\n", "without quotes"},
 };
 

@@ -237,14 +237,14 @@ static void test_guards(void)
     for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
         const double kept = cloud.sphere[17][1];
         cloud.sphere[17][1] = bad[i];
-        expect(&cloud, 0.0, GB_ERR_GUARD, "sphere 17 is no sphere");
+        expect(&cloud, 0.0, GB_ERR_GUARD, "sphere 17: must be finite");
         cloud.sphere[17][1] = kept;
     }
     cloud.sphere[4][3] = -1.0;
-    expect(&cloud, 0.0, GB_ERR_GUARD, "sphere 4 is no sphere");
+    expect(&cloud, 0.0, GB_ERR_GUARD, "sphere 4: must be finite");
     cloud.sphere[4][3] = 1.0;
     cloud.margin[5] = NAN;
-    expect(&cloud, 0.0, GB_ERR_GUARD, "sphere 5 is no sphere");
+    expect(&cloud, 0.0, GB_ERR_GUARD, "sphere 5: must be finite");
     cloud.margin[5] = 0.0;
     cloud.box.periodic[2] = true;
     cloud.box.high[2] = 3.9;
@@ -253,7 +253,7 @@ static void test_guards(void)
     for (int64_t i = 0; i < cloud.count; i++) {
         cloud.sphere[i][0] = cloud.sphere[i][1] = cloud.sphere[i][2] = 1.0;
     }
-    expect(&cloud, 0.0, GB_ERR_GUARD, "the spheres crowd");
+    expect(&cloud, 0.0, GB_ERR_GUARD, "they overlap too much");
     drop(&cloud);
     struct gb_hgrid sift;
     struct gb_error err = {0};

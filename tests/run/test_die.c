@@ -171,7 +171,7 @@ static void spoil_punch(struct gb_bed *bed)
 
 static void test_faults(void)
 {
-    check_fault(spoil_number, "is no sphere: at (");
+    check_fault(spoil_number, "must be finite with a radius of at least 0: position (");
     check_fault(spoil_escape, "left the die");
     check_fault(spoil_punch, "punch is below");
 }

@@ -99,9 +99,9 @@ static void test_refused(void)
         const char *said;
     } rows[] = {
         {{"contact.radius_i=wall", "contact.radius_j=wall", NULL}, "contact.radius_i"},
-        {{"material.yield=181 GPa", NULL}, "up to material.young = 180 GPa"},
+        {{"material.yield=181 GPa", NULL}, "at most material.young = 180 GPa"},
         {{"material.yield_j=181 GPa", NULL}, "material.yield_j = 181 GPa"},
-        {{"material.young_j=700 MPa", NULL}, "up to material.young_j = 700 MPa"},
+        {{"material.young_j=700 MPa", NULL}, "at most material.young_j = 700 MPa"},
     };
     for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
         struct gb_contact_pair pair;

@@ -1,4 +1,5 @@
 #include "greenbody/params.h"
+#include "scene/derived.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -45,9 +46,9 @@ static void test_defaults(void)
     g_assert_true(isnan(p.cutoff.value) && p.threads < 0 && p.max_evaluations < 0);
     g_assert_cmpfloat(p.until_pressure_pa, ==, 1e9);
     g_assert_true(isnan(p.until_density) && p.unload_count == 0);
-    g_assert_cmpfloat(gb_params_bridge_length_m(&p), ==, 0.008 * 1e-8);
-    g_assert_cmpfloat(gb_params_shear_strength_pa(&p), ==, 0.018 * 382e9);
-    g_assert_cmpfloat(gb_params_structure_density(&p), ==, 0.24);
+    g_assert_cmpfloat(gb_derived_bridge_length_m(&p), ==, 0.008 * 1e-8);
+    g_assert_cmpfloat(gb_derived_shear_strength_pa(&p), ==, 0.018 * 382e9);
+    g_assert_cmpfloat(gb_derived_structure_density(&p), ==, 0.24);
 }
 
 /* sigma_b left open: set II's with bridges, no limit without; a given one always counts.
@@ -57,11 +58,11 @@ static void test_shear_strength(void)
     struct gb_params p;
     struct gb_error err = {0};
     gb_params_init(&p);
-    g_assert_cmpfloat(gb_params_shear_strength_pa(&p), ==, 0.018 * 382e9);
+    g_assert_cmpfloat(gb_derived_shear_strength_pa(&p), ==, 0.018 * 382e9);
     g_assert_true(gb_params_assign(&p, "contact.bridge_length=1 d", &err));
-    g_assert_cmpfloat(gb_params_shear_strength_pa(&p), ==, 382e9);
+    g_assert_cmpfloat(gb_derived_shear_strength_pa(&p), ==, 382e9);
     g_assert_true(gb_params_assign(&p, "contact.shear_strength=2 GPa", &err));
-    g_assert_cmpfloat_with_epsilon(gb_params_shear_strength_pa(&p), 2e9, 1.0);
+    g_assert_cmpfloat_with_epsilon(gb_derived_shear_strength_pa(&p), 2e9, 1.0);
 }
 
 /* sigma_0 left open goes through the yield point; "wall" is an infinite radius. */
@@ -70,11 +71,11 @@ static void test_pair(void)
     struct gb_params p;
     gb_params_init(&p);
     g_assert_true(gb_params_assign(&p, "material.young=180 GPa", NULL));
-    g_assert_cmpfloat(gb_params_hollomon_pa(&p), ==, 800e6);
+    g_assert_cmpfloat(gb_derived_hollomon_pa(&p), ==, 800e6);
     g_assert_true(gb_params_assign(&p, "material.hardening=0.2", NULL));
-    g_assert_cmpfloat_with_epsilon(gb_params_hollomon_pa(&p), 2363e6, 0.5e6);
+    g_assert_cmpfloat_with_epsilon(gb_derived_hollomon_pa(&p), 2363e6, 0.5e6);
     g_assert_true(gb_params_assign(&p, "material.hollomon=2 GPa", NULL));
-    g_assert_cmpfloat(gb_params_hollomon_pa(&p), ==, 2e9);
+    g_assert_cmpfloat(gb_derived_hollomon_pa(&p), ==, 2e9);
     char text[64];
     const struct gb_field *radius = gb_params_find("contact", "radius_j");
     g_assert_true(isnan(p.radius_j_m));
@@ -113,66 +114,66 @@ static void test_assign(void)
 
 /* What is refused, and a part of the line that says so. */
 static const char *const refused[][2] = {
-    {"contact.mu=-1", "contact.mu = -1: accepted 0 to 2"},
-    {"contact.mu=2.1", "accepted 0 to 2"},
-    {"contact.mu=nan", "accepted 0 to 2"},
-    {"contact.mu=0,1", "accepted 0 to 2"},
-    {"contact.mu=", "accepted 0 to 2"},
-    {"material.poisson=0.5", "accepted 0 to 0.49"},
+    {"contact.mu=-1", "contact.mu = -1: must be between 0 and 2"},
+    {"contact.mu=2.1", "must be between 0 and 2"},
+    {"contact.mu=nan", "must be between 0 and 2"},
+    {"contact.mu=0,1", "must be between 0 and 2"},
+    {"contact.mu=", "must be between 0 and 2"},
+    {"material.poisson=0.5", "must be between 0 and 0.49"},
     {"particles.diameter=10", "units nm"},
-    {"particles.diameter=10 MPa", "accepted 1 nm to 1 mm; units nm"},
-    {"particles.diameter=0.1 nm", "accepted 1 nm to 1 mm"},
-    {"particles.count=9", "10 to 10000000"},
+    {"particles.diameter=10 MPa", "must be between 1 nm and 1 mm; units nm"},
+    {"particles.diameter=0.1 nm", "must be between 1 nm and 1 mm"},
+    {"particles.count=9", "must be a whole number between 10 and 10000000"},
     {"particles.count=1000.5", "whole number"},
     {"particles.count=1e30", "whole number"},
-    {"particles.distribution=sieve", "accepted mono or lognormal or table"},
-    {"scene.kind=pile", "accepted quasistatic or dynamic or die"},
-    {"scene.dimension=4", "accepted 3 or 2"},
-    {"contact.normal=hook", "accepted rod or hertz or storakers"},
-    {"contact.storakers=rigid", "accepted capped or printed"},
-    {"contact.radius_j=inf", "accepted auto, or wall, or 0.1 nm to 10 mm; units nm"},
-    {"contact.radius_j=0 nm", "accepted auto, or wall, or 0.1 nm to 10 mm"},
-    {"material.young=wall", "accepted 1 kPa to 10000 GPa"},
-    {"material.hardening=1", "accepted 0 to 0.5"},
+    {"particles.distribution=sieve", "must be mono, lognormal or table"},
+    {"scene.kind=pile", "must be quasistatic, dynamic or die"},
+    {"scene.dimension=4", "must be 3 or 2"},
+    {"contact.normal=hook", "must be rod, hertz or storakers"},
+    {"contact.storakers=rigid", "must be capped or printed"},
+    {"contact.radius_j=inf", "must be auto, wall or between 0.1 nm and 10 mm; units nm"},
+    {"contact.radius_j=0 nm", "must be auto, wall or between 0.1 nm and 10 mm"},
+    {"material.young=wall", "must be between 1 kPa and 10000 GPa"},
+    {"material.hardening=1", "must be between 0 and 0.5"},
     {"material.yield=800", "units Pa"},
-    {"material.poisson_j=0.5", "accepted auto, or 0 to 0.49"},
-    {"loading.geometry=cone", "accepted uniaxial or biaxial or isotropic or die"},
-    {"loading.step=5 %", "0.0001 % to 2 %"},
+    {"material.poisson_j=0.5", "must be auto or between 0 and 0.49"},
+    {"loading.geometry=cone", "must be uniaxial, biaxial, isotropic or die"},
+    {"loading.step=5 %", "between 0.0001 % and 2 %"},
     {"loading.until=density = 1.5", "density = 0.02 to 0.99"},
     {"loading.until=density", "density = 0.02 to 0.99"},
-    {"loading.until=0.6", "1 kPa to"},
+    {"loading.until=0.6", "between 1 kPa and"},
     {"loading.unload_from=100 MPa; 100 MPa", "different pressures"},
     {"loading.unload_from=100", "units Pa"},
     {"loading.unload_from=1MPa;2MPa;3MPa;4MPa;5MPa;6MPa;7MPa;8MPa;9MPa;10MPa;11MPa;12MPa;"
      "13MPa;14MPa;15MPa;16MPa;17MPa",
      "up to 16"},
-    {"structure.seed=-1", "whole number 0 to 18446744073709551615"},
+    {"structure.seed=-1", "whole number between 0 and 18446744073709551615"},
     {"structure.seed=18446744073709551616", "whole number"},
-    {"structure.density=0.75", "auto, or 0.01 to 0.74"},
-    {"structure.base=2 d", "auto, or 3 d to 10000 d"},
-    {"contact.bridge_length=0 d", "0.00001 d or more"},
+    {"structure.density=0.75", "auto or between 0.01 and 0.74"},
+    {"structure.base=2 d", "auto or between 3 d and 10000 d"},
+    {"contact.bridge_length=0 d", "at least 0.00001 d"},
     {"contact.bridge_length=0.1 E", "units nm"},
-    {"contact.bridge_length=-1 nm", "0.00001 d or more"},
-    {"contact.shear_strength=2 E", "0 E to 1 E"},
-    {"loading.rate=0 1/s", "loading.rate = 0 1/s: accepted 1 1/s to 1 1/ps"},
+    {"contact.bridge_length=-1 nm", "at least 0.00001 d"},
+    {"contact.shear_strength=2 E", "between 0 E and 1 E"},
+    {"loading.rate=0 1/s", "loading.rate = 0 1/s: must be between 1 1/s and 1 1/ps"},
     {"loading.rate=1e6", "units 1/s"},
-    {"loading.relax=-1 ns", "loading.relax = -1 ns: accepted 0 fs to 1 s"},
-    {"loading.record=0", "accepted 0.0001 % to 10 %"},
-    {"loading.record_time=0 ns", "accepted 1 fs to 1 s"},
-    {"contact.viscosity=-1 Pa s", "accepted 0 mPa s to 1000 Pa s"},
-    {"numerics.time_step=0 T", "accepted auto, or 1e-6 T to 10 T"},
+    {"loading.relax=-1 ns", "loading.relax = -1 ns: must be between 0 fs and 1 s"},
+    {"loading.record=0", "must be between 0.0001 % and 10 %"},
+    {"loading.record_time=0 ns", "must be between 1 fs and 1 s"},
+    {"contact.viscosity=-1 Pa s", "must be between 0 mPa s and 1000 Pa s"},
+    {"numerics.time_step=0 T", "must be auto or between 1e-6 T and 10 T"},
     {"numerics.time_step=0.04", "units s, ms"},
-    {"numerics.time_step=-1 fs", "accepted auto, or"},
-    {"numerics.step_error=0 %", "accepted 1e-6 % to 50 %"},
-    {"numerics.relaxer=magic", "accepted auto or predict or fire or steepest"},
+    {"numerics.time_step=-1 fs", "must be auto or between"},
+    {"numerics.step_error=0 %", "must be between 1e-6 % and 50 %"},
+    {"numerics.relaxer=magic", "must be auto, predict, fire or steepest"},
     {"scene.title=a\tb", "text of at most"},
     {"scene.title=\xff", "text of at most"},
-    {"contact.muu=1", "no such key; accepted normal, alpha, mu,"},
-    {"contacts.mu=1", "no such group; accepted scene, material"},
-    {"mu=1", "accepted group.key=value"},
-    {"contact.mu", "accepted group.key=value"},
-    {"=", "accepted group.key=value"},
-    {"", "accepted group.key=value"},
+    {"contact.muu=1", "no such key; must be one of normal, alpha, mu,"},
+    {"contacts.mu=1", "no such group; must be one of scene, material"},
+    {"mu=1", "must be group.key=value"},
+    {"contact.mu", "must be group.key=value"},
+    {"=", "must be group.key=value"},
+    {"", "must be group.key=value"},
 };
 
 static void test_refused(void)
@@ -209,17 +210,17 @@ static const struct check checks[] = {
     {{"particles.count=30"}, {"particles.count", "structure.base"}},
     {{"particles.count=1000", "structure.base=40 d"}, {"particles.count", "along z"}},
     {{"contact.bridge_length=10 um"}, {NULL}}, /* a diameter or more: no bridges */
-    {{"contact.shear_strength=400 GPa"}, {"contact.shear_strength", "0 E to 1 E"}},
+    {{"contact.shear_strength=400 GPa"}, {"contact.shear_strength", "between 0 E and 1 E"}},
     {{"structure.base=180 nm"}, {NULL}},
     {{"structure.base=20 nm"}, {"structure.base", "3 d"}},
     {{"numerics.cutoff=3 d", "particles.count=200"}, {"particles.count", "6 d"}},
     {{"contact.normal=hertz"}, {NULL}}, /* dry grains */
     {{"contact.normal=hertz", "particles.distribution=lognormal"},
-     {"contact.normal = hertz: accepted rod", "particles.distribution = lognormal"}},
+     {"contact.normal = hertz: must be rod", "particles.distribution = lognormal"}},
     {{"contact.normal=storakers"},
-     {"contact.normal = storakers: accepted rod or hertz", "scene.kind = quasistatic"}},
+     {"contact.normal = storakers: must be rod or hertz", "scene.kind = quasistatic"}},
     {{"contact.normal=storakers", "scene.kind=dynamic", "loading.until=density=0.9"},
-     {"contact.normal = storakers: accepted rod", "scene.kind = dynamic"}},
+     {"contact.normal = storakers: must be rod", "scene.kind = dynamic"}},
     {{"contact.radius_j=wall", "material.yield_j=1 GPa"}, {NULL}},
 };
 
@@ -274,20 +275,20 @@ static void test_cell(void)
     struct gb_params p;
     double e[3];
     gb_params_init(&p);
-    gb_params_cell(&p, e);
+    gb_derived_cell(&p, e);
     g_assert_cmpfloat(e[0], ==, 18.0);
     g_assert_cmpfloat(e[1], ==, 18.0);
     g_assert_cmpfloat_with_epsilon(e[2], 53.868186789948446, 1e-12);
     p.count = 1000;
-    gb_params_cell(&p, e);
+    gb_derived_cell(&p, e);
     g_assert_cmpfloat_with_epsilon(e[0], 9.0, 1e-12);
     g_assert_cmpfloat_with_epsilon(e[2] / e[0], 53.868186789948446 / 18.0, 1e-12);
     p.base = (struct gb_relative){12.0, true};
-    gb_params_cell(&p, e);
+    gb_derived_cell(&p, e);
     g_assert_cmpfloat_with_epsilon(e[0] * e[1] * e[2], 1000.0 * G_PI / 6.0 / 0.24, 1e-9);
     p.dimension = 2;
     p.base = (struct gb_relative){0.0, true};
-    gb_params_cell(&p, e);
+    gb_derived_cell(&p, e);
     g_assert_cmpfloat(e[1], ==, 1.0);
     g_assert_cmpfloat_with_epsilon(e[0], sqrt(1000.0 * G_PI / 4.0 / 0.5), 1e-12);
     g_assert_cmpfloat_with_epsilon(e[2], e[0], 1e-12);

@@ -76,37 +76,37 @@ static void test_csv(void)
 
 static const char *const refused_files[][2] = {
     {"", "no header row"},
-    {"size,share_number\n", "no column of diameters; accepted diameter, or diameter_um"},
-    {"diameter_um,share\n1,1\n", "no column of shares; accepted share_number or"},
-    {"diameter_um,share_number,share_volume\n1,1,1\n", "one is enough"},
+    {"size,share_number\n", "no column of diameters; must be diameter, or diameter_um"},
+    {"diameter_um,share\n1,1\n", "no column of shares; must be share_number or"},
+    {"diameter_um,share_number,share_volume\n1,1,1\n", "must be one of them"},
     {"diameter_um,diameter_nm,share_number\n1,1,1\n", "diameter_um and diameter_nm"},
-    {"diameter_um,share_number\n", "0 rows: accepted 1 to 128"},
-    {"diameter_parsec,share_number\n1,1\n", ":2: '1 parsec': units accepted: nm"},
-    {"diameter,share_number\n1.5 MPa,1\n", ":2: '1.5 MPa': units accepted: nm"},
-    {"diameter,share_number\n1.5,1\n", ":2: '1.5': units accepted: nm"},
+    {"diameter_um,share_number\n", "0 rows: must be between 1 and 128"},
+    {"diameter_parsec,share_number\n1,1\n", ":2: '1 parsec': unit must be one of: nm"},
+    {"diameter,share_number\n1.5 MPa,1\n", ":2: '1.5 MPa': unit must be one of: nm"},
+    {"diameter,share_number\n1.5,1\n", ":2: '1.5': unit must be one of: nm"},
     {"diameter_um,share_number\n1,0.5\n# x\n1,0.5\n",
-     ":4: diameter 1 um: accepted above 1 um"},
-    {"diameter_um,share_number\n2,0.5\n1,0.5\n",
-     ":3: diameter 1 um: accepted above 2 um"},
-    {"diameter_um,share_number\n-1,1\n", ":2: diameter -1 um: accepted above 0"},
+     ":4: diameter 1 um: must be above 1 um"},
+    {"diameter_um,share_number\n2,0.5\n1,0.5\n", ":3: diameter 1 um: must be above 2 um"},
+    {"diameter_um,share_number\n-1,1\n", ":2: diameter -1 um: must be above 0"},
     {"diameter_um,share_number\n0,1\n", ":2: diameter 0"},
     {"diameter_um,share_number\n,1\n", ":2: 'nan um'"},
-    {"diameter_um,share_number\n1,\n", ":2: share nan: accepted 0 to 1"},
-    {"diameter_um,share_number\n1,-0.5\n2,1.5\n", ":2: share -0.5: accepted 0 to 1"},
-    {"diameter_um,share_number\n1,0.5\n2,0.4\n", ":3: the shares sum to 0.9: accepted 1"},
+    {"diameter_um,share_number\n1,\n", ":2: share nan: must be between 0 and 1"},
+    {"diameter_um,share_number\n1,-0.5\n2,1.5\n",
+     ":2: share -0.5: must be between 0 and 1"},
+    {"diameter_um,share_number\n1,0.5\n2,0.4\n", ":3: the shares sum to 0.9: must be 1"},
     {"diameter_um,share_number\n1,50\n2,50\n", ":2: share 50"},
     {"diameter_um,share_number\n1,1e999\n", "1e999"},
     {"diameter_um,share_number\n1,one\n", "share_number = 'one'"},
 };
 
 static const char *const refused_lines[][2] = {
-    {"number:", "no sizes"},
-    {"number: ;", "no sizes"},
-    {"number: 1 um", "1 um: accepted a diameter and a share, as in 1.5 um 0.25"},
-    {"number: 1 um 0.5; 2 um x", "2 um x: accepted"},
-    {"number: 1 um 0.5; 2 0.5", "2 0.5: accepted"},
-    {"number: 1 um 0.5; 2 um 0.6", "the shares sum to 1.1: accepted 1 within 0.002"},
-    {"volume: 2 um 0.5; 1 um 0.5", "size 2: diameter 1 um: accepted above 2 um"},
+    {"number:", "must be followed by sizes"},
+    {"number: ;", "must be followed by sizes"},
+    {"number: 1 um", "1 um: must be a diameter and a share, as in 1.5 um 0.25"},
+    {"number: 1 um 0.5; 2 um x", "2 um x: must be"},
+    {"number: 1 um 0.5; 2 0.5", "2 0.5: must be"},
+    {"number: 1 um 0.5; 2 um 0.6", "the shares sum to 1.1: must be 1 within 0.002"},
+    {"volume: 2 um 0.5; 1 um 0.5", "size 2: diameter 1 um: must be above 2 um"},
     {"no-such-file.csv", "no-such-file.csv: "},
     {"/", "/: is not a regular file"},
 };
@@ -144,9 +144,9 @@ static void test_too_many(void)
     }
     write_text(csv->str);
     g_assert_false(gb_size_table_read(&table, path, &err));
-    g_assert_nonnull(strstr(err.text, "129 rows: accepted 1 to 128"));
+    g_assert_nonnull(strstr(err.text, "129 rows: must be between 1 and 128"));
     g_assert_false(gb_size_table_read(&table, line->str, &err));
-    g_assert_nonnull(strstr(err.text, "more than 128 sizes"));
+    g_assert_nonnull(strstr(err.text, "must be at most 128 sizes"));
     g_string_free(csv, TRUE);
     g_string_free(line, TRUE);
 }
@@ -200,15 +200,15 @@ static void test_params(void)
 {
     static const char *const cases[][4] = {
         {"particles.distribution=lognormal", "scene.kind=dynamic", NULL,
-         "particles.distribution = lognormal: accepted mono with scene.kind = dynamic or "
+         "particles.distribution = lognormal: must be mono with scene.kind = dynamic or "
          "scene.dimension = 2"},
         {"particles.distribution=table", "particles.table=number: 1 um 1",
-         "scene.dimension=2", "particles.distribution = table: accepted mono"},
-        {"particles.distribution=table", NULL, NULL, "particles.table: empty"},
+         "scene.dimension=2", "particles.distribution = table: must be mono"},
+        {"particles.distribution=table", NULL, NULL, "particles.table: must not be empty"},
         {"particles.distribution=lognormal", "particles.median=14 nm",
-         "particles.least=14 nm", "particles.least = 14 nm: accepted below the median"},
+         "particles.least=14 nm", "particles.least = 14 nm: must be below the median"},
         {"particles.distribution=lognormal", "particles.largest=9 nm", NULL,
-         "particles.largest = 9 nm: accepted above the median, 10 nm"},
+         "particles.largest = 9 nm: must be above the median, 10 nm"},
         {"particles.table=number: 1 um 1", NULL, NULL, NULL}, /* not used: fine */
     };
     for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
@@ -227,8 +227,8 @@ static void test_params(void)
     struct gb_error err = {0};
     gb_params_init(&p);
     g_assert_false(gb_params_assign(&p, "particles.table=number: 1 m 1", &err));
-    g_assert_nonnull(strstr(err.text, "particles.table = number: 1 m 1: accepted"));
-    g_assert_nonnull(strstr(err.text, "1 nm to 1 mm"));
+    g_assert_nonnull(strstr(err.text, "particles.table = number: 1 m 1: must be"));
+    g_assert_nonnull(strstr(err.text, "between 1 nm and 1 mm"));
     g_assert_false(gb_params_assign(&p, "particles.table=number: 1 um 2", &err));
     g_assert_nonnull(strstr(err.text, "particles.table: size 1: share 2"));
 }

@@ -44,7 +44,7 @@ shows "a lets the full cell wait for r" 'the full cell waits for r'
 keys g
 is "focus reaches mu" go_to mu
 keys Enter C-u abc Enter
-shows "a bad value is refused with the reason" 'contact.mu = abc: accepted'
+shows "a bad value is refused with the reason" 'contact.mu = abc: must be'
 keys C-u 0.2 Enter
 shows "a good value is marked" '^\*mu  *0\.2'
 shows "what applies when is said" 'the quick cell answers'

@@ -13,8 +13,8 @@ static bool check_rising(const struct gb_average_curve *curve, struct gb_error *
     for (size_t i = 0; i < curve->count; i++) {
         if (!isfinite(curve->x[i]) || (i > 0 && curve->x[i] < curve->x[i - 1])) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "point %zu of a curve: x = %g is behind %g; accepted "
-                                "finite numbers that do not fall",
+                                "point %zu of a curve: x = %g after %g: must be finite and "
+                                "not descending",
                                 i + 1, curve->x[i], i > 0 ? curve->x[i - 1] : 0.0);
         }
     }
@@ -119,7 +119,7 @@ bool gb_average_grid(const struct gb_average_curve *curves, size_t count, size_t
         total += curves[c].count;
     }
     if (total == 0) {
-        return gb_error_set(err, GB_ERR_INPUT, "no points to take a mean of");
+        return gb_error_set(err, GB_ERR_INPUT, "no points to average");
     }
     double *places = gb_alloc_array(total, sizeof *places, err);
     if (places == NULL) {

@@ -330,8 +330,8 @@ bool gb_estimate_fit(const struct gb_estimate_problem *problem,
     if (problem->data < needed || problem->seeds < 2) {
         return gb_error_set(
             err, GB_ERR_INPUT,
-            "%zu values and %zu seeds for %zu parameters: accepted as many "
-            "values, one more without errors, and 2 seeds",
+            "%zu values and %zu seeds for %zu parameters: must be at least as many "
+            "values (one more without errors) and 2 seeds",
             problem->data, problem->seeds, problem->variables);
     }
     if (!alloc_fit(&fit, err)) {

@@ -73,8 +73,8 @@ static bool check(struct histogram *histogram, struct gb_error *err)
     }
     return (good && filled >= CLASSES_LEAST) ||
            gb_error_set(err, GB_ERR_INPUT,
-                        "a histogram of sizes: accepted sizes above 0 that rise, numbers "
-                        "that are not negative, and %d classes with particles",
+                        "size histogram: sizes must be above 0 and ascending, counts not "
+                        "negative, and at least %d classes not empty",
                         CLASSES_LEAST);
 }
 
@@ -129,7 +129,7 @@ static bool minimise(struct histogram *histogram, struct gb_lognormal *law,
     /* no progress is what the last digits look like */
     return status == GSL_SUCCESS || status == GSL_ENOPROG ||
            gb_error_set(err, GB_ERR_NOT_CONVERGED,
-                        "the log-normal law of the sizes was not found");
+                        "the fit of the log-normal law did not converge");
 }
 
 /* From the curvature of the likelihood. */

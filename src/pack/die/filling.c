@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "pack/die/random_insertion.h"
 #include "pack/structure/assign_sizes.h"
+#include "scene/derived.h"
 
 /* Density of the loosest filling for which an automatic height leaves room, with its
  * heap, and the densest one that a given height may ask for. */
@@ -25,7 +26,7 @@ struct gb_bed_law gb_filling_pressing_law(const struct gb_params *params)
     struct gb_bed_law law = gb_filling_law(params);
     law.mu = params->mu;
     if (params->normal == GB_NORMAL_STORAKERS) {
-        const double strength = gb_params_hollomon_pa(params) / params->young_pa;
+        const double strength = gb_derived_hollomon_pa(params) / params->young_pa;
         law.storakers = true;
         law.shear = params->shear_ratio; /* (21) */
         gb_law_storakers_init(&law.normal, &elastic, &elastic, strength, strength,
@@ -71,14 +72,14 @@ static bool size_die(struct gb_die *die, const struct gb_params *params,
     const double micron = 1e6 * params->diameter_m;
     if (largest >= scene->outlet) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "die.outlet = %.4g um: accepted more than the largest "
-                            "particle, %.4g um",
+                            "die.outlet = %.4g um: must be above the largest particle "
+                            "diameter, %.4g um",
                             2.0 * micron * scene->outlet, 2.0 * micron * largest);
     }
     if (volume > densest * area * die->height) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "particles.count = %lld: more powder than the die of %.4g um "
-                            "holds; accepted: a larger die.height, or auto",
+                            "particles.count = %lld: more powder than a die of height %.4g "
+                            "um holds; increase die.height or set it to auto",
                             (long long)params->count, micron * die->height);
     }
     return true;

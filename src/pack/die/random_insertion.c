@@ -129,7 +129,7 @@ static bool place_one(struct pour *pour, int64_t i, struct gb_error *err)
     }
     return gb_error_set(err, GB_ERR_INPUT,
                         "die.outlet, particles.diameter: no room in the funnel for a "
-                        "particle of %.3g d; accepted: a wider die or smaller particles",
+                        "particle of diameter %.3g d; widen the die or reduce the particles",
                         2.0 * bed->position[i][3]);
 }
 

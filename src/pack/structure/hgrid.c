@@ -38,7 +38,7 @@ bool gb_hgrid_init(struct gb_hgrid *hgrid, int64_t capacity, struct gb_error *er
 {
     *hgrid = (struct gb_hgrid){.capacity = capacity, .levels = GB_HGRID_LEVELS};
     if (capacity < 0 || capacity > spheres_most) {
-        return gb_error_set(err, GB_ERR_INPUT, "%lld spheres: accepted up to %lld",
+        return gb_error_set(err, GB_ERR_INPUT, "%lld spheres: must be at most %lld",
                             (long long)capacity, (long long)spheres_most);
     }
     const size_t n = (size_t)capacity;
@@ -78,7 +78,7 @@ static bool reserve(struct gb_hgrid_search *search, int64_t need, struct gb_erro
     const int64_t crowd = GB_HGRID_PAIRS_PER_SPHERE_MAX * search->count;
     if (search->found > (crowd > pairs_least ? crowd : pairs_least)) {
         return gb_error_set(err, GB_ERR_GUARD,
-                            "the spheres crowd: more than %lld pairs among %lld",
+                            "more than %lld near pairs among %lld spheres: they overlap too much",
                             (long long)search->found, (long long)search->count);
     }
     const size_t room = (size_t)(need + need / 2);
@@ -112,8 +112,8 @@ static bool check_spheres(struct gb_hgrid_search *search, const double (*sphere)
         const double squares = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + reach * reach;
         if (0.0 * squares != 0.0 || s[3] < 0.0 || reach < 0.0) {
             return gb_error_set(err, GB_ERR_GUARD,
-                                "sphere %lld is no sphere: at (%.3g, %.3g, %.3g), radius "
-                                "%.3g, margin %.3g",
+                                "sphere %lld: must be finite with a radius of at least 0: "
+                                "position (%.3g, %.3g, %.3g), radius %.3g, margin %.3g",
                                 (long long)i, s[0], s[1], s[2], s[3],
                                 margin ? margin[i] : 0.0);
         }

@@ -37,8 +37,8 @@ bool gb_hgrid_levels_bounds(struct gb_hgrid_search *search, const struct gb_hgri
             const double shortest = 4.0 * search->widest;
             if (!(high - low >= shortest) || isinf(high - low)) {
                 return gb_error_set(err, GB_ERR_GUARD,
-                                    "the box is %.3g wide along %c: accepted twice the "
-                                    "reach of two spheres, %.3g, or more",
+                                    "the box is %.3g wide along %c: must be at least twice "
+                                    "the range of the largest pair, %.3g",
                                     high - low, "xyz"[k], shortest);
             }
         } else {

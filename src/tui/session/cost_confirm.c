@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "run/cost.h"
+#include "scene/derived.h"
 
 /* What would be cheaper, by the stage that takes most.  A longer step helps every stage,
  * and so does auto where the step was given. */
@@ -14,7 +15,7 @@ static void write_advice(const struct gb_params *params, const struct gb_cost *c
     const bool pressing = cost->compress_steps >= cost->relax_steps + cost->hold_steps;
     snprintf(text, size, "%s%s or fewer particles.count",
              pressing ? "a higher loading.rate" : "a shorter loading.relax or hold",
-             isnan(gb_params_time_step_s(params)) ? "" : ", numerics.time_step = auto");
+             isnan(gb_derived_time_step_s(params)) ? "" : ", numerics.time_step = auto");
 }
 
 bool gb_cost_confirm_question(const struct gb_params *params, double particle_steps_per_s,

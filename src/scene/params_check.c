@@ -1,0 +1,146 @@
+#include <math.h>
+
+#include <glib.h>
+
+#include "base/units.h"
+#include "scene/changes.h"
+#include "scene/derived.h"
+#include "scene/die_scene.h"
+#include "scene/dynamic_scene.h"
+#include "scene/field.h"
+#include "scene/keep_points.h"
+#include "scene/size_table.h"
+#include "scene/sizes.h"
+
+/* Name of the choice that a member holds. */
+static char *choice(const struct gb_params *params, const char *group, const char *key,
+                    char *buffer, size_t size)
+{
+    return gb_field_write(gb_params_find(group, key), params, buffer, size);
+}
+
+/* Each value against its row: the caller may have filled the struct without gb_params_set. */
+bool gb_params_check_fields(const struct gb_params *params, struct gb_error *err)
+{
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (!gb_field_valid(&fields[i], params)) {
+            char value[256], accepted[256];
+            gb_params_format(params, &fields[i], value, sizeof value);
+            gb_field_accepted_sentence(&fields[i], accepted, sizeof accepted);
+            return gb_error_set(err, GB_ERR_INPUT, "%s.%s = %.80s: must be %s",
+                                fields[i].group, fields[i].key, value, accepted);
+        }
+    }
+    return true;
+}
+
+/* Largest over mean particle diameter. */
+static double largest_over_mean(const struct gb_params *params)
+{
+    struct gb_sizes sizes;
+    double smallest = 1.0, largest = 1.0;
+    if (!gb_sizes_polydisperse(params) || !gb_sizes_init(&sizes, params, NULL)) {
+        return 1.0;
+    }
+    gb_sizes_range(&sizes, params->count, &smallest, &largest);
+    return largest / gb_sizes_moment(&sizes, 1);
+}
+
+/* Minimum image convention: an edge must be at least twice the interaction range, else a
+ * pair would interact through two images. */
+static bool check_cell(const struct gb_params *params, struct gb_error *err)
+{
+    static const char axes[] = "xyz";
+    double range = 1.5;
+    if (!isnan(params->cutoff.value)) {
+        const double cutoff =
+            gb_field_absolute(gb_params_find("numerics", "cutoff"), params);
+        range = fmax(range, cutoff / gb_derived_reference_m(params));
+    }
+    range += largest_over_mean(params) - 1.0;
+    double edges[3];
+    gb_derived_cell(params, edges);
+    for (int k = 0; k < 3; k++) {
+        if ((params->dimension == 3 || k != 1) && !(edges[k] >= 2.0 * range)) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "particles.count = %" G_GINT64_FORMAT
+                                " and structure.base give a cell of %.3g d along %c: "
+                                "must be at least %g d",
+                                params->count, edges[k], axes[k], 2.0 * range);
+        }
+    }
+    return true;
+}
+
+static bool check_loading(const struct gb_params *params, struct gb_error *err)
+{
+    const double start = gb_derived_structure_density(params);
+    if (!isnan(params->until_density) && !(params->until_density > start)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "loading.until = density = %g: must be above "
+                            "structure.density = %g",
+                            params->until_density, start);
+    }
+    if (!isnan(params->until_pressure_pa) && params->unload_count > 0) {
+        char from[64], until[64];
+        const double last = params->unload_from_pa[params->unload_count - 1];
+        if (last > params->until_pressure_pa) {
+            gb_units_format(last, GB_DIM_PRESSURE, from, sizeof from);
+            gb_units_format(params->until_pressure_pa, GB_DIM_PRESSURE, until,
+                            sizeof until);
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "loading.unload_from = %s: must be at most "
+                                "loading.until = %s",
+                                from, until);
+        }
+    }
+    if (params->dimension == 2 && params->geometry == GB_GEOMETRY_BIAXIAL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "loading.geometry = biaxial: must be uniaxial or isotropic "
+                            "with scene.dimension = 2, which has the axes x and z only");
+    }
+    return true;
+}
+
+/* Dies: Hertz or Storakers (P3).  Periodic cells: the rod model (P1, P2); quasi-static
+ * ones of one size also cohesionless Hertz. */
+static bool check_normal(const struct gb_params *params, struct gb_error *err)
+{
+    const bool quasistatic = params->kind == GB_KIND_QUASISTATIC;
+    char normal[32], kind[32];
+    if (params->normal == GB_NORMAL_ROD ||
+        (params->normal == GB_NORMAL_HERTZ && quasistatic &&
+         !gb_sizes_polydisperse(params))) {
+        return true;
+    }
+    if (params->normal == GB_NORMAL_HERTZ && quasistatic) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "contact.normal = hertz: must be rod with "
+            "particles.distribution = %s",
+            choice(params, "particles", "distribution", kind, sizeof kind));
+    }
+    return gb_error_set(err, GB_ERR_INPUT,
+                        "contact.normal = %s: must be rod%s with scene.kind = %s",
+                        choice(params, "contact", "normal", normal, sizeof normal),
+                        quasistatic ? " or hertz" : "",
+                        choice(params, "scene", "kind", kind, sizeof kind));
+}
+
+bool gb_params_check(const struct gb_params *params, struct gb_error *err)
+{
+    struct gb_keep_points points;
+    if (!gb_params_check_fields(params, err) ||
+        !gb_size_table_check_params(params, err) ||
+        !gb_keep_points_parse(params->snapshots_at, &points, err)) {
+        return false;
+    }
+    if (params->kind == GB_KIND_DIE) {
+        return gb_die_scene_check(params, err) && gb_changes_check(params, err);
+    }
+    return check_normal(params, err) && check_cell(params, err) &&
+           check_loading(params, err) && gb_dynamic_scene_check(params, err) &&
+           gb_changes_check(params, err);
+}
