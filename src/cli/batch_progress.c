@@ -4,11 +4,11 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <glib/gstdio.h>
 
+#include "base/clock.h"
 #include "cli/options.h"
 #include "many/single_run.h"
 #include "run/cost.h"
@@ -35,13 +35,6 @@ static void install_handlers(void)
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
     signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error of a write */
-}
-
-static double clock_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 static bool is_cancelled(void *data)
@@ -117,8 +110,8 @@ static void show(struct gb_batch_progress *crowd)
     char line[160];
     char left[64] = "time left unknown";
     const size_t fresh = crowd->ended - crowd->before;
-    const double gone = clock_s() - crowd->started;
-    crowd->told_at = clock_s();
+    const double gone = gb_clock_s() - crowd->started;
+    crowd->told_at = gb_clock_s();
     if (fresh > 0) {
         const double each = gone / (double)fresh;
         char duration[48];
@@ -153,7 +146,7 @@ static void told(const struct gb_ensemble *ensemble, const struct gb_ensemble_ru
         clear_line(crowd);
         fprintf(stderr, "%s: %s\n", run->directory, run->error.text);
     }
-    if (clock_s() - crowd->told_at >=
+    if (gb_clock_s() - crowd->told_at >=
         (is_terminal() ? terminal_every_s : plain_every_s)) {
         show(crowd);
     }
@@ -184,7 +177,7 @@ bool gb_batch_progress_work(struct gb_batch_progress *crowd, struct gb_ensemble 
                                                   : g_get_num_processors();
     install_handlers();
     count(crowd, ensemble);
-    crowd->started = clock_s();
+    crowd->started = gb_clock_s();
     crowd->told_at = crowd->started;
     if (!crowd->quiet && !crowd->brief) {
         fprintf(stderr, "%zu runs, %zu of them done before; %zu at once\n", crowd->total,
@@ -196,7 +189,7 @@ bool gb_batch_progress_work(struct gb_batch_progress *crowd, struct gb_ensemble 
     clear_line(crowd);
     if (!crowd->quiet && !crowd->brief) {
         fprintf(stderr, "%zu of %zu runs, %zu failed, after %.1f s\n", crowd->ended,
-                crowd->total, crowd->failed, clock_s() - crowd->started);
+                crowd->total, crowd->failed, gb_clock_s() - crowd->started);
     }
     return good;
 }

@@ -2,10 +2,10 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include <glib.h>
 
+#include "base/clock.h"
 #include "cli/options.h"
 #include "run/experiment.h"
 
@@ -51,21 +51,14 @@ const volatile sig_atomic_t *gb_foreground_caught(void)
     return &caught;
 }
 
-static double clock_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 void gb_foreground_begin(struct gb_foreground *run, double gone)
 {
-    run->started = clock_s() - gone;
+    run->started = gb_clock_s() - gone;
 }
 
 double gb_foreground_elapsed(const struct gb_foreground *run)
 {
-    return clock_s() - run->started;
+    return gb_clock_s() - run->started;
 }
 
 static const struct gb_params *params_of(const struct gb_foreground *run)

@@ -3,10 +3,10 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <glib.h>
 
+#include "base/clock.h"
 #include "many/pool.h"
 
 #if GB_WITH_MPI
@@ -55,13 +55,6 @@ struct gb_mpi_pool {
     int byte; /* content of letters that are but a tag */
 };
 
-static double clock_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Started by something that starts several? */
 static bool is_launched(void)
 {
@@ -87,7 +80,7 @@ bool gb_mpi_pool_create(struct gb_mpi_pool **out, struct gb_error *err)
     ranks->member = g_new0(struct member, (gsize)ranks->count);
     for (int r = 0; r < ranks->count; r++) {
         ranks->member[r].tickets = g_array_new(FALSE, FALSE, sizeof(size_t));
-        ranks->member[r].heard = clock_s();
+        ranks->member[r].heard = gb_clock_s();
         ranks->member[r].beat = MPI_REQUEST_NULL;
     }
     *out = ranks;
@@ -152,7 +145,7 @@ static bool open_letter(struct gb_mpi_pool *ranks, const MPI_Status *status,
 {
     struct member *member = &ranks->member[status->MPI_SOURCE];
     uint64_t capacity = 0;
-    member->heard = clock_s();
+    member->heard = gb_clock_s();
     switch (status->MPI_TAG) {
     case TAG_HELLO:
         receive(&capacity, sizeof capacity, status);
@@ -178,7 +171,7 @@ static void dismiss(struct gb_mpi_pool *ranks)
     }
     for (int r = 1; r < ranks->count; r++) {
         struct member *member = &ranks->member[r];
-        ranks->any_lost |= member->lost || clock_s() - member->heard > missing_after_s;
+        ranks->any_lost |= member->lost || gb_clock_s() - member->heard > missing_after_s;
     }
     ranks->byte = ranks->any_lost;
     tell_members(ranks, TAG_QUIT);
@@ -254,7 +247,7 @@ static bool open_letters(struct gb_mpi_pool *ranks, double *heard, enum stop *st
 {
     MPI_Status status;
     while (has_letter(&status)) {
-        *heard = clock_s();
+        *heard = gb_clock_s();
         if (status.MPI_TAG == TAG_WORK) {
             struct parcel *parcel = g_new0(struct parcel, 1);
             receive(parcel, sizeof *parcel, &status);
@@ -274,8 +267,8 @@ static bool open_letters(struct gb_mpi_pool *ranks, double *heard, enum stop *st
 
 static void beat(struct gb_mpi_pool *ranks)
 {
-    if (clock_s() - ranks->beaten > beat_s) {
-        ranks->beaten = clock_s();
+    if (gb_clock_s() - ranks->beaten > beat_s) {
+        ranks->beaten = gb_clock_s();
         send_tag(ranks, 0, TAG_ALIVE);
     }
 }
@@ -283,7 +276,7 @@ static void beat(struct gb_mpi_pool *ranks)
 bool gb_mpi_pool_serve(struct gb_mpi_pool *ranks, struct gb_pool *crew, size_t workers,
                        bool (*cancelled)(void *data), void *data, struct gb_error *err)
 {
-    double heard = clock_s();
+    double heard = gb_clock_s();
     enum stop stop = GOING;
     bool stopped = false, leaving = false;
     send_capacity(workers);
@@ -304,7 +297,7 @@ bool gb_mpi_pool_serve(struct gb_mpi_pool *ranks, struct gb_pool *crew, size_t w
             send_report(&report);
         }
         beat(ranks);
-        if (clock_s() - heard > orphan_after_s) {
+        if (gb_clock_s() - heard > orphan_after_s) {
             ranks->any_lost = true;
             return gb_error_set(err, GB_ERR_MACHINE,
                                 "nothing was heard of the first rank for %g s",
@@ -390,7 +383,7 @@ bool gb_mpi_pool_submit(struct gb_mpi_pool *ranks, size_t ticket,
 /* Signs of life both ways; never waits for one that may be dead. */
 static void look_after(struct gb_mpi_pool *ranks)
 {
-    const double now = clock_s();
+    const double now = gb_clock_s();
     if (now - ranks->beaten < beat_s) {
         return;
     }

@@ -2,11 +2,11 @@
 
 #include <math.h>
 #include <poll.h>
-#include <time.h>
 
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "many/mpi_pool.h"
 #include "many/worker.h"
 
@@ -30,13 +30,6 @@ static const double letters_least_s = 0.02;
 static const double letters_most_s = 0.1;
 static const double letters_share = 0.02;
 
-static double clock_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 bool gb_pool_create(struct gb_pool **out, size_t workers, gb_pool_work *work,
                     struct gb_mpi_pool *ranks, struct gb_error *err)
 {
@@ -45,7 +38,7 @@ bool gb_pool_create(struct gb_pool **out, size_t workers, gb_pool_work *work,
         return false;
     }
     crew->work = work;
-    crew->stirred = clock_s();
+    crew->stirred = gb_clock_s();
     crew->ranks = ranks;
     crew->count = workers;
     crew->places = 2 * workers;
@@ -66,7 +59,7 @@ bool gb_pool_create(struct gb_pool **out, size_t workers, gb_pool_work *work,
 
 double gb_pool_poll_interval(const struct gb_pool *crew)
 {
-    const double calm = letters_share * (clock_s() - crew->stirred);
+    const double calm = letters_share * (gb_clock_s() - crew->stirred);
     return fmin(fmax(calm, letters_least_s), letters_most_s);
 }
 
@@ -111,7 +104,7 @@ static bool give_here(struct gb_pool *crew, size_t ticket, const struct gb_param
 bool gb_pool_submit(struct gb_pool *crew, size_t ticket, const struct gb_params *params,
                     const char *directory, struct gb_error *err)
 {
-    crew->stirred = clock_s();
+    crew->stirred = gb_clock_s();
     const bool idle = crew->busy < crew->count;
     if (idle || (room_here(crew) > 0 && gb_mpi_pool_idle(crew->ranks) == 0)) {
         return give_here(crew, ticket, params, directory, err);
@@ -126,7 +119,7 @@ static bool hear(struct gb_pool *crew, size_t i, struct gb_pool_report *report)
 {
     const bool kept = crew->worker[i].keeping;
     const bool ended = gb_worker_take(&crew->worker[i], report);
-    crew->stirred = clock_s();
+    crew->stirred = gb_clock_s();
     crew->busy -= ended;
     crew->keeping -= ended && kept;
     crew->keeping += !ended && !kept;
@@ -155,7 +148,7 @@ static bool take_here(struct gb_pool *crew, double seconds, struct gb_pool_repor
 
 bool gb_pool_receive(struct gb_pool *crew, double seconds, struct gb_pool_report *report)
 {
-    const double until = clock_s() + seconds;
+    const double until = gb_clock_s() + seconds;
     const double stirred = crew->stirred;
     if (crew->ranks == NULL) {
         return take_here(crew, seconds, report);
@@ -163,13 +156,13 @@ bool gb_pool_receive(struct gb_pool *crew, double seconds, struct gb_pool_report
     do {
         if (gb_mpi_pool_receive(crew->ranks, report)) {
             crew->away--;
-            crew->stirred = clock_s();
+            crew->stirred = gb_clock_s();
             return true;
         }
         if (take_here(crew, gb_pool_poll_interval(crew), report)) {
             return true;
         }
-    } while (crew->stirred <= stirred && clock_s() < until);
+    } while (crew->stirred <= stirred && gb_clock_s() < until);
     return false;
 }
 

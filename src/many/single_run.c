@@ -1,11 +1,11 @@
 #include "many/single_run.h"
 
 #include <string.h>
-#include <time.h>
 
 #include <glib.h>
 #include <json-glib/json-glib.h>
 
+#include "base/clock.h"
 #include "io/preset.h"
 #include "many/runset.h"
 #include "run/experiment.h"
@@ -27,16 +27,9 @@ struct solo {
     double started, packed, status_at;
 };
 
-static double clock_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static double elapsed(const struct solo *solo)
 {
-    return clock_s() - solo->started;
+    return gb_clock_s() - solo->started;
 }
 
 static bool is_cancelled(void *data)
@@ -99,7 +92,7 @@ static bool keep_due(struct solo *solo, struct gb_error *err)
 static bool begin(struct solo *solo, const struct gb_params *params,
                   const char *directory, struct gb_error *err)
 {
-    solo->started = clock_s();
+    solo->started = gb_clock_s();
     solo->count = (double)params->count;
     if (!gb_experiment_create(&solo->experiment, params, is_cancelled, solo, err) ||
         !gb_run_recorder_create(&solo->keep, directory, params, true, err)) {

@@ -8,23 +8,16 @@
 #include <sys/socket.h>
 #include <sys/uio.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/alloc.h"
+#include "base/clock.h"
 
 /* A run on its way: the parameters and, of any length up to that, the name. */
 struct parcel {
     struct gb_params params;
     char directory[PATH_MAX];
 };
-
-static double clock_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* --- the worker's process -------------------------------------------------------- */
 
@@ -154,7 +147,7 @@ bool gb_worker_give(struct gb_worker *worker, size_t count, size_t index,
     }
     own->busy = true;
     own->ticket = ticket;
-    own->since = clock_s();
+    own->since = gb_clock_s();
     return true;
 }
 
@@ -188,7 +181,7 @@ bool gb_worker_take(struct gb_worker *worker, struct gb_pool_report *report)
     }
     report->ticket = worker->ticket;
     report->lost = false;
-    report->seconds = clock_s() - worker->since;
+    report->seconds = gb_clock_s() - worker->since;
     worker->busy = false;
     worker->keeping = false;
     if (got != (ssize_t)sizeof report->error) {

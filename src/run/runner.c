@@ -5,9 +5,9 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "io/follow.h"
 #include "io/rundir.h"
 #include "run/checkpoint.h"
@@ -72,16 +72,9 @@ struct gb_runner {
     double pictured, picture_cost;
 };
 
-static double clock_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static double elapsed(const struct gb_runner *runner)
 {
-    return clock_s() - runner->started - runner->idle;
+    return gb_clock_s() - runner->started - runner->idle;
 }
 
 static void add_event(struct gb_runner *runner, const char *text)
@@ -118,10 +111,10 @@ static void observe(struct gb_runner *runner)
     const int state = shown->state;
     const struct gb_error error = shown->error;
     if (runner->experiment != NULL) {
-        const double before = clock_s();
+        const double before = gb_clock_s();
         take_events(runner);
         gb_experiment_observe(runner->experiment, shown);
-        runner->publish_cost = clock_s() - before;
+        runner->publish_cost = gb_clock_s() - before;
     }
     shown->state = state;
     shown->error = error;
@@ -153,18 +146,18 @@ static void publish(struct gb_runner *runner)
     observe(runner);
     *gb_publish_back(&runner->publish) = runner->shown;
     gb_publish_swap(&runner->publish);
-    runner->published = clock_s();
+    runner->published = gb_clock_s();
 }
 
 static void show_packing(struct gb_runner *runner)
 {
-    const double before = clock_s();
+    const double before = gb_clock_s();
     if (runner->experiment == NULL || !runner->watched) {
         return;
     }
     gb_view_sample_take(runner->experiment, &runner->picture[runner->turn.back]);
     gb_publish_turn_swap(&runner->turn);
-    runner->pictured = clock_s();
+    runner->pictured = gb_clock_s();
     runner->picture_cost = runner->pictured - before;
 }
 
@@ -174,7 +167,7 @@ static void picture_if_due(struct gb_runner *runner)
     if (every < picture_every_s) {
         every = picture_every_s;
     }
-    if (clock_s() - runner->pictured >= every) {
+    if (gb_clock_s() - runner->pictured >= every) {
         show_packing(runner);
     }
 }
@@ -185,7 +178,7 @@ static void publish_if_due(struct gb_runner *runner)
     if (every < publish_every_s) {
         every = publish_every_s;
     }
-    if (clock_s() - runner->published >= every) {
+    if (gb_clock_s() - runner->published >= every) {
         publish(runner);
     }
 }
@@ -249,7 +242,7 @@ static bool cancelled(void *data)
 /* Until a command ends the wait. */
 static void sleep_while(struct gb_runner *runner, const bool *reason)
 {
-    const double from = clock_s();
+    const double from = gb_clock_s();
     pthread_mutex_lock(&runner->mutex);
     while (*reason && !runner->stop) {
         struct gb_command command;
@@ -262,7 +255,7 @@ static void sleep_while(struct gb_runner *runner, const bool *reason)
         }
     }
     pthread_mutex_unlock(&runner->mutex);
-    runner->idle += clock_s() - from;
+    runner->idle += gb_clock_s() - from;
 }
 
 static void sleep_paused(struct gb_runner *runner)
@@ -315,10 +308,10 @@ static void hand_over(struct gb_runner *runner, const struct gb_point *point)
 static bool slice(struct gb_runner *runner)
 {
     struct gb_error err = {0};
-    const double from = clock_s();
+    const double from = gb_clock_s();
     const enum gb_step_outcome how =
         gb_experiment_advance(runner->experiment, gb_pace_slice(&runner->pace), &err);
-    gb_pace_sliced(&runner->pace, clock_s() - from, how == GB_STEP_MORE);
+    gb_pace_sliced(&runner->pace, gb_clock_s() - from, how == GB_STEP_MORE);
     switch (how) {
     case GB_STEP_MORE:
         return true;
@@ -409,7 +402,7 @@ static bool go_on(struct gb_runner *runner, struct gb_error *err)
                                     runner, err);
     }
     runner->started =
-        clock_s() - runner->idle - gb_run_recorder_seconds(runner->kept.keep);
+        gb_clock_s() - runner->idle - gb_run_recorder_seconds(runner->kept.keep);
     const long long step = gb_experiment_point(runner->experiment)->step;
     snprintf(text, sizeof text, "resumed from the checkpoint of step %lld", step);
     add_event(runner, text);
@@ -497,9 +490,9 @@ static bool look(struct gb_runner *runner, double *changed)
         add_event(runner, shown->event);
     }
     if (shown->seconds != before.seconds || shown->state != before.state) {
-        *changed = clock_s();
+        *changed = gb_clock_s();
     }
-    if (shown->state <= GB_RUN_PAUSED && clock_s() - *changed > silence_s &&
+    if (shown->state <= GB_RUN_PAUSED && gb_clock_s() - *changed > silence_s &&
         !gb_rundir_busy(directory)) {
         add_event(runner, "its engine is gone; t goes on from the last checkpoint");
         shown->state = GB_RUN_STOPPED;
@@ -520,7 +513,7 @@ static void publish_followed(struct gb_runner *runner)
 static void *follow(void *data)
 {
     struct gb_runner *runner = data;
-    double changed = clock_s();
+    double changed = gb_clock_s();
     int64_t told = 0; /* events in the status, which counts its own */
     bool more = true;
     while (more) {
@@ -528,8 +521,8 @@ static void *follow(void *data)
         more = look(runner, &changed);
         told = runner->shown.events;
         publish_followed(runner);
-        const gint64 until = g_get_monotonic_time() + (gint64)(1e6 * follow_every_s);
-        while (more && !runner->stop && g_get_monotonic_time() < until) {
+        const double until = gb_clock_s() + follow_every_s;
+        while (more && !runner->stop && gb_clock_s() < until) {
             drain(runner);
             g_usleep(100000);
         }
@@ -588,7 +581,7 @@ static struct gb_runner *make(const struct gb_params *params, const char *direct
     gb_publish_turn_init(&runner->turn);
     gb_command_ring_init(&runner->ring);
     gb_pace_init(&runner->pace);
-    runner->started = clock_s();
+    runner->started = gb_clock_s();
     return runner;
 }
 

@@ -2,14 +2,10 @@
 
 #include <string.h>
 
+#include "base/clock.h"
 #include "run/checkpoint.h"
 #include "run/cost.h"
 #include "run/pace.h"
-
-static double seconds_since(gint64 start)
-{
-    return 1e-6 * (double)(g_get_monotonic_time() - start);
-}
 
 bool gb_warmup_ended(const struct gb_warmup *warmup)
 {
@@ -19,9 +15,9 @@ bool gb_warmup_ended(const struct gb_warmup *warmup)
 static void slice(struct gb_warmup *warmup, struct gb_experiment *experiment,
                   struct gb_pace *pace, struct gb_error *stopped)
 {
-    const gint64 start = g_get_monotonic_time();
+    const double start = gb_clock_s();
     warmup->how = gb_experiment_advance(experiment, gb_pace_slice(pace), stopped);
-    gb_pace_sliced(pace, seconds_since(start), warmup->how == GB_STEP_MORE);
+    gb_pace_sliced(pace, gb_clock_s() - start, warmup->how == GB_STEP_MORE);
 }
 
 void gb_warmup_run(struct gb_warmup *warmup, struct gb_experiment *experiment,
@@ -29,21 +25,21 @@ void gb_warmup_run(struct gb_warmup *warmup, struct gb_experiment *experiment,
                    struct gb_error *stopped)
 {
     const int64_t before = gb_experiment_evaluations(experiment);
-    const gint64 start = g_get_monotonic_time();
+    const double start = gb_clock_s();
     struct gb_pace pace;
     gb_pace_init(&pace);
     warmup->points = g_array_new(FALSE, FALSE, sizeof(struct gb_point));
-    while (*caught == 0 && !gb_warmup_ended(warmup) && seconds_since(start) < seconds) {
+    while (*caught == 0 && !gb_warmup_ended(warmup) && gb_clock_s() - start < seconds) {
         slice(warmup, experiment, &pace, stopped);
         if (warmup->how == GB_STEP_POINT) {
             struct gb_point point = *gb_experiment_point(experiment);
-            point.seconds = gone + seconds_since(start);
+            point.seconds = gone + gb_clock_s() - start;
             g_array_append_val(warmup->points, point);
             (void)gb_checkpoint_take(experiment, &warmup->record, NULL);
         }
     }
     warmup->particle_steps_per_s =
-        gb_cost_rate_measured(experiment, before, seconds_since(start));
+        gb_cost_rate_measured(experiment, before, gb_clock_s() - start);
 }
 
 void gb_warmup_finish(struct gb_warmup *warmup)

@@ -3,11 +3,11 @@
 #include <pthread.h>
 #include <signal.h>
 #include <string.h>
-#include <time.h>
 
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "io/state_record.h"
 
 struct gb_writer {
@@ -29,13 +29,6 @@ struct gb_writer {
     struct gb_record record[2];
     int own; /* the engine's; the other one is the thread's while busy */
 };
-
-static double clock_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void write_one(const struct gb_writer *writer, const struct gb_record *record,
                       struct gb_error *err)
@@ -61,10 +54,10 @@ static void write_state(struct gb_writer *writer)
     const struct gb_record *record = &writer->record[1 - writer->own];
     struct gb_error err = {0};
     pthread_mutex_unlock(&writer->mutex);
-    const double from = clock_s();
+    const double from = gb_clock_s();
     write_one(writer, record, &err);
     pthread_mutex_lock(&writer->mutex);
-    writer->seconds = clock_s() - from;
+    writer->seconds = gb_clock_s() - from;
     writer->busy = false;
     done(writer, &err);
 }

@@ -4,18 +4,18 @@
 #include <gsl/gsl_statistics.h>
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "scene/model.h"
+#include "base/clock.h"
 #include "measure/observe.h"
 #include "pack/cell/world.h"
 #include "pack/structure/chain_growth.h"
 #include "pack/structure/hilbert.h"
 #include "run/experiment.h"
 #include "scene/die_scene.h"
+#include "scene/model.h"
 #include "solve/relax.h"
 
 /* Batches timed, and evaluations in each: the median of the batches is what counts,
@@ -31,17 +31,11 @@ static const double round_s = 0.2;
 static const double press_step = 0.01, bench_step = 0.001;
 enum { PRESS_MOST = 200 };
 
-static double seconds_since(gint64 start)
-{
-    return 1e-6 * (double)(g_get_monotonic_time() - start);
-}
-
 /* On one core it is processor time that counts, which other work on the machine does not
  * lengthen; on several it is the wall clock. */
 static double now(bool one_core)
 {
-    return one_core ? (double)clock() / CLOCKS_PER_SEC
-                    : 1e-6 * (double)g_get_monotonic_time();
+    return one_core ? gb_clock_process_s() : gb_clock_s();
 }
 
 static bool grow(struct gb_world **world, const struct gb_model *model, double *seconds,
@@ -52,9 +46,9 @@ static bool grow(struct gb_world **world, const struct gb_model *model, double *
         return false;
     }
     const struct gb_chain_growth order = gb_chain_growth_from_model(model);
-    const gint64 start = g_get_monotonic_time();
+    const double start = gb_clock_s();
     const bool done = gb_chain_growth_place(&order, position, err);
-    *seconds = seconds_since(start);
+    *seconds = gb_clock_s() - start;
     const bool made = done && gb_hilbert_sort(model, position, err) &&
                       gb_world_create(world, model, position, err);
     gb_alloc_free(position);
@@ -141,13 +135,14 @@ static bool make_pressed(struct pressed *pressed, const struct gb_params *params
     struct gb_contact_counts counts;
     const size_t before = gb_alloc_bytes();
     *pressed = (struct pressed){0};
-    const bool done = gb_die_scene_require_periodic(params, "the benchmark of one preset", err) &&
-                      gb_model_init(&pressed->model, params, err) &&
-                      grow(&pressed->world, &pressed->model, &pressed->grow_s, err) &&
-                      gb_relax_create(&relax, &pressed->model, err) &&
-                      (gb_relax_start(relax, pressed->world), true) &&
-                      press(pressed->world, relax, coordination, err) &&
-                      gb_world_copy_save(pressed->world, &pressed->copy, err);
+    const bool done =
+        gb_die_scene_require_periodic(params, "the benchmark of one preset", err) &&
+        gb_model_init(&pressed->model, params, err) &&
+        grow(&pressed->world, &pressed->model, &pressed->grow_s, err) &&
+        gb_relax_create(&relax, &pressed->model, err) &&
+        (gb_relax_start(relax, pressed->world), true) &&
+        press(pressed->world, relax, coordination, err) &&
+        gb_world_copy_save(pressed->world, &pressed->copy, err);
     if (done) {
         gb_observe_contacts(pressed->world, &counts, NULL, 0, NULL);
         pressed->coordination = counts.coordination;
@@ -216,7 +211,7 @@ static bool press_size(struct growing *growing, struct gb_bench_size *size,
 
 static bool time_round(struct growing *growing, struct gb_error *err)
 {
-    const gint64 start = g_get_monotonic_time();
+    const double start = gb_clock_s();
     do {
         double one, all;
         bool same_bits;
@@ -228,7 +223,7 @@ static bool time_round(struct growing *growing, struct gb_error *err)
         }
         g_array_append_val(growing->one, one);
         g_array_append_val(growing->all, all);
-    } while (seconds_since(start) < round_s);
+    } while (gb_clock_s() - start < round_s);
     return true;
 }
 

@@ -1,12 +1,12 @@
 #include "study/bench_die.h"
 
 #include <string.h>
-#include <time.h>
 
 #include <glib.h>
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
 
+#include "base/clock.h"
 #include "measure/observe_die.h"
 #include "pack/die/filling.h"
 #include "solve/die_stages.h"
@@ -81,13 +81,13 @@ static bool time_law(struct gb_bed *bed, const char *law, double mu, double *sec
     gb_leapfrog_init(&leap, 0.5, 0.0);
     bed->die.punch_velocity = 0.0;
     for (int b = -1; b < BATCHES; b++) { /* the first one warms up */
-        const clock_t start = clock();
+        const double start = gb_clock_process_s();
         for (int k = 0; k < BATCH; k++) {
             if (!gb_leapfrog_step(&leap, bed, err)) {
                 return false;
             }
         }
-        batch[b < 0 ? 0 : b] = (double)(clock() - start) / CLOCKS_PER_SEC / BATCH;
+        batch[b < 0 ? 0 : b] = (gb_clock_process_s() - start) / BATCH;
     }
     gsl_sort(batch, 1, BATCHES);
     *seconds = gsl_stats_median_from_sorted_data(batch, 1, BATCHES) / (double)bed->count;

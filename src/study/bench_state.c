@@ -2,11 +2,11 @@
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
-#include <time.h>
 
 #include <glib.h>
 #include <glib/gstdio.h>
 
+#include "base/clock.h"
 #include "base/file.h"
 #include "io/store.h"
 #include "run/checkpoint.h"
@@ -20,16 +20,6 @@ struct timing {
     double held[TIMES], processor[TIMES], written[TIMES], disk[TIMES];
     gsize bytes;
 };
-
-static double wall(void)
-{
-    return 1e-6 * (double)g_get_monotonic_time();
-}
-
-static double processor(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
 
 static double median(double *seconds)
 {
@@ -50,9 +40,9 @@ static bool copy_file(const char *directory, double *seconds, gsize *bytes,
         gb_error_set(err, GB_ERR_MACHINE, "%s", failure->message);
         g_error_free(failure);
     }
-    const double start = wall();
+    const double start = gb_clock_s();
     good = good && gb_file_replace(to, data, *bytes, err);
-    *seconds = wall() - start;
+    *seconds = gb_clock_s() - start;
     (void)g_unlink(to);
     g_free(data);
     g_free(to);
@@ -66,16 +56,16 @@ static bool time_one(struct timing *timing, int k, struct gb_experiment *experim
                      const struct gb_store *store, struct gb_writer *writer,
                      struct gb_error *err)
 {
-    double start = wall();
+    double start = gb_clock_s();
     if (!gb_checkpoint_take(experiment, gb_writer_record(writer), err)) {
         return false;
     }
-    timing->held[k] = wall() - start;
-    start = processor();
+    timing->held[k] = gb_clock_s() - start;
+    start = gb_clock_process_s();
     if (!gb_writer_send(writer, err) || !gb_writer_wait(writer, err)) {
         return false;
     }
-    timing->processor[k] = processor() - start;
+    timing->processor[k] = gb_clock_process_s() - start;
     timing->written[k] = gb_writer_seconds(writer);
     return copy_file(gb_store_directory(store), &timing->disk[k], &timing->bytes, err);
 }

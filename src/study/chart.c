@@ -3,14 +3,14 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include <glib.h>
 
+#include "base/clock.h"
 #include "base/units.h"
-#include "scene/model.h"
 #include "measure/fit/average.h"
 #include "run/experiment.h"
+#include "scene/model.h"
 
 /* Evaluations between two looks at whoever may want to cancel. */
 enum { SLICE = 2000 };
@@ -97,9 +97,7 @@ char *gb_chart_describe(const struct gb_chart_setting *choice, char *buffer, siz
 
 double gb_chart_cpu_s(void)
 {
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+    return gb_clock_thread_s();
 }
 
 /* The loading branch as it is recorded. */

@@ -6,12 +6,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
 
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "greenbody/params.h"
 #include "measure/observe.h"
 #include "pack/kernel/virial.h"
@@ -91,12 +91,12 @@ static bool time_steps(struct gb_world *world, struct gb_relax *relax, int batch
         gb_world_strain(world, factor);
         gb_relax_start(relax, world);
         good = gb_relax_evaluate(relax, world, err);
-        const clock_t start = clock();
+        const double start = gb_clock_process_s();
         for (int k = 0; k < STEPS && good; k++) {
             relax->method->move(relax, world);
             good = gb_relax_evaluate(relax, world, err);
         }
-        batch[b < 0 ? 0 : b] = (double)(clock() - start) / CLOCKS_PER_SEC / STEPS;
+        batch[b < 0 ? 0 : b] = (gb_clock_process_s() - start) / STEPS;
     }
     if (good) {
         gsl_sort(batch, 1, (size_t)batches);

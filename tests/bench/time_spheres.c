@@ -6,11 +6,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
 
+#include "base/clock.h"
 #include "measure/observe_die.h"
 #include "solve/leapfrog.h"
 #include "spheres.h"
@@ -74,11 +74,11 @@ static bool time_steps(struct gb_bed *bed, int batches, struct gb_error *err)
         printf("coordination %.6f\nvirial %.8g\n", counts.coordination, virial(bed));
     }
     for (int b = -1; b < batches && good; b++) { /* the first one warms up */
-        const clock_t start = clock();
+        const double start = gb_clock_process_s();
         for (int k = 0; k < STEPS && good; k++) {
             good = gb_leapfrog_step(&leap, bed, err);
         }
-        batch[b < 0 ? 0 : b] = (double)(clock() - start) / CLOCKS_PER_SEC / STEPS;
+        batch[b < 0 ? 0 : b] = (gb_clock_process_s() - start) / STEPS;
     }
     if (good) {
         gsl_sort(batch, 1, (size_t)batches);

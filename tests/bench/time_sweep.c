@@ -10,11 +10,11 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <glib.h>
 
+#include "base/clock.h"
 #include "io/preset.h"
 #include "many/single_run.h"
 #include "run/experiment.h"
@@ -32,13 +32,6 @@ struct way {
     const char *jobs;
     double cpu_s, elapsed_s;
 };
-
-static double clock_of(clockid_t id)
-{
-    struct timespec now;
-    clock_gettime(id, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void fail(const char *what)
 {
@@ -184,15 +177,15 @@ int main(int argc, char **argv)
     for (int first = 1; first + block - 1 <= runs; first += block) {
         for (size_t w = 0; w < count; w++) {
             struct way *way = &ways[w];
-            const double begun = clock_of(CLOCK_MONOTONIC);
-            const double used = clock_of(CLOCK_PROCESS_CPUTIME_ID);
+            const double begun = gb_clock_s();
+            const double used = gb_clock_process_s();
             if (way->words[0] == NULL) {
                 press_all(params, way->jobs ? folder : NULL, first, block);
-                way->cpu_s += clock_of(CLOCK_PROCESS_CPUTIME_ID) - used;
+                way->cpu_s += gb_clock_process_s() - used;
             } else {
                 way->cpu_s += sweep(way, argv[1], particles, folder, first, block);
             }
-            way->elapsed_s += clock_of(CLOCK_MONOTONIC) - begun;
+            way->elapsed_s += gb_clock_s() - begun;
         }
     }
     printf("%d cells of %s particles to 100 MPa, in blocks of %d\n"

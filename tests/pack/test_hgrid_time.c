@@ -2,10 +2,10 @@
  * beside that of a plain grid. */
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include <glib.h>
 
+#include "base/clock.h"
 #include "pack/structure/assign_sizes.h"
 #include "pack/structure/hgrid.h"
 
@@ -78,12 +78,12 @@ static double per_sphere(int64_t count, double (*sphere)[4], double edge, int le
     g_assert_true(gb_hgrid_init(&sift, count, &err));
     sift.levels = levels;
     for (int k = 0; k < REPEATS; k++) {
-        const clock_t start = clock();
+        const double start = gb_clock_process_s();
         if (!gb_hgrid_build(&sift, &box, count, (const double(*)[4])sphere, NULL,
                             0.02 * edge / cbrt((double)count), &err)) {
             g_error("%s", err.text);
         }
-        spent[k] = (double)(clock() - start) / CLOCKS_PER_SEC / (double)count;
+        spent[k] = (gb_clock_process_s() - start) / (double)count;
     }
     gb_hgrid_finish(&sift);
     qsort(spent, REPEATS, sizeof *spent, compare);

@@ -1,9 +1,9 @@
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include <glib.h>
 
+#include "base/clock.h"
 #include "io/preset.h"
 #include "measure/observe_die.h"
 #include "pack/die/bed_copy.h"
@@ -78,12 +78,6 @@ static struct gb_model freeze(const struct gb_params *params)
     return model;
 }
 
-/* Processor time, which other work on the machine does not lengthen. */
-static double seconds_since(clock_t start)
-{
-    return (double)(clock() - start) / CLOCKS_PER_SEC;
-}
-
 /* To the next point; false at the end. */
 static bool next_point(struct gb_die_stages *programme, struct gb_bed *bed)
 {
@@ -134,7 +128,7 @@ static struct result press(struct gb_bed *bed, const struct gb_bed_copy *filled,
     const struct gb_params params = load(name, seed);
     const struct gb_model model = freeze(&params);
     const struct gb_bed_law law = gb_filling_pressing_law(&params);
-    const clock_t start = clock();
+    const double start = gb_clock_process_s(); /* other work does not lengthen it */
     const int64_t evaluations = bed->evaluations;
     g_assert_true(gb_bed_copy_restore(bed, filled, &err));
     g_assert_true(gb_die_stages_create(&programme, &model.die, &law, &err));
@@ -144,7 +138,7 @@ static struct result press(struct gb_bed *bed, const struct gb_bed_copy *filled,
         book(&result, &report, bed, &model);
     }
     gb_die_stages_destroy(programme);
-    const double seconds = seconds_since(start);
+    const double seconds = gb_clock_process_s() - start;
     const double steps = (double)(bed->evaluations - evaluations);
     g_test_message(
         "%-26s %-8s whole %.4f %.4f %.4f %.4f central %.4f %.4f %.4f %.4f residual "
@@ -172,7 +166,7 @@ static struct bed_result study(int seed, size_t models_pressed)
     const struct gb_params params = load(&models[0], seed);
     const struct gb_model model = freeze(&params);
     const struct gb_bed_law law = gb_filling_pressing_law(&params);
-    const clock_t start = clock();
+    const double start = gb_clock_process_s();
     if (!gb_filling_create(&bed, &params, &model, NULL, NULL, &err) ||
         !gb_die_stages_create(&programme, &model.die, &law, &err)) {
         g_error("%s", err.text);
@@ -185,7 +179,7 @@ static struct bed_result study(int seed, size_t models_pressed)
     result.central = gb_observe_die_central(bed, report.height, model.die.central_radius);
     g_test_message(
         "bed %d: H0 %.2f um, density %.4f whole, %.4f central; filled in %.1f s", seed,
-        result.height_um, result.whole, result.central, seconds_since(start));
+        result.height_um, result.whole, result.central, gb_clock_process_s() - start);
     for (size_t k = 0; k < models_pressed; k++) {
         result.model[k] = press(bed, filled, &models[k], seed);
     }

@@ -6,20 +6,13 @@
 #include <glib.h>
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "run/experiment.h"
 #include "run/quick.h"
 #include "tui/view/views.h"
 
 static bool hard;
-
-static double processor_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static struct gb_params powder(void)
 {
@@ -40,7 +33,7 @@ static struct gb_params powder(void)
 /* Both laws as a screen of 200 x 60 shows them, with those of the run dim behind. */
 static double draw_laws(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const double from = processor_s();
+    const double from = gb_clock_process_s();
     for (int i = 0; i < GB_PANEL_INSETS; i++) {
         panel->target = &panel->inset[i];
         g_assert_true(gb_plot_resize(panel->target, 20, 60, GB_PLOT_BRAILLE, NULL));
@@ -53,7 +46,7 @@ static double draw_laws(struct gb_panel_plot *panel, const struct gb_session *se
         g_assert_nonnull(strstr(dump, "h"));
         g_free(dump);
     }
-    return processor_s() - from;
+    return gb_clock_process_s() - from;
 }
 
 static void test_laws(void)
@@ -87,7 +80,7 @@ static double press(const struct gb_params *params)
 {
     struct gb_experiment *experiment = NULL;
     struct gb_error err = {0};
-    const double from = processor_s();
+    const double from = gb_clock_process_s();
     int points = 0;
     if (!gb_experiment_create(&experiment, params, NULL, NULL, &err)) {
         g_error("%s", err.text);
@@ -97,7 +90,7 @@ static double press(const struct gb_params *params)
         how = gb_experiment_advance(experiment, 1000, &err);
         points += how == GB_STEP_POINT;
     }
-    const double seconds = processor_s() - from;
+    const double seconds = gb_clock_process_s() - from;
     g_assert_cmpint(how, ==, GB_STEP_DONE);
     g_assert_cmpfloat(gb_experiment_point(experiment)->p_pa, >=, 0.99e9);
     g_assert_cmpint(points, >, 100);

@@ -6,9 +6,9 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "tui/app/act.h"
 #include "tui/app/asks.h"
 #include "tui/app/mouse.h"
@@ -21,13 +21,6 @@ static const double news_s = 0.15;
 static const double key_s = 0.02; /* a function key or a paste comes in one piece */
 
 enum { STATUS_SIGNAL = 128 };
-
-static double clock_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* The first Ctrl-C asks, the second one leaves. */
 static void interrupt(struct gb_app *app)
@@ -71,7 +64,7 @@ static void handle(struct gb_app *app, const struct gb_term_event *event)
 /* Seconds until the next frame may be drawn. */
 static double frame_wait(const struct gb_app *app)
 {
-    const double now = clock_s();
+    const double now = gb_clock_s();
     const double last = app->frame[(app->frames + app->max - 1) % app->max];
     const double oldest = app->frame[app->frames % app->max];
     const double spacing = app->urgent ? key_s : news_s;
@@ -100,8 +93,8 @@ static void draw(struct gb_app *app)
     }
     gb_term_flush(screen->term);
     gb_term_image_after(&screen->image, screen->term, gb_screen_picture(screen),
-                        &screen->plot.field, clock_s());
-    app->frame[app->frames++ % app->max] = clock_s();
+                        &screen->plot.field, gb_clock_s());
+    app->frame[app->frames++ % app->max] = gb_clock_s();
     app->dirty = app->urgent = false;
 }
 
@@ -122,7 +115,7 @@ static void loop(struct gb_app *app)
         const struct gb_term_event event = gb_term_wait(app->screen.term, patience(app));
         handle(app, &event);
         app->dirty = gb_session_refresh(&app->screen.session) || app->dirty ||
-                     gb_term_image_due(&app->screen.image, clock_s());
+                     gb_term_image_due(&app->screen.image, gb_clock_s());
         app->dirty = poll_stderr(app) || app->dirty;
         gb_asks_follow(app);
         if (app->dirty && !app->leave && frame_wait(app) <= 0.0) {

@@ -3,14 +3,11 @@
 #include <glib.h>
 #include <string.h>
 
+#include "base/clock.h"
+
 /* Read again after this time, and after ten times what reading took. */
 static const double reread_s = 1.0;
 static const double share = 10.0;
-
-static double clock_s(void)
-{
-    return 1e-6 * (double)g_get_monotonic_time();
-}
 
 void gb_replica_band_follow(struct gb_replica_band *band, const char *directory,
                             const struct gb_params *params)
@@ -25,12 +22,12 @@ bool gb_replica_band_refresh(struct gb_replica_band *band, bool at_once)
 {
     struct gb_runset_view fresh;
     struct gb_error err = {0};
-    const double from = clock_s();
+    const double from = gb_clock_s();
     if (band->directory == NULL || (!at_once && from < band->due)) {
         return false;
     }
     const bool good = gb_runset_view_read(&fresh, band->directory, &err);
-    band->due = clock_s() + MAX(reread_s, share * (clock_s() - from));
+    band->due = gb_clock_s() + MAX(reread_s, share * (gb_clock_s() - from));
     if (good) {
         gb_runset_view_finish(&band->runset);
         band->runset = fresh;

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "tui/term/crash.h"
 #include "tui/term/term_profile.h"
 #include "tui/term/term_style.h"
@@ -36,7 +37,7 @@ struct gb_term {
     int out_fd, in_fd, signal_fd;
     int saved_out, saved_err;
     int64_t frames;
-    int64_t since_us; /* clock at the start */
+    double since_s; /* clock at the start, s */
     int64_t repaints;
     bool shaded, mouse;
     struct gb_term_profile profile;
@@ -177,7 +178,7 @@ bool gb_term_start(struct gb_term **out, const struct gb_settings *settings,
     gb_term_tty_redirect();
     install_crash_handler(term);
     gb_term_mouse(term, settings->mouse == 0);
-    term->since_us = g_get_monotonic_time();
+    term->since_s = gb_clock_s();
     *out = term;
     return true;
 fail:
@@ -193,8 +194,7 @@ void gb_term_stop(struct gb_term *term)
     endwin();
     delscreen(term->screen);
     fprintf(stderr, "greenbody: frames drawn: %lld in %.1f s\n", /* into the log */
-            (long long)term->frames,
-            1e-6 * (double)(g_get_monotonic_time() - term->since_us));
+            (long long)term->frames, gb_clock_s() - term->since_s);
     gb_term_tty_restore(term->saved_out, term->saved_err);
     close_streams(term);
 }

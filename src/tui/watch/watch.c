@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "tui/app/keys.h"
 
 /* The files are read again after this time, and after ten times what that took. */
@@ -15,11 +16,6 @@ static const double share = 10.0;
 static const double default_pa = 100e6;
 
 enum { STATUS_SIGNAL = 128, MIN_ROWS = 12, MIN_COLS = 40, PAGE = 10 };
-
-static double clock_s(void)
-{
-    return 1e-6 * (double)g_get_monotonic_time();
-}
 
 /* "8 runs: 5 done, 2 live, 1 failed  72 %" */
 static void draw_header(const struct gb_watch *watch, const struct gb_paint *paint)
@@ -193,19 +189,19 @@ static int handle(struct gb_watch *watch, struct gb_term *term,
 
 static int loop(struct gb_watch *watch, struct gb_term *term, bool *gone)
 {
-    double due = clock_s() + reread_s;
+    double due = gb_clock_s() + reread_s;
     int status = -1;
     draw(watch, term);
     while (status < 0) {
-        const double left = due - clock_s();
+        const double left = due - gb_clock_s();
         const struct gb_term_event event =
             gb_term_wait(term, left > 0.0 ? (int)(1e3 * left) + 1 : 0);
         status = handle(watch, term, &event);
         *gone = event.kind == GB_TERM_HANGUP;
-        if (clock_s() >= due) {
-            const double from = clock_s();
+        if (gb_clock_s() >= due) {
+            const double from = gb_clock_s();
             reread(watch);
-            due = clock_s() + MAX(reread_s, share * (clock_s() - from));
+            due = gb_clock_s() + MAX(reread_s, share * (gb_clock_s() - from));
         }
         if (status < 0) {
             draw(watch, term);
