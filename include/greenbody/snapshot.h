@@ -16,7 +16,10 @@ enum gb_run_state {
     GB_RUN_FAILED
 };
 
-enum { GB_SNAPSHOT_HISTOGRAM = 16, GB_SNAPSHOT_ROSE = 18, GB_SNAPSHOT_EVENT = 160 };
+enum { GB_SNAPSHOT_HISTOGRAM = 16, GB_SNAPSHOT_ROSE = 18 };
+
+/* Size of an event: one line, with the text of an error in it. */
+enum { GB_EVENT_TEXT = 640 };
 
 /* Plain data for the screen, copied whole through a triple buffer: no pointer, no lock.
  */
@@ -31,13 +34,13 @@ struct gb_snapshot {
     int64_t evaluations;           /* of the whole run */
     double evaluations_per_s;
     double particle_evaluations_per_s;
-    double progress;               /* 0..1, of the loading programme */
-    double seconds, seconds_left;  /* seconds_left < 0: unknown */
-    double live_residual;          /* of the relaxation under way */
-    double time_step_s;            /* of a dynamic run, last used; else 0 */
-    int64_t events;                /* how many events so far */
-    char event[GB_SNAPSHOT_EVENT]; /* the last one */
-    struct gb_error error;         /* why it failed or stopped */
+    double progress;              /* 0..1, of the loading programme */
+    double seconds, seconds_left; /* seconds_left < 0: unknown */
+    double live_residual;         /* of the relaxation under way */
+    double time_step_s;           /* of a dynamic run, last used; else 0 */
+    int64_t events;               /* how many events so far */
+    char event[GB_EVENT_TEXT];    /* the last one */
+    struct gb_error error;        /* why it failed or stopped */
 };
 
 enum { GB_VIEW_SAMPLE_POINTS = 4096, GB_VIEW_SAMPLE_RDF = 160 };
@@ -53,7 +56,7 @@ struct gb_view_sample {
     int count;
     float position[GB_VIEW_SAMPLE_POINTS][3];
     float radius[GB_VIEW_SAMPLE_POINTS];
-    double rdf_reach;           /* g(r) ends there; 0: it is missing */
+    double rdf_reach;               /* g(r) ends there; 0: it is missing */
     double rdf[GB_VIEW_SAMPLE_RDF]; /* bin k: [k, k+1) rdf_reach / GB_VIEW_SAMPLE_RDF */
 };
 

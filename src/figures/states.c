@@ -6,13 +6,14 @@
 #include <glib.h>
 
 #include "base/units.h"
-#include "run/kept_states.h"
+#include "run/record/kept_states.h"
 
 /* A kept state further away than this share of the wanted value is another one, unless it
  * was kept for just this value: a step of the loading can jump over it. */
 static const double tolerance = 0.05;
 
-static bool parse_point(const char *text, struct gb_keep_point *point, struct gb_error *err)
+static bool parse_point(const char *text, struct gb_keep_point *point,
+                        struct gb_error *err)
 {
     char **sides = g_strsplit(text, "=", 2);
     bool good = sides[0] != NULL && sides[1] != NULL;
@@ -100,7 +101,8 @@ static GPtrArray *list_paths(const char *place)
 }
 
 static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
-                         const struct gb_keep_point *point, GString *seen, struct gb_error *err)
+                         const struct gb_keep_point *point, GString *seen,
+                         struct gb_error *err)
 {
     double best = INFINITY;
     for (guint k = 0; k < paths->len; k++) {

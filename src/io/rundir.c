@@ -125,7 +125,8 @@ static bool busy_error(const char *path, struct gb_error *err)
 }
 
 /* May the files in this directory be replaced by those of a new run? */
-static bool check_content(const char *path, bool force, struct gb_error *err)
+static bool check_content(const char *path, enum gb_rundir_mode mode,
+                          struct gb_error *err)
 {
     int entries = 0;
     GError *failure = NULL;
@@ -140,7 +141,7 @@ static bool check_content(const char *path, bool force, struct gb_error *err)
                           "%s: holds \"%s\", which is not of a run; choose another "
                           "directory (it is left as it is)",
                           path, foreign);
-    } else if (entries > 0 && !force) {
+    } else if (entries > 0 && mode == GB_RUNDIR_KEEP) {
         ok = gb_error_set(err, GB_ERR_INPUT,
                           "%s: holds a run already; choose another directory, or --force "
                           "to replace it",
@@ -177,7 +178,8 @@ static bool check_parent(const char *path, struct gb_error *err)
     return ok;
 }
 
-static bool check_existing(const char *path, bool force, struct gb_error *err)
+static bool check_existing(const char *path, enum gb_rundir_mode mode,
+                           struct gb_error *err)
 {
     if (!g_file_test(path, G_FILE_TEST_IS_DIR)) {
         return gb_error_set(err, GB_ERR_INPUT,
@@ -194,16 +196,16 @@ static bool check_existing(const char *path, bool force, struct gb_error *err)
         return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
                             g_strerror(errno));
     }
-    return check_content(path, force, err);
+    return check_content(path, mode, err);
 }
 
-bool gb_rundir_check(const char *path, bool force, struct gb_error *err)
+bool gb_rundir_check(const char *path, enum gb_rundir_mode mode, struct gb_error *err)
 {
     struct stat info;
     if (path[0] == '\0') {
         return gb_error_set(err, GB_ERR_INPUT, "the run directory has an empty name");
     }
-    return lstat(path, &info) == 0 ? check_existing(path, force, err)
+    return lstat(path, &info) == 0 ? check_existing(path, mode, err)
                                    : check_parent(path, err);
 }
 
@@ -282,10 +284,10 @@ static bool make_missing(struct gb_rundir *dir, struct gb_error *err)
     return ok;
 }
 
-bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
+bool gb_rundir_make(struct gb_rundir *dir, const char *path, enum gb_rundir_mode mode,
                     struct gb_error *err)
 {
-    if (!gb_rundir_check(path, force, err)) {
+    if (!gb_rundir_check(path, mode, err)) {
         return false;
     }
     *dir = (struct gb_rundir){.path = g_strdup(path), .lock = -1};
@@ -300,7 +302,7 @@ bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
         goto fail;
     }
     /* once more: it may have changed before the lock was ours */
-    if (!check_content(path, force, err) || !clear_run(path, err)) {
+    if (!check_content(path, mode, err) || !clear_run(path, err)) {
         goto fail;
     }
     return true;
@@ -351,7 +353,7 @@ bool gb_rundir_stands(const struct gb_rundir *dir, struct gb_error *err)
                         "%s: was moved or removed while the run wrote there", dir->path);
 }
 
-bool gb_rundir_told(const struct gb_rundir *dir, bool good, struct gb_error *err)
+bool gb_rundir_result(const struct gb_rundir *dir, bool good, struct gb_error *err)
 {
     if (good || err == NULL || !gb_rundir_stands(dir, err)) {
         return good;

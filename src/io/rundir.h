@@ -15,17 +15,21 @@ struct gb_rundir {
                    directory has another name by now.  Where the system has none: path */
 };
 
-/* Could a run begin at path?  Changes nothing, so that a wrong --out is told before
- * minutes of packing.
+enum gb_rundir_mode {
+    GB_RUNDIR_KEEP,   /* a run that is there already is an error */
+    GB_RUNDIR_REPLACE /* it is removed, unless it is still being written */
+};
+
+/* Could a run begin at path?  Changes nothing: a wrong --out is reported before minutes of
+ * packing.
  *
- * force   an old run there may be replaced, unless it is still being written
  * Errors: GB_ERR_INPUT (a file, an existing run, foreign files, a run under way),
  * GB_ERR_MACHINE (the parent cannot be written). */
-bool gb_rundir_check(const char *path, bool force, struct gb_error *err);
+bool gb_rundir_check(const char *path, enum gb_rundir_mode mode, struct gb_error *err);
 
 /* Checks, makes the directory and its parents, locks it and removes the files of an old
  * run.  On error nothing is left to finish. */
-bool gb_rundir_make(struct gb_rundir *dir, const char *path, bool force,
+bool gb_rundir_make(struct gb_rundir *dir, const char *path, enum gb_rundir_mode mode,
                     struct gb_error *err);
 
 /* Locks the directory of a run that was begun before.  Errors: GB_ERR_INPUT when it is no
@@ -39,7 +43,7 @@ bool gb_rundir_stands(const struct gb_rundir *dir, struct gb_error *err);
 
 /* The result of writing a file by its held path; its error is told of the name that the
  * user knows, or that the directory does not stand any more. */
-bool gb_rundir_told(const struct gb_rundir *dir, bool good, struct gb_error *err);
+bool gb_rundir_result(const struct gb_rundir *dir, bool good, struct gb_error *err);
 
 /* Is a process writing there now? */
 bool gb_rundir_busy(const char *path);

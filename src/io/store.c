@@ -150,12 +150,13 @@ static void name_files(struct gb_store *store)
 }
 
 bool gb_store_create(struct gb_store **out, const char *directory,
-                     const struct gb_params *params, bool force, struct gb_error *err)
+                     const struct gb_params *params, enum gb_rundir_mode mode,
+                     struct gb_error *err)
 {
     struct gb_store *store = g_new0(struct gb_store, 1);
     store->curve.fd = store->events.fd = -1;
     store->kind = params->kind;
-    if (!gb_rundir_make(&store->dir, directory, force, err)) {
+    if (!gb_rundir_make(&store->dir, directory, mode, err)) {
         g_free(store);
         return false;
     }
@@ -428,8 +429,9 @@ bool gb_store_put_status(const struct gb_store *store, const char *text,
                          struct gb_error *err)
 {
     return gb_rundir_stands(&store->dir, err) &&
-           gb_rundir_told(&store->dir,
-                          replace_file(store->status_path, text, strlen(text), err), err);
+           gb_rundir_result(&store->dir,
+                            replace_file(store->status_path, text, strlen(text), err),
+                            err);
 }
 
 bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
@@ -459,8 +461,8 @@ bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
         return false;
     }
     keep_before(store);
-    return gb_rundir_told(&store->dir,
-                          gb_state_write(state, record, store->state_path, err), err);
+    return gb_rundir_result(&store->dir,
+                            gb_state_write(state, record, store->state_path, err), err);
 }
 
 bool gb_store_sync(struct gb_store *store, struct gb_error *err)

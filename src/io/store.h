@@ -15,11 +15,12 @@
  * directory is moved, removed or replaced nothing more is written: GB_ERR_MACHINE. */
 struct gb_store;
 
-/* Makes the directory.  An existing run directory is refused (GB_ERR_INPUT) unless force,
- * which removes the files of the old run first; a directory with foreign files is never
+/* Makes the directory.  An existing run directory is refused (GB_ERR_INPUT) or, with
+ * GB_RUNDIR_REPLACE, the files of the old run are removed first; a directory with foreign files is never
  * touched.  Writes preset.ini. */
 bool gb_store_create(struct gb_store **out, const char *directory,
-                     const struct gb_params *params, bool force, struct gb_error *err);
+                     const struct gb_params *params, enum gb_rundir_mode mode,
+                     struct gb_error *err);
 
 /* What of the files belongs to a checkpoint: rows and events up to there. */
 struct gb_store_place {

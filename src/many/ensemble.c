@@ -60,7 +60,7 @@ bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err)
                                 "directory",
                                 run->directory);
         }
-        if (!run->ended && !gb_rundir_check(run->directory, true, err)) {
+        if (!run->ended && !gb_rundir_check(run->directory, GB_RUNDIR_REPLACE, err)) {
             return false;
         }
     }

@@ -5,163 +5,62 @@
 #include <glib.h>
 #include <json-glib/json-glib.h>
 
-#include "base/clock.h"
 #include "io/preset.h"
 #include "many/runset.h"
-#include "run/experiment.h"
-#include "run/pace.h"
-#include "run/run_recorder.h"
+#include "run/run_loop.h"
 
-/* Others look at status.json at most this much later than it happened. */
-static const double status_every_s = 1.5;
-
-enum { EVENT_MAX = 640 };
-
-struct solo {
-    struct gb_pool_callbacks boss;
-    struct gb_run_recorder *keep;
-    struct gb_experiment *experiment;
-    struct gb_pace pace;
-    struct gb_snapshot shot;
-    double count;
-    double started, packed, status_at;
+struct single_run {
+    struct gb_run_loop loop;
+    const struct gb_pool_callbacks *callbacks; /* NULL: none */
 };
-
-static double elapsed(const struct solo *solo)
-{
-    return gb_clock_s() - solo->started;
-}
 
 static bool is_cancelled(void *data)
 {
-    const struct solo *solo = data;
-    return solo->boss.cancelled != NULL && solo->boss.cancelled(solo->boss.data);
+    const struct single_run *run = data;
+    return run->callbacks != NULL && run->callbacks->cancelled != NULL &&
+           run->callbacks->cancelled(run->callbacks->data);
 }
 
-static void observe(struct solo *solo, enum gb_run_state state)
+static bool may_continue(void *data, struct gb_error *err)
 {
-    struct gb_snapshot *shot = &solo->shot;
-    gb_experiment_observe(solo->experiment, shot);
-    shot->state = (int)state;
-    shot->seconds = elapsed(solo);
-    gb_pace_add(&solo->pace, shot->seconds - solo->packed, shot->evaluations,
-                shot->progress);
-    shot->evaluations_per_s = gb_pace_rate(&solo->pace);
-    shot->particle_evaluations_per_s = shot->evaluations_per_s * solo->count;
-    shot->seconds_left = state == GB_RUN_RUNNING ? gb_pace_left(&solo->pace)
-                         : state == GB_RUN_DONE  ? 0.0
-                                                 : -1.0;
+    return !is_cancelled(data) ||
+           gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
 }
 
-static bool keep_events(struct solo *solo, struct gb_error *err)
+static void on_end(void *data)
 {
-    char text[EVENT_MAX];
-    while (gb_experiment_event(solo->experiment, text, sizeof text)) {
-        observe(solo, GB_RUN_RUNNING); /* for the step */
-        solo->shot.events++;
-        g_strlcpy(solo->shot.event, text, sizeof solo->shot.event);
-        if (!gb_run_recorder_event(solo->keep, solo->shot.now.step, text, err)) {
-            return false;
-        }
+    const struct single_run *run = data;
+    if (run->callbacks != NULL && run->callbacks->loaded != NULL) {
+        run->callbacks->loaded(run->callbacks->data);
     }
-    return true;
 }
 
-static bool keep_point(struct solo *solo, struct gb_error *err)
-{
-    struct gb_point point = *gb_experiment_point(solo->experiment);
-    point.seconds = elapsed(solo);
-    return gb_run_recorder_point(solo->keep, solo->experiment, &point, err);
-}
-
-/* Status and state, when it is time. */
-static bool keep_due(struct solo *solo, struct gb_error *err)
-{
-    const double now = elapsed(solo);
-    if (!gb_run_recorder_tick(solo->keep, now, false, err)) {
-        return false;
-    }
-    if (now - solo->status_at < status_every_s) {
-        return true;
-    }
-    solo->status_at = now;
-    observe(solo, GB_RUN_RUNNING);
-    return gb_run_recorder_status(solo->keep, &solo->shot, err);
-}
-
-static bool begin(struct solo *solo, const struct gb_params *params,
+static bool begin(struct single_run *run, const struct gb_params *params,
                   const char *directory, struct gb_error *err)
 {
-    solo->started = gb_clock_s();
-    solo->count = (double)params->count;
-    if (!gb_experiment_create(&solo->experiment, params, is_cancelled, solo, err) ||
-        !gb_run_recorder_create(&solo->keep, directory, params, true, err)) {
+    struct gb_experiment *experiment = NULL;
+    if (!gb_experiment_create(&experiment, params, is_cancelled, run, err)) {
         return false;
     }
-    solo->packed = elapsed(solo);
-    gb_pace_init(&solo->pace);
-    observe(solo, GB_RUN_RUNNING);
-    return gb_store_status(gb_run_recorder_store(solo->keep), &solo->shot, err);
-}
-
-/* Presses to the end of the programme, a guard or a signal; the last two are told in
- * *stopped.  False only when the results cannot be kept. */
-static bool press(struct solo *solo, struct gb_error *stopped, struct gb_error *err)
-{
-    while (!is_cancelled(solo)) {
-        const double from = elapsed(solo);
-        const enum gb_step_outcome how =
-            gb_experiment_advance(solo->experiment, gb_pace_slice(&solo->pace), stopped);
-        gb_pace_sliced(&solo->pace, elapsed(solo) - from, how == GB_STEP_MORE);
-        if (!keep_events(solo, err) || (how == GB_STEP_POINT && !keep_point(solo, err))) {
-            return false;
-        }
-        if (how == GB_STEP_DONE || how == GB_STEP_STOPPED) {
-            return true;
-        }
-        if (!keep_due(solo, err)) {
-            return false;
-        }
-    }
-    gb_error_set(stopped, GB_ERR_CANCELLED, "stopped on request");
-    return true;
-}
-
-/* The last files; what went wrong is told there too, where it still can be. */
-static bool conclude(struct solo *solo, const struct gb_error *stopped,
-                     struct gb_error *err)
-{
-    observe(solo, stopped->code == GB_OK ? GB_RUN_DONE : GB_RUN_STOPPED);
-    solo->shot.error = *stopped;
-    if (solo->boss.loaded != NULL) {
-        solo->boss.loaded(solo->boss.data);
-    }
-    return gb_run_recorder_conclude(solo->keep, &solo->shot, err);
-}
-
-static void give_up(struct solo *solo, const struct gb_error *err)
-{
-    solo->shot.state = GB_RUN_FAILED;
-    solo->shot.error = *err;
-    gb_run_recorder_fail(solo->keep, &solo->shot);
+    gb_run_loop_attach(&run->loop, experiment);
+    return gb_run_recorder_create(&run->loop.recorder, directory, params,
+                                  GB_RUNDIR_REPLACE, err);
 }
 
 bool gb_single_run(const struct gb_params *params, const char *directory,
-                   const struct gb_pool_callbacks *boss, struct gb_error *err)
+                   const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
-    struct solo solo = {.boss = boss != NULL ? *boss : (struct gb_pool_callbacks){0}};
-    struct gb_error stopped = {0};
+    struct single_run run = {.callbacks = callbacks};
+    const struct gb_run_loop_hooks hooks = {
+        .may_continue = may_continue, .on_end = on_end, .data = &run};
     struct gb_error failure = {0};
-    const bool kept = begin(&solo, params, directory, &failure) &&
-                      press(&solo, &stopped, &failure) &&
-                      conclude(&solo, &stopped, &failure);
-    if (!kept) {
-        give_up(&solo, &failure);
-        stopped = failure;
-    }
-    gb_run_recorder_destroy(solo.keep);
-    gb_experiment_destroy(solo.experiment);
-    return stopped.code == GB_OK || gb_error_set(err, stopped.code, "%s", stopped.text);
+    gb_run_loop_init(&run.loop, &hooks);
+    const enum gb_run_outcome outcome = begin(&run, params, directory, &failure)
+                                            ? gb_run_loop_run(&run.loop)
+                                            : gb_run_loop_fail(&run.loop, &failure);
+    gb_run_loop_finish(&run.loop);
+    return outcome == GB_RUN_OUTCOME_DONE ||
+           gb_error_set(err, run.loop.error.code, "%s", run.loop.error.text);
 }
 
 bool gb_single_run_says_done(const char *path)

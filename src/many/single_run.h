@@ -11,12 +11,12 @@
 
 /* Runs params into directory; an old run there is replaced.
  *
- * boss   whom it answers to (NULL: nobody)
+ * callbacks   whom it answers to (NULL: nobody)
  * True when the programme came to its end.  Errors: GB_ERR_GUARD and
  * GB_ERR_NOT_CONVERGED (results kept), GB_ERR_CANCELLED (points kept), GB_ERR_INPUT,
  * GB_ERR_MACHINE, GB_ERR_MEMORY; status.json says the same where there is one. */
 bool gb_single_run(const struct gb_params *params, const char *directory,
-                   const struct gb_pool_callbacks *boss, struct gb_error *err);
+                   const struct gb_pool_callbacks *callbacks, struct gb_error *err);
 
 /* Is a run of these parameters there, done to its end?  Title, threads and [output] may
  * differ: they change no result.

@@ -28,7 +28,7 @@ static void add_event(struct gb_experiment *experiment, const char *text)
     }
     const int at =
         (experiment->events_first + experiment->events_count++) % GB_EXPERIMENT_EVENTS;
-    snprintf(experiment->event[at], GB_EXPERIMENT_TEXT, "%s", text);
+    snprintf(experiment->event[at], GB_EVENT_TEXT, "%s", text);
 }
 
 bool gb_experiment_event(struct gb_experiment *experiment, char *text, size_t size)
@@ -236,7 +236,7 @@ static bool go_on(struct gb_experiment *experiment)
 
 static void unload_event(struct gb_experiment *experiment)
 {
-    char text[GB_EXPERIMENT_TEXT];
+    char text[GB_EVENT_TEXT];
     const int branch = experiment->load.branch;
     snprintf(text, sizeof text, "unloading from %.6g MPa (asked for %.6g MPa)",
              1e-6 * experiment->point.p_pa,
@@ -246,7 +246,7 @@ static void unload_event(struct gb_experiment *experiment)
 
 static void restore_event(struct gb_experiment *experiment)
 {
-    char text[GB_EXPERIMENT_TEXT];
+    char text[GB_EVENT_TEXT];
     if (!experiment->load.endless) {
         add_event(experiment, "unloaded; loading goes on from the saved state");
         return;
@@ -340,7 +340,7 @@ static void measure_motion(const struct gb_experiment *experiment, struct gb_poi
 /* What the parameters change behind this point, told as an event. */
 static bool change(struct gb_experiment *experiment, struct gb_error *err)
 {
-    char text[GB_EXPERIMENT_TEXT];
+    char text[GB_EVENT_TEXT];
     if (experiment->over || !gb_changes_due(&experiment->params, experiment->step - 1)) {
         return true;
     }
@@ -375,7 +375,7 @@ static enum gb_step_outcome record(struct gb_experiment *experiment, struct gb_e
 static enum gb_step_outcome advance_motion(struct gb_experiment *experiment,
                                            int64_t max_steps, struct gb_error *err)
 {
-    char text[GB_EXPERIMENT_TEXT];
+    char text[GB_EVENT_TEXT];
     const enum gb_step_outcome outcome = gb_dynamic_advance(
         experiment->motion, experiment->world, max_steps, text, sizeof text, err);
     add_event(experiment, text);
@@ -401,7 +401,7 @@ static enum gb_step_outcome advance_motion(struct gb_experiment *experiment,
 
 static enum gb_step_outcome record_die(struct gb_experiment *experiment)
 {
-    char text[GB_EXPERIMENT_TEXT];
+    char text[GB_EVENT_TEXT];
     gb_die_run_measure(experiment->die, &experiment->point);
     experiment->point.step = experiment->step++;
     experiment->shown = experiment->point;
@@ -413,7 +413,7 @@ static enum gb_step_outcome record_die(struct gb_experiment *experiment)
 static enum gb_step_outcome advance_die(struct gb_experiment *experiment,
                                         int64_t max_steps, struct gb_error *err)
 {
-    char text[GB_EXPERIMENT_TEXT];
+    char text[GB_EVENT_TEXT];
     const enum gb_step_outcome outcome =
         gb_die_stages_advance(experiment->die->programme, experiment->die->bed, max_steps,
                               text, sizeof text, err);
@@ -469,7 +469,7 @@ enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
     if (outcome == GB_RELAX_MORE) {
         return GB_STEP_MORE;
     }
-    char text[GB_EXPERIMENT_TEXT];
+    char text[GB_EVENT_TEXT];
     enum gb_guard_action action = gb_guard_judge(
         &experiment->guard, outcome, experiment->relax, text, sizeof text, why);
     if (action == GB_GUARD_ACCEPT) {

@@ -12,7 +12,7 @@
 /* The inside of gb_experiment, for the files that work on it: experiment.c (owner),
  * checkpoint.c (records). */
 
-enum { GB_EXPERIMENT_EVENTS = 32, GB_EXPERIMENT_TEXT = 640 };
+enum { GB_EXPERIMENT_EVENTS = 32 };
 
 struct gb_experiment {
     struct gb_params params;
@@ -38,7 +38,7 @@ struct gb_experiment {
     struct gb_point point; /* the last recorded one ... */
     struct gb_point shown; /* ... and that of the world: after an unloading branch, where
                             * it began */
-    char event[GB_EXPERIMENT_EVENTS][GB_EXPERIMENT_TEXT];
+    char event[GB_EXPERIMENT_EVENTS][GB_EVENT_TEXT];
     int events_first, events_count;
 };
 

@@ -8,7 +8,7 @@
 #include "io/rundir.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
-#include "run/run_recorder.h"
+#include "run/record/run_recorder.h"
 
 /* Force evaluations between two looks at whether to go on. */
 enum { SLICE = 200 };
@@ -39,7 +39,7 @@ static bool repeat(struct gb_experiment *experiment, const struct gb_verify *ver
                    bool (*cancelled)(void *data), void *data, struct gb_error *err)
 {
     int64_t step = verify->from;
-    char text[640];
+    char text[GB_EVENT_TEXT];
     while (step < verify->to) {
         const enum gb_step_outcome how = gb_experiment_advance(experiment, SLICE, err);
         while (gb_experiment_event(experiment, text, sizeof text)) {

@@ -2,44 +2,45 @@
 
 #include <string.h>
 
-#include "base/clock.h"
 #include "run/checkpoint.h"
 #include "run/cost.h"
-#include "run/pace.h"
 
-bool gb_warmup_ended(const struct gb_warmup *warmup)
+static bool may_continue(const struct gb_run_loop *loop)
 {
-    return warmup->how == GB_STEP_DONE || warmup->how == GB_STEP_STOPPED;
+    const struct gb_run_loop_hooks *hooks = &loop->hooks;
+    return hooks->may_continue == NULL || hooks->may_continue(hooks->data, NULL);
 }
 
-static void slice(struct gb_warmup *warmup, struct gb_experiment *experiment,
-                  struct gb_pace *pace, struct gb_error *stopped)
+static void add_point(struct gb_warmup *warmup, struct gb_run_loop *loop)
 {
-    const double start = gb_clock_s();
-    warmup->how = gb_experiment_advance(experiment, gb_pace_slice(pace), stopped);
-    gb_pace_sliced(pace, gb_clock_s() - start, warmup->how == GB_STEP_MORE);
+    struct gb_point point = *gb_experiment_point(loop->experiment);
+    point.seconds = gb_run_loop_seconds(loop);
+    g_array_append_val(warmup->points, point);
+    (void)gb_checkpoint_take(loop->experiment, &warmup->record, NULL);
 }
 
-void gb_warmup_run(struct gb_warmup *warmup, struct gb_experiment *experiment,
-                   double seconds, double gone, const volatile sig_atomic_t *caught,
-                   struct gb_error *stopped)
+void gb_warmup_run(struct gb_warmup *warmup, struct gb_run_loop *loop, double seconds)
 {
-    const int64_t before = gb_experiment_evaluations(experiment);
-    const double start = gb_clock_s();
-    struct gb_pace pace;
-    gb_pace_init(&pace);
+    const int64_t before = gb_experiment_evaluations(loop->experiment);
+    const double start = gb_run_loop_seconds(loop);
     warmup->points = g_array_new(FALSE, FALSE, sizeof(struct gb_point));
-    while (*caught == 0 && !gb_warmup_ended(warmup) && gb_clock_s() - start < seconds) {
-        slice(warmup, experiment, &pace, stopped);
-        if (warmup->how == GB_STEP_POINT) {
-            struct gb_point point = *gb_experiment_point(experiment);
-            point.seconds = gone + gb_clock_s() - start;
-            g_array_append_val(warmup->points, point);
-            (void)gb_checkpoint_take(experiment, &warmup->record, NULL);
+    while (may_continue(loop) && !gb_run_loop_ended(loop) &&
+           gb_run_loop_seconds(loop) - start < seconds) {
+        if (gb_run_loop_slice(loop) == GB_STEP_POINT) {
+            add_point(warmup, loop);
         }
     }
-    warmup->particle_steps_per_s =
-        gb_cost_rate_measured(experiment, before, gb_clock_s() - start);
+    warmup->particle_steps_per_s = gb_cost_rate_measured(
+        loop->experiment, before, gb_run_loop_seconds(loop) - start);
+}
+
+bool gb_warmup_record(struct gb_warmup *warmup, struct gb_run_recorder *recorder,
+                      struct gb_error *err)
+{
+    const GArray *points = warmup->points;
+    return points == NULL ||
+           gb_run_recorder_adopt(recorder, (const struct gb_point *)points->data,
+                                 points->len, &warmup->record, err);
 }
 
 void gb_warmup_finish(struct gb_warmup *warmup)

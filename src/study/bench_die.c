@@ -7,6 +7,7 @@
 #include <gsl/gsl_statistics.h>
 
 #include "base/clock.h"
+#include "greenbody/snapshot.h"
 #include "measure/observe_die.h"
 #include "pack/die/filling.h"
 #include "solve/die_stages.h"
@@ -58,7 +59,7 @@ static bool hasty_params(struct gb_params *params, const char *law, double mu,
 static bool press(struct gb_die_stages *programme, struct gb_bed *bed,
                   struct gb_error *err)
 {
-    char text[640];
+    char text[GB_EVENT_TEXT];
     enum gb_step_outcome how = GB_STEP_MORE;
     while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         how = gb_die_stages_advance(programme, bed, 100000, text, sizeof text, err);

@@ -11,7 +11,7 @@
 #include "io/store.h"
 #include "run/checkpoint.h"
 #include "run/experiment_private.h"
-#include "run/writer.h"
+#include "run/record/writer.h"
 
 enum { TIMES = 15 };
 
@@ -62,7 +62,7 @@ static bool time_one(struct timing *timing, int k, struct gb_experiment *experim
     }
     timing->held[k] = gb_clock_s() - start;
     start = gb_clock_process_s();
-    if (!gb_writer_send(writer, err) || !gb_writer_wait(writer, err)) {
+    if (gb_writer_send(writer, err) != GB_WRITER_SENT || !gb_writer_wait(writer, err)) {
         return false;
     }
     timing->processor[k] = gb_clock_process_s() - start;
@@ -76,7 +76,7 @@ static bool time_all(struct timing *timing, struct gb_experiment *experiment,
 {
     struct gb_store *store = NULL;
     struct gb_writer *writer = NULL;
-    bool good = gb_store_create(&store, folder, params, false, err) &&
+    bool good = gb_store_create(&store, folder, params, GB_RUNDIR_KEEP, err) &&
                 gb_writer_create(&writer, store, params, &experiment->model, err);
     /* the first one makes the arrays and is not counted */
     for (int k = -1; good && k < TIMES; k++) {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "run/checkpoint.h"
-#include "run/run_recorder.h"
+#include "run/record/run_recorder.h"
 
 static struct gb_record records[2];
 

@@ -6,7 +6,7 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "run/run_recorder.h"
+#include "run/record/run_recorder.h"
 
 /* A run directory in a folder of its own. */
 struct place {
@@ -115,7 +115,7 @@ static inline void place_go_on(const struct place *place)
     }
     enum gb_step_outcome how = GB_STEP_MORE;
     while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
-        char text[640];
+        char text[GB_EVENT_TEXT];
         how = gb_experiment_advance(experiment, 1000, &err);
         while (gb_experiment_event(experiment, text, sizeof text)) {
             g_assert_true(gb_run_recorder_event(keep, 0, text, &err));

@@ -74,17 +74,17 @@ static struct gb_store *new_store(const char *directory)
     const struct gb_params params = some_params();
     struct gb_error err = {0};
     struct gb_store *store = NULL;
-    g_assert_true(gb_store_create(&store, directory, &params, false, &err));
+    g_assert_true(gb_store_create(&store, directory, &params, GB_RUNDIR_KEEP, &err));
     return store;
 }
 
-static void refused(const char *directory, bool force, enum gb_status code,
+static void refused(const char *directory, enum gb_rundir_mode mode, enum gb_status code,
                     const char *word)
 {
     const struct gb_params params = some_params();
     struct gb_error err = {0};
     struct gb_store *store = NULL;
-    g_assert_false(gb_store_create(&store, directory, &params, force, &err));
+    g_assert_false(gb_store_create(&store, directory, &params, mode, &err));
     g_assert_null(store);
     g_assert_cmpint(err.code, ==, code);
     g_assert_nonnull(strstr(err.text, word));
@@ -137,7 +137,7 @@ static void test_dynamic_rows(void)
     struct gb_error err = {0};
     struct gb_store *store = NULL;
     params.kind = GB_KIND_DYNAMIC;
-    g_assert_true(gb_store_create(&store, directory, &params, false, &err));
+    g_assert_true(gb_store_create(&store, directory, &params, GB_RUNDIR_KEEP, &err));
     struct gb_point point = some_point();
     point.branch = GB_BRANCH_HOLD;
     point.time_s = 1.5e-9;
@@ -212,9 +212,9 @@ static void test_existing(void)
 {
     char *directory = in_base("run");
     struct gb_store *store = new_store(directory);
-    refused(directory, true, GB_ERR_INPUT, "under way");
+    refused(directory, GB_RUNDIR_REPLACE, GB_ERR_INPUT, "under way");
     gb_store_destroy(store);
-    refused(directory, false, GB_ERR_INPUT, "--force");
+    refused(directory, GB_RUNDIR_KEEP, GB_ERR_INPUT, "--force");
     put(directory, "status.json.AB12CD");
     put(directory, "state.h5");
 
@@ -222,7 +222,7 @@ static void test_existing(void)
     g_assert_cmpint(g_mkdir(snapshots, 0777), ==, 0);
     put(snapshots, "a.h5");
     put(snapshots, "mine.txt");
-    refused(directory, true, GB_ERR_INPUT, "mine.txt");
+    refused(directory, GB_RUNDIR_REPLACE, GB_ERR_INPUT, "mine.txt");
     g_assert_true(exists(directory, "curve.csv"));
     char *mine = g_build_filename(snapshots, "mine.txt", NULL);
     g_unlink(mine);
@@ -230,7 +230,7 @@ static void test_existing(void)
 
     const struct gb_params params = some_params();
     struct gb_error err = {0};
-    g_assert_true(gb_store_create(&store, directory, &params, true, &err));
+    g_assert_true(gb_store_create(&store, directory, &params, GB_RUNDIR_REPLACE, &err));
     gb_store_destroy(store);
     g_assert_false(exists(directory, "state.h5"));
     g_assert_false(exists(directory, "snapshots"));
@@ -244,17 +244,17 @@ static void test_foreign(void)
     char *directory = in_base("notes");
     g_assert_cmpint(g_mkdir(directory, 0777), ==, 0);
     put(directory, "thesis.tex");
-    refused(directory, true, GB_ERR_INPUT, "thesis.tex");
-    refused(directory, false, GB_ERR_INPUT, "thesis.tex");
+    refused(directory, GB_RUNDIR_REPLACE, GB_ERR_INPUT, "thesis.tex");
+    refused(directory, GB_RUNDIR_KEEP, GB_ERR_INPUT, "thesis.tex");
     g_assert_true(exists(directory, "thesis.tex"));
     g_assert_false(exists(directory, "curve.csv"));
 
     char *file = g_build_filename(directory, "thesis.tex", NULL);
     char *below = g_build_filename(file, "run", NULL);
-    refused(file, true, GB_ERR_INPUT, "is a file");
-    refused(below, true, GB_ERR_INPUT, "is a file");
-    refused("", true, GB_ERR_INPUT, "empty");
-    refused("/proc/greenbody/run", false, GB_ERR_MACHINE, "cannot be made");
+    refused(file, GB_RUNDIR_REPLACE, GB_ERR_INPUT, "is a file");
+    refused(below, GB_RUNDIR_REPLACE, GB_ERR_INPUT, "is a file");
+    refused("", GB_RUNDIR_REPLACE, GB_ERR_INPUT, "empty");
+    refused("/proc/greenbody/run", GB_RUNDIR_KEEP, GB_ERR_MACHINE, "cannot be made");
     g_free(below);
     g_free(file);
     g_free(directory);
@@ -293,7 +293,8 @@ static void test_full(void)
         struct gb_error err = {0};
         struct gb_store *store = NULL;
         limit_files(bytes);
-        const bool made = gb_store_create(&store, directory, &params, false, &err);
+        const bool made =
+            gb_store_create(&store, directory, &params, GB_RUNDIR_KEEP, &err);
         limit_files(RLIM_INFINITY);
         g_assert_false(made);
         g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);

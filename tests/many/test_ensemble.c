@@ -41,7 +41,7 @@ static bool stand_in(const struct gb_params *params, const char *directory,
     struct gb_store *store = NULL;
     struct gb_snapshot shot = {.state = GB_RUN_DONE};
     (void)callbacks;
-    if (!gb_store_create(&store, directory, params, true, err)) {
+    if (!gb_store_create(&store, directory, params, GB_RUNDIR_REPLACE, err)) {
         return false;
     }
     for (int i = 0; i <= 20; i++) {

@@ -8,7 +8,7 @@
 #include "common/scene.h"
 #include "pack/cell/world.h"
 #include "run/checkpoint.h"
-#include "run/runner.h"
+#include "run/runner/runner.h"
 #include "scene/changes.h"
 
 enum { BEFORE = 100, BEHIND = 20 };
@@ -28,7 +28,7 @@ static void go_on(struct gb_experiment *experiment, int points)
 {
     struct gb_error err = {0};
     while (points > 0) {
-        char text[640];
+        char text[GB_EVENT_TEXT];
         const enum gb_step_outcome how = gb_experiment_advance(experiment, 1000, &err);
         if (how == GB_STEP_DONE || how == GB_STEP_STOPPED) {
             g_error("the run ends too early: %s", err.text);

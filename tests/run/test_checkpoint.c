@@ -43,7 +43,7 @@ static bool step(struct gb_experiment *experiment, int64_t slice, GString *event
     struct gb_error err = {0};
     enum gb_step_outcome how = GB_STEP_MORE;
     while (how == GB_STEP_MORE) {
-        char text[640];
+        char text[GB_EVENT_TEXT];
         how = gb_experiment_advance(experiment, slice, &err);
         while (gb_experiment_event(experiment, text, sizeof text)) {
             g_string_append_printf(events, "%s\n", text);

@@ -4,6 +4,7 @@
 #include <glib.h>
 
 #include "base/clock.h"
+#include "greenbody/snapshot.h"
 #include "io/preset.h"
 #include "measure/observe_die.h"
 #include "pack/die/bed_copy.h"
@@ -81,7 +82,7 @@ static struct gb_model freeze(const struct gb_params *params)
 /* To the next point; false at the end. */
 static bool next_point(struct gb_die_stages *programme, struct gb_bed *bed)
 {
-    char text[640];
+    char text[GB_EVENT_TEXT];
     struct gb_error err = {0};
     for (;;) {
         switch (gb_die_stages_advance(programme, bed, 100000, text, sizeof text, &err)) {

@@ -25,7 +25,7 @@ struct trace {
 
 static void take_events(struct trace *trace, struct gb_experiment *experiment)
 {
-    char text[640];
+    char text[GB_EVENT_TEXT];
     while (gb_experiment_event(experiment, text, sizeof text)) {
         g_string_append_printf(trace->events, "%s\n", text);
     }

@@ -12,7 +12,7 @@
 #include "io/hdf/hdf_record.h"
 #include "io/rundir.h"
 #include "many/single_run.h"
-#include "run/runner.h"
+#include "run/runner/runner.h"
 
 static struct gb_params scene(void)
 {
@@ -250,11 +250,11 @@ static void test_held(void)
     struct thief thief = thief_make(REPLACED);
     struct gb_rundir dir = {.lock = -1};
     struct gb_error err = {0};
-    g_assert_true(gb_rundir_make(&dir, thief.place.directory, false, &err));
+    g_assert_true(gb_rundir_make(&dir, thief.place.directory, GB_RUNDIR_KEEP, &err));
     char *path = g_build_filename(dir.held, "status.json", NULL);
-    g_assert_true(gb_rundir_told(&dir, gb_file_replace(path, "old", 3, &err), &err));
+    g_assert_true(gb_rundir_result(&dir, gb_file_replace(path, "old", 3, &err), &err));
     gb_file_fail_after(1);
-    g_assert_false(gb_rundir_told(&dir, gb_file_replace(path, "new", 3, &err), &err));
+    g_assert_false(gb_rundir_result(&dir, gb_file_replace(path, "new", 3, &err), &err));
     g_assert_true(g_str_has_prefix(err.text, thief.place.directory));
     g_assert_cmpint(g_rename(thief.place.directory, thief.elsewhere), ==, 0);
     g_assert_cmpint(g_mkdir(thief.place.directory, 0777), ==, 0);
@@ -263,7 +263,7 @@ static void test_held(void)
     g_assert_cmpstr(moved, ==, "new");
     g_assert_cmpint(g_rmdir(thief.place.directory), ==, 0);
     gb_file_fail_after(1);
-    g_assert_false(gb_rundir_told(&dir, gb_file_replace(path, "no", 2, &err), &err));
+    g_assert_false(gb_rundir_result(&dir, gb_file_replace(path, "no", 2, &err), &err));
     g_assert_nonnull(strstr(err.text, "was moved or removed"));
     g_free(moved);
     g_free(path);
@@ -290,7 +290,7 @@ static void test_lost_watched(void)
     const struct gb_params params = scene();
     struct thief thief = thief_make(MOVED);
     struct gb_runner *runner = NULL;
-    char text[640];
+    char text[GB_EVENT_TEXT];
     int told = 0;
     while (!pause_early(&runner, &params, thief.place.directory)) {
         gb_runner_destroy(runner);
@@ -303,7 +303,7 @@ static void test_lost_watched(void)
     }
     g_assert_cmpint(gb_runner_snapshot(runner, NULL)->state, ==, GB_RUN_DONE);
     for (int64_t k = 0; gb_runner_event(runner, k, text, sizeof text); k++) {
-        told += strstr(text, "not kept any more") && strstr(text, "was moved or removed");
+        told += strstr(text, "no longer recorded") && strstr(text, "was moved or removed");
     }
     g_assert_cmpint(told, ==, 1);
     g_assert_false(g_file_test(thief.place.directory, G_FILE_TEST_EXISTS));

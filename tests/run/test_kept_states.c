@@ -7,7 +7,7 @@
 #include "common/scene.h"
 #include "io/state.h"
 #include "many/single_run.h"
-#include "run/run_recorder.h"
+#include "run/record/run_recorder.h"
 #include "scene/keep_points.h"
 
 static const char *const wanted = "10 MPa; density = 0.26; every 50";
@@ -165,7 +165,7 @@ static void press(struct gb_run_recorder *keep, struct gb_experiment *experiment
 {
     struct gb_error err = {0};
     for (int k = 0; k < points;) {
-        char text[640];
+        char text[GB_EVENT_TEXT];
         const enum gb_step_outcome how = gb_experiment_advance(experiment, 100, &err);
         while (gb_experiment_event(experiment, text, sizeof text)) {
         }
@@ -192,7 +192,7 @@ static void test_resume(void)
     struct gb_snapshot shot = {0};
     struct gb_error err = {0};
     g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
-    g_assert_true(gb_run_recorder_create(&keep, place, &params, false, &err));
+    g_assert_true(gb_run_recorder_create(&keep, place, &params, GB_RUNDIR_KEEP, &err));
     press(keep, experiment, 60);
     g_assert_true(gb_run_recorder_conclude(keep, &shot, &err));
     gb_run_recorder_destroy(keep);

@@ -7,7 +7,7 @@
 #include "common/place.h"
 #include "common/scene.h"
 #include "many/single_run.h"
-#include "run/runner.h"
+#include "run/runner/runner.h"
 
 /* How a run is run; all eight combinations, each on another number of threads. */
 enum { RESUMED = 1, SCREEN = 2, SNAPSHOTS = 4, WAYS = 8 };
@@ -42,7 +42,7 @@ static void watch(struct gb_runner *runner, size_t points)
     double seen = 0.0;
     while (gb_runner_snapshot(runner, NULL)->state < GB_RUN_DONE &&
            gb_curve_count(curve) < points) {
-        char text[640];
+        char text[GB_EVENT_TEXT];
         const size_t count = gb_curve_count(curve);
         seen += count > 0 ? gb_curve_at(curve, count - 1)->density : 0.0;
         seen += gb_runner_picture(runner, NULL)->valid;

@@ -5,11 +5,12 @@
 #include <glib.h>
 
 #include "cli/commands.h"
-#include "cli/foreground.h"
 #include "cli/options.h"
+#include "cli/progress.h"
 #include "cli/screening.h"
+#include "cli/signals.h"
 #include "io/rundir.h"
-#include "run/runner.h"
+#include "run/runner/runner.h"
 #include "tui/app/app.h"
 #include "tui/term/term_profile.h"
 #include "tui/watch/watch.h"
@@ -39,10 +40,10 @@ static int watch(const char *directory, struct gb_error *err)
     if (!gb_runner_follow(&runner, directory, err)) {
         return gb_options_fail(err);
     }
-    gb_foreground_catch_signals();
+    gb_signals_install();
     gb_progress_init(&progress, false);
     const struct gb_snapshot *shot = gb_runner_snapshot(runner, NULL);
-    while (*gb_foreground_caught() == 0 && shot->state <= GB_RUN_PAUSED) {
+    while (gb_signals_caught() == 0 && shot->state <= GB_RUN_PAUSED) {
         g_usleep(200000);
         shot = gb_runner_snapshot(runner, NULL);
         if (shot->now_valid && gb_progress_due(&progress, shot->seconds)) {
@@ -59,7 +60,7 @@ static int watch(const char *directory, struct gb_error *err)
                     shot->now.density, shot->now.p_pa / 1e6, (long long)shot->now.step,
                     shot->error.text[0] != '\0' ? ", " : "", shot->error.text);
     gb_runner_destroy(runner);
-    const int number = (int)*gb_foreground_caught();
+    const int number = gb_signals_caught();
     return number != 0 ? 128 + number : 0;
 }
 

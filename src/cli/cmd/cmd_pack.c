@@ -27,7 +27,7 @@ static const double touch = 1e-9;
 
 struct pack {
     char *directory;
-    bool force;
+    enum gb_rundir_mode mode;
     struct gb_preset *preset;
     struct gb_packing packing;
 };
@@ -44,7 +44,7 @@ static bool prepare(struct pack *pack, char **words, char **sets, struct gb_erro
     }
     pack->packing.params = *gb_preset_params(pack->preset);
     return gb_die_scene_require_periodic(&pack->packing.params, "pack", err) &&
-           gb_rundir_check(pack->directory, pack->force, err);
+           gb_rundir_check(pack->directory, pack->mode, err);
 }
 
 /* The packing exactly as `run` would start from it. */
@@ -85,7 +85,7 @@ static bool measure(struct gb_packing *packing, struct gb_error *err)
 static bool keep(const struct pack *pack, struct gb_error *err)
 {
     struct gb_rundir dir;
-    if (!gb_rundir_make(&dir, pack->directory, pack->force, err)) {
+    if (!gb_rundir_make(&dir, pack->directory, pack->mode, err)) {
         return false;
     }
     if (!gb_packing_write(&pack->packing, pack->directory, err)) {
@@ -159,7 +159,7 @@ int gb_cmd_pack(int argc, char **argv)
                                      "replace what an earlier command left in DIR", NULL},
                                     {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        pack.force = force;
+        pack.mode = force ? GB_RUNDIR_REPLACE : GB_RUNDIR_KEEP;
         if (prepare(&pack, words, sets, &err) && grow(&pack.packing, &err) &&
             measure(&pack.packing, &err) && keep(&pack, &err)) {
             print_summary(&pack.packing, pack.directory);

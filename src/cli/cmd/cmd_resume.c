@@ -5,47 +5,43 @@
 #include "cli/commands.h"
 #include "cli/foreground.h"
 #include "cli/options.h"
-#include "run/checkpoint.h"
+#include "cli/signals.h"
 
-static bool cancelled(void *data)
+/* A run that was killed before its first checkpoint starts again. */
+static bool start_again(struct gb_foreground *run, struct gb_error *err)
 {
-    (void)data;
-    return *gb_foreground_caught() != 0;
+    struct gb_experiment *experiment = NULL;
+    gb_progress_say(&run->progress, "there is no checkpoint yet: the run starts again");
+    if (!gb_experiment_create(&experiment, gb_run_recorder_params(run->loop.recorder),
+                              gb_signals_cancelled, NULL, err)) {
+        return false;
+    }
+    gb_run_loop_attach(&run->loop, experiment);
+    return true;
 }
 
-/* A run that was killed before its first checkpoint has lost nothing but the time. */
-static bool begin_anew(struct gb_foreground *run, struct gb_error *err)
-{
-    gb_progress_say(&run->progress, "there is no checkpoint yet: the run begins anew");
-    gb_foreground_begin(run, 0.0);
-    return gb_experiment_create(&run->experiment, gb_run_recorder_params(run->keep),
-                                cancelled, NULL, err);
-}
-
-static bool go_on(struct gb_foreground *run, struct gb_error *err)
+static void resume(struct gb_foreground *run, struct gb_experiment *experiment)
 {
     char text[96];
-    const double gone = gb_run_recorder_seconds(run->keep);
-    const long long step = gb_experiment_point(run->experiment)->step;
-    gb_foreground_begin(run, gone);
+    const double seconds = gb_run_recorder_seconds(run->loop.recorder);
+    gb_run_loop_set_seconds(&run->loop, seconds);
+    gb_run_loop_attach(&run->loop, experiment);
     snprintf(text, sizeof text, "resumed from the checkpoint of step %lld, after %.1f s",
-             step, gone);
-    run->shot.now.step = step;
-    return gb_foreground_event(run, text, err);
+             (long long)gb_experiment_point(experiment)->step, seconds);
+    gb_run_loop_event(&run->loop, text);
 }
 
 static int perform(struct gb_foreground *run, const char *directory)
 {
+    struct gb_experiment *experiment = NULL;
     struct gb_error err = {0};
-    if (!gb_run_recorder_resume(&run->keep, &run->experiment, directory, &err) ||
-        !(run->experiment != NULL ? go_on(run, &err) : begin_anew(run, &err))) {
-        return gb_foreground_fail(run, &err);
+    bool good = gb_run_recorder_resume(&run->loop.recorder, &experiment, directory, &err);
+    if (experiment != NULL) {
+        resume(run, experiment);
+    } else {
+        good = good && start_again(run, &err);
     }
-    run->packed = gb_foreground_elapsed(run);
-    if (!gb_foreground_open(run, &err)) {
-        return gb_foreground_fail(run, &err);
-    }
-    return gb_foreground_perform(run);
+    return good ? gb_foreground_run(run) : gb_foreground_fail(run, &err);
 }
 
 int gb_cmd_resume(int argc, char **argv)
@@ -70,8 +66,7 @@ int gb_cmd_resume(int argc, char **argv)
             gb_error_set(&err, GB_ERR_INPUT, "resume: one run directory is needed");
             status = gb_options_fail(&err);
         } else {
-            gb_progress_init(&run.progress, quiet);
-            gb_foreground_catch_signals();
+            gb_foreground_init(&run, quiet);
             status = perform(&run, words[0]);
         }
     }

@@ -6,22 +6,26 @@
 #include "cli/commands.h"
 #include "cli/foreground.h"
 #include "cli/options.h"
+#include "cli/signals.h"
 #include "io/preset.h"
 #include "io/rundir.h"
 #include "run/cost.h"
+#include "run/warmup.h"
 
-/* A packing that takes longer than this is announced before it is known to succeed. */
+/* A packing that takes longer than this (s) is announced before it is built. */
 static const double patience_s = 2.0;
-/* How long a dynamic run is watched before its cost is foretold. */
+/* Seconds that a dynamic run is timed for the estimate of its cost. */
 static const double warmup_s = 0.3;
 
 struct run {
     char *directory;
-    bool force, yes;
+    enum gb_rundir_mode mode;
+    bool yes;
     struct gb_preset *preset;
     struct gb_model model;
     bool announced;
-    struct gb_foreground pressing;
+    struct gb_foreground foreground;
+    struct gb_warmup warmup; /* of a dynamic run */
 };
 
 static const struct gb_params *params_of(const struct run *run)
@@ -39,7 +43,7 @@ static bool prepare(struct run *run, char **words, char **sets, struct gb_error 
         run->directory = gb_store_default_directory(gb_preset_path(run->preset));
     }
     return gb_model_init(&run->model, params_of(run), err) &&
-           gb_rundir_check(run->directory, run->force, err);
+           gb_rundir_check(run->directory, run->mode, err);
 }
 
 static void announce(struct run *run)
@@ -47,82 +51,93 @@ static void announce(struct run *run)
     char note[256];
     const struct gb_params *params = params_of(run);
     run->announced = true;
-    gb_progress_say(&run->pressing.progress,
+    gb_progress_say(&run->foreground.progress,
                     "%s: %" G_GINT64_FORMAT " particles, seed %" G_GUINT64_FORMAT,
                     params->title, params->count, params->seed);
     for (int k = 0; gb_model_note(&run->model, k, note, sizeof note) != NULL; k++) {
-        gb_progress_say(&run->pressing.progress, "  %s", note);
+        gb_progress_say(&run->foreground.progress, "  %s", note);
     }
 }
 
-/* Polled while the packing grows. */
+/* Polled while the packing is built. */
 static bool packing_cancelled(void *data)
 {
     struct run *run = data;
-    if (!run->announced && gb_foreground_elapsed(&run->pressing) > patience_s) {
+    if (!run->announced && gb_run_loop_seconds(&run->foreground.loop) > patience_s) {
         announce(run);
-        gb_progress_say(&run->pressing.progress, "  building the packing");
+        gb_progress_say(&run->foreground.progress, "  building the packing");
     }
-    return *gb_foreground_caught() != 0;
+    return gb_signals_cancelled(NULL);
 }
 
-/* Refuses what would take unexpectedly long, before there is a directory: a rate of
- * loading costs nothing to type. */
-static bool foretell(struct run *run, char *line, size_t size, struct gb_error *err)
+/* Fills the line with the estimated cost of a dynamic run and refuses one that would take
+ * unexpectedly long, before there is a directory: a rate of loading costs nothing to
+ * type. */
+static bool estimate(struct run *run, char *line, size_t size, struct gb_error *err)
 {
     const struct gb_params *params = params_of(run);
-    struct gb_foreground *pressing = &run->pressing;
+    struct gb_run_loop *loop = &run->foreground.loop;
     struct gb_cost cost;
     line[0] = '\0';
     if (params->kind != GB_KIND_DYNAMIC) {
         return true;
     }
-    gb_warmup_run(&pressing->warmup, pressing->experiment, warmup_s, pressing->packed,
-                  gb_foreground_caught(), &pressing->stopped);
-    const double rate = pressing->warmup.particle_steps_per_s;
+    gb_warmup_run(&run->warmup, loop, warmup_s);
+    const double rate = run->warmup.particle_steps_per_s;
     if (!gb_cost_estimate(params, rate > 0.0 ? rate : gb_cost_rate_assumed(params), &cost,
                           err)) {
         return false;
     }
     gb_cost_line(&cost, line, size);
-    return run->yes || gb_warmup_ended(&pressing->warmup) || gb_cost_unasked(&cost, err);
+    return run->yes || gb_run_loop_ended(loop) || gb_cost_unasked(&cost, err);
 }
 
-static bool pack(struct run *run, struct gb_error *err)
+static bool build_packing(struct run *run, struct gb_error *err)
 {
-    char foretold[320];
-    struct gb_foreground *pressing = &run->pressing;
-    gb_foreground_begin(pressing, 0.0);
-    if (!gb_experiment_create(&pressing->experiment, params_of(run), packing_cancelled,
-                              run, err)) {
+    struct gb_experiment *experiment = NULL;
+    if (!gb_experiment_create(&experiment, params_of(run), packing_cancelled, run, err)) {
         return false;
     }
-    pressing->packed = gb_foreground_elapsed(pressing);
-    if (!foretell(run, foretold, sizeof foretold, err) ||
-        !gb_run_recorder_create(&pressing->keep, run->directory, params_of(run),
-                                run->force, err)) {
+    gb_run_loop_attach(&run->foreground.loop, experiment);
+    return true;
+}
+
+static bool create_recorder(struct run *run, struct gb_error *err)
+{
+    struct gb_run_loop *loop = &run->foreground.loop;
+    return gb_run_recorder_create(&loop->recorder, run->directory, params_of(run),
+                                  run->mode, err) &&
+           gb_warmup_record(&run->warmup, loop->recorder, err);
+}
+
+static bool begin(struct run *run, struct gb_error *err)
+{
+    char cost[320];
+    struct gb_foreground *foreground = &run->foreground;
+    if (!build_packing(run, err) || !estimate(run, cost, sizeof cost, err) ||
+        !create_recorder(run, err)) {
         return false;
     }
     if (!run->announced) {
         announce(run);
     }
-    gb_progress_say(&pressing->progress,
-                    "  packing built in %.1f s, %.1f MB in arrays; "
-                    "writing to %s",
-                    pressing->packed, (double)gb_alloc_bytes() / 1e6, run->directory);
-    if (foretold[0] != '\0') {
-        gb_progress_say(&pressing->progress, "  %s", foretold);
+    gb_progress_say(&foreground->progress,
+                    "  packing built in %.1f s, %.1f MB in arrays; writing to %s",
+                    foreground->loop.packed_s, (double)gb_alloc_bytes() / 1e6,
+                    run->directory);
+    if (cost[0] != '\0') {
+        gb_progress_say(&foreground->progress, "  %s", cost);
     }
-    return gb_foreground_open(pressing, err);
+    return true;
 }
 
 static int perform(struct run *run, char **words, char **sets)
 {
     struct gb_error err = {0};
-    if (!prepare(run, words, sets, &err) || !pack(run, &err)) {
-        return gb_foreground_fail(&run->pressing, &err);
+    if (!prepare(run, words, sets, &err) || !begin(run, &err)) {
+        return gb_foreground_fail(&run->foreground, &err);
     }
-    return gb_foreground_perform(&run->pressing);
+    return gb_foreground_run(&run->foreground);
 }
 
 /* The words with one more in front of them, which they own then. */
@@ -167,10 +182,9 @@ int gb_cmd_run(int argc, char **argv)
         {"quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "tell only what went wrong", NULL},
         {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        run.force = force;
+        run.mode = force ? GB_RUNDIR_REPLACE : GB_RUNDIR_KEEP;
         run.yes = yes;
-        gb_progress_init(&run.pressing.progress, quiet);
-        gb_foreground_catch_signals();
+        gb_foreground_init(&run.foreground, quiet);
         if (from != NULL) {
             words = put_first(words, from);
             from = NULL;
@@ -178,7 +192,8 @@ int gb_cmd_run(int argc, char **argv)
         status = perform(&run, words, sets);
     }
     g_free(from);
-    gb_foreground_finish(&run.pressing);
+    gb_warmup_finish(&run.warmup);
+    gb_foreground_finish(&run.foreground);
     gb_preset_destroy(run.preset);
     g_free(run.directory);
     g_strfreev(words);

@@ -4,17 +4,11 @@
 #include <glib.h>
 
 #include "cli/commands.h"
-#include "cli/foreground.h"
 #include "cli/options.h"
+#include "cli/signals.h"
 #include "run/verify.h"
 
 enum { DIFFERENT = 1 };
-
-static bool cancelled(void *data)
-{
-    (void)data;
-    return *gb_foreground_caught() != 0;
-}
 
 static int tell(const struct gb_verify *verify)
 {
@@ -34,10 +28,9 @@ static int perform(const char *directory)
 {
     struct gb_error err = {0};
     struct gb_verify verify;
-    if (!gb_verify_run(&verify, directory, cancelled, NULL, &err)) {
-        const int signal = (int)*gb_foreground_caught();
-        const int status = gb_options_fail(&err);
-        return err.code == GB_ERR_CANCELLED && signal != 0 ? 128 + signal : status;
+    if (!gb_verify_run(&verify, directory, gb_signals_cancelled, NULL, &err)) {
+        (void)gb_options_fail(&err);
+        return gb_signals_exit_status(&err);
     }
     return tell(&verify);
 }
@@ -59,7 +52,7 @@ int gb_cmd_verify(int argc, char **argv)
             gb_error_set(&err, GB_ERR_INPUT, "verify: one run directory is needed");
             status = gb_options_fail(&err);
         } else {
-            gb_foreground_catch_signals();
+            gb_signals_install();
             status = perform(words[0]);
         }
     }

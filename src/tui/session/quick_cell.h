@@ -1,7 +1,7 @@
 #ifndef GB_TUI_SESSION_QUICK_CELL_H
 #define GB_TUI_SESSION_QUICK_CELL_H
 
-#include "run/runner.h"
+#include "run/runner/runner.h"
 
 /* The quick cell behind a changed number: an engine of its own that computes a whole
  * loading curve in about two seconds (run/quick.h), before or beside the full run. */

@@ -44,7 +44,7 @@ struct gb_params *gb_session_params(struct gb_session *session)
 
 void gb_session_note(struct gb_session *session, const char *format, ...)
 {
-    char text[GB_SNAPSHOT_EVENT];
+    char text[GB_EVENT_TEXT];
     va_list list;
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
@@ -338,7 +338,7 @@ void gb_session_misfit(const struct gb_session *session, struct gb_measured_misf
 
 static void take_events(struct gb_session *session)
 {
-    char text[GB_SNAPSHOT_EVENT];
+    char text[GB_EVENT_TEXT];
     while (session->events_seen < session->now.events) {
         if (gb_runner_event(session->runner, session->events_seen, text, sizeof text)) {
             gb_session_note(session, "%s", text);
@@ -389,7 +389,7 @@ static bool refresh_run(struct gb_session *session)
 /* News of the command beside the screen, and of the cells that it computes. */
 static bool refresh_errand(struct gb_session *session)
 {
-    char text[GB_SNAPSHOT_EVENT];
+    char text[GB_EVENT_TEXT];
     bool some = false;
     bool ended = false;
     const bool live = session->child.pid != 0;

@@ -3,7 +3,7 @@
 
 #include "io/measured.h"
 #include "io/preset.h"
-#include "run/runner.h"
+#include "run/runner/runner.h"
 #include "tui/session/chart_csv.h"
 #include "tui/session/child_command.h"
 #include "tui/session/previous_curve.h"
@@ -45,7 +45,7 @@ struct gb_session {
     int runs;                      /* started so far */
     double particle_steps_per_s;   /* of the last dynamic run; 0: none yet */
     int64_t events_seen;
-    char log[GB_SESSION_LOG][GB_SNAPSHOT_EVENT + 16];
+    char log[GB_SESSION_LOG][GB_EVENT_TEXT + 16];
     int64_t log_count; /* all lines ever; the last GB_SESSION_LOG are kept */
 };
 

@@ -1,10 +1,10 @@
-#ifndef GB_RUN_KEPT_STATES_H
-#define GB_RUN_KEPT_STATES_H
+#ifndef GB_RUN_RECORD_KEPT_STATES_H
+#define GB_RUN_RECORD_KEPT_STATES_H
 
 #include "base/record.h"
 #include "greenbody/curve.h"
-#include "scene/model.h"
 #include "scene/keep_points.h"
+#include "scene/model.h"
 
 /* States kept along a run, DIR/snapshots/<name>.h5: of the first recorded point of
  * loading that reaches a pressure or a density ("p-100MPa", "density-0.5"), and of each

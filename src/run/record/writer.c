@@ -1,4 +1,4 @@
-#include "run/writer.h"
+#include "run/record/writer.h"
 
 #include <pthread.h>
 #include <signal.h>
@@ -21,17 +21,17 @@ struct gb_writer {
     pthread_mutex_t mutex;
     pthread_cond_t change;
     bool busy, quit;
-    bool telling;        /* a status is being written */
-    char *status;        /* ... and this one waits; NULL: none */
-    struct gb_error err; /* the first failure; nothing more is written then */
-    double seconds;
+    bool writing_status;
+    char *status;        /* the next one; NULL: none */
+    struct gb_error err; /* the first failure; nothing is written after it */
+    double seconds;      /* that the last state took */
 
     struct gb_record record[2];
-    int own; /* the engine's; the other one is the thread's while busy */
+    int own; /* index of the engine's record; the thread reads the other one while busy */
 };
 
-static void write_one(const struct gb_writer *writer, const struct gb_record *record,
-                      struct gb_error *err)
+static void write_record(const struct gb_writer *writer, const struct gb_record *record,
+                         struct gb_error *err)
 {
     struct gb_state *state = NULL;
     if (gb_state_record(&state, record, writer->params, writer->model, err)) {
@@ -40,7 +40,7 @@ static void write_one(const struct gb_writer *writer, const struct gb_record *re
     gb_state_destroy(state);
 }
 
-static void done(struct gb_writer *writer, const struct gb_error *err)
+static void finish_write(struct gb_writer *writer, const struct gb_error *err)
 {
     if (writer->err.code == GB_OK) {
         writer->err = *err;
@@ -48,31 +48,31 @@ static void done(struct gb_writer *writer, const struct gb_error *err)
     pthread_cond_broadcast(&writer->change);
 }
 
-/* Both are called with the mutex and give it away while they write. */
+/* Both are called with the mutex held and release it while they write. */
 static void write_state(struct gb_writer *writer)
 {
     const struct gb_record *record = &writer->record[1 - writer->own];
     struct gb_error err = {0};
     pthread_mutex_unlock(&writer->mutex);
     const double from = gb_clock_s();
-    write_one(writer, record, &err);
+    write_record(writer, record, &err);
     pthread_mutex_lock(&writer->mutex);
     writer->seconds = gb_clock_s() - from;
     writer->busy = false;
-    done(writer, &err);
+    finish_write(writer, &err);
 }
 
 static void write_status(struct gb_writer *writer)
 {
     char *text = g_steal_pointer(&writer->status);
     struct gb_error err = {0};
-    writer->telling = true;
+    writer->writing_status = true;
     pthread_mutex_unlock(&writer->mutex);
     (void)gb_store_put_status(writer->store, text, &err);
     g_free(text);
     pthread_mutex_lock(&writer->mutex);
-    writer->telling = false;
-    done(writer, &err);
+    writer->writing_status = false;
+    finish_write(writer, &err);
 }
 
 static void *work(void *data)
@@ -104,7 +104,7 @@ static bool start(struct gb_writer *writer, struct gb_error *err)
     const int failure = pthread_create(&writer->thread, NULL, work, writer);
     pthread_sigmask(SIG_SETMASK, &old, NULL);
     return failure == 0 ||
-           gb_error_set(err, GB_ERR_MACHINE, "cannot start the writing thread: %s",
+           gb_error_set(err, GB_ERR_MACHINE, "cannot start the writer thread: %s",
                         strerror(failure));
 }
 
@@ -153,20 +153,23 @@ struct gb_record *gb_writer_record(struct gb_writer *writer)
     return &writer->record[writer->own];
 }
 
-bool gb_writer_send(struct gb_writer *writer, struct gb_error *err)
+enum gb_writer_outcome gb_writer_send(struct gb_writer *writer, struct gb_error *err)
 {
+    enum gb_writer_outcome outcome = GB_WRITER_BUSY;
     pthread_mutex_lock(&writer->mutex);
-    const bool ready = !writer->busy && writer->err.code == GB_OK;
-    if (!writer->busy && writer->err.code != GB_OK) {
+    if (writer->busy) {
+        outcome = GB_WRITER_BUSY;
+    } else if (writer->err.code != GB_OK) {
         *err = writer->err;
-    }
-    if (ready) {
+        outcome = GB_WRITER_FAILED;
+    } else {
         writer->own = 1 - writer->own;
         writer->busy = true;
         pthread_cond_broadcast(&writer->change);
+        outcome = GB_WRITER_SENT;
     }
     pthread_mutex_unlock(&writer->mutex);
-    return ready;
+    return outcome;
 }
 
 bool gb_writer_status(struct gb_writer *writer, char *text, struct gb_error *err)
@@ -188,7 +191,7 @@ bool gb_writer_status(struct gb_writer *writer, char *text, struct gb_error *err
 bool gb_writer_wait(struct gb_writer *writer, struct gb_error *err)
 {
     pthread_mutex_lock(&writer->mutex);
-    while (writer->busy || writer->telling || writer->status != NULL) {
+    while (writer->busy || writer->writing_status || writer->status != NULL) {
         pthread_cond_wait(&writer->change, &writer->mutex);
     }
     const bool good = writer->err.code == GB_OK;

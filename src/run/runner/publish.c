@@ -1,4 +1,4 @@
-#include "run/publish.h"
+#include "run/runner/publish.h"
 
 #include <string.h>
 

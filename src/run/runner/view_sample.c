@@ -1,4 +1,4 @@
-#include "run/view_sample.h"
+#include "run/runner/view_sample.h"
 
 #include <math.h>
 #include <string.h>

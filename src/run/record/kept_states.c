@@ -1,4 +1,4 @@
-#include "run/kept_states.h"
+#include "run/record/kept_states.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -1,0 +1,314 @@
+#include "run/record/run_recorder.h"
+
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "io/hdf/hdf_record.h"
+#include "io/preset.h"
+#include "run/checkpoint.h"
+#include "run/record/kept_states.h"
+#include "run/record/run_journal.h"
+#include "run/record/writer.h"
+
+struct gb_run_recorder {
+    struct gb_params params;
+    struct gb_model model;
+    struct gb_store *store;
+    struct gb_writer *writer;
+    struct gb_kept_states states;
+    struct gb_run_journal journal; /* events and seconds as they grow */
+    bool fresh;                    /* the record in memory is newer than state.h5 */
+    double written_at;             /* seconds of the run at the last checkpoint */
+};
+
+static bool create(struct gb_run_recorder **out, const struct gb_params *params,
+                   struct gb_error *err)
+{
+    struct gb_run_recorder *recorder = gb_alloc_array(1, sizeof *recorder, err);
+    if (!recorder) {
+        return false;
+    }
+    recorder->params = *params;
+    recorder->journal.preset = gb_run_journal_digest(params);
+    gb_kept_states_init(&recorder->states, params);
+    if (!gb_params_check(params, err) || !gb_model_init(&recorder->model, params, err)) {
+        gb_alloc_free(recorder);
+        return false;
+    }
+    *out = recorder;
+    return true;
+}
+
+static bool start_writer(struct gb_run_recorder *recorder, struct gb_error *err)
+{
+    return !gb_checkpoint_known(&recorder->params) ||
+           gb_writer_create(&recorder->writer, recorder->store, &recorder->params,
+                            &recorder->model, err);
+}
+
+bool gb_run_recorder_create(struct gb_run_recorder **out, const char *directory,
+                            const struct gb_params *params, enum gb_rundir_mode mode,
+                            struct gb_error *err)
+{
+    struct gb_run_recorder *recorder = NULL;
+    if (!create(&recorder, params, err)) {
+        return false;
+    }
+    if (!gb_store_create(&recorder->store, directory, params, mode, err)) {
+        gb_alloc_free(recorder);
+        return false;
+    }
+    if (!start_writer(recorder, err)) {
+        gb_store_discard(recorder->store);
+        gb_alloc_free(recorder);
+        return false;
+    }
+    *out = recorder;
+    return true;
+}
+
+static bool read_preset(const char *directory, struct gb_params *params,
+                        struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    struct gb_error why = {0};
+    char *path = g_build_filename(directory, "preset.ini", NULL);
+    bool done = gb_preset_load(&preset, path, err);
+    if (done) {
+        *params = *gb_preset_params(preset);
+        done = gb_params_check(params, &why) ||
+               gb_error_set(err, why.code, "%s: %s", path, why.text);
+    }
+    gb_preset_destroy(preset);
+    g_free(path);
+    return done;
+}
+
+bool gb_run_recorder_read(const char *directory, const char *name,
+                          struct gb_params *params, struct gb_record *record,
+                          struct gb_error *err)
+{
+    char *path = g_build_filename(directory, name, NULL);
+    const bool done =
+        read_preset(directory, params, err) && gb_hdf_record_read(record, path, err);
+    g_free(path);
+    return done;
+}
+
+/* Builds the experiment from the checkpoint; errors name the file. */
+static bool load_experiment(struct gb_run_recorder *recorder,
+                            struct gb_experiment **experiment, const char *directory,
+                            struct gb_error *err)
+{
+    struct gb_error why = {0};
+    char *path = g_build_filename(directory, "state.h5", NULL);
+    struct gb_record *record = gb_alloc_array(1, sizeof *record, err);
+    bool done = record && gb_hdf_record_read(record, path, err) &&
+                gb_run_journal_load(&recorder->journal, record, directory, err);
+    if (done && !gb_experiment_resume(experiment, &recorder->params, record, &why)) {
+        done = gb_error_set(err, why.code, "%s: %s", path, why.text);
+    }
+    if (record) {
+        gb_record_finish(record);
+    }
+    gb_alloc_free(record);
+    g_free(path);
+    return done;
+}
+
+static bool has_checkpoint(const char *directory)
+{
+    char *path = g_build_filename(directory, "state.h5", NULL);
+    const bool exists = g_file_test(path, G_FILE_TEST_EXISTS);
+    g_free(path);
+    return exists;
+}
+
+bool gb_run_recorder_resume(struct gb_run_recorder **out,
+                            struct gb_experiment **experiment, const char *directory,
+                            struct gb_error *err)
+{
+    struct gb_rundir dir = {.lock = -1};
+    struct gb_params params;
+    struct gb_run_recorder *recorder = NULL;
+    *experiment = NULL;
+    if (!gb_rundir_open(&dir, directory, err)) {
+        return false;
+    }
+    const bool begun = has_checkpoint(directory);
+    if (!read_preset(directory, &params, err) || !create(&recorder, &params, err) ||
+        (begun && !load_experiment(recorder, experiment, directory, err)) ||
+        !gb_store_reopen(&recorder->store, &dir, &params,
+                         begun ? &recorder->journal.place : NULL, err) ||
+        !start_writer(recorder, err)) {
+        gb_experiment_destroy(*experiment);
+        *experiment = NULL;
+        gb_run_recorder_destroy(recorder);
+        gb_rundir_finish(&dir);
+        return false;
+    }
+    recorder->written_at = recorder->journal.seconds;
+    if (*experiment != NULL) {
+        gb_kept_states_pass(&recorder->states, gb_experiment_point(*experiment));
+    }
+    *out = recorder;
+    return true;
+}
+
+void gb_run_recorder_destroy(struct gb_run_recorder *recorder)
+{
+    if (!recorder) {
+        return;
+    }
+    gb_writer_destroy(recorder->writer);
+    gb_store_destroy(recorder->store);
+    gb_alloc_free(recorder);
+}
+
+const struct gb_params *gb_run_recorder_params(const struct gb_run_recorder *recorder)
+{
+    return &recorder->params;
+}
+
+struct gb_store *gb_run_recorder_store(struct gb_run_recorder *recorder)
+{
+    return recorder->store;
+}
+
+int64_t gb_run_recorder_points(const struct gb_run_recorder *recorder)
+{
+    return gb_store_place(recorder->store).points;
+}
+
+double gb_run_recorder_seconds(const struct gb_run_recorder *recorder)
+{
+    return recorder->journal.seconds;
+}
+
+int64_t gb_run_recorder_events(const struct gb_run_recorder *recorder)
+{
+    return recorder->journal.events;
+}
+
+/* Adds the journal to the record of the last point. */
+static bool add_journal(struct gb_run_recorder *recorder, double seconds,
+                        struct gb_error *err)
+{
+    recorder->journal.place = gb_store_place(recorder->store);
+    recorder->journal.seconds = seconds;
+    recorder->fresh = gb_run_journal_record(&recorder->journal,
+                                            gb_writer_record(recorder->writer), err);
+    return recorder->fresh;
+}
+
+bool gb_run_recorder_row(struct gb_run_recorder *recorder, const struct gb_point *point,
+                         struct gb_error *err)
+{
+    return gb_store_point(recorder->store, point, err);
+}
+
+bool gb_run_recorder_point(struct gb_run_recorder *recorder,
+                           struct gb_experiment *experiment, const struct gb_point *point,
+                           struct gb_error *err)
+{
+    if (!gb_store_point(recorder->store, point, err)) {
+        return false;
+    }
+    if (!recorder->writer) {
+        return true;
+    }
+    const struct gb_rundir *dir = gb_store_rundir(recorder->store);
+    struct gb_record *record = gb_writer_record(recorder->writer);
+    return gb_checkpoint_take(experiment, record, err) &&
+           add_journal(recorder, point->seconds, err) &&
+           gb_rundir_result(dir,
+                            gb_kept_states_point(&recorder->states, dir->held, point,
+                                                 gb_run_recorder_points(recorder), record,
+                                                 &recorder->params, &recorder->model,
+                                                 err),
+                            err);
+}
+
+bool gb_run_recorder_adopt(struct gb_run_recorder *recorder,
+                           const struct gb_point *points, int64_t count,
+                           struct gb_record *record, struct gb_error *err)
+{
+    for (int64_t i = 0; i < count; i++) {
+        if (!gb_store_point(recorder->store, &points[i], err)) {
+            return false;
+        }
+        gb_kept_states_pass(&recorder->states, &points[i]);
+    }
+    if (count == 0 || !recorder->writer) {
+        return true;
+    }
+    struct gb_record *last = gb_writer_record(recorder->writer);
+    gb_record_finish(last);
+    *last = *record;
+    *record = (struct gb_record){0};
+    return add_journal(recorder, points[count - 1].seconds, err);
+}
+
+bool gb_run_recorder_event(struct gb_run_recorder *recorder, int64_t step,
+                           const char *text, struct gb_error *err)
+{
+    recorder->journal.events++;
+    return gb_store_event(recorder->store, step, text, err);
+}
+
+bool gb_run_recorder_tick(struct gb_run_recorder *recorder, double seconds,
+                          enum gb_run_recorder_when when, struct gb_error *err)
+{
+    const bool due =
+        when == GB_RUN_RECORDER_NOW ||
+        seconds - recorder->written_at >= recorder->params.checkpoint_every_s;
+    if (!recorder->fresh || !due) {
+        return true;
+    }
+    switch (gb_writer_send(recorder->writer, err)) {
+    case GB_WRITER_SENT:
+        recorder->fresh = false;
+        recorder->written_at = seconds;
+        return true;
+    case GB_WRITER_BUSY:
+        return true;
+    case GB_WRITER_FAILED:
+        break;
+    }
+    return false;
+}
+
+bool gb_run_recorder_status(struct gb_run_recorder *recorder,
+                            const struct gb_snapshot *snapshot, struct gb_error *err)
+{
+    return recorder->writer
+               ? gb_writer_status(recorder->writer,
+                                  gb_store_status_text(recorder->store, snapshot), err)
+               : gb_store_status(recorder->store, snapshot, err);
+}
+
+void gb_run_recorder_fail(struct gb_run_recorder *recorder,
+                          const struct gb_snapshot *snapshot)
+{
+    struct gb_error ignored;
+    if (!recorder) {
+        return;
+    }
+    /* a status that is still being written must not replace this one */
+    (void)(!recorder->writer || gb_writer_wait(recorder->writer, &ignored));
+    (void)gb_store_sync(recorder->store, &ignored);
+    (void)gb_store_status(recorder->store, snapshot, &ignored);
+}
+
+bool gb_run_recorder_conclude(struct gb_run_recorder *recorder,
+                              const struct gb_snapshot *snapshot, struct gb_error *err)
+{
+    return (!recorder->writer || (gb_writer_wait(recorder->writer, err) &&
+                                  gb_run_recorder_tick(recorder, snapshot->seconds,
+                                                       GB_RUN_RECORDER_NOW, err) &&
+                                  gb_writer_wait(recorder->writer, err))) &&
+           gb_store_sync(recorder->store, err) &&
+           gb_store_status(recorder->store, snapshot, err);
+}

@@ -1,0 +1,87 @@
+#ifndef GB_RUN_RECORD_RUN_RECORDER_H
+#define GB_RUN_RECORD_RUN_RECORDER_H
+
+#include <stdbool.h>
+
+#include "io/store.h"
+#include "run/experiment.h"
+
+/* Records a run in its directory: rows, events, status, checkpoints.
+ *
+ * A checkpoint belongs to a recorded point.  The state of the last point is always held
+ * in memory, so that a run that is stopped between two points is saved at once. */
+struct gb_run_recorder;
+
+/* For a new run; errors as of gb_store_create. */
+bool gb_run_recorder_create(struct gb_run_recorder **out, const char *directory,
+                            const struct gb_params *params, enum gb_rundir_mode mode,
+                            struct gb_error *err);
+
+/* For a run that is resumed: locks the directory, reads its preset and its checkpoint,
+ * truncates curve.csv and events.log to it and creates the experiment.  *experiment stays
+ * NULL when there is no checkpoint yet: the run starts again with
+ * gb_run_recorder_params.  Errors: GB_ERR_INPUT (no run, a run under way, a preset that
+ * was changed since, a checkpoint of another layout or damaged), GB_ERR_MACHINE,
+ * GB_ERR_MEMORY. */
+bool gb_run_recorder_resume(struct gb_run_recorder **out,
+                            struct gb_experiment **experiment, const char *directory,
+                            struct gb_error *err);
+
+/* Waits for the last checkpoint.  NULL is fine. */
+void gb_run_recorder_destroy(struct gb_run_recorder *recorder);
+
+const struct gb_params *gb_run_recorder_params(const struct gb_run_recorder *recorder);
+struct gb_store *gb_run_recorder_store(struct gb_run_recorder *recorder);
+/* Number of recorded points and events; seconds of the run at the last record. */
+int64_t gb_run_recorder_points(const struct gb_run_recorder *recorder);
+int64_t gb_run_recorder_events(const struct gb_run_recorder *recorder);
+double gb_run_recorder_seconds(const struct gb_run_recorder *recorder);
+
+/* Records a point: its row, and the state in memory.  Once per point, after its events.
+ */
+bool gb_run_recorder_point(struct gb_run_recorder *recorder,
+                           struct gb_experiment *experiment, const struct gb_point *point,
+                           struct gb_error *err);
+/* A row without a state: of a point before the state that the run begins with. */
+bool gb_run_recorder_row(struct gb_run_recorder *recorder, const struct gb_point *point,
+                         struct gb_error *err);
+/* Points recorded before there was a directory: their rows, and the record taken at the
+ * last one, whose memory is moved. */
+bool gb_run_recorder_adopt(struct gb_run_recorder *recorder,
+                           const struct gb_point *points, int64_t count,
+                           struct gb_record *record, struct gb_error *err);
+bool gb_run_recorder_event(struct gb_run_recorder *recorder, int64_t step,
+                           const char *text, struct gb_error *err);
+
+enum gb_run_recorder_when {
+    GB_RUN_RECORDER_DUE, /* when output.checkpoint_every has passed */
+    GB_RUN_RECORDER_NOW
+};
+
+/* Writes the state in memory to state.h5 unless it is there already; returns before it is
+ * written.
+ *
+ * seconds  of the run */
+bool gb_run_recorder_tick(struct gb_run_recorder *recorder, double seconds,
+                          enum gb_run_recorder_when when, struct gb_error *err);
+
+/* Writes the snapshot to status.json; returns before it is written. */
+bool gb_run_recorder_status(struct gb_run_recorder *recorder,
+                            const struct gb_snapshot *snapshot, struct gb_error *err);
+
+/* For a run whose results can't be recorded any longer: rows and status, as far as they
+ * can be written.  state.h5 stays as it is.  NULL is fine. */
+void gb_run_recorder_fail(struct gb_run_recorder *recorder,
+                          const struct gb_snapshot *snapshot);
+
+/* The end of a run: state, rows and status are on the disk when this returns. */
+bool gb_run_recorder_conclude(struct gb_run_recorder *recorder,
+                              const struct gb_snapshot *snapshot, struct gb_error *err);
+
+/* Reads preset.ini and the checkpoint `name` ("state.h5") of a run directory; its step is
+ * gb_checkpoint_step(record). */
+bool gb_run_recorder_read(const char *directory, const char *name,
+                          struct gb_params *params, struct gb_record *record,
+                          struct gb_error *err);
+
+#endif

@@ -1,0 +1,93 @@
+#include <glib.h>
+
+#include "base/clock.h"
+#include "io/follow.h"
+#include "io/rundir.h"
+#include "run/runner/runner_private.h"
+
+/* Interval between two readings of the directory, s. */
+static const double follow_every_s = 0.4;
+/* Age of an unchanged status at which the lock is tested for a living engine, s. */
+static const double silence_s = 5.0;
+
+/* Reads the directory into the snapshot and the curve. */
+static void read_run(struct gb_runner *runner)
+{
+    struct gb_snapshot *shown = &runner->loop.snapshot;
+    const int64_t events = shown->events;
+    struct gb_follow_engine engine;
+    struct gb_error err = {0};
+    if (!gb_follow_status(runner->directory, shown, &engine, &err) ||
+        !gb_follow_curve(runner->directory, &runner->params, runner->curve, &err)) {
+        if (shown->error.code == GB_OK) {
+            gb_runner_publish_event(runner, err.text);
+        }
+        shown->error = err;
+    }
+    const size_t points = gb_curve_count(runner->curve);
+    shown->now_valid = points > 0;
+    if (points > 0) {
+        shown->now = *gb_curve_at(runner->curve, points - 1);
+    }
+    if (shown->events > events && shown->event[0] != '\0') {
+        gb_runner_publish_event(runner, shown->event);
+    }
+}
+
+static void lose_directory(struct gb_runner *runner)
+{
+    struct gb_snapshot *shown = &runner->loop.snapshot;
+    gb_error_set(&shown->error, GB_ERR_MACHINE,
+                 "%s: was moved or removed while it was shown", runner->directory);
+    gb_runner_publish_event(runner, shown->error.text);
+    shown->state = GB_RUN_FAILED;
+}
+
+/* Reads the directory; false when no engine works there any more.
+ *
+ * changed_s  clock reading at the last change of the status */
+static bool refresh(struct gb_runner *runner, double *changed_s)
+{
+    struct gb_snapshot *shown = &runner->loop.snapshot;
+    const double seconds = shown->seconds;
+    const int state = shown->state;
+    if (!g_file_test(runner->directory, G_FILE_TEST_IS_DIR)) {
+        lose_directory(runner);
+        return false;
+    }
+    read_run(runner);
+    if (shown->seconds != seconds || shown->state != state) {
+        *changed_s = gb_clock_s();
+    }
+    if (shown->state <= GB_RUN_PAUSED && gb_clock_s() - *changed_s > silence_s &&
+        !gb_rundir_busy(runner->directory)) {
+        gb_runner_publish_event(runner, "the engine of this run has ended without a last "
+                                        "status; t resumes from the last checkpoint");
+        shown->state = GB_RUN_STOPPED;
+    }
+    return shown->state <= GB_RUN_PAUSED;
+}
+
+static void wait_for_next(struct gb_runner *runner)
+{
+    const double until = gb_clock_s() + follow_every_s;
+    while (!runner->stop && gb_clock_s() < until) {
+        gb_engine_thread_drain(runner);
+        g_usleep(100000);
+    }
+}
+
+void *gb_follow_thread(void *data)
+{
+    struct gb_runner *runner = data;
+    double changed_s = gb_clock_s();
+    bool more = true;
+    while (more && !runner->stop) {
+        more = refresh(runner, &changed_s);
+        gb_runner_publish_snapshot(runner);
+        if (more) {
+            wait_for_next(runner);
+        }
+    }
+    return NULL;
+}

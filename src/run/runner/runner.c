@@ -1,0 +1,237 @@
+#include "run/runner/runner.h"
+
+#include <glib.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "io/follow.h"
+#include "io/rundir.h"
+#include "run/checkpoint.h"
+#include "run/runner/runner_private.h"
+#include "scene/changes.h"
+
+/* The thread inherits the mask it is created under: signals belong to the screen. */
+static bool start(struct gb_runner *runner, void *(*work)(void *data),
+                  struct gb_error *err)
+{
+    sigset_t all;
+    sigset_t old;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &old);
+    const int failure = pthread_create(&runner->thread, NULL, work, runner);
+    pthread_sigmask(SIG_SETMASK, &old, NULL);
+    if (failure != 0) {
+        return gb_error_set(err, GB_ERR_MACHINE, "cannot start the engine thread: %s",
+                            strerror(failure));
+    }
+    return true;
+}
+
+static void free_runner(struct gb_runner *runner)
+{
+    gb_record_finish(&runner->record);
+    if (runner->origin != NULL) {
+        gb_record_finish(runner->origin);
+        gb_alloc_free(runner->origin);
+    }
+    gb_run_loop_finish(&runner->loop);
+    g_free(runner->directory);
+    gb_curve_destroy(runner->curve);
+    gb_alloc_free(runner);
+}
+
+static struct gb_runner *create(const struct gb_params *params, const char *directory,
+                                struct gb_error *err)
+{
+    struct gb_model model;
+    if (!gb_params_check(params, err) || !gb_model_init(&model, params, err)) {
+        return NULL;
+    }
+    struct gb_runner *runner = gb_alloc_array(1, sizeof *runner, err);
+    if (runner == NULL) {
+        return NULL;
+    }
+    if (!gb_curve_create(&runner->curve, err)) {
+        gb_alloc_free(runner);
+        return NULL;
+    }
+    runner->params = *params;
+    runner->directory = g_strdup(directory);
+    gb_publish_init(&runner->publish);
+    gb_publish_turn_init(&runner->turn);
+    gb_command_ring_init(&runner->ring);
+    gb_run_loop_init(&runner->loop, &(struct gb_run_loop_hooks){0});
+    return runner;
+}
+
+static bool launch(struct gb_runner **out, struct gb_runner *runner,
+                   void *(*work)(void *data), struct gb_error *err)
+{
+    pthread_mutex_init(&runner->mutex, NULL);
+    pthread_cond_init(&runner->wake, NULL);
+    gb_runner_publish_state(runner, GB_RUN_PACKING);
+    if (!start(runner, work, err)) {
+        pthread_cond_destroy(&runner->wake);
+        pthread_mutex_destroy(&runner->mutex);
+        free_runner(runner);
+        return false;
+    }
+    *out = runner;
+    return true;
+}
+
+bool gb_runner_create(struct gb_runner **out, const struct gb_params *params,
+                      struct gb_error *err)
+{
+    return gb_runner_create_in(out, params, NULL, err);
+}
+
+bool gb_runner_forked(struct gb_runner *runner, int64_t *step)
+{
+    pthread_mutex_lock(&runner->mutex);
+    const bool forked = runner->forked;
+    pthread_mutex_unlock(&runner->mutex);
+    if (forked && step != NULL) {
+        *step = gb_checkpoint_step(&runner->record) - 1;
+    }
+    return forked;
+}
+
+bool gb_runner_create_fork(struct gb_runner **out, const char *changes,
+                           struct gb_runner *parent, const char *directory,
+                           struct gb_error *err)
+{
+    struct gb_params changed = parent->params;
+    int64_t step = 0;
+    if (!gb_runner_forked(parent, &step)) {
+        return gb_error_set(err, GB_ERR_INPUT, "the run has not handed over its state");
+    }
+    if (!gb_changes_add(&changed, step, changes, err)) {
+        return false;
+    }
+    struct gb_runner *runner = create(&changed, directory, err);
+    if (runner == NULL) {
+        return false;
+    }
+    bool good = true;
+    for (size_t i = 0; good && i < parent->forked_points; i++) {
+        good = gb_curve_append(runner->curve, gb_curve_at(parent->curve, i), err);
+    }
+    runner->origin = good ? gb_alloc_array(1, sizeof *runner->origin, err) : NULL;
+    if (runner->origin == NULL) {
+        free_runner(runner);
+        return false;
+    }
+    *runner->origin = parent->record;
+    pthread_mutex_lock(&parent->mutex);
+    memset(&parent->record, 0, sizeof parent->record);
+    parent->forked = false;
+    pthread_mutex_unlock(&parent->mutex);
+    return launch(out, runner, gb_engine_thread, err);
+}
+
+bool gb_runner_create_in(struct gb_runner **out, const struct gb_params *params,
+                         const char *directory, struct gb_error *err)
+{
+    struct gb_runner *runner = create(params, directory, err);
+    return runner != NULL && launch(out, runner, gb_engine_thread, err);
+}
+
+bool gb_runner_resume(struct gb_runner **out, const char *directory, struct gb_error *err)
+{
+    struct gb_params params;
+    struct gb_runner *runner = NULL;
+    if (!gb_follow_params(directory, &params, err) ||
+        (gb_rundir_busy(directory) && !gb_follow_ask_to_stop(directory, err))) {
+        return false;
+    }
+    runner = create(&params, directory, err);
+    if (runner == NULL) {
+        return false;
+    }
+    runner->resumed = true;
+    return launch(out, runner, gb_engine_thread, err);
+}
+
+bool gb_runner_follow(struct gb_runner **out, const char *directory, struct gb_error *err)
+{
+    struct gb_params params;
+    struct gb_runner *runner = gb_follow_params(directory, &params, err)
+                                   ? create(&params, directory, err)
+                                   : NULL;
+    return runner != NULL && launch(out, runner, gb_follow_thread, err);
+}
+
+const char *gb_runner_directory(const struct gb_runner *runner)
+{
+    return runner->directory;
+}
+
+void gb_runner_destroy(struct gb_runner *runner)
+{
+    if (runner == NULL) {
+        return;
+    }
+    pthread_mutex_lock(&runner->mutex);
+    runner->quit = true;
+    pthread_cond_signal(&runner->wake);
+    pthread_mutex_unlock(&runner->mutex);
+    pthread_join(runner->thread, NULL);
+    pthread_cond_destroy(&runner->wake);
+    pthread_mutex_destroy(&runner->mutex);
+    free_runner(runner);
+}
+
+bool gb_runner_send(struct gb_runner *runner, enum gb_command_kind kind)
+{
+    if (!gb_command_ring_push(&runner->ring, (struct gb_command){kind})) {
+        return false;
+    }
+    /* under the mutex, or the engine could miss it between looking and sleeping */
+    pthread_mutex_lock(&runner->mutex);
+    pthread_cond_signal(&runner->wake);
+    pthread_mutex_unlock(&runner->mutex);
+    return true;
+}
+
+const struct gb_snapshot *gb_runner_snapshot(struct gb_runner *runner, bool *changed)
+{
+    const bool fresh = gb_publish_take(&runner->publish);
+    if (changed != NULL) {
+        *changed = fresh;
+    }
+    return gb_publish_front(&runner->publish);
+}
+
+const struct gb_view_sample *gb_runner_picture(struct gb_runner *runner, bool *changed)
+{
+    const bool fresh = gb_publish_turn_take(&runner->turn);
+    if (changed != NULL) {
+        *changed = fresh;
+    }
+    return &runner->view[runner->turn.front];
+}
+
+const struct gb_curve *gb_runner_curve(const struct gb_runner *runner)
+{
+    return runner->curve;
+}
+
+const struct gb_params *gb_runner_params(const struct gb_runner *runner)
+{
+    return &runner->params;
+}
+
+bool gb_runner_event(struct gb_runner *runner, int64_t index, char *text, size_t size)
+{
+    pthread_mutex_lock(&runner->mutex);
+    const bool kept = index >= 0 && index < runner->events &&
+                      runner->events - index <= GB_RUNNER_EVENTS;
+    if (kept) {
+        snprintf(text, size, "%s", runner->event[index % GB_RUNNER_EVENTS]);
+    }
+    pthread_mutex_unlock(&runner->mutex);
+    return kept;
+}

@@ -1,0 +1,72 @@
+#ifndef GB_RUN_RUNNER_PRIVATE_H
+#define GB_RUN_RUNNER_PRIVATE_H
+
+#include <pthread.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "run/run_loop.h"
+#include "run/runner/publish.h"
+#include "run/runner/runner.h"
+
+/* The inside of gb_runner, for the files that work on it: runner.c (creation, calls of
+ * the screen's thread), engine_thread.c and follow_thread.c (the two threads),
+ * runner_publish.c (what the threads show). */
+
+enum { GB_RUNNER_EVENTS = 256 }; /* the last ones are kept */
+
+struct gb_runner {
+    /* const once the thread runs */
+    struct gb_params params;
+    struct gb_curve *curve;
+    char *directory; /* NULL: not recorded */
+    bool resumed;    /* continues the run in its directory */
+    pthread_t thread;
+
+    /* shared without a lock: see publish.h */
+    struct gb_publish publish;
+    struct gb_publish_turn turn; /* of the view samples */
+    struct gb_view_sample view[3];
+    struct gb_command_ring ring;
+
+    /* guarded by the mutex: a paused engine sleeps on wake */
+    pthread_mutex_t mutex;
+    pthread_cond_t wake;
+    bool quit;
+    bool forked;             /* record holds the requested state */
+    size_t forked_points;    /* of the curve, at that state */
+    struct gb_record record; /* the engine's until it is forked, then the screen's */
+    int64_t events;          /* number of all so far */
+    char event[GB_RUNNER_EVENTS][GB_EVENT_TEXT];
+
+    /* the thread's own */
+    struct gb_run_loop loop;
+    bool paused, stop;
+    bool yielded;             /* sleeps while another engine computes */
+    bool view_wanted;         /* view samples are taken */
+    bool fork_wanted;         /* the state of the next loading point is handed over */
+    struct gb_record *origin; /* state that the run begins with; NULL: a new packing */
+    double published_s, publish_cost_s; /* clock reading; seconds that filling took */
+    double sampled_s, sample_cost_s;    /* the same of the view sample */
+};
+
+/* The threads' work, for pthread_create; data is the runner. */
+void *gb_engine_thread(void *data);
+void *gb_follow_thread(void *data);
+
+/* Takes all commands from the ring. */
+void gb_engine_thread_drain(struct gb_runner *runner);
+
+/* Adds to the list of events that the screen reads. */
+void gb_runner_publish_event(struct gb_runner *runner, const char *text);
+/* Hands the loop's snapshot to the screen as it is. */
+void gb_runner_publish_snapshot(struct gb_runner *runner);
+/* Observes the run and publishes; before that a view sample, so that both show the same
+ * state. */
+void gb_runner_publish_state(struct gb_runner *runner, enum gb_run_state state);
+void gb_runner_publish_view(struct gb_runner *runner);
+/* The same when the last one is old enough. */
+void gb_runner_publish_if_due(struct gb_runner *runner, enum gb_run_state state);
+void gb_runner_publish_view_if_due(struct gb_runner *runner);
+
+#endif
