@@ -168,7 +168,7 @@ is 'run: it is kept' more_rows 3
 kill -HUP $engine
 before=$(rows)
 is 'run: HUP lets it go on' more_rows $((before + 3))
-is 'run: and is told among the events' grep -q 'the terminal is gone' "$run/events.log"
+is 'run: and is told among the events' grep -q 'terminal closed' "$run/events.log"
 ends run
 
 # --- the directory goes away --------------------------------------------------------------

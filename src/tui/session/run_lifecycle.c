@@ -142,7 +142,7 @@ int gb_run_lifecycle_run_detached(struct gb_session *session)
     if (!survives_hangup(session)) {
         return STATUS_SIGNAL + SIGHUP;
     }
-    gb_session_note(session, "the terminal is gone; the run goes on");
+    gb_session_note(session, "terminal closed; the run continues");
     if (session->pause_wanted) { /* nobody is left to end the pause */
         gb_session_toggle_pause(session);
     }
