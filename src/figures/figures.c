@@ -14,8 +14,9 @@
 #include "figures/figures_relaxation.h"
 #include "figures/figures_state.h"
 #include "figures/figures_sweep.h"
-#include "scene/model.h"
 #include "measure/theory.h"
+#include "scene/loading_kind.h"
+#include "scene/model.h"
 
 #define RHO "<i>\xcf\x81</i>"
 
@@ -65,7 +66,7 @@ static bool asymptote_columns(struct gb_series *series, const double *density,
     bool good = true;
     for (size_t g = 0; g < set->groups && good; g++) {
         const struct gb_params *params = &gb_runset_first(set, g)->params;
-        if (params->kind != GB_KIND_DYNAMIC || params->dimension != 2) {
+        if (!gb_loading_kind_of(params)->given_rate || params->dimension != 2) {
             continue;
         }
         struct gb_model *model = &models[known];
@@ -123,7 +124,7 @@ static void magnify_beginning(struct gb_series *series, size_t groups)
 static bool all_quasistatic(const struct gb_runset *set)
 {
     for (size_t i = 0; i < set->count; i++) {
-        if (set->run[i].params.kind != GB_KIND_QUASISTATIC) {
+        if (gb_loading_kind_of(&set->run[i].params)->follows_time) {
             return false;
         }
     }

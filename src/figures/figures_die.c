@@ -1,12 +1,13 @@
 #include "figures/figures_die.h"
 
 #include "figures/figures_label.h"
+#include "scene/loading_kind.h"
 
 static bool all_dies(const struct gb_runset *set, const char *figure,
                      struct gb_error *err)
 {
     for (size_t i = 0; i < set->count; i++) {
-        if (set->run[i].params.kind != GB_KIND_DIE) {
+        if (gb_loading_kind_of(&set->run[i].params)->columns != GB_COLUMNS_DIE) {
             return gb_error_set(err, GB_ERR_INPUT,
                                 "%.300s: scene.kind is not die; accepted dies for the "
                                 "figure %s",

@@ -7,6 +7,7 @@
 #include "measure/fit/average.h"
 #include "measure/fit/power.h"
 #include "scene/derived.h"
+#include "scene/loading_kind.h"
 
 /* P2 (9). */
 static const double published_exponent = 0.25;
@@ -29,7 +30,7 @@ bool gb_figures_rate_check(const struct gb_runset *set, const char *figure,
                            struct gb_error *err)
 {
     for (size_t i = 0; i < set->count; i++) {
-        if (set->run[i].params.kind != GB_KIND_DYNAMIC) {
+        if (!gb_loading_kind_of(&set->run[i].params)->given_rate) {
             return gb_error_set(err, GB_ERR_INPUT,
                                 "%.300s: scene.kind is not dynamic; accepted dynamic "
                                 "runs for the figure %s",

@@ -8,6 +8,7 @@
 #include "figures/states.h"
 #include "measure/fit/average.h"
 #include "measure/structure.h"
+#include "scene/loading_kind.h"
 
 /* Far distances are drawn larger where there are that many diameters. */
 static const double inset_from = 4.0, inset_to = 9.0, inset_least = 6.0;
@@ -112,7 +113,7 @@ bool gb_figures_state_rdf(struct gb_series *series, const struct gb_figures_inpu
     if (states == NULL) {
         return false;
     }
-    if (set->run[0].params.kind == GB_KIND_DIE) {
+    if (!gb_loading_kind_of(&set->run[0].params)->periodic_cell) {
         free_all(states, set->count);
         return gb_error_set(err, GB_ERR_INPUT,
                             "rdf: a die has walls; accepted periodic cells");

@@ -8,6 +8,7 @@
 #include "base/vec.h"
 #include "pack/cell/cell.h"
 #include "pack/structure/assign_sizes.h"
+#include "scene/loading_kind.h"
 
 /* What is taken out of the record as it is. */
 static bool take(const struct gb_record *record, const char *name,
@@ -181,7 +182,7 @@ bool gb_state_record(struct gb_state **out, const struct gb_record *record,
                      const struct gb_params *params, const struct gb_model *model,
                      struct gb_error *err)
 {
-    if (model->kind == GB_KIND_DIE) {
+    if (!gb_loading_kind_at(model->kind)->periodic_cell) {
         return die_state(out, record, params, model, err);
     }
     const int64_t count = model->count;

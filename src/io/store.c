@@ -14,12 +14,13 @@
 #include "io/line_file.h"
 #include "io/preset.h"
 #include "io/rundir.h"
+#include "scene/loading_kind.h"
 
 struct gb_store {
     struct gb_rundir dir;
     struct gb_line_file curve, events;
     char *status_path, *state_path, *before_path;
-    int kind; /* enum gb_kind: what columns the curve has */
+    enum gb_curve_columns columns;
     int64_t points;
 };
 
@@ -56,6 +57,54 @@ static const char *compressed_axes(const struct gb_params *params)
     }
 }
 
+static void append_nothing(GString *row, const struct gb_point *point)
+{
+    (void)row;
+    (void)point;
+}
+
+static void append_energies(GString *row, const struct gb_point *point)
+{
+    const double values[] = {1e9 * point->time_s, point->kinetic,
+                             point->work,         point->elastic,
+                             point->dissipated,   point->energy_residual};
+    for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
+        append_number(row, values[k]);
+    }
+}
+
+static void append_die(GString *row, const struct gb_point *point)
+{
+    const double values[] = {1e9 * point->time_s,     point->central,
+                             1e6 * point->height_m,   point->height_change,
+                             1e-6 * point->target_pa, point->floor_over_punch};
+    for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
+        append_number(row, values[k]);
+    }
+}
+
+/* By enum gb_curve_columns: a comment of the head of curve.csv, names of the columns, and
+ * their values. */
+static const struct column_set {
+    const char *note, *names;
+    void (*append)(GString *row, const struct gb_point *point);
+} column_sets[] = {
+    [GB_COLUMNS_COMMON] = {"", "", append_nothing},
+    [GB_COLUMNS_ENERGY] =
+        {"# dynamic: time_ns is simulated time; kinetic, work (done by the moving cell), "
+         "elastic and dissipated energy in J; energy_residual is relative to the work\n",
+         ",time_ns,kinetic,work,elastic,dissipated,energy_residual", append_energies},
+    [GB_COLUMNS_DIE] =
+        {"# die: p and pz are what the powder carries under the punch, px and py the "
+         "mean "
+         "on the side wall; density is that of the whole specimen, central_density that "
+         "of a ball in its middle; height_change is relative to the height before "
+         "pressing; time_ns is simulated time, wanted_MPa the pressure of the programme, "
+         "floor_over_punch a ratio of forces: not quasi-static outside 0.95 to 1.05\n",
+         ",time_ns,central_density,height_um,height_change,wanted_MPa,floor_over_punch",
+         append_die},
+};
+
 static bool write_curve_head(struct gb_line_file *curve, const struct gb_params *params,
                              struct gb_error *err)
 {
@@ -72,30 +121,11 @@ static bool write_curve_head(struct gb_line_file *curve, const struct gb_params 
         "# p_MPa: mean pressure over the compressed axes (%s), positive "
         "in compression\n",
         compressed_axes(params));
-    if (params->kind == GB_KIND_DIE) {
-        g_string_append(
-            head, "# die: p and pz are what the powder carries under the punch, px and "
-                  "py the mean on the side wall; density is that of the whole specimen, "
-                  "central_density that of a ball in its middle; height_change is "
-                  "relative to the height before pressing; time_ns is simulated time, "
-                  "wanted_MPa the pressure of the programme, floor_over_punch a ratio of "
-                  "forces: not quasi-static outside 0.95 to 1.05\n");
-    }
-    if (params->kind == GB_KIND_DYNAMIC) {
-        g_string_append(
-            head, "# dynamic: time_ns is simulated time; kinetic, work (done by the "
-                  "moving cell), elastic and dissipated energy in J; "
-                  "energy_residual is relative to the work\n");
-    }
+    const struct column_set *set = &column_sets[gb_loading_kind_of(params)->columns];
+    g_string_append(head, set->note);
     g_string_append(head, "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,"
                           "bridged,rattlers,residual,iterations,evaluations,seconds");
-    static const char *const more[] = {
-        [GB_KIND_QUASISTATIC] = "",
-        [GB_KIND_DYNAMIC] = ",time_ns,kinetic,work,elastic,dissipated,energy_residual",
-        [GB_KIND_DIE] = (",time_ns,central_density,height_um,height_change,wanted_MPa,"
-                         "floor_over_punch"),
-    };
-    g_string_append_printf(head, "%s\n", more[params->kind]);
+    g_string_append_printf(head, "%s\n", set->names);
     const bool ok = gb_line_file_append(curve, head->str, err);
     g_string_free(head, TRUE);
     return ok;
@@ -155,7 +185,7 @@ bool gb_store_create(struct gb_store **out, const char *directory,
 {
     struct gb_store *store = g_new0(struct gb_store, 1);
     store->curve.fd = store->events.fd = -1;
-    store->kind = params->kind;
+    store->columns = gb_loading_kind_of(params)->columns;
     if (!gb_rundir_make(&store->dir, directory, mode, err)) {
         g_free(store);
         return false;
@@ -219,7 +249,7 @@ bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
 {
     struct gb_store *store = g_new0(struct gb_store, 1);
     store->curve.fd = store->events.fd = -1;
-    store->kind = params->kind;
+    store->columns = gb_loading_kind_of(params)->columns;
     store->dir = *dir;
     *dir = (struct gb_rundir){.lock = -1};
     name_files(store);
@@ -249,26 +279,6 @@ void gb_store_discard(struct gb_store *store)
     }
 }
 
-static void append_dynamics(GString *row, const struct gb_point *point)
-{
-    const double values[] = {1e9 * point->time_s, point->kinetic,
-                             point->work,         point->elastic,
-                             point->dissipated,   point->energy_residual};
-    for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
-        append_number(row, values[k]);
-    }
-}
-
-static void append_die(GString *row, const struct gb_point *point)
-{
-    const double values[] = {1e9 * point->time_s,     point->central,
-                             1e6 * point->height_m,   point->height_change,
-                             1e-6 * point->target_pa, point->floor_over_punch};
-    for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
-        append_number(row, values[k]);
-    }
-}
-
 bool gb_store_point(struct gb_store *store, const struct gb_point *point,
                     struct gb_error *err)
 {
@@ -285,11 +295,7 @@ bool gb_store_point(struct gb_store *store, const struct gb_point *point,
     g_string_append_printf(
         row, ",%" PRId64 ",%" PRId64 ",%s", point->iterations, point->evaluations,
         g_ascii_formatd(seconds, sizeof seconds, "%.3f", point->seconds));
-    if (store->kind == GB_KIND_DYNAMIC) {
-        append_dynamics(row, point);
-    } else if (store->kind == GB_KIND_DIE) {
-        append_die(row, point);
-    }
+    column_sets[store->columns].append(row, point);
     g_string_append_c(row, '\n');
     const bool ok = gb_rundir_stands(&store->dir, err) &&
                     gb_line_file_append(&store->curve, row->str, err);

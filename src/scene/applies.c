@@ -3,30 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
-static bool periodic(const struct gb_params *params)
-{
-    return params->kind != GB_KIND_DIE;
-}
-
-static bool quasistatic(const struct gb_params *params)
-{
-    return params->kind == GB_KIND_QUASISTATIC;
-}
-
-static bool dynamic(const struct gb_params *params)
-{
-    return params->kind == GB_KIND_DYNAMIC;
-}
-
-static bool die(const struct gb_params *params)
-{
-    return params->kind == GB_KIND_DIE;
-}
-
-static bool moving(const struct gb_params *params)
-{
-    return !quasistatic(params);
-}
+#include "scene/loading_kind.h"
 
 static bool rod(const struct gb_params *params)
 {
@@ -60,14 +37,12 @@ static bool never(const struct gb_params *params)
     return false;
 }
 
-/* Fields that only some scenes use; key NULL: the whole group.  What is not listed
- * matters to all. */
+/* Fields that matter only with one normal law or distribution; those of the kinds of
+ * scenes are listed in scene/loading_kind.c. */
 static const struct {
     const char *group, *key;
     bool (*when)(const struct gb_params *params);
 } rules[] = {
-    {"scene", "dimension", periodic},
-    {"material", "density", moving},
     {"material", "d0", rod},
     {"material", "n_d0_cubed", rod},
     {"material", "epsilon", rod},
@@ -85,48 +60,26 @@ static const struct {
     {"particles", "largest", lognormal},
     {"particles", "table", table},
     {"contact", "alpha", rod},
-    {"contact", "mu_wall", die},
     {"contact", "mu_pivot", rod},
     {"contact", "bridge_length", rod},
     {"contact", "shear_strength", rod},
     {"contact", "bridge_radius", rod},
     {"contact", "relative_motion", rod},
-    {"contact", "viscosity", dynamic},
-    {"contact", "damping", die},
     {"contact", "shear_ratio", storakers},
     {"contact", "storakers", storakers},
     {"contact", "radius_i", never},
     {"contact", "radius_j", never},
-    {"structure", "density", periodic},
-    {"structure", "base", periodic},
-    {"structure", "r_meso", periodic},
-    {"die", NULL, die},
-    {"loading", "step", quasistatic},
-    {"loading", "unload_from", quasistatic},
-    {"loading", "rate", dynamic},
-    {"loading", "relax", dynamic},
-    {"loading", "hold", dynamic},
-    {"loading", "record", dynamic},
-    {"loading", "record_time", dynamic},
-    {"loading", "ramp", die},
-    {"loading", "time", die},
-    {"loading", "record_pressure", die},
-    {"numerics", "relaxer", quasistatic},
-    {"numerics", "tolerance", quasistatic},
-    {"numerics", "max_evaluations", quasistatic},
     {"numerics", "cutoff", rod},
-    {"numerics", "precision", quasistatic},
-    {"numerics", "time_step", dynamic},
-    {"numerics", "step_error", dynamic},
-    {"numerics", "safety", die},
-    {"numerics", "inertia_scale", die},
 };
 
 bool gb_applies_field(const struct gb_params *params, const struct gb_field *field)
 {
+    if (!gb_loading_kind_uses(gb_loading_kind_of(params), field)) {
+        return false;
+    }
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
         if (strcmp(rules[i].group, field->group) == 0 &&
-            (rules[i].key == NULL || strcmp(rules[i].key, field->key) == 0)) {
+            strcmp(rules[i].key, field->key) == 0) {
             return rules[i].when(params);
         }
     }

@@ -4,6 +4,8 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "scene/loading_kind.h"
+
 static const char *const allowed[] = {
     "contact.alpha",
     "contact.mu",
@@ -106,15 +108,21 @@ static bool check_entry(const struct entry *entry, void *data)
            gb_params_check(&checking->params, checking->err);
 }
 
+static bool can_change(const struct gb_loading_kind *kind)
+{
+    return kind->changes;
+}
+
 bool gb_changes_check(const struct gb_params *params, struct gb_error *err)
 {
     if (params->changes[0] == '\0') {
         return true;
     }
-    if (params->kind != GB_KIND_QUASISTATIC) {
-        return gb_error_set(
-            err, GB_ERR_INPUT,
-            "loading.changes: must be empty unless scene.kind = quasistatic");
+    if (!gb_loading_kind_of(params)->changes) {
+        char names[80];
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "loading.changes: must be empty unless scene.kind = %s",
+                            gb_loading_kind_names(can_change, names, sizeof names));
     }
     struct checking checking = {*params, err};
     checking.params.changes[0] = '\0';

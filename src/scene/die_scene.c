@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "scene/derived.h"
+#include "scene/loading_kind.h"
 #include "scene/tolerances.h"
 
 /* Standard gravity, m/s2. */
@@ -61,10 +62,8 @@ static bool check_scene(const struct gb_params *params, struct gb_error *err)
         return gb_error_set(err, GB_ERR_INPUT,
                             "loading.geometry: must be die with scene.kind = die");
     }
-    if (params->normal == GB_NORMAL_ROD) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "contact.normal = rod: must be hertz or storakers with "
-                            "scene.kind = die");
+    if (!gb_loading_kind_check_normal(params, err)) {
+        return false;
     }
     if (isnan(params->until_pressure_pa)) {
         return gb_error_set(err, GB_ERR_INPUT,
@@ -90,31 +89,18 @@ bool gb_die_scene_check(const struct gb_params *params, struct gb_error *err)
     return true;
 }
 
-bool gb_die_scene_require_periodic(const struct gb_params *params, const char *what,
-                                   struct gb_error *err)
-{
-    return params->kind != GB_KIND_DIE ||
-           gb_error_set(err, GB_ERR_INPUT,
-                        "scene.kind = die: %s needs a periodic cell, scene.kind = "
-                        "quasistatic or dynamic",
-                        what);
-}
-
 static double given_or(double value, double otherwise)
 {
     return isnan(value) ? otherwise : value;
 }
 
-struct gb_die_scene gb_die_scene_reduce(const struct gb_params *params)
+void gb_die_scene_freeze(struct gb_model *model, const struct gb_params *params)
 {
-    if (params->kind != GB_KIND_DIE) {
-        return (struct gb_die_scene){0};
-    }
     const double d = params->diameter_m, unit = gb_derived_unit_time_s(params);
     const double gravity = standard_gravity * unit * unit / d;
     const bool fast = params->fidelity == GB_FIDELITY_FAST;
     const double step = gb_derived_time_step_s(params);
-    return (struct gb_die_scene){
+    model->die = (struct gb_die_scene){
         .radius = 0.5 * params->die_diameter_m / d,
         .height = given_or(params->die_height_m, 0.0) / d,
         .outlet = 0.5 * given_or(params->die_outlet_m, 0.75 * params->die_diameter_m) / d,

@@ -36,9 +36,6 @@ static bool check_end(const struct gb_params *params, struct gb_error *err)
 
 bool gb_dynamic_scene_check(const struct gb_params *params, struct gb_error *err)
 {
-    if (params->kind != GB_KIND_DYNAMIC) {
-        return true;
-    }
     if (params->dimension == 2 && params->geometry != GB_GEOMETRY_ISOTROPIC) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "loading.geometry = %s: must be isotropic with scene.kind = "
@@ -57,16 +54,13 @@ bool gb_dynamic_scene_check(const struct gb_params *params, struct gb_error *err
     return check_end(params, err);
 }
 
-struct gb_dynamics gb_dynamic_scene_reduce(const struct gb_params *params)
+void gb_dynamic_scene_freeze(struct gb_model *model, const struct gb_params *params)
 {
-    if (params->kind != GB_KIND_DYNAMIC) {
-        return (struct gb_dynamics){0};
-    }
     const double unit = gb_derived_unit_time_s(params);
     const double lag =
         gb_law_viscous_time(params->viscosity_pa_s, params->young_pa, params->poisson);
     const double step = gb_derived_time_step_s(params);
-    return (struct gb_dynamics){
+    model->dynamics = (struct gb_dynamics){
         .viscous = lag / unit,
         .rate = params->rate_per_s * unit,
         .relax = params->relax_s / unit,
@@ -131,9 +125,6 @@ static void note_stages(const struct gb_model *model, char *buffer, size_t size)
 const char *gb_dynamic_scene_note(const struct gb_model *model, int index, char *buffer,
                                   size_t size)
 {
-    if (model->kind != GB_KIND_DYNAMIC) {
-        return NULL;
-    }
     switch (index) {
     case 0:
         note_step(&model->dynamics, buffer, size);

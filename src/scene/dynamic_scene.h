@@ -8,15 +8,17 @@
 #include "greenbody/status.h"
 #include "scene/model.h"
 
-/* What dynamic scenes ask for beyond the ranges of their keys; true for other kinds,
- * whose runs do not look at these keys.  Errors: GB_ERR_INPUT naming the keys. */
+/* The functions of the row `dynamic` of scene/loading_kind.h. */
+
+/* What dynamic scenes require beyond the ranges of their keys.  Errors: GB_ERR_INPUT
+ * naming the keys. */
 bool gb_dynamic_scene_check(const struct gb_params *params, struct gb_error *err);
 
-/* The dynamic keys in reduced units; all zero for other kinds. */
-struct gb_dynamics gb_dynamic_scene_reduce(const struct gb_params *params);
+/* The dynamic keys in reduced units, as model->dynamics. */
+void gb_dynamic_scene_freeze(struct gb_model *model, const struct gb_params *params);
 
-/* Line `index` (0, 1, ...) of what a dynamic scene carries; NULL after the last and for
- * other kinds.  The text lives in buffer. */
+/* Line `index` (0, 1, ...) of what a dynamic scene carries; NULL after the last.  The
+ * text lives in buffer. */
 const char *gb_dynamic_scene_note(const struct gb_model *model, int index, char *buffer,
                                   size_t size);
 

@@ -8,8 +8,7 @@
 
 #include "base/units.h"
 #include "scene/derived.h"
-#include "scene/die_scene.h"
-#include "scene/dynamic_scene.h"
+#include "scene/loading_kind.h"
 #include "scene/tolerances.h"
 #include "scene/unequal_pair.h"
 
@@ -108,9 +107,9 @@ static const char *automatic_relaxer(const struct gb_params *params)
 }
 
 /* Scenes whose sweep there is in single precision: no viscous forces, no plane. */
-static bool bears_single(const struct gb_model *model)
+static bool has_single_sweep(const struct gb_model *model)
 {
-    return model->kind == GB_KIND_QUASISTATIC && model->dimension == 3 &&
+    return gb_loading_kind_at(model->kind)->single_precision && model->dimension == 3 &&
            !model->polydisperse;
 }
 
@@ -118,7 +117,7 @@ static bool bears_single(const struct gb_model *model)
 static bool pick_precision(const struct gb_model *model, const struct gb_params *params)
 {
     return params->precision == GB_PRECISION_SINGLE ||
-           (params->precision == GB_PRECISION_AUTO && bears_single(model) &&
+           (params->precision == GB_PRECISION_AUTO && has_single_sweep(model) &&
             strcmp(model->numerics.relaxer, "steepest") != 0 &&
             model->numerics.tolerance >= GB_F32_TOLERANCE_MIN);
 }
@@ -145,7 +144,8 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
     }
     numerics->cutoff =
         fmax(numerics->cutoff, model->terms.attraction ? GB_CUTOFF_MIN : 1.0);
-    numerics->skin = model->kind == GB_KIND_DYNAMIC ? GB_SKIN_DYNAMIC : GB_SKIN;
+    numerics->skin =
+        gb_loading_kind_at(model->kind)->follows_time ? GB_SKIN_DYNAMIC : GB_SKIN;
     numerics->threads = params->threads > 0 ? (int)params->threads : 0;
     numerics->max_evaluations =
         params->max_evaluations > 0 ? params->max_evaluations : GB_EVALUATIONS_MAX;
@@ -185,7 +185,7 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
     gb_law_slip_init(&model->slip, params->poisson, params->mu, mu_pivot,
                      model->bridge.strength,
                      params->relative_motion == GB_MOTION_FULL ? 1.0 : 0.5);
-    if (params->kind != GB_KIND_DIE && params->normal == GB_NORMAL_HERTZ) {
+    if (gb_loading_kind_of(params)->periodic_cell && params->normal == GB_NORMAL_HERTZ) {
         leave_dry_grains(model);
     }
     model->terms.attraction = model->adhesion > 0.0;
@@ -195,7 +195,7 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
     model->terms.plain = model->cohesionless && model->terms.friction;
 }
 
-static void freeze_programme(struct gb_model *model, const struct gb_params *params)
+static void freeze_loading(struct gb_model *model, const struct gb_params *params)
 {
     model->geometry = params->geometry;
     model->strain_step = params->strain_step;
@@ -256,27 +256,27 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .pascal_per_stress = params->young_pa,
         .metre_per_length = d,
         .newton_per_force = params->young_pa * d * d,
-        .dynamics = gb_dynamic_scene_reduce(params),
-        .die = gb_die_scene_reduce(params),
     };
+    gb_loading_kind_of(params)->freeze(model, params);
     if (!freeze_sizes(model, params, err)) {
         return false;
     }
-    if (params->precision == GB_PRECISION_SINGLE && !bears_single(model)) {
+    if (params->precision == GB_PRECISION_SINGLE && !has_single_sweep(model)) {
         return gb_error_set(
             err, GB_ERR_INPUT,
             "numerics.precision = single: must be auto or double unless the scene is "
             "quasi-static, in 3D and of one particle size");
     }
     freeze_laws(model, params);
-    if (params->kind == GB_KIND_DIE) { /* no cell, and laws of its own beside these */
+    if (!gb_loading_kind_of(params)
+             ->periodic_cell) { /* no cell, and laws of its own beside these */
         return true;
     }
     gb_derived_cell(params, model->edges);
     const double shape = params->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
     model->start_density = (double)params->count * model->mean_cube * shape /
                            (model->edges[0] * model->edges[1] * model->edges[2]);
-    freeze_programme(model, params);
+    freeze_loading(model, params);
     model->h_eq = deepest_rest(model);
     if (!isfinite(model->h_eq)) {
         return gb_error_set(
@@ -308,8 +308,9 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
 {
     const struct gb_numerics *numerics = &model->numerics;
     const struct gb_terms *terms = &model->terms;
-    if (model->kind == GB_KIND_DIE) {
-        return gb_die_scene_note(model, index, buffer, size);
+    const struct gb_loading_kind *kind = gb_loading_kind_at(model->kind);
+    if (!kind->periodic_cell) {
+        return kind->note(model, index, buffer, size);
     }
     switch (index) {
     case 0:
@@ -338,26 +339,14 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
                 model->adhesion);
         return buffer;
     case 3:
-        if (model->kind == GB_KIND_DYNAMIC) {
-            return gb_dynamic_scene_note(model, 0, buffer, size);
-        }
-        snprintf(
-            buffer, size,
-            "relaxer %s, strain steps in %d part%s, tolerance %g of the mean contact "
-            "force%s, at most %lld evaluations per part, %s precision",
-            numerics->relaxer, numerics->parts, numerics->parts == 1 ? "" : "s",
-            numerics->tolerance,
-            strcmp(numerics->relaxer, "predict") == 0 ? " (less under light loads)" : "",
-            (long long)numerics->max_evaluations, numerics->single ? "single" : "double");
-        return buffer;
+        return kind->note(model, 0, buffer, size);
     case 4:
         if (model->dimension == 2) {
             snprintf(buffer, size, "third dimension: left out (scene.dimension = 2)");
             return buffer;
         }
-        return gb_dynamic_scene_note(model, 1, buffer, size);
+        return kind->note(model, 1, buffer, size);
     default:
-        return gb_dynamic_scene_note(model, index - (model->dimension == 2 ? 4 : 3),
-                                     buffer, size);
+        return kind->note(model, index - (model->dimension == 2 ? 4 : 3), buffer, size);
     }
 }

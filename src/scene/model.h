@@ -100,8 +100,8 @@ struct gb_model {
     double until_density;  /* 1 when a pressure ends the run */
     double unload_from[GB_UNLOAD_MAX];
     int unload_count;
-    struct gb_dynamics dynamics; /* zero unless kind is GB_KIND_DYNAMIC */
-    struct gb_die_scene die;     /* zero unless kind is GB_KIND_DIE */
+    struct gb_dynamics dynamics; /* zero in scenes without a given rate */
+    struct gb_die_scene die;     /* zero in a periodic cell */
     double pascal_per_stress;    /* E in Pa */
     double metre_per_length;     /* d in m */
     double newton_per_force;     /* E d^2 in N */

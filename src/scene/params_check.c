@@ -5,10 +5,9 @@
 #include "base/units.h"
 #include "scene/changes.h"
 #include "scene/derived.h"
-#include "scene/die_scene.h"
-#include "scene/dynamic_scene.h"
 #include "scene/field.h"
 #include "scene/keep_points.h"
+#include "scene/loading_kind.h"
 #include "scene/size_table.h"
 #include "scene/sizes.h"
 
@@ -104,29 +103,25 @@ static bool check_loading(const struct gb_params *params, struct gb_error *err)
     return true;
 }
 
-/* Dies: Hertz or Storakers (P3).  Periodic cells: the rod model (P1, P2); quasi-static
- * ones of one size also cohesionless Hertz. */
+/* Cohesionless Hertz contacts are for particles of one size. */
 static bool check_normal(const struct gb_params *params, struct gb_error *err)
 {
-    const bool quasistatic = params->kind == GB_KIND_QUASISTATIC;
-    char normal[32], kind[32];
-    if (params->normal == GB_NORMAL_ROD ||
-        (params->normal == GB_NORMAL_HERTZ && quasistatic &&
-         !gb_sizes_polydisperse(params))) {
-        return true;
+    char distribution[32];
+    if (params->normal == GB_NORMAL_HERTZ && gb_sizes_polydisperse(params)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "contact.normal = hertz: must be rod with "
+                            "particles.distribution = %s",
+                            choice(params, "particles", "distribution", distribution,
+                                   sizeof distribution));
     }
-    if (params->normal == GB_NORMAL_HERTZ && quasistatic) {
-        return gb_error_set(
-            err, GB_ERR_INPUT,
-            "contact.normal = hertz: must be rod with "
-            "particles.distribution = %s",
-            choice(params, "particles", "distribution", kind, sizeof kind));
-    }
-    return gb_error_set(err, GB_ERR_INPUT,
-                        "contact.normal = %s: must be rod%s with scene.kind = %s",
-                        choice(params, "contact", "normal", normal, sizeof normal),
-                        quasistatic ? " or hertz" : "",
-                        choice(params, "scene", "kind", kind, sizeof kind));
+    return gb_loading_kind_check_normal(params, err);
+}
+
+/* What only scenes in a periodic cell require. */
+static bool check_periodic(const struct gb_params *params, struct gb_error *err)
+{
+    return check_normal(params, err) && check_cell(params, err) &&
+           check_loading(params, err);
 }
 
 bool gb_params_check(const struct gb_params *params, struct gb_error *err)
@@ -137,10 +132,7 @@ bool gb_params_check(const struct gb_params *params, struct gb_error *err)
         !gb_keep_points_parse(params->snapshots_at, &points, err)) {
         return false;
     }
-    if (params->kind == GB_KIND_DIE) {
-        return gb_die_scene_check(params, err) && gb_changes_check(params, err);
-    }
-    return check_normal(params, err) && check_cell(params, err) &&
-           check_loading(params, err) && gb_dynamic_scene_check(params, err) &&
-           gb_changes_check(params, err);
+    const struct gb_loading_kind *kind = gb_loading_kind_of(params);
+    return (!kind->periodic_cell || check_periodic(params, err)) &&
+           kind->check(params, err) && gb_changes_check(params, err);
 }

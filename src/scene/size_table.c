@@ -9,6 +9,7 @@
 #include "base/table.h"
 #include "base/units.h"
 #include "scene/derived.h"
+#include "scene/loading_kind.h"
 #include "scene/tolerances.h"
 
 static const char by_number[] = "number:", by_volume[] = "volume:";
@@ -235,8 +236,8 @@ char *gb_size_table_write(const struct gb_sizetable *table, char *buffer, size_t
 /* The planes of 2D and the equations of motion know one diameter. */
 static bool check_scene(const struct gb_params *params, struct gb_error *err)
 {
-    const bool one_size = params->kind == GB_KIND_DYNAMIC ||
-                          (params->kind == GB_KIND_QUASISTATIC && params->dimension == 2);
+    const struct gb_loading_kind *kind = gb_loading_kind_of(params);
+    const bool one_size = !kind->many_sizes || (kind->plane && params->dimension == 2);
     return !one_size || params->distribution == GB_DISTRIBUTION_MONO ||
            gb_error_set(err, GB_ERR_INPUT,
                         "particles.distribution = %s: must be mono with scene.kind = "

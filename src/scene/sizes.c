@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "scene/derived.h"
+#include "scene/loading_kind.h"
 #include "scene/size_table.h"
 
 /* Probability of a standard normal between a and b, without loss in either tail. */
@@ -38,7 +39,8 @@ static double cut_at(const struct gb_sizes *sizes, double diameter_m, double unc
 
 bool gb_sizes_polydisperse(const struct gb_params *params)
 {
-    return params->kind == GB_KIND_QUASISTATIC &&
+    const struct gb_loading_kind *kind = gb_loading_kind_of(params);
+    return kind->periodic_cell && kind->many_sizes &&
            params->distribution != GB_DISTRIBUTION_MONO;
 }
 

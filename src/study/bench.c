@@ -14,7 +14,7 @@
 #include "pack/structure/chain_growth.h"
 #include "pack/structure/hilbert.h"
 #include "run/experiment.h"
-#include "scene/die_scene.h"
+#include "scene/loading_kind.h"
 #include "scene/model.h"
 #include "solve/relax.h"
 
@@ -136,7 +136,7 @@ static bool make_pressed(struct pressed *pressed, const struct gb_params *params
     const size_t before = gb_alloc_bytes();
     *pressed = (struct pressed){0};
     const bool done =
-        gb_die_scene_require_periodic(params, "the benchmark of one preset", err) &&
+        gb_loading_kind_check_cell(params, "the benchmark of one preset", err) &&
         gb_model_init(&pressed->model, params, err) &&
         grow(&pressed->world, &pressed->model, &pressed->grow_s, err) &&
         gb_relax_create(&relax, &pressed->model, err) &&

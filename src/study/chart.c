@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "measure/fit/average.h"
 #include "run/experiment.h"
+#include "scene/loading_kind.h"
 #include "scene/model.h"
 
 /* Evaluations between two looks at whoever may want to cancel. */
@@ -22,7 +23,7 @@ bool gb_chart_setting_of(struct gb_chart_setting *choice, const struct gb_params
     if (!gb_model_init(&model, params, err)) {
         return false;
     }
-    const bool dynamic = model.kind == GB_KIND_DYNAMIC;
+    const bool dynamic = gb_loading_kind_at(model.kind)->follows_time;
     *choice = (struct gb_chart_setting){
         .count = model.count,
         .strain_step = dynamic ? (double)NAN : model.strain_step / model.numerics.parts,
@@ -47,7 +48,7 @@ void gb_chart_apply(struct gb_params *params, const struct gb_chart_setting *cho
         params->base = (struct gb_relative){0.0, true}; /* auto */
     }
     params->cutoff = (struct gb_relative){choice->cutoff, true};
-    if (params->kind == GB_KIND_DYNAMIC) {
+    if (gb_loading_kind_of(params)->follows_time) {
         params->time_step = (struct gb_relative){choice->time_step, true};
         if (isnan(choice->time_step)) {
             params->step_error = choice->step_error;

@@ -6,8 +6,8 @@
 
 #include <glib.h>
 
+#include "scene/loading_kind.h"
 #include "scene/model.h"
-#include "scene/die_scene.h"
 #include "scene/tolerances.h"
 #include "solve/relax.h"
 
@@ -243,7 +243,7 @@ static bool add_reference(GArray *choices, const struct gb_params *params,
     g_strlcpy(reference.relaxer, "fire", sizeof reference.relaxer);
     reference.tolerance = reference_tolerance;
     reference.strain_part = fmin(reference_step, params->strain_step);
-    if (params->kind == GB_KIND_DYNAMIC) {
+    if (gb_loading_kind_of(params)->follows_time) {
         reference.time_step = (struct gb_relative){reference_time_step, true};
     }
     for (int i = 0; changes && changes[i]; i++) {
@@ -314,13 +314,13 @@ bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *para
 {
     *plan = (struct gb_chart_plan){.params = *params, .seeds = seeds};
     GArray *choices = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_setting));
-    bool good = gb_die_scene_require_periodic(params, "a chart", err) &&
+    bool good = gb_loading_kind_check_cell(params, "a chart", err) &&
                 plan_pressures(plan, pressures, err) &&
                 add_reference(choices, params, reference, err) &&
                 add(choices, params, err);
     if (good && given(vary)) {
         good = add_product(choices, params, vary, err);
-    } else if (good && params->kind == GB_KIND_DYNAMIC) {
+    } else if (good && gb_loading_kind_of(params)->follows_time) {
         good = add_dynamic(choices, params, err) && add_sizes(choices, params, err);
     } else if (good) {
         good = add_grid(choices, params, err) && add_cutoffs(choices, params, err) &&

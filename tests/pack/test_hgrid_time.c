@@ -23,7 +23,7 @@ static void p3_sizes(int64_t count, double *diameter)
     struct gb_sizes sizes;
     struct gb_error err = {0};
     gb_params_init(&params);
-    params.kind = -1; /* no scene is made */
+    params.kind = GB_KIND_DIE; /* no scene is made */
     params.distribution = GB_DISTRIBUTION_TABLE;
     if (!gb_params_assign(&params, "particles.table=" GB_TEST_PRESETS "/nial-sizes.csv",
                           &err) ||

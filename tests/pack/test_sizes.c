@@ -25,7 +25,7 @@ static struct gb_sizes freeze(const char *const sets[])
     struct gb_sizes sizes;
     struct gb_error err = {0};
     gb_params_init(&params);
-    params.kind = -1;
+    params.kind = GB_KIND_DIE;
     for (int i = 0; sets[i]; i++) {
         if (!gb_params_assign(&params, sets[i], &err)) {
             g_error("%s", err.text);

@@ -13,7 +13,7 @@
 #include "measure/structure.h"
 #include "pack/cell/cell.h"
 #include "run/experiment.h"
-#include "scene/die_scene.h"
+#include "scene/loading_kind.h"
 
 /* g(r) is taken in bins of about this width, d: it shows the peak of touching particles
  * and the edges at sqrt(3) and 2 apart. */
@@ -43,7 +43,7 @@ static bool prepare(struct pack *pack, char **words, char **sets, struct gb_erro
         return false;
     }
     pack->packing.params = *gb_preset_params(pack->preset);
-    return gb_die_scene_require_periodic(&pack->packing.params, "pack", err) &&
+    return gb_loading_kind_check_cell(&pack->packing.params, "pack", err) &&
            gb_rundir_check(pack->directory, pack->mode, err);
 }
 

@@ -11,6 +11,7 @@
 #include "io/rundir.h"
 #include "run/cost.h"
 #include "run/warmup.h"
+#include "scene/loading_kind.h"
 
 /* A packing that takes longer than this (s) is announced before it is built. */
 static const double patience_s = 2.0;
@@ -79,7 +80,7 @@ static bool estimate(struct run *run, char *line, size_t size, struct gb_error *
     struct gb_run_loop *loop = &run->foreground.loop;
     struct gb_cost cost;
     line[0] = '\0';
-    if (params->kind != GB_KIND_DYNAMIC) {
+    if (!gb_loading_kind_of(params)->given_rate) {
         return true;
     }
     gb_warmup_run(&run->warmup, loop, warmup_s);

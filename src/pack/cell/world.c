@@ -14,6 +14,7 @@
 #include "pack/kernel/sweep_f32.h"
 #include "pack/kernel/sweep_sized.h"
 #include "pack/structure/assign_sizes.h"
+#include "scene/loading_kind.h"
 #include "scene/tolerances.h"
 
 /* Particles per thread below which a second thread costs more than it brings. */
@@ -129,11 +130,11 @@ static bool reserve_pull(struct gb_world *world, int64_t room, struct gb_error *
 bool gb_world_reserve(struct gb_world *world, struct gb_error *err)
 {
     const int64_t near = world->pairs.near.capacity, far = world->pairs.far.capacity;
-    const bool moving = world->model->kind == GB_KIND_DYNAMIC;
+    const bool viscous = gb_loading_kind_at(world->model->kind)->viscous_contacts;
     if (near > world->contacts.room) {
         gb_contacts_finish(&world->contacts);
         if (!reserve_wrench(world, near, err) ||
-            !gb_contacts_init(&world->contacts, world->model->dimension, moving,
+            !gb_contacts_init(&world->contacts, world->model->dimension, viscous,
                               world->in_single, near, err)) {
             return false;
         }
@@ -146,11 +147,11 @@ bool gb_world_reserve(struct gb_world *world, struct gb_error *err)
         if (!reserve_pull(world, far, err)) {
             return false;
         }
-        if (moving) {
+        if (viscous) {
             world->far_distance = gb_alloc_array((size_t)far, sizeof(double), err);
             world->far_pull = gb_alloc_array((size_t)far, sizeof(double), err);
         }
-        if (moving && (!world->far_distance || !world->far_pull)) {
+        if (viscous && (!world->far_distance || !world->far_pull)) {
             return false;
         }
         world->far_room = far;

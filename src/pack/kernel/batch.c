@@ -5,6 +5,7 @@
 #include "pack/kernel/batch_far.h"
 #include "pack/kernel/batch_tally.h"
 #include "pack/kernel/simd.h"
+#include "scene/loading_kind.h"
 
 INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batch *batch,
                     struct gb_contacts *contacts, int64_t slot)
@@ -102,7 +103,7 @@ static const struct gb_batch_kernel *table_for(int widest)
 struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest)
 {
     const int terms = model->terms.bridges ? 2 : model->terms.friction ? 1 : 0;
-    const int viscous = model->kind == GB_KIND_DYNAMIC;
+    const int viscous = gb_loading_kind_at(model->kind)->viscous_contacts;
     const int planar = model->dimension == 2;
     return table_for(widest)[6 * planar + 3 * viscous + terms];
 }

@@ -5,6 +5,7 @@
 
 #include "measure/structure.h"
 #include "pack/cell/cell.h"
+#include "scene/loading_kind.h"
 
 /* Distances that g(r) is taken to, diameters: P1 finds no order beyond. */
 static const double rdf_reach = 5.0;
@@ -76,7 +77,7 @@ void gb_view_sample_take(const struct gb_experiment *experiment,
                          struct gb_view_sample *picture)
 {
     struct gb_state *state = NULL;
-    const bool die = gb_experiment_params(experiment)->kind == GB_KIND_DIE;
+    const bool die = !gb_loading_kind_of(gb_experiment_params(experiment))->periodic_cell;
     picture->valid = false;
     if (!gb_experiment_state(experiment, &state, NULL)) {
         return;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "run/quick.h"
+#include "scene/loading_kind.h"
 #include "tui/app/complete.h"
 #include "tui/session/many.h"
 #include "tui/session/repeat.h"
@@ -171,7 +172,7 @@ void gb_asks_fork(struct gb_app *app)
     const struct gb_runner *run = screen->session.runner;
     const struct gb_params *params =
         run != NULL ? gb_runner_params(run) : gb_session_params(&screen->session);
-    if (params->kind != GB_KIND_QUASISTATIC) {
+    if (!gb_loading_kind_of(params)->changes) {
         gb_asks_tell(
             app, GB_STYLE_WARN,
             "a what-if goes on from an equilibrium, which only quasi-static runs "

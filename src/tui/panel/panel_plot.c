@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/units.h"
+#include "scene/loading_kind.h"
 #include "tui/panel/panels.h"
 #include "tui/view/views.h"
 
@@ -70,7 +71,7 @@ const char *gb_panel_plot_stage(int branch)
 
 static bool dynamic(const struct gb_session *session)
 {
-    return gb_session_shown(session).params->kind == GB_KIND_DYNAMIC;
+    return gb_loading_kind_of(gb_session_shown(session).params)->given_rate;
 }
 
 /* Everything that is known of a view; one row each, in the order of the keys. */
@@ -315,8 +316,9 @@ static void write_point_label(const struct gb_session *session,
                               const struct gb_point *point, char *text, size_t size)
 {
     if (dynamic(session)) {
-        snprintf(text, size, "%s, %.5g ns", gb_panel_plot_stage(point->branch),
-                 gb_previous_curve_elapsed(GB_KIND_DYNAMIC, point));
+        snprintf(
+            text, size, "%s, %.5g ns", gb_panel_plot_stage(point->branch),
+            gb_previous_curve_elapsed(gb_session_shown(session).params->kind, point));
     } else {
         gb_curve_branch_name(point, text, size);
     }

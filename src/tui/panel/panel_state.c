@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "scene/loading_kind.h"
 #include "tui/panel/panels.h"
 
 /* One quantity: a name for narrow columns, one for wide ones, and how it is written. */
@@ -235,7 +236,7 @@ static bool applies(const struct item *item, const struct gb_params *params)
 static struct choice choose(const struct gb_session *session)
 {
     const struct gb_params *params = gb_session_shown(session).params;
-    const bool moving = params->kind == GB_KIND_DYNAMIC;
+    const bool moving = gb_loading_kind_of(params)->columns == GB_COLUMNS_ENERGY;
     const struct item *all = moving ? moving_items : still_items;
     const int *weight = moving ? moving_weight : still_weight;
     struct choice choice = {.count = 0};

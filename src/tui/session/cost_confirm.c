@@ -6,6 +6,7 @@
 #include "base/units.h"
 #include "run/cost.h"
 #include "scene/derived.h"
+#include "scene/loading_kind.h"
 
 /* What would be cheaper, by the stage that takes most.  A longer step helps every stage,
  * and so does auto where the step was given. */
@@ -25,8 +26,8 @@ bool gb_cost_confirm_question(const struct gb_params *params, double particle_st
     struct gb_error err = {0};
     const bool measured = particle_steps_per_s > 0.0;
     const double rate = measured ? particle_steps_per_s : gb_cost_rate_assumed(params);
-    if (params->kind != GB_KIND_DYNAMIC || !gb_cost_estimate(params, rate, &cost, &err) ||
-        gb_cost_unasked(&cost, &err)) {
+    if (!gb_loading_kind_of(params)->given_rate ||
+        !gb_cost_estimate(params, rate, &cost, &err) || gb_cost_unasked(&cost, &err)) {
         return false;
     }
     char duration[48], step[48], advice[128];

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/loading_kind.h"
 
 void gb_previous_curve_finish(struct gb_previous_curve *previous)
 {
@@ -15,7 +16,8 @@ void gb_previous_curve_finish(struct gb_previous_curve *previous)
 
 double gb_previous_curve_elapsed(int kind, const struct gb_point *point)
 {
-    return kind == GB_KIND_DYNAMIC ? 1e9 * point->time_s : (double)point->step;
+    return gb_loading_kind_at(kind)->given_rate ? 1e9 * point->time_s
+                                                : (double)point->step;
 }
 
 /* The branches of a curve one after the other, NaN between them. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "run/cost.h"
+#include "scene/loading_kind.h"
 #include "tui/session/cost_confirm.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/session/whatif.h"
@@ -359,7 +360,7 @@ static void show(struct gb_session *session, const struct gb_snapshot *snapshot)
 /* What the next run is foretold by. */
 static void take_rate(struct gb_session *session, const struct gb_snapshot *snapshot)
 {
-    if (gb_runner_params(session->runner)->kind == GB_KIND_DYNAMIC &&
+    if (gb_loading_kind_of(gb_runner_params(session->runner))->given_rate &&
         snapshot->particle_evaluations_per_s > 0.0) {
         session->particle_steps_per_s = snapshot->particle_evaluations_per_s;
     }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "scene/loading_kind.h"
 #include "tui/view/views.h"
 
 /* Decades of pressure that a logarithmic axis shows at most: below are the first
@@ -106,7 +107,8 @@ static bool quick_cell_shown(const struct gb_panel_plot *panel,
                              const struct gb_session *session)
 {
     return session->quick_cell.points > 0 &&
-           (panel->view != GB_VIEW_TIME || kind_of(session) == GB_KIND_DYNAMIC) &&
+           (panel->view != GB_VIEW_TIME ||
+            gb_loading_kind_at(kind_of(session))->given_rate) &&
            !(panel->hide_previous && quick_cell_superseded(session));
 }
 
@@ -217,7 +219,7 @@ static void draw_quick_cell(struct gb_panel_plot *panel, const struct gb_session
 /* A quasi-static run has no stages: its first, relaxed state is a part of loading. */
 static bool point_on_branch(const struct gb_point *point, int branch, int kind)
 {
-    if (kind != GB_KIND_DYNAMIC && point->branch <= 0) {
+    if (!gb_loading_kind_at(kind)->given_rate && point->branch <= 0) {
         return branch == GB_BRANCH_LOAD;
     }
     return point->branch == branch;
@@ -265,7 +267,9 @@ static struct gb_plot_series branch_style(int branch, int kind, double from_pa,
                                        .marker = MARK_UNLOAD + (branch - 1) % 7,
                                        .spacing = UNLOAD_SPACING};
     }
-    g_strlcpy(name, kind == GB_KIND_DYNAMIC ? gb_panel_plot_stage(branch) : "load", size);
+    g_strlcpy(name,
+              gb_loading_kind_at(kind)->given_rate ? gb_panel_plot_stage(branch) : "load",
+              size);
     switch (branch) {
     case GB_BRANCH_RELAX:
         return (struct gb_plot_series){.ink = INK_RELAX, .marker = MARK_RELAX};
@@ -343,9 +347,9 @@ static void reverse(struct legend *legend)
 static const char *x_label(const struct gb_panel_plot *panel,
                            const struct gb_session *session)
 {
-    return panel->view != GB_VIEW_TIME           ? "density"
-           : kind_of(session) == GB_KIND_DYNAMIC ? "t, ns"
-                                                 : "step";
+    return panel->view != GB_VIEW_TIME                        ? "density"
+           : gb_loading_kind_at(kind_of(session))->given_rate ? "t, ns"
+                                                              : "step";
 }
 
 /* The experiment: a mark for each point, a line as long as its error is on each side. */

@@ -1,0 +1,74 @@
+#ifndef GB_SCENE_LOADING_KIND_H
+#define GB_SCENE_LOADING_KIND_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "greenbody/params.h"
+#include "greenbody/status.h"
+
+struct gb_model;
+
+/* What a scene with a given scene.kind is: one row per kind.  Everything but the rows
+ * themselves asks for the properties below and never for the kind.  The functions that
+ * advance a scene are the rows of solve/loading.h, with the same index. */
+
+/* Columns of curve.csv beside those that all runs have. */
+enum gb_curve_columns {
+    GB_COLUMNS_COMMON,
+    GB_COLUMNS_ENERGY, /* simulated time and energies */
+    GB_COLUMNS_DIE     /* simulated time, height, forces on the punch and the floor */
+};
+
+struct gb_loading_kind {
+    const char *name; /* as in scene.kind */
+    const char *doc;
+    /* "group.key", or "group" for all of its keys, of the fields that only some kinds
+     * use; NULL-terminated.  A field that no kind lists belongs to all of them. */
+    const char *const *fields;
+    unsigned normals; /* bit enum gb_normal: laws that contact.normal accepts */
+    enum gb_curve_columns columns;
+    bool periodic_cell;      /* a periodic cell; else a die with walls */
+    bool plane;              /* also discs in the plane, scene.dimension = 2 */
+    bool many_sizes;         /* also particles of more than one size */
+    bool single_precision;   /* the force sweep exists in single precision */
+    bool viscous_contacts;   /* contacts resist their rate of deformation (the cell's) */
+    bool follows_time;       /* Newton's equations; else a sequence of equilibria */
+    bool given_rate;         /* relax, compress at loading.rate, hold: the number of time
+                              * steps is known beforehand, points belong to stages */
+    bool changes;            /* loading.changes, and what-if runs that start from it */
+    bool unloading_branches; /* loading.unload_from */
+    /* What the kind requires beyond the ranges of its keys.  Errors: GB_ERR_INPUT naming
+     * the keys. */
+    bool (*check)(const struct gb_params *params, struct gb_error *err);
+    /* The kind's own part of the model, reduced units. */
+    void (*freeze)(struct gb_model *model, const struct gb_params *params);
+    /* Line `index` of what a scene of this kind carries, as gb_model_note. */
+    const char *(*note)(const struct gb_model *model, int index, char *buffer,
+                        size_t size);
+};
+
+/* By enum gb_kind. */
+enum { GB_LOADING_KINDS = 3 };
+extern const struct gb_loading_kind gb_loading_kinds[GB_LOADING_KINDS];
+
+/* The row of a kind (enum gb_kind), or of the scene of these parameters. */
+const struct gb_loading_kind *gb_loading_kind_at(int kind);
+const struct gb_loading_kind *gb_loading_kind_of(const struct gb_params *params);
+
+/* GB_ERR_INPUT unless the kind's law of contact is one that it accepts. */
+bool gb_loading_kind_check_normal(const struct gb_params *params, struct gb_error *err);
+
+/* Fails with GB_ERR_INPUT for scenes without a periodic cell; what: the purpose. */
+bool gb_loading_kind_check_cell(const struct gb_params *params, const char *what,
+                                struct gb_error *err);
+
+/* Names of the kinds with a property, "quasistatic or dynamic".  Returns buffer. */
+char *gb_loading_kind_names(bool (*has)(const struct gb_loading_kind *kind), char *buffer,
+                            size_t size);
+
+/* Does a kind use this field?  True for fields that no kind lists. */
+bool gb_loading_kind_uses(const struct gb_loading_kind *kind,
+                          const struct gb_field *field);
+
+#endif
