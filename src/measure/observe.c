@@ -4,25 +4,18 @@
 #include <string.h>
 
 #include "base/vec.h"
+#include "pack/cell/world_measure.h"
 #include "pack/kernel/pair_forces.h"
-#include "pack/kernel/virial.h"
 #include "scene/unequal_pair.h"
 
 double gb_observe_density(const struct gb_world *world)
 {
-    const struct gb_model *model = gb_world_model(world);
-    const double shape = model->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
-    return shape * model->mean_cube * (double)model->count /
-           gb_cell_volume(gb_world_cell(world));
+    return gb_world_measure_density(world);
 }
 
 void gb_observe_pressure(const struct gb_world *world, double pressure[3][3])
 {
-    const double volume = gb_cell_volume(gb_world_cell(world));
-    gb_virial_sum(world, pressure);
-    for (int a = 0; a < 3; a++) {
-        gb_vec_scale(pressure[a], 1.0 / volume);
-    }
+    gb_world_measure_pressure(world, pressure);
 }
 
 /* Energy in the springs of a contact of radius a; their loads act over the whole relative
@@ -159,7 +152,7 @@ void gb_observe_rose(const struct gb_world *world, int bins, double *mean)
     double sum[BINS_MOST] = {0};
     int64_t hits[BINS_MOST] = {0};
     struct gb_pair_forces forces;
-    gb_pair_forces_init(&forces, world, true);
+    gb_pair_forces_init(&forces, world, GB_PAIR_FORCES_NEAR);
     bins = bins < BINS_MOST ? bins : BINS_MOST;
     for (int64_t i = 0; i < count; i++) {
         for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {

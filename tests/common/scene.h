@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/model.h"
 #include "pack/cell/world.h"
 #include "pack/kernel/pair_forces.h"
 #include "pack/structure/chain_growth.h"
+#include "scene/model.h"
 
 /* Parameters of a small alumina packing, then assignments "group.key=value", NULL at the
  * end. */
@@ -74,11 +74,11 @@ static inline void scene_evaluate(struct gb_world *world)
 }
 
 /* Force of one pair of a list on its first particle. */
-static inline void scene_force(const struct gb_world *world, bool near, int64_t k,
-                               double force[3])
+static inline void scene_force(const struct gb_world *world,
+                               enum gb_pair_forces_list list, int64_t k, double force[3])
 {
     struct gb_pair_forces forces;
-    gb_pair_forces_init(&forces, world, near);
+    gb_pair_forces_init(&forces, world, list);
     gb_pair_forces_at(&forces, k, force);
 }
 
@@ -88,8 +88,8 @@ static inline void scene_squeeze(struct gb_world *world, double step)
     gb_world_strain(world, factor);
 }
 
-/* A crude but deterministic motion along the forces, k times as far as they are large, so
- * many times after each squeeze. */
+/* A crude but deterministic motion: displacements are k times the forces, `moves` times
+ * after each squeeze. */
 static inline void scene_press(struct gb_world *world, int steps, int moves, double k)
 {
     const struct gb_bodies b = gb_world_bodies(world);

@@ -42,7 +42,7 @@ struct scalar {
 
 struct motion {
     double radius[2], mass[2];
-    double arm[3], slip[3], spin[2][3];
+    double branch[3], slip[3], spin[2][3];
 };
 
 static void advance_scalar(const struct gb_bed_law *law, const struct motion *m,
@@ -50,8 +50,8 @@ static void advance_scalar(const struct gb_bed_law *law, const struct motion *m,
                            double torque[2][3])
 {
     double n[3], slip[3];
-    const double r = gb_vec_length(m->arm);
-    memcpy(n, m->arm, sizeof n);
+    const double r = gb_vec_length(m->branch);
+    memcpy(n, m->branch, sizeof n);
     gb_vec_scale(n, 1.0 / r);
     const double reach = m->radius[0] + m->radius[1], h = reach - r;
     const double rr = gb_law_hertz_radius(m->radius[0], m->radius[1]);
@@ -63,12 +63,13 @@ static void advance_scalar(const struct gb_bed_law *law, const struct motion *m,
     }
     const double reduced = m->mass[0] * m->mass[1] / (m->mass[0] + m->mass[1]);
     const double damping = gb_law_hertz_damping(branch.stiffness, reduced, law->damping);
-    const double fn =
-        h > 0.0 ? gb_law_hertz_damped_force(branch.force, damping, -gb_vec_dot(m->slip, n))
-                : 0.0;
-    const double arm[2] = {m->radius[0] * r / reach, m->radius[1] * r / reach};
+    const double fn = h > 0.0 ? gb_law_hertz_damped_force(branch.force, damping,
+                                                          -gb_vec_dot(m->slip, n))
+                              : 0.0;
+    const double lever_arm[2] = {m->radius[0] * r / reach, m->radius[1] * r / reach};
     const double still[3] = {0.0, 0.0, 0.0};
-    gb_law_mindlin_slip(n, m->slip, still, m->spin[0], m->spin[1], arm[0], arm[1], slip);
+    gb_law_mindlin_slip(n, m->slip, still, m->spin[0], m->spin[1], lever_arm[0],
+                        lever_arm[1], slip);
     gb_law_mindlin_rotate(state->shear, n);
     gb_law_mindlin_advance(state->shear, slip, law->shear * branch.stiffness, step, mu,
                            fn);
@@ -77,7 +78,8 @@ static void advance_scalar(const struct gb_bed_law *law, const struct motion *m,
         force[k] = fn * n[k] + state->shear[k];
     }
     for (int b = 0; b < 2; b++) {
-        double lever[3] = {-arm[b] * n[0], -arm[b] * n[1], -arm[b] * n[2]};
+        double lever[3] = {-lever_arm[b] * n[0], -lever_arm[b] * n[1],
+                           -lever_arm[b] * n[2]};
         gb_vec_cross(lever, state->shear, torque[b]);
     }
 }
@@ -95,12 +97,12 @@ static struct motion random_motion(GRand *rand, double phase)
         }
     }
     for (int k = 0; k < 3; k++) {
-        m.arm[k] = g_rand_double(rand) - 0.5;
+        m.branch[k] = g_rand_double(rand) - 0.5;
         m.slip[k] = 2e-3 * (g_rand_double(rand) - 0.5);
     }
     /* in and out of contact, elastic and plastic */
     const double h = 0.01 * reach * sin(phase) * g_rand_double(rand);
-    gb_vec_scale(m.arm, (reach - h) / gb_vec_length(m.arm));
+    gb_vec_scale(m.branch, (reach - h) / gb_vec_length(m.branch));
     return m;
 }
 
@@ -132,7 +134,7 @@ static void check_law(const struct gb_bed_law *law, double mu)
             if (step > 0) { /* the bodies stay */
                 const double stretch =
                     (was.radius[0] + was.radius[1]) / (m[k].radius[0] + m[k].radius[1]);
-                gb_vec_scale(m[k].arm, stretch);
+                gb_vec_scale(m[k].branch, stretch);
                 memcpy(m[k].radius, was.radius, sizeof was.radius);
                 memcpy(m[k].mass, was.mass, sizeof was.mass);
             }
@@ -149,13 +151,14 @@ static void check_law(const struct gb_bed_law *law, double mu)
                 }
                 b->reach[k] = m[k].radius[0] + m[k].radius[1];
                 for (int c = 0; c < 3; c++) {
-                    b->arm[c][k] = m[k].arm[c];
+                    b->branch[c][k] = m[k].branch[c];
                     b->slip[c][k] = m[k].slip[c];
                     b->roll[c][k] = m[k].radius[0] * m[k].spin[0][c] +
                                     m[k].radius[1] * m[k].spin[1][c];
                 }
             }
-            gb_bed_batch_pick(law, false, widths[w])(law, b, &contacts[w], 0);
+            gb_bed_batch_pick(law, GB_BED_PARTNER_PARTICLE, widths[w])(law, b,
+                                                                       &contacts[w], 0);
         }
         for (int k = 0; k < N; k++) {
             double force[3], torque[2][3];
@@ -202,7 +205,7 @@ static void test_laws(void)
 /* A cluster of overlapping spheres far from all walls, moving and turning. */
 static struct gb_bed *cluster(const struct gb_bed_law *law, int64_t count)
 {
-    double *radius = g_new(double, count);
+    double *radius = g_new(double, (gsize)count);
     GRand *rand = g_rand_new_with_seed(3);
     for (int64_t i = 0; i < count; i++) {
         radius[i] = 0.2 + 0.4 * g_rand_double(rand);
@@ -399,7 +402,8 @@ static void test_pour(void)
     struct gb_bed *bed = bed_create(N, radius, &die, &law);
     double first = 0.0;
     for (uint64_t seed = 1; seed < 4; seed++) {
-        g_assert_true(gb_random_insertion_place(bed, seed < 3 ? 1 : 2, 0.2, NULL, NULL, &err));
+        g_assert_true(
+            gb_random_insertion_place(bed, seed < 3 ? 1 : 2, 0.2, NULL, NULL, &err));
         g_assert_true(seed == 1 || (first == bed->position[7][0]) == (seed == 2));
         first = bed->position[7][0];
         bed_evaluate(bed, 0.0);
@@ -411,13 +415,14 @@ static void test_pour(void)
     }
     g_assert_false(gb_random_insertion_place(bed, 1, 0.2, stop, NULL, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
-    g_assert_false(gb_random_insertion_place(bed, 1, 0.7, NULL, NULL, &err)); /* too dense */
+    g_assert_false(
+        gb_random_insertion_place(bed, 1, 0.7, NULL, NULL, &err)); /* too dense */
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     gb_bed_destroy(bed);
 }
 
 /* Batches of any length are filled and spilled to the same bits at every vector width. */
-static void test_carrier(void)
+static void test_transfer(void)
 {
     enum { ROWS = 40, COLUMNS = 5 };
     gb_bed_row row[COLUMNS][ROWS], out[2][2][ROWS];
@@ -438,7 +443,7 @@ static void test_carrier(void)
         for (int friction = 0; friction < 2; friction++) {
             memset(batch, 0, sizeof batch);
             for (int wide = 0; wide < 2; wide++) {
-                const struct gb_bed_transfer carrier =
+                const struct gb_bed_transfer transfer =
                     gb_bed_transfer_pick(wide ? 0 : 128);
                 memcpy(out[wide][0], row[3], sizeof row[3]);
                 memcpy(out[wide][1], row[4], sizeof row[4]);
@@ -451,21 +456,21 @@ static void test_carrier(void)
                                                  .other = other,
                                                  .friction = friction};
                 batch[wide].n = n;
-                carrier.fill(&rows, &batch[wide]);
+                transfer.gather(&rows, &batch[wide]);
                 for (int c = 0; c < 3; c++) {
                     for (int k = 0; k < GB_BED_BATCH; k++) {
                         batch[wide].force[c][k] = cos(0.3 * k + c);
                         batch[wide].moment[c][k] = cos(0.7 * k + c);
                     }
                 }
-                carrier.spill(&rows, &batch[wide]);
+                transfer.scatter(&rows, &batch[wide]);
             }
             g_assert_true(memcmp(&batch[0], &batch[1], sizeof batch[0]) == 0);
             g_assert_true(memcmp(out[0], out[1], sizeof out[0]) == 0);
             const int last = n - 1;
             const double *xi = row[0][first[last]], *xj = row[0][other[last]];
             g_assert_cmpfloat(batch[0].reach[last], ==, xi[3] + xj[3]);
-            g_assert_cmpfloat(batch[0].arm[2][last], ==, xi[2] - xj[2]);
+            g_assert_cmpfloat(batch[0].branch[2][last], ==, xi[2] - xj[2]);
             g_assert_cmpfloat(batch[0].roll[1][last], ==,
                               friction ? xi[3] * row[2][first[last]][1] +
                                              xj[3] * row[2][other[last]][1]
@@ -480,7 +485,7 @@ int main(int argc, char **argv)
     g_test_add_func("/bed/power", test_power);
     g_test_add_func("/bed/laws", test_laws);
     g_test_add_func("/bed/momentum", test_momentum);
-    g_test_add_func("/bed/carrier", test_carrier);
+    g_test_add_func("/bed/transfer", test_transfer);
     g_test_add_func("/bed/list", test_list);
     g_test_add_func("/bed/walls", test_walls);
     g_test_add_func("/bed/funnel", test_funnel);

@@ -5,7 +5,10 @@
 #include "base/vec.h"
 #include "common/scene.h"
 
-/* Two particles, moved by hand: a batch of one. */
+static const struct gb_contacts_shape f64 = {.dimension = 3, .real = GB_REAL_F64};
+static const struct gb_contacts_shape f32 = {.dimension = 3, .real = GB_REAL_F32};
+
+/* Two particles with prescribed motion: a batch of one. */
 struct history {
     double deepest, shear[3], roll[3], pivot;
 };
@@ -16,7 +19,7 @@ struct pair {
     struct gb_contacts contacts;
     struct gb_batch batch;
     struct history contact;
-    double r[3], turn_i[3], turn_j[3];
+    double r[3], rotation_i[3], rotation_j[3];
     double force[3], torque_i[3], torque_j[3];
     int sliding;
 };
@@ -28,7 +31,7 @@ static void start(struct pair *pair, const struct gb_params *params, double h)
     memset(pair, 0, sizeof *pair);
     pair->model = scene_model(params);
     pair->kernel = gb_batch_pick(&pair->model, 0);
-    g_assert_true(gb_contacts_init(&pair->contacts, 3, false, false, 1, &err));
+    g_assert_true(gb_contacts_init(&pair->contacts, f64, 1, &err));
     gb_contacts_clear(&pair->contacts, 0);
     pair->batch.n = 1;
     pair->batch.cutoff2 = 1.44;
@@ -39,9 +42,9 @@ static void advance(struct pair *pair)
 {
     for (int c = 0; c < 3; c++) {
         pair->batch.r[c][0] = pair->r[c];
-        pair->batch.turn_sum[c][0] = pair->turn_i[c] + pair->turn_j[c];
-        pair->batch.turn_difference[c][0] = pair->turn_i[c] - pair->turn_j[c];
-        pair->turn_i[c] = pair->turn_j[c] = 0.0;
+        pair->batch.rotation_sum[c][0] = pair->rotation_i[c] + pair->rotation_j[c];
+        pair->batch.rotation_difference[c][0] = pair->rotation_i[c] - pair->rotation_j[c];
+        pair->rotation_i[c] = pair->rotation_j[c] = 0.0;
     }
     pair->kernel.advance(&pair->model, &pair->batch, &pair->contacts, 0);
     for (int c = 0; c < 3; c++) {
@@ -76,21 +79,21 @@ static void test_half_motion(void)
     const double a = 0.5 * sqrt(0.02);
     const double stiffness = gb_law_slip_shear_stiffness(&pair.model.slip, a);
     const double normal = gb_law_rod_force(&pair.model.rod, 0.02) - pair.model.adhesion;
-    /* the axis has turned by 1e-6 / r: the normal force tilts with it */
+    /* the axis has rotated by 1e-6 / r, and the normal force with it */
     assert_near(pair.force[0], -stiffness * 0.5e-6 + normal * 1e-6 / 0.98, 1e-7);
     gb_contacts_finish(&pair.contacts);
 }
 
-/* A pair that turns as one body keeps its forces: springs turn with it. */
+/* A pair that rotates as a rigid body keeps its forces: springs rotate with it. */
 static void test_rigid_rotation(void)
 {
     const struct gb_params params = scene_params(NULL);
     struct pair pair = {0};
     start(&pair, &params, 0.02);
     advance(&pair);
-    pair.r[0] = 1e-5;      /* load the shear spring, */
-    pair.turn_i[2] = 1e-5; /* the pivot */
-    pair.turn_j[0] = 1e-5; /* and, with shear, the roll */
+    pair.r[0] = 1e-5;          /* load the shear spring, */
+    pair.rotation_i[2] = 1e-5; /* the pivot */
+    pair.rotation_j[0] = 1e-5; /* and, with shear, the roll */
     advance(&pair);
     const double load = gb_vec_length(pair.force);
     const double before_shear = gb_vec_length(pair.contact.shear);
@@ -102,7 +105,7 @@ static void test_rigid_rotation(void)
         const double x = pair.r[0], z = pair.r[2];
         pair.r[0] = cos(angle) * x + sin(angle) * z;
         pair.r[2] = -sin(angle) * x + cos(angle) * z;
-        pair.turn_i[1] = pair.turn_j[1] = angle;
+        pair.rotation_i[1] = pair.rotation_j[1] = angle;
         advance(&pair);
     }
     /* the increment of a finite rotation is exact to second order in the angle */
@@ -125,8 +128,8 @@ static void test_balance(void)
     for (int i = 0; i < 500; i++) {
         for (int k = 0; k < 3; k++) {
             pair.r[k] += g_rand_double_range(random, -1e-4, 1e-4);
-            pair.turn_i[k] = g_rand_double_range(random, -1e-3, 1e-3);
-            pair.turn_j[k] = g_rand_double_range(random, -1e-3, 1e-3);
+            pair.rotation_i[k] = g_rand_double_range(random, -1e-3, 1e-3);
+            pair.rotation_j[k] = g_rand_double_range(random, -1e-3, 1e-3);
         }
         if (gb_vec_length(pair.r) >= 1.0) {
             pair.r[2] = 0.98;
@@ -156,8 +159,8 @@ static void test_coulomb(void)
     const double dx = 1e-5;
     for (int i = 0; i < 4000; i++) {
         const double move = (i / 1000) % 2 == 0 ? dx : -dx;
-        /* both turn so that the contact slides while the axis stays */
-        pair.turn_i[1] = pair.turn_j[1] = -move / 0.98;
+        /* both rotate so that the contact slides while the axis stays */
+        pair.rotation_i[1] = pair.rotation_j[1] = -move / 0.98;
         advance(&pair);
         g_assert_cmpfloat(fabs(pair.force[0]), <=, cap * (1.0 + 1e-12));
         work -= pair.force[0] * move;
@@ -180,7 +183,7 @@ static void test_bridge_failure(void)
     advance(&pair);
     g_assert_cmpfloat_with_epsilon(pair.contact.deepest, 0.03, 1e-12);
     for (int i = 0; i < 400; i++) {
-        pair.turn_i[1] = pair.turn_j[1] = -1e-4;
+        pair.rotation_i[1] = pair.rotation_j[1] = -1e-4;
         advance(&pair);
     }
     g_assert_cmpfloat_with_epsilon(pair.contact.deepest, 0.026, 1e-12);
@@ -194,7 +197,7 @@ static void test_bridge_failure(void)
     advance(&pair);
     g_assert_cmpfloat(pair.contact.deepest, >, 0.0);
     for (int i = 0; i < 400; i++) {
-        pair.turn_i[1] = pair.turn_j[1] = -1e-4;
+        pair.rotation_i[1] = pair.rotation_j[1] = -1e-4;
         advance(&pair);
     }
     g_assert_cmpfloat(pair.contact.deepest, ==, 0.0);
@@ -211,8 +214,8 @@ static void test_rolling_cap(void)
     start(&pair, &params, 0.03);
     advance(&pair);
     for (int i = 0; i < 500; i++) {
-        pair.turn_i[0] = 1e-3; /* equal and opposite: rolling without sliding */
-        pair.turn_j[0] = -1e-3;
+        pair.rotation_i[0] = 1e-3; /* equal and opposite: rolling without sliding */
+        pair.rotation_j[0] = -1e-3;
         advance(&pair);
     }
     g_assert_cmpfloat_with_epsilon(pair.contact.deepest, 0.03, 1e-12);
@@ -223,7 +226,7 @@ static void test_rolling_cap(void)
     gb_contacts_finish(&pair.contacts);
 }
 
-/* full doubles what the springs see, current takes the printed radius. */
+/* `full` doubles the increments of the springs, `current` takes the printed radius. */
 static void test_switches(void)
 {
     const struct gb_params params = scene_params("contact.relative_motion=full",
@@ -231,7 +234,7 @@ static void test_switches(void)
     struct pair pair = {0};
     start(&pair, &params, 0.03);
     advance(&pair);
-    pair.turn_i[2] = 1e-6;
+    pair.rotation_i[2] = 1e-6;
     advance(&pair);
     const double a = 0.5 * sqrt(0.03 + 0.008);
     assert_near(pair.torque_i[2],
@@ -275,8 +278,8 @@ static void random_batch(GRand *random, struct gb_batch *batch)
         double r[3], length = 0.0;
         for (int c = 0; c < 3; c++) {
             r[c] = g_rand_double_range(random, -1.0, 1.0);
-            batch->turn_sum[c][k] = g_rand_double_range(random, -1e-2, 1e-2);
-            batch->turn_difference[c][k] = g_rand_double_range(random, -1e-2, 1e-2);
+            batch->rotation_sum[c][k] = g_rand_double_range(random, -1e-2, 1e-2);
+            batch->rotation_difference[c][k] = g_rand_double_range(random, -1e-2, 1e-2);
         }
         length = gb_vec_length(r);
         for (int c = 0; c < 3; c++) {
@@ -292,18 +295,17 @@ static void round_batch(const struct gb_batch *batch, struct gb_batch_f32 *singl
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < batch->n; k++) {
             single->r[c][k] = (float)batch->r[c][k];
-            single->turn_sum[c][k] = (float)batch->turn_sum[c][k];
-            single->turn_difference[c][k] = (float)batch->turn_difference[c][k];
+            single->rotation_sum[c][k] = (float)batch->rotation_sum[c][k];
+            single->rotation_difference[c][k] = (float)batch->rotation_difference[c][k];
         }
     }
 }
 
-/* Contacts that do not touch yet. */
-static void open_contacts(struct gb_contacts *contacts, int dimension, bool viscous,
-                          bool single)
+/* Records of pairs not in contact. */
+static void open_contacts(struct gb_contacts *contacts, struct gb_contacts_shape shape)
 {
     struct gb_error err = {0};
-    g_assert_true(gb_contacts_init(contacts, dimension, viscous, single, 128, &err));
+    g_assert_true(gb_contacts_init(contacts, shape, 128, &err));
     for (int64_t k = 0; k < 128; k++) {
         gb_contacts_clear(contacts, k);
     }
@@ -317,8 +319,7 @@ static void add_to_sum(GChecksum *sum, const void *numbers, size_t count, size_t
 static void add_history(GChecksum *sum, const struct gb_contacts *contacts)
 {
     for (int p = 0; p < contacts->planes; p++) {
-        add_to_sum(sum, contacts->plane[p], 128,
-                   contacts->single ? sizeof(float) : sizeof(double));
+        add_to_sum(sum, contacts->plane[p], 128, gb_real_size(contacts->real));
     }
 }
 
@@ -338,7 +339,7 @@ static uint64_t walk(const struct gb_params *params, int width, int dimension,
     model.dimension = dimension;
     model.kind = viscous ? GB_KIND_DYNAMIC : GB_KIND_QUASISTATIC;
     const struct gb_batch_kernel kernel = gb_batch_pick(&model, width);
-    open_contacts(&contacts, dimension, viscous, false);
+    open_contacts(&contacts, (struct gb_contacts_shape){dimension, viscous, GB_REAL_F64});
     GRand *random = g_rand_new_with_seed(5);
     static struct gb_batch batch;
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
@@ -366,9 +367,9 @@ static void test_widths(void)
         const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
         for (int v = 0; v < 4; v++) {
             const int dimension = 2 + v % 2;
-            const uint64_t narrow = walk(&params, 128, dimension, v > 1);
-            g_assert_cmpuint(walk(&params, 256, dimension, v > 1), ==, narrow);
-            g_assert_cmpuint(walk(&params, 512, dimension, v > 1), ==, narrow);
+            const uint64_t reference = walk(&params, 128, dimension, v > 1);
+            g_assert_cmpuint(walk(&params, 256, dimension, v > 1), ==, reference);
+            g_assert_cmpuint(walk(&params, 512, dimension, v > 1), ==, reference);
         }
     }
 }
@@ -379,7 +380,7 @@ static uint64_t walk_single(const struct gb_params *params, int width)
     struct gb_model model = scene_model(params);
     struct gb_contacts contacts;
     const struct gb_batch_f32_kernel kernel = gb_batch_f32_pick(&model, width);
-    open_contacts(&contacts, 3, false, true);
+    open_contacts(&contacts, f32);
     GRand *random = g_rand_new_with_seed(5);
     static struct gb_batch batch;
     static struct gb_batch_f32 single;
@@ -404,14 +405,14 @@ static void test_widths_single(void)
 {
     for (int t = 0; t < 3; t++) {
         const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
-        const uint64_t narrow = walk_single(&params, 128);
-        g_assert_cmpuint(walk_single(&params, 256), ==, narrow);
-        g_assert_cmpuint(walk_single(&params, 512), ==, narrow);
+        const uint64_t reference = walk_single(&params, 128);
+        g_assert_cmpuint(walk_single(&params, 256), ==, reference);
+        g_assert_cmpuint(walk_single(&params, 512), ==, reference);
     }
 }
 
-/* Pairs on the same small way in both precisions: forces and torques agree to what
- * rounding leaves of an overlap, 1e-7 of the distance. */
+/* The same small motion of pairs in both precisions: forces and torques agree within the
+ * rounding of an overlap, 1e-7 of the distance. */
 static void test_single(void)
 {
     for (int t = 0; t < 3; t++) {
@@ -422,8 +423,8 @@ static void test_single(void)
         static struct gb_batch_f32 single;
         const struct gb_batch_kernel kernel = gb_batch_pick(&model, 0);
         const struct gb_batch_f32_kernel other = gb_batch_f32_pick(&model, 0);
-        open_contacts(&fine, 3, false, false);
-        open_contacts(&coarse, 3, false, true);
+        open_contacts(&fine, f64);
+        open_contacts(&coarse, f32);
         GRand *random = g_rand_new_with_seed(7);
         random_batch(random, &batch);
         int held = 0, slid = 0;
@@ -432,8 +433,9 @@ static void test_single(void)
             for (int c = 0; c < 3; c++) {
                 for (int k = 0; k < batch.n; k++) {
                     batch.r[c][k] += 2e-4 * step.r[c][k];
-                    batch.turn_sum[c][k] = 0.03 * step.turn_sum[c][k];
-                    batch.turn_difference[c][k] = 0.03 * step.turn_difference[c][k];
+                    batch.rotation_sum[c][k] = 0.03 * step.rotation_sum[c][k];
+                    batch.rotation_difference[c][k] =
+                        0.03 * step.rotation_difference[c][k];
                 }
             }
             round_batch(&batch, &single);
@@ -461,7 +463,7 @@ static void test_single(void)
     }
 }
 
-/* A planar pair does in 2D what it does in 3D. */
+/* The same motion of a planar pair in 2D and in 3D gives the same forces. */
 static void test_planar(void)
 {
     const struct gb_params params = scene_params(NULL);
@@ -473,8 +475,10 @@ static void test_planar(void)
     flat.dimension = 2;
     const struct gb_batch_kernel ka = gb_batch_pick(&solid, 0),
                                  kb = gb_batch_pick(&flat, 0);
-    g_assert_true(gb_contacts_init(&ca, 3, true, false, 1, &err) &&
-                  gb_contacts_init(&cb, 2, true, false, 1, &err));
+    const struct gb_contacts_shape in_3d = {3, true, GB_REAL_F64};
+    const struct gb_contacts_shape in_2d = {2, true, GB_REAL_F64};
+    g_assert_true(gb_contacts_init(&ca, in_3d, 1, &err) &&
+                  gb_contacts_init(&cb, in_2d, 1, &err));
     gb_contacts_clear(&ca, 0);
     gb_contacts_clear(&cb, 0);
     GRand *random = g_rand_new_with_seed(11);
@@ -491,8 +495,9 @@ static void test_planar(void)
         z *= i % 100 == 0 ? scale : 1.0;
         a.r[0][0] = b.r[0][0] = x;
         a.r[2][0] = b.r[1][0] = z;
-        a.turn_sum[1][0] = b.turn_sum[0][0] = g_rand_double_range(random, -1e-3, 1e-3);
-        a.turn_difference[1][0] = b.turn_difference[0][0] =
+        a.rotation_sum[1][0] = b.rotation_sum[0][0] =
+            g_rand_double_range(random, -1e-3, 1e-3);
+        a.rotation_difference[1][0] = b.rotation_difference[0][0] =
             g_rand_double_range(random, -1e-3, 1e-3);
         ka.advance(&solid, &a, &ca, 0);
         kb.advance(&flat, &b, &cb, 0);

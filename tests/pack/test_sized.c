@@ -23,7 +23,7 @@ static void close_to(double a, double b, double share)
     g_assert_cmpfloat(fabs(a - b), <=, share * fmax(fabs(a), fabs(b)));
 }
 
-/* Between equal spheres of one d they are P1's. */
+/* Between equal spheres of diameter 1 the laws are those of P1. */
 static void test_equal(void)
 {
     const struct gb_model model = model_of(NULL);
@@ -36,8 +36,8 @@ static void test_equal(void)
         close_to(slope, gb_law_rod_stiffness(&model.rod, h), 1e-14);
         close_to(gb_law_unequal_elastic(&law, h, 0.7 * h, NULL),
                  gb_law_bridge_force(&model.rod, h, 0.7 * h), 1e-12);
-        close_to(gb_law_unequal_elastic_energy(&law, 0.0, h), gb_law_rod_energy(&model.rod, h),
-                 1e-14);
+        close_to(gb_law_unequal_elastic_energy(&law, 0.0, h),
+                 gb_law_rod_energy(&model.rod, h), 1e-14);
         close_to(gb_law_unequal_moment(&law, h), gb_law_rod_moment(&model.rod, h), 1e-14);
         close_to(gb_law_unequal_radius(&law, h), 0.5 * sqrt(h), 1e-14);
     }
@@ -49,7 +49,8 @@ static void test_equal(void)
     }
 }
 
-/* A pair does not know the unit of length: equal spheres of 2 d are P1's of that size. */
+/* The laws do not depend on the unit of length: equal spheres of 2 d follow those of P1 at
+ * that size. */
 static void test_scale(void)
 {
     const struct gb_params twice =
@@ -73,7 +74,7 @@ static void test_scale(void)
 
 static const double sizes[][2] = {{0.5, 1.9}, {1.9, 0.5}, {0.8, 0.9}, {0.4, 0.4}};
 
-/* Forces are slopes of energies; who is first does not matter. */
+/* Forces are slopes of energies; the order of the two particles does not matter. */
 static void test_potential(void)
 {
     const struct gb_model model = model_of(NULL);
@@ -103,9 +104,8 @@ static void test_potential(void)
     }
 }
 
-/* Small overlaps are Hertz', by the reduced radius; near a much larger sphere (3) is
- * Hamaker's sphere before a wall, A d^3/(16 D)... of which the leading term is A d/(12
- * s^2) with the gap s. */
+/* Small overlaps follow Hertz with the reduced radius; near a much larger sphere (3) tends
+ * to Hamaker's sphere at a wall, whose leading term is A d/(12 s^2) with the gap s. */
 static void test_limits(void)
 {
     const struct gb_model model = model_of(NULL);
@@ -132,8 +132,8 @@ static double largest_of(const double *v, int64_t count)
     return most;
 }
 
-/* A table of one size goes through the sweep of many and gives what that of one does:
- * forces, torques and histories to rounding, over bridges, friction and none. */
+/* The sweep of unequal sizes with a table of one size agrees with the sweep of equal sizes:
+ * forces, torques and histories up to rounding, with bridges, with friction, with neither. */
 static void test_one_size(void)
 {
     static const char *const scenes[][2] = {
@@ -181,9 +181,8 @@ static void test_one_size(void)
     }
 }
 
-/* Moments about a point are balanced as forces are: the sum of x x F and of the moments
- * (torque times diameter) is what neighbours over the borders take, and with all pairs'
- * arms it is none: each pair alone is balanced. */
+/* Moments about a point balance: each pair balances alone, so the sum of the moments
+ * (torque times diameter) and of branch vector x force over all pairs is 0. */
 static void check_balance(const struct gb_world *world)
 {
     const struct gb_neighbour_list *pairs = gb_world_pairs(world);
@@ -199,7 +198,7 @@ static void check_balance(const struct gb_world *world)
         for (int64_t k = pairs->near.start[i]; k < pairs->near.start[i + 1]; k++) {
             double r[3], f[3];
             gb_world_branch_vector(world, &pairs->near, i, k, r);
-            scene_force(world, true, k, f);
+            scene_force(world, GB_PAIR_FORCES_NEAR, k, f);
             for (int c = 0; c < 3; c++) {
                 const int u = (c + 1) % 3, v = (c + 2) % 3;
                 moment[c] += r[u] * f[v] - r[v] * f[u];
@@ -241,7 +240,7 @@ static void test_packing(void)
     }
     close_to(sum / (double)model.count, 1.0, 1e-3);
     close_to(cube / (double)model.count, model.mean_cube, 1e-9);
-    /* nothing moves at the start: every contact is at its equilibrium */
+    /* no force at the start: every contact is at its equilibrium */
     g_assert_cmpfloat(gb_world_residual(world), <, 1.0);
     for (int i = 0; i < 5; i++) {
         scene_press(world, 3, 20, 1.5);
@@ -253,7 +252,7 @@ static void test_packing(void)
 static double pull_of(const struct gb_world *world, int64_t k)
 {
     double f[3];
-    scene_force(world, false, k, f);
+    scene_force(world, GB_PAIR_FORCES_FAR, k, f);
     return gb_vec_length(f);
 }
 
@@ -283,7 +282,7 @@ static void test_lists(void)
     }
     for (int64_t k = 0; k < pairs->near.pair_count; k++) {
         double f[3];
-        scene_force(world, true, k, f);
+        scene_force(world, GB_PAIR_FORCES_NEAR, k, f);
         pulled +=
             !gb_contacts_touch(gb_world_contacts(world), k) && gb_vec_length(f) > 0.0;
     }
@@ -354,8 +353,8 @@ static void test_pair(void)
     gb_world_destroy(world);
 }
 
-/* The same pair sheared: the force is the spring's, of half the way, and the moments are
- * those of its lever arms. */
+/* The same pair sheared: the force is that of the spring, half of the displacement times
+ * the stiffness, and the moments follow from its lever arms. */
 static void test_pair_shear(void)
 {
     struct gb_model model;
@@ -367,7 +366,7 @@ static void test_pair_shear(void)
     const double h = 0.03 * law.mean_diameter, r = law.mean_diameter - h, roll = 1e-5;
     b.position[5] = 5.0 + r;
     scene_evaluate(world);
-    /* both roll about y the same way: the surfaces slide by r_i w + r_j w = r w */
+    /* both rotate about y in the same sense: the surfaces slide by r_i w + r_j w = r w */
     b.rotation[1] = roll * d[0];
     b.rotation[4] = roll * d[1];
     scene_evaluate(world);
@@ -376,11 +375,11 @@ static void test_pair_shear(void)
         gb_law_slip_shear_stiffness(&model.slip, a) * model.slip.motion * r * roll;
     close_to(fabs(b.force[0]), shear, 1e-6);
     close_to(b.force[0], -b.force[3], 1e-12);
-    /* of rolling there is nothing: they turn alike */
+    /* no rolling: the angles are equal */
     close_to(fabs(b.torque[1]) * d[0], shear * r * d[0] / (d[0] + d[1]), 1e-6);
     close_to(fabs(b.torque[4]) * d[1], shear * r * d[1] / (d[0] + d[1]), 1e-6);
-    g_assert_cmpfloat(b.torque[1] * roll, <, 0.0); /* against the turn */
-    /* against each other: no sliding of surfaces that roll off, but the bridge bends */
+    g_assert_cmpfloat(b.torque[1] * roll, <, 0.0); /* against the rotation */
+    /* opposite rotations: surfaces roll without sliding, but the bridge bends */
     struct gb_world *other = pair(&model, d);
     const struct gb_bodies o = gb_world_bodies(other);
     o.position[5] = 5.0 + r;

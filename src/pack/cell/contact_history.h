@@ -5,46 +5,50 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "pack/kernel/batch.h"
+#include "pack/cell/contacts.h"
 
-struct gb_world;
+struct gb_engine;
 
-/* Touching pairs in list order with their histories: whole for rebuilds, without the arms
- * for copies. */
+/* Values of each contact that a history holds. */
+enum gb_contact_history_content {
+    GB_CONTACT_HISTORY_ALL,  /* every plane of the contacts: for list rebuilds */
+    GB_CONTACT_HISTORY_KEPT, /* without branch vectors: for copies and checkpoints */
+};
+
+/* The contacts with their histories in the order of the near list, independent of its
+ * slots: how histories survive a rebuild, and what copies and checkpoints hold. */
 struct gb_contact_history {
-    int64_t count, capacity;
-    int planes; /* values a line holds: all planes of the contacts, or those kept */
+    int64_t count, capacity; /* contacts */
+    int planes;              /* values of each */
     int32_t (*pair)[2];
-    bool single;
-    void *value;   /* capacity x planes, double or (single) float */
-    int64_t state; /* of the world, that it tells of: world->state; 0: none */
-    int64_t *from; /* scratch: where the lines of each thread begin */
+    enum gb_real real;
+    void *value;     /* capacity x planes, of `real` */
+    int64_t version; /* history_version of the engine that it was written at; 0: none */
+    int64_t *begin;  /* scratch: first contact of each thread */
     int threads;
 };
 
-void gb_contact_history_finish(struct gb_contact_history *ledger);
+void gb_contact_history_finish(struct gb_contact_history *history);
 
-/* Room for so many lines of so many values; what was there is lost when it grows. */
-bool gb_contact_history_reserve(struct gb_contact_history *ledger, int64_t need,
-                                int planes, bool single, struct gb_error *err);
+/* Room for so many contacts of so many values; the contents are lost when it grows. */
+bool gb_contact_history_reserve(struct gb_contact_history *history, int64_t need,
+                                int planes, enum gb_real real, struct gb_error *err);
 
-/* Writes down every touching pair of the world, in the order of its list. */
-bool gb_contact_history_write(struct gb_contact_history *ledger,
-                              const struct gb_world *world, bool whole,
+/* Writes every contact of the engine, in the order of its list. */
+bool gb_contact_history_write(struct gb_contact_history *history,
+                              const struct gb_engine *engine,
+                              enum gb_contact_history_content content,
                               struct gb_error *err);
 
-/* The same lines in another ledger. */
 bool gb_contact_history_copy(struct gb_contact_history *to,
                              const struct gb_contact_history *from, struct gb_error *err);
 
-/* One number of a line, and a line into the history of pair k. */
-double gb_contact_history_value(const struct gb_contact_history *ledger, int64_t line,
-                                int plane);
-void gb_contact_history_give(const struct gb_contact_history *ledger, int64_t line,
-                             struct gb_contacts *contacts, int64_t k);
+/* The values of contact number `index` into slot k. */
+void gb_contact_history_apply(const struct gb_contact_history *history, int64_t index,
+                              struct gb_contacts *contacts, int64_t k);
 
-/* Gives every pair of the world's new list its old history, or none. */
-void gb_contact_history_read(const struct gb_contact_history *ledger,
-                             struct gb_world *world);
+/* Gives every slot of a new list its history, or none. */
+void gb_contact_history_read(const struct gb_contact_history *history,
+                             struct gb_engine *engine);
 
 #endif

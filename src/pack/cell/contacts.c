@@ -1,13 +1,13 @@
-/* Room for contact histories, in either precision. */
+#include "pack/cell/contacts.h"
+
 #include <string.h>
 
 #include "base/alloc.h"
-#include "pack/kernel/batch.h"
 
 enum { PLANES_3D = 11, PLANES_2D = 5 };
 
-/* Gives every quantity the number of its array; history first, arms and what viscous
- * scenes remember behind. */
+/* Numbers the arrays: the history first, then branch vectors and the last stiffnesses of
+ * viscous scenes. */
 static void number_planes(struct gb_contacts *contacts, int vector, int spring)
 {
     int plane = 0;
@@ -18,7 +18,7 @@ static void number_planes(struct gb_contacts *contacts, int vector, int spring)
     }
     contacts->pivot = vector == 3 ? plane++ : -1;
     for (int k = 0; k < vector; k++) {
-        contacts->arm[k] = plane++;
+        contacts->branch[k] = plane++;
     }
     contacts->last_normal = plane++;
     contacts->last_shear = plane++;
@@ -26,20 +26,19 @@ static void number_planes(struct gb_contacts *contacts, int vector, int spring)
     contacts->last_pivot = plane++;
 }
 
-bool gb_contacts_init(struct gb_contacts *contacts, int dimension, bool viscous,
-                      bool single, int64_t room, struct gb_error *err)
+bool gb_contacts_init(struct gb_contacts *contacts, struct gb_contacts_shape shape,
+                      int64_t capacity, struct gb_error *err)
 {
-    const bool solid = dimension == 3;
-    const int kept = solid ? PLANES_3D : PLANES_2D, last = viscous ? (solid ? 4 : 3) : 0;
-    const size_t stride = (size_t)(room + 15) / 16 * 16;
-    const size_t size = single ? sizeof(float) : sizeof(double);
-    /* what is kept of a viscous scene is all: its copies go back into the middle of a
-     * motion */
+    const bool solid = shape.dimension == 3, viscous = shape.viscous;
+    const int base = solid ? PLANES_3D : PLANES_2D, last = viscous ? (solid ? 4 : 3) : 0;
+    const size_t stride = (size_t)(capacity + 15) / 16 * 16;
+    const size_t size = gb_real_size(shape.real);
+    /* a viscous scene keeps all: its copies are restored in the middle of a motion */
     *contacts =
-        (struct gb_contacts){.room = room,
-                             .planes = kept + last,
-                             .kept = viscous ? kept + last : kept - (solid ? 3 : 2),
-                             .single = single};
+        (struct gb_contacts){.capacity = capacity,
+                             .planes = base + last,
+                             .kept = viscous ? base + last : base - (solid ? 3 : 2),
+                             .real = shape.real};
     char *slab = gb_alloc_array((size_t)contacts->planes * stride, size, err);
     if (!slab) {
         *contacts = (struct gb_contacts){0};

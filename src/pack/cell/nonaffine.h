@@ -5,11 +5,11 @@
 
 #include "pack/cell/world.h"
 
-/* How the particles have moved since a copy of the world was taken, beside the affine
+/* Non-affine displacements since a copy of the world was taken: those beside the affine
  * motion of the cell. */
 struct gb_nonaffine {
-    double farthest;  /* d */
-    int64_t particle; /* that went farthest */
+    double farthest;  /* largest one, d */
+    int64_t particle; /* that it belongs to */
     double rms;       /* d */
 };
 

@@ -1,5 +1,5 @@
-/* What a checkpoint keeps of a world, and what it does not need to: the lists follow from
- * the positions at their last build; the arms of contacts, what touches nothing and the
+/* What a checkpoint holds, and what follows from it: the lists follow from the positions
+ * at their last build; branch vectors of contacts, records of pairs not in contact and the
  * gaps of far pairs follow from the present positions by an evaluation without motion. */
 #include "pack/cell/world_record.h"
 
@@ -7,82 +7,98 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "pack/cell/list_patch.h"
+#include "pack/cell/engine_lists.h"
 #include "pack/cell/world_private.h"
+#include "pack/f32/f32_convert.h"
 #include "pack/kernel/pair_forces.h"
-#include "pack/kernel/sweep_f32.h"
+#include "pack/list/list_patch.h"
 
-#define AT(member) offsetof(struct gb_world, member)
+#define AT(member)     offsetof(struct gb_world, member)
+#define ENGINE(member) offsetof(struct gb_world, engine.member)
 
-/* Before the lists can be built. */
-static const struct gb_record_member before[] = {
-    {"world/built_edge", GB_RECORD_DOUBLE, 3, AT(pairs.built_edge), "d"},
+/* Needed for the build of the lists. */
+static const struct gb_record_member build_members[] = {
+    {"world/built_edge", GB_RECORD_DOUBLE, 3, ENGINE(list.built_edge), "d"},
 };
 
-static const struct gb_record_member members[] = {
-    {"world/edge", GB_RECORD_DOUBLE, 3, AT(cell.edge), "d"},
-    {"world/stretch", GB_RECORD_DOUBLE, 3, AT(pairs.stretch), "1"},
-    {"world/strain", GB_RECORD_DOUBLE, 1, AT(pairs.strain), "1"},
+/* Needed for the evaluation. */
+static const struct gb_record_member cell_members[] = {
+    {"world/edge", GB_RECORD_DOUBLE, 3, ENGINE(particles.cell.edge), "d"},
+    {"world/stretch", GB_RECORD_DOUBLE, 3, ENGINE(list.scaling), "1"},
+    {"world/strain", GB_RECORD_DOUBLE, 1, ENGINE(list.strain), "1"},
 };
 
 /* After the evaluation, which changes them. */
-static const struct gb_record_member after[] = {
+static const struct gb_record_member result_members[] = {
     {"world/evaluations", GB_RECORD_INT64, 1, AT(evaluations), "1"},
     {"world/rebuilds", GB_RECORD_INT64, 1, AT(rebuilds), "1"},
-    {"world/force_rms", GB_RECORD_DOUBLE, 1, AT(force_rms), "E d^2"},
-    {"world/torque_rms", GB_RECORD_DOUBLE, 1, AT(torque_rms), "E d^3"},
-    {"world/contacts", GB_RECORD_INT64, 1, AT(tally.contacts), "1"},
-    {"world/sliding", GB_RECORD_INT64, 1, AT(tally.sliding), "1"},
-    {"world/normal_sum", GB_RECORD_DOUBLE, 1, AT(tally.normal_sum), "E d^2"},
-    {"world/deepest", GB_RECORD_DOUBLE, 1, AT(tally.deepest), "d"},
-    {"world/absorbed", GB_RECORD_DOUBLE, 1, AT(tally.absorbed), "E d^3"},
-    {"world/virial", GB_RECORD_DOUBLE, 3, AT(tally.virial), "E d^3"},
+    {"world/force_rms", GB_RECORD_DOUBLE, 1, ENGINE(force_rms), "E d^2"},
+    {"world/torque_rms", GB_RECORD_DOUBLE, 1, ENGINE(torque_rms), "E d^3"},
+    {"world/contacts", GB_RECORD_INT64, 1, ENGINE(total.tally.contacts), "1"},
+    {"world/sliding", GB_RECORD_INT64, 1, ENGINE(total.tally.sliding), "1"},
+    {"world/normal_sum", GB_RECORD_DOUBLE, 1, ENGINE(total.tally.normal_sum), "E d^2"},
+    {"world/deepest", GB_RECORD_DOUBLE, 1, ENGINE(total.tally.deepest), "d"},
+    {"world/absorbed", GB_RECORD_DOUBLE, 1, ENGINE(total.tally.absorbed), "E d^3"},
+    {"world/virial", GB_RECORD_DOUBLE, 3, ENGINE(total.tally.virial), "E d^3"},
 };
 
 #define LENGTH(table) (sizeof(table) / sizeof((table)[0]))
 
-static bool wrong(const char *name, struct gb_error *err)
+static bool out_of_range(const char *name, struct gb_error *err)
 {
     return gb_error_set(err, GB_ERR_INPUT, "%s: is out of range", name);
 }
 
-static bool vectors(struct gb_world *world, struct gb_record *record, const char *name,
-                    const char *unit, double *data, struct gb_error *err)
+/* A vector of every particle. */
+static bool record_vectors(struct gb_world *world, struct gb_record *record,
+                           const char *name, const char *unit, double *data,
+                           struct gb_error *err)
 {
-    return gb_record_array(record, name, GB_RECORD_DOUBLE, world->count, 3, unit, data,
-                           err);
+    return gb_record_array(record, name, GB_RECORD_DOUBLE, world->engine.particles.count,
+                           3, unit, data, err);
 }
 
-/* Touching pairs and their histories under two names. */
-static bool exchange_ledger(struct gb_contact_history *ledger, int planes, bool single,
-                            struct gb_record *record, const char *pairs,
-                            const char *values, struct gb_error *err)
+/* Contacts and their histories under two names. */
+struct history_names {
+    const char *pair, *value;
+};
+
+static const struct history_names world_names = {"world/pair", "world/history"};
+static const struct history_names branch_names = {"branch/pair", "branch/history"};
+
+static bool record_history(struct gb_contact_history *history,
+                           const struct gb_engine *engine, struct gb_record *record,
+                           const struct history_names *names, struct gb_error *err)
 {
-    int64_t rows = ledger->count;
+    const int planes = engine->contacts.kept;
+    const enum gb_real real = engine->state.real;
+    int64_t rows = history->count;
     if (record->loading &&
-        (!gb_record_rows(record, pairs, GB_RECORD_INT32, 2, &rows, err) ||
-         !gb_contact_history_reserve(ledger, rows, planes, single, err))) {
+        (!gb_record_rows(record, names->pair, GB_RECORD_INT32, 2, &rows, err) ||
+         !gb_contact_history_reserve(history, rows, planes, real, err))) {
         return false;
     }
-    ledger->count = rows;
-    return gb_record_array(record, pairs, GB_RECORD_INT32, rows, 2, "1", ledger->pair,
-                           err) &&
-           (single
-                ? gb_record_f32(record, values, rows, planes, "d", ledger->value, err)
-                : gb_record_array(record, values, GB_RECORD_DOUBLE, rows, planes, "d",
-                                  ledger->value, err));
+    history->count = rows;
+    return gb_record_array(record, names->pair, GB_RECORD_INT32, rows, 2, "1",
+                           history->pair, err) &&
+           (real == GB_REAL_F32
+                ? gb_record_f32(record, names->value, rows, planes, "d", history->value,
+                                err)
+                : gb_record_array(record, names->value, GB_RECORD_DOUBLE, rows, planes,
+                                  "d", history->value, err));
 }
 
-/* Sorted pairs of particles that there are. */
-static bool check_ledger(const struct gb_contact_history *ledger, int64_t count,
-                         const char *name, struct gb_error *err)
+/* Sorted pairs of existing particles. */
+static bool check_history(const struct gb_contact_history *history, int64_t count,
+                          const char *name, struct gb_error *err)
 {
-    for (int64_t k = 0; k < ledger->count; k++) {
-        const int32_t i = ledger->pair[k][0], j = ledger->pair[k][1];
-        const bool follows = k == 0 || ledger->pair[k - 1][0] < i ||
-                             (ledger->pair[k - 1][0] == i && ledger->pair[k - 1][1] < j);
-        if (i < 0 || j <= i || j >= count || !follows) {
-            return wrong(name, err);
+    for (int64_t k = 0; k < history->count; k++) {
+        const int32_t i = history->pair[k][0], j = history->pair[k][1];
+        const bool ascends =
+            k == 0 || history->pair[k - 1][0] < i ||
+            (history->pair[k - 1][0] == i && history->pair[k - 1][1] < j);
+        if (i < 0 || j <= i || j >= count || !ascends) {
+            return out_of_range(name, err);
         }
     }
     return true;
@@ -93,158 +109,165 @@ static bool check_edges(const struct gb_cell *cell, const char *name,
 {
     for (int k = 0; k < 3; k++) {
         if (!(cell->edge[k] > 0.0 && cell->edge[k] < 1e9)) {
-            return wrong(name, err);
+            return out_of_range(name, err);
         }
     }
     return true;
 }
 
+/* margin: allowed outside of the cell, over the edge */
 static bool check_inside(const struct gb_cell *cell, const double *position,
                          int64_t count, double margin, const char *name,
                          struct gb_error *err)
 {
     for (int64_t i = 0; i < 3 * count; i++) {
         const double x = position[i] / cell->edge[i % 3];
-        const double more = cell->periodic[i % 3] ? margin : 1e6;
-        if (!(x >= -more && x <= 1.0 + more)) {
-            return wrong(name, err);
+        const double allowed = cell->periodic[i % 3] ? margin : 1e6;
+        if (!(x >= -allowed && x <= 1.0 + allowed)) {
+            return out_of_range(name, err);
         }
     }
     return true;
 }
 
-/* Pairs that the lists were amended by. */
-static const char amended[] = "world/amended";
+/* Pairs inserted into the lists since their build. */
+static const char inserted_name[] = "world/amended";
 
-static bool load_amended(struct gb_world *world, struct gb_record *record,
-                         struct gb_error *err)
+static bool load_inserted(struct gb_engine *engine, struct gb_record *record,
+                          struct gb_error *err)
 {
     int64_t rows = 0;
-    return gb_record_rows(record, amended, GB_RECORD_INT32, 4, &rows, err) &&
-           gb_list_patch_again(world, gb_record_find(record, amended)->data, rows, err);
+    return gb_record_rows(record, inserted_name, GB_RECORD_INT32, 4, &rows, err) &&
+           gb_list_patch_load(engine, gb_record_find(record, inserted_name)->data, rows,
+                              err);
 }
 
-/* The lists as they were, with no history. */
+/* The lists as they were, without histories. */
 static bool load_lists(struct gb_world *world, struct gb_record *record,
                        struct gb_error *err)
 {
-    const struct gb_numerics *numerics = &world->model->numerics;
-    struct gb_cell built = world->cell;
-    if (!gb_record_members(record, before, LENGTH(before), world, err) ||
-        !vectors(world, record, "world/built_at", "d", world->position, err)) {
+    struct gb_engine *engine = &world->engine;
+    struct gb_particles *particles = &engine->particles;
+    struct gb_cell built = particles->cell;
+    if (!gb_record_members(record, build_members, LENGTH(build_members), world, err) ||
+        !record_vectors(world, record, "world/built_at", "d", particles->position, err)) {
         return false;
     }
-    memcpy(built.edge, world->pairs.built_edge, sizeof built.edge);
+    memcpy(built.edge, engine->list.built_edge, sizeof built.edge);
     if (!check_edges(&built, "world/built_edge", err) ||
-        !check_inside(&built, world->position, world->count, 0.0, "world/built_at",
-                      err) ||
-        !gb_neighbour_list_build(&world->pairs, &built, world->position, numerics->cutoff,
-                                 numerics->skin, world->threads, err) ||
-        !gb_world_reserve(world, err)) {
-        gb_neighbour_list_clear(&world->pairs);
+        !check_inside(&built, particles->position, particles->count, 0.0,
+                      "world/built_at", err) ||
+        !gb_engine_lists_build(engine, &built, err)) {
+        gb_neighbour_list_clear(&engine->list);
+        gb_engine_state_drop_lists(&engine->state);
         return false;
     }
     const struct gb_contact_history none = {0};
-    gb_neighbour_list_shifts(&built, world->shift);
-    gb_contact_history_read(&none, world);
-    world->listed = true;
-    return load_amended(world, record, err);
+    gb_contact_history_read(&none, engine);
+    return load_inserted(engine, record, err);
 }
 
-/* Every pair of the ledger must touch, and no other. */
-static bool fits(const struct gb_contact_history *ledger, const struct gb_world *world)
+/* True if the history and the lists have the same pairs in contact. */
+static bool fits(const struct gb_contact_history *history, const struct gb_engine *engine)
 {
-    const struct gb_pair_list *near = &world->pairs.near;
-    int64_t line = 0;
-    for (int64_t i = 0; i < world->count; i++) {
+    const struct gb_pair_list *near = &engine->list.near;
+    int64_t index = 0;
+    for (int64_t i = 0; i < engine->particles.count; i++) {
         for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            if (!gb_contacts_touch(&world->contacts, k)) {
+            if (!gb_contacts_touch(&engine->contacts, k)) {
                 continue;
             }
-            if (line == ledger->count || ledger->pair[line][0] != i ||
-                ledger->pair[line][1] != near->other[k]) {
+            if (index == history->count || history->pair[index][0] != i ||
+                history->pair[index][1] != near->other[k]) {
                 return false;
             }
-            line++;
+            index++;
         }
     }
-    return line == ledger->count;
+    return index == history->count;
 }
 
-/* The history of what touches; everything else stays as the evaluation left it. */
-static void put_history(const struct gb_contact_history *ledger, struct gb_world *world)
+/* The history of every contact; everything else stays as the evaluation left it. */
+static void apply_history(const struct gb_contact_history *history,
+                          struct gb_engine *engine)
 {
-    int64_t line = 0;
-    world->state++;
-    for (int64_t k = 0; k < gb_neighbour_list_slots(&world->pairs, &world->pairs.near);
-         k++) {
-        if (!gb_contacts_touch(&world->contacts, k)) {
-            continue;
+    const int64_t slots = gb_neighbour_list_slots(&engine->list, &engine->list.near);
+    int64_t index = 0;
+    engine->history_version++;
+    for (int64_t k = 0; k < slots; k++) {
+        if (gb_contacts_touch(&engine->contacts, k)) {
+            gb_contact_history_apply(history, index++, &engine->contacts, k);
         }
-        gb_contact_history_give(ledger, line++, &world->contacts, k);
     }
 }
 
 static bool load_contacts(struct gb_world *world, struct gb_record *record,
                           struct gb_error *err)
 {
-    struct gb_contact_history *ledger = &world->spare;
-    if (!exchange_ledger(ledger, world->contacts.kept, world->in_single, record,
-                         "world/pair", "world/history", err) ||
-        !check_ledger(ledger, world->count, "world/pair", err)) {
+    struct gb_contact_history *history = &world->checkpoint_history;
+    struct gb_engine *engine = &world->engine;
+    if (!record_history(history, engine, record, &world_names, err) ||
+        !check_history(history, engine->particles.count, world_names.pair, err)) {
         return false;
     }
-    if (!fits(ledger, world)) {
+    if (!fits(history, engine)) {
         return gb_error_set(err, GB_ERR_INPUT, "world/pair: does not fit the positions");
     }
-    put_history(ledger, world);
+    apply_history(history, engine);
     return true;
+}
+
+/* Cell and positions; then an evaluation without motion, from the lists as they were. */
+static bool load_positions(struct gb_world *world, struct gb_record *record,
+                           struct gb_error *err)
+{
+    struct gb_particles *particles = &world->engine.particles;
+    const size_t bytes = 3 * (size_t)particles->count * sizeof *particles->rotation;
+    const int64_t rebuilds = world->rebuilds;
+    if (!gb_record_members(record, cell_members, LENGTH(cell_members), world, err) ||
+        !check_edges(&particles->cell, "world/edge", err) ||
+        !record_vectors(world, record, "world/position", "d", particles->position, err) ||
+        !check_inside(&particles->cell, particles->position, particles->count, 1.0,
+                      "world/position", err)) {
+        return false;
+    }
+    memset(particles->rotation, 0, bytes);
+    if (!gb_world_evaluate(world, err)) {
+        return false;
+    }
+    return world->rebuilds == rebuilds || /* the saved state had been evaluated */
+           gb_error_set(err, GB_ERR_INPUT, "world/built_at: does not fit the positions");
 }
 
 static bool load(struct gb_world *world, struct gb_record *record, struct gb_error *err)
 {
-    world->single.driven = false;
-    world->single.ahead = GB_F32_STATE_POSITIONS;
-    if (!load_lists(world, record, err) ||
-        !gb_record_members(record, members, LENGTH(members), world, err) ||
-        !check_edges(&world->cell, "world/edge", err) ||
-        !vectors(world, record, "world/position", "d", world->position, err) ||
-        !check_inside(&world->cell, world->position, world->count, 1.0, "world/position",
-                      err)) {
+    struct gb_engine *engine = &world->engine;
+    struct gb_particles *particles = &engine->particles;
+    gb_engine_state_replace(&engine->state);
+    if (!load_lists(world, record, err) || !load_positions(world, record, err) ||
+        !load_contacts(world, record, err) ||
+        !record_vectors(world, record, "world/force", "E d^2", particles->force, err) ||
+        !record_vectors(world, record, "world/torque", "E d^3", particles->torque, err)) {
         return false;
     }
-    const int64_t rebuilds = world->rebuilds;
-    memset(world->turn, 0, 3 * (size_t)world->count * sizeof *world->turn);
-    if (!gb_world_evaluate(world, err)) {
-        return false;
-    }
-    if (world->rebuilds != rebuilds) { /* an evaluation has been there already */
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "world/built_at: does not fit the positions");
-    }
-    if (!load_contacts(world, record, err) ||
-        !vectors(world, record, "world/force", "E d^2", world->force, err) ||
-        !vectors(world, record, "world/torque", "E d^3", world->torque, err)) {
-        return false;
-    }
-    gb_sweep_f32_narrow(world);
-    return gb_record_members(record, after, LENGTH(after), world, err);
+    gb_f32_convert_narrow_forces(engine);
+    return gb_record_members(record, result_members, LENGTH(result_members), world, err);
 }
 
-/* Whole force on the first particle of every touching pair: for pictures, no load needs
- * it. */
+/* Force on the first particle of every contact: for pictures, not read by a load. */
 static bool save_forces(const struct gb_world *world, struct gb_record *record,
                         struct gb_error *err)
 {
+    const struct gb_engine *engine = &world->engine;
+    const int64_t slots = gb_neighbour_list_slots(&engine->list, &engine->list.near);
     struct gb_record_item *item =
-        gb_record_add(record, "world/pair_force", GB_RECORD_DOUBLE, world->spare.count, 3,
-                      "E d^2", err);
+        gb_record_add(record, "world/pair_force", GB_RECORD_DOUBLE,
+                      world->checkpoint_history.count, 3, "E d^2", err);
     double *force = item ? item->data : NULL;
     struct gb_pair_forces forces;
-    gb_pair_forces_init(&forces, world, true);
-    for (int64_t k = 0;
-         item && k < gb_neighbour_list_slots(&world->pairs, &world->pairs.near); k++) {
-        if (gb_contacts_touch(&world->contacts, k)) {
+    gb_pair_forces_init(&forces, world, GB_PAIR_FORCES_NEAR);
+    for (int64_t k = 0; item && k < slots; k++) {
+        if (gb_contacts_touch(&engine->contacts, k)) {
             gb_pair_forces_at(&forces, k, force);
             force += 3;
         }
@@ -254,22 +277,27 @@ static bool save_forces(const struct gb_world *world, struct gb_record *record,
 
 static bool save(struct gb_world *world, struct gb_record *record, struct gb_error *err)
 {
-    struct gb_contact_history *ledger = &world->spare;
-    gb_sweep_f32_settle(world);
-    gb_sweep_f32_widen(world);
-    return gb_contact_history_write(ledger, world, false, err) &&
-           gb_record_members(record, before, LENGTH(before), world, err) &&
-           vectors(world, record, "world/built_at", "d", world->pairs.built_at, err) &&
-           gb_record_array(record, amended, GB_RECORD_INT32, world->pairs.amended_count,
-                           4, "1", world->pairs.amended, err) &&
-           gb_record_members(record, members, LENGTH(members), world, err) &&
-           vectors(world, record, "world/position", "d", world->position, err) &&
-           exchange_ledger(ledger, world->contacts.kept, world->in_single, record,
-                           "world/pair", "world/history", err) &&
+    struct gb_contact_history *history = &world->checkpoint_history;
+    struct gb_engine *engine = &world->engine;
+    struct gb_particles *particles = &engine->particles;
+    struct gb_neighbour_list *list = &engine->list;
+    gb_f32_convert_synchronise(engine);
+    gb_f32_convert_widen_forces(engine);
+    return gb_contact_history_write(history, engine, GB_CONTACT_HISTORY_KEPT, err) &&
+           gb_record_members(record, build_members, LENGTH(build_members), world, err) &&
+           record_vectors(world, record, "world/built_at", "d", list->built_position,
+                          err) &&
+           gb_record_array(record, inserted_name, GB_RECORD_INT32, list->inserted_count,
+                           4, "1", list->inserted, err) &&
+           gb_record_members(record, cell_members, LENGTH(cell_members), world, err) &&
+           record_vectors(world, record, "world/position", "d", particles->position,
+                          err) &&
+           record_history(history, engine, record, &world_names, err) &&
            save_forces(world, record, err) &&
-           vectors(world, record, "world/force", "E d^2", world->force, err) &&
-           vectors(world, record, "world/torque", "E d^3", world->torque, err) &&
-           gb_record_members(record, after, LENGTH(after), world, err);
+           record_vectors(world, record, "world/force", "E d^2", particles->force, err) &&
+           record_vectors(world, record, "world/torque", "E d^3", particles->torque,
+                          err) &&
+           gb_record_members(record, result_members, LENGTH(result_members), world, err);
 }
 
 bool gb_world_record(struct gb_world *world, struct gb_record *record,
@@ -281,13 +309,14 @@ bool gb_world_record(struct gb_world *world, struct gb_record *record,
 bool gb_world_record_copy(const struct gb_world *world, struct gb_world_copy **copy,
                           struct gb_record *record, struct gb_error *err)
 {
+    const struct gb_particles *particles = &world->engine.particles;
     if (!gb_world_copy_ensure(world, copy, err)) {
         return false;
     }
     struct gb_world_copy *at = *copy;
     if (record->loading) {
-        at->cell = world->cell;
-        at->count = world->count;
+        at->cell = particles->cell;
+        at->count = particles->count;
     }
     return gb_record_array(record, "branch/edge", GB_RECORD_DOUBLE, 1, 3, "d",
                            at->cell.edge, err) &&
@@ -296,10 +325,10 @@ bool gb_world_record_copy(const struct gb_world *world, struct gb_world_copy **c
                            at->position, err) &&
            check_inside(&at->cell, at->position, at->count, 1.0, "branch/position",
                         err) &&
-           exchange_ledger(&at->ledger, world->contacts.kept, world->in_single, record,
-                           "branch/pair", "branch/history", err) &&
-           check_ledger(&at->ledger, at->count, "branch/pair", err);
+           record_history(&at->history, &world->engine, record, &branch_names, err) &&
+           check_history(&at->history, at->count, branch_names.pair, err);
 }
 
 #undef AT
+#undef ENGINE
 #undef LENGTH

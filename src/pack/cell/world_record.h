@@ -6,11 +6,11 @@
 #include "base/record.h"
 #include "pack/cell/world.h"
 
-/* A world out of a record or into it: to the last bit what it was right after an
- * evaluation, so that the next one gives the same forces and the neighbour list is built
- * anew at the same moment.
+/* Saves a world into a record, or loads it: to the last bit the state right after an
+ * evaluation, so that the next one gives the same forces and the neighbour lists are
+ * rebuilt at the same moment.
  *
- * Loading, the world was just created with the same model.  Errors: GB_ERR_INPUT naming
+ * Loading: the world was just created with the same model.  Errors: GB_ERR_INPUT naming
  * the array for what does not fit or is out of range. */
 bool gb_world_record(struct gb_world *world, struct gb_record *record,
                      struct gb_error *err);

@@ -106,9 +106,9 @@ static void empty(struct gb_bed_list *list, int64_t particles)
 void gb_bed_set_law(struct gb_bed *bed, const struct gb_bed_law *law)
 {
     bed->law = *law;
-    bed->pair_kernel = gb_bed_batch_pick(law, false, 0);
-    bed->wall_kernel = gb_bed_batch_pick(law, true, 0);
-    bed->carrier = gb_bed_transfer_pick(0);
+    bed->pair_kernel = gb_bed_batch_pick(law, GB_BED_PARTNER_PARTICLE, 0);
+    bed->wall_kernel = gb_bed_batch_pick(law, GB_BED_PARTNER_WALL, 0);
+    bed->transfer = gb_bed_transfer_pick(0);
     empty(&bed->pairs, bed->count);
     empty(&bed->walls, bed->count);
     bed->listed = false;
@@ -165,9 +165,9 @@ static void sweep_pairs(struct gb_bed *bed, struct gb_bed_batch *b)
         b->n = left < GB_BED_BATCH ? (int)left : GB_BED_BATCH;
         rows.first = bed->pairs.first + slot;
         rows.other = bed->pairs.other + slot;
-        bed->carrier.fill(&rows, b);
+        bed->transfer.gather(&rows, b);
         bed->pair_kernel(&bed->law, b, &bed->pairs.contacts, slot);
-        bed->carrier.spill(&rows, b);
+        bed->transfer.scatter(&rows, b);
     }
 }
 

@@ -38,7 +38,7 @@ struct gb_bed {
     struct gb_die die;
     struct gb_bed_law law;
     gb_bed_kernel *pair_kernel, *wall_kernel;
-    struct gb_bed_transfer carrier; /* of pairs */
+    struct gb_bed_transfer transfer; /* of pairs */
     struct gb_bed_list pairs, walls;
     struct gb_bed_tally tally;
     double smallest;  /* radius */

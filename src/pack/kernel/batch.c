@@ -17,17 +17,15 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
     }
 }
 
-/* Variants: planar or not, {normal only, friction, friction and bridges}, viscous or not.
- */
-#define VARIANT(name, attribute, planar_, friction_, bridges_, viscous_)                 \
+/* One variant; the terms that it computes are the arguments behind the attribute. */
+#define VARIANT(name, attribute, ...)                                                    \
     attribute static void name##_advance(const struct gb_model *model,                   \
                                          struct gb_batch *batch,                         \
                                          struct gb_contacts *contacts, int64_t slot)     \
     {                                                                                    \
-        const struct terms t = {planar_, friction_, bridges_, viscous_, false, false};   \
-        const struct terms printed = {planar_,  friction_, bridges_,                     \
-                                      viscous_, true,      false};                       \
-        if (bridges_ && model->bridge.radius_current) {                                  \
+        const struct terms t = {__VA_ARGS__};                                            \
+        const struct terms printed = {.printed = true, __VA_ARGS__};                     \
+        if (t.bridges && model->bridge.radius_current) {                                 \
             advance(model, printed, batch, contacts, slot);                              \
         } else {                                                                         \
             advance(model, t, batch, contacts, slot);                                    \
@@ -37,7 +35,7 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
                                        const struct gb_contacts *contacts, int64_t slot, \
                                        struct gb_tally *tally)                           \
     {                                                                                    \
-        const struct terms t = {planar_, friction_, bridges_, viscous_, false, false};   \
+        const struct terms t = {__VA_ARGS__};                                            \
         const double *deepest = (const double *)contacts->plane[contacts->deepest];      \
         tally_batch(t, batch, deepest + slot, tally);                                    \
     }                                                                                    \
@@ -45,39 +43,34 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
                                          struct gb_batch *batch, double *last_distance,  \
                                          double *last_pull, struct gb_tally *tally)      \
     {                                                                                    \
-        const struct terms t = {planar_, friction_, bridges_, viscous_, false, false};   \
+        const struct terms t = {__VA_ARGS__};                                            \
         attract(model, t, batch, last_distance, last_pull);                              \
-        if (viscous_) {                                                                  \
+        if (t.viscous) {                                                                 \
             tally_work(t, batch, tally);                                                 \
         }                                                                                \
     }
 
+/* {normal only, friction, friction and bridges} with the same other terms. */
+#define THREE(name, attribute, ...)                                                      \
+    VARIANT(name##_normal, attribute, __VA_ARGS__)                                       \
+    VARIANT(name##_friction, attribute, .friction = true, __VA_ARGS__)                   \
+    VARIANT(name##_bridges, attribute, .friction = true, .bridges = true, __VA_ARGS__)
+
 #define VARIANTS(width, attribute)                                                       \
-    VARIANT(width##_3d_normal, attribute, false, false, false, false)                    \
-    VARIANT(width##_3d_friction, attribute, false, true, false, false)                   \
-    VARIANT(width##_3d_bridges, attribute, false, true, true, false)                     \
-    VARIANT(width##_3d_normal_viscous, attribute, false, false, false, true)             \
-    VARIANT(width##_3d_friction_viscous, attribute, false, true, false, true)            \
-    VARIANT(width##_3d_bridges_viscous, attribute, false, true, true, true)              \
-    VARIANT(width##_2d_normal, attribute, true, false, false, false)                     \
-    VARIANT(width##_2d_friction, attribute, true, true, false, false)                    \
-    VARIANT(width##_2d_bridges, attribute, true, true, true, false)                      \
-    VARIANT(width##_2d_normal_viscous, attribute, true, false, false, true)              \
-    VARIANT(width##_2d_friction_viscous, attribute, true, true, false, true)             \
-    VARIANT(width##_2d_bridges_viscous, attribute, true, true, true, true)
+    THREE(width##_3d, attribute, .planar = false)                                        \
+    THREE(width##_3d_viscous, attribute, .planar = false, .viscous = true)               \
+    THREE(width##_2d, attribute, .planar = true)                                         \
+    THREE(width##_2d_viscous, attribute, .planar = true, .viscous = true)
 
 #define ROW(name)                                                                        \
     {                                                                                    \
         name##_advance, name##_tally, name##_attract                                     \
     }
+#define ROWS(name) ROW(name##_normal), ROW(name##_friction), ROW(name##_bridges)
 #define TABLE(width)                                                                     \
     {                                                                                    \
-        ROW(width##_3d_normal), ROW(width##_3d_friction), ROW(width##_3d_bridges),       \
-            ROW(width##_3d_normal_viscous), ROW(width##_3d_friction_viscous),            \
-            ROW(width##_3d_bridges_viscous), ROW(width##_2d_normal),                     \
-            ROW(width##_2d_friction), ROW(width##_2d_bridges),                           \
-            ROW(width##_2d_normal_viscous), ROW(width##_2d_friction_viscous),            \
-            ROW(width##_2d_bridges_viscous)                                              \
+        ROWS(width##_3d), ROWS(width##_3d_viscous), ROWS(width##_2d),                    \
+            ROWS(width##_2d_viscous)                                                     \
     }
 
 VARIANTS(w128, )

@@ -4,10 +4,9 @@
 #include "pack/kernel/batch_f64.h"
 #include "pack/kernel/batch_laws.h"
 
-/* In the plane a spring is one number: the shear spring along (n_z, -n_x), which turns
- * with the contact by itself, the rolling one about y; there is no pivoting.  So no root
- * is needed to cut a spring, and a failing bridge is a choice between two numbers.
- */
+/* In the plane a spring is one number: the shear spring along (n_z, -n_x), which rotates
+ * with the contact, and the rolling spring about y; there is no pivoting.  So no root is
+ * needed to cut a spring, and a failing bridge is a choice between two numbers. */
 
 INLINE double clamp_2d(double trial, double most)
 {
@@ -24,13 +23,13 @@ struct caps_2d {
 
 INLINE struct caps_2d caps_2d(const struct gb_law_slip *slip, struct terms t)
 {
-    /* where nothing moves by itself a hair below the cap, so that no rounding error makes
-     * a spring at rest slide */
-    const double hair = t.viscous ? 1.0 : 1.0 - 0x1p-40;
+    /* without viscous forces slightly below the cap, so that no rounding error makes a
+     * spring at rest slide */
+    const double below_cap = t.viscous ? 1.0 : 1.0 - 0x1p-40;
     const double bond = M_PI * slip->strength / slip->shear;
-    return (struct caps_2d){0.25 * bond * bond, hair * bond,
-                            hair * slip->mu / slip->shear,
-                            t.bridges ? hair / (3.0 * slip->roll) : 0.0};
+    return (struct caps_2d){0.25 * bond * bond, below_cap * bond,
+                            below_cap * slip->mu / slip->shear,
+                            t.bridges ? below_cap / (3.0 * slip->roll) : 0.0};
 }
 
 /* Radius of the springs of a contact, 0 where there is none: then root is 0. */
@@ -41,14 +40,14 @@ INLINE double radius_2d(struct terms t, double length, double deepest, double h,
     return t.printed ? 0.5 * sqrt(where(deepest >= 0.0, square)) : 0.5 * root;
 }
 
-/* A batch through the laws in one pass: geometry, state of the bridge, springs, normal
- * force, caps, viscous parts. */
+/* All laws in one pass over a batch: geometry, state of the bridge, springs, normal force,
+ * caps, viscous parts. */
 INLINE void advance_2d(const struct gb_model *model, struct terms t,
                        struct gb_batch *restrict b, struct gb_contacts *restrict c,
                        int64_t slot)
 {
     double *restrict deepest = PLANE(c->deepest);
-    double *restrict ax = PLANE(c->arm[0]), *restrict az = PLANE(c->arm[1]);
+    double *restrict ax = PLANE(c->branch[0]), *restrict az = PLANE(c->branch[1]);
     double *restrict shear = PLANE(c->shear[0]), *restrict roll = PLANE(c->roll[0]);
     double *restrict last_normal = t.viscous ? PLANE(c->last_normal) : NULL;
     double *restrict last_shear = t.viscous ? PLANE(c->last_shear) : NULL;
@@ -75,7 +74,7 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
         double u = 0.0, v = 0.0;
         if (t.friction) {
             const double across = m * ((rx - bx) * rz - (rz - bz) * rx);
-            const double rolled = 0.5 * m * b->turn_sum[0][k];
+            const double rolled = 0.5 * m * b->rotation_sum[0][k];
             const double spring = shear[k];
             u = where(lasts, across * inverse - rolled * r);
             v = where(lasts, spring) + u;
@@ -96,16 +95,15 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
         const struct normal f = normal_force(t, &law, state, h, r);
         double fn = f.total, tangent = 0.0, opposed = 0.0, slides = 0.0, twice = 0.0;
         if (t.viscous) {
-            const double arm2 = bx * bx + bz * bz;
-            const double dh = where(arm2 > 0.0, sqrt(arm2) - r);
+            const double before2 = bx * bx + bz * bz;
+            const double dh = where(before2 > 0.0, sqrt(before2) - r);
             const double lag = damp * f.slope * dh;
             const double was = last_normal[k] + fn;
             last_normal[k] = fn;
             fn += lag;
             twice = (was + (lag + lag)) * dh;
         }
-        double turned =
-            0.0; /* work of shear and roll, twice, before the factor of motion */
+        double work = 0.0; /* of shear and roll, twice, without the factor of motion */
         if (t.friction) {
             const double a = radius_2d(t, length, state, h, f.root);
             const double ks = slip.shear * a;
@@ -118,22 +116,22 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
             tangent = ks * cut;
             if (t.viscous) {
                 const double lag = where(sticks, damp * (ks * u));
-                turned = u * (last_shear[k] * (v - u) + tangent + (lag + lag));
+                work = u * (last_shear[k] * (v - u) + tangent + (lag + lag));
                 last_shear[k] = ks;
                 tangent += lag;
             }
             if (t.bridges) {
                 const bool holds = lasts & held;
-                const double g = where(holds, m * b->turn_difference[0][k]);
+                const double g = where(holds, m * b->rotation_difference[0][k]);
                 const double p = where(holds, roll[k]) + g, kr = slip.roll * (a * a) * a;
                 const double limit =
                     caps.roll * inverse_a * inverse_a * larger(f.elastic, 0.0);
-                const double turn = clamp_2d(p, limit);
-                roll[k] = turn;
-                opposed = kr * turn;
+                const double rolled_to = clamp_2d(p, limit);
+                roll[k] = rolled_to;
+                opposed = kr * rolled_to;
                 if (t.viscous) {
                     const double lag = where(fabs(p) <= limit, damp * (kr * g));
-                    turned += g * (last_roll[k] * (p - g) + opposed + (lag + lag));
+                    work += g * (last_roll[k] * (p - g) + opposed + (lag + lag));
                     last_roll[k] = where(held, kr);
                     opposed += lag;
                 }
@@ -146,7 +144,7 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
         b->torque_i[0][k] = both - opposed;
         b->torque_j[0][k] = both + opposed;
         if (t.viscous) {
-            b->absorbed[k] = 0.5 * (twice + inverse_motion * turned);
+            b->absorbed[k] = 0.5 * (twice + inverse_motion * work);
         }
         b->normal[k] = where(touches, fabs(f.elastic - adhesion));
         b->sliding[k] = slides;

@@ -3,13 +3,14 @@
 
 #include "pack/kernel/batch_laws.h"
 
-/* First half, 3D: geometry, springs stretched by the motion, state of the bridge. */
-INLINE void stretch_3d(const struct gb_model *model, struct terms t, BATCH *restrict b,
-                       struct gb_contacts *restrict c, int64_t slot)
+/* First half, 3D: geometry, springs advanced by the relative motion, state of the bridge. */
+INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
+                               BATCH *restrict b, struct gb_contacts *restrict c,
+                               int64_t slot)
 {
     real *restrict deepest = PLANE(c->deepest), *restrict pivot = PLANE(c->pivot);
-    real *restrict ax = PLANE(c->arm[0]), *restrict ay = PLANE(c->arm[1]);
-    real *restrict az = PLANE(c->arm[2]);
+    real *restrict ax = PLANE(c->branch[0]), *restrict ay = PLANE(c->branch[1]);
+    real *restrict az = PLANE(c->branch[2]);
     real *restrict sx = PLANE(c->shear[0]), *restrict sy = PLANE(c->shear[1]);
     real *restrict sz = PLANE(c->shear[2]);
     real *restrict qx = PLANE(c->roll[0]), *restrict qy = PLANE(c->roll[1]);
@@ -37,10 +38,11 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t, BATCH *rest
         b->distance[k] = r;
         b->overlap[k] = h;
         if (t.friction) {
-            const real wx = b->turn_sum[0][k], wy = b->turn_sum[1][k];
-            const real wz = b->turn_sum[2][k];
-            const real dx = b->turn_difference[0][k], dy = b->turn_difference[1][k];
-            const real dz = b->turn_difference[2][k];
+            const real wx = b->rotation_sum[0][k], wy = b->rotation_sum[1][k];
+            const real wz = b->rotation_sum[2][k];
+            const real dx = b->rotation_difference[0][k],
+                       dy = b->rotation_difference[1][k];
+            const real dz = b->rotation_difference[2][k];
             real ux = rx - ax[k] - half * r * (wy * nz - wz * ny);
             real uy = ry - ay[k] - half * r * (wz * nx - wx * nz);
             real uz = rz - az[k] - half * r * (wx * ny - wy * nx);
@@ -97,7 +99,7 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t, BATCH *rest
                 const bool fails =
                     (now > 0) & ((k_shear * k_shear * v_squared > tear * a2) |
                                  (k_pivot * k_pivot * twist * twist > wring));
-                /* it shrinks to the present overlap, or is gone; P1 below (5), (11) */
+                /* the bridge shrinks to the present overlap, or breaks; P1 below (5), (11) */
                 const real left = h > length ? h : 0;
                 now = fails ? left : now;
             }
@@ -107,8 +109,8 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t, BATCH *rest
             loose += mask(now == 0);
         }
         if (t.viscous) {
-            const real arm2 = ax[k] * ax[k] + ay[k] * ay[k] + az[k] * az[k];
-            b->rate[7][k] = mask(arm2 > 0) * (root(arm2) - r);
+            const real before2 = ax[k] * ax[k] + ay[k] * ay[k] + az[k] * az[k];
+            b->rate[7][k] = mask(before2 > 0) * (root(before2) - r);
         }
         deepest[k] = now;
         ax[k] = rx;
@@ -118,7 +120,7 @@ INLINE void stretch_3d(const struct gb_model *model, struct terms t, BATCH *rest
     b->loose = loose;
 }
 
-/* Shear, pivoting and rolling: what they need of the scene. */
+/* Constants of shear, pivoting and rolling. */
 struct slip_law {
     real shear, pivot, roll, mu, mu_pivot;
     real bond; /* pi sigma_b */
@@ -141,9 +143,10 @@ INLINE struct slip_law slip_law(const struct gb_law_slip *slip,
     };
 }
 
-/* Second half, 3D: forces and torques from the springs, which are cut at their caps. */
-INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restrict b,
-                    struct gb_contacts *restrict c, int64_t slot)
+/* Second half, 3D: springs cut at their caps; forces and torques. */
+INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
+                             BATCH *restrict b, struct gb_contacts *restrict c,
+                             int64_t slot)
 {
     const real *restrict deepest = PLANE(c->deepest);
     real *restrict pivot = PLANE(c->pivot);
@@ -167,10 +170,10 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
         const bool held = t.bridges & (state > 0);
         const bool live = state >= 0;
         const struct normal f = normal_force(t, &law, state, h, r);
-        real fn = f.total, taken = 0.0;
+        real fn = f.total, absorbed = 0.0;
         if (t.viscous) {
             const real lag = damp * f.slope * b->rate[7][k];
-            taken = (half * (last_normal[k] + fn) + lag) * b->rate[7][k];
+            absorbed = (half * (last_normal[k] + fn) + lag) * b->rate[7][k];
             last_normal[k] = fn;
             fn += lag;
         }
@@ -190,15 +193,15 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
                 : MOMENT_FITTED
                     ? from * from * (slip.plate + slip.rod * f.root * moment_tail(from))
                     : b->moment[k];
-            const real turn_cap =
+            const real pivot_cap =
                 held ? twisting : smaller(slip.mu_pivot * moment, twisting);
             real vx = sx[k], vy = sy[k], vz = sz[k], p = t.plain ? 0 : pivot[k];
             const real ox = vx, oy = vy, oz = vz, op = p;
             const real v2 = vx * vx + vy * vy + vz * vz;
-            const real shear2 = ks * ks * v2, turn2 = kp * kp * p * p;
-            const bool cut = shear2 > cap * cap, turned = turn2 > turn_cap * turn_cap;
+            const real shear2 = ks * ks * v2, pivot2 = kp * kp * p * p;
+            const bool cut = shear2 > cap * cap, pivots = pivot2 > pivot_cap * pivot_cap;
             const real keep = cut_to(t, cap, shear2, cut);
-            const real stay = t.plain ? 0 : cut_to(t, turn_cap, turn2, turned);
+            const real stay = t.plain ? 0 : cut_to(t, pivot_cap, pivot2, pivots);
             vx *= keep;
             vy *= keep;
             vz *= keep;
@@ -211,25 +214,25 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
             }
             slides = mask(cut);
             if (t.viscous) {
-                /* work over the step: the springs as they were, turned along, and as they
-                 * are */
+                /* work over the step: mean of the spring forces before (rotated with the
+                 * contact) and after */
                 const real ux = b->rate[0][k], uy = b->rate[1][k], uz = b->rate[2][k];
                 const real up = b->rate[3][k];
-                const real was = last_shear[k], turned_was = last_pivot[k];
-                const real lag = damp * mask(!cut), turn_lag = damp * mask(!turned);
+                const real was = last_shear[k], pivot_was = last_pivot[k];
+                const real lag = damp * mask(!cut), pivot_lag = damp * mask(!pivots);
                 const real fore = (ox - ux) * ux + (oy - uy) * uy + (oz - uz) * uz;
                 const real aft = vx * ux + vy * uy + vz * uz;
                 const real u2 = ux * ux + uy * uy + uz * uz;
-                taken +=
+                absorbed +=
                     inverse_motion * (half * (was * fore + ks * aft) + lag * ks * u2 +
-                                      half * (turned_was * (op - up) + kp * p) * up +
-                                      turn_lag * kp * up * up);
+                                      half * (pivot_was * (op - up) + kp * p) * up +
+                                      pivot_lag * kp * up * up);
                 last_shear[k] = ks;
                 last_pivot[k] = kp;
                 vx += lag * ux;
                 vy += lag * uy;
                 vz += lag * uz;
-                p += turn_lag * up;
+                p += pivot_lag * up;
             }
             fx -= ks * vx;
             fy -= ks * vy;
@@ -255,8 +258,9 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
                     const real lag = damp * mask(!rolls & held);
                     const real fore = (qox - gx) * gx + (qoy - gy) * gy + (qoz - gz) * gz;
                     const real aft = px * gx + py * gy + pz * gz;
-                    taken += inverse_motion * (half * (last_roll[k] * fore + kr * aft) +
-                                               lag * kr * (gx * gx + gy * gy + gz * gz));
+                    absorbed +=
+                        inverse_motion * (half * (last_roll[k] * fore + kr * aft) +
+                                          lag * kr * (gx * gx + gy * gy + gz * gz));
                     last_roll[k] = where(held, kr);
                     px += lag * gx;
                     py += lag * gy;
@@ -288,26 +292,26 @@ INLINE void load_3d(const struct gb_model *model, struct terms t, BATCH *restric
         b->torque_j[1][k] = jy;
         b->torque_j[2][k] = jz;
         if (t.viscous) {
-            b->absorbed[k] = taken;
+            b->absorbed[k] = absorbed;
         }
         b->normal[k] = where(live, magnitude(f.elastic - law.adhesion));
         b->sliding[k] = slides;
     }
 }
 
-/* Force on the first particle, 3D and not viscous, from springs that were cut already. */
-INLINE void recall_3d(const struct gb_model *model, struct terms t, BATCH *restrict b,
-                      const struct gb_contacts *restrict c, int64_t slot)
+/* Force on the first particle, 3D and not viscous, from springs already cut. */
+INLINE void recompute_3d(const struct gb_model *model, struct terms t, BATCH *restrict b,
+                         const struct gb_contacts *restrict c, int64_t slot)
 {
     const real *restrict deepest = PLANE(c->deepest);
-    const real *restrict ax = PLANE(c->arm[0]), *restrict ay = PLANE(c->arm[1]);
-    const real *restrict az = PLANE(c->arm[2]);
+    const real *restrict ax = PLANE(c->branch[0]), *restrict ay = PLANE(c->branch[1]);
+    const real *restrict az = PLANE(c->branch[2]);
     const real *restrict sx = PLANE(c->shear[0]), *restrict sy = PLANE(c->shear[1]);
     const real *restrict sz = PLANE(c->shear[2]);
     const struct normal_law law = normal_law(model, b->cutoff2);
     const real k_shear = (real)model->slip.shear, length = (real)model->bridge.length;
     const real quarter = 0.25;
-    const real away2 = 4 * (1 + b->cutoff2); /* of slots that hold no pair: no arm */
+    const real away2 = 4 * (1 + b->cutoff2); /* of free slots, whose branch vector is 0 */
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
         const real rx = ax[k], ry = ay[k], rz = az[k], state = deepest[k];
@@ -342,15 +346,15 @@ static inline void fill_moments(const struct gb_model *model, BATCH *batch,
     }
 }
 
-/* Both halves, with what happens rarely done between them. */
+/* Both halves; between them the moments, which few contacts need. */
 INLINE void advance_3d(const struct gb_model *model, struct terms t, BATCH *b,
                        struct gb_contacts *c, int64_t slot)
 {
-    stretch_3d(model, t, b, c, slot);
+    advance_springs_3d(model, t, b, c, slot);
     if (t.friction && !MOMENT_FITTED && b->loose > 0 && model->slip.mu_pivot > 0.0) {
         fill_moments(model, b, PLANE(c->deepest));
     }
-    load_3d(model, t, b, c, slot);
+    spring_forces_3d(model, t, b, c, slot);
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* The loops in single precision, for scenes in 3D at rest. */
+/* The laws in single precision, for quasi-static scenes in 3D. */
 #include "pack/kernel/batch_f32.h"
 
 #include "pack/kernel/batch_3d.h"
@@ -6,56 +6,56 @@
 #include "pack/kernel/batch_tally.h"
 #include "pack/kernel/simd.h"
 
-/* Variants: normal only, friction, friction and bridges; Hertz and Mindlin only. */
-#define VARIANT(name, attribute, friction_, bridges_, plain_)                            \
+/* One variant; the terms that it computes are the arguments behind the attribute. */
+#define VARIANT(name, attribute, ...)                                                    \
     attribute static void name##_advance(const struct gb_model *model,                   \
                                          struct gb_batch_f32 *batch,                     \
                                          struct gb_contacts *contacts, int64_t slot)     \
     {                                                                                    \
-        const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
-        const struct terms printed = {false, friction_, bridges_, false, true, plain_};  \
-        if (bridges_ && model->bridge.radius_current) {                                  \
+        const struct terms t = {__VA_ARGS__};                                            \
+        const struct terms printed = {.printed = true, __VA_ARGS__};                     \
+        if (t.bridges && model->bridge.radius_current) {                                 \
             advance_3d(model, printed, batch, contacts, slot);                           \
         } else {                                                                         \
             advance_3d(model, t, batch, contacts, slot);                                 \
         }                                                                                \
     }                                                                                    \
-    attribute static void name##_recall(                                                 \
+    attribute static void name##_recompute(                                              \
         const struct gb_model *model, struct gb_batch_f32 *batch,                        \
         const struct gb_contacts *contacts, int64_t slot)                                \
     {                                                                                    \
-        const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
-        const struct terms printed = {false, friction_, bridges_, false, true, plain_};  \
-        if (bridges_ && model->bridge.radius_current) {                                  \
-            recall_3d(model, printed, batch, contacts, slot);                            \
+        const struct terms t = {__VA_ARGS__};                                            \
+        const struct terms printed = {.printed = true, __VA_ARGS__};                     \
+        if (t.bridges && model->bridge.radius_current) {                                 \
+            recompute_3d(model, printed, batch, contacts, slot);                         \
         } else {                                                                         \
-            recall_3d(model, t, batch, contacts, slot);                                  \
+            recompute_3d(model, t, batch, contacts, slot);                               \
         }                                                                                \
     }                                                                                    \
     attribute static void name##_tally(struct gb_batch_f32 *batch,                       \
                                        const struct gb_contacts *contacts, int64_t slot, \
                                        struct gb_tally *tally)                           \
     {                                                                                    \
-        const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
+        const struct terms t = {__VA_ARGS__};                                            \
         const float *deepest = (const float *)contacts->plane[contacts->deepest];        \
         tally_batch(t, batch, deepest + slot, tally);                                    \
     }                                                                                    \
     attribute static void name##_attract(const struct gb_model *model,                   \
                                          struct gb_batch_f32 *batch)                     \
     {                                                                                    \
-        const struct terms t = {false, friction_, bridges_, false, false, plain_};       \
+        const struct terms t = {__VA_ARGS__};                                            \
         attract(model, t, batch, NULL, NULL);                                            \
     }
 
 #define VARIANTS(width, attribute)                                                       \
-    VARIANT(width##_normal, attribute, false, false, false)                              \
-    VARIANT(width##_friction, attribute, true, false, false)                             \
-    VARIANT(width##_bridges, attribute, true, true, false)                               \
-    VARIANT(width##_plain, attribute, true, false, true)
+    VARIANT(width##_normal, attribute, .friction = false)                                \
+    VARIANT(width##_friction, attribute, .friction = true)                               \
+    VARIANT(width##_bridges, attribute, .friction = true, .bridges = true)               \
+    VARIANT(width##_plain, attribute, .friction = true, .plain = true)
 
 #define ROW(name)                                                                        \
     {                                                                                    \
-        name##_advance, name##_tally, name##_attract, name##_recall                      \
+        name##_advance, name##_tally, name##_attract, name##_recompute                   \
     }
 #define TABLE(width)                                                                     \
     {                                                                                    \

@@ -1,9 +1,9 @@
 #ifndef GB_PACK_KERNEL_BATCH_F32_H
 #define GB_PACK_KERNEL_BATCH_F32_H
 
-/* The loops of batch_*.h in single precision: include this first.  Twice the lanes and
- * half the memory; forces to 1e-6 of themselves, far below any tolerance of a relaxation
- * that uses it (gb_model decides). */
+/* The loops of batch_*.h in single precision: include this first.  Twice the lanes and half
+ * the memory; relative error of forces 1e-6, far below the tolerance of a relaxation in
+ * single precision (gb_model chooses). */
 
 #include <math.h>
 #include <stdint.h>
@@ -11,14 +11,14 @@
 
 #include "pack/kernel/batch.h"
 
-#define INLINE   static inline __attribute__((always_inline))
-#define BATCH    struct gb_batch_f32
-#define HAIR     (1.0F - 0x1p-20F)
-#define PLANE(p) ((real *)c->plane[p] + slot)
+#define INLINE    static inline __attribute__((always_inline))
+#define BATCH     struct gb_batch_f32
+#define BELOW_CAP (1.0F - 0x1p-20F)
+#define PLANE(p)  ((real *)c->plane[p] + slot)
 
 typedef float real;
 
-/* As in batch_double.h. */
+/* As in batch_f64.h. */
 INLINE real root_guess(real x)
 {
     uint32_t bits;
@@ -34,14 +34,14 @@ INLINE real root_nearer(real y, real half)
     return y * (1.5F - half * y * y);
 }
 
-/* 1/sqrt(x) from below within 5e-6, for springs that are cut a hair below their caps. */
+/* 1/sqrt(x) from below within 5e-6, for springs that are cut slightly below their caps. */
 INLINE real inverse_root_below(real x)
 {
     const float half = 0.5F * x;
     return root_nearer(root_nearer(root_guess(x), half), half);
 }
 
-/* The same to the last digit but one. */
+/* 1/sqrt(x) to the last digit but one. */
 INLINE real inverse_root(real x)
 {
     return root_nearer(inverse_root_below(x), 0.5F * x);
@@ -57,7 +57,7 @@ INLINE real magnitude(real x)
     return fabsf(x);
 }
 
-/* As in batch_double.h; the fit leaves 1e-8 of the whole. */
+/* As in batch_f64.h; relative error of the fit 1e-8. */
 INLINE real log_tail(real h, real s)
 {
     const float q = s * s, q2 = q * q;
@@ -69,7 +69,7 @@ INLINE real log_tail(real h, real s)
 
 /* Second term of M(a) of (9) without its factor: (1/4) ln((1+s)/(1-s)) - s/2 - s^3/6 over
  * s h^2 / 2 with s = sqrt(h), which is 1/5 + h/7 + h^2/9 + ..., for 0 <= h <= 1/2; the
- * fit by Chebyshev polynomials leaves 4e-7 of it. */
+ * relative error of the fit by Chebyshev polynomials is 4e-7. */
 #define MOMENT_FITTED true
 
 INLINE real moment_tail(real h)

@@ -9,16 +9,16 @@
 
 #include "pack/kernel/batch.h"
 
-#define INLINE   static inline __attribute__((always_inline))
-#define BATCH    struct gb_batch
-#define HAIR     (1.0 - 0x1p-40)
-#define PLANE(p) ((real *)c->plane[p] + slot)
+#define INLINE    static inline __attribute__((always_inline))
+#define BATCH     struct gb_batch
+#define BELOW_CAP (1.0 - 0x1p-40)
+#define PLANE(p)  ((real *)c->plane[p] + slot)
 
 typedef double real;
 
-/* A guess of 1/sqrt(x) from the bits, good to 3.5 %, and a step of Newton's iteration.
- * Multiplications and integer shifts run in every vector width, where root and division
- * wait for one slow unit. */
+/* Estimate of 1/sqrt(x) from the bits, within 3.5 %, and a step of Newton's iteration.
+ * Multiplications and integer shifts are fast in every vector width; root and division
+ * share one slow unit. */
 INLINE real root_guess(real x)
 {
     uint64_t bits;
@@ -42,7 +42,7 @@ INLINE real inverse_root(real x)
     return root_nearer(root_nearer(rough, half), half);
 }
 
-/* The same: this precision has digits for it. */
+/* The same in this precision. */
 INLINE real inverse_root_below(real x)
 {
     return inverse_root(x);
@@ -60,12 +60,11 @@ INLINE real magnitude(real x)
 
 /* -(h + ln(1 - h)) for 0 <= h <= 1/2 to the last digit, with s = h / (2 - h):
  * 2 (s^2/(1+s) + s^3/3 + s^5/5 + ...), all terms positive; the series behind the first
- * term is fitted by Chebyshev polynomials, which leaves 3e-17 of the whole. */
+ * term is fitted by Chebyshev polynomials with a relative error of 3e-17. */
 INLINE real log_tail(real h, real s)
 {
     const double q = s * s;
-    /* pairs first and then pairs of these: a chain of ten would keep the vector units
-     * waiting */
+    /* a tree of pairs: a chain of ten dependent sums would stall the vector units */
     const double q2 = q * q, q4 = q2 * q2;
     const double p01 = 0.33333333333333331 + q * 0.20000000000007292;
     const double p23 = 0.14285714283554379 + q * 0.11111111358713932;
@@ -76,7 +75,7 @@ INLINE real log_tail(real h, real s)
     return 2.0 * q * (1.0 - 0.5 * h + s * sum);
 }
 
-/* M(a) of contacts without a bridge comes from the law itself, contact by contact. */
+/* M(a) of contacts without a bridge is computed by the scalar law, contact by contact. */
 #define MOMENT_FITTED false
 
 INLINE real moment_tail(real h)

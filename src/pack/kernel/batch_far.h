@@ -4,8 +4,8 @@
 #include "pack/kernel/batch_laws.h"
 
 /* Attraction across gaps, in 2D and 3D: force on the first particle of each pair, 0 from
- * the cutoff on.  last: distances and pulls at the last evaluation, in viscous scenes,
- * for the work that the pairs take up (0: none yet). */
+ * the cutoff on.  last_*: distances and attractions at the last evaluation, in viscous
+ * scenes, for the work that the pairs absorb (0: none yet). */
 INLINE void attract(const struct gb_model *model, struct terms t, BATCH *restrict b,
                     real *restrict last_distance, real *restrict last_pull)
 {

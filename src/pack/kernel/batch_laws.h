@@ -5,17 +5,17 @@
 
 #include "pack/kernel/batch.h"
 
-/* How these loops are written: conditions choose between values that are there already
- * and masks (1 or 0) multiply, so that no lane needs a branch; a hidden one (&&, or an
- * expensive branch of ?:) would send the whole loop back to one contact at a time.
+/* These loops have no branches: conditions select between computed values, and masks (1 or
+ * 0) multiply.  A hidden branch (&&, or an expensive side of ?:) would stop the compiler
+ * from vectorising the loop.
  *
  * One source, compiled once per useful combination of terms and per vector width: every
  * `const bool` below is a constant where the function is inlined.  Nothing but the order
  * of lanes differs between the widths (contraction is off), so they give the same bits.
  *
- * And once per precision: batch_double.h or batch_single.h, included before, says what a
- * `real` is.  Constants are whole numbers where they can be, which take the type of what
- * they meet; any other one is made real first, or it would drag the loop into double. */
+ * And once per precision: batch_f64.h or batch_f32.h, included before, defines `real`.
+ * Constants are whole numbers where possible, which convert to the type of the other
+ * operand; any other constant is cast to real, or the loop would compute in double. */
 
 struct terms {
     bool planar, friction, bridges, viscous;
@@ -36,10 +36,10 @@ INLINE real smaller(real a, real b)
 /* h_min after the move to overlap h; law_bridge.h without branches. */
 INLINE real deepest_after(real length, real before, real h)
 {
-    const real fresh = h > length ? h : 0;
+    const real formed = h > length ? h : 0;
     const real peeled = before - h > length ? h + length : before;
     const real bridged = h >= before ? h : peeled;
-    return before <= 0 ? fresh : bridged;
+    return before <= 0 ? formed : bridged;
 }
 
 /* Squared overlap whose root is twice the spring radius. */
@@ -48,19 +48,19 @@ INLINE real radius_square(struct terms t, real length, real deepest, real h)
     return (t.bridges & (deepest > 0)) ? (t.printed ? h + length : deepest) : h;
 }
 
-/* Factor that keeps the length of a vector when its normal part is taken away; of the
- * squared lengths. */
+/* Factor that restores the length of a vector after its normal part was removed, from the
+ * squared lengths before and after. */
 INLINE real keep_length(real before, real after)
 {
     return before * inverse_root(before * after);
 }
 
-/* Factor that cuts a spring of squared load load2 back to its cap; where nothing moves by
- * itself to a hair below it, so that no rounding error makes a spring at rest slide. */
+/* Factor that cuts a spring of squared load load2 back to its cap; without viscous forces
+ * slightly below it, so that no rounding error makes a spring at rest slide. */
 INLINE real cut_to(struct terms t, real cap, real load2, bool over)
 {
-    const real hair = t.viscous ? 1 : HAIR;
-    return over ? hair * cap * inverse_root_below(load2) : 1;
+    const real scale = t.viscous ? 1 : BELOW_CAP;
+    return over ? scale * cap * inverse_root_below(load2) : 1;
 }
 
 INLINE real mask(bool condition)
@@ -81,7 +81,7 @@ struct normal {
     real root; /* of the overlap that the elastic force comes from */
 };
 
-/* What it needs of the scene. */
+/* Constants of the normal force. */
 struct normal_law {
     real hertz, rod, shift, strength, adhesion, cutoff2;
 };
@@ -119,11 +119,11 @@ INLINE struct normal normal_force(struct terms t, const struct normal_law *law,
     const real pull = law->strength * (near * wide * all);
     const real touching = force - law->adhesion;
     const real apart = where(r * r < law->cutoff2, -pull);
-    /* without a contact the overlap is none, and so are force and slope */
+    /* without a contact the overlap is 0, and so are force and slope */
     return (struct normal){force, slope, deepest >= 0 ? touching : apart, half_width};
 }
 
-/* Radius of the springs from its square; mostly half the root that is there already. */
+/* Radius of the springs from its square; mostly half the known root of the overlap. */
 INLINE real radius(struct terms t, real square, bool live, real root_of_overlap)
 {
     return t.printed ? root(larger(square, 0)) : where(live, (real)0.5 * root_of_overlap);

@@ -9,8 +9,7 @@ INLINE real lane_sum(const real *lane)
            ((lane[4] + lane[5]) + (lane[6] + lane[7]));
 }
 
-/* Lanes that a batch is filled up to: two groups, so that no sum waits for the last one.
- */
+/* Lanes that a batch is padded to: an even number of groups, summed in two chains. */
 INLINE int whole_lanes(int n)
 {
     return (n + 2 * GB_LANES - 1) / (2 * GB_LANES) * (2 * GB_LANES);
@@ -32,7 +31,7 @@ INLINE real lane_total(const real *a, const real *b, int n)
     return lane_sum(even) + lane_sum(odd);
 }
 
-/* Lanes behind the last pair count nothing; returns the number with them. */
+/* Sets the lanes behind the last pair to 0; returns the number of lanes. */
 INLINE int pad_work(struct terms t, BATCH *b)
 {
     const int whole = whole_lanes(b->n);
@@ -45,7 +44,7 @@ INLINE int pad_work(struct terms t, BATCH *b)
     return whole;
 }
 
-/* Work taken up and virial of a batch; viscous scenes. */
+/* Absorbed work and virial of a batch; viscous scenes. */
 INLINE void tally_work(struct terms t, BATCH *b, struct gb_tally *tally)
 {
     const int whole = pad_work(t, b);

@@ -5,13 +5,13 @@
 #include "pack/kernel/bed_laws.h"
 #include "pack/kernel/simd.h"
 
-/* Pairs: normal, overlap and lever from the arm.  The contact point divides the arm as
- * the radii do, so that the torques conserve angular momentum to the bit of rounding. */
-INLINE void shape(struct gb_bed_batch *restrict b)
+/* Pairs: normal, overlap and lever from the branch vector.  The contact point divides it as
+ * the radii do, so that the torques conserve angular momentum up to rounding. */
+INLINE void pair_geometry(struct gb_bed_batch *restrict b)
 {
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
-        const double x = b->arm[0][k], y = b->arm[1][k], z = b->arm[2][k];
+        const double x = b->branch[0][k], y = b->branch[1][k], z = b->branch[2][k];
         const double r = sqrt(x * x + y * y + z * z), inverse = 1.0 / r;
         b->unit[0][k] = x * inverse;
         b->unit[1][k] = y * inverse;
@@ -21,16 +21,19 @@ INLINE void shape(struct gb_bed_batch *restrict b)
     }
 }
 
-INLINE void respond(const struct gb_bed_law *law, struct bed_terms t,
-                    struct gb_bed_batch *restrict b, struct gb_bed_contacts *restrict c,
-                    int64_t slot)
+INLINE void contact_forces(const struct gb_bed_law *law, struct bed_terms t,
+                           struct gb_bed_batch *restrict b,
+                           struct gb_bed_contacts *restrict c, int64_t slot)
 {
     const double *restrict hertz = c->hertz + slot, *restrict damping = c->damping + slot;
-    const double *restrict inverse_mass = c->inverse_mass + slot, *restrict transition = c->transition + slot;
-    double *restrict deepest = c->deepest + slot, *restrict permanent = c->permanent + slot;
+    const double *restrict inverse_mass = c->inverse_mass + slot, *restrict transition =
+                                                                      c->transition +
+                                                                      slot;
+    double *restrict deepest = c->deepest + slot, *restrict permanent =
+                                                      c->permanent + slot;
     double *restrict sx = c->shear[0] + slot, *restrict sy = c->shear[1] + slot;
     double *restrict sz = c->shear[2] + slot, *restrict normal = c->normal + slot;
-    const double share = (2.0 + law->normal.exponent) / 3.0;
+    const double power = (2.0 + law->normal.exponent) / 3.0;
     const double slope = 1.0 + 0.5 * law->normal.exponent;
     const double stick = law->shear * b->step, mu = b->mu;
     double stiffest = b->stiffest;
@@ -40,37 +43,37 @@ INLINE void respond(const struct gb_bed_law *law, struct bed_terms t,
         const double h = larger(b->overlap[k], 0.0);
         const double touching = mask(b->overlap[k] > 0.0);
         double ux = b->slip[0][k], uy = b->slip[1][k], uz = b->slip[2][k];
-        const double parting = ux * nx + uy * ny + uz * nz;
+        const double normal_rate = ux * nx + uy * ny + uz * nz;
         double part = h;
         double yields = 0.0;
         if (t.storakers) {
-            const double reached = deepest[k], live = larger(h, 1e-300);
-            const double fresh = loaded_part(t, share, live, transition[k]);
-            const bool loads = h >= reached;
-            const double flat = touching * (loads ? h - fresh : permanent[k]);
-            part = larger(h - flat, 0.0);
-            yields = mask(loads & (flat != 0.0));
-            deepest[k] = larger(touching * reached, h);
-            permanent[k] = flat;
+            const double deepest_before = deepest[k], positive = larger(h, 1e-300);
+            const double loaded = loaded_part(t, power, positive, transition[k]);
+            const bool loads = h >= deepest_before;
+            const double plastic = touching * (loads ? h - loaded : permanent[k]);
+            part = larger(h - plastic, 0.0);
+            yields = mask(loads & (plastic != 0.0));
+            deepest[k] = larger(touching * deepest_before, h);
+            permanent[k] = plastic;
         }
         const double root = sqrt(part);
-        const double elastic = hertz[k] * part * root, steep = 1.5 * hertz[k] * root;
-        double stiffness = steep;
+        const double elastic = hertz[k] * part * root, unloading = 1.5 * hertz[k] * root;
+        double stiffness = unloading;
         if (t.storakers) {
-            const double soft = slope * elastic / larger(h, 1e-300);
-            stiffness = yields * soft + (1.0 - yields) * steep;
+            const double loading = slope * elastic / larger(h, 1e-300);
+            stiffness = yields * loading + (1.0 - yields) * unloading;
         }
-        const double dashpot = damping[k] * sqrt(stiffness) * parting;
+        const double dashpot = damping[k] * sqrt(stiffness) * normal_rate;
         const double fn = larger(elastic - dashpot, 0.0);
-        const double rate = steep * inverse_mass[k];
+        const double rate = unloading * inverse_mass[k];
         stiffest = rate > stiffest ? rate : stiffest;
         double fx = fn * nx, fy = fn * ny, fz = fn * nz;
         if (t.friction) {
             const double q = b->lever[k];
             const double wx = b->roll[0][k], wy = b->roll[1][k], wz = b->roll[2][k];
-            ux -= parting * nx + q * (wy * nz - wz * ny);
-            uy -= parting * ny + q * (wz * nx - wx * nz);
-            uz -= parting * nz + q * (wx * ny - wy * nx);
+            ux -= normal_rate * nx + q * (wy * nz - wz * ny);
+            uy -= normal_rate * ny + q * (wz * nx - wx * nz);
+            uz -= normal_rate * nz + q * (wx * ny - wy * nx);
             double tx = sx[k], ty = sy[k], tz = sz[k];
             const double before = tx * tx + ty * ty + tz * tz;
             const double along = tx * nx + ty * ny + tz * nz;
@@ -106,31 +109,31 @@ INLINE void respond(const struct gb_bed_law *law, struct bed_terms t,
     b->stiffest = stiffest;
 }
 
-#define VARIANT(name, attribute, storakers_, printed_, friction_, walls_)                \
+/* One variant; the terms that it computes are the arguments behind the attribute. */
+#define VARIANT(name, attribute, ...)                                                    \
     attribute static void name(const struct gb_bed_law *law, struct gb_bed_batch *batch, \
                                struct gb_bed_contacts *contacts, int64_t slot)           \
     {                                                                                    \
-        const struct bed_terms t = {storakers_, printed_, friction_, walls_};            \
-        if (!(walls_)) {                                                                 \
-            shape(batch);                                                                \
+        const struct bed_terms t = {__VA_ARGS__};                                        \
+        if (!t.walls) {                                                                  \
+            pair_geometry(batch);                                                        \
         }                                                                                \
-        respond(law, t, batch, contacts, slot);                                          \
+        contact_forces(law, t, batch, contacts, slot);                                   \
     }
 
-/* Walls or not, {Hertz, Storakers, as printed}, friction or not. */
+/* Without and with friction. */
+#define TWO(name, attribute, ...)                                                        \
+    VARIANT(name, attribute, __VA_ARGS__)                                                \
+    VARIANT(name##_friction, attribute, .friction = true, __VA_ARGS__)
+
 #define VARIANTS(width, attribute)                                                       \
-    VARIANT(width##_hertz, attribute, false, false, false, false)                        \
-    VARIANT(width##_hertz_friction, attribute, false, false, true, false)                \
-    VARIANT(width##_storakers, attribute, true, false, false, false)                     \
-    VARIANT(width##_storakers_friction, attribute, true, false, true, false)             \
-    VARIANT(width##_printed, attribute, true, true, false, false)                        \
-    VARIANT(width##_printed_friction, attribute, true, true, true, false)                \
-    VARIANT(width##_wall_hertz, attribute, false, false, false, true)                    \
-    VARIANT(width##_wall_hertz_friction, attribute, false, false, true, true)            \
-    VARIANT(width##_wall_storakers, attribute, true, false, false, true)                 \
-    VARIANT(width##_wall_storakers_friction, attribute, true, false, true, true)         \
-    VARIANT(width##_wall_printed, attribute, true, true, false, true)                    \
-    VARIANT(width##_wall_printed_friction, attribute, true, true, true, true)
+    TWO(width##_hertz, attribute, .walls = false)                                        \
+    TWO(width##_storakers, attribute, .walls = false, .storakers = true)                 \
+    TWO(width##_printed, attribute, .walls = false, .storakers = true, .printed = true)  \
+    TWO(width##_wall_hertz, attribute, .walls = true)                                    \
+    TWO(width##_wall_storakers, attribute, .walls = true, .storakers = true)             \
+    TWO(width##_wall_printed, attribute, .walls = true, .storakers = true,               \
+        .printed = true)
 
 #define TABLE(width)                                                                     \
     {                                                                                    \
@@ -150,8 +153,10 @@ static gb_bed_kernel *const table256[] = TABLE(w256);
 static gb_bed_kernel *const table512[] = TABLE(w512);
 #endif
 
-gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law, bool walls, int widest)
+gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
+                                 enum gb_bed_partner partner, int widest)
 {
+    const bool walls = partner == GB_BED_PARTNER_WALL;
     const double mu = walls ? law->mu_wall : law->mu;
     const int normal = !law->storakers ? 0 : law->normal.printed ? 2 : 1;
     const int row = 6 * walls + 2 * normal + (mu > 0.0);

@@ -8,14 +8,14 @@
 
 enum { GB_BED_BATCH = 64 };
 
-/* A batch of contacts on its way through the laws. */
+/* A batch of contacts while the laws are applied to it. */
 struct gb_bed_batch {
     int n;
     double step; /* time since the last evaluation, for the shear increments */
     double mu;
-    /* in, pairs: x_i - x_j and R_i + R_j.  In, walls: unit, overlap, and lever = 1 - h/R
-     */
-    _Alignas(64) double arm[3][GB_BED_BATCH];
+    /* in, pairs: branch vector x_i - x_j and R_i + R_j.  In, walls: unit, overlap, and
+     * lever = 1 - h/R */
+    _Alignas(64) double branch[3][GB_BED_BATCH];
     double reach[GB_BED_BATCH];
     double unit[3][GB_BED_BATCH], overlap[GB_BED_BATCH], lever[GB_BED_BATCH];
     double slip[3][GB_BED_BATCH]; /* in: v_i - v_j of the centres */
@@ -25,19 +25,23 @@ struct gb_bed_batch {
     double stiffest; /* largest omega^2 = k/m of (29) so far; in and out */
 };
 
-/* Carries contacts [slot, slot + batch->n) on to the present and fills the outputs. */
+/* Advances contacts [slot, slot + batch->n) to the present and fills the outputs. */
 typedef void gb_bed_kernel(const struct gb_bed_law *law, struct gb_bed_batch *batch,
                            struct gb_bed_contacts *contacts, int64_t slot);
 
-/* The variant for a law and this processor; none pays for terms it leaves out.  widest: 0
- * picks by processor; 128, 256 or 512 limits the vectors (tests). */
-gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law, bool walls, int widest);
+enum gb_bed_partner { GB_BED_PARTNER_PARTICLE, GB_BED_PARTNER_WALL };
+
+/* The variant for a law, a kind of contact and this processor; it computes only its own
+ * terms.  widest: 0 picks by processor; 128, 256 or 512 limits the vectors (tests). */
+gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
+                                 enum gb_bed_partner partner, int widest);
 
 /* Rows of four doubles of the particles, so that a vector is one load. */
 typedef double gb_bed_row[4];
 
-/* What a batch of pairs takes from its particles and gives them back; the particles of
- * pair k are first[k] and other[k].  Without friction neither spin nor torque is used. */
+/* The particles of a batch of pairs: first[k] and other[k] of pair k.  Without friction
+ * neither spin nor torque is used.  Gather: branch vectors, relative velocities and sums of
+ * radii into the batch; scatter: forces and torques back. */
 struct gb_bed_rows {
     const gb_bed_row *position, *velocity, *spin;
     gb_bed_row *force, *torque;
@@ -48,10 +52,10 @@ typedef void gb_bed_gather(const struct gb_bed_rows *rows, struct gb_bed_batch *
 typedef void gb_bed_scatter(const struct gb_bed_rows *rows,
                             const struct gb_bed_batch *batch);
 
-/* The variant for this processor, widest as above; the same bits from all. */
+/* The variant for this processor, widest as above; all give the same bits. */
 struct gb_bed_transfer {
-    gb_bed_gather *fill;
-    gb_bed_scatter *spill;
+    gb_bed_gather *gather;
+    gb_bed_scatter *scatter;
 };
 struct gb_bed_transfer gb_bed_transfer_pick(int widest);
 

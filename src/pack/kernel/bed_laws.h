@@ -29,8 +29,8 @@ INLINE double of_bits(uint64_t bits)
 }
 
 /* log2 of a normal positive number: u = 2^n m with m in [sqrt(1/2), sqrt 2), and ln m = 2
- * atanh s, s = (m - 1)/(m + 1), |s| < 0.1716.  The series breaks off after s^21; what is
- * left out is below 2 s^23/(23 (1 - s^2)) = 2.2e-19, nothing beside the rounding. */
+ * atanh s, s = (m - 1)/(m + 1), |s| < 0.1716.  The series ends with s^21; the rest is
+ * below 2 s^23/(23 (1 - s^2)) = 2.2e-19, nothing beside the rounding. */
 INLINE double log2_of(double u)
 {
     const uint64_t least = 0x3fe6a09e667f3bcdU; /* sqrt(1/2) */
@@ -53,7 +53,7 @@ INLINE double log2_of(double u)
 }
 
 /* 2^t for |t| < 1000: t = n + f with |f| <= 1/2, Taylor's series of e^(f ln 2) up to the
- * 13th power; what is left out is below 0.3466^14/14! = 4.1e-18. */
+ * 13th power; the rest is below 0.3466^14/14! = 4.1e-18. */
 INLINE double exp2_of(double t)
 {
     const double shift = 6755399441055744.0; /* 1.5 * 2^52: integers in the low bits */
@@ -80,10 +80,10 @@ INLINE double exp2_of(double t)
  * With h_x the overlap where (2) and (16) meet, F = (16) means y = h_x (h/h_x)^((2+m)/3):
  * one power of a ratio near 1 instead of two of h.  Below h_x the lesser force is Hertz'
  * own and y = h; the printed law follows (16) there too. */
-INLINE double loaded_part(struct bed_terms t, double share, double h, double transition)
+INLINE double loaded_part(struct bed_terms t, double power, double h, double transition)
 {
     const double ratio = h / transition;
-    const double plastic = transition * exp2_of(share * log2_of(ratio));
+    const double plastic = transition * exp2_of(power * log2_of(ratio));
     return (t.printed | (ratio > 1.0)) ? plastic : h;
 }
 

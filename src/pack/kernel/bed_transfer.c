@@ -2,13 +2,13 @@
 #include "pack/kernel/simd.h"
 
 /* Pairs [from, batch->n) one by one. */
-static void fill_from(const struct gb_bed_rows *rows, struct gb_bed_batch *b, int from)
+static void gather_from(const struct gb_bed_rows *rows, struct gb_bed_batch *b, int from)
 {
     for (int k = from; k < b->n; k++) {
         const int32_t i = rows->first[k], j = rows->other[k];
         const double *xi = rows->position[i], *xj = rows->position[j];
         for (int c = 0; c < 3; c++) {
-            b->arm[c][k] = xi[c] - xj[c];
+            b->branch[c][k] = xi[c] - xj[c];
             b->slip[c][k] = rows->velocity[i][c] - rows->velocity[j][c];
         }
         b->reach[k] = xi[3] + xj[3];
@@ -18,8 +18,8 @@ static void fill_from(const struct gb_bed_rows *rows, struct gb_bed_batch *b, in
     }
 }
 
-static void spill_from(const struct gb_bed_rows *rows, const struct gb_bed_batch *b,
-                       int from)
+static void scatter_from(const struct gb_bed_rows *rows, const struct gb_bed_batch *b,
+                         int from)
 {
     for (int k = from; k < b->n; k++) {
         const int32_t i = rows->first[k], j = rows->other[k];
@@ -35,17 +35,17 @@ static void spill_from(const struct gb_bed_rows *rows, const struct gb_bed_batch
     }
 }
 
-static void fill_128(const struct gb_bed_rows *rows, struct gb_bed_batch *batch)
+static void gather_128(const struct gb_bed_rows *rows, struct gb_bed_batch *batch)
 {
-    fill_from(rows, batch, 0);
+    gather_from(rows, batch, 0);
 }
 
-static void spill_128(const struct gb_bed_rows *rows, const struct gb_bed_batch *batch)
+static void scatter_128(const struct gb_bed_rows *rows, const struct gb_bed_batch *batch)
 {
-    spill_from(rows, batch, 0);
+    scatter_from(rows, batch, 0);
 }
 
-static const struct gb_bed_transfer carrier_128 = {fill_128, spill_128};
+static const struct gb_bed_transfer transfer_128 = {gather_128, scatter_128};
 
 #if defined(__x86_64__) && defined(__has_builtin)
 #if __has_builtin(__builtin_shufflevector)
@@ -72,7 +72,8 @@ typedef double v4 __attribute__((vector_size(32), aligned(8), may_alias));
 #define ROW(rows, i) (*(const v4 *)(rows)[i])
 
 /* Rows of the particles of four pairs, then columns of the batch. */
-GB_TARGET_256 static void fill_256(const struct gb_bed_rows *rows, struct gb_bed_batch *b)
+GB_TARGET_256 static void gather_256(const struct gb_bed_rows *rows,
+                                     struct gb_bed_batch *b)
 {
     const int32_t *restrict first = rows->first, *restrict other = rows->other;
     const gb_bed_row *restrict position = rows->position;
@@ -81,11 +82,11 @@ GB_TARGET_256 static void fill_256(const struct gb_bed_rows *rows, struct gb_bed
     const int n = b->n;
     int k = 0;
     for (; k + 4 <= n; k += 4) {
-        v4 arm[4], slip[4], roll[4] = {{0}};
+        v4 branch[4], slip[4], roll[4] = {{0}};
         for (int p = 0; p < 4; p++) {
             const int32_t i = first[k + p], j = other[k + p];
             const v4 xi = ROW(position, i), xj = ROW(position, j);
-            arm[p] = SHUFFLE(xi - xj, xi + xj, 0, 1, 2, 7);
+            branch[p] = SHUFFLE(xi - xj, xi + xj, 0, 1, 2, 7);
             slip[p] = ROW(velocity, i) - ROW(velocity, j);
             if (friction) {
                 const v4 ri = SHUFFLE(xi, xi, 3, 3, 3, 3),
@@ -93,13 +94,13 @@ GB_TARGET_256 static void fill_256(const struct gb_bed_rows *rows, struct gb_bed
                 roll[p] = ri * ROW(spin, i) + rj * ROW(spin, j);
             }
         }
-        TRANSPOSE(arm[0], arm[1], arm[2], arm[3]);
+        TRANSPOSE(branch[0], branch[1], branch[2], branch[3]);
         TRANSPOSE(slip[0], slip[1], slip[2], slip[3]);
         for (int c = 0; c < 3; c++) {
-            *(v4 *)(b->arm[c] + k) = arm[c];
+            *(v4 *)(b->branch[c] + k) = branch[c];
             *(v4 *)(b->slip[c] + k) = slip[c];
         }
-        *(v4 *)(b->reach + k) = arm[3];
+        *(v4 *)(b->reach + k) = branch[3];
         if (friction) {
             TRANSPOSE(roll[0], roll[1], roll[2], roll[3]);
             for (int c = 0; c < 3; c++) {
@@ -107,11 +108,11 @@ GB_TARGET_256 static void fill_256(const struct gb_bed_rows *rows, struct gb_bed
             }
         }
     }
-    fill_from(rows, b, k);
+    gather_from(rows, b, k);
 }
 
-GB_TARGET_256 static void spill_256(const struct gb_bed_rows *rows,
-                                    const struct gb_bed_batch *b)
+GB_TARGET_256 static void scatter_256(const struct gb_bed_rows *rows,
+                                      const struct gb_bed_batch *b)
 {
     const int32_t *restrict first = rows->first, *restrict other = rows->other;
     const gb_bed_row *restrict position = rows->position;
@@ -143,18 +144,18 @@ GB_TARGET_256 static void spill_256(const struct gb_bed_rows *rows,
             *(v4 *)torque_of[j] += SHUFFLE(xj, xj, 3, 3, 3, 3) * moment[p];
         }
     }
-    spill_from(rows, b, k);
+    scatter_from(rows, b, k);
 }
 
-static const struct gb_bed_transfer carrier_256 = {fill_256, spill_256};
+static const struct gb_bed_transfer transfer_256 = {gather_256, scatter_256};
 #endif
 
 struct gb_bed_transfer gb_bed_transfer_pick(int widest)
 {
 #if defined(HAVE_256)
-    return gb_simd_width(widest) >= 256 ? carrier_256 : carrier_128;
+    return gb_simd_width(widest) >= 256 ? transfer_256 : transfer_128;
 #else
     (void)widest;
-    return carrier_128;
+    return transfer_128;
 #endif
 }

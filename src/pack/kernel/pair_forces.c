@@ -4,34 +4,36 @@
 #include "pack/kernel/sweep_f32.h"
 
 void gb_pair_forces_init(struct gb_pair_forces *forces, const struct gb_world *world,
-                         bool near)
+                         enum gb_pair_forces_list list)
 {
+    const struct gb_neighbour_list *lists = &world->engine.list;
     forces->world = world;
-    forces->near = near;
+    forces->list = list == GB_PAIR_FORCES_NEAR ? &lists->near : &lists->far;
     forces->slot = 0;
     forces->count = 0;
 }
 
-/* As the sweep in double precision left them. */
-static void kept(const struct gb_world *world, bool near, int64_t k, double force[3])
+/* Row of a sweep in double precision. */
+static void read_row(const struct gb_pair_forces *forces, int64_t k, double force[3])
 {
-    const double *row =
-        near ? world->wrench + (int64_t)world->row * k : world->pull + 3 * k;
-    const bool planar = near && world->row < 6;
+    const struct gb_engine *engine = &forces->world->engine;
+    const bool near = forces->list == &engine->list.near;
+    const double *row = near ? engine->pair.wrench + (int64_t)engine->pair.width * k
+                             : engine->pair.pull + 3 * k;
+    const bool planar = near && engine->pair.width < 6;
     force[0] = row[0];
     force[1] = planar ? 0.0 : row[1];
     force[2] = planar ? row[1] : row[2];
 }
 
 /* The batch that begins with pair k. */
-static void recall(struct gb_pair_forces *forces, int64_t k)
+static void recompute(struct gb_pair_forces *forces, int64_t k)
 {
-    const struct gb_neighbour_list *pairs = &forces->world->pairs;
-    const int64_t left =
-        gb_neighbour_list_slots(pairs, forces->near ? &pairs->near : &pairs->far) - k;
+    const struct gb_engine *engine = &forces->world->engine;
+    const int64_t left = gb_neighbour_list_slots(&engine->list, forces->list) - k;
     struct gb_batch_f32 batch;
     batch.n = left < GB_BATCH ? (int)left : GB_BATCH;
-    gb_sweep_f32_recall(forces->world, forces->near, k, &batch);
+    gb_sweep_f32_recompute(engine, forces->list, k, &batch);
     for (int c = 0; c < 3; c++) {
         for (int l = 0; l < batch.n; l++) {
             forces->force[c][l] = (double)batch.force[c][l];
@@ -43,12 +45,12 @@ static void recall(struct gb_pair_forces *forces, int64_t k)
 
 void gb_pair_forces_at(struct gb_pair_forces *forces, int64_t k, double force[3])
 {
-    if (!forces->world->in_single) {
-        kept(forces->world, forces->near, k, force);
+    if (!gb_engine_is_f32(&forces->world->engine)) {
+        read_row(forces, k, force);
         return;
     }
     if (k < forces->slot || k >= forces->slot + forces->count) {
-        recall(forces, k);
+        recompute(forces, k);
     }
     for (int c = 0; c < 3; c++) {
         force[c] = forces->force[c][k - forces->slot];

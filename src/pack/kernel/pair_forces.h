@@ -6,25 +6,27 @@
 
 #include "pack/kernel/batch.h"
 
+struct gb_pair_list;
 struct gb_world;
 
+enum gb_pair_forces_list { GB_PAIR_FORCES_NEAR, GB_PAIR_FORCES_FAR };
+
 /* Forces of the pairs of a list on their first particles (E d^2), as of the last
- * evaluation.  A world in single precision keeps none: they follow from histories and
- * arms, of many pairs at a time, so that pairs are best asked for in their order. */
+ * evaluation.  A world in single precision keeps none: they are computed again from the
+ * contact records, many pairs at a time, which is fast for ascending slots. */
 struct gb_pair_forces {
     const struct gb_world *world;
-    bool near;
-    int64_t slot; /* those of `count` pairs from here on are here */
+    const struct gb_pair_list *list;
+    int64_t slot; /* first of `count` computed pairs */
     int count;
     double force[3][GB_BATCH];
 };
 
-/* near: of that list, else of `far`.  The world must neither move nor be strained as long
- * as they are asked for. */
+/* The world must neither move nor be strained while the forces are read. */
 void gb_pair_forces_init(struct gb_pair_forces *forces, const struct gb_world *world,
-                         bool near);
+                         enum gb_pair_forces_list list);
 
-/* Of pair k. */
+/* Force of pair k. */
 void gb_pair_forces_at(struct gb_pair_forces *forces, int64_t k, double force[3]);
 
 #endif

@@ -1,8 +1,8 @@
 #ifndef GB_PACK_KERNEL_REGISTER_ROWS_H
 #define GB_PACK_KERNEL_REGISTER_ROWS_H
 
-/* Rows of numbers in a register, and four of them turned into columns and back: particles
- * lie in memory one by one, the laws take contacts side by side. */
+/* Rows of numbers in a register, and the transposition of four of them into columns and
+ * back: in memory a particle is a row, and the laws work on columns of many contacts. */
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -68,8 +68,8 @@ GB_ROW_INLINE void gb_row_of_columns(const float *x, const float *y, const float
     row[3] = __builtin_shufflevector(yx, z1, 2, 3, 6, 7);
 }
 
-/* Adds a row to what is there, or, where `there` is false, puts it in its place: without
- * a branch, which a processor would guess wrong. */
+/* Adds a row to `to`; with a condition, replaces `to` where `there` is false, without a
+ * branch that the processor would mispredict. */
 GB_ROW_INLINE void gb_row_add(float *to, gb_row row)
 {
     gb_row_store(to, gb_row_load(to) + row);

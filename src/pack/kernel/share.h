@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-/* Part t of `parts` nearly equal ones of count items is share(t) .. share(t + 1) - 1. */
+/* Part t of `parts` nearly equal ones of count items: gb_share(t) .. gb_share(t + 1) - 1. */
 static inline int64_t gb_share(int64_t count, int t, int parts)
 {
     return count * t / parts;

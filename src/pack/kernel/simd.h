@@ -21,7 +21,7 @@
  * the program to those of an older processor.  Read once, before main. */
 extern int gb_simd_most;
 
-/* False: GB_SIMD is set to something else. */
+/* False, error set: GB_SIMD is set to something else. */
 bool gb_simd_check(struct gb_error *err);
 
 /* Bits of the widest vectors that this processor, the environment and the caller (0: no
@@ -75,9 +75,8 @@ static inline int gb_simd_width(int widest)
 
 #define GB_SIMD_LOOP static inline __attribute__((always_inline))
 
-/* Asks for a line of memory before it is needed, as far as the second cache: the first
- * can wait for few lines at a time, and what is read meanwhile would queue behind them.
- */
+/* Prefetches a cache line into the second cache: the first one can wait for few lines at a
+ * time, and other reads would queue behind them. */
 GB_SIMD_LOOP void gb_simd_fetch(const void *line)
 {
     enum { TO_READ = 0, SECOND_CACHE = 2 };

@@ -8,14 +8,15 @@
 #include "pack/kernel/simd.h"
 #include "pack/kernel/sweep_f32.h"
 
-/* Sums of so many parts of the particles, added in their order: the same bits for any
- * number of threads.  In single precision every part is worth some batches. */
+/* Partial sums over so many parts of the particles, added in their order: the same bits
+ * for any number of threads.  In single precision a part has at least PART_LEAST particles,
+ * enough to fill some batches. */
 enum { PARTS = 64, PART_LEAST = 1024 };
 
-static int parts_of(const struct gb_world *world)
+static int parts_of(const struct gb_engine *engine)
 {
-    const int64_t parts = 1 + world->count / PART_LEAST;
-    return world->in_single && parts < PARTS ? (int)parts : PARTS;
+    const int64_t parts = 1 + engine->particles.count / PART_LEAST;
+    return gb_engine_is_f32(engine) && parts < PARTS ? (int)parts : PARTS;
 }
 
 static void add(double sum[3][3], const double force[3], const double r[3])
@@ -32,16 +33,16 @@ GB_SIMD_LOOP void add_batch_loop(const struct gb_batch_f32 *batch,
     for (int a = 0; a < 3; a++) {
         const float *restrict force = batch->force[a];
         for (int b = 0; b < 3; b++) {
-            const float *restrict arm = batch->r[b];
+            const float *restrict r = batch->r[b];
             double *restrict sum = lane[a][b];
             int k = 0;
             for (; k + GB_LANES <= batch->n; k += GB_LANES) {
                 for (int l = 0; l < GB_LANES; l++) {
-                    sum[l] += (double)force[k + l] * (double)arm[k + l];
+                    sum[l] += (double)force[k + l] * (double)r[k + l];
                 }
             }
             for (; k < batch->n; k++) {
-                sum[0] += (double)force[k] * (double)arm[k];
+                sum[0] += (double)force[k] * (double)r[k];
             }
         }
     }
@@ -49,15 +50,15 @@ GB_SIMD_LOOP void add_batch_loop(const struct gb_batch_f32 *batch,
 GB_SIMD_WIDTHS(add_batch, (const struct gb_batch_f32 *batch, double lane[3][3][GB_LANES]),
                (batch, lane))
 
-/* Pairs [begin, end) of one list or the other in single precision. */
-static void sum_single(const struct gb_world *world, bool near, int64_t begin,
-                       int64_t end, double sum[3][3])
+/* Pairs [begin, end) of a list in single precision. */
+static void sum_f32(const struct gb_engine *engine, const struct gb_pair_list *list,
+                    int64_t begin, int64_t end, double sum[3][3])
 {
     double lane[3][3][GB_LANES] = {0};
     struct gb_batch_f32 batch;
     for (int64_t slot = begin; slot < end; slot += batch.n) {
         batch.n = end - slot < GB_BATCH ? (int)(end - slot) : GB_BATCH;
-        gb_sweep_f32_recall(world, near, slot, &batch);
+        gb_sweep_f32_recompute(engine, list, slot, &batch);
         add_batch(&batch, lane);
     }
     for (int a = 0; a < 3; a++) {
@@ -69,13 +70,13 @@ static void sum_single(const struct gb_world *world, bool near, int64_t begin,
     }
 }
 
-/* The same of particle i in double precision. */
-static void sum_double(struct gb_pair_forces *forces, const struct gb_pair_list *list,
-                       int64_t i, double sum[3][3])
+/* Pairs of particle i in double precision. */
+static void sum_f64(struct gb_pair_forces *forces, int64_t i, double sum[3][3])
 {
+    const struct gb_pair_list *list = forces->list;
     for (int64_t k = list->start[i]; k < list->start[i + 1]; k++) {
         double force[3], r[3];
-        gb_world_arm_of(forces->world, list, i, k, r);
+        gb_engine_branch_vector(&forces->world->engine, list, i, k, r);
         gb_pair_forces_at(forces, k, force);
         add(sum, force, r);
     }
@@ -84,30 +85,32 @@ static void sum_double(struct gb_pair_forces *forces, const struct gb_pair_list 
 static void sum_part(const struct gb_world *world, int64_t begin, int64_t end,
                      double sum[3][3])
 {
-    const struct gb_pair_list *near = &world->pairs.near, *far = &world->pairs.far;
-    struct gb_pair_forces push, pull;
-    if (world->in_single) {
-        sum_single(world, true, near->start[begin], near->start[end], sum);
-        sum_single(world, false, far->start[begin], far->start[end], sum);
+    const struct gb_engine *engine = &world->engine;
+    const struct gb_pair_list *near = &engine->list.near, *far = &engine->list.far;
+    struct gb_pair_forces near_forces, far_forces;
+    if (gb_engine_is_f32(engine)) {
+        sum_f32(engine, near, near->start[begin], near->start[end], sum);
+        sum_f32(engine, far, far->start[begin], far->start[end], sum);
         return;
     }
-    gb_pair_forces_init(&push, world, true);
-    gb_pair_forces_init(&pull, world, false);
+    gb_pair_forces_init(&near_forces, world, GB_PAIR_FORCES_NEAR);
+    gb_pair_forces_init(&far_forces, world, GB_PAIR_FORCES_FAR);
     for (int64_t i = begin; i < end; i++) {
-        sum_double(&push, near, i, sum);
-        sum_double(&pull, far, i, sum);
+        sum_f64(&near_forces, i, sum);
+        sum_f64(&far_forces, i, sum);
     }
 }
 
 void gb_virial_sum(const struct gb_world *world, double sum[3][3])
 {
     double part[PARTS][3][3] = {0};
-    const int parts = parts_of(world);
-#pragma omp parallel for num_threads(world->threads)                                     \
-    schedule(static) if (world->threads > 1)
+    const int64_t count = world->engine.particles.count;
+    const int threads = world->engine.threads, parts = parts_of(&world->engine);
+    (void)threads; /* without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
     for (int p = 0; p < parts; p++) {
-        sum_part(world, gb_share(world->count, p, parts),
-                 gb_share(world->count, p + 1, parts), part[p]);
+        sum_part(world, gb_share(count, p, parts), gb_share(count, p + 1, parts),
+                 part[p]);
     }
     memset(sum, 0, sizeof part[0]);
     for (int p = 0; p < parts; p++) {

@@ -1,4 +1,4 @@
-#include "pack/cell/neighbour_grid.h"
+#include "pack/list/neighbour_grid.h"
 
 #include <math.h>
 
@@ -16,17 +16,17 @@ void gb_neighbour_grid_init(struct gb_neighbour_grid *grid, const struct gb_cell
         const double edge = cell->edge[k];
         grid->n[k] = cell->periodic[k] ? clamp((int)(edge / reach), 1, most * 8) : 1;
         grid->inverse[k] = grid->n[k] / edge;
-        /* with one or two cells along an axis, -1 and +1 are the same cell */
+        /* with one or two bins along an axis, -1 and +1 are the same bin */
         grid->span_low[k] = grid->n[k] > 2 ? -1 : 0;
         grid->span_high[k] = grid->n[k] > 1 ? 1 : 0;
         grid->plain = grid->plain && (grid->n[k] > 2 || !cell->periodic[k]);
     }
 }
 
-void gb_neighbour_grid_home(const struct gb_neighbour_grid *grid, const double x[3],
-                            int home[3])
+void gb_neighbour_grid_bin(const struct gb_neighbour_grid *grid, const double x[3],
+                           int bin[3])
 {
     for (int k = 0; k < 3; k++) {
-        home[k] = clamp((int)(x[k] * grid->inverse[k]), 0, grid->n[k] - 1);
+        bin[k] = clamp((int)(x[k] * grid->inverse[k]), 0, grid->n[k] - 1);
     }
 }

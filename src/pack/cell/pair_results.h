@@ -1,0 +1,38 @@
+#ifndef GB_PACK_CELL_PAIR_RESULTS_H
+#define GB_PACK_CELL_PAIR_RESULTS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+#include "pack/cell/real.h"
+#include "scene/model.h"
+
+/* Results of the pairs in double precision, one row per slot of a list; owned by
+ * pair_results.c.  A world in single precision keeps none. */
+struct gb_pair_results {
+    double *wrench; /* rows per near pair: force on i, torque on j */
+    int width;      /* doubles in a row: 6; in 2D 3 (x, z, about y); unequal sizes 12 */
+    double *pull;   /* three per far pair: attraction on i */
+    int64_t far_capacity;
+    /* Dynamic scenes, per far pair: distance and attraction at the last evaluation. */
+    double *far_distance, *far_pull;
+};
+
+/* Doubles in a row of a pair of unequal sizes: forces and what it adds to the tally. */
+enum { GB_PAIR_RESULTS_SIZED = 12 };
+
+void gb_pair_results_init(struct gb_pair_results *results, const struct gb_model *model);
+void gb_pair_results_finish(struct gb_pair_results *results);
+
+/* Room for so many pairs; what was there is lost. */
+bool gb_pair_results_resize_near(struct gb_pair_results *results, int64_t capacity,
+                                 struct gb_error *err);
+/* viscous: keeps distances and attractions for the next evaluation, in dynamic scenes */
+bool gb_pair_results_resize_far(struct gb_pair_results *results, int64_t capacity,
+                                enum gb_real real, bool viscous, struct gb_error *err);
+
+/* The far pairs of a new list have no last evaluation. */
+void gb_pair_results_reset_far(struct gb_pair_results *results, int64_t pairs);
+
+#endif

@@ -1,0 +1,32 @@
+#include "pack/cell/world_measure.h"
+
+#include <math.h>
+
+#include "base/vec.h"
+#include "pack/kernel/virial.h"
+
+double gb_world_measure_density(const struct gb_world *world)
+{
+    const struct gb_model *model = gb_world_model(world);
+    const double shape = model->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
+    return shape * model->mean_cube * (double)model->count /
+           gb_cell_volume(gb_world_cell(world));
+}
+
+void gb_world_measure_pressure(const struct gb_world *world, double pressure[3][3])
+{
+    const double volume = gb_cell_volume(gb_world_cell(world));
+    gb_virial_sum(world, pressure);
+    for (int a = 0; a < 3; a++) {
+        gb_vec_scale(pressure[a], 1.0 / volume);
+    }
+}
+
+void gb_world_measure_normal_pressures(const struct gb_world *world, double pressure[3])
+{
+    double tensor[3][3];
+    gb_world_measure_pressure(world, tensor);
+    for (int k = 0; k < 3; k++) {
+        pressure[k] = tensor[k][k];
+    }
+}

@@ -1,0 +1,54 @@
+#ifndef GB_PACK_F32_F32_STATE_H
+#define GB_PACK_F32_F32_STATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+#include "pack/f32/cross_rows.h"
+#include "pack/kernel/batch.h"
+#include "pack/list/neighbour_list.h"
+
+/* A particle as a sweep in single precision reads it: half the memory traffic of doubles. */
+struct gb_f32_particle {
+    int32_t position[4]; /* fixed-point (fixed_position.h); the fourth is not used */
+    float rotation[4];   /* increment since the last evaluation, rad */
+};
+
+/* Numbers in a row: force and torque on a particle, each with a fourth number that is 0;
+ * an attraction. */
+enum { GB_F32_STATE_WRENCH = 8, GB_F32_STATE_PULL = 4 };
+
+/* Neighbours in memory that share one bound of their displacements; divides a block. */
+enum { GB_F32_STATE_GROUP = 32 };
+
+/* Particles from which on the data of a sweep exceed the second cache and are prefetched. */
+enum { GB_F32_STATE_PREFETCH = 16384 };
+
+/* Arrays of a world in single precision; owned by f32_state.c. */
+struct gb_f32_state {
+    struct gb_batch_f32_kernel kernel;
+    struct gb_f32_particle *particle;     /* count */
+    float (*wrench)[GB_F32_STATE_WRENCH]; /* count: force and torque on it */
+    struct gb_cross_rows near;            /* rows: wrench on the second particle */
+    struct gb_cross_rows far;             /* rows: attraction on it */
+    float scale[3]; /* size of a fixed-point unit at the last evaluation, d */
+    /* Velocities of integrate_f32.c: count x 3, and one number more each. */
+    float *velocity, *spin;
+    uint32_t *built; /* count x 3: fixed-point positions at the list build */
+    /* Of every group: upper bound of the displacements since the build, d.  From the margin
+     * of the list check on it is the largest displacement itself. */
+    float *bound;
+    double *speed2; /* of every block: sum of squared velocities, spins by inertia */
+};
+
+bool gb_f32_state_init(struct gb_f32_state *f32, const struct gb_model *model,
+                       struct gb_error *err);
+void gb_f32_state_finish(struct gb_f32_state *f32);
+
+/* After a build of the lists: rows for their cross pairs, fixed-point positions.  On
+ * failure nothing may be evaluated. */
+bool gb_f32_state_use_lists(struct gb_f32_state *f32,
+                            const struct gb_neighbour_list *list, struct gb_error *err);
+
+#endif

@@ -1,0 +1,106 @@
+#ifndef GB_PACK_LIST_NEIGHBOUR_LIST_H
+#define GB_PACK_LIST_NEIGHBOUR_LIST_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+#include "pack/list/neighbour_grid.h"
+
+/* How the pairs of a particle are found from its second partner. */
+enum gb_neighbour_list_layout {
+    GB_NEIGHBOUR_LIST_TRANSPOSED, /* by the transposed list; sweeps in double precision */
+    GB_NEIGHBOUR_LIST_PATCHABLE,  /* not at all; every block of particles ends with free
+                                   * slots for later insertions; single precision */
+};
+
+/* One of the two lists: pairs (i, other[k]) with i < other[k] for k in
+ * [start[i], start[i+1]), sorted by other within i. */
+struct gb_pair_list {
+    int64_t pair_count;
+    int64_t capacity; /* pairs the arrays can hold */
+    int64_t *start;   /* particles + 1 */
+    /* Patchable lists, else NULL: one past the last pair of every block of particles
+     * (pack/list/blocks.h).  The slots from there to the next block are free, so that an
+     * inserted pair moves no other block.  A free slot holds the last particle of the
+     * block paired with its own image one edge away along every axis: never in contact. */
+    int64_t *stop;
+    int32_t *first; /* i of each pair */
+    int32_t *other; /* j of each pair */
+    uint8_t *image; /* periodic image of j; index of gb_neighbour_list.shift */
+    int64_t
+        *in_start;    /* transposed: particles + 1: pairs with j as second particle ... */
+    int32_t *in_slot; /* ... as indices k, ascending */
+};
+
+/* A pair inserted into a list after its build; see pack/list/list_patch.h.  The layout is
+ * that of the item `world/amended` of a checkpoint. */
+struct gb_inserted_pair {
+    int32_t first, other, image;
+    int32_t near; /* 1: into `near`; 0: into `far` */
+};
+
+/* Verlet list.  Pairs that can touch before the next build (nearer than 1 + skin) are in
+ * `near` and carry a contact record; pairs in `far` can only attract across a gap. */
+struct gb_neighbour_list {
+    int64_t count; /* particles */
+    /* Diameters (d), owned by gb_particles: a pair touches at the mean of its diameters,
+     * and skin and cutoff - 1 count from there.  NULL: all are 1. */
+    const double *diameter;
+    double largest; /* diameter, d */
+    struct gb_pair_list near, far;
+    enum gb_neighbour_list_layout layout;
+    /* Displacement of each periodic image (d), added to x_i - x_j; as of the last
+     * evaluation. */
+    double shift[27][3];
+    /* Of the last build: particles of bin c are bin_particle[bin_start[c]] ... */
+    struct gb_neighbour_grid grid;
+    int32_t *bin_start, *bin_particle;
+    int64_t bin_capacity;
+    /* ... and what the same lists can be built from again. */
+    double *built_position; /* count x 3, d */
+    double built_edge[3];   /* d */
+    double scaling[3];      /* affine scaling of the cell since the build */
+    double strain;          /* largest affine strain since the build */
+    /* Pairs inserted since the build, ascending. */
+    struct gb_inserted_pair *inserted;
+    int64_t inserted_count, inserted_max;
+};
+
+bool gb_neighbour_list_init(struct gb_neighbour_list *list, int64_t count,
+                            enum gb_neighbour_list_layout layout, struct gb_error *err);
+void gb_neighbour_list_finish(struct gb_neighbour_list *list);
+
+/* Slots of a list, including the free ones. */
+static inline int64_t gb_neighbour_list_slots(const struct gb_neighbour_list *list,
+                                              const struct gb_pair_list *pairs)
+{
+    return pairs->start[list->count];
+}
+
+/* Room for `need` pairs; the contents are lost when it grows. */
+bool gb_neighbour_list_reserve(struct gb_neighbour_list *list, struct gb_pair_list *pairs,
+                               int64_t need, struct gb_error *err);
+
+/* Free slots behind every block of a patchable list. */
+int64_t gb_neighbour_list_free_slots(const struct gb_neighbour_list *list);
+
+/* Marks a slot of the block that ends with particle i as free. */
+void gb_neighbour_list_free_slot(struct gb_pair_list *pairs, int64_t slot, int64_t i);
+
+/* Lists without a pair: the safe state after a failed build. */
+void gb_neighbour_list_clear(struct gb_neighbour_list *list);
+
+/* Largest displacement of particles begin .. end - 1 since the build, beside the affine
+ * motion, d; NaN when a coordinate is not finite. */
+double gb_neighbour_list_displacement(const struct gb_neighbour_list *list,
+                                      const double *position, int64_t begin, int64_t end);
+
+/* The cell and all positions were scaled by `factor`. */
+void gb_neighbour_list_strain(struct gb_neighbour_list *list, const double factor[3]);
+
+/* Sets `shift` for the edges of a cell. */
+void gb_neighbour_list_update_shifts(struct gb_neighbour_list *list,
+                                     const struct gb_cell *cell);
+
+#endif
