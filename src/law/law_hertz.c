@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "law/critical_step.h"
+
 /* Greatest pressure over yield stress when a sphere starts to flow; von Mises, nu = 0.3.
  * Source: P3 (30). */
 static const double pressure_over_yield = 1.61;
@@ -56,12 +58,14 @@ double gb_law_hertz_overlap(const struct gb_law_hertz *law, double radius, doubl
     return root * root;
 }
 
-double gb_law_hertz_shear_stiffness(const struct gb_law_hertz *law, double radius, double h)
+double gb_law_hertz_shear_stiffness(const struct gb_law_hertz *law, double radius,
+                                    double h)
 {
     return h > 0.0 ? 8.0 * law->shear * sqrt(radius * h) : 0.0;
 }
 
-double gb_law_hertz_yield_force(const struct gb_law_hertz *law, double radius, double yield)
+double gb_law_hertz_yield_force(const struct gb_law_hertz *law, double radius,
+                                double yield)
 {
     const double pressure = M_PI * pressure_over_yield * yield;
     const double slope = radius / law->modulus;
@@ -80,9 +84,5 @@ double gb_law_hertz_damped_force(double elastic, double damping, double approach
 
 double gb_law_hertz_critical_step(double stiffness, double mass, double xi)
 {
-    if (!(stiffness > 0.0)) {
-        return INFINITY;
-    }
-    /* sqrt(1 + xi^2) - xi without cancellation */
-    return 2.0 * sqrt(mass / stiffness) / (sqrt(1.0 + xi * xi) + xi);
+    return stiffness > 0.0 ? gb_critical_step(sqrt(stiffness / mass), xi) : INFINITY;
 }

@@ -1,35 +1,19 @@
 #include "run/change.h"
 
-#include <string.h>
-
-#include "measure/observe.h"
 #include "run/checkpoint.h"
 #include "run/experiment_private.h"
 #include "scene/changes.h"
 
 bool gb_change_order(struct gb_experiment *experiment, struct gb_error *err)
 {
-    double tensor[3][3];
-    if (experiment->motion != NULL || experiment->over || experiment->load.branch > 0 ||
+    struct gb_loading *loading = experiment->loading;
+    if (experiment->over || loading->mode->decide_again == NULL ||
         !gb_changes_due(&experiment->params, experiment->step - 1)) {
         return true;
     }
-    gb_observe_pressure(experiment->world, tensor);
-    const double pressure[3] = {tensor[0][0], tensor[1][1], tensor[2][2]};
-    const double density = gb_observe_density(experiment->world);
-    switch (
-        gb_quasistatic_next(&experiment->load, pressure, density, experiment->factor)) {
-    case GB_QUASISTATIC_UNLOAD:
-        return gb_world_copy_save(experiment->world, &experiment->branch, err);
-    case GB_QUASISTATIC_END:
-        experiment->strain_due = false;
-        experiment->over = true;
-        break;
-    case GB_QUASISTATIC_STRAIN:
-    case GB_QUASISTATIC_RESTORE:
-        break;
-    }
-    return true;
+    const enum gb_step_outcome next = loading->mode->decide_again(loading, err);
+    experiment->over = next == GB_STEP_DONE;
+    return next != GB_STEP_STOPPED;
 }
 
 static bool same_terms(const struct gb_model *a, const struct gb_model *b)
@@ -39,41 +23,30 @@ static bool same_terms(const struct gb_model *a, const struct gb_model *b)
            a->terms.friction == b->terms.friction && a->cohesionless == b->cohesionless;
 }
 
-/* Everything that the next one has becomes the experiment's.  The world points to the
- * model inside of next: it stays as a husk behind the experiment. */
-static void move_in(struct gb_experiment *experiment, struct gb_experiment *next)
+/* Model, loading and what is left to do become those of the next experiment, which takes
+ * the former ones with it. */
+static void take_over(struct gb_experiment *experiment, struct gb_experiment *next)
 {
-    struct gb_experiment before = *experiment;
-    *experiment = *next;
-    experiment->point = before.point;
-    experiment->events_first = before.events_first;
-    experiment->events_count = before.events_count;
-    memcpy(experiment->event, before.event, sizeof before.event);
-    next->world = before.world;
-    next->good = before.good;
-    next->branch = before.branch;
-    next->relax = before.relax;
-    next->motion = before.motion;
-    next->husk = NULL;
-    gb_world_destroy(next->world);
-    gb_world_copy_destroy(next->good);
-    gb_world_copy_destroy(next->branch);
-    gb_relax_destroy(next->relax);
-    gb_dynamic_destroy(next->motion);
-    next->world = NULL;
-    next->good = next->branch = NULL;
-    next->relax = NULL;
-    next->motion = NULL;
-    gb_experiment_destroy(before.husk);
-    experiment->husk = next;
+    struct gb_model *model = experiment->model;
+    struct gb_loading *loading = experiment->loading;
+    experiment->model = next->model;
+    experiment->loading = next->loading;
+    experiment->loading->params = &experiment->params;
+    experiment->elastic_start = next->elastic_start;
+    experiment->step = next->step;
+    experiment->over = next->over;
+    experiment->shown = next->shown;
+    next->model = model;
+    next->loading = loading;
 }
 
 static bool check(const struct gb_experiment *experiment, struct gb_error *err)
 {
     struct gb_params effective;
     struct gb_model model;
+    const struct gb_loading *loading = experiment->loading;
     gb_changes_effective(&experiment->params, experiment->step - 1, &effective);
-    if (experiment->load.branch > 0) {
+    if (loading->mode->report(loading).unloading > 0) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "loading.changes: step %lld lies on an unloading branch",
                             (long long)experiment->step - 1);
@@ -81,7 +54,7 @@ static bool check(const struct gb_experiment *experiment, struct gb_error *err)
     if (!gb_model_init(&model, &effective, err)) {
         return false;
     }
-    return same_terms(&model, &experiment->model) ||
+    return same_terms(&model, experiment->model) ||
            gb_error_set(err, GB_ERR_INPUT,
                         "loading.changes: attraction, bridges and friction are there "
                         "from the start or not at all");
@@ -99,7 +72,8 @@ bool gb_change_apply(struct gb_experiment *experiment, struct gb_error *err)
                       gb_experiment_resume(&next, &experiment->params, &record, err);
     gb_record_finish(&record);
     if (good) {
-        move_in(experiment, next);
+        take_over(experiment, next);
+        gb_experiment_destroy(next);
     }
     return good;
 }

@@ -9,7 +9,7 @@
  * whether the run changes on its own, is resumed there, or goes on as a what-if of
  * another run: the same bits on all three ways. */
 
-/* Called behind each recorded point: what is due there takes effect; the next strain step
+/* Called after each recorded point: what is due there takes effect; the next strain step
  * obeys it.  Errors: GB_ERR_INPUT for a step on an unloading branch, or for histories the
  * contacts do not carry (bridges or friction where there were none); GB_ERR_MEMORY. */
 bool gb_change_apply(struct gb_experiment *experiment, struct gb_error *err);

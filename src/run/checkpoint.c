@@ -1,10 +1,7 @@
 #include "run/checkpoint.h"
 
-#include <math.h>
 #include <stddef.h>
 
-#include "base/alloc.h"
-#include "pack/cell/world_record.h"
 #include "run/experiment_private.h"
 
 #define AT(member) offsetof(struct gb_experiment, member)
@@ -41,8 +38,6 @@
 
 static const struct gb_record_member members[] = {
     {"run/step", GB_RECORD_INT64, 1, AT(step), "1"},
-    {"run/factor", GB_RECORD_DOUBLE, 3, AT(factor), "1"},
-    {"run/strain_due", GB_RECORD_BOOL, 1, AT(strain_due), "1"},
     {"run/over", GB_RECORD_BOOL, 1, AT(over), "1"},
     {"run/elastic_start", GB_RECORD_DOUBLE, 1, AT(elastic_start), "E d^3"},
     POINT(point),
@@ -53,88 +48,29 @@ static const struct gb_record_member members[] = {
 #undef POINT
 
 /* No run counts further. */
-static const int64_t step_most = INT64_C(1) << 53;
+static const int64_t step_max = INT64_C(1) << 53;
 
 enum { MEMBERS = sizeof members / sizeof members[0] };
-
-bool gb_checkpoint_known(const struct gb_params *params)
-{
-    return params->kind == GB_KIND_QUASISTATIC || params->kind == GB_KIND_DYNAMIC ||
-           params->kind == GB_KIND_DIE;
-}
-
-/* The parts beside the world, by kind of scene; the same list both ways. */
-static bool exchange(struct gb_experiment *experiment, struct gb_record *record,
-                     struct gb_error *err)
-{
-    if (!gb_record_members(record, members, MEMBERS, experiment, err)) {
-        return false;
-    }
-    if (experiment->die) {
-        return gb_die_run_record(experiment->die, record, err);
-    }
-    if (experiment->motion) {
-        return gb_dynamic_record(experiment->motion, record, err);
-    }
-    return gb_quasistatic_record(&experiment->load, record, err) &&
-           gb_relax_record(experiment->relax, experiment->model.count, record, err) &&
-           (experiment->load.branch <= 0 ||
-            gb_world_record_copy(experiment->world, &experiment->branch, record, err));
-}
 
 bool gb_checkpoint_take(struct gb_experiment *experiment, struct gb_record *record,
                         struct gb_error *err)
 {
     gb_record_clear(record);
-    if (!gb_checkpoint_known(&experiment->params)) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "scene.kind: scenes of this kind have no checkpoints yet");
-    }
-    return exchange(experiment, record, err) &&
-           (experiment->die || gb_world_record(experiment->world, record, err));
-}
-
-bool gb_checkpoint_load_world(struct gb_experiment *experiment, struct gb_record *record,
-                              struct gb_error *err)
-{
-    const struct gb_model *model = &experiment->model;
-    if (!gb_checkpoint_known(&experiment->params)) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "scene.kind: scenes of this kind can't be resumed yet");
-    }
-    record->loading = true;
-    if (experiment->params.kind == GB_KIND_DIE) {
-        return gb_die_run_bare(&experiment->die, &experiment->params, model, err);
-    }
-    double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
-    const bool done = position &&
-                      gb_record_array(record, "world/position", GB_RECORD_DOUBLE,
-                                      model->count, 3, "d", position, err) &&
-                      gb_world_create(&experiment->world, model, position, err) &&
-                      gb_world_record(experiment->world, record, err);
-    gb_alloc_free(position);
-    return done;
+    return gb_record_members(record, members, MEMBERS, experiment, err) &&
+           gb_loading_record(experiment->loading, record, err);
 }
 
 bool gb_checkpoint_load(struct gb_experiment *experiment, struct gb_record *record,
                         struct gb_error *err)
 {
     record->loading = true;
-    if (!exchange(experiment, record, err)) {
+    if (!gb_record_members(record, members, MEMBERS, experiment, err)) {
         return false;
     }
-    if (experiment->step < 0 || experiment->step > step_most) {
+    if (experiment->step < 0 || experiment->step > step_max) {
         return gb_error_set(err, GB_ERR_INPUT, "run/step: is out of range");
     }
-    for (int k = 0; k < 3; k++) {
-        const double factor = experiment->factor[k];
-        if (experiment->strain_due && !(factor > 0.1 && factor < 10.0)) {
-            return gb_error_set(err, GB_ERR_INPUT, "run/factor: is out of range");
-        }
-    }
-    experiment->have_good = experiment->motion == NULL && experiment->strain_due &&
-                            gb_world_copy_save(experiment->world, &experiment->good, err);
-    return experiment->have_good || !experiment->strain_due;
+    return true;
 }
 
 int64_t gb_checkpoint_step(const struct gb_record *record)

@@ -43,7 +43,7 @@ static const char *const die_fields[] = {
 
 #define NORMAL(law) (1u << GB_NORMAL_##law)
 
-const struct gb_loading_kind gb_loading_kinds[GB_LOADING_KINDS] = {
+const struct gb_loading_kind gb_loading_kind_table[GB_LOADING_KINDS] = {
     [GB_KIND_QUASISTATIC] =
         {
             .name = "quasistatic",
@@ -98,7 +98,7 @@ const struct gb_loading_kind gb_loading_kinds[GB_LOADING_KINDS] = {
 
 const struct gb_loading_kind *gb_loading_kind_at(int kind)
 {
-    return &gb_loading_kinds[kind];
+    return &gb_loading_kind_table[kind];
 }
 
 const struct gb_loading_kind *gb_loading_kind_of(const struct gb_params *params)
@@ -117,8 +117,8 @@ char *gb_loading_kind_names(bool (*has)(const struct gb_loading_kind *kind), cha
 {
     buffer[0] = '\0';
     for (int k = 0; k < GB_LOADING_KINDS; k++) {
-        if (has(&gb_loading_kinds[k])) {
-            append_name(buffer, size, gb_loading_kinds[k].name);
+        if (has(&gb_loading_kind_table[k])) {
+            append_name(buffer, size, gb_loading_kind_table[k].name);
         }
     }
     return buffer;
@@ -179,7 +179,7 @@ bool gb_loading_kind_uses(const struct gb_loading_kind *kind,
 {
     bool special = false;
     for (int k = 0; k < GB_LOADING_KINDS; k++) {
-        special = special || lists(&gb_loading_kinds[k], field);
+        special = special || lists(&gb_loading_kind_table[k], field);
     }
     return !special || lists(kind, field);
 }

@@ -50,7 +50,7 @@ struct gb_loading_kind {
 
 /* By enum gb_kind. */
 enum { GB_LOADING_KINDS = 3 };
-extern const struct gb_loading_kind gb_loading_kinds[GB_LOADING_KINDS];
+extern const struct gb_loading_kind gb_loading_kind_table[GB_LOADING_KINDS];
 
 /* The row of a kind (enum gb_kind), or of the scene of these parameters. */
 const struct gb_loading_kind *gb_loading_kind_at(int kind);

@@ -6,7 +6,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "law/critical_step.h"
+#include "pack/cell/world_measure.h"
 #include "scene/tolerances.h"
+#include "solve/compressed_axes.h"
 #include "solve/verlet.h"
 
 struct gb_dynamic {
@@ -35,13 +38,6 @@ struct gb_dynamic {
     double good_density;
 };
 
-static double start_density(const struct gb_world *world)
-{
-    const struct gb_model *model = gb_world_model(world);
-    const double shape = model->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
-    return shape * (double)model->count / gb_cell_volume(gb_world_cell(world));
-}
-
 bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
                        struct gb_error *err)
 {
@@ -54,7 +50,7 @@ bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
     motion->model = model;
     motion->limit = INFINITY;
     motion->sliding_most = GB_SLIDING_FRACTION_MAX;
-    motion->density = start_density(world);
+    motion->density = gb_world_measure_density(world);
     motion->stage = motion->recorded = GB_DYNAMIC_RELAX;
     motion->stage_end = model->dynamics.relax;
     motion->good_velocity = gb_alloc_array(n, sizeof *motion->good_velocity, err);
@@ -82,12 +78,10 @@ void gb_dynamic_destroy(struct gb_dynamic *motion)
     gb_alloc_free(motion);
 }
 
-/* Longest step before blow-up: 2/omega without damping, less with it (P3 (28); the
- * viscous force of a mode is xi = A omega / 2 of critical). */
+/* The viscous force of a mode is xi = A omega / 2 of the critical damping. */
 static double critical_step(const struct gb_dynamic *motion, double frequency)
 {
-    const double xi = 0.5 * motion->model->dynamics.viscous * frequency;
-    return 2.0 / frequency * (sqrt(1.0 + xi * xi) - xi);
+    return gb_critical_step(frequency, 0.5 * motion->model->dynamics.viscous * frequency);
 }
 
 /* A given step that has become too long, and what is taken from now on instead. */
@@ -129,7 +123,7 @@ static double allowed_step(struct gb_dynamic *motion, const struct gb_world *wor
                            char *text, size_t size)
 {
     const double frequency = gb_verlet_frequency(world, motion->scratch);
-    const double critical = frequency > 0.0 ? critical_step(motion, frequency) : INFINITY;
+    const double critical = critical_step(motion, frequency);
     return motion->model->dynamics.time_step > 0.0
                ? bound_given(motion, critical, text, size)
                : pick_step(motion, frequency, critical, text, size);
@@ -173,15 +167,10 @@ static void plan(struct gb_dynamic *motion, double allowed)
     }
     motion->planned = motion->left = (int64_t)fmax(1.0, ceil(interval / allowed - 1e-9));
     motion->step = interval / (double)motion->planned;
-    const bool axis[3] = {motion->model->geometry == GB_GEOMETRY_ISOTROPIC,
-                          motion->model->geometry != GB_GEOMETRY_UNIAXIAL &&
-                              motion->model->dimension == 3,
-                          true};
-    const int axes = axis[0] + axis[1] + axis[2];
-    for (int k = 0; k < 3; k++) {
-        motion->factor[k] =
-            axis[k] ? pow(growth, -1.0 / (axes * (double)motion->planned)) : 1.0;
-    }
+    const struct gb_compressed_axes axes = gb_compressed_axes_of(motion->model);
+    gb_compressed_axes_scale(&axes,
+                             pow(growth, -1.0 / (axes.count * (double)motion->planned)),
+                             motion->factor);
     motion->density *= growth;
     motion->sliding = motion->contacts = 0;
 }

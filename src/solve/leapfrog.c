@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "law/critical_step.h"
+
 /* A step may be longer than the last one by this factor at most: contacts that close
  * stiffen over many steps, none is met at full stiffness. */
 static const double step_growth = 1.05;
@@ -16,13 +18,6 @@ void gb_leapfrog_init(struct gb_leapfrog *leap, double safety, double given)
     *leap = (struct gb_leapfrog){.safety = safety, .given = given, .limit = INFINITY};
 }
 
-/* (28) for one frequency, at xi of critical. */
-static double critical_of(double frequency2, double xi)
-{
-    return frequency2 > 0.0 ? 2.0 / sqrt(frequency2) * (sqrt(1.0 + xi * xi) - xi)
-                            : INFINITY;
-}
-
 double gb_leapfrog_critical(const struct gb_bed *bed)
 {
     const double stiffest = bed->tally.stiffest;
@@ -30,8 +25,8 @@ double gb_leapfrog_critical(const struct gb_bed *bed)
     /* k_t (1/m + R^2/I) */
     const double turning =
         friction ? bed->law.shear * (1.0 + 2.5 / bed->inertia_scale) : 0.0;
-    return fmin(critical_of(stiffest, bed->law.damping),
-                critical_of(turning * stiffest, 0.0));
+    return fmin(gb_critical_step(sqrt(stiffest), bed->law.damping),
+                gb_critical_step(sqrt(turning * stiffest), 0.0));
 }
 
 /* T = 2.868 (m^2/(R E*^2 v))^(1/5); a spring of that half period has the critical step 2
@@ -45,7 +40,7 @@ double gb_leapfrog_impact(const struct gb_bed *bed, double speed)
     }
     const double duration =
         2.868 * pow(mass * mass / (bed->smallest * modulus * modulus * speed), 0.2);
-    return M_2_PI * duration * (sqrt(1.0 + xi * xi) - xi);
+    return M_2_PI * duration * gb_critical_step_share(xi);
 }
 
 static double next_step(const struct gb_leapfrog *leap, const struct gb_bed *bed)
@@ -87,7 +82,8 @@ static double kick(struct gb_bed *bed, double step, double gravity, double drag)
     for (int64_t i = 0; i < bed->count; i++) {
         double *v = bed->velocity[i], *w = bed->spin[i];
         const double *f = bed->force[i], *m = bed->torque[i];
-        const double push = step * bed->inverse_mass[i], turn = step * bed->inverse_inertia[i];
+        const double push = step * bed->inverse_mass[i],
+                     turn = step * bed->inverse_inertia[i];
         for (int c = 0; c < 4; c++) {
             v[c] = slow * v[c] + (push * f[c] + fall[c]);
             w[c] = slow * w[c] + turn * m[c];
@@ -114,7 +110,8 @@ bool gb_leapfrog_step(struct gb_leapfrog *leap, struct gb_bed *bed, struct gb_er
     const double next = next_step(leap, bed), half = 0.5 * (leap->step + next);
     leap->fastest = kick(bed, half, leap->gravity, leap->drag);
     if (leap->punch_mass > 0.0) {
-        bed->die.punch_velocity += half * (bed->tally.punch - leap->load) / leap->punch_mass;
+        bed->die.punch_velocity +=
+            half * (bed->tally.punch - leap->load) / leap->punch_mass;
     }
     leap->step = next;
     return true;

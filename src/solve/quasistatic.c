@@ -20,13 +20,7 @@ void gb_quasistatic_init(struct gb_quasistatic *load, const struct gb_model *mod
     for (int i = 0; i < model->unload_count; i++) {
         load->unload_from[i] = model->unload_from[i];
     }
-    load->compressed[2] = true;
-    load->compressed[1] =
-        model->dimension == 3 && model->geometry != GB_GEOMETRY_UNIAXIAL;
-    load->compressed[0] = model->geometry == GB_GEOMETRY_ISOTROPIC;
-    for (int k = 0; k < 3; k++) {
-        load->axes += load->compressed[k];
-    }
+    load->axes = gb_compressed_axes_of(model);
 }
 
 bool gb_quasistatic_record(struct gb_quasistatic *load, struct gb_record *record,
@@ -57,18 +51,7 @@ bool gb_quasistatic_record(struct gb_quasistatic *load, struct gb_record *record
 double gb_quasistatic_pressure(const struct gb_quasistatic *load,
                                const double pressure[3])
 {
-    double sum = 0.0;
-    for (int k = 0; k < 3; k++) {
-        sum += load->compressed[k] ? pressure[k] : 0.0;
-    }
-    return sum / load->axes;
-}
-
-static void scale_axes(const struct gb_quasistatic *load, double along, double factor[3])
-{
-    for (int k = 0; k < 3; k++) {
-        factor[k] = load->compressed[k] ? along : 1.0;
-    }
+    return gb_compressed_axes_mean(&load->axes, pressure);
 }
 
 /* One strain step of compression, shortened to end at until_density. */
@@ -76,8 +59,8 @@ static enum gb_quasistatic_order compress(const struct gb_quasistatic *load,
                                           double density, double factor[3])
 {
     const double full = 1.0 - load->step;
-    const double to_end = pow(density / load->until_density, 1.0 / load->axes);
-    scale_axes(load, fmax(full, to_end), factor);
+    const double to_end = pow(density / load->until_density, 1.0 / load->axes.count);
+    gb_compressed_axes_scale(&load->axes, fmax(full, to_end), factor);
     return GB_QUASISTATIC_STRAIN;
 }
 
@@ -116,7 +99,7 @@ enum gb_quasistatic_order gb_quasistatic_next(struct gb_quasistatic *load,
             load->branch = 0;
             return GB_QUASISTATIC_RESTORE;
         }
-        scale_axes(load, expansion(load, p), factor);
+        gb_compressed_axes_scale(&load->axes, expansion(load, p), factor);
         return GB_QUASISTATIC_STRAIN;
     }
     load->branch = 0;
@@ -125,7 +108,7 @@ enum gb_quasistatic_order gb_quasistatic_next(struct gb_quasistatic *load,
         load->branch = ++load->next_unload;
         load->top_pressure = p;
         load->expansions = 0;
-        scale_axes(load, expansion(load, p), factor);
+        gb_compressed_axes_scale(&load->axes, expansion(load, p), factor);
         return GB_QUASISTATIC_UNLOAD;
     }
     if (p >= load->until_pressure || density >= load->until_density * (1.0 - 1e-12)) {

@@ -6,6 +6,7 @@
 
 #include "base/record.h"
 #include "scene/model.h"
+#include "solve/compressed_axes.h"
 
 /* The loading programme of P1 section IV as a state machine: told the pressure and
  * density of each relaxed state, it says what comes next.  It owns no world and saves
@@ -18,10 +19,9 @@ enum gb_quasistatic_order {
 };
 
 struct gb_quasistatic {
-    bool compressed[3]; /* axes that obey the programme */
-    int axes;           /* how many */
-    double step;        /* strain step, share of the present edge */
-    double step_most;   /* the preset's; step is smaller for a while after a guard */
+    struct gb_compressed_axes axes;
+    double step;      /* strain step, share of the present edge */
+    double step_most; /* the preset's; step is smaller for a while after a guard */
     double until_pressure, until_density;
     double unload_from[GB_UNLOAD_MAX];
     int unload_count, next_unload;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "pack/cell/integrate_f32.h"
+#include "pack/f32/integrate_f32.h"
 #include "scene/tolerances.h"
 
 static const struct gb_relaxer *const table[] = {&gb_relax_predict, &gb_relax_fire,

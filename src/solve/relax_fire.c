@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/vec.h"
-#include "pack/cell/integrate_f32.h"
+#include "pack/f32/integrate_f32.h"
 #include "pack/kernel/simd.h"
 #include "solve/relax_fire.h"
 
@@ -219,7 +219,7 @@ static double drive_world(struct gb_relax *relax, struct gb_world *world,
                           const struct gb_integrate_f32 *by)
 {
     const int threads = gb_world_threads(world);
-    const double bound = by->most / by->step;
+    const double bound = by->displacement_max / by->step;
     struct pass pass = {
         .b = gb_world_bodies(world),
         .v = relax->vector[0],
@@ -243,7 +243,7 @@ void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire
 {
     const struct gb_force_sums *sums = gb_world_sums(world);
     const double force2 = sums->force2 + sums->torque2 / inertia;
-    struct gb_integrate_f32 drive = {.inertia = inertia, .most = move_most};
+    struct gb_integrate_f32 drive = {.inertia = inertia, .displacement_max = move_most};
     drive.back = adapt(fire, tuning, sums->power);
     /* mixing needs the speed after the kick; the speed before differs by one step only
      * and saves a pass over the arrays */

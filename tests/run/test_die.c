@@ -41,12 +41,12 @@ static struct curve run(const struct gb_params *params, int64_t slice)
         take_events(experiment, curve.events);
         if (curve.how == GB_STEP_POINT) {
             g_assert_cmpint(curve.count, <, POINTS_MOST);
-            curve.filled =
-                curve.count == 0 ? gb_bed_copy_hash(experiment->die->bed) : curve.filled;
+            curve.filled = curve.count == 0 ? gb_bed_copy_hash(experiment->loading->bed)
+                                            : curve.filled;
             curve.point[curve.count++] = *gb_experiment_point(experiment);
         }
     } while (curve.how == GB_STEP_MORE || curve.how == GB_STEP_POINT);
-    curve.hash = gb_bed_copy_hash(experiment->die->bed);
+    curve.hash = gb_bed_copy_hash(experiment->loading->bed);
     gb_experiment_destroy(experiment);
     return curve;
 }
@@ -142,13 +142,13 @@ static void check_fault(void (*spoil)(struct gb_bed *bed), const char *word)
     g_assert_cmpint(gb_experiment_advance(experiment, 50, &err), ==, GB_STEP_MORE);
     take_events(experiment, events);
     g_string_truncate(events, 0);
-    spoil(experiment->die->bed);
+    spoil(experiment->loading->bed);
     while (gb_experiment_advance(experiment, 1000, &err) == GB_STEP_MORE) {
     }
     take_events(experiment, events);
     g_assert_nonnull(strstr(events->str, word));
     g_assert_nonnull(strstr(events->str, "guard: "));
-    g_assert_cmpint(gb_bed_escaped(experiment->die->bed), ==, -1);
+    g_assert_cmpint(gb_bed_escaped(experiment->loading->bed), ==, -1);
     g_assert_cmpfloat(gb_experiment_point(experiment)->density, >, 0.4);
     g_string_free(events, TRUE);
     gb_experiment_destroy(experiment);
@@ -200,7 +200,7 @@ static void test_straggler(void)
         g_assert_cmpint(gb_experiment_advance(experiment, 1000, &err), ==, GB_STEP_MORE);
         take_events(experiment, events);
     }
-    struct gb_bed *bed = experiment->die->bed;
+    struct gb_bed *bed = experiment->loading->bed;
     int64_t small = 0;
     for (int64_t i = 0; i < bed->count; i++) {
         small = bed->mass[i] < bed->mass[small] ? i : small;
@@ -210,7 +210,7 @@ static void test_straggler(void)
     while (gb_experiment_advance(experiment, 1000, &err) == GB_STEP_MORE) {
     }
     const int64_t top = highest(bed);
-    const double weight = bed->mass[top] * experiment->die->model->die.gravity;
+    const double weight = bed->mass[top] * experiment->model->die.gravity;
     g_assert_cmpint(gb_experiment_point(experiment)->branch, ==, GB_BRANCH_RELAX);
     g_assert_cmpfloat(bed->force[top][2], >, 0.5 * weight);
     g_string_free(events, TRUE);
@@ -306,8 +306,8 @@ static void test_resume(void)
     if (different != NULL) {
         g_error("%s: row %d differs", different, (int)row);
     }
-    g_assert_true(gb_bed_copy_hash(experiment->die->bed) ==
-                  gb_bed_copy_hash(second->die->bed));
+    g_assert_true(gb_bed_copy_hash(experiment->loading->bed) ==
+                  gb_bed_copy_hash(second->loading->bed));
     gb_experiment_destroy(second);
     gb_experiment_destroy(experiment);
     gb_record_finish(&record);

@@ -182,7 +182,7 @@ static void test_skin(void)
     const int64_t rebuilds = gb_world_rebuilds(world);
     gb_world_bodies(world).position[3] -= 0.91;
     scene_evaluate(world);
-    g_assert_cmpint(gb_world_rebuilds(world) + gb_world_pairs(world)->amended_count, ==,
+    g_assert_cmpint(gb_world_rebuilds(world) + gb_world_pairs(world)->inserted_count, ==,
                     rebuilds + 1);
     g_assert_cmpint(gb_world_tally(world)->contacts, ==, 1);
     struct gb_world *fresh = two(&model, -0.01);

@@ -161,8 +161,9 @@ static void test_foretold(void)
 /* Turn of particle i that the next evaluation will see. */
 static double turn_of(const struct gb_world *world, int64_t i, int c)
 {
-    return world->in_single ? (double)world->single.spot[i].turn[c]
-                            : world->turn[3 * i + c];
+    return gb_engine_is_f32(&world->engine)
+               ? (double)world->engine.f32.particle[i].rotation[c]
+               : world->engine.particles.rotation[3 * i + c];
 }
 
 /* Whoever would go farther than 0.01 d in a step is slowed, with its turn; all others

@@ -43,8 +43,7 @@ static bool create(struct gb_run_recorder **out, const struct gb_params *params,
 
 static bool start_writer(struct gb_run_recorder *recorder, struct gb_error *err)
 {
-    return !gb_checkpoint_known(&recorder->params) ||
-           gb_writer_create(&recorder->writer, recorder->store, &recorder->params,
+    return gb_writer_create(&recorder->writer, recorder->store, &recorder->params,
                             &recorder->model, err);
 }
 

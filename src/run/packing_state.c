@@ -1,0 +1,130 @@
+#include "run/packing_state.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/vec.h"
+#include "measure/observe.h"
+#include "measure/observe_die.h"
+#include "pack/kernel/pair_forces.h"
+#include "run/point_measure.h"
+
+static void copy_world_pairs(const struct gb_world *world, struct gb_state *state)
+{
+    const struct gb_pair_list *near = &gb_world_pairs(world)->near;
+    const struct gb_contacts *contacts = gb_world_contacts(world);
+    struct gb_pair_forces forces;
+    int64_t line = 0;
+    gb_pair_forces_init(&forces, world, GB_PAIR_FORCES_NEAR);
+    for (int64_t i = 0; i < state->count; i++) {
+        for (int64_t k = near->start[i]; k < near->start[i + 1]; k++) {
+            const double deepest = gb_contacts_deepest(contacts, k);
+            if (deepest < 0.0) {
+                continue;
+            }
+            double r[3];
+            gb_world_branch_vector(world, near, i, k, r);
+            state->pair[2 * line] = (int32_t)i;
+            state->pair[2 * line + 1] = near->other[k];
+            double *force = state->pair_force + 3 * line;
+            gb_pair_forces_at(&forces, k, force);
+            state->pair_normal[line] = gb_vec_dot(force, r) / gb_vec_length(r);
+            state->pair_bridged[line++] = deepest > 0.0;
+        }
+    }
+}
+
+static bool copy_world(const struct gb_loading *loading, struct gb_state **out,
+                       struct gb_error *err)
+{
+    const struct gb_world *world = loading->world;
+    const struct gb_model *model = loading->model;
+    struct gb_contact_counts counts;
+    gb_observe_contacts(world, &counts, NULL, 0, NULL);
+    if (!gb_state_create(out, model->count, counts.contacts, err)) {
+        return false;
+    }
+    struct gb_state *state = *out;
+    state->dimension = model->dimension;
+    memcpy(state->cell, gb_world_cell(world)->edge, sizeof state->cell);
+    gb_observe_contacts(world, &counts, NULL, 0, state->contacts);
+    for (int64_t i = 0; i < model->count; i++) {
+        memcpy(state->position + 3 * i, gb_world_position(world) + 3 * i,
+               3 * sizeof(double));
+        gb_cell_wrap(gb_world_cell(world), state->position + 3 * i);
+        state->radius[i] = 0.5 * gb_world_diameter(world, i);
+    }
+    copy_world_pairs(world, state);
+    return true;
+}
+
+static void copy_bed_pairs(const struct gb_bed *bed, struct gb_state *state)
+{
+    int64_t line = 0;
+    for (int64_t slot = 0; slot < bed->pairs.count; slot++) {
+        if (bed->pairs.contacts.normal[slot] < 0.0) {
+            continue;
+        }
+        double unit[3];
+        gb_observe_die_force(bed, slot, unit, state->pair_force + 3 * line);
+        state->pair[2 * line] = bed->pairs.first[slot];
+        state->pair[2 * line + 1] = bed->pairs.other[slot];
+        state->pair_normal[line++] = bed->pairs.contacts.normal[slot];
+    }
+}
+
+/* Of the box around the die, or around the powder that is still in the funnel. */
+static double half_width(const struct gb_bed *bed)
+{
+    double half = bed->die.radius;
+    for (int64_t i = 0; i < bed->count && bed->die.funnel; i++) {
+        const double *x = bed->position[i];
+        half = fmax(half, fmax(fabs(x[0]), fabs(x[1])) + x[3]);
+    }
+    return half;
+}
+
+static bool copy_bed(const struct gb_loading *loading, struct gb_state **out,
+                     struct gb_error *err)
+{
+    const struct gb_bed *bed = loading->bed;
+    const double radius = half_width(bed);
+    struct gb_contact_counts counts;
+    gb_observe_die_contacts(bed, &counts, NULL, 0, NULL);
+    if (!gb_state_create(out, bed->count, counts.contacts, err)) {
+        return false;
+    }
+    struct gb_state *state = *out;
+    const double top =
+        fmax(gb_bed_top(bed), bed->die.punch ? bed->die.punch_position : 0.0);
+    state->die_radius = bed->die.radius;
+    state->cell[0] = state->cell[1] = 2.0 * radius;
+    state->cell[2] = top;
+    gb_observe_die_contacts(bed, &counts, NULL, 0, state->contacts);
+    for (int64_t i = 0; i < bed->count; i++) {
+        const double position[3] = {bed->position[i][0] + radius,
+                                    bed->position[i][1] + radius, bed->position[i][2]};
+        memcpy(state->position + 3 * i, position, sizeof position);
+        state->radius[i] = bed->position[i][3];
+    }
+    copy_bed_pairs(bed, state);
+    return true;
+}
+
+bool gb_packing_state_copy(const struct gb_loading *loading, struct gb_state **out,
+                           struct gb_error *err)
+{
+    const struct gb_model *model = loading->model;
+    if (!(loading->bed ? copy_bed(loading, out, err) : copy_world(loading, out, err))) {
+        return false;
+    }
+    struct gb_state *state = *out;
+    gb_point_measure_packing(loading, &state->point);
+    state->metre_per_length = model->metre_per_length;
+    state->pascal_per_stress = model->pascal_per_stress;
+    state->seed = model->seed;
+    snprintf(state->preset, sizeof state->preset, "%s", loading->params->title);
+    snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
+    return true;
+}

@@ -1,0 +1,165 @@
+#include "run/point_measure.h"
+
+#include <math.h>
+
+#include "measure/observe.h"
+#include "measure/observe_die.h"
+#include "solve/compressed_axes.h"
+
+static int branch_of(const struct gb_loading_report *report)
+{
+    static const int branch[] = {[GB_LOADING_RELAX] = GB_BRANCH_RELAX,
+                                 [GB_LOADING_LOAD] = GB_BRANCH_LOAD,
+                                 [GB_LOADING_HOLD] = GB_BRANCH_HOLD};
+    return report->unloading > 0 ? report->unloading : branch[report->stage];
+}
+
+static double second_per_time(const struct gb_loading *loading)
+{
+    return loading->bed ? loading->model->die.second_per_time
+                        : loading->model->dynamics.second_per_time;
+}
+
+/* What only a die or only a scene in time has. */
+static void leave_empty(struct gb_point *point)
+{
+    const double none = (double)NAN;
+    point->time_s = point->kinetic = point->work = point->elastic = none;
+    point->dissipated = point->energy_residual = none;
+    point->central = point->height_m = point->height_change = none;
+    point->target_pa = point->floor_over_punch = none;
+}
+
+/* state.h5 does not name the stages of a run at a given rate. */
+static int branch_in_cell(const struct gb_loading *loading,
+                          const struct gb_loading_report *report)
+{
+    return gb_loading_kind_of(loading->params)->given_rate ? GB_BRANCH_RELAX
+                                                           : branch_of(report);
+}
+
+static void measure_cell(const struct gb_loading *loading, struct gb_point *point)
+{
+    const struct gb_model *model = loading->model;
+    const struct gb_loading_report report = loading->mode->report(loading);
+    const struct gb_compressed_axes axes = gb_compressed_axes_of(model);
+    const double pascal = model->pascal_per_stress;
+    double tensor[3][3];
+    struct gb_contact_counts counts;
+    gb_observe_pressure(loading->world, tensor);
+    const double pressure[3] = {tensor[0][0], tensor[1][1], tensor[2][2]};
+    gb_observe_contacts(loading->world, &counts, NULL, 0, NULL);
+    *point = (struct gb_point){
+        .branch = branch_in_cell(loading, &report),
+        .branch_from_pa = report.unloading > 0
+                              ? loading->params->unload_from_pa[report.unloading - 1]
+                              : 0.0,
+        .density = gb_observe_density(loading->world),
+        .px_pa = pressure[0] * pascal,
+        .py_pa = model->dimension == 3 ? pressure[1] * pascal : (double)NAN,
+        .pz_pa = pressure[2] * pascal,
+        .p_pa = gb_compressed_axes_mean(&axes, pressure) * pascal,
+        .coordination = counts.coordination,
+        .bridged =
+            counts.contacts > 0 ? (double)counts.bridged / (double)counts.contacts : 0.0,
+        .rattlers = (double)counts.rattlers / (double)model->count,
+        .residual = report.residual,
+    };
+    leave_empty(point);
+}
+
+static void measure_die(const struct gb_loading *loading, struct gb_point *point)
+{
+    const struct gb_model *model = loading->model;
+    const struct gb_loading_report report = loading->mode->report(loading);
+    const double pascal = model->pascal_per_stress;
+    struct gb_contact_counts counts;
+    gb_observe_die_contacts(loading->bed, &counts, NULL, 0, NULL);
+    *point = (struct gb_point){
+        .branch = branch_of(&report),
+        .density = gb_observe_die_density(loading->bed, report.height),
+        .px_pa = report.pressure[0] * pascal,
+        .py_pa = report.pressure[1] * pascal,
+        .pz_pa = report.pressure[2] * pascal,
+        .p_pa = report.pressure[2] * pascal,
+        .coordination = counts.coordination,
+        .bridged = NAN,
+        .rattlers = (double)counts.rattlers / (double)model->count,
+        .residual = report.residual,
+        .iterations = report.iterations,
+        .evaluations = report.evaluations,
+    };
+    leave_empty(point);
+    point->time_s = report.time * model->die.second_per_time;
+    point->central =
+        gb_observe_die_central(loading->bed, report.height, model->die.central_radius);
+    point->height_m = report.height * model->metre_per_length;
+    point->height_change = report.height0 > 0.0
+                               ? (report.height - report.height0) / report.height0
+                               : (double)NAN;
+    point->target_pa = report.target_pressure * pascal;
+    point->floor_over_punch = report.floor_over_punch;
+}
+
+void gb_point_measure_packing(const struct gb_loading *loading, struct gb_point *point)
+{
+    if (loading->bed) {
+        measure_die(loading, point);
+    } else {
+        measure_cell(loading, point);
+    }
+}
+
+/* Energies in J; elastic and dissipated since the start. */
+static void measure_energies(const struct gb_loading *loading,
+                             const struct gb_loading_report *report, double elastic_start,
+                             struct gb_point *point)
+{
+    const struct gb_model *model = loading->model;
+    const double joule = model->newton_per_force * model->metre_per_length;
+    const double elastic = gb_observe_elastic(loading->world) - elastic_start;
+    const double lost = report->work - report->kinetic - report->absorbed;
+    point->kinetic = report->kinetic * joule;
+    point->work = report->work * joule;
+    point->elastic = elastic * joule;
+    point->dissipated = (report->absorbed - elastic) * joule;
+    point->energy_residual =
+        report->work != 0.0 ? lost / fabs(report->work) : (double)NAN;
+}
+
+void gb_point_measure_step(const struct gb_loading *loading, double elastic_start,
+                           struct gb_point *point)
+{
+    const struct gb_loading_kind *kind = gb_loading_kind_of(loading->params);
+    const struct gb_loading_report report = loading->mode->report(loading);
+    gb_point_measure_packing(loading, point);
+    point->branch = branch_of(&report);
+    point->iterations = report.iterations;
+    point->evaluations = report.evaluations;
+    if (kind->follows_time) {
+        point->time_s = report.time * second_per_time(loading);
+    }
+    if (kind->columns == GB_COLUMNS_ENERGY) {
+        measure_energies(loading, &report, elastic_start, point);
+    }
+}
+
+void gb_point_measure_live(const struct gb_loading *loading, struct gb_snapshot *snapshot)
+{
+    const struct gb_loading_report report = loading->mode->report(loading);
+    struct gb_contact_counts counts;
+    if (loading->bed) {
+        gb_observe_die_contacts(loading->bed, &counts, snapshot->histogram,
+                                GB_SNAPSHOT_HISTOGRAM, NULL);
+        gb_observe_die_rose(loading->bed, GB_SNAPSHOT_ROSE, snapshot->rose);
+    } else {
+        gb_observe_contacts(loading->world, &counts, snapshot->histogram,
+                            GB_SNAPSHOT_HISTOGRAM, NULL);
+        gb_observe_rose(loading->world, GB_SNAPSHOT_ROSE, snapshot->rose);
+    }
+    snapshot->evaluations = gb_loading_evaluations(loading);
+    snapshot->live_residual = report.residual;
+    if (gb_loading_kind_of(loading->params)->follows_time) {
+        snapshot->time_step_s = report.time_step * second_per_time(loading);
+    }
+}

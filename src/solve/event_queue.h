@@ -1,0 +1,22 @@
+#ifndef GB_SOLVE_EVENT_QUEUE_H
+#define GB_SOLVE_EVENT_QUEUE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Events of a run (guards, stages, branches), one line each, oldest first.  A full queue
+ * drops its oldest event. */
+enum { GB_EVENT_QUEUE_LENGTH = 32, GB_EVENT_QUEUE_TEXT = 640 };
+
+struct gb_event_queue {
+    char text[GB_EVENT_QUEUE_LENGTH][GB_EVENT_QUEUE_TEXT];
+    int first, count;
+};
+
+/* An empty text is no event. */
+void gb_event_queue_add(struct gb_event_queue *queue, const char *text);
+
+/* Moves the oldest event into text (size bytes); false when there is none. */
+bool gb_event_queue_take(struct gb_event_queue *queue, char *text, size_t size);
+
+#endif

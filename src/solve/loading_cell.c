@@ -1,0 +1,39 @@
+#include "solve/loading_cell.h"
+
+#include "base/alloc.h"
+#include "pack/cell/world_record.h"
+#include "pack/structure/chain_growth.h"
+#include "pack/structure/hilbert.h"
+
+bool gb_loading_cell_grow(struct gb_loading *loading, bool (*cancelled)(void *data),
+                          void *data, struct gb_error *err)
+{
+    const struct gb_model *model = loading->model;
+    double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
+    if (!position) {
+        return false;
+    }
+    struct gb_chain_growth growth = gb_chain_growth_from_model(model);
+    growth.cancelled = cancelled;
+    growth.data = data;
+    const bool done = gb_chain_growth_place(&growth, position, err) &&
+                      gb_hilbert_sort(model, position, err) &&
+                      gb_world_create(&loading->world, model, position, err) &&
+                      gb_world_evaluate(loading->world, err);
+    gb_alloc_free(position);
+    return done;
+}
+
+bool gb_loading_cell_load(struct gb_loading *loading, struct gb_record *record,
+                          struct gb_error *err)
+{
+    const struct gb_model *model = loading->model;
+    double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
+    const bool done = position &&
+                      gb_record_array(record, "world/position", GB_RECORD_DOUBLE,
+                                      model->count, 3, "d", position, err) &&
+                      gb_world_create(&loading->world, model, position, err) &&
+                      gb_world_record(loading->world, record, err);
+    gb_alloc_free(position);
+    return done;
+}

@@ -1,0 +1,147 @@
+/* The mode `die`: powder poured into a die and pressed, solve/die_stages.h. */
+#include <math.h>
+#include <stdio.h>
+
+#include "pack/die/filling.h"
+#include "scene/tolerances.h"
+#include "solve/die_stages.h"
+#include "solve/loading.h"
+
+struct die_loading {
+    struct gb_loading base;
+    struct gb_die_stages *stages;
+    bool unsteady; /* forces on floor and punch differed at the last point */
+};
+
+static struct die_loading *own(struct gb_loading *loading)
+{
+    return (struct die_loading *)(void *)loading;
+}
+
+static struct gb_die_stages_report stages_report(const struct gb_loading *loading)
+{
+    const struct die_loading *die = (const struct die_loading *)(const void *)loading;
+    return gb_die_stages_report(die->stages, loading->bed);
+}
+
+static bool create_stages(struct gb_loading *loading, struct gb_error *err)
+{
+    const struct gb_bed_law law = gb_filling_pressing_law(loading->params);
+    return gb_die_stages_create(&own(loading)->stages, &loading->model->die, &law, err);
+}
+
+static bool build(struct gb_loading *loading, bool (*cancelled)(void *data), void *data,
+                  struct gb_error *err)
+{
+    return create_stages(loading, err) &&
+           gb_filling_create(&loading->bed, loading->params, loading->model, cancelled,
+                             data, err);
+}
+
+/* Points are recorded while pressing: the bed has the law of pressing. */
+static bool build_from(struct gb_loading *loading, struct gb_record *record,
+                       struct gb_error *err)
+{
+    const struct gb_bed_law law = gb_filling_pressing_law(loading->params);
+    (void)record;
+    if (!create_stages(loading, err) ||
+        !gb_filling_allocate(&loading->bed, loading->params, loading->model, err)) {
+        return false;
+    }
+    gb_bed_set_law(loading->bed, &law);
+    return true;
+}
+
+static void finish(struct gb_loading *loading)
+{
+    gb_die_stages_destroy(own(loading)->stages);
+}
+
+static enum gb_step_outcome advance(struct gb_loading *loading, int64_t max_evaluations,
+                                    struct gb_event_queue *events, struct gb_error *err)
+{
+    char text[GB_EVENT_QUEUE_TEXT];
+    const enum gb_step_outcome outcome = gb_die_stages_advance(
+        own(loading)->stages, loading->bed, max_evaluations, text, sizeof text, err);
+    gb_event_queue_add(events, text);
+    return outcome;
+}
+
+static bool is_unsteady(double floor_over_punch)
+{
+    return isfinite(floor_over_punch) &&
+           fabs(floor_over_punch - 1.0) > GB_FLOOR_OVER_PUNCH_TOLERANCE;
+}
+
+/* One line when the point just recorded is the first that is out of equilibrium, or in
+ * equilibrium again. */
+static enum gb_step_outcome after_point(struct gb_loading *loading,
+                                        struct gb_event_queue *events,
+                                        struct gb_error *err)
+{
+    char text[GB_EVENT_QUEUE_TEXT];
+    const struct gb_die_stages_report now = stages_report(loading);
+    const bool unsteady = is_unsteady(now.floor_over_punch);
+    (void)err;
+    if (unsteady != own(loading)->unsteady) {
+        snprintf(text, sizeof text,
+                 unsteady ? "not quasi-static at %.4g MPa: the floor bears %.3g of the "
+                            "punch's force"
+                          : "quasi-static again from %.4g MPa: the floor bears %.3g of "
+                            "the punch's force",
+                 1e-6 * (now.carried * loading->model->pascal_per_stress),
+                 now.floor_over_punch);
+        gb_event_queue_add(events, text);
+    }
+    own(loading)->unsteady = unsteady;
+    return GB_STEP_MORE;
+}
+
+static bool record_stages(struct gb_loading *loading, struct gb_record *record,
+                          struct gb_error *err)
+{
+    static const struct gb_record_member members[] = {
+        {"die/unsteady", GB_RECORD_BOOL, 1, offsetof(struct die_loading, unsteady), "1"},
+    };
+    return gb_record_members(record, members, 1, loading, err) &&
+           gb_die_stages_record(own(loading)->stages, record, err);
+}
+
+static struct gb_loading_report report(const struct gb_loading *loading)
+{
+    const struct gb_die_stages_report now = stages_report(loading);
+    const bool pressing = now.stage >= GB_DIE_STAGES_PRESS && now.pressed > 0.0;
+    struct gb_loading_report report = gb_loading_empty_report();
+    report.stage = pressing ? GB_LOADING_LOAD : GB_LOADING_RELAX;
+    report.iterations = report.evaluations = now.steps;
+    report.residual = now.residual;
+    report.time_step = now.time_step;
+    report.time = now.time;
+    report.pressure[0] = now.side[0];
+    report.pressure[1] = now.side[1];
+    report.pressure[2] = now.carried;
+    report.target_pressure = now.wanted;
+    report.height = now.height;
+    report.height0 = now.height0;
+    report.floor_over_punch = now.floor_over_punch;
+    return report;
+}
+
+static double progress(const struct gb_loading *loading, double pressure, double density)
+{
+    (void)pressure;
+    (void)density;
+    return stages_report(loading).progress;
+}
+
+const struct gb_loading_mode gb_loading_die = {
+    .size = sizeof(struct die_loading),
+    .build = build,
+    .build_from = build_from,
+    .finish = finish,
+    .advance = advance,
+    .after_point = after_point,
+    .record = record_stages,
+    .report = report,
+    .progress = progress,
+};

@@ -1,0 +1,353 @@
+/* The mode `quasistatic`: a periodic cell strained in steps, each relaxed to equilibrium,
+ * in the order of solve/quasistatic.h. */
+#include <math.h>
+#include <stdio.h>
+
+#include "pack/cell/nonaffine.h"
+#include "pack/cell/world_measure.h"
+#include "pack/cell/world_record.h"
+#include "solve/guard.h"
+#include "solve/loading.h"
+#include "solve/loading_cell.h"
+#include "solve/quasistatic.h"
+#include "solve/relax.h"
+
+struct quasistatic_loading {
+    struct gb_loading base;
+    struct gb_relax *relax;
+    struct gb_world_copy *good;         /* before the strain step under way */
+    struct gb_world_copy *branch_start; /* where the unloading branch began */
+    struct gb_quasistatic schedule;
+    struct gb_guard guard;
+    int part; /* of the strain step, from 1; the parts are equal */
+    bool have_good;
+    int64_t spent_iterations, spent_evaluations; /* by attempts that were taken back and
+                                                  * by parts before this one */
+};
+
+static struct quasistatic_loading *own(struct gb_loading *loading)
+{
+    return (struct quasistatic_loading *)(void *)loading;
+}
+
+static const struct quasistatic_loading *view(const struct gb_loading *loading)
+{
+    return (const struct quasistatic_loading *)(const void *)loading;
+}
+
+/* The first relaxation is that of the packing as it was placed. */
+static void begin(struct quasistatic_loading *run)
+{
+    gb_quasistatic_init(&run->schedule, run->base.model);
+    gb_relax_start(run->relax, run->base.world);
+}
+
+/* The relaxer first: its name is checked before the packing is grown. */
+static bool build(struct gb_loading *loading, bool (*cancelled)(void *data), void *data,
+                  struct gb_error *err)
+{
+    if (!gb_relax_create(&own(loading)->relax, loading->model, err) ||
+        !gb_loading_cell_grow(loading, cancelled, data, err)) {
+        return false;
+    }
+    begin(own(loading));
+    return true;
+}
+
+static bool build_from(struct gb_loading *loading, struct gb_record *record,
+                       struct gb_error *err)
+{
+    if (!gb_relax_create(&own(loading)->relax, loading->model, err) ||
+        !gb_loading_cell_load(loading, record, err)) {
+        return false;
+    }
+    begin(own(loading));
+    return true;
+}
+
+static void finish(struct gb_loading *loading)
+{
+    struct quasistatic_loading *run = own(loading);
+    gb_world_copy_destroy(run->good);
+    gb_world_copy_destroy(run->branch_start);
+    gb_relax_destroy(run->relax);
+}
+
+/* The next part of the strain step. */
+static void strain(struct quasistatic_loading *run)
+{
+    const int parts = run->base.model->numerics.parts;
+    double factor[3];
+    for (int k = 0; k < 3; k++) {
+        factor[k] =
+            parts > 1 ? pow(run->base.factor[k], 1.0 / parts) : run->base.factor[k];
+    }
+    run->part = run->base.strain_due ? 1 : run->part + 1;
+    gb_world_strain(run->base.world, factor);
+    gb_relax_start(run->relax, run->base.world);
+    run->base.strain_due = false;
+}
+
+/* What the relaxation under way took counts for the strain step. */
+static void count_relaxation(struct quasistatic_loading *run)
+{
+    run->spent_iterations += run->relax->iterations;
+    run->spent_evaluations += run->relax->evaluations;
+}
+
+/* Begins the next part of the strain step; false when this was the last one. */
+static bool begin_next_part(struct quasistatic_loading *run)
+{
+    if (run->part == 0 || run->part >= run->base.model->numerics.parts) {
+        return false;
+    }
+    count_relaxation(run);
+    strain(run);
+    return true;
+}
+
+/* Back to the state before the strain step under way. */
+static bool restore_good(struct quasistatic_loading *run, struct gb_error *err)
+{
+    count_relaxation(run);
+    return run->have_good && gb_world_copy_restore(run->base.world, run->good, err) &&
+           gb_world_evaluate(run->base.world, err);
+}
+
+static enum gb_step_outcome stop(struct quasistatic_loading *run)
+{
+    struct gb_error ignored;
+    restore_good(run, &ignored);
+    return GB_STEP_STOPPED;
+}
+
+/* The first relaxation has no state before it. */
+static enum gb_guard_action check_nonaffine(struct quasistatic_loading *run, char *text,
+                                            size_t size)
+{
+    text[0] = '\0';
+    if (!run->have_good) {
+        return GB_GUARD_ACCEPT;
+    }
+    const struct gb_nonaffine motion = gb_nonaffine_since(run->base.world, run->good);
+    return gb_guard_departure(&run->guard, &motion, text, size);
+}
+
+/* Half the strain step from the last good state on. */
+static enum gb_step_outcome retry(struct quasistatic_loading *run, const char *text,
+                                  struct gb_event_queue *events, struct gb_error *err)
+{
+    if (!restore_good(run, err)) {
+        return stop(run);
+    }
+    gb_event_queue_add(events, text);
+    gb_quasistatic_halve(&run->schedule, run->base.factor);
+    run->base.strain_due = true;
+    return GB_STEP_MORE;
+}
+
+static enum gb_step_outcome advance(struct gb_loading *loading, int64_t max_evaluations,
+                                    struct gb_event_queue *events, struct gb_error *err)
+{
+    struct quasistatic_loading *run = own(loading);
+    char text[GB_EVENT_QUEUE_TEXT];
+    if (run->base.strain_due) {
+        strain(run);
+    }
+    const enum gb_relax_outcome outcome =
+        gb_relax_advance(run->relax, loading->world, max_evaluations, err);
+    if (outcome == GB_RELAX_MORE) {
+        return GB_STEP_MORE;
+    }
+    enum gb_guard_action action =
+        gb_guard_judge(&run->guard, outcome, run->relax, text, sizeof text, err);
+    if (action == GB_GUARD_ACCEPT) {
+        gb_event_queue_add(events, text);
+        if (begin_next_part(run)) {
+            return GB_STEP_MORE;
+        }
+        action = check_nonaffine(run, text, sizeof text);
+    }
+    switch (action) {
+    case GB_GUARD_ACCEPT:
+        gb_event_queue_add(events, text);
+        return GB_STEP_POINT;
+    case GB_GUARD_RETRY:
+        return retry(run, text, events, err);
+    case GB_GUARD_STOP:
+        break;
+    }
+    return stop(run);
+}
+
+static double pressure_mpa(const struct quasistatic_loading *run,
+                           const double pressure[3])
+{
+    return 1e-6 * (gb_quasistatic_pressure(&run->schedule, pressure) *
+                   run->base.model->pascal_per_stress);
+}
+
+static void add_unload_event(const struct quasistatic_loading *run,
+                             const double pressure[3], struct gb_event_queue *events)
+{
+    char text[GB_EVENT_QUEUE_TEXT];
+    snprintf(text, sizeof text, "unloading from %.6g MPa (asked for %.6g MPa)",
+             pressure_mpa(run, pressure),
+             1e-6 * run->base.params->unload_from_pa[run->schedule.branch - 1]);
+    gb_event_queue_add(events, text);
+}
+
+static void add_restore_event(const struct quasistatic_loading *run,
+                              const double pressure[3], struct gb_event_queue *events)
+{
+    char text[GB_EVENT_QUEUE_TEXT];
+    if (!run->schedule.endless) {
+        gb_event_queue_add(events, "unloaded; loading goes on from the saved state");
+        return;
+    }
+    snprintf(text, sizeof text,
+             "guard: the cell has grown by half and still carries %.3g MPa; unloading is "
+             "given up, loading goes on from the saved state",
+             pressure_mpa(run, pressure));
+    gb_event_queue_add(events, text);
+}
+
+/* Back to where the unloading branch began.  The evaluation brings the forces of that
+ * state, so that the schedule sees its pressure. */
+static bool restore_branch_start(struct quasistatic_loading *run, struct gb_error *err)
+{
+    run->base.restored = true;
+    return gb_world_copy_restore(run->base.world, run->branch_start, err) &&
+           gb_world_evaluate(run->base.world, err);
+}
+
+static enum gb_step_outcome save_good(struct quasistatic_loading *run,
+                                      struct gb_error *err)
+{
+    run->have_good = gb_world_copy_save(run->base.world, &run->good, err);
+    run->base.strain_due = run->have_good;
+    return run->have_good ? GB_STEP_MORE : GB_STEP_STOPPED;
+}
+
+/* What the schedule orders after a recorded state. */
+static enum gb_step_outcome decide_next(struct quasistatic_loading *run,
+                                        struct gb_event_queue *events,
+                                        struct gb_error *err)
+{
+    double pressure[3];
+    for (;;) {
+        gb_world_measure_normal_pressures(run->base.world, pressure);
+        const double density = gb_world_measure_density(run->base.world);
+        switch (
+            gb_quasistatic_next(&run->schedule, pressure, density, run->base.factor)) {
+        case GB_QUASISTATIC_RESTORE:
+            add_restore_event(run, pressure, events);
+            if (!restore_branch_start(run, err)) {
+                return GB_STEP_STOPPED;
+            }
+            continue;
+        case GB_QUASISTATIC_END:
+            return GB_STEP_DONE;
+        case GB_QUASISTATIC_UNLOAD:
+            add_unload_event(run, pressure, events);
+            if (!gb_world_copy_save(run->base.world, &run->branch_start, err)) {
+                return GB_STEP_STOPPED;
+            }
+            break;
+        case GB_QUASISTATIC_STRAIN:
+            break;
+        }
+        return save_good(run, err);
+    }
+}
+
+static enum gb_step_outcome after_point(struct gb_loading *loading,
+                                        struct gb_event_queue *events,
+                                        struct gb_error *err)
+{
+    struct quasistatic_loading *run = own(loading);
+    loading->restored = false;
+    run->spent_iterations = run->spent_evaluations = 0;
+    gb_quasistatic_recover(&run->schedule);
+    return decide_next(run, events, err);
+}
+
+/* On an unloading branch the order of before holds until the branch ends. */
+static enum gb_step_outcome decide_again(struct gb_loading *loading, struct gb_error *err)
+{
+    struct quasistatic_loading *run = own(loading);
+    double pressure[3];
+    if (run->schedule.branch > 0) {
+        return GB_STEP_MORE;
+    }
+    gb_world_measure_normal_pressures(loading->world, pressure);
+    const double density = gb_world_measure_density(loading->world);
+    switch (gb_quasistatic_next(&run->schedule, pressure, density, run->base.factor)) {
+    case GB_QUASISTATIC_UNLOAD:
+        return gb_world_copy_save(loading->world, &run->branch_start, err)
+                   ? GB_STEP_MORE
+                   : GB_STEP_STOPPED;
+    case GB_QUASISTATIC_END:
+        run->base.strain_due = false;
+        return GB_STEP_DONE;
+    case GB_QUASISTATIC_STRAIN:
+    case GB_QUASISTATIC_RESTORE:
+        break;
+    }
+    return GB_STEP_MORE;
+}
+
+static bool check_loaded(struct quasistatic_loading *run, struct gb_error *err)
+{
+    for (int k = 0; k < 3; k++) {
+        if (run->base.strain_due &&
+            !(run->base.factor[k] > 0.1 && run->base.factor[k] < 10.0)) {
+            return gb_error_set(err, GB_ERR_INPUT, "run/factor: is out of range");
+        }
+    }
+    run->have_good =
+        run->base.strain_due && gb_world_copy_save(run->base.world, &run->good, err);
+    return run->have_good || !run->base.strain_due;
+}
+
+static bool record_schedule(struct gb_loading *loading, struct gb_record *record,
+                            struct gb_error *err)
+{
+    struct quasistatic_loading *run = own(loading);
+    return gb_quasistatic_record(&run->schedule, record, err) &&
+           gb_relax_record(run->relax, loading->model->count, record, err) &&
+           (run->schedule.branch <= 0 ||
+            gb_world_record_copy(loading->world, &run->branch_start, record, err)) &&
+           (!record->loading || check_loaded(run, err));
+}
+
+static struct gb_loading_report report(const struct gb_loading *loading)
+{
+    const struct quasistatic_loading *run = view(loading);
+    struct gb_loading_report report = gb_loading_empty_report();
+    report.stage = run->schedule.branch < 0 ? GB_LOADING_RELAX : GB_LOADING_LOAD;
+    report.unloading = run->schedule.branch > 0 ? run->schedule.branch : 0;
+    report.iterations = run->spent_iterations + run->relax->iterations;
+    report.evaluations = run->spent_evaluations + run->relax->evaluations;
+    report.residual = gb_world_residual(loading->world);
+    return report;
+}
+
+static double progress(const struct gb_loading *loading, double pressure, double density)
+{
+    return gb_quasistatic_progress(&view(loading)->schedule, pressure, density,
+                                   loading->model->start_density);
+}
+
+const struct gb_loading_mode gb_loading_quasistatic = {
+    .size = sizeof(struct quasistatic_loading),
+    .build = build,
+    .build_from = build_from,
+    .finish = finish,
+    .advance = advance,
+    .after_point = after_point,
+    .decide_again = decide_again,
+    .record = record_schedule,
+    .report = report,
+    .progress = progress,
+};
