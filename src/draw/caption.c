@@ -9,10 +9,10 @@
 #include "draw/image/palette.h"
 #include "draw/image/text.h"
 
-/* Below this many pixels of the shorter side words cannot be read. */
-static const int words_from = 240;
+/* Minimum length of the shorter side for readable text, pixels. */
+static const int min_annotated_px = 240;
 
-/* A quantity for people: the prefix micro as a Greek letter. */
+/* A quantity with its unit; the prefix micro as a Greek letter. */
 static void format_short(double value, enum gb_dimension dimension, int digits,
                          char *text, size_t size)
 {
@@ -30,16 +30,17 @@ struct pen {
     struct gb_text text;
     cairo_t *cairo;
     double unit;
-    uint8_t ink[3];
+    uint8_t foreground[3];
 };
 
-void gb_caption_place(int width, int height, bool words, struct gb_caption_layout *layout)
+void gb_caption_arrange(int width, int height, bool annotated,
+                        struct gb_caption_layout *layout)
 {
     const double shorter = width < height ? width : height;
     const double pad = 0.03 * shorter;
     *layout = (struct gb_caption_layout){
         .scene = {pad, pad, width - 2.0 * pad, height - 2.0 * pad}};
-    if (!words || shorter < words_from) {
+    if (!annotated || shorter < min_annotated_px) {
         return;
     }
     const double unit = fmax(shorter / 44.0, 10.0);
@@ -54,13 +55,13 @@ void gb_caption_place(int width, int height, bool words, struct gb_caption_layou
     layout->bar.top = 0.5 * (height - layout->bar.height) - 0.5 * unit;
 }
 
-double gb_caption_bar_length(double most, char *label, size_t size)
+double gb_caption_bar_length(double max_m, char *label, size_t size)
 {
     static const double steps[] = {5.0, 2.0, 1.0};
-    const double decade = pow(10.0, floor(log10(most) + 1e-9));
+    const double decade = pow(10.0, floor(log10(max_m) + 1e-9));
     double length = decade;
     for (size_t k = 0; k < sizeof steps / sizeof steps[0]; k++) {
-        if (steps[k] * decade <= most * (1.0 + 1e-9)) {
+        if (steps[k] * decade <= max_m * (1.0 + 1e-9)) {
             length = steps[k] * decade;
             break;
         }
@@ -69,26 +70,26 @@ double gb_caption_bar_length(double most, char *label, size_t size)
     return length;
 }
 
-static void set_ink(const struct pen *pen)
+static void set_foreground(const struct pen *pen)
 {
-    cairo_set_source_rgb(pen->cairo, pen->ink[0] / 255.0, pen->ink[1] / 255.0,
-                         pen->ink[2] / 255.0);
+    cairo_set_source_rgb(pen->cairo, pen->foreground[0] / 255.0,
+                         pen->foreground[1] / 255.0, pen->foreground[2] / 255.0);
 }
 
-/* One line of plain text at (x, y); align 0, 0.5, 1: x is its left end, middle, right
- * end; y its middle. Made smaller until it fits room (> 0). */
+/* One line of plain text at (x, y); align 0, 0.5, 1: x is its left end, middle, right end;
+ * y is its middle.  Reduced to fit max_width (> 0). */
 static void write_line(const struct pen *pen, const char *line, double x, double y,
-                       double align, double scale, double room)
+                       double align, double scale, double max_width)
 {
     char *markup = g_markup_escape_text(line, -1);
     double size = scale * pen->unit;
     double wide = 0.0;
     double high = 0.0;
     gb_text_measure(&pen->text, markup, size, 0.0, &wide, &high);
-    if (room > 0.0 && wide > room) {
-        size *= room / wide;
+    if (max_width > 0.0 && wide > max_width) {
+        size *= max_width / wide;
     }
-    set_ink(pen);
+    set_foreground(pen);
     gb_text_write(&pen->text, markup, size, 0.0, (double[2]){x, y},
                   (double[2]){align, 0.5}, 0);
     g_free(markup);
@@ -96,7 +97,7 @@ static void write_line(const struct pen *pen, const char *line, double x, double
 
 static void write_upwards(const struct pen *pen, const char *line, double x, double y)
 {
-    set_ink(pen);
+    set_foreground(pen);
     gb_text_write(&pen->text, line, 0.95 * pen->unit, 0.0, (double[2]){x, y},
                   (double[2]){0.5, 0.5}, 1);
 }
@@ -104,14 +105,14 @@ static void write_upwards(const struct pen *pen, const char *line, double x, dou
 static void frame_bar(const struct pen *pen, const struct gb_frame *bar,
                       const char *title)
 {
-    set_ink(pen);
+    set_foreground(pen);
     cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
     cairo_rectangle(pen->cairo, bar->left, bar->top, bar->width, bar->height);
     cairo_stroke(pen->cairo);
     write_upwards(pen, title, bar->left - 0.95 * pen->unit, bar->top + 0.5 * bar->height);
 }
 
-/* Whole numbers: a cell of its own for each, 0 at the bottom. */
+/* Whole numbers: one cell each, 0 at the bottom. */
 static void draw_cells(const struct pen *pen, const struct gb_frame *bar,
                        const struct gb_picture_style_scale *scale)
 {
@@ -132,9 +133,13 @@ static void draw_cells(const struct pen *pen, const struct gb_frame *bar,
     }
 }
 
-/* A point that says: there is more beyond this end. */
-static void draw_beyond(const struct pen *pen, const struct gb_frame *bar, bool above)
+enum bar_end { AT_LOW_END, AT_HIGH_END };
+
+/* Triangle at an end of the bar: values exist beyond it. */
+static void draw_arrow(const struct pen *pen, const struct gb_frame *bar,
+                       enum bar_end end)
 {
+    const bool above = end == AT_HIGH_END;
     const double base = above ? bar->top : bar->top + bar->height;
     const double tip = base + (above ? -1.0 : 1.0) * 0.8 * pen->unit;
     uint8_t rgb[3];
@@ -145,7 +150,7 @@ static void draw_beyond(const struct pen *pen, const struct gb_frame *bar, bool 
     cairo_line_to(pen->cairo, bar->left + bar->width, base);
     cairo_close_path(pen->cairo);
     cairo_fill_preserve(pen->cairo);
-    set_ink(pen);
+    set_foreground(pen);
     cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
     cairo_stroke(pen->cairo);
 }
@@ -158,14 +163,14 @@ static void draw_ticks(const struct pen *pen, const struct gb_frame *bar,
     gb_figure_axis_fit(&axis, false, scale->low, scale->high, 6, exact);
     axis.from = bar->top + bar->height;
     axis.to = bar->top;
-    set_ink(pen);
+    set_foreground(pen);
     cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
     for (int k = 0; k < axis.ticks; k++) {
-        const double y = gb_figure_axis_place(&axis, axis.tick[k]);
+        const double y = gb_figure_axis_position(&axis, axis.tick[k]);
         cairo_move_to(pen->cairo, bar->left + bar->width, y);
         cairo_line_to(pen->cairo, bar->left + bar->width + 0.3 * pen->unit, y);
         cairo_stroke(pen->cairo);
-        char plain[48]; /* a bar has no room for a power of ten */
+        char plain[48]; /* no space for a power of ten */
         snprintf(plain, sizeof plain, "%.4g", axis.tick[k]);
         gb_text_write(&pen->text, axis.power == 0 ? axis.label[k] : plain,
                       0.85 * pen->unit, 0.0,
@@ -188,10 +193,10 @@ static void draw_gradient(const struct pen *pen, const struct gb_frame *bar,
         cairo_fill(pen->cairo);
     }
     if (scale->below) {
-        draw_beyond(pen, bar, false);
+        draw_arrow(pen, bar, AT_LOW_END);
     }
     if (scale->above) {
-        draw_beyond(pen, bar, true);
+        draw_arrow(pen, bar, AT_HIGH_END);
     }
     draw_ticks(pen, bar, scale);
 }
@@ -210,19 +215,19 @@ static void draw_colour_bar(const struct pen *pen, const struct gb_frame *bar,
     frame_bar(pen, bar, scale->title);
 }
 
-/* Kinds of forces, and how thick is how much, in the upper right corner. */
-static void draw_swatches(const struct pen *pen, const struct gb_picture_style *dress,
-                          double right)
+/* Classes of forces and the force of the thickest rod, in the upper right corner. */
+static void draw_legend(const struct pen *pen, const struct gb_picture_style *style,
+                        double right)
 {
     const double unit = pen->unit;
     double y = 1.5 * unit;
-    for (int k = 0; k < dress->swatches; k++) {
-        const uint8_t *rgb = dress->swatch[k].rgb;
+    for (int k = 0; k < style->legend_count; k++) {
+        const uint8_t *rgb = style->legend[k].rgb;
         double wide = 0.0;
         double high = 0.0;
-        gb_text_measure(&pen->text, dress->swatch[k].name, 0.95 * unit, 0.0, &wide,
+        gb_text_measure(&pen->text, style->legend[k].name, 0.95 * unit, 0.0, &wide,
                         &high);
-        write_line(pen, dress->swatch[k].name, right, y, 1.0, 0.95, 0.0);
+        write_line(pen, style->legend[k].name, right, y, 1.0, 0.95, 0.0);
         cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
         cairo_set_line_width(pen->cairo, 0.45 * unit);
         cairo_set_line_cap(pen->cairo, CAIRO_LINE_CAP_ROUND);
@@ -232,16 +237,16 @@ static void draw_swatches(const struct pen *pen, const struct gb_picture_style *
         cairo_set_line_cap(pen->cairo, CAIRO_LINE_CAP_BUTT);
         y += 1.45 * unit;
     }
-    if (dress->swatches > 0) {
+    if (style->legend_count > 0) {
         char force[48];
         char line[80];
-        format_short(dress->thickest_n, GB_DIM_FORCE, 2, force, sizeof force);
-        snprintf(line, sizeof line, "thickest: %s", force);
+        format_short(style->max_force_n, GB_DIM_FORCE, 2, force, sizeof force);
+        snprintf(line, sizeof line, "thickest rod: %s", force);
         write_line(pen, line, right, y, 1.0, 0.85, 0.0);
     }
 }
 
-/* In perspective a length is true in one plane only: the middle of the box. */
+/* In perspective the bar is valid in one plane only: the middle of the box. */
 static void draw_scale_bar(const struct pen *pen, const struct gb_scene *scene,
                            const struct gb_state *state, double x, double y, double most)
 {
@@ -253,7 +258,7 @@ static void draw_scale_bar(const struct pen *pen, const struct gb_scene *scene,
         pixel_per_metre;
     snprintf(text, sizeof text, "%s%s", label,
              scene->view.orthographic ? "" : " at mid-depth");
-    set_ink(pen);
+    set_foreground(pen);
     cairo_rectangle(pen->cairo, x, y - 0.14 * pen->unit, length, 0.28 * pen->unit);
     cairo_fill(pen->cairo);
     write_line(pen, text, x + length + 0.6 * pen->unit, y, 0.0, 0.85, 0.0);
@@ -262,7 +267,7 @@ static void draw_scale_bar(const struct pen *pen, const struct gb_scene *scene,
 static void point_text(const struct gb_state *state, char *text, size_t size)
 {
     char pressure[48] = "";
-    int length = snprintf(text, size, "density %.3f", state->point.density);
+    int length = snprintf(text, size, "relative density %.3f", state->point.density);
     if (isfinite(state->point.p_pa) && length > 0 && (size_t)length < size) {
         format_short(state->point.p_pa, GB_DIM_PRESSURE, 3, pressure, sizeof pressure);
         snprintf(text + length, size - (size_t)length, "     pressure %s", pressure);
@@ -271,36 +276,37 @@ static void point_text(const struct gb_state *state, char *text, size_t size)
 
 static void draw_all(const struct pen *pen, const struct gb_image *image,
                      const struct gb_caption_layout *layout, const struct gb_scene *scene,
-                     const struct gb_picture_style *dress, const struct gb_state *state)
+                     const struct gb_picture_style *style, const struct gb_state *state)
 {
     char text[160];
     const double unit = layout->unit;
     const double left = 1.4 * unit;
-    const double room =
-        image->width - 2.0 * left - (dress->swatches > 0 ? 12.0 * unit : 0.0);
-    draw_colour_bar(pen, &layout->bar, &dress->scale);
-    draw_swatches(pen, dress, image->width - left);
-    write_line(pen, state->preset, left, 1.5 * unit, 0.0, 1.05, room);
+    const double max_width =
+        image->width - 2.0 * left - (style->legend_count > 0 ? 12.0 * unit : 0.0);
+    draw_colour_bar(pen, &layout->bar, &style->scale);
+    draw_legend(pen, style, image->width - left);
+    write_line(pen, state->preset, left, 1.5 * unit, 0.0, 1.05, max_width);
     point_text(state, text, sizeof text);
-    write_line(pen, text, left, image->height - 2.9 * unit, 0.0, 1.0, room);
+    write_line(pen, text, left, image->height - 2.9 * unit, 0.0, 1.0, max_width);
     draw_scale_bar(pen, scene, state, left, image->height - 1.4 * unit,
                    fmin(9.0 * unit, 0.3 * image->width));
 }
 
-/* A pen on an image, until lift. */
-static bool put_down(struct pen *pen, struct gb_image *image, double unit,
-                     enum gb_ground ground, struct gb_error *err)
+/* Starts text on an image, until end_text. */
+static bool begin_text(struct pen *pen, struct gb_image *image, double unit,
+                       enum gb_background background, struct gb_error *err)
 {
     gb_image_swap_red_blue(image);
     cairo_surface_t *surface = cairo_image_surface_create_for_data(
         image->rgba, CAIRO_FORMAT_ARGB32, image->width, image->height, 4 * image->width);
     *pen = (struct pen){.cairo = cairo_create(surface), .unit = unit};
     cairo_surface_destroy(surface);
-    gb_scene_ink(ground, pen->ink);
+    gb_scene_foreground(background, pen->foreground);
     return gb_text_init(&pen->text, pen->cairo, err);
 }
 
-static bool lift(struct pen *pen, struct gb_image *image, bool good, struct gb_error *err)
+static bool end_text(struct pen *pen, struct gb_image *image, bool good,
+                     struct gb_error *err)
 {
     const cairo_status_t status = cairo_status(pen->cairo);
     cairo_surface_flush(cairo_get_target(pen->cairo));
@@ -313,22 +319,22 @@ static bool lift(struct pen *pen, struct gb_image *image, bool good, struct gb_e
 }
 
 bool gb_caption_draw(struct gb_image *image, const struct gb_caption_layout *layout,
-                     const struct gb_scene *scene, const struct gb_picture_style *dress,
+                     const struct gb_scene *scene, const struct gb_picture_style *style,
                      const struct gb_state *state, struct gb_error *err)
 {
     struct pen pen;
     if (layout->bar.width <= 0.0) {
         return true;
     }
-    const bool good = put_down(&pen, image, layout->unit, scene->ground, err);
+    const bool good = begin_text(&pen, image, layout->unit, scene->background, err);
     if (good) {
-        draw_all(&pen, image, layout, scene, dress, state);
+        draw_all(&pen, image, layout, scene, style, state);
     }
-    return lift(&pen, image, good, err);
+    return end_text(&pen, image, good, err);
 }
 
-/* x, y, z where the axes of the rose end, before the body. */
-static void name_axes(const struct pen *pen, const struct gb_scene *scene, double reach)
+/* x, y, z at the ends of the axes of the rose that face the viewer. */
+static void label_axes(const struct pen *pen, const struct gb_scene *scene, double reach)
 {
     static const char *const names[3] = {"<i>x</i>", "<i>y</i>", "<i>z</i>"};
     for (int k = 0; k < 3; k++) {
@@ -339,7 +345,7 @@ static void name_axes(const struct pen *pen, const struct gb_scene *scene, doubl
         point[k] += 1.08 * side * reach;
         gb_view_eye(&scene->view, point, eye);
         gb_view_pixel(&scene->view, eye, pixel);
-        set_ink(pen);
+        set_foreground(pen);
         gb_text_write(&pen->text, names[k], 1.05 * pen->unit, 0.0, pixel,
                       (double[2]){0.5, 0.5}, 0);
     }
@@ -355,19 +361,24 @@ bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout
     if (layout->bar.width <= 0.0) {
         return true;
     }
-    const struct gb_picture_style_scale scale = {.title = "force over the mean of all",
-                                                 .high = reach};
-    const bool good = put_down(&pen, image, layout->unit, scene->ground, err);
+    const struct gb_picture_style_scale scale = {
+        .title = "<i>f</i> / \xe2\x9f\xa8<i>f</i>\xe2\x9f\xa9", .high = reach};
+    const bool good = begin_text(&pen, image, layout->unit, scene->background, err);
     if (good) {
         const double unit = layout->unit;
-        const double room = image->width - 2.8 * unit;
+        const double max_width = image->width - 2.8 * unit;
         draw_colour_bar(&pen, &layout->bar, &scale);
-        name_axes(&pen, scene, reach);
+        label_axes(&pen, scene, reach);
         write_line(&pen, "mean normal force by direction", 1.4 * unit, 1.5 * unit, 0.0,
-                   1.05, room);
+                   1.05, max_width);
         format_short(mean_n, GB_DIM_FORCE, 3, force, sizeof force);
-        snprintf(line, sizeof line, "mean of all: %s; rings: 1", force);
-        write_line(&pen, line, 1.4 * unit, image->height - 2.9 * unit, 0.0, 1.0, room);
+        snprintf(line, sizeof line,
+                 "\xe2\x9f\xa8"
+                 "f\xe2\x9f\xa9 = %s; reference ring: f / \xe2\x9f\xa8"
+                 "f\xe2\x9f\xa9 = 1",
+                 force);
+        write_line(&pen, line, 1.4 * unit, image->height - 2.9 * unit, 0.0, 1.0,
+                   max_width);
     }
-    return lift(&pen, image, good, err);
+    return end_text(&pen, image, good, err);
 }

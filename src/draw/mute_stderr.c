@@ -7,22 +7,22 @@
 int gb_mute_stderr_begin(void)
 {
     fflush(stderr);
-    const int kept = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (kept >= 0 && nowhere >= 0) {
-        dup2(nowhere, STDERR_FILENO);
+    const int saved = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+    const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (saved >= 0 && null >= 0) {
+        dup2(null, STDERR_FILENO);
     }
-    if (nowhere >= 0) {
-        close(nowhere);
+    if (null >= 0) {
+        close(null);
     }
-    return kept;
+    return saved;
 }
 
-void gb_mute_stderr_end(int kept)
+void gb_mute_stderr_end(int saved)
 {
-    if (kept >= 0) {
+    if (saved >= 0) {
         fflush(stderr);
-        dup2(kept, STDERR_FILENO);
-        close(kept);
+        dup2(saved, STDERR_FILENO);
+        close(saved);
     }
 }

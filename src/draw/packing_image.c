@@ -8,48 +8,51 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "draw/caption.h"
+#include "draw/gl/osmesa.h"
 #include "draw/image/png.h"
 #include "draw/mute_stderr.h"
-#include "draw/osmesa.h"
 
-void gb_packing_image_init(struct gb_packing_image *picture)
+void gb_packing_image_init(struct gb_packing_image *packing_image)
 {
-    *picture = (struct gb_packing_image){.width = 1600, .height = 1200, .words = true};
-    gb_view_parse("corner", &picture->look, NULL);
-    gb_picture_style_init(&picture->dress);
+    *packing_image =
+        (struct gb_packing_image){.width = 1600, .height = 1200, .annotated = true};
+    gb_view_parse("corner", &packing_image->viewpoint, NULL);
+    gb_picture_style_init(&packing_image->style);
 }
 
-static bool paint(struct gb_image *image, const struct gb_packing_image *picture,
-                  const struct gb_state *state, struct gb_error *err)
+static bool render(struct gb_image *image, const struct gb_packing_image *packing_image,
+                   const struct gb_state *state, struct gb_error *err)
 {
-    struct gb_osmesa *painter = picture->painter;
+    struct gb_osmesa *renderer = packing_image->renderer;
     struct gb_scene *scene = NULL;
-    struct gb_picture_style *dress = NULL;
+    struct gb_picture_style *style = NULL;
     struct gb_caption_layout layout;
-    gb_caption_place(image->width, image->height, picture->words, &layout);
-    const bool done = gb_picture_style_create(&dress, state, &picture->dress, err) &&
-                      gb_scene_create(&scene, state, dress, &picture->look, &layout.scene,
-                                      picture->ground, err) &&
-                      (painter != NULL || gb_osmesa_open(&painter, err)) &&
-                      gb_osmesa_paint(painter, scene, image, err) &&
-                      gb_caption_draw(image, &layout, scene, dress, state, err);
-    if (painter != picture->painter) {
-        gb_osmesa_close(painter);
+    gb_caption_arrange(image->width, image->height, packing_image->annotated, &layout);
+    const bool done =
+        gb_picture_style_create(&style, state, &packing_image->style, err) &&
+        gb_scene_create(&scene, state, style, &packing_image->viewpoint, &layout.scene,
+                        packing_image->background, err) &&
+        (renderer != NULL || gb_osmesa_open(&renderer, err)) &&
+        gb_osmesa_render(renderer, scene, image, err) &&
+        gb_caption_draw(image, &layout, scene, style, state, err);
+    if (renderer != packing_image->renderer) {
+        gb_osmesa_close(renderer);
     }
-    gb_picture_style_destroy(dress);
+    gb_picture_style_destroy(style);
     gb_scene_destroy(scene);
     return done;
 }
 
-bool gb_packing_image_paint(struct gb_image **out, const struct gb_packing_image *picture,
-                            const struct gb_state *state, struct gb_error *err)
+bool gb_packing_image_render(struct gb_image **out,
+                             const struct gb_packing_image *packing_image,
+                             const struct gb_state *state, struct gb_error *err)
 {
-    if (!gb_image_create(out, picture->width, picture->height, err)) {
+    if (!gb_image_create(out, packing_image->width, packing_image->height, err)) {
         return false;
     }
-    const int kept = gb_mute_stderr_begin();
-    const bool done = paint(*out, picture, state, err);
-    gb_mute_stderr_end(kept);
+    const int saved = gb_mute_stderr_begin();
+    const bool done = render(*out, packing_image, state, err);
+    gb_mute_stderr_end(saved);
     if (!done) {
         gb_image_destroy(*out);
         *out = NULL;
@@ -84,26 +87,32 @@ void gb_packing_image_describe(struct gb_packing_image_texts *texts,
     texts->count = (int)(sizeof all / sizeof all[0]) - (preset == NULL);
 }
 
+enum gb_png_alpha gb_packing_image_alpha(const struct gb_packing_image *packing_image)
+{
+    return packing_image->background == GB_BACKGROUND_TRANSPARENT ? GB_PNG_ALPHA
+                                                                  : GB_PNG_OPAQUE;
+}
+
 bool gb_packing_image_save(const struct gb_image *image,
-                           const struct gb_packing_image *picture,
+                           const struct gb_packing_image *packing_image,
                            const struct gb_state *state, const char *path,
                            struct gb_error *err)
 {
     struct gb_packing_image_texts texts;
-    gb_packing_image_describe(&texts, state, picture->preset);
-    return gb_png_write(image, picture->ground != GB_GROUND_TRANSPARENT, texts.text,
+    gb_packing_image_describe(&texts, state, packing_image->preset);
+    return gb_png_write(image, gb_packing_image_alpha(packing_image), texts.text,
                         texts.count, path, err);
 }
 
-bool gb_packing_image_write(const struct gb_packing_image *picture,
+bool gb_packing_image_write(const struct gb_packing_image *packing_image,
                             const struct gb_state *state, const char *path,
                             struct gb_error *err)
 {
     struct gb_image *image = NULL;
-    /* before the work, not after it */
+    /* the target is checked before the work */
     const bool done = gb_file_check_target(path, err) &&
-                      gb_packing_image_paint(&image, picture, state, err) &&
-                      gb_packing_image_save(image, picture, state, path, err);
+                      gb_packing_image_render(&image, packing_image, state, err) &&
+                      gb_packing_image_save(image, packing_image, state, path, err);
     gb_image_destroy(image);
     return done;
 }

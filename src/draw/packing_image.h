@@ -3,45 +3,49 @@
 
 #include <stdbool.h>
 
+#include "draw/gl/osmesa.h"
 #include "draw/image/image.h"
 #include "draw/image/png.h"
-#include "draw/osmesa.h"
 #include "draw/scene.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
 #include "io/state.h"
 
-/* From a packing to a PNG: layout, scene, paint, caption, file. */
+/* Image of a packing: its settings, and the way to a PNG (layout, scene, rendering,
+ * caption, file). */
 struct gb_packing_image {
     int width, height;
-    struct gb_look look;
-    enum gb_ground ground;
-    bool words; /* title, colour bar, scale bar, density and pressure */
-    struct gb_picture_style_request dress;
-    struct gb_osmesa *painter; /* used again for many pictures; NULL: one's own */
-    const char *preset;        /* whole text of the preset, for the file; NULL: unknown */
+    struct gb_viewpoint viewpoint;
+    enum gb_background background;
+    bool annotated; /* title, colour bar, scale bar, density and pressure */
+    struct gb_picture_style_request style;
+    struct gb_osmesa *renderer; /* shared by many images; NULL: one per image */
+    const char *preset;         /* text of preset.ini, a chunk of the file; NULL: none */
 };
 
-/* 1600 x 1200 on white from above the side, with words. */
-void gb_packing_image_init(struct gb_packing_image *picture);
+/* 1600 x 1200 pixels, white, seen from a corner, annotated. */
+void gb_packing_image_init(struct gb_packing_image *packing_image);
 
-/* The libraries below have a voice of their own: stderr leads nowhere meanwhile.  Not for
- * a process in which another thread has something to say there. */
-bool gb_packing_image_paint(struct gb_image **out, const struct gb_packing_image *picture,
-                            const struct gb_state *state, struct gb_error *err);
+/* Mesa and fontconfig print to stderr; it is redirected meanwhile (not thread-safe). */
+bool gb_packing_image_render(struct gb_image **out,
+                             const struct gb_packing_image *packing_image,
+                             const struct gb_state *state, struct gb_error *err);
 
-/* Paints and writes, with version, title, seed, point and preset as text chunks. */
-bool gb_packing_image_write(const struct gb_packing_image *picture,
+/* Renders and writes, with version, title, seed, point and preset as text chunks. */
+bool gb_packing_image_write(const struct gb_packing_image *packing_image,
                             const struct gb_state *state, const char *path,
                             struct gb_error *err);
 
-/* Writes an image of a picture's looks, with the same chunks. */
+/* Writes a rendered image with the same chunks. */
 bool gb_packing_image_save(const struct gb_image *image,
-                           const struct gb_packing_image *picture,
+                           const struct gb_packing_image *packing_image,
                            const struct gb_state *state, const char *path,
                            struct gb_error *err);
 
-/* Text chunks of a picture; the strings live in the struct and in its arguments. */
+/* Whether the PNG needs an alpha channel: for a transparent background. */
+enum gb_png_alpha gb_packing_image_alpha(const struct gb_packing_image *packing_image);
+
+/* Text chunks; they point into the struct and to its arguments. */
 struct gb_packing_image_texts {
     struct gb_png_text text[8];
     int count;

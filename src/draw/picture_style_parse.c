@@ -1,43 +1,42 @@
 #include "draw/picture_style_parse.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-#include "base/units.h"
+#include <glib.h>
 
-static const char *const colours[] = {"coordination", "pressure", "bridges", "size",
-                                      "displacement", "sign",     "bridged"};
+#include "base/units.h"
+#include "draw/picture_colours.h"
+
 static const char *const shows[] = {"particles", "forces", "both"};
 
-enum { COLOURS = sizeof colours / sizeof colours[0] };
-
-/* Thickness of a slice that names none, d. */
-static const double usual_slice = 2.0;
+/* Default thickness of a slice, d. */
+static const double default_slice = 2.0;
 
 bool gb_picture_style_parse_colour(struct gb_picture_style_request *request,
                                    const char *text, struct gb_error *err)
 {
-    for (int k = 0; k < COLOURS; k++) {
-        if (strcmp(text, colours[k]) == 0) {
-            if (k == GB_PICTURE_STYLE_SIGN || k == GB_PICTURE_STYLE_BRIDGED) {
-                request->force = (enum gb_picture_style_colour)k;
-            } else {
-                request->colour = (enum gb_picture_style_colour)k;
-            }
-            return true;
-        }
+    const struct gb_picture_colours_row *row = gb_picture_colours_find(text);
+    if (row == NULL) {
+        char *particles = gb_picture_colours_names(GB_PICTURE_COLOURS_PARTICLES);
+        char *forces = gb_picture_colours_names(GB_PICTURE_COLOURS_FORCES);
+        gb_error_set(err, GB_ERR_INPUT, "--color %.80s: accepted %s; for forces %s", text,
+                     particles, forces);
+        g_free(forces);
+        g_free(particles);
+        return false;
     }
-    return gb_error_set(err, GB_ERR_INPUT,
-                        "--color %.80s: accepted coordination, pressure, bridges, size, "
-                        "displacement; for forces sign, bridged",
-                        text);
+    if (row->kind == GB_PICTURE_COLOURS_FORCES) {
+        request->forces = row;
+    } else {
+        request->particles = row;
+    }
+    return true;
 }
 
 bool gb_picture_style_parse_show(struct gb_picture_style_request *request,
                                  const char *text, struct gb_error *err)
 {
-    for (int k = 0; k < 3; k++) {
+    for (size_t k = 0; k < G_N_ELEMENTS(shows); k++) {
         if (strcmp(text, shows[k]) == 0) {
             request->show = (enum gb_picture_style_show)k;
             return true;
@@ -47,7 +46,7 @@ bool gb_picture_style_parse_show(struct gb_picture_style_request *request,
                         "--show %.80s: accepted particles, forces or both", text);
 }
 
-/* "z=0.5"; *end behind the number. */
+/* "z=0.5"; *end: first character after the number. */
 static bool parse_plane(const char *text, int *axis, double *at, const char **end)
 {
     if (text[0] < 'x' || text[0] > 'z' || text[1] != '=' ||
@@ -64,7 +63,7 @@ bool gb_picture_style_parse_slice(struct gb_picture_style_request *request,
     const char *end = text;
     int axis = 0;
     double at = 0.0;
-    double width = usual_slice;
+    double width = default_slice;
     bool good = parse_plane(text, &axis, &at, &end);
     if (good && *end == ':') {
         good = gb_units_number(end + 1, &end, &width) && width > 0.0;
@@ -72,10 +71,11 @@ bool gb_picture_style_parse_slice(struct gb_picture_style_request *request,
         end = "";
     }
     if (!good || *end != '\0') {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "--slice %.80s: accepted an axis, a share of its edge and a "
-                            "thickness in diameters, as in y=0.5 or z=0.25:3d",
-                            text);
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--slice %.80s: accepted an axis, a fraction of its edge and a "
+            "thickness in diameters, as in y=0.5 or z=0.25:3d",
+            text);
     }
     request->slice_axis = axis;
     request->slice_at = at;
@@ -94,10 +94,11 @@ bool gb_picture_style_parse_cut(struct gb_picture_style_request *request,
         return true;
     }
     if (!parse_plane(text, &axis, &at, &end) || *end != '\0') {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "--cut %.80s: accepted corner, or an axis and a share of its "
-                            "edge, as in y=0.5",
-                            text);
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--cut %.80s: accepted corner, or an axis and a fraction of its "
+            "edge, as in y=0.5",
+            text);
     }
     request->cut_axis = axis;
     request->cut_at = at;

@@ -124,7 +124,7 @@ static void set_rod(struct gb_scene *scene, size_t index, const double from[3],
         }
     }
     scene->rod[8 * index + 3] = (float)radius;
-    gb_scene_ink(scene->ground, colour);
+    gb_scene_foreground(scene->background, colour);
     colour[3] = 255;
 }
 
@@ -153,12 +153,12 @@ static void set_frame(struct gb_scene *scene, double reach)
 }
 
 bool gb_rose_scene(struct gb_scene **out, const struct gb_harmonics *rose, double reach,
-                   const struct gb_look *look, const struct gb_frame *frame,
-                   enum gb_ground ground, struct gb_error *err)
+                   const struct gb_viewpoint *viewpoint, const struct gb_frame *frame,
+                   enum gb_background background, struct gb_error *err)
 {
     const size_t parts[3] = {0, 3 + 3 * RING, 2 * (size_t)AROUND * DOWN};
     const double cell[3] = {2.0 * reach, 2.0 * reach, 2.0 * reach};
-    if (!gb_scene_begin(out, cell, 0.0, parts, look, frame, ground, err)) {
+    if (!gb_scene_begin(out, cell, 0.0, parts, viewpoint, frame, background, err)) {
         return false;
     }
     set_frame(*out, reach);

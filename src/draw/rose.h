@@ -19,7 +19,7 @@ bool gb_rose_of_state(struct gb_harmonics *rose, const struct gb_state *state,
 double gb_rose_reach(const struct gb_harmonics *rose);
 
 bool gb_rose_scene(struct gb_scene **out, const struct gb_harmonics *rose, double reach,
-                   const struct gb_look *look, const struct gb_frame *frame,
-                   enum gb_ground ground, struct gb_error *err);
+                   const struct gb_viewpoint *viewpoint, const struct gb_frame *frame,
+                   enum gb_background background, struct gb_error *err);
 
 #endif

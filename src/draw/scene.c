@@ -31,33 +31,33 @@ static void set_point(const struct gb_view *view, const double point[3], float o
 
 /* Those that are not hidden move up; count becomes their number. */
 static void set_spheres(struct gb_scene *scene, const struct gb_state *state,
-                        const struct gb_picture_style *dress)
+                        const struct gb_picture_style *style)
 {
     size_t shown = 0;
     for (size_t i = 0; i < scene->count; i++) {
-        if (dress->hidden[i] != 0) {
+        if (style->hidden[i] != 0) {
             continue;
         }
         set_point(&scene->view, &state->position[3 * i], &scene->sphere[4 * shown]);
-        scene->sphere[4 * shown + 3] = dress->shrink * (float)state->radius[i];
-        memcpy(&scene->colour[4 * shown], &dress->colour[3 * i], 3);
+        scene->sphere[4 * shown + 3] = style->radius_scale * (float)state->radius[i];
+        memcpy(&scene->colour[4 * shown], &style->colour[3 * i], 3);
         scene->colour[4 * shown + 3] = 255;
         shown++;
     }
     scene->count = shown;
 }
 
-static void set_rods(struct gb_scene *scene, const struct gb_picture_style *dress)
+static void set_rods(struct gb_scene *scene, const struct gb_picture_style *style)
 {
-    for (size_t i = 0; i < dress->rods; i++) {
-        const float *from = &dress->rod[7 * i];
+    for (size_t i = 0; i < style->rods; i++) {
+        const float *from = &style->rod[7 * i];
         uint8_t *colour = &scene->colour[4 * (scene->count + i)];
         for (size_t end = 0; end < 2; end++) {
             const double point[3] = {from[3 * end], from[3 * end + 1], from[3 * end + 2]};
             set_point(&scene->view, point, &scene->rod[8 * i + 4 * end]);
         }
         scene->rod[8 * i + 3] = from[6];
-        memcpy(colour, &dress->rod_colour[3 * i], 3);
+        memcpy(colour, &style->rod_colour[3 * i], 3);
         colour[3] = 255;
     }
 }
@@ -116,8 +116,8 @@ static void set_die(struct gb_scene *scene, const struct gb_state *state)
 }
 
 bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
-                    const size_t parts[3], const struct gb_look *look,
-                    const struct gb_frame *frame, enum gb_ground ground,
+                    const size_t parts[3], const struct gb_viewpoint *viewpoint,
+                    const struct gb_frame *frame, enum gb_background background,
                     struct gb_error *err)
 {
     *out = NULL;
@@ -137,14 +137,14 @@ bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
         gb_scene_destroy(scene);
         return false;
     }
-    gb_view_init(&scene->view, look, cell, margin, frame);
+    gb_view_init(&scene->view, viewpoint, cell, margin, frame);
     /* over the viewer's left shoulder */
     scene->light[0] = -0.45F;
     scene->light[1] = 0.70F;
     scene->light[2] = -0.55F;
     scene->diameter = 1.0F;
-    scene->ground = ground;
-    scene->depth_cue = ground != GB_GROUND_TRANSPARENT ? depth_cue : 0.0F;
+    scene->background = background;
+    scene->depth_cue = background != GB_BACKGROUND_TRANSPARENT ? depth_cue : 0.0F;
     scene->shadow_share = shadow_share;
     *out = scene;
     return true;
@@ -152,19 +152,20 @@ bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
 
 /* Discs lie in the plane y = 0 and are seen along y. */
 static bool begin(struct gb_scene **out, const struct gb_state *state, size_t rods,
-                  const struct gb_look *look, const struct gb_frame *frame,
-                  enum gb_ground ground, struct gb_error *err)
+                  const struct gb_viewpoint *viewpoint, const struct gb_frame *frame,
+                  enum gb_background background, struct gb_error *err)
 {
     const bool planar = state->dimension == 2;
-    const struct gb_look along_y = {.azimuth_deg = -90.0,
-                                    .orthographic = true,
-                                    .room = {look->room[0], 0.0, look->room[2]}};
+    const struct gb_viewpoint along_y = {
+        .azimuth_deg = -90.0,
+        .orthographic = true,
+        .extent = {viewpoint->extent[0], 0.0, viewpoint->extent[2]}};
     const size_t parts[3] = {(size_t)state->count, rods, 0};
     double cell[3];
     memcpy(cell, state->cell, sizeof cell);
     cell[1] = planar ? 0.0 : cell[1];
-    if (!gb_scene_begin(out, cell, largest_radius(state), parts, planar ? &along_y : look,
-                        frame, ground, err)) {
+    if (!gb_scene_begin(out, cell, largest_radius(state), parts,
+                        planar ? &along_y : viewpoint, frame, background, err)) {
         return false;
     }
     if (planar) {
@@ -175,19 +176,19 @@ static bool begin(struct gb_scene **out, const struct gb_state *state, size_t ro
 }
 
 bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
-                     const struct gb_picture_style *dress, const struct gb_look *look,
-                     const struct gb_frame *frame, enum gb_ground ground,
-                     struct gb_error *err)
+                     const struct gb_picture_style *style,
+                     const struct gb_viewpoint *viewpoint, const struct gb_frame *frame,
+                     enum gb_background background, struct gb_error *err)
 {
     struct gb_picture_style *usual = NULL;
     struct gb_picture_style_request request;
     gb_picture_style_init(&request);
     *out = NULL;
-    if (dress == NULL && !gb_picture_style_create(&usual, state, &request, err)) {
+    if (style == NULL && !gb_picture_style_create(&usual, state, &request, err)) {
         return false;
     }
-    const struct gb_picture_style *worn = dress != NULL ? dress : usual;
-    const bool good = begin(out, state, worn->rods, look, frame, ground, err);
+    const struct gb_picture_style *worn = style != NULL ? style : usual;
+    const bool good = begin(out, state, worn->rods, viewpoint, frame, background, err);
     if (good) {
         set_spheres(*out, state, worn);
         set_rods(*out, worn);
@@ -213,16 +214,16 @@ void gb_scene_destroy(struct gb_scene *scene)
     gb_alloc_free(scene);
 }
 
-void gb_scene_ground(enum gb_ground ground, uint8_t rgb[3])
+void gb_scene_background(enum gb_background background, uint8_t rgb[3])
 {
     static const uint8_t white[3] = {255, 255, 255};
     static const uint8_t dark[3] = {24, 27, 31};
-    memcpy(rgb, ground == GB_GROUND_DARK ? dark : white, 3);
+    memcpy(rgb, background == GB_BACKGROUND_DARK ? dark : white, 3);
 }
 
-void gb_scene_ink(enum gb_ground ground, uint8_t rgb[3])
+void gb_scene_foreground(enum gb_background background, uint8_t rgb[3])
 {
     static const uint8_t light[3] = {225, 228, 232};
     static const uint8_t black[3] = {38, 42, 48};
-    memcpy(rgb, ground == GB_GROUND_DARK ? light : black, 3);
+    memcpy(rgb, background == GB_BACKGROUND_DARK ? light : black, 3);
 }

@@ -10,7 +10,7 @@
 #include "greenbody/status.h"
 #include "io/state.h"
 
-enum gb_ground { GB_GROUND_WHITE, GB_GROUND_DARK, GB_GROUND_TRANSPARENT };
+enum gb_background { GB_BACKGROUND_WHITE, GB_BACKGROUND_DARK, GB_BACKGROUND_TRANSPARENT };
 
 /* A box has 12 edges; the outline of a die is two rings of chords and some lines. */
 enum { GB_SCENE_RING = 48, GB_SCENE_EDGES = 2 * GB_SCENE_RING + 4 };
@@ -29,29 +29,29 @@ struct gb_scene {
     float edge[GB_SCENE_EDGES][6]; /* both ends of the edges of box or die */
     float diameter;                /* 1 d, the length of the shading */
     float light[3];                /* towards the key light, eye coordinates */
-    enum gb_ground ground;
+    enum gb_background background;
     float depth_cue;    /* share of the ground's colour at the far end */
     float shadow_share; /* 0: no shadows */
 };
 
-/* What a dress shows of a packing in its periodic box or in its die, seen so that the box
- * fills the frame.  2D packings are always seen along y without perspective.  dress NULL:
+/* What a style shows of a packing in its periodic box or in its die, seen so that the box
+ * fills the frame.  2D packings are always seen along y without perspective.  style NULL:
  * all particles by coordination number. */
 bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
-                     const struct gb_picture_style *dress, const struct gb_look *look,
-                     const struct gb_frame *frame, enum gb_ground ground,
-                     struct gb_error *err);
+                     const struct gb_picture_style *style,
+                     const struct gb_viewpoint *viewpoint, const struct gb_frame *frame,
+                     enum gb_background background, struct gb_error *err);
 
 /* An empty scene of a box of these edges: arrays for so many parts, the camera and the
  * light set. */
 bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
-                    const size_t parts[3], const struct gb_look *look,
-                    const struct gb_frame *frame, enum gb_ground ground,
+                    const size_t parts[3], const struct gb_viewpoint *viewpoint,
+                    const struct gb_frame *frame, enum gb_background background,
                     struct gb_error *err);
 void gb_scene_destroy(struct gb_scene *scene); /* NULL is fine */
 
 /* sRGB of the ground, and of text and lines upon it. */
-void gb_scene_ground(enum gb_ground ground, uint8_t rgb[3]);
-void gb_scene_ink(enum gb_ground ground, uint8_t rgb[3]);
+void gb_scene_background(enum gb_background background, uint8_t rgb[3]);
+void gb_scene_foreground(enum gb_background background, uint8_t rgb[3]);
 
 #endif

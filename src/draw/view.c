@@ -20,7 +20,7 @@ static const struct {
     {"top", -90.0, 90.0},
 };
 
-static bool parse_angles(const char *text, struct gb_look *look)
+static bool parse_angles(const char *text, struct gb_viewpoint *viewpoint)
 {
     const char *end = NULL;
     double azimuth = 0.0;
@@ -30,14 +30,14 @@ static bool parse_angles(const char *text, struct gb_look *look)
         !(fabs(azimuth) <= 360.0) || !(fabs(elevation) <= 90.0)) {
         return false;
     }
-    look->azimuth_deg = azimuth;
-    look->elevation_deg = elevation;
+    viewpoint->azimuth_deg = azimuth;
+    viewpoint->elevation_deg = elevation;
     return true;
 }
 
-bool gb_view_parse(const char *text, struct gb_look *look, struct gb_error *err)
+bool gb_view_parse(const char *text, struct gb_viewpoint *viewpoint, struct gb_error *err)
 {
-    struct gb_look result = *look;
+    struct gb_viewpoint result = *viewpoint;
     char place[64];
     const int length = snprintf(place, sizeof place, "%s", text);
     char *flat = strstr(place, ",flat");
@@ -62,14 +62,14 @@ bool gb_view_parse(const char *text, struct gb_look *look, struct gb_error *err)
                             "accepted, with ,flat for no perspective",
                             text);
     }
-    *look = result;
+    *viewpoint = result;
     return true;
 }
 
-static void set_axes(struct gb_view *view, const struct gb_look *look)
+static void set_axes(struct gb_view *view, const struct gb_viewpoint *viewpoint)
 {
-    const double a = look->azimuth_deg * M_PI / 180.0;
-    const double e = look->elevation_deg * M_PI / 180.0;
+    const double a = viewpoint->azimuth_deg * M_PI / 180.0;
+    const double e = viewpoint->elevation_deg * M_PI / 180.0;
     const double right[3] = {-sin(a), cos(a), 0.0};
     const double up[3] = {-sin(e) * cos(a), -sin(e) * sin(a), cos(e)};
     const double away[3] = {-cos(e) * cos(a), -cos(e) * sin(a), -sin(e)};
@@ -126,23 +126,23 @@ static void bounds(struct gb_view *view, const double cell[3], double margin,
     }
 }
 
-void gb_view_init(struct gb_view *view, const struct gb_look *look, const double cell[3],
-                  double margin, const struct gb_frame *frame)
+void gb_view_init(struct gb_view *view, const struct gb_viewpoint *viewpoint,
+                  const double cell[3], double margin, const struct gb_frame *frame)
 {
     double low[2];
     double high[2];
     double diagonal = 0.0;
-    const double *room = look->room[0] > 0.0 ? look->room : cell;
-    *view = (struct gb_view){.orthographic = look->orthographic, .focal = 1.0};
-    set_axes(view, look);
+    const double *extent = viewpoint->extent[0] > 0.0 ? viewpoint->extent : cell;
+    *view = (struct gb_view){.orthographic = viewpoint->orthographic, .focal = 1.0};
+    set_axes(view, viewpoint);
     for (int k = 0; k < 3; k++) {
-        view->target[k] = 0.5 * room[k];
-        diagonal += (room[k] + 2.0 * margin) * (room[k] + 2.0 * margin);
+        view->target[k] = 0.5 * extent[k];
+        diagonal += (extent[k] + 2.0 * margin) * (extent[k] + 2.0 * margin);
     }
-    if (!look->orthographic) {
+    if (!viewpoint->orthographic) {
         view->distance = viewer_distance * 0.5 * sqrt(diagonal);
     }
-    bounds(view, room, margin, low, high);
+    bounds(view, extent, margin, low, high);
     view->focal =
         fmin(frame->width / (high[0] - low[0]), frame->height / (high[1] - low[1]));
     view->centre[0] =

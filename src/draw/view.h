@@ -6,18 +6,19 @@
 #include "greenbody/status.h"
 
 /* From where a picture looks at the box. */
-struct gb_look {
+struct gb_viewpoint {
     double azimuth_deg;   /* of the viewer around z; 0 is on the x axis, -90 on -y */
     double elevation_deg; /* of the viewer above the x-y plane */
     bool orthographic;
-    double room[3]; /* edges of the box that is to be in the frame; 0: the packing's */
+    double extent[3]; /* edges of the box that is to be in the frame; 0: the packing's */
 };
 
 /* "corner", "front" (along y), "side" (along x), "top", or "AZIMUTH,ELEVATION" in
  * degrees;
  * ",flat" behind any of them makes it orthographic.  Errors: GB_ERR_INPUT saying what is
  * accepted. */
-bool gb_view_parse(const char *text, struct gb_look *look, struct gb_error *err);
+bool gb_view_parse(const char *text, struct gb_viewpoint *viewpoint,
+                   struct gb_error *err);
 
 /* Rectangle of the image that the box may fill, pixels, y downwards. */
 struct gb_frame {
@@ -38,8 +39,8 @@ struct gb_view {
 
 /* Camera that sees the whole box, with `margin` around it, as large as the frame allows.
  */
-void gb_view_init(struct gb_view *view, const struct gb_look *look, const double cell[3],
-                  double margin, const struct gb_frame *frame);
+void gb_view_init(struct gb_view *view, const struct gb_viewpoint *viewpoint,
+                  const double cell[3], double margin, const struct gb_frame *frame);
 
 /* Eye coordinates of a point of the cell. */
 void gb_view_eye(const struct gb_view *view, const double point[3], double eye[3]);

@@ -6,45 +6,82 @@
 
 #include "figures/series.h"
 
+/* The table of figures.  A figure is a file figures_NAME.c with its function, a row in
+ * figures.c and a line in figures_compute.h; help, checks of options and the report follow
+ * from the row. */
+
 enum { GB_FIGURES_DENSITIES = 64 };
 
-/* What a figure is made from. */
+/* Source of the data. */
 enum gb_figures_takes {
-    GB_FIGURES_RUNS,   /* run directories */
-    GB_FIGURES_STATES, /* run directories or packings, with their states */
+    GB_FIGURES_RUNS,   /* run directories: their curve.csv */
+    GB_FIGURES_STATES, /* run directories or packings: their states */
     GB_FIGURES_SCENE,  /* a preset and group.key=value: contact laws */
-    GB_FIGURES_TABLE,  /* a directory with a table of its own, in words */
+    GB_FIGURES_TABLE,  /* the directory of `greenbody chart` */
 };
 
-/* All that a figure is told. */
+/* Options of the command line that a figure reads. */
+enum gb_figures_options {
+    GB_FIGURES_REFERENCE = 1, /* required where read */
+    GB_FIGURES_DENSITY = 2,
+    GB_FIGURES_PRESSURE = 4,
+    GB_FIGURES_AT = 8,
+};
+
+/* Whether the report of some runs contains the figure. */
+enum gb_figures_report {
+    GB_FIGURES_ON_REQUEST, /* plot alone: needs options, or compares chosen runs */
+    GB_FIGURES_IN_REPORT,
+};
+
 struct gb_figures_input {
-    const struct gb_runset *set;   /* NULL for GB_FIGURES_SCENE */
+    const struct gb_runset *set;   /* NULL for scenes and tables */
     const struct gb_params *scene; /* NULL for the others */
-    char *const *words;            /* of the command line */
-    size_t reference;              /* group that differences are taken to */
+    char *const *words;            /* arguments of the command line */
+    size_t reference;              /* group that is subtracted */
     double density[GB_FIGURES_DENSITIES];
-    size_t densities;   /* 0: the figure picks them */
-    double pressure_pa; /* 0: the figure picks it */
-    const char *at;     /* which kept states; NULL: the last ones */
+    size_t densities;   /* 0: default of the figure */
+    double pressure_pa; /* 0: default of the figure */
+    const char *at;     /* point of the kept states; NULL: the last state */
 };
 
-/* A figure: its name, what it shows, what from, the preset of a law's figure when none is
- * given, and the function that computes and describes it. */
+/* Fills a series that is zeroed.  Errors: GB_ERR_INPUT when the input has no data for the
+ * figure, in one line. */
+typedef bool gb_figures_compute(struct gb_series *series,
+                                const struct gb_figures_input *input,
+                                struct gb_error *err);
+
 struct gb_figures_row {
     const char *name;
-    const char *doc;
+    const char *doc;    /* quantity against quantity */
+    const char *source; /* papers and their figures; "": none */
     enum gb_figures_takes takes;
-    const char *preset;
-    bool (*compute)(struct gb_series *series, const struct gb_figures_input *input,
-                    struct gb_error *err);
+    enum gb_figures_report report;
+    unsigned options;                /* sum of gb_figures_options */
+    const char *preset;              /* default scene of a contact law */
+    const char *const *ignored_keys; /* runs that differ in these only are one group */
+    struct gb_series_axis x, y;      /* name NULL: set by the function */
+    gb_figures_compute *compute;
 };
 
-/* Every figure, ended by a row without name. */
-const struct gb_figures_row *gb_figures_all(void);
-/* Keys in which runs may differ and still be one group of a figure, NULL at the end: what
- * comes after the branch it shows. */
-const char *const *gb_figures_ignored(const struct gb_figures_row *row);
-/* NULL when there is none of this name. */
+/* All figures; the last row has no name. */
+const struct gb_figures_row *gb_figures_table(void);
+/* NULL: no figure of this name. */
 const struct gb_figures_row *gb_figures_find(const char *name);
+/* Groups runs that differ in the ignored keys of the row only. */
+void gb_figures_group(const struct gb_figures_row *row, struct gb_runset *set);
+/* Computes the series with the axes of the row. */
+bool gb_figures_run(const struct gb_figures_row *row, struct gb_series *series,
+                    const struct gb_figures_input *input, struct gb_error *err);
+
+/* "doc (source)"; g_free. */
+char *gb_figures_describe(const struct gb_figures_row *row);
+/* Names of the figures that read all of these options (0: of all figures), separated by
+ * commas; g_free. */
+char *gb_figures_names(unsigned options);
+/* Checks given options against those that the figure reads.  Errors: GB_ERR_INPUT naming
+ * the figures of a wrong option, or the option that is missing. */
+bool gb_figures_check_options(const struct gb_figures_row *row, unsigned given,
+                              struct gb_error *err);
 
 #endif

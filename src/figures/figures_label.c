@@ -3,7 +3,7 @@
 #include <pango/pango.h>
 #include <string.h>
 
-/* How a key is written in a figure; the rest is "key = value". */
+/* Keys with a symbol or phrase of their own; others are written "key = value". */
 static const struct {
     const char *key, *format;
 } short_forms[] = {
@@ -22,21 +22,22 @@ static const struct {
     {"contact.relative_motion", "%s motion"},
 };
 
-/* Keys that follow from others or say nothing in a figure. */
-static const char *const silent[] = {"structure.base",
-                                     "loading.until",
-                                     "loading.unload_from",
-                                     "material.name",
-                                     "output.",
-                                     "loading.record",
-                                     NULL};
+/* Keys that follow from others or carry no information in a figure. */
+static const char *const omitted[] = {"structure.base",
+                                      "loading.until",
+                                      "loading.unload_from",
+                                      "material.name",
+                                      "output.",
+                                      "loading.record",
+                                      NULL};
 
-enum { LONGEST = 60 };
+/* Longest label, characters. */
+enum { MAX_LENGTH = 60 };
 
-static bool is_silent(const char *key, const char *except)
+static bool is_omitted(const char *key, const char *except)
 {
-    for (int k = 0; silent[k] != NULL; k++) {
-        if (g_str_has_prefix(key, silent[k])) {
+    for (int k = 0; omitted[k] != NULL; k++) {
+        if (g_str_has_prefix(key, omitted[k])) {
             return true;
         }
     }
@@ -69,11 +70,11 @@ static const char *short_form(const char *key)
     return NULL;
 }
 
-/* "group.key = value" in short. */
+/* Adds "group.key = value" in short form. */
 static void append_part(GString *label, const char *part, const char *except)
 {
     char **sides = g_strsplit(part, " = ", 2);
-    if (sides[0] != NULL && sides[1] != NULL && !is_silent(sides[0], except)) {
+    if (sides[0] != NULL && sides[1] != NULL && !is_omitted(sides[0], except)) {
         char *value = value_markup(sides[1]);
         const char *dot = strchr(sides[0], '.');
         g_string_append(label, label->len > 0 ? ", " : "");
@@ -90,8 +91,8 @@ static void append_part(GString *label, const char *part, const char *except)
     g_strfreev(sides);
 }
 
-/* Characters that are seen. */
-static glong seen_length(const char *markup)
+/* Characters without the markup. */
+static glong visible_length(const char *markup)
 {
     char *plain = NULL;
     if (!pango_parse_markup(markup, -1, 0, NULL, &plain, NULL, NULL)) {
@@ -102,39 +103,39 @@ static glong seen_length(const char *markup)
     return length;
 }
 
-/* "key = value, ..." in short; takes whole. */
-static GString *shorten(char *whole, const char *except)
+/* "key = value, ..." in short form; frees the long one. */
+static GString *shorten(char *full, const char *except)
 {
-    char **parts = g_strsplit(whole, ", ", -1);
+    char **parts = g_strsplit(full, ", ", -1);
     GString *label = g_string_new(NULL);
     for (int k = 0; parts[k] != NULL; k++) {
         append_part(label, parts[k], except);
     }
     g_strfreev(parts);
-    g_free(whole);
+    g_free(full);
     return label;
 }
 
-/* Scenes that differ in much are named by their titles, and those of one title by what
- * tells them apart. */
+/* Groups with many differences are named by their titles, and groups of one title by
+ * their differences. */
 static void use_title(GString *label, const struct gb_runset *set, size_t group,
                       const char *except)
 {
     char *title = g_markup_escape_text(gb_runset_first(set, group)->params.title, -1);
-    GString *more = shorten(gb_runset_label_of_title(set, group), except);
+    GString *differences = shorten(gb_runset_label_of_title(set, group), except);
     g_string_assign(label, title);
-    if (more->len > 0 && seen_length(more->str) <= LONGEST) {
-        g_string_append_printf(label, ": %s", more->str);
+    if (differences->len > 0 && visible_length(differences->str) <= MAX_LENGTH) {
+        g_string_append_printf(label, ": %s", differences->str);
     }
-    g_string_free(more, TRUE);
+    g_string_free(differences, TRUE);
     g_free(title);
 }
 
 char *gb_figures_label(const struct gb_runset *set, size_t group, const char *except)
 {
     GString *label = shorten(gb_runset_label(set, group), except);
-    const bool nothing = label->len == 0 && except == NULL;
-    if (nothing || seen_length(label->str) > LONGEST) {
+    const bool empty = label->len == 0 && except == NULL;
+    if (empty || visible_length(label->str) > MAX_LENGTH) {
         use_title(label, set, group, except);
     }
     return g_string_free(label, FALSE);
@@ -159,41 +160,43 @@ char *gb_figures_label_axis(const char *key, const char *unit)
 
 size_t gb_figures_label_groups(struct gb_series *series, const struct gb_runset *set)
 {
-    size_t most = 0;
+    size_t max = 0;
     for (size_t g = 0; g < set->groups; g++) {
         const size_t members = gb_runset_members(set, g);
         char *label = gb_runset_label(set, g);
         gb_series_note(series, "group %zu: %zu runs%s%s", g + 1, members,
                        *label ? ", " : "", label);
         g_free(label);
-        most = MAX(most, members);
+        max = MAX(max, members);
     }
-    return most;
+    return max;
 }
 
 void gb_figures_label_note(struct gb_series *series, const struct gb_runset *set)
 {
-    const size_t most = gb_figures_label_groups(series, set);
-    size_t least = most;
+    const size_t max = gb_figures_label_groups(series, set);
+    size_t min = max;
     for (size_t g = 0; g < set->groups; g++) {
-        least = MIN(least, gb_runset_members(set, g));
+        min = MIN(min, gb_runset_members(set, g));
     }
-    if (most > least) {
-        gb_series_say(series, "Means of %zu to %zu runs; bands and bars: standard error.",
-                      least, most);
-    } else if (most > 1) {
-        gb_series_say(series, "Means of %zu runs; bands and bars: standard error.", most);
+    if (max > min) {
+        gb_series_caption(series,
+                          "Means of %zu to %zu runs; bands and bars: standard error.",
+                          min, max);
+    } else if (max > 1) {
+        gb_series_caption(series, "Means of %zu runs; bands and bars: standard error.",
+                          max);
     }
 }
 
 bool gb_figures_label_means(struct gb_series *series,
                             const struct gb_series_sample *sample,
                             const struct gb_runset *set, const double *grid,
-                            struct gb_error *err)
+                            const char *name, const char *unit, struct gb_error *err)
 {
     for (size_t g = 0; g < set->groups; g++) {
-        double *mean = gb_series_column(series, "mean_%zu_MPa", g + 1);
-        double *error = gb_series_column(series, "se_%zu_MPa", g + 1);
+        double *mean = gb_series_column(series, "%s_%zu%s", name, g + 1, unit);
+        double *error = gb_series_column(series, "se_%zu%s", g + 1, unit);
         char *label = gb_figures_label(set, g, NULL);
         gb_series_draw(series, grid, mean, error, GB_FIGURE_LINE, (int)g, label);
         g_free(label);

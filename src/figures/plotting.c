@@ -5,39 +5,38 @@
 
 #include "base/file.h"
 #include "base/table.h"
+#include "figures/output_formats.h"
 #include "figures/provenance.h"
 
-static bool is_output(const char *path)
-{
-    return g_str_has_suffix(path, ".csv") || gb_figure_is_file(path);
-}
-
 /* "x.png" -> "x.csv"; g_free. */
-static char *twin_of(const char *path)
+static char *csv_path(const char *path)
 {
     return g_strdup_printf("%.*s.csv", (int)strlen(path) - 4, path);
 }
 
-static bool check_file(const char *path, bool force, struct gb_error *err)
+static bool check_file(const char *path, enum gb_plotting_existing existing,
+                       struct gb_error *err)
 {
-    if (!force && g_file_test(path, G_FILE_TEST_EXISTS)) {
+    if (existing == GB_PLOTTING_KEEP && g_file_test(path, G_FILE_TEST_EXISTS)) {
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
                             path);
     }
     return gb_file_check_target(path, err);
 }
 
-bool gb_plotting_check(const char *output, bool force, struct gb_error *err)
+bool gb_plotting_check(const char *output, enum gb_plotting_existing existing,
+                       struct gb_error *err)
 {
-    if (!is_output(output)) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "-o %.300s: a name ending in .png, .svg, .pdf or .csv is "
-                            "accepted",
-                            output);
+    if (gb_output_formats_find(output, GB_OUTPUT_FORMATS_FIGURE) == NULL) {
+        char *names = gb_output_formats_names(GB_OUTPUT_FORMATS_FIGURE);
+        gb_error_set(err, GB_ERR_INPUT, "-o %.300s: a name ending in %s is accepted",
+                     output, names);
+        g_free(names);
+        return false;
     }
-    char *twin = twin_of(output);
-    const bool good = check_file(output, force, err) && check_file(twin, force, err);
-    g_free(twin);
+    char *csv = csv_path(output);
+    const bool good = check_file(output, existing, err) && check_file(csv, existing, err);
+    g_free(csv);
     return good;
 }
 
@@ -53,8 +52,8 @@ static char *run_list(const struct gb_runset *set)
 }
 
 static bool write_figure(const struct gb_series *series,
-                         const struct gb_plotting_page *page, const char *output,
-                         struct gb_error *err)
+                         const struct gb_plotting_page *page, gb_figure_writer *writer,
+                         const char *output, struct gb_error *err)
 {
     struct gb_figure figure;
     struct gb_figure_curve *curves = NULL;
@@ -75,7 +74,7 @@ static bool write_figure(const struct gb_series *series,
         texts[count++] = (struct gb_png_text){"Preset", preset};
     }
     const bool good =
-        gb_figure_write(&figure, page->width, page->height, texts, count, output, err);
+        writer(&figure, page->width, page->height, texts, count, output, err);
     g_free(curves);
     g_free(title);
     g_free(preset);
@@ -87,17 +86,20 @@ bool gb_plotting_write(const struct gb_series *series,
                        const struct gb_plotting_page *page, const char *output,
                        struct gb_error *err)
 {
-    const bool drawn = gb_figure_is_file(output);
-    char *twin = twin_of(output);
+    const struct gb_output_formats_row *format =
+        gb_output_formats_find(output, GB_OUTPUT_FORMATS_FIGURE);
+    gb_figure_writer *writer = format != NULL ? format->figure : NULL;
+    char *csv = csv_path(output);
     GString *text = gb_series_csv(series);
-    const bool good = (!drawn || write_figure(series, page, output, err)) &&
-                      gb_file_replace(twin, text->str, text->len, err);
+    const bool good =
+        (writer == NULL || write_figure(series, page, writer, output, err)) &&
+        gb_file_replace(csv, text->str, text->len, err);
     g_string_free(text, TRUE);
-    g_free(twin);
+    g_free(csv);
     return good;
 }
 
-/* What the axes take from a table. */
+/* Columns of the axes in a table. */
 struct data {
     const struct gb_table *table;
     const double *x, *y, *x_error, *y_error;
@@ -111,7 +113,7 @@ static const double *find_error(const struct gb_table *table, const char *name)
     return column;
 }
 
-/* The rows of one word of the column "series" as columns and a curve. */
+/* Rows of one word of the column "series" as columns and a curve. */
 static void draw_words(struct gb_series *series, const struct data *data,
                        const char *word, int style)
 {
@@ -132,7 +134,7 @@ static void draw_words(struct gb_series *series, const struct data *data,
             filled++;
         }
     }
-    char *label = g_markup_escape_text(*word != '\0' ? word : "experiment", -1);
+    char *label = g_markup_escape_text(*word != '\0' ? word : "measured", -1);
     struct gb_series_curve *curve =
         gb_series_draw(series, x, y, y_error, GB_FIGURE_POINTS, style, label);
     curve->open = true;
@@ -141,7 +143,7 @@ static void draw_words(struct gb_series *series, const struct data *data,
     g_free(label);
 }
 
-/* Every word once, in the order in which they come. */
+/* A curve for every word, in the order of the table. */
 static void draw_data(struct gb_series *series, const struct data *data)
 {
     int style = 0;
@@ -157,15 +159,10 @@ static void draw_data(struct gb_series *series, const struct data *data)
     }
 }
 
-bool gb_plotting_data(struct gb_series *series, const char *path, const char *figure,
-                      struct gb_error *err)
+bool gb_plotting_data(struct gb_series *series, const char *path, struct gb_error *err)
 {
     struct gb_table *table = NULL;
-    if (series->x.label == NULL) {
-        return gb_error_set(err, GB_ERR_INPUT, "--data %.200s: the figure %s takes none",
-                            path, figure);
-    }
-    /* a curve.csv has branches for series */
+    /* in a curve.csv the branches are the series */
     if (!gb_table_read(&table, path, "series", err) &&
         !gb_table_read(&table, path, "branch", NULL)) {
         return false;

@@ -3,27 +3,28 @@
 
 #include "figures/series.h"
 
-/* From the series of a figure to its files. */
+/* Page of a figure. */
 struct gb_plotting_page {
     int width, height;           /* pixels */
     const char *name;            /* of the figure */
     const char *title;           /* plain text; NULL: none */
-    const struct gb_runset *set; /* what it was made from; NULL: from laws */
+    const struct gb_runset *set; /* source; NULL: contact laws */
 };
 
-/* Could these files be written: the ending, the folder, and nothing that is there without
- * force. */
-bool gb_plotting_check(const char *output, bool force, struct gb_error *err);
+enum gb_plotting_existing { GB_PLOTTING_KEEP, GB_PLOTTING_REPLACE };
 
-/* The figure by the ending of output (.png, .svg, .pdf) with its data beside it, or the
- * data alone (.csv). */
+/* Checks the targets before the work: extension, folder, and existing files.  Errors:
+ * GB_ERR_INPUT. */
+bool gb_plotting_check(const char *output, enum gb_plotting_existing existing,
+                       struct gb_error *err);
+
+/* Writes the figure in the format of the extension and its data beside it as .csv. */
 bool gb_plotting_write(const struct gb_series *series,
                        const struct gb_plotting_page *page, const char *output,
                        struct gb_error *err);
 
-/* Points of an experiment: a table with the columns of both axes, and, if it likes,
- * "series" or "branch" (words: one kind of mark each) and "<column>_error". */
-bool gb_plotting_data(struct gb_series *series, const char *path, const char *figure,
-                      struct gb_error *err);
+/* Adds measured points: a table with the columns of both axes, optionally "series" or
+ * "branch" (one marker per word) and "<column>_error".  Errors: GB_ERR_INPUT. */
+bool gb_plotting_data(struct gb_series *series, const char *path, struct gb_error *err);
 
 #endif

@@ -2,29 +2,29 @@
 
 #include <glib.h>
 
-static char *read_in(const char *folder)
+static char *read_preset(const char *folder)
 {
     char *text = NULL;
-    char *path = g_build_filename(folder, "preset.ini", NULL);
-    if (!g_file_get_contents(path, &text, NULL, NULL) ||
+    char *file = g_build_filename(folder, "preset.ini", NULL);
+    if (!g_file_get_contents(file, &text, NULL, NULL) ||
         !g_utf8_validate(text, -1, NULL)) {
         g_free(text);
         text = NULL;
     }
-    g_free(path);
+    g_free(file);
     return text;
 }
 
-char *gb_provenance_preset(const char *place)
+char *gb_provenance_preset(const char *path)
 {
-    if (g_file_test(place, G_FILE_TEST_IS_DIR)) {
-        return read_in(place);
+    if (g_file_test(path, G_FILE_TEST_IS_DIR)) {
+        return read_preset(path);
     }
-    char *folder = g_path_get_dirname(place);
+    char *folder = g_path_get_dirname(path);
     char *parent = g_path_get_dirname(folder);
-    char *text = read_in(folder);
+    char *text = read_preset(folder);
     if (text == NULL) {
-        text = read_in(parent);
+        text = read_preset(parent);
     }
     g_free(parent);
     g_free(folder);

@@ -1,8 +1,8 @@
 #ifndef GB_FIGURES_PROVENANCE_H
 #define GB_FIGURES_PROVENANCE_H
 
-/* Text of the preset.ini that belongs to a run directory, or to a state file in it or in
- * its folder snapshots; NULL when there is none.  g_free. */
+/* Text of preset.ini of a run directory, or of the run of a state file (in the directory or
+ * in its folder snapshots); NULL: none.  g_free. */
 char *gb_provenance_preset(const char *place);
 
 #endif

@@ -19,7 +19,7 @@ void gb_series_init(struct gb_series *series, size_t rows)
                                  .inset = {NAN, NAN}};
     series->curves = g_array_new(FALSE, FALSE, sizeof(struct gb_series_curve));
     g_array_set_clear_func(series->curves, free_label);
-    series->marks = g_array_new(FALSE, FALSE, sizeof(struct gb_figure_note));
+    series->annotations = g_array_new(FALSE, FALSE, sizeof(struct gb_figure_annotation));
     series->caption = g_string_new(NULL);
     series->notes = g_string_new(NULL);
     series->names = g_ptr_array_new_with_free_func(g_free);
@@ -34,7 +34,7 @@ void gb_series_finish(struct gb_series *series)
         g_ptr_array_unref(series->names);
         g_ptr_array_unref(series->columns);
         g_array_unref(series->curves);
-        g_array_unref(series->marks);
+        g_array_unref(series->annotations);
         g_string_free(series->caption, TRUE);
     }
     *series = (struct gb_series){0};
@@ -47,7 +47,8 @@ void gb_series_note(struct gb_series *series, const char *format, ...)
     char *line = g_strdup_vprintf(format, arguments);
     va_end(arguments);
     for (char *c = line; *c != '\0'; c++) {
-        *c = g_ascii_iscntrl(*c) ? '?' : *c; /* names of directories are anything */
+        *c = g_ascii_iscntrl(*c) ? '?'
+                                 : *c; /* directory names may contain any character */
     }
     g_string_append_printf(series->notes, "%s\n", line);
     g_free(line);
@@ -106,7 +107,7 @@ struct gb_series_curve *gb_series_draw(struct gb_series *series, const double *x
                           series->curves->len - 1);
 }
 
-void gb_series_say(struct gb_series *series, const char *format, ...)
+void gb_series_caption(struct gb_series *series, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -164,8 +165,9 @@ void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
         .y = {series->y.label, series->y.log, series->y.low, series->y.high},
         .curve = *curves,
         .count = series->curves->len,
-        .note = (const struct gb_figure_note *)(void *)series->marks->data,
-        .notes = series->marks->len,
+        .annotation =
+            (const struct gb_figure_annotation *)(void *)series->annotations->data,
+        .annotations = series->annotations->len,
     };
 }
 
@@ -218,7 +220,7 @@ static bool load_curves(struct gb_average_curve *curves, double **points,
             if ((*xs)[k] < (*xs)[k - 1]) {
                 return gb_error_set(err, GB_ERR_INPUT,
                                     "%.300s: %s falls from %g to %g; a mean over runs "
-                                    "takes a column that does not",
+                                    "takes a column that never falls",
                                     gb_table_path(run->table), x, (*xs)[k - 1], (*xs)[k]);
             }
         }
@@ -235,7 +237,7 @@ bool gb_series_sample(struct gb_series_sample *sample, const struct gb_runset *s
     struct gb_average_curve *curves = g_new0(struct gb_average_curve, set->count);
     double **points = g_new0(double *, 2 * set->count);
     bool good = load_curves(curves, points, set, branch, x, y, err) &&
-                gb_average_grid(curves, set->count, GB_SERIES_PLACES, &sample->grid,
+                gb_average_grid(curves, set->count, GB_SERIES_GRID_MAX, &sample->grid,
                                 &sample->size, err);
     if (good) {
         sample->rows =

@@ -10,80 +10,80 @@
 #include "greenbody/status.h"
 #include "many/runset.h"
 
-/* A curve of a figure: columns of its series by number, -1: none. */
+/* A curve of a figure: indices of columns of its series, -1: none. */
 struct gb_series_curve {
     int x, y, error, x_error;
-    size_t from, rows; /* which rows */
+    size_t from, rows; /* first row, number of rows */
     enum gb_figure_kind kind;
     int style;
-    bool open;
-    char *label; /* Pango markup; NULL: not named */
+    bool open;   /* hollow markers */
+    char *label; /* Pango markup; NULL: none */
 };
 
-/* An axis: the column that a table of --data must have for it, and its words. */
+/* An axis: the column that a table of --data must have for it, and its label. */
 struct gb_series_axis {
-    const char *name, *label; /* NULL label: nothing to draw */
+    const char *name, *label;
     bool log;
     double low, high; /* NaN: from the data */
 };
 
-/* The data of a figure: notes and columns of numbers, NaN where there is none; and which
- * of them are drawn how. */
+/* The data of a figure: comment lines and columns of numbers (NaN: no value), and the
+ * curves that show them. */
 struct gb_series {
     GString *notes; /* lines without '#' */
     GPtrArray *names;
     GPtrArray *columns; /* double[rows] each */
     size_t rows;
     struct gb_series_axis x, y;
-    GArray *curves;   /* struct gb_series_curve */
-    GArray *marks;    /* struct gb_figure_note */
-    GString *caption; /* Pango markup */
-    double inset[2];  /* part of the x axis drawn larger; NaN: none */
+    GArray *curves;      /* struct gb_series_curve */
+    GArray *annotations; /* struct gb_figure_annotation */
+    GString *caption;    /* Pango markup */
+    double inset[2];     /* x range of the inset; NaN: none */
 };
 
 void gb_series_init(struct gb_series *series, size_t rows);
 void gb_series_finish(struct gb_series *series); /* zeroed is fine */
 
-/* A line of notes; control characters become '?'. */
+/* Adds a comment line of the CSV; control characters become '?'. */
 void gb_series_note(struct gb_series *series, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-/* Adds a column of NaN and gives it to be filled. */
+/* Adds a column of NaN and returns it. */
 double *gb_series_column(struct gb_series *series, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* What the axes are: names of columns, and words with units; texts that live on. */
+/* Sets names of columns and labels with units; the strings are not copied. */
 void gb_series_axes(struct gb_series *series, const char *x_name, const char *x_label,
                     const char *y_name, const char *y_label);
-/* Draws columns that are there already; error may be NULL.  Returns the curve, valid
- * until the next call; label (NULL: none) is copied. */
+/* Adds a curve of existing columns; error may be NULL.  Returns the curve, valid until the
+ * next call; label (NULL: none) is copied. */
 struct gb_series_curve *gb_series_draw(struct gb_series *series, const double *x,
                                        const double *y, const double *error,
                                        enum gb_figure_kind kind, int style,
                                        const char *label);
 /* Adds a sentence to the caption. */
-void gb_series_say(struct gb_series *series, const char *format, ...)
+void gb_series_caption(struct gb_series *series, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Makes it at least so many rows, the new ones of NaN; columns given out before move. */
+/* At least `rows` rows, the new ones NaN; pointers to columns become invalid. */
 void gb_series_grow(struct gb_series *series, size_t rows);
 
-/* The drawing, whose arrays belong to the series; *curves for g_free. */
+/* The figure, whose arrays belong to the series; *curves for g_free. */
 void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
                       struct gb_figure_curve **curves);
 
-/* As CSV: notes as comments, a header row, the numbers.  g_string_free. */
+/* CSV: comments, a header row, the numbers.  g_string_free. */
 GString *gb_series_csv(const struct gb_series *series);
 
-/* The same branch of all runs of a set, read on one grid. */
+/* One branch of all runs of a set, interpolated on one grid. */
 struct gb_series_sample {
     double *grid;
     size_t size;
     double *rows; /* of each run, in the order of the set */
 };
 
-enum { GB_SERIES_PLACES = 4000 }; /* of a grid at most */
+enum { GB_SERIES_GRID_MAX = 4000 }; /* points of a grid */
 
-/* branch NULL: all branches.  Errors: those of gb_runset_points, and x that falls. */
+/* branch NULL: all branches.  Errors: those of gb_runset_points, and a decreasing x. */
 bool gb_series_sample(struct gb_series_sample *sample, const struct gb_runset *set,
                       const char *branch, const char *x, const char *y,
                       struct gb_error *err);

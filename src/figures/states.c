@@ -8,8 +8,8 @@
 #include "base/units.h"
 #include "run/record/kept_states.h"
 
-/* A kept state further away than this share of the wanted value is another one, unless it
- * was kept for just this value: a step of the loading can jump over it. */
+/* Relative difference to the requested value beyond which a state does not match, unless it
+ * was kept for this value: a loading step can skip over it. */
 static const double tolerance = 0.05;
 
 static bool parse_point(const char *text, struct gb_keep_point *point,
@@ -38,7 +38,7 @@ static double value_of(const struct gb_state *state, const struct gb_keep_point 
     return point->by_density ? state->point.density : state->point.p_pa;
 }
 
-/* Whether a state was asked for with just this point. */
+/* Whether the name of the file is that of this point. */
 static bool is_kept_for(const char *path, const struct gb_keep_point *point)
 {
     char name[64];
@@ -53,9 +53,10 @@ static bool is_kept_for(const char *path, const struct gb_keep_point *point)
 /* Relative distance; states of unloading come after those of loading. */
 static double distance(const struct gb_state *state, const struct gb_keep_point *point)
 {
-    const double away =
+    const double relative =
         fabs(value_of(state, point) - point->value) / fmax(fabs(point->value), 1e-12);
-    return isfinite(away) ? away + (state->point.branch > 0 ? 1e-6 : 0.0) : INFINITY;
+    return isfinite(relative) ? relative + (state->point.branch > 0 ? 1e-6 : 0.0)
+                              : INFINITY;
 }
 
 static void describe(GString *list, const struct gb_state *state,
@@ -75,15 +76,15 @@ static int by_name(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* Paths of all states of a directory, sorted; the last one first. */
-static GPtrArray *list_paths(const char *place)
+/* Paths of all states of a directory: state.h5, then the others by name. */
+static GPtrArray *list_paths(const char *source)
 {
     GPtrArray *paths = g_ptr_array_new_with_free_func(g_free);
-    if (!g_file_test(place, G_FILE_TEST_IS_DIR)) {
-        g_ptr_array_add(paths, g_strdup(place));
+    if (!g_file_test(source, G_FILE_TEST_IS_DIR)) {
+        g_ptr_array_add(paths, g_strdup(source));
         return paths;
     }
-    char *folder = g_build_filename(place, "snapshots", NULL);
+    char *folder = g_build_filename(source, "snapshots", NULL);
     GDir *dir = g_dir_open(folder, 0, NULL);
     for (const char *name = dir ? g_dir_read_name(dir) : NULL; name != NULL;
          name = g_dir_read_name(dir)) {
@@ -96,12 +97,12 @@ static GPtrArray *list_paths(const char *place)
     }
     g_free(folder);
     g_ptr_array_sort(paths, by_name);
-    g_ptr_array_insert(paths, 0, g_build_filename(place, "state.h5", NULL));
+    g_ptr_array_insert(paths, 0, g_build_filename(source, "state.h5", NULL));
     return paths;
 }
 
 static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
-                         const struct gb_keep_point *point, GString *seen,
+                         const struct gb_keep_point *point, GString *list,
                          struct gb_error *err)
 {
     double best = INFINITY;
@@ -110,21 +111,22 @@ static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
         if (!gb_state_read(&state, g_ptr_array_index(paths, k), err)) {
             return false;
         }
-        describe(seen, state, point);
+        describe(list, state, point);
         const char *path = g_ptr_array_index(paths, k);
-        const double away = is_kept_for(path, point) ? 0.0 : distance(state, point);
-        if (away < best) {
+        const double distance_to_point =
+            is_kept_for(path, point) ? 0.0 : distance(state, point);
+        if (distance_to_point < best) {
             struct gb_state *other = *out;
             *out = state;
             state = other;
-            best = away;
+            best = distance_to_point;
         }
         gb_state_destroy(state);
     }
     return best <= tolerance;
 }
 
-bool gb_states_read(struct gb_state **out, const char *place, const char *at,
+bool gb_states_read(struct gb_state **out, const char *source, const char *at,
                     struct gb_error *err)
 {
     struct gb_keep_point point = {0};
@@ -132,7 +134,7 @@ bool gb_states_read(struct gb_state **out, const char *place, const char *at,
     if (at != NULL && !parse_point(at, &point, err)) {
         return false;
     }
-    GPtrArray *paths = list_paths(place);
+    GPtrArray *paths = list_paths(source);
     if (!g_file_test(g_ptr_array_index(paths, 0), G_FILE_TEST_EXISTS)) {
         gb_error_set(err, GB_ERR_INPUT, "%.300s: no such file",
                      (const char *)g_ptr_array_index(paths, 0));
@@ -144,20 +146,20 @@ bool gb_states_read(struct gb_state **out, const char *place, const char *at,
         g_ptr_array_unref(paths);
         return good;
     }
-    GString *seen = g_string_new(NULL);
-    struct gb_error why = {0};
-    const bool good = read_nearest(out, paths, &point, seen, &why);
+    GString *list = g_string_new(NULL);
+    struct gb_error cause = {0};
+    const bool good = read_nearest(out, paths, &point, list, &cause);
     if (!good) {
         gb_state_destroy(*out);
         *out = NULL;
-        if (why.code != GB_OK) {
-            *err = why;
+        if (cause.code != GB_OK) {
+            *err = cause;
         } else {
             gb_error_set(err, GB_ERR_INPUT, "--at %.80s: %.200s keeps states at %.150s",
-                         at, place, seen->str);
+                         at, source, list->str);
         }
     }
-    g_string_free(seen, TRUE);
+    g_string_free(list, TRUE);
     g_ptr_array_unref(paths);
     return good;
 }
@@ -174,7 +176,7 @@ static int by_step(const void *a, const void *b)
     return (x->step > y->step) - (x->step < y->step);
 }
 
-/* Moves the paths over in the order of their steps, without those that say the same. */
+/* Paths in the order of their steps, without repeated steps. */
 static GPtrArray *sort_frames(GArray *frames)
 {
     GPtrArray *sorted = g_ptr_array_new_with_free_func(g_free);
@@ -189,9 +191,9 @@ static GPtrArray *sort_frames(GArray *frames)
     return sorted;
 }
 
-GPtrArray *gb_states_along(const char *place, struct gb_error *err)
+GPtrArray *gb_states_along(const char *source, struct gb_error *err)
 {
-    GPtrArray *paths = list_paths(place);
+    GPtrArray *paths = list_paths(source);
     GArray *frames = g_array_new(FALSE, FALSE, sizeof(struct frame));
     bool good = true;
     for (guint k = 0; k < paths->len && good; k++) {

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/figure/figure_marks.h"
+#include "draw/figure/figure_curve.h"
+#include "draw/figure/figure_marker.h"
 
 enum { WIDE = 800, HIGH = 600, POINTS = 50 };
 
@@ -54,7 +55,7 @@ static void test_log_axis(void)
     gb_figure_axis_fit(&scale, true, 1.0, 1000.0, 8, loose);
     scale.from = 0.0;
     scale.to = 300.0;
-    g_assert_cmpfloat_with_epsilon(gb_figure_axis_place(&scale, 10.0), 100.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(gb_figure_axis_position(&scale, 10.0), 100.0, 1e-9);
 }
 
 /* Whatever comes, an axis has finite ends in order and few enough ticks. */
@@ -122,7 +123,7 @@ static struct gb_image *paint(const struct gb_figure *figure,
 {
     struct gb_image *image = NULL;
     struct gb_error err = {0};
-    const bool done = gb_figure_paint(&image, figure, WIDE, HIGH, layout, &err);
+    const bool done = gb_figure_render(&image, figure, WIDE, HIGH, layout, &err);
     g_assert_cmpstr(err.text, ==, "");
     g_assert_true(done);
     return image;
@@ -131,8 +132,8 @@ static struct gb_image *paint(const struct gb_figure *figure,
 static const uint8_t *pixel(const struct gb_image *image,
                             const struct gb_figure_layout *layout, double x, double y)
 {
-    const int px = (int)floor(gb_figure_axis_place(&layout->x, x));
-    const int py = (int)floor(gb_figure_axis_place(&layout->y, y));
+    const int px = (int)floor(gb_figure_axis_position(&layout->x, x));
+    const int py = (int)floor(gb_figure_axis_position(&layout->y, y));
     return &image->rgba[4 * (py * image->width + px)];
 }
 
@@ -140,7 +141,7 @@ static double distance_to(const uint8_t *rgba, int style)
 {
     double rgb[3];
     double sum = 0.0;
-    gb_figure_marks_colour(style, rgb);
+    gb_figure_marker_colour(style, rgb);
     for (int k = 0; k < 3; k++) {
         sum += fabs(rgba[k] / 255.0 - rgb[k]);
     }
@@ -301,12 +302,15 @@ static gsize size_of(const char *path, char **text)
     return size;
 }
 
-/* Twice the same bytes, of the kind the ending says. */
+/* Every writer gives its kind of file, twice the same bytes. */
 static void test_files(void)
 {
     static const struct {
         const char *name, *start;
-    } kinds[] = {{"x.png", "\x89PNG"}, {"x.svg", "<?xml"}, {"x.pdf", "%PDF"}};
+        gb_figure_writer *write;
+    } kinds[] = {{"x.png", "\x89PNG", gb_figure_write_png},
+                 {"x.svg", "<?xml", gb_figure_write_svg},
+                 {"x.pdf", "%PDF", gb_figure_write_pdf}};
     char *folder = g_dir_make_tmp("greenbody-figure-XXXXXX", NULL);
     struct sheet sheet;
     struct gb_error err = {0};
@@ -316,8 +320,7 @@ static void test_files(void)
         char *text[2];
         gsize size[2];
         for (int i = 0; i < 2; i++) {
-            g_assert_true(
-                gb_figure_write(&sheet.figure, WIDE, HIGH, NULL, 0, path, &err));
+            g_assert_true(kinds[k].write(&sheet.figure, WIDE, HIGH, NULL, 0, path, &err));
             size[i] = size_of(path, &text[i]);
             g_remove(path);
         }
@@ -331,7 +334,7 @@ static void test_files(void)
         g_free(path);
     }
     char *lost = g_build_filename(folder, "no", "x.pdf", NULL);
-    g_assert_false(gb_figure_write(&sheet.figure, WIDE, HIGH, NULL, 0, lost, &err));
+    g_assert_false(gb_figure_write_pdf(&sheet.figure, WIDE, HIGH, NULL, 0, lost, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);
     g_assert_nonnull(strstr(err.text, lost));
     g_rmdir(folder);
@@ -345,11 +348,11 @@ static void test_styles(void)
 {
     for (int a = 0; a < GB_FIGURE_STYLES; a++) {
         double one[3];
-        gb_figure_marks_colour(a, one);
+        gb_figure_marker_colour(a, one);
         g_assert_cmpfloat(0.299 * one[0] + 0.587 * one[1] + 0.114 * one[2], <, 0.75);
         for (int b = 0; b < a; b++) {
             double two[3];
-            gb_figure_marks_colour(b, two);
+            gb_figure_marker_colour(b, two);
             g_assert_cmpfloat(fabs(one[0] - two[0]) + fabs(one[1] - two[1]) +
                                   fabs(one[2] - two[2]),
                               >, 0.3);

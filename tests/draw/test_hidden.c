@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/hidden.h"
+#include "draw/gl/hidden.h"
 
 enum { WIDTH = 240, HEIGHT = 180, SPHERES = 3000, RODS = 400 };
 
@@ -94,18 +94,18 @@ static size_t first_met(const struct gb_scene *scene, const double from[3],
 }
 
 /* Number of hidden parts; fails when one of them is seen. */
-static int check(const struct gb_scene *scene, const struct gb_camera *lens)
+static int check(const struct gb_scene *scene, const struct gb_camera *camera)
 {
     const size_t parts = scene->count + scene->rods;
     uint8_t *hidden = g_malloc(parts);
     struct gb_error err = {0};
-    g_assert_true(gb_hidden_find(scene, lens, WIDTH, HEIGHT, hidden, &err));
+    g_assert_true(gb_hidden_find(scene, camera, WIDTH, HEIGHT, hidden, &err));
     for (int y = 0; y < HEIGHT; y += 3) {
         for (int x = 0; x < WIDTH; x += 3) {
-            const double focal = (double)lens->lens[2];
-            const double u = (x + 0.5 - (double)lens->lens[0]) / focal;
-            const double v = -(y + 0.5 - (double)lens->lens[1]) / focal;
-            const bool flat = lens->lens[3] != 0.0F;
+            const double focal = (double)camera->projection[2];
+            const double u = (x + 0.5 - (double)camera->projection[0]) / focal;
+            const double v = -(y + 0.5 - (double)camera->projection[1]) / focal;
+            const bool flat = camera->projection[3] != 0.0F;
             const double from[3] = {flat ? u : 0.0, flat ? v : 0.0, 0.0};
             const double ray[3] = {flat ? 0.0 : u, flat ? 0.0 : v, 1.0};
             const size_t met = first_met(scene, from, ray);
@@ -121,9 +121,9 @@ static int check(const struct gb_scene *scene, const struct gb_camera *lens)
 }
 
 static const struct gb_camera straight = {
-    .lens = {0.5F * WIDTH, 0.5F * HEIGHT, 12.0F, 1.0F},
-    .range = {29.0F, 43.0F},
-    .turn = {1, 0, 0, 0, 1, 0, 0, 0, 1},
+    .projection = {0.5F * WIDTH, 0.5F * HEIGHT, 12.0F, 1.0F},
+    .depth_range = {29.0F, 43.0F},
+    .rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1},
 };
 
 static void test_view(gconstpointer data)
@@ -133,15 +133,15 @@ static void test_view(gconstpointer data)
     float rod[8 * RODS];
     struct gb_scene scene = {
         .count = SPHERES, .rods = RODS, .sphere = sphere, .rod = rod};
-    struct gb_camera lens = straight;
-    lens.lens[2] = flat ? 12.0F : 400.0F;
-    lens.lens[3] = flat ? 1.0F : 0.0F;
+    struct gb_camera camera = straight;
+    camera.projection[2] = flat ? 12.0F : 400.0F;
+    camera.projection[3] = flat ? 1.0F : 0.0F;
     fill(&scene, 0.5);
-    const int hidden = check(&scene, &lens);
+    const int hidden = check(&scene, &camera);
     g_assert_cmpint(hidden, >, SPHERES / 3); /* worth it */
     g_assert_cmpint(hidden, <, SPHERES);
     fill(&scene, 0.1); /* gaps everywhere */
-    g_assert_cmpint(check(&scene, &lens), <, hidden);
+    g_assert_cmpint(check(&scene, &camera), <, hidden);
 }
 
 /* What reaches beyond the target is kept, even behind a wall. */

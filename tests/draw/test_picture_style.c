@@ -1,4 +1,4 @@
-/* What particles and forces wear: colours, selections, rods; without a painter. */
+/* Style of a picture: colours, hidden particles, rods; without a renderer. */
 #include "draw/picture_style.h"
 
 #include <glib.h>
@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "draw/image/palette.h"
+#include "draw/particle_stress.h"
+#include "draw/picture_colours.h"
 #include "draw/picture_style_parse.h"
 
 /* Four particles in a row along z; the last touches the first through the wall.  The
@@ -36,15 +38,15 @@ static struct gb_state *row(void)
     return state;
 }
 
-static struct gb_picture_style *wear(const struct gb_state *state,
-                                     const struct gb_picture_style_request *request)
+static struct gb_picture_style *
+create_style(const struct gb_state *state, const struct gb_picture_style_request *request)
 {
-    struct gb_picture_style *dress = NULL;
+    struct gb_picture_style *style = NULL;
     struct gb_error err = {0};
-    const bool done = gb_picture_style_create(&dress, state, request, &err);
+    const bool done = gb_picture_style_create(&style, state, request, &err);
     g_assert_cmpstr(err.text, ==, "");
     g_assert_true(done);
-    return dress;
+    return style;
 }
 
 static void test_rods(void)
@@ -53,21 +55,21 @@ static void test_rods(void)
     struct gb_state *state = row();
     gb_picture_style_init(&request);
     request.show = GB_PICTURE_STYLE_FORCES;
-    struct gb_picture_style *dress = wear(state, &request);
-    g_assert_cmpuint(dress->rods, ==, 5); /* the one over the wall is two halves */
+    struct gb_picture_style *style = create_style(state, &request);
+    g_assert_cmpuint(style->rods, ==, 5); /* the one over the wall is two halves */
     /* thick as the force, cut at the thickest */
-    g_assert_cmpfloat_with_epsilon(dress->rod[7 + 6], 2.0F * dress->rod[6], 1e-6F);
-    g_assert_cmpint(memcmp(&dress->rod_colour[0], dress->swatch[0].rgb, 3), ==, 0);
-    g_assert_cmpint(memcmp(&dress->rod_colour[6], dress->swatch[1].rgb, 3), ==, 0);
-    g_assert_cmpfloat_with_epsilon(dress->thickest_n, 2.0 * 1e9 * 1e-16, 1e-12);
+    g_assert_cmpfloat_with_epsilon(style->rod[7 + 6], 2.0F * style->rod[6], 1e-6F);
+    g_assert_cmpint(memcmp(&style->rod_colour[0], style->legend[0].rgb, 3), ==, 0);
+    g_assert_cmpint(memcmp(&style->rod_colour[6], style->legend[1].rgb, 3), ==, 0);
+    g_assert_cmpfloat_with_epsilon(style->max_force_n, 2.0 * 1e9 * 1e-16, 1e-12);
     /* halves leave the cell, they do not cross it */
-    g_assert_cmpfloat(fabsf(dress->rod[21 + 5] - dress->rod[21 + 2]), <, 1.0F);
-    gb_picture_style_destroy(dress);
-    request.force = GB_PICTURE_STYLE_BRIDGED;
-    dress = wear(state, &request);
-    g_assert_cmpint(memcmp(&dress->rod_colour[3], dress->swatch[0].rgb, 3), ==, 0);
-    g_assert_cmpint(memcmp(&dress->rod_colour[0], dress->swatch[1].rgb, 3), ==, 0);
-    gb_picture_style_destroy(dress);
+    g_assert_cmpfloat(fabsf(style->rod[21 + 5] - style->rod[21 + 2]), <, 1.0F);
+    gb_picture_style_destroy(style);
+    request.forces = gb_picture_colours_find("bridged");
+    style = create_style(state, &request);
+    g_assert_cmpint(memcmp(&style->rod_colour[3], style->legend[0].rgb, 3), ==, 0);
+    g_assert_cmpint(memcmp(&style->rod_colour[0], style->legend[1].rgb, 3), ==, 0);
+    gb_picture_style_destroy(style);
     gb_state_destroy(state);
 }
 
@@ -78,7 +80,7 @@ static void test_pressure(void)
     double pressure[4];
     double sum = 0.0;
     double solid = 0.0;
-    gb_picture_style_pressure(state, pressure);
+    gb_particle_stress_mean(state, pressure);
     for (int i = 0; i < 4; i++) {
         sum += pressure[i] * pow(state->radius[i], 3.0);
         solid += pow(state->radius[i], 3.0);
@@ -95,23 +97,23 @@ static void test_colours(void)
     struct gb_state *state = row();
     uint8_t rgb[3];
     gb_picture_style_init(&request);
-    request.colour = GB_PICTURE_STYLE_SIZE;
-    struct gb_picture_style *dress = wear(state, &request);
-    g_assert_cmpstr(dress->scale.title, ==, "diameter (nm)");
-    g_assert_cmpfloat_with_epsilon(dress->scale.low, 10.0, 1e-9);
-    g_assert_cmpfloat_with_epsilon(dress->scale.high, 16.0, 1e-9);
+    request.particles = gb_picture_colours_find("size");
+    struct gb_picture_style *style = create_style(state, &request);
+    g_assert_cmpstr(style->scale.title, ==, "diameter (nm)");
+    g_assert_cmpfloat_with_epsilon(style->scale.low, 10.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(style->scale.high, 16.0, 1e-9);
     gb_palette_field(0.0, rgb);
-    g_assert_cmpint(memcmp(dress->colour, rgb, 3), ==, 0);
+    g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
     gb_palette_field(1.0, rgb);
-    g_assert_cmpint(memcmp(dress->colour + 9, rgb, 3), ==, 0);
-    gb_picture_style_destroy(dress);
-    request.colour = GB_PICTURE_STYLE_BRIDGES;
-    dress = wear(state, &request);
+    g_assert_cmpint(memcmp(style->colour + 9, rgb, 3), ==, 0);
+    gb_picture_style_destroy(style);
+    request.particles = gb_picture_colours_find("bridges");
+    style = create_style(state, &request);
     gb_palette_contacts(1, rgb);
-    g_assert_cmpint(memcmp(dress->colour + 3, rgb, 3), ==, 0);
+    g_assert_cmpint(memcmp(style->colour + 3, rgb, 3), ==, 0);
     gb_palette_contacts(0, rgb);
-    g_assert_cmpint(memcmp(dress->colour, rgb, 3), ==, 0);
-    gb_picture_style_destroy(dress);
+    g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
+    gb_picture_style_destroy(style);
     gb_state_destroy(state);
 }
 
@@ -122,10 +124,10 @@ static void test_displacement(void)
     struct gb_state *state = row();
     struct gb_state *since = row();
     struct gb_error err = {0};
-    struct gb_picture_style *dress = NULL;
+    struct gb_picture_style *style = NULL;
     gb_picture_style_init(&request);
-    request.colour = GB_PICTURE_STYLE_DISPLACEMENT;
-    g_assert_false(gb_picture_style_create(&dress, state, &request, &err));
+    request.particles = gb_picture_colours_find("displacement");
+    g_assert_false(gb_picture_style_create(&style, state, &request, &err));
     g_assert_nonnull(strstr(err.text, "--since"));
     for (int i = 0; i < 4; i++) {
         since->position[3 * i + 2] *= 2.0;
@@ -133,12 +135,12 @@ static void test_displacement(void)
     since->cell[2] *= 2.0;
     since->position[2] = 2.0 * 3.8 - 2.0 * 0.2; /* 0.3 d through the wall */
     request.since = since;
-    dress = wear(state, &request);
-    g_assert_cmpfloat_with_epsilon(dress->scale.high, 3.0, 1e-6); /* nm */
-    g_assert_cmpfloat(dress->scale.low, ==, 0.0);
-    gb_picture_style_destroy(dress);
+    style = create_style(state, &request);
+    g_assert_cmpfloat_with_epsilon(style->scale.high, 3.0, 1e-6); /* nm */
+    g_assert_cmpfloat(style->scale.low, ==, 0.0);
+    gb_picture_style_destroy(style);
     since->seed = 99;
-    g_assert_false(gb_picture_style_create(&dress, state, &request, &err));
+    g_assert_false(gb_picture_style_create(&style, state, &request, &err));
     g_assert_nonnull(strstr(err.text, "same run"));
     gb_state_destroy(since);
     gb_state_destroy(state);
@@ -150,19 +152,19 @@ static void test_selection(void)
     struct gb_state *state = row();
     gb_picture_style_init(&request);
     g_assert_true(gb_picture_style_parse_slice(&request, "z=0.25:1d", NULL));
-    struct gb_picture_style *dress = wear(state, &request);
-    g_assert_cmpint(dress->hidden[0], ==, 1);
-    g_assert_cmpint(dress->hidden[1], ==, 0);
-    g_assert_cmpint(dress->hidden[2], ==, 1);
-    gb_picture_style_destroy(dress);
+    struct gb_picture_style *style = create_style(state, &request);
+    g_assert_cmpint(style->hidden[0], ==, 1);
+    g_assert_cmpint(style->hidden[1], ==, 0);
+    g_assert_cmpint(style->hidden[2], ==, 1);
+    gb_picture_style_destroy(style);
     gb_picture_style_init(&request);
     g_assert_true(gb_picture_style_parse_cut(&request, "z=0.5", NULL));
     request.show = GB_PICTURE_STYLE_BOTH;
-    dress = wear(state, &request);
-    g_assert_cmpint(dress->hidden[1], ==, 0);
-    g_assert_cmpint(dress->hidden[3], ==, 1);
-    g_assert_cmpuint(dress->rods, ==, 1); /* forces of hidden particles are hidden */
-    gb_picture_style_destroy(dress);
+    style = create_style(state, &request);
+    g_assert_cmpint(style->hidden[1], ==, 0);
+    g_assert_cmpint(style->hidden[3], ==, 1);
+    g_assert_cmpuint(style->rods, ==, 1); /* forces of hidden particles are hidden */
+    gb_picture_style_destroy(style);
     gb_state_destroy(state);
 }
 
@@ -183,18 +185,18 @@ static void test_parse(void)
     g_assert_nonnull(strstr(err.text, "coordination"));
     g_assert_false(gb_picture_style_parse_show(&request, "all", &err));
     g_assert_true(gb_picture_style_parse_colour(&request, "bridged", &err));
-    g_assert_cmpint(request.force, ==, GB_PICTURE_STYLE_BRIDGED);
-    g_assert_cmpint(request.colour, ==, GB_PICTURE_STYLE_COORDINATION);
+    g_assert_true(request.forces == gb_picture_colours_find("bridged"));
+    g_assert_true(request.particles == gb_picture_colours_find("coordination"));
 }
 
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/draw/dress/rods", test_rods);
-    g_test_add_func("/draw/dress/pressure", test_pressure);
-    g_test_add_func("/draw/dress/colours", test_colours);
-    g_test_add_func("/draw/dress/displacement", test_displacement);
-    g_test_add_func("/draw/dress/selection", test_selection);
-    g_test_add_func("/draw/dress/parse", test_parse);
+    g_test_add_func("/draw/picture_style/rods", test_rods);
+    g_test_add_func("/draw/picture_style/pressure", test_pressure);
+    g_test_add_func("/draw/picture_style/colours", test_colours);
+    g_test_add_func("/draw/picture_style/displacement", test_displacement);
+    g_test_add_func("/draw/picture_style/selection", test_selection);
+    g_test_add_func("/draw/picture_style/parse", test_parse);
     return g_test_run();
 }

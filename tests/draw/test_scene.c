@@ -1,4 +1,4 @@
-/* What there is to see, without a painter: views, frames, edges, colours, sizes. */
+/* What there is to see, without a renderer: views, frames, edges, colours, sizes. */
 #include "draw/scene.h"
 
 #include <glib.h>
@@ -49,10 +49,10 @@ static void test_fit(void)
     for (int flat = 0; flat < 2; flat++) {
         for (int a = -360; a <= 360; a += 45) {
             for (int e = -90; e <= 90; e += 30) {
-                const struct gb_look look = {
+                const struct gb_viewpoint viewpoint = {
                     .azimuth_deg = a, .elevation_deg = e, .orthographic = flat != 0};
                 struct gb_view view;
-                gb_view_init(&view, &look, cell, 0.5, &frame);
+                gb_view_init(&view, &viewpoint, cell, 0.5, &frame);
                 for (int corner = 0; corner < 8; corner++) {
                     double point[3];
                     for (int k = 0; k < 3; k++) {
@@ -73,9 +73,9 @@ static void test_front_is_upright(void)
     const double high[3] = {4.0, 0.0, 9.0};
     double eye[2][3];
     struct gb_view view;
-    struct gb_look look = {0};
-    g_assert_true(gb_view_parse("front,flat", &look, NULL));
-    gb_view_init(&view, &look, cell, 0.5, &frame);
+    struct gb_viewpoint viewpoint = {0};
+    g_assert_true(gb_view_parse("front,flat", &viewpoint, NULL));
+    gb_view_init(&view, &viewpoint, cell, 0.5, &frame);
     gb_view_eye(&view, low, eye[0]);
     gb_view_eye(&view, high, eye[1]);
     g_assert_cmpfloat_with_epsilon(eye[1][0] - eye[0][0], 4.0, 1e-12);
@@ -86,22 +86,22 @@ static void test_front_is_upright(void)
 
 static void test_views(void)
 {
-    struct gb_look look = {
+    struct gb_viewpoint viewpoint = {
         .azimuth_deg = 1.0, .elevation_deg = 2.0, .orthographic = false};
     struct gb_error err = {0};
     const char *wrong[] = {"",        "back",  "1",     "1,",    "1,2,3",
                            "nan,0",   "inf,0", "0,91",  "361,0", "1,2,flat,flat",
                            "corner ", ",flat", "0x10,1"};
     for (size_t k = 0; k < G_N_ELEMENTS(wrong); k++) {
-        g_assert_false(gb_view_parse(wrong[k], &look, &err));
+        g_assert_false(gb_view_parse(wrong[k], &viewpoint, &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
         g_assert_nonnull(strstr(err.text, "corner"));
-        g_assert_cmpfloat(look.azimuth_deg, ==, 1.0);
+        g_assert_cmpfloat(viewpoint.azimuth_deg, ==, 1.0);
     }
-    g_assert_true(gb_view_parse("-30,12.5,flat", &look, &err));
-    g_assert_cmpfloat(look.azimuth_deg, ==, -30.0);
-    g_assert_cmpfloat(look.elevation_deg, ==, 12.5);
-    g_assert_true(look.orthographic);
+    g_assert_true(gb_view_parse("-30,12.5,flat", &viewpoint, &err));
+    g_assert_cmpfloat(viewpoint.azimuth_deg, ==, -30.0);
+    g_assert_cmpfloat(viewpoint.elevation_deg, ==, 12.5);
+    g_assert_true(viewpoint.orthographic);
 }
 
 static void test_sizes(void)
@@ -147,10 +147,10 @@ static void test_scene(void)
     struct gb_scene *scene = NULL;
     struct gb_error err = {0};
     struct gb_state *state = packing(3);
-    const struct gb_look look = {
+    const struct gb_viewpoint viewpoint = {
         .azimuth_deg = -58.0, .elevation_deg = 20.0, .orthographic = false};
-    g_assert_true(
-        gb_scene_create(&scene, state, NULL, &look, &frame, GB_GROUND_WHITE, &err));
+    g_assert_true(gb_scene_create(&scene, state, NULL, &viewpoint, &frame,
+                                  GB_BACKGROUND_WHITE, &err));
     g_assert_cmpuint(scene->count, ==, 3);
     g_assert_cmpint(scene->edge_count, ==, 12);
     for (int k = 0; k < 3; k++) {
@@ -175,12 +175,12 @@ static void test_die(void)
     struct gb_scene *scene = NULL;
     struct gb_error err = {0};
     struct gb_state *state = packing(3);
-    const struct gb_look look = {
+    const struct gb_viewpoint viewpoint = {
         .azimuth_deg = 0.0, .elevation_deg = 90.0, .orthographic = true}; /* from above */
     state->cell[1] = state->cell[0];
     state->die_radius = 2.0;
-    g_assert_true(
-        gb_scene_create(&scene, state, NULL, &look, &frame, GB_GROUND_WHITE, &err));
+    g_assert_true(gb_scene_create(&scene, state, NULL, &viewpoint, &frame,
+                                  GB_BACKGROUND_WHITE, &err));
     g_assert_cmpint(scene->edge_count, ==, GB_SCENE_EDGES);
     for (int k = 0; k < scene->edge_count; k++) {
         g_assert_cmpfloat_with_epsilon(hypot(scene->edge[k][0], scene->edge[k][1]), 2.0,
@@ -196,10 +196,10 @@ static void test_planar(void)
     struct gb_scene *scene = NULL;
     struct gb_error err = {0};
     struct gb_state *state = packing(2);
-    const struct gb_look look = {
+    const struct gb_viewpoint viewpoint = {
         .azimuth_deg = -58.0, .elevation_deg = 20.0, .orthographic = false};
-    g_assert_true(
-        gb_scene_create(&scene, state, NULL, &look, &frame, GB_GROUND_WHITE, &err));
+    g_assert_true(gb_scene_create(&scene, state, NULL, &viewpoint, &frame,
+                                  GB_BACKGROUND_WHITE, &err));
     g_assert_true(scene->view.orthographic);
     g_assert_cmpint(scene->edge_count, ==, 4);
     for (size_t k = 0; k < 3; k++) {

@@ -41,20 +41,20 @@ static struct gb_state *packing(int dimension)
 
 static struct gb_packing_image front(void)
 {
-    struct gb_packing_image picture;
-    gb_packing_image_init(&picture);
-    picture.width = picture.height = SIDE;
-    picture.words = false;
-    g_assert_true(gb_view_parse("front", &picture.look, NULL));
-    return picture;
+    struct gb_packing_image packing_image;
+    gb_packing_image_init(&packing_image);
+    packing_image.width = packing_image.height = SIDE;
+    packing_image.annotated = false;
+    g_assert_true(gb_view_parse("front", &packing_image.viewpoint, NULL));
+    return packing_image;
 }
 
-static struct gb_image *paint(const struct gb_packing_image *picture,
+static struct gb_image *paint(const struct gb_packing_image *packing_image,
                               const struct gb_state *state)
 {
     struct gb_image *image = NULL;
     struct gb_error err = {0};
-    const bool done = gb_packing_image_paint(&image, picture, state, &err);
+    const bool done = gb_packing_image_render(&image, packing_image, state, &err);
     g_assert_cmpstr(err.text, ==, "");
     g_assert_true(done);
     return image;
@@ -68,16 +68,16 @@ static const uint8_t *at(const struct gb_image *image, double x, double y)
 
 /* Where the camera of a picture sees a particle. */
 static const uint8_t *particle(const struct gb_image *image,
-                               const struct gb_packing_image *picture,
+                               const struct gb_packing_image *packing_image,
                                const struct gb_state *state, int index)
 {
     struct gb_caption_layout layout;
     struct gb_scene *scene = NULL;
     struct gb_error err = {0};
     double pixel[2];
-    gb_caption_place(image->width, image->height, picture->words, &layout);
-    g_assert_true(gb_scene_create(&scene, state, NULL, &picture->look, &layout.scene,
-                                  picture->ground, &err));
+    gb_caption_arrange(image->width, image->height, packing_image->annotated, &layout);
+    g_assert_true(gb_scene_create(&scene, state, NULL, &packing_image->viewpoint,
+                                  &layout.scene, packing_image->background, &err));
     const float *ball = &scene->sphere[4 * index];
     gb_view_pixel(&scene->view, (const double[3]){ball[0], ball[1], ball[2]}, pixel);
     gb_scene_destroy(scene);
@@ -111,19 +111,19 @@ static int nearest_contacts(const uint8_t *pixel)
 static void test_colours_and_depth(void)
 {
     struct gb_state *state = packing(3);
-    struct gb_packing_image picture = front();
-    struct gb_image *image = paint(&picture, state);
-    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 0)) - 2), <=,
-                    1);
-    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 2)) - 7), <=,
-                    1);
+    struct gb_packing_image packing_image = front();
+    struct gb_image *image = paint(&packing_image, state);
+    g_assert_cmpint(abs(nearest_contacts(particle(image, &packing_image, state, 0)) - 2),
+                    <=, 1);
+    g_assert_cmpint(abs(nearest_contacts(particle(image, &packing_image, state, 2)) - 7),
+                    <=, 1);
     const uint8_t white[4] = {255, 255, 255, 255};
     g_assert_cmpint(memcmp(at(image, 2, 2), white, 4), ==, 0);
     gb_image_destroy(image);
     /* from the other side it is the other way round */
-    g_assert_true(gb_view_parse("90,0,flat", &picture.look, NULL));
-    image = paint(&picture, state);
-    g_assert_cmpint(nearest_contacts(particle(image, &picture, state, 1)), >=, 11);
+    g_assert_true(gb_view_parse("90,0,flat", &packing_image.viewpoint, NULL));
+    image = paint(&packing_image, state);
+    g_assert_cmpint(nearest_contacts(particle(image, &packing_image, state, 1)), >=, 11);
     gb_image_destroy(image);
     gb_state_destroy(state);
 }
@@ -133,17 +133,17 @@ static void test_colours_and_depth(void)
 static void test_silhouette(void)
 {
     struct gb_state *state = packing(3);
-    struct gb_packing_image picture = front();
+    struct gb_packing_image packing_image = front();
     struct gb_caption_layout layout;
     struct gb_scene *scene = NULL;
     double covered = 0.0;
     double inked = 0.0;
-    g_assert_true(gb_view_parse("front,flat", &picture.look, NULL));
-    picture.ground = GB_GROUND_TRANSPARENT;
-    struct gb_image *image = paint(&picture, state);
-    gb_caption_place(SIDE, SIDE, false, &layout);
-    g_assert_true(gb_scene_create(&scene, state, NULL, &picture.look, &layout.scene,
-                                  GB_GROUND_TRANSPARENT, NULL));
+    g_assert_true(gb_view_parse("front,flat", &packing_image.viewpoint, NULL));
+    packing_image.background = GB_BACKGROUND_TRANSPARENT;
+    struct gb_image *image = paint(&packing_image, state);
+    gb_caption_arrange(SIDE, SIDE, false, &layout);
+    g_assert_true(gb_scene_create(&scene, state, NULL, &packing_image.viewpoint,
+                                  &layout.scene, GB_BACKGROUND_TRANSPARENT, NULL));
     const double scale = gb_view_scale(&scene->view);
     for (int y = 0; y < SIDE; y++) {
         for (int x = 0; x < SIDE; x++) {
@@ -164,12 +164,12 @@ static void test_silhouette(void)
 static void test_same_bits(void)
 {
     struct gb_state *state = packing(3);
-    struct gb_packing_image picture;
-    gb_packing_image_init(&picture);
-    picture.width = 640;
-    picture.height = 480;
-    struct gb_image *one = paint(&picture, state);
-    struct gb_image *two = paint(&picture, state);
+    struct gb_packing_image packing_image;
+    gb_packing_image_init(&packing_image);
+    packing_image.width = 640;
+    packing_image.height = 480;
+    struct gb_image *one = paint(&packing_image, state);
+    struct gb_image *two = paint(&packing_image, state);
     g_assert_cmpint(memcmp(one->rgba, two->rgba, (size_t)640 * 480 * 4), ==, 0);
     gb_image_destroy(one);
     gb_image_destroy(two);
@@ -180,10 +180,10 @@ static void test_same_bits(void)
 static void test_tiles(void)
 {
     struct gb_state *state = packing(3);
-    struct gb_packing_image picture = front();
-    picture.width = 2100; /* two tiles */
-    picture.height = 300;
-    struct gb_image *image = paint(&picture, state);
+    struct gb_packing_image packing_image = front();
+    packing_image.width = 2100; /* two tiles */
+    packing_image.height = 300;
+    struct gb_image *image = paint(&packing_image, state);
     /* the middle column crosses the nearest sphere: its row must be as smooth there */
     const int y = 150;
     for (int x = 1030; x < 1070; x++) {
@@ -198,13 +198,13 @@ static void test_tiles(void)
 static void test_colour_bar(void)
 {
     struct gb_state *state = packing(3);
-    struct gb_packing_image picture;
+    struct gb_packing_image packing_image;
     struct gb_caption_layout layout;
-    gb_packing_image_init(&picture);
-    picture.width = 800;
-    picture.height = 600;
-    struct gb_image *image = paint(&picture, state);
-    gb_caption_place(800, 600, true, &layout);
+    gb_packing_image_init(&packing_image);
+    packing_image.width = 800;
+    packing_image.height = 600;
+    struct gb_image *image = paint(&packing_image, state);
+    gb_caption_arrange(800, 600, true, &layout);
     const double step = layout.bar.height / (GB_PALETTE_CONTACTS + 1);
     for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
         uint8_t rgb[3];
@@ -232,11 +232,11 @@ static void test_scale_bar(void)
 static void test_planar(void)
 {
     struct gb_state *state = packing(2);
-    struct gb_packing_image picture = front();
-    struct gb_image *image = paint(&picture, state);
-    g_assert_cmpint(nearest_contacts(particle(image, &picture, state, 1)), >=, 11);
-    g_assert_cmpint(abs(nearest_contacts(particle(image, &picture, state, 0)) - 2), <=,
-                    1);
+    struct gb_packing_image packing_image = front();
+    struct gb_image *image = paint(&packing_image, state);
+    g_assert_cmpint(nearest_contacts(particle(image, &packing_image, state, 1)), >=, 11);
+    g_assert_cmpint(abs(nearest_contacts(particle(image, &packing_image, state, 0)) - 2),
+                    <=, 1);
     gb_image_destroy(image);
     gb_state_destroy(state);
 }
@@ -248,11 +248,11 @@ static void test_odd_sizes(void)
         {16, 16}, {16, 3000}, {3000, 16}, {17, 243}, {241, 240}};
     struct gb_state *state = packing(3);
     for (size_t k = 0; k < G_N_ELEMENTS(sizes); k++) {
-        struct gb_packing_image picture;
-        gb_packing_image_init(&picture);
-        picture.width = sizes[k][0];
-        picture.height = sizes[k][1];
-        gb_image_destroy(paint(&picture, state));
+        struct gb_packing_image packing_image;
+        gb_packing_image_init(&packing_image);
+        packing_image.width = sizes[k][0];
+        packing_image.height = sizes[k][1];
+        gb_image_destroy(paint(&packing_image, state));
     }
     gb_state_destroy(state);
 }
@@ -263,7 +263,7 @@ static void test_forces(void)
 {
     struct gb_state *state = NULL;
     struct gb_error err = {0};
-    struct gb_packing_image picture = front();
+    struct gb_packing_image packing_image = front();
     g_assert_true(gb_state_create(&state, 2, 1, &err));
     state->dimension = 3;
     for (int k = 0; k < 3; k++) {
@@ -278,14 +278,14 @@ static void test_forces(void)
     state->pair_normal[0] = 1.0;
     state->metre_per_length = 1e-8;
     state->pascal_per_stress = 1e9;
-    picture.dress.show = GB_PICTURE_STYLE_BOTH;
-    g_assert_true(gb_view_parse("side,flat", &picture.look, NULL));
-    struct gb_image *image = paint(&picture, state);
+    packing_image.style.show = GB_PICTURE_STYLE_BOTH;
+    g_assert_true(gb_view_parse("side,flat", &packing_image.viewpoint, NULL));
+    struct gb_image *image = paint(&packing_image, state);
     const uint8_t *middle = at(image, 0.5 * SIDE, 0.5 * SIDE);
     g_assert_cmpint(middle[2], >, middle[0] + 40); /* blue: pressed */
     gb_image_destroy(image);
-    g_assert_true(gb_view_parse("front,flat", &picture.look, NULL));
-    image = paint(&picture, state);
+    g_assert_true(gb_view_parse("front,flat", &packing_image.viewpoint, NULL));
+    image = paint(&packing_image, state);
     middle = at(image, 0.5 * SIDE, 0.5 * SIDE);
     g_assert_cmpint(middle[0], >, middle[2] + 40); /* yellow: 12 contacts */
     gb_image_destroy(image);
@@ -309,13 +309,13 @@ static void test_file(void)
     char *folder = g_dir_make_tmp("greenbody-draw-XXXXXX", NULL);
     char *path = g_build_filename(folder, "x.png", NULL);
     struct gb_state *state = packing(3);
-    struct gb_packing_image picture = front();
+    struct gb_packing_image packing_image = front();
     struct gb_error err = {0};
-    picture.preset = "[scene]\ntitle = Al₂O₃\n";
-    g_assert_true(gb_packing_image_write(&picture, state, path, &err));
+    packing_image.preset = "[scene]\ntitle = Al₂O₃\n";
+    g_assert_true(gb_packing_image_write(&packing_image, state, path, &err));
     char *preset = NULL;
     g_assert_true(gb_png_read_text(path, "Preset", &preset, &err));
-    g_assert_cmpstr(preset, ==, picture.preset);
+    g_assert_cmpstr(preset, ==, packing_image.preset);
     g_free(preset);
     g_assert_false(gb_png_read_text(path, "Nothing", &preset, &err));
     g_assert_nonnull(strstr(err.text, "no text chunk Nothing"));
@@ -341,10 +341,10 @@ static void test_file(void)
 
     g_remove(path);
     g_rmdir(folder);
-    g_assert_false(gb_packing_image_write(&picture, state, path, &err));
+    g_assert_false(gb_packing_image_write(&packing_image, state, path, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);
     g_assert_nonnull(strstr(err.text, path));
-    g_assert_false(gb_packing_image_write(&picture, state, "/dev/null", &err));
+    g_assert_false(gb_packing_image_write(&packing_image, state, "/dev/null", &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     gb_state_destroy(state);
     g_free(path);

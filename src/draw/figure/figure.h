@@ -9,25 +9,25 @@
 #include "draw/image/png.h"
 #include "greenbody/status.h"
 
-/* Figures for print: curves, bands and points over two axes, told apart by colour, by
- * dashes and by marks, so that they can be read by colour-blind eyes and in black and
- * white. All texts are Pango markup. */
+/* Figures for print: curves, bands and points over two axes.  Colour, dashes and markers
+ * all differ, for colour-blind readers and black-and-white print.  All texts are Pango
+ * markup. */
 enum gb_figure_kind {
     GB_FIGURE_LINE,   /* with a band where it has errors */
-    GB_FIGURE_POINTS, /* marks, with bars where they have errors */
-    GB_FIGURE_BOTH,   /* marks joined by a line */
+    GB_FIGURE_POINTS, /* markers, with bars where they have errors */
+    GB_FIGURE_BOTH,   /* markers joined by a line */
     GB_FIGURE_STEPS,  /* a histogram: y holds from each x to the next, filled */
-    GB_FIGURE_FAINT,  /* thin, pale, not named: one of many */
+    GB_FIGURE_FAINT,  /* thin and pale, without a label: one of many */
 };
 
 struct gb_figure_curve {
-    const char *label; /* NULL or "": not named */
+    const char *label; /* NULL or "": none */
     enum gb_figure_kind kind;
-    int style; /* colour, dash and mark; colours come again after GB_FIGURE_STYLES */
-    bool open; /* marks are hollow, as experiments are */
+    int style; /* colour, dash and marker; colours repeat after GB_FIGURE_STYLES */
+    bool open; /* hollow markers, for measured data */
     size_t count;
-    const double *x, *y;   /* NaN: a gap; on a log axis so is what is not positive */
-    const double *error;   /* of y, half the width; NULL or NaN: none */
+    const double *x, *y;   /* NaN: a gap; on a log axis also values <= 0 */
+    const double *error;   /* of y, half the length of the bar; NULL or NaN: none */
     const double *x_error; /* of points */
 };
 
@@ -39,12 +39,19 @@ struct gb_figure_axis {
     double low, high; /* given ends; NaN: from the data */
 };
 
-/* Words at a place of the plot, as letters of the points of a law; below and left of it
- * when those are set. */
-struct gb_figure_note {
+/* Side of a point on which its text stands. */
+enum gb_figure_corner {
+    GB_FIGURE_ABOVE_RIGHT,
+    GB_FIGURE_ABOVE_LEFT,
+    GB_FIGURE_BELOW_RIGHT,
+    GB_FIGURE_BELOW_LEFT,
+};
+
+/* Text at a point of the plot. */
+struct gb_figure_annotation {
     double x, y;
     const char *text;
-    bool below, left;
+    enum gb_figure_corner corner;
 };
 
 struct gb_figure {
@@ -52,34 +59,33 @@ struct gb_figure {
     struct gb_figure_axis x, y;
     const struct gb_figure_curve *curve;
     size_t count;
-    const struct gb_figure_note *note;
-    size_t notes;
-    double inset[2]; /* part of the x axis that is drawn larger where there is room;
-                      * equal: none */
+    const struct gb_figure_annotation *annotation;
+    size_t annotations;
+    double
+        inset[2]; /* x range of the inset, drawn where it has space; equal or NaN: none */
 };
 
-/* Where things came to lie, in pixels of the image; for those who look for them. */
+/* Positions in the image, pixels. */
 struct gb_figure_layout {
     struct gb_figure_axis_scale x, y;
     double frame[4];  /* left, top, right, bottom */
     double legend[4]; /* of the box; all 0: there is none */
-    double inset[4];  /* of the part drawn larger with its numbers; all 0: none */
-    bool direct;      /* lines are named where they run */
+    double inset[4];  /* with its tick labels; all 0: none */
+    bool direct;      /* labels stand beside the lines */
     double unit;      /* pixels per point */
 };
 
 /* Errors: GB_ERR_MACHINE (no font), GB_ERR_MEMORY, GB_ERR_INPUT (size). */
-bool gb_figure_paint(struct gb_image **out, const struct gb_figure *figure, int width,
-                     int height, struct gb_figure_layout *layout, struct gb_error *err);
+bool gb_figure_render(struct gb_image **out, const struct gb_figure *figure, int width,
+                      int height, struct gb_figure_layout *layout, struct gb_error *err);
 
-/* By the ending of the path: .png with the texts in its chunks, .svg, .pdf.  Width and
- * height are pixels of the first; the others take their shape.  Errors: as above, and as
- * gb_file_replace. */
-bool gb_figure_write(const struct gb_figure *figure, int width, int height,
-                     const struct gb_png_text *texts, int text_count, const char *path,
-                     struct gb_error *err);
-
-/* Whether a path ends as one of the files above. */
-bool gb_figure_is_file(const char *path);
+/* Writers of a figure.  Width and height are pixels of the PNG; vector formats have its
+ * shape.  texts: chunks of the PNG.  Errors: as above, and as gb_file_replace. */
+typedef bool gb_figure_writer(const struct gb_figure *figure, int width, int height,
+                              const struct gb_png_text *texts, int text_count,
+                              const char *path, struct gb_error *err);
+gb_figure_writer gb_figure_write_png;
+gb_figure_writer gb_figure_write_svg;
+gb_figure_writer gb_figure_write_pdf;
 
 #endif

@@ -15,7 +15,7 @@ void gb_figure_axis_number(double value, int decimals, char *text, size_t size)
     snprintf(text, size, "%s%s", value < 0.0 && !zero ? MINUS : "", plain);
 }
 
-double gb_figure_axis_place(const struct gb_figure_axis_scale *scale, double value)
+double gb_figure_axis_position(const struct gb_figure_axis_scale *scale, double value)
 {
     const double share = scale->log
                              ? log(value / scale->low) / log(scale->high / scale->low)

@@ -24,7 +24,7 @@ struct gb_figure_axis_scale {
 void gb_figure_axis_fit(struct gb_figure_axis_scale *scale, bool log, double low,
                         double high, int wanted, const bool exact[2]);
 
-double gb_figure_axis_place(const struct gb_figure_axis_scale *scale, double value);
+double gb_figure_axis_position(const struct gb_figure_axis_scale *scale, double value);
 
 /* A number as print wants it: "−0.25", "10<sup>−3</sup>"; decimals behind the point. */
 void gb_figure_axis_number(double value, int decimals, char *text, size_t size);

@@ -10,10 +10,10 @@
 #include "base/file.h"
 
 /* PNG specification, third edition: acTL before the first IDAT, fcTL before each frame,
- * and fdAT, which is IDAT behind a number; fcTL and fdAT are numbered together. */
+ * and fdAT, which is IDAT after a number; fcTL and fdAT are numbered together. */
 struct gb_apng {
     int count, added;
-    bool opaque;
+    enum gb_png_alpha alpha;
     const struct gb_png_text *texts;
     int text_count;
     struct gb_image *before;
@@ -57,7 +57,7 @@ static bool no_memory(struct gb_error *err)
     return gb_error_set(err, GB_ERR_MEMORY, "no memory for the frames of a picture");
 }
 
-bool gb_apng_create(struct gb_apng **out, int count, bool opaque,
+bool gb_apng_create(struct gb_apng **out, int count, enum gb_png_alpha alpha,
                     const struct gb_png_text *texts, int text_count, struct gb_error *err)
 {
     *out = NULL;
@@ -66,7 +66,7 @@ bool gb_apng_create(struct gb_apng **out, int count, bool opaque,
         return false;
     }
     apng->count = count;
-    apng->opaque = opaque;
+    apng->alpha = alpha;
     apng->texts = texts;
     apng->text_count = text_count;
     apng->stream = open_memstream(&apng->memory, &apng->size);
@@ -123,7 +123,7 @@ static bool put_chunk(struct gb_apng *apng, const char *name, const uint8_t *dat
 static bool put_control(struct gb_apng *apng, const struct area *area, int milliseconds,
                         struct gb_error *err)
 {
-    uint8_t data[26] = {0}; /* the last two: keep what is there, replace */
+    uint8_t data[26] = {0}; /* the last two: no disposal, no blending */
     put_number(data, apng->number++);
     put_number(data + 4, (uint32_t)area->width);
     put_number(data + 8, (uint32_t)area->height);
@@ -153,11 +153,11 @@ static bool put_data(struct gb_apng *apng, const uint8_t *data, size_t size,
     return done;
 }
 
-/* What precedes the pixels of the whole file. */
+/* Signature and header of the file, and acTL. */
 static bool put_head(struct gb_apng *apng, const uint8_t *png, size_t size,
                      struct gb_error *err)
 {
-    uint8_t data[8] = {0}; /* how often: 0 is for ever */
+    uint8_t data[8] = {0}; /* repeats: 0 is unlimited */
     put_number(data, (uint32_t)apng->count);
     return (fwrite(png, 1, size, apng->stream) == size || no_memory(err)) &&
            put_chunk(apng, "acTL", data, sizeof data, err);
@@ -167,23 +167,23 @@ static bool put_head(struct gb_apng *apng, const uint8_t *png, size_t size,
 static bool put_frame(struct gb_apng *apng, const uint8_t *png, size_t size,
                       const struct area *area, int milliseconds, struct gb_error *err)
 {
-    bool begun = false;
+    bool started = false;
     bool done = true;
     size_t at = 8; /* behind the signature */
     while (done && at + 12 <= size) {
         const size_t length = get_number(png + at);
         if (memcmp(png + at + 4, "IDAT", 4) == 0) {
-            done = (begun || ((apng->added > 0 || put_head(apng, png, at, err)) &&
-                              put_control(apng, area, milliseconds, err))) &&
+            done = (started || ((apng->added > 0 || put_head(apng, png, at, err)) &&
+                                put_control(apng, area, milliseconds, err))) &&
                    put_data(apng, png + at + 8, length, err);
-            begun = true;
+            started = true;
         }
         at += length + 12;
     }
     return done;
 }
 
-/* The rectangle that differs; one pixel where nothing does. */
+/* Rectangle that differs; one pixel for equal images. */
 static struct area changed(const struct gb_image *before, const struct gb_image *image)
 {
     int left = image->width;
@@ -226,9 +226,9 @@ static bool cut_out(struct gb_image **out, const struct gb_image *image,
     return part->rgba != NULL;
 }
 
-/* This frame is what the next one is compared with. */
-static bool remember(struct gb_apng *apng, const struct gb_image *image,
-                     struct gb_error *err)
+/* Keeps the frame for the comparison with the next. */
+static bool keep_frame(struct gb_apng *apng, const struct gb_image *image,
+                       struct gb_error *err)
 {
     if (apng->before == NULL &&
         !gb_image_create(&apng->before, image->width, image->height, err)) {
@@ -251,10 +251,10 @@ bool gb_apng_add(struct gb_apng *apng, const struct gb_image *image, int millise
     }
     const bool done =
         cut_out(&part, image, &area, err) &&
-        gb_png_encode(part, apng->opaque, apng->texts,
+        gb_png_encode(part, apng->alpha, apng->texts,
                       apng->added == 0 ? apng->text_count : 0, &memory, &size, err) &&
         put_frame(apng, (const uint8_t *)memory, size, &area, milliseconds, err) &&
-        remember(apng, image, err);
+        keep_frame(apng, image, err);
     free(memory);
     gb_image_destroy(part);
     apng->added += done;

@@ -21,7 +21,7 @@ void gb_image_destroy(struct gb_image *image); /* NULL is fine */
 /* "1600x1200".  Errors: GB_ERR_INPUT saying what is accepted. */
 bool gb_image_parse_size(const char *text, int *width, int *height, struct gb_error *err);
 
-/* cairo wants blue first in memory; ours is red first. */
+/* Swaps the byte order of cairo (blue first) and of images (red first). */
 void gb_image_swap_red_blue(struct gb_image *image);
 
 #endif

@@ -13,7 +13,7 @@
 
 enum { TEXTS_MAX = 16, LEVEL = 5 /* of zlib: half the time of 6 for 2 % more bytes */ };
 
-/* What must outlive the longjmp of libpng. */
+/* State that survives the longjmp of libpng. */
 struct writer {
     png_structp png;
     png_infop info;
@@ -48,8 +48,9 @@ static void on_flush(png_structp png)
     (void)png;
 }
 
-static void put_header(struct writer *writer, const struct gb_image *image, bool opaque,
-                       const struct gb_png_text *texts, int text_count)
+static void put_header(struct writer *writer, const struct gb_image *image,
+                       enum gb_png_alpha alpha, const struct gb_png_text *texts,
+                       int text_count)
 {
     png_text text[TEXTS_MAX];
     memset(text, 0, sizeof text);
@@ -61,17 +62,19 @@ static void put_header(struct writer *writer, const struct gb_image *image, bool
     }
     png_set_IHDR(
         writer->png, writer->info, (png_uint_32)image->width, (png_uint_32)image->height,
-        8, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
-        PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        8, alpha == GB_PNG_OPAQUE ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
+        PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(writer->png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(writer->png, writer->info, text, text_count);
     png_set_compression_level(writer->png, LEVEL);
     png_write_info(writer->png, writer->info);
 }
 
-/* PNG keeps colours that are not multiplied by alpha. */
-static void pack_row(const uint8_t *from, int width, bool opaque, uint8_t *to)
+/* PNG stores colours that are not multiplied by alpha. */
+static void pack_row(const uint8_t *from, int width, enum gb_png_alpha channel,
+                     uint8_t *to)
 {
+    const bool opaque = channel == GB_PNG_OPAQUE;
     for (int x = 0; x < width; x++, from += 4) {
         const unsigned alpha = from[3];
         for (int k = 0; k < 3; k++) {
@@ -84,16 +87,17 @@ static void pack_row(const uint8_t *from, int width, bool opaque, uint8_t *to)
     }
 }
 
-static bool encode(struct writer *writer, const struct gb_image *image, bool opaque,
-                   const struct gb_png_text *texts, int text_count)
+static bool encode(struct writer *writer, const struct gb_image *image,
+                   enum gb_png_alpha alpha, const struct gb_png_text *texts,
+                   int text_count)
 {
     if (setjmp(png_jmpbuf(writer->png)) != 0) {
         return false;
     }
     png_set_write_fn(writer->png, writer, on_data, on_flush);
-    put_header(writer, image, opaque, texts, text_count);
+    put_header(writer, image, alpha, texts, text_count);
     for (int y = 0; y < image->height; y++) {
-        pack_row(&image->rgba[4 * (size_t)y * (size_t)image->width], image->width, opaque,
+        pack_row(&image->rgba[4 * (size_t)y * (size_t)image->width], image->width, alpha,
                  writer->row);
         png_write_row(writer->png, writer->row);
     }
@@ -101,7 +105,7 @@ static bool encode(struct writer *writer, const struct gb_image *image, bool opa
     return true;
 }
 
-bool gb_png_encode(const struct gb_image *image, bool opaque,
+bool gb_png_encode(const struct gb_image *image, enum gb_png_alpha alpha,
                    const struct gb_png_text *texts, int text_count, char **memory,
                    size_t *size, struct gb_error *err)
 {
@@ -116,7 +120,7 @@ bool gb_png_encode(const struct gb_image *image, bool opaque,
         png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, on_error, on_warning);
     writer.info = writer.png != NULL ? png_create_info_struct(writer.png) : NULL;
     bool done = writer.stream != NULL && writer.info != NULL &&
-                encode(&writer, image, opaque, texts, MIN(text_count, TEXTS_MAX));
+                encode(&writer, image, alpha, texts, MIN(text_count, TEXTS_MAX));
     if (writer.png != NULL) {
         png_destroy_write_struct(&writer.png, &writer.info);
     }
@@ -132,7 +136,7 @@ bool gb_png_encode(const struct gb_image *image, bool opaque,
                                 writer.reason[0] != '\0' ? writer.reason : "no memory");
 }
 
-bool gb_png_write(const struct gb_image *image, bool opaque,
+bool gb_png_write(const struct gb_image *image, enum gb_png_alpha alpha,
                   const struct gb_png_text *texts, int text_count, const char *path,
                   struct gb_error *err)
 {
@@ -140,7 +144,7 @@ bool gb_png_write(const struct gb_image *image, bool opaque,
     size_t size = 0;
     const bool done =
         gb_file_check_target(path, err) &&
-        gb_png_encode(image, opaque, texts, text_count, &memory, &size, err) &&
+        gb_png_encode(image, alpha, texts, text_count, &memory, &size, err) &&
         gb_file_replace(path, memory, size, err);
     free(memory);
     return done;
@@ -154,11 +158,11 @@ static bool no_chunk(const char *path, const char *key, struct gb_error *err)
                         path, key);
 }
 
-/* A preset takes some kilobytes; what claims more would be given all the memory there is
- * before it is read. */
-static const png_alloc_size_t text_most = 4 << 20;
+/* A preset takes some kilobytes; libpng allocates the claimed size of a chunk before it
+ * reads it. */
+static const png_alloc_size_t max_text_size = 4 << 20;
 
-/* What must outlive the longjmp of libpng. */
+/* State that survives the longjmp of libpng. */
 struct reader {
     png_structp png;
     png_infop info;
@@ -174,8 +178,9 @@ static bool find_text(struct reader *reader, const char *key)
         return false;
     }
     png_init_io(reader->png, reader->file);
-    png_set_chunk_malloc_max(reader->png, text_most);
-    png_set_benign_errors(reader->png, 0); /* or the limit is a warning only */
+    png_set_chunk_malloc_max(reader->png, max_text_size);
+    png_set_benign_errors(reader->png,
+                          0); /* else exceeding the limit is a warning only */
     png_read_info(reader->png, reader->info);
     png_get_text(reader->png, reader->info, &text, &count);
     for (int k = 0; k < count && reader->value == NULL; k++) {

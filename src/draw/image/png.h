@@ -12,14 +12,15 @@ struct gb_png_text {
     const char *key, *value;
 };
 
-/* Writes the image as sRGB PNG and puts it in place as a whole.  opaque leaves the alpha
- * out. Errors: as gb_file_replace, GB_ERR_MEMORY. */
-bool gb_png_write(const struct gb_image *image, bool opaque,
+enum gb_png_alpha { GB_PNG_OPAQUE, GB_PNG_ALPHA };
+
+/* Writes the image as sRGB PNG, atomically.  Errors: as gb_file_replace, GB_ERR_MEMORY. */
+bool gb_png_write(const struct gb_image *image, enum gb_png_alpha alpha,
                   const struct gb_png_text *texts, int text_count, const char *path,
                   struct gb_error *err);
 
 /* The same into memory, which belongs to the caller (free). */
-bool gb_png_encode(const struct gb_image *image, bool opaque,
+bool gb_png_encode(const struct gb_image *image, enum gb_png_alpha alpha,
                    const struct gb_png_text *texts, int text_count, char **memory,
                    size_t *size, struct gb_error *err);
 

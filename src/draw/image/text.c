@@ -7,11 +7,11 @@ static const char *const face = "DejaVu Sans, Noto Sans, Liberation Sans, Sans";
 bool gb_text_init(struct gb_text *text, cairo_t *cairo, struct gb_error *err)
 {
     *text = (struct gb_text){.cairo = cairo};
-    /* Pango itself would fall over its own fallback */
+    /* Pango aborts without a font */
     const FcFontSet *fonts = FcConfigGetFonts(NULL, FcSetSystem);
     if (fonts == NULL || fonts->nfont == 0) {
         return gb_error_set(err, GB_ERR_MACHINE,
-                            "no font is installed; words in pictures and figures need "
+                            "no font is installed; texts in pictures and figures need "
                             "one, as in the package fonts-dejavu-core");
     }
     text->layout = pango_cairo_create_layout(cairo);

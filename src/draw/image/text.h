@@ -7,8 +7,8 @@
 
 #include "greenbody/status.h"
 
-/* Words on a cairo surface.  Texts are Pango markup; one that is not well formed is shown
- * as it stands. */
+/* Text on a cairo surface.  Texts are Pango markup; malformed markup is shown as
+ * plain text. */
 struct gb_text {
     PangoLayout *layout;
     cairo_t *cairo; /* not owned */
@@ -22,9 +22,9 @@ void gb_text_finish(struct gb_text *text); /* zeroed is fine */
 void gb_text_measure(const struct gb_text *text, const char *markup, double size,
                      double width, double *wide, double *high);
 
-/* Draws it with the present source colour.  (x, y) is the place of the point of the text
- * that align says: 0, 0 its top left, 1, 1 its bottom right; turned anticlockwise by
- * quarter turns. */
+/* Draws it with the present source colour.  `at` is the point of the text
+ * given by align: 0, 0 its top left, 1, 1 its bottom right; rotated anticlockwise by quarter
+ * revolutions. */
 void gb_text_write(const struct gb_text *text, const char *markup, double size,
                    double width, const double at[2], const double align[2], int quarters);
 

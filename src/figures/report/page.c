@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* Screen and paper; no font, script or picture from elsewhere. */
+/* For screen and print; no external font, script or picture. */
 static const char style[] =
     "body{font:16px/1.5 'DejaVu Sans',Verdana,sans-serif;color:#1a1c20;background:#fff;"
     "max-width:60rem;margin:2rem auto;padding:0 1.2rem}"
@@ -30,7 +30,7 @@ static char *escape(const char *text)
     return g_markup_escape_text(text, -1);
 }
 
-/* Characters that Markdown would take for its own. */
+/* Escapes the characters with a meaning in Markdown. */
 static void append_plain(GString *out, const char *text)
 {
     for (const char *c = text; *c != '\0'; c++) {

@@ -9,7 +9,7 @@ struct gb_page {
     GString *html, *markdown;
 };
 
-/* `subtitle` stands under the title. */
+/* The subtitle is the line below the title. */
 void gb_page_begin(struct gb_page *page, const char *title, const char *subtitle);
 void gb_page_end(struct gb_page *page);
 void gb_page_finish(struct gb_page *page); /* zeroed is fine */
@@ -19,7 +19,7 @@ void gb_page_paragraph(struct gb_page *page, const char *text);
 /* A picture with its caption and links to other files of it, a NULL-terminated list. */
 void gb_page_image(struct gb_page *page, const char *file, const char *caption,
                    const char *const *others);
-/* Cells row by row; a row of heads first.  file: the same as CSV, NULL: none. */
+/* Cells row by row, below a row of heads.  file: the table as CSV; NULL: none. */
 void gb_page_table(struct gb_page *page, const char *caption, const char *file,
                    const char *const *heads, guint columns, const GPtrArray *cells);
 

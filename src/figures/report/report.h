@@ -4,18 +4,43 @@
 #include "figures/report/page.h"
 #include "many/runset.h"
 
-/* What is handed in about some runs: a folder with figures, pictures, tables, presets and
- * where all comes from, and a page over it as HTML and Markdown. */
+/* Report of some runs: a folder with figures, tables, pictures and presets, and a page over
+ * them as HTML and Markdown. */
 struct gb_report {
     const struct gb_runset *set;
-    const char *folder; /* there already, ours alone */
-    const char *data;   /* experimental points; NULL: none */
+    const char *folder;
+    const char *data; /* table of measured points; NULL: none */
     struct gb_page page;
-    GString *left_out; /* figures that could not be made, with the reason */
+    GString *left_out; /* figures and pictures without data, with the reason */
 };
 
-/* Fills the folder.  Errors: GB_ERR_MACHINE, GB_ERR_MEMORY; a figure for which the runs
- * have no data is left out and told in the page. */
-bool gb_report_write(struct gb_report *report, struct gb_error *err);
+/* A part of the report: a heading and a function that fills it.  A part is a file
+ * report_NAME.c and a row in report.c. */
+typedef bool gb_report_part_function(struct gb_report *report, struct gb_error *err);
+
+struct gb_report_part {
+    const char *name;
+    const char *heading;
+    const char *doc;
+    gb_report_part_function *write;
+};
+
+/* In their order; the last row has no name. */
+const struct gb_report_part *gb_report_parts(void);
+
+gb_report_part_function gb_report_figures;
+gb_report_part_function gb_report_tables;
+gb_report_part_function gb_report_pictures;
+gb_report_part_function gb_report_provenance;
+gb_report_part_function gb_report_preset;
+
+/* Creates the folder `output` with the report; no folder remains after an error.  What the
+ * runs have no data for is left out and listed on the page.  Errors: GB_ERR_INPUT when the
+ * folder exists, GB_ERR_MACHINE, GB_ERR_MEMORY. */
+bool gb_report_write(const struct gb_runset *set, const char *data, const char *output,
+                     struct gb_error *err);
+
+/* Notes what is left out and why. */
+void gb_report_leave_out(struct gb_report *report, const char *what, const char *reason);
 
 #endif

@@ -1,0 +1,258 @@
+#include "draw/figure/figure_curve.h"
+
+#include <math.h>
+
+#include "draw/figure/figure_marker.h"
+
+/* Dashes in points, ended by 0. */
+static const double dashes[GB_FIGURE_STYLES][7] = {
+    {0},          {6, 2.4, 0},
+    {1.4, 2, 0},  {7, 2, 1.4, 2, 0},
+    {11, 2.6, 0}, {7, 2, 1.4, 2, 1.4, 2, 0},
+    {3, 1.8, 0},
+};
+
+static const double line_width = 1.35;
+static const double faint_width = 0.45;
+static const double bar_width = 0.75;
+static const double marker_distance = 46.0;
+
+static void set_pen(cairo_t *cairo, const struct gb_figure_curve *curve)
+{
+    const double *dash =
+        dashes[(curve->style + gb_figure_marker_round(curve->style)) % GB_FIGURE_STYLES];
+    const bool faint = curve->kind == GB_FIGURE_FAINT;
+    int count = 0;
+    while (dash[count] > 0.0) {
+        count++;
+    }
+    cairo_set_dash(cairo, dash, faint || curve->kind == GB_FIGURE_STEPS ? 0 : count, 0.0);
+    cairo_set_line_width(cairo, faint ? faint_width : line_width);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    gb_figure_marker_set_colour(cairo, curve->style, faint ? 0.45 : 1.0);
+}
+
+static bool fits(const struct gb_figure_axis_scale *scale, double value)
+{
+    return isfinite(value) && (!scale->log || value > 0.0);
+}
+
+bool gb_figure_curve_position(const struct gb_figure_layout *layout,
+                              const struct gb_figure_curve *curve, size_t k, double at[2])
+{
+    if (!fits(&layout->x, curve->x[k]) || !fits(&layout->y, curve->y[k])) {
+        return false;
+    }
+    at[0] = gb_figure_axis_position(&layout->x, curve->x[k]);
+    at[1] = gb_figure_axis_position(&layout->y, curve->y[k]);
+    return true;
+}
+
+/* Position of y + side * error, limited to the page. */
+static double edge(const struct gb_figure_layout *layout,
+                   const struct gb_figure_curve *curve, size_t k, double side)
+{
+    const double value = curve->y[k] + side * curve->error[k];
+    const double outside = layout->frame[3] + 50.0;
+    return fits(&layout->y, value) ? gb_figure_axis_position(&layout->y, value) : outside;
+}
+
+/* Fills the band of the points [from, to), which have no gap. */
+static void fill_band(cairo_t *cairo, const struct gb_figure_layout *layout,
+                      const struct gb_figure_curve *curve, size_t from, size_t to)
+{
+    for (size_t k = from; k < to; k++) {
+        cairo_line_to(cairo, gb_figure_axis_position(&layout->x, curve->x[k]),
+                      edge(layout, curve, k, 1.0));
+    }
+    for (size_t k = to; k > from; k--) {
+        cairo_line_to(cairo, gb_figure_axis_position(&layout->x, curve->x[k - 1]),
+                      edge(layout, curve, k - 1, -1.0));
+    }
+    cairo_close_path(cairo);
+    cairo_fill(cairo);
+}
+
+static void draw_band(cairo_t *cairo, const struct gb_figure_layout *layout,
+                      const struct gb_figure_curve *curve)
+{
+    size_t from = 0;
+    gb_figure_marker_set_colour(cairo, curve->style, 0.2);
+    for (size_t k = 0; k <= curve->count; k++) {
+        double at[2];
+        const bool valid = k < curve->count &&
+                           gb_figure_curve_position(layout, curve, k, at) &&
+                           isfinite(curve->error[k]);
+        if (!valid) {
+            if (k > from + 1) {
+                fill_band(cairo, layout, curve, from, k);
+            }
+            from = k + 1;
+        }
+    }
+}
+
+static void draw_line(cairo_t *cairo, const struct gb_figure_layout *layout,
+                      const struct gb_figure_curve *curve)
+{
+    bool pen_down = false;
+    set_pen(cairo, curve);
+    for (size_t k = 0; k < curve->count; k++) {
+        double at[2];
+        if (!gb_figure_curve_position(layout, curve, k, at)) {
+            pen_down = false;
+        } else if (pen_down) {
+            cairo_line_to(cairo, at[0], at[1]);
+        } else {
+            cairo_move_to(cairo, at[0], at[1]);
+            pen_down = true;
+        }
+    }
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, NULL, 0, 0.0);
+}
+
+static void draw_steps(cairo_t *cairo, const struct gb_figure_layout *layout,
+                       const struct gb_figure_curve *curve)
+{
+    const double floor_at = layout->y.from;
+    bool started = false;
+    double last[2] = {0.0, 0.0};
+    for (size_t k = 0; k < curve->count; k++) {
+        double at[2];
+        if (!gb_figure_curve_position(layout, curve, k, at)) {
+            continue;
+        }
+        if (!started) {
+            cairo_move_to(cairo, at[0], floor_at);
+        } else {
+            cairo_line_to(cairo, at[0], last[1]);
+        }
+        cairo_line_to(cairo, at[0], at[1]);
+        started = true;
+        last[0] = at[0];
+        last[1] = at[1];
+    }
+    cairo_line_to(cairo, last[0], floor_at);
+    gb_figure_marker_set_colour(cairo, curve->style, 0.16);
+    cairo_fill_preserve(cairo);
+    set_pen(cairo, curve);
+    cairo_set_line_width(cairo, 0.6 * line_width);
+    cairo_stroke(cairo);
+}
+
+/* Lines of later rounds have markers at even distances. */
+static void draw_line_markers(cairo_t *cairo, const struct gb_figure_layout *layout,
+                              const struct gb_figure_curve *curve)
+{
+    double next = marker_distance *
+                  (0.3 + 0.6 * (curve->style % GB_FIGURE_STYLES) / GB_FIGURE_STYLES);
+    double last[2] = {NAN, NAN};
+    for (size_t k = 0; k < curve->count; k++) {
+        double at[2];
+        if (!gb_figure_curve_position(layout, curve, k, at)) {
+            last[0] = NAN;
+            continue;
+        }
+        next -= isfinite(last[0]) ? hypot(at[0] - last[0], at[1] - last[1]) : 0.0;
+        if (next <= 0.0) {
+            gb_figure_marker_draw(cairo, curve, at);
+            next = marker_distance;
+        }
+        last[0] = at[0];
+        last[1] = at[1];
+    }
+}
+
+static void bar(cairo_t *cairo, const double a[2], const double b[2])
+{
+    const bool vertical = a[0] == b[0];
+    const double cap = 0.7 * gb_figure_marker_radius;
+    cairo_move_to(cairo, a[0], a[1]);
+    cairo_line_to(cairo, b[0], b[1]);
+    for (int end = 0; end < 2; end++) {
+        const double *p = end == 0 ? a : b;
+        cairo_move_to(cairo, p[0] - (vertical ? cap : 0.0),
+                      p[1] - (vertical ? 0.0 : cap));
+        cairo_line_to(cairo, p[0] + (vertical ? cap : 0.0),
+                      p[1] + (vertical ? 0.0 : cap));
+    }
+    cairo_stroke(cairo);
+}
+
+static void draw_bars(cairo_t *cairo, const struct gb_figure_layout *layout,
+                      const struct gb_figure_curve *curve, size_t k, const double at[2])
+{
+    gb_figure_marker_set_colour(cairo, curve->style, 1.0);
+    cairo_set_line_width(cairo, bar_width);
+    if (curve->error != NULL && curve->error[k] > 0.0) {
+        bar(cairo, (double[2]){at[0], edge(layout, curve, k, -1.0)},
+            (double[2]){at[0], edge(layout, curve, k, 1.0)});
+    }
+    if (curve->x_error != NULL && curve->x_error[k] > 0.0) {
+        double ends[2] = {curve->x[k] - curve->x_error[k],
+                          curve->x[k] + curve->x_error[k]};
+        ends[0] = fits(&layout->x, ends[0]) ? ends[0] : layout->x.low;
+        bar(cairo, (double[2]){gb_figure_axis_position(&layout->x, ends[0]), at[1]},
+            (double[2]){gb_figure_axis_position(&layout->x, ends[1]), at[1]});
+    }
+}
+
+static void draw_points(cairo_t *cairo, const struct gb_figure_layout *layout,
+                        const struct gb_figure_curve *curve)
+{
+    for (size_t k = 0; k < curve->count; k++) {
+        double at[2];
+        if (gb_figure_curve_position(layout, curve, k, at)) {
+            draw_bars(cairo, layout, curve, k, at);
+            gb_figure_marker_draw(cairo, curve, at);
+        }
+    }
+}
+
+void gb_figure_curve_draw(cairo_t *cairo, const struct gb_figure_layout *layout,
+                          const struct gb_figure_curve *curve)
+{
+    const bool line = curve->kind == GB_FIGURE_LINE || curve->kind == GB_FIGURE_FAINT;
+    if (line && curve->error != NULL) {
+        draw_band(cairo, layout, curve);
+    }
+    if (line || curve->kind == GB_FIGURE_BOTH) {
+        draw_line(cairo, layout, curve);
+    }
+    if (curve->kind == GB_FIGURE_LINE && gb_figure_marker_round(curve->style) > 0) {
+        draw_line_markers(cairo, layout, curve);
+    }
+    if (curve->kind == GB_FIGURE_STEPS) {
+        draw_steps(cairo, layout, curve);
+    }
+    if (curve->kind == GB_FIGURE_POINTS || curve->kind == GB_FIGURE_BOTH) {
+        draw_points(cairo, layout, curve);
+    }
+}
+
+void gb_figure_curve_sample(cairo_t *cairo, const struct gb_figure_curve *curve, double x,
+                            double y, double width)
+{
+    const double middle[2] = {x + 0.5 * width, y};
+    if (curve->kind == GB_FIGURE_STEPS) {
+        cairo_rectangle(cairo, x, y - 3.0, width, 6.0);
+        gb_figure_marker_set_colour(cairo, curve->style, 0.16);
+        cairo_fill_preserve(cairo);
+        gb_figure_marker_set_colour(cairo, curve->style, 1.0);
+        cairo_set_line_width(cairo, 0.6 * line_width);
+        cairo_stroke(cairo);
+        return;
+    }
+    if (curve->kind != GB_FIGURE_POINTS) {
+        set_pen(cairo, curve);
+        cairo_move_to(cairo, x, y);
+        cairo_line_to(cairo, x + width, y);
+        cairo_stroke(cairo);
+        cairo_set_dash(cairo, NULL, 0, 0.0);
+    }
+    if (curve->kind == GB_FIGURE_POINTS || curve->kind == GB_FIGURE_BOTH ||
+        (curve->kind == GB_FIGURE_LINE && gb_figure_marker_round(curve->style) > 0)) {
+        gb_figure_marker_draw(cairo, curve, middle);
+    }
+}

@@ -1,0 +1,255 @@
+#include "draw/figure/figure_labels.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "draw/figure/figure_curve.h"
+#include "draw/figure/figure_marker.h"
+#include "draw/figure/figure_occupancy.h"
+
+static const double size = 8.6;    /* font size, points */
+static const double pitch = 12.6;  /* of legend lines */
+static const double sample = 24.0; /* length of a sample */
+static const double pad = 5.0;
+
+enum { MAX_DIRECT = 6, ANCHORS = 48, SIDES = 8 };
+
+/* Whether a curve has a label and a visible point. */
+static bool has_label(const struct gb_figure_curve *curve)
+{
+    if (curve->label == NULL || curve->label[0] == '\0') {
+        return false;
+    }
+    for (size_t k = 0; k < curve->count; k++) {
+        if (isfinite(curve->x[k]) && isfinite(curve->y[k])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_line(const struct gb_figure_curve *curve)
+{
+    return curve->kind == GB_FIGURE_LINE || curve->kind == GB_FIGURE_BOTH;
+}
+
+/* Distance of a point from a rectangle. */
+static double point_distance(const double box[4], const double at[2])
+{
+    const double dx = fmax(fmax(box[0] - at[0], at[0] - box[2]), 0.0);
+    const double dy = fmax(fmax(box[1] - at[1], at[1] - box[3]), 0.0);
+    return hypot(dx, dy);
+}
+
+/* Distance of a rectangle from the line of a curve, sampled along its segments. */
+static double distance(const double box[4], const struct gb_figure_layout *layout,
+                       const struct gb_figure_curve *curve)
+{
+    double nearest = INFINITY;
+    double last[2];
+    bool have = false;
+    for (size_t k = 0; k < curve->count; k++) {
+        double at[2];
+        if (!gb_figure_curve_position(layout, curve, k, at)) {
+            have = false;
+            continue;
+        }
+        const double length = have ? hypot(at[0] - last[0], at[1] - last[1]) : 0.0;
+        const int parts = (int)fmin(ceil(length / 6.0) + 1.0, 200.0);
+        for (int j = have ? 0 : parts; j <= parts; j++) {
+            const double t = (double)j / parts;
+            const double p[2] = {have ? last[0] + t * (at[0] - last[0]) : at[0],
+                                 have ? last[1] + t * (at[1] - last[1]) : at[1]};
+            nearest = fmin(nearest, point_distance(box, p));
+        }
+        last[0] = at[0];
+        last[1] = at[1];
+        have = true;
+    }
+    return nearest;
+}
+
+/* A label must be clearly nearer to its own curve than to any other. */
+static bool is_clear(const struct gb_figure *figure,
+                     const struct gb_figure_layout *layout, size_t own,
+                     const double box[4])
+{
+    const double own_distance = distance(box, layout, &figure->curve[own]);
+    for (size_t i = 0; i < figure->count; i++) {
+        const struct gb_figure_curve *other = &figure->curve[i];
+        if (i != own && other->kind != GB_FIGURE_FAINT &&
+            distance(box, layout, other) < 2.0 * own_distance + 6.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Point of the line at a share of the frame's width from its right end. */
+static bool anchor(const struct gb_figure_layout *layout,
+                   const struct gb_figure_curve *curve, int number, double at[2])
+{
+    const double share = 1.0 - (double)number / ANCHORS;
+    const size_t k = (size_t)lround(share * (double)(curve->count - 1));
+    return gb_figure_curve_position(layout, curve, k, at);
+}
+
+/* Inside the frame and clear of the ticks. */
+static bool is_inside(const struct gb_figure_layout *layout, const double box[4])
+{
+    const double *f = layout->frame;
+    return box[0] > f[0] + pad && box[1] > f[1] + pad && box[2] < f[2] - pad &&
+           box[3] < f[3] - pad;
+}
+
+static bool find_position(const struct gb_figure *figure,
+                          const struct gb_figure_layout *layout,
+                          const struct gb_figure_occupancy *occupancy, size_t own,
+                          double wide, double high, double box[4])
+{
+    /* corner or edge of the label that faces the line: right of the line first */
+    static const double sides[SIDES][2] = {{0.0, 0.5}, {0.0, 0.0}, {1.0, 1.0},
+                                           {0.0, 1.0}, {1.0, 0.0}, {1.0, 0.5},
+                                           {0.5, 1.0}, {0.5, 0.0}};
+    for (int number = 0; number <= ANCHORS; number++) {
+        double at[2];
+        if (!anchor(layout, &figure->curve[own], number, at)) {
+            continue;
+        }
+        for (int side = 0; side < SIDES; side++) {
+            const double gap_x = 7.0 * (1.0 - 2.0 * sides[side][0]);
+            const double gap_y = 5.0 * (1.0 - 2.0 * sides[side][1]);
+            box[0] = at[0] + gap_x - sides[side][0] * wide;
+            box[1] = at[1] + gap_y - sides[side][1] * high;
+            box[2] = box[0] + wide;
+            box[3] = box[1] + high;
+            if (is_inside(layout, box) && gb_figure_occupancy_is_free(occupancy, box) &&
+                is_clear(figure, layout, own, box)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static bool set_direct_labels(struct gb_figure_labels *labels,
+                              const struct gb_figure *figure,
+                              const struct gb_figure_layout *layout,
+                              const struct gb_text *text,
+                              struct gb_figure_occupancy *occupancy)
+{
+    size_t lines = 0;
+    for (size_t i = 0; i < figure->count; i++) {
+        lines += has_label(&figure->curve[i]) && is_line(&figure->curve[i]);
+    }
+    if (lines < 1 || lines > MAX_DIRECT) {
+        return false;
+    }
+    for (size_t i = 0; i < figure->count; i++) {
+        const struct gb_figure_curve *curve = &figure->curve[i];
+        double wide = 0.0;
+        double high = 0.0;
+        if (!has_label(curve) || !is_line(curve)) {
+            continue;
+        }
+        gb_text_measure(text, curve->label, size, 0.0, &wide, &high);
+        if (!find_position(figure, layout, occupancy, i, wide, high, labels->at[i])) {
+            return false;
+        }
+        gb_figure_occupancy_add(occupancy, labels->at[i]);
+    }
+    return true;
+}
+
+static bool in_legend(const struct gb_figure_labels *labels,
+                      const struct gb_figure *figure, size_t i)
+{
+    return has_label(&figure->curve[i]) && labels->at[i][2] <= 0.0;
+}
+
+static void legend_size(const struct gb_figure_labels *labels,
+                        const struct gb_figure *figure, const struct gb_text *text,
+                        double *wide, double *high)
+{
+    *wide = 0.0;
+    *high = 0.0;
+    for (size_t i = 0; i < figure->count; i++) {
+        double w = 0.0;
+        double h = 0.0;
+        if (in_legend(labels, figure, i)) {
+            gb_text_measure(text, figure->curve[i].label, size, 0.0, &w, &h);
+            *wide = fmax(*wide, w + sample + 3.0 * pad);
+            *high += pitch;
+        }
+    }
+    *high += *high > 0.0 ? pad : 0.0;
+}
+
+void gb_figure_labels_arrange(struct gb_figure_labels *labels,
+                              const struct gb_figure *figure,
+                              const struct gb_figure_layout *layout,
+                              const struct gb_text *text)
+{
+    struct gb_figure_occupancy occupancy;
+    double wide = 0.0;
+    double high = 0.0;
+    *labels = (struct gb_figure_labels){
+        .at = g_malloc0_n(figure->count + 1, sizeof *labels->at)};
+    gb_figure_occupancy_init(&occupancy, figure, layout);
+    if (!set_direct_labels(labels, figure, layout, text, &occupancy)) {
+        memset(labels->at, 0, figure->count * sizeof *labels->at);
+        gb_figure_occupancy_finish(&occupancy);
+        gb_figure_occupancy_init(&occupancy, figure, layout);
+    }
+    legend_size(labels, figure, text, &wide, &high);
+    if (high > 0.0 && !gb_figure_occupancy_find(&occupancy, wide, high, labels->legend)) {
+        labels->outside = true;
+        labels->legend[2] = wide;
+        labels->legend[3] = high;
+    }
+    gb_figure_occupancy_finish(&occupancy);
+}
+
+static void draw_legend(const struct gb_figure_labels *labels,
+                        const struct gb_figure *figure, const struct gb_text *text)
+{
+    static const double align[2] = {0.0, 0.5};
+    double y = labels->legend[1] + 0.5 * (pitch + pad);
+    for (size_t i = 0; i < figure->count; i++) {
+        if (!in_legend(labels, figure, i)) {
+            continue;
+        }
+        const double x = labels->legend[0] + pad;
+        gb_figure_curve_sample(text->cairo, &figure->curve[i], x, y, sample);
+        cairo_set_source_rgb(text->cairo, 0.1, 0.1, 0.12);
+        gb_text_write(text, figure->curve[i].label, size, 0.0,
+                      (double[2]){x + sample + pad, y}, align, 0);
+        y += pitch;
+    }
+}
+
+void gb_figure_labels_draw(const struct gb_figure_labels *labels,
+                           const struct gb_figure *figure, const struct gb_text *text)
+{
+    static const double align[2] = {0.0, 0.0};
+    for (size_t i = 0; i < figure->count; i++) {
+        double rgb[3];
+        if (labels->at[i][2] <= 0.0) {
+            continue;
+        }
+        gb_figure_marker_colour(figure->curve[i].style, rgb);
+        /* darker than the line: thin letters look paler */
+        cairo_set_source_rgb(text->cairo, 0.72 * rgb[0], 0.72 * rgb[1], 0.72 * rgb[2]);
+        gb_text_write(text, figure->curve[i].label, size, 0.0, labels->at[i], align, 0);
+    }
+    if (labels->legend[2] > 0.0) {
+        draw_legend(labels, figure, text);
+    }
+}
+
+void gb_figure_labels_finish(struct gb_figure_labels *labels)
+{
+    g_free(labels->at);
+    *labels = (struct gb_figure_labels){0};
+}

@@ -1,0 +1,23 @@
+#ifndef GB_DRAW_FIGURE_FIGURE_LABELS_H
+#define GB_DRAW_FIGURE_FIGURE_LABELS_H
+
+#include "draw/figure/figure.h"
+#include "draw/image/text.h"
+
+/* Labels of the curves: beside the lines where all of them have space, a legend for the
+ * rest, in a free part of the frame or right of it. */
+struct gb_figure_labels {
+    double (*at)[4];  /* box of each label; right end 0: in the legend */
+    double legend[4]; /* all 0: none */
+    bool outside;     /* no space in the frame: legend[2], [3] are width and height */
+};
+
+void gb_figure_labels_arrange(struct gb_figure_labels *labels,
+                              const struct gb_figure *figure,
+                              const struct gb_figure_layout *layout,
+                              const struct gb_text *text);
+void gb_figure_labels_draw(const struct gb_figure_labels *labels,
+                           const struct gb_figure *figure, const struct gb_text *text);
+void gb_figure_labels_finish(struct gb_figure_labels *labels); /* zeroed is fine */
+
+#endif

@@ -1,0 +1,170 @@
+#include "draw/figure/figure_page.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "draw/figure/figure_occupancy.h"
+#include "draw/figure/figure_range.h"
+
+const double gb_figure_page_label_size = 10.0;
+const double gb_figure_page_tick_size = 8.8;
+const double gb_figure_page_title_size = 10.6;
+const double gb_figure_page_caption_size = 8.0;
+const double gb_figure_page_gap = 4.0;
+
+static const double inset_tick_size = 7.4;
+static const double margin = 12.0;
+
+double gb_figure_page_text_width(const struct gb_figure_page *page)
+{
+    return page->width - 2.0 * margin;
+}
+
+static void fit_axes(struct gb_figure_page *page)
+{
+    const struct gb_figure *figure = page->figure;
+    struct gb_figure_layout *layout = &page->layout;
+    for (int k = 0; k < 2; k++) {
+        const struct gb_figure_axis *axis = k == 0 ? &figure->x : &figure->y;
+        const bool exact[2] = {isfinite(axis->low), isfinite(axis->high)};
+        const int wanted = (int)fmax(k == 0 ? (page->width - page->legend_width) / 62.0
+                                            : page->height / 48.0,
+                                     2.0);
+        double low = 0.0;
+        double high = 1.0;
+        gb_figure_range_find(figure, k == 0 ? GB_FIGURE_RANGE_X : GB_FIGURE_RANGE_Y, &low,
+                             &high);
+        gb_figure_axis_fit(k == 0 ? &layout->x : &layout->y, axis->log, low, high, wanted,
+                           exact);
+    }
+}
+
+static double widest_label(const struct gb_figure_page *page)
+{
+    double max = 0.0;
+    for (int k = 0; k < page->layout.y.ticks; k++) {
+        double wide = 0.0;
+        double high = 0.0;
+        gb_text_measure(&page->text, page->layout.y.label[k], page->tick_size, 0.0, &wide,
+                        &high);
+        max = fmax(max, wide);
+    }
+    return max;
+}
+
+static double text_height(const struct gb_figure_page *page, const char *markup,
+                          double size)
+{
+    double wide = 0.0;
+    double high = 0.0;
+    if (markup != NULL && markup[0] != '\0') {
+        gb_text_measure(&page->text, markup, size, gb_figure_page_text_width(page), &wide,
+                        &high);
+    }
+    return high;
+}
+
+/* The axes run along the frame. */
+static void set_axis_ends(struct gb_figure_layout *layout)
+{
+    layout->x.from = layout->frame[0];
+    layout->x.to = layout->frame[2];
+    layout->y.from = layout->frame[3];
+    layout->y.to = layout->frame[1];
+}
+
+static void set_frame(struct gb_figure_page *page)
+{
+    const struct gb_figure *figure = page->figure;
+    struct gb_figure_layout *layout = &page->layout;
+    const double title = text_height(page, figure->title, gb_figure_page_title_size);
+    const double caption =
+        text_height(page, figure->caption, gb_figure_page_caption_size);
+    double *frame = layout->frame;
+    frame[0] = 10.0 + 1.5 * gb_figure_page_label_size + widest_label(page) +
+               2.0 * gb_figure_page_gap;
+    frame[1] = 8.0 + (title > 0.0 ? title + 5.0 : 0.0);
+    frame[2] = page->width - 14.0 - page->legend_width;
+    frame[3] = page->height - 6.0 - (caption > 0.0 ? caption + 6.0 : 0.0) -
+               1.7 * gb_figure_page_label_size - 1.5 * gb_figure_page_tick_size -
+               gb_figure_page_gap;
+    frame[2] = fmax(frame[2], frame[0] + 10.0);
+    frame[3] = fmax(frame[3], frame[1] + 10.0);
+    set_axis_ends(layout);
+}
+
+/* Finds the largest free box for the inset, from these fractions of the frame. */
+static void find_inset(struct gb_figure_page *page)
+{
+    static const double fractions[] = {0.5, 0.46, 0.42, 0.38, 0.34};
+    const double *f = page->layout.frame;
+    struct gb_figure_occupancy occupancy;
+    if (!(page->figure->inset[0] < page->figure->inset[1])) {
+        return;
+    }
+    gb_figure_occupancy_init(&occupancy, page->figure, &page->layout);
+    for (size_t k = 0; k < G_N_ELEMENTS(fractions); k++) {
+        if (gb_figure_occupancy_find(&occupancy, fractions[k] * (f[2] - f[0]),
+                                     fractions[k] * (f[3] - f[1]), page->layout.inset)) {
+            break;
+        }
+    }
+    gb_figure_occupancy_finish(&occupancy);
+}
+
+/* Places labels and legend; a legend without space in the frame goes to its right, and the
+ * frame shrinks. */
+static void set_labels(struct gb_figure_page *page)
+{
+    gb_figure_labels_arrange(&page->labels, page->figure, &page->layout, &page->text);
+    if (!page->labels.outside) {
+        return;
+    }
+    page->legend_width =
+        fmin(page->labels.legend[2] + gb_figure_page_gap, 0.5 * page->width);
+    fit_axes(page);
+    set_frame(page);
+    memset(page->layout.inset, 0, sizeof page->layout.inset);
+    find_inset(page);
+    const double wide = page->labels.legend[2];
+    const double high = page->labels.legend[3];
+    gb_figure_labels_finish(&page->labels);
+    gb_figure_labels_arrange(&page->labels, page->figure, &page->layout, &page->text);
+    if (page->labels.outside) {
+        const double left = page->layout.frame[2] + gb_figure_page_gap;
+        const double top = page->layout.frame[1];
+        const double box[4] = {left, top, left + wide, top + high};
+        memcpy(page->labels.legend, box, sizeof box);
+    }
+}
+
+void gb_figure_page_arrange(struct gb_figure_page *page)
+{
+    fit_axes(page);
+    set_frame(page);
+    find_inset(page);
+    set_labels(page);
+}
+
+void gb_figure_page_inset(const struct gb_figure_page *page, struct gb_figure *part,
+                          struct gb_figure_page *inset)
+{
+    const double *box = page->layout.inset;
+    *part = *page->figure;
+    part->x.low = page->figure->inset[0];
+    part->x.high = page->figure->inset[1];
+    gb_figure_range_inset(page->figure, &part->y.low, &part->y.high);
+    *inset = *page;
+    inset->figure = part;
+    inset->width = 1.15 * (box[2] - box[0]); /* for the number of ticks */
+    inset->height = 1.3 * (box[3] - box[1]);
+    inset->tick_size = inset_tick_size;
+    fit_axes(inset);
+    double *frame = inset->layout.frame;
+    frame[0] = box[0] + widest_label(inset) + gb_figure_page_gap;
+    frame[1] = box[1];
+    frame[2] = box[2] - inset_tick_size; /* half of the last tick label */
+    frame[3] = box[3] - 1.5 * inset_tick_size - gb_figure_page_gap;
+    set_axis_ends(&inset->layout);
+}

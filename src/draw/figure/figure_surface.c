@@ -1,0 +1,48 @@
+#include "draw/figure/figure_surface.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "draw/figure/figure_draw.h"
+
+/* Minimum size of a page in points; a page has the shape of the image. */
+static const double min_width = 420.0;
+static const double min_height = 300.0;
+
+double gb_figure_surface_pixels_per_point(int width, int height)
+{
+    return fmin(width / min_width, height / min_height);
+}
+
+bool gb_figure_surface_draw(cairo_surface_t *surface, const struct gb_figure *figure,
+                            const double size[2], double unit,
+                            struct gb_figure_layout *layout, struct gb_error *err)
+{
+    cairo_t *cairo = cairo_create(surface);
+    struct gb_figure_page page = {.figure = figure,
+                                  .width = size[0],
+                                  .height = size[1],
+                                  .tick_size = gb_figure_page_tick_size};
+    bool good = gb_text_init(&page.text, cairo, err);
+    if (good) {
+        cairo_scale(cairo, unit, unit);
+        cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
+        cairo_paint(cairo);
+        gb_figure_page_arrange(&page);
+        gb_figure_draw_page(&page);
+        page.layout.unit = unit;
+        memcpy(page.layout.legend, page.labels.legend, sizeof page.layout.legend);
+        page.layout.direct = page.labels.at[0][2] > 0.0;
+        *layout = page.layout;
+    }
+    const cairo_status_t status = cairo_status(cairo);
+    gb_figure_labels_finish(&page.labels);
+    gb_text_finish(&page.text);
+    cairo_destroy(cairo);
+    if (good && status != CAIRO_STATUS_SUCCESS) {
+        good = gb_error_set(
+            err, status == CAIRO_STATUS_NO_MEMORY ? GB_ERR_MEMORY : GB_ERR_MACHINE,
+            "the figure cannot be drawn: %s", cairo_status_to_string(status));
+    }
+    return good;
+}

@@ -1,0 +1,19 @@
+#ifndef GB_DRAW_GL_SHADERS_H
+#define GB_DRAW_GL_SHADERS_H
+
+/* GLSL of the pictures.  A packing is drawn in two passes: who is seen where (index and
+ * depth of spheres, rods, facets and box edges, once from the eye and once from the
+ * light), then shading of every sample from that, then the samples become pixels. */
+struct gb_shaders_text {
+    const char *vertex, *fragment;
+    const char *more; /* of the fragment, which may be long */
+};
+
+extern const struct gb_shaders_text gb_shaders_sphere;
+extern const struct gb_shaders_text gb_shaders_rod;
+extern const struct gb_shaders_text gb_shaders_facet;
+extern const struct gb_shaders_text gb_shaders_edge;
+extern const struct gb_shaders_text gb_shaders_shade;
+extern const struct gb_shaders_text gb_shaders_resolve;
+
+#endif

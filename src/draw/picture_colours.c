@@ -1,0 +1,272 @@
+#include "draw/picture_colours.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "base/vec.h"
+#include "draw/image/palette.h"
+#include "draw/particle_stress.h"
+#include "pack/cell/cell.h"
+
+/* The scale spans these quantiles: a few extreme values would use up its colours. */
+static const double low_quantile = 0.02;
+static const double high_quantile = 0.98;
+
+/* Diameters below this are shown in nm, others in um; m. */
+static const double nanometre_below = 0.5e-6;
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+enum scale_start { FROM_QUANTILE, FROM_ZERO };
+
+/* Ends of the scale from the values, or those of the request. */
+static bool fit_scale(struct gb_picture_style_scale *scale, const double *value,
+                      size_t count, enum scale_start start,
+                      const struct gb_picture_style_request *request,
+                      struct gb_error *err)
+{
+    double *sorted = gb_alloc_array(count, sizeof *sorted, err);
+    if (sorted == NULL) {
+        return false;
+    }
+    memcpy(sorted, value, count * sizeof *sorted);
+    qsort(sorted, count, sizeof *sorted, compare);
+    const double last = (double)(count - 1);
+    scale->low = start == FROM_ZERO ? 0.0 : sorted[(size_t)(low_quantile * last)];
+    scale->high = sorted[(size_t)ceil(high_quantile * last)];
+    if (request->high > request->low) {
+        scale->low = request->low;
+        scale->high = request->high;
+    }
+    if (!(scale->high > scale->low)) {
+        scale->high = scale->low + fmax(fabs(scale->low) * 1e-3, 1e-12);
+    }
+    scale->below = sorted[0] < scale->low;
+    scale->above = sorted[count - 1] > scale->high;
+    gb_alloc_free(sorted);
+    return true;
+}
+
+static bool colour_values(struct gb_picture_style *style, const double *value,
+                          enum scale_start start,
+                          const struct gb_picture_style_request *request,
+                          struct gb_error *err)
+{
+    struct gb_picture_style_scale *scale = &style->scale;
+    if (!fit_scale(scale, value, style->count, start, request, err)) {
+        return false;
+    }
+    for (size_t i = 0; i < style->count; i++) {
+        gb_palette_field((value[i] - scale->low) / (scale->high - scale->low),
+                         &style->colour[3 * i]);
+    }
+    return true;
+}
+
+static void colour_counts(struct gb_picture_style *style, const int32_t *number,
+                          const char *title)
+{
+    style->scale.title = title;
+    style->scale.whole = true;
+    style->scale.high = GB_PALETTE_CONTACTS;
+    for (size_t i = 0; i < style->count; i++) {
+        gb_palette_contacts(number[i], &style->colour[3 * i]);
+        style->scale.above = style->scale.above || number[i] > GB_PALETTE_CONTACTS;
+    }
+}
+
+static bool colour_coordination(struct gb_picture_style *style,
+                                const struct gb_state *state,
+                                const struct gb_picture_style_request *request,
+                                struct gb_error *err)
+{
+    (void)request;
+    (void)err;
+    colour_counts(style, state->contacts, "coordination number");
+    return true;
+}
+
+static bool colour_bridges(struct gb_picture_style *style, const struct gb_state *state,
+                           const struct gb_picture_style_request *request,
+                           struct gb_error *err)
+{
+    (void)request;
+    int32_t *number = gb_alloc_array(style->count, sizeof *number, err);
+    if (number == NULL) {
+        return false;
+    }
+    for (int64_t k = 0; k < state->pair_count; k++) {
+        if (state->pair_bridged[k] != 0) {
+            number[state->pair[2 * k]]++;
+            number[state->pair[2 * k + 1]]++;
+        }
+    }
+    colour_counts(style, number, "bridges per particle");
+    gb_alloc_free(number);
+    return true;
+}
+
+static bool colour_pressure(struct gb_picture_style *style, const struct gb_state *state,
+                            const struct gb_picture_style_request *request,
+                            struct gb_error *err)
+{
+    double *value = gb_alloc_array(style->count, sizeof *value, err);
+    if (value == NULL) {
+        return false;
+    }
+    gb_particle_stress_mean(state, value);
+    for (size_t i = 0; i < style->count; i++) {
+        value[i] *= 1e-6;
+    }
+    style->scale.title = "mean particle stress (MPa)";
+    const bool good = colour_values(style, value, FROM_QUANTILE, request, err);
+    gb_alloc_free(value);
+    return good;
+}
+
+/* Unit of lengths of a state. */
+static bool uses_nanometres(const struct gb_state *state)
+{
+    return state->metre_per_length < nanometre_below;
+}
+
+static double units_per_metre(const struct gb_state *state)
+{
+    return uses_nanometres(state) ? 1e9 : 1e6;
+}
+
+static bool colour_size(struct gb_picture_style *style, const struct gb_state *state,
+                        const struct gb_picture_style_request *request,
+                        struct gb_error *err)
+{
+    double *value = gb_alloc_array(style->count, sizeof *value, err);
+    if (value == NULL) {
+        return false;
+    }
+    for (size_t i = 0; i < style->count; i++) {
+        value[i] =
+            units_per_metre(state) * (2.0 * state->radius[i] * state->metre_per_length);
+    }
+    style->scale.title =
+        uses_nanometres(state) ? "diameter (nm)" : "diameter (\xce\xbcm)";
+    const bool good = colour_values(style, value, FROM_QUANTILE, request, err);
+    gb_alloc_free(value);
+    return good;
+}
+
+static bool check_same_run(const struct gb_state *state, const struct gb_state *since,
+                           struct gb_error *err)
+{
+    if (since == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--color displacement needs --since DIR or POINT");
+    }
+    return (since->count == state->count && since->dimension == state->dimension &&
+            since->seed == state->seed) ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "--since: a state of %lld particles of seed %llu; accepted an "
+                        "earlier state of the same run",
+                        (long long)since->count, (unsigned long long)since->seed);
+}
+
+/* Displacement since a state without the strain of the cell, m. */
+static double displacement(const struct gb_cell *cell, const struct gb_state *state,
+                           const struct gb_state *since, size_t i)
+{
+    double u[3];
+    for (size_t k = 0; k < 3; k++) {
+        u[k] = state->position[3 * i + k] -
+               since->position[3 * i + k] * state->cell[k] / since->cell[k];
+    }
+    gb_cell_nearest(cell, u);
+    return gb_vec_length(u) * state->metre_per_length;
+}
+
+static bool colour_displacement(struct gb_picture_style *style,
+                                const struct gb_state *state,
+                                const struct gb_picture_style_request *request,
+                                struct gb_error *err)
+{
+    struct gb_cell cell;
+    if (!check_same_run(state, request->since, err)) {
+        return false;
+    }
+    double *value = gb_alloc_array(style->count, sizeof *value, err);
+    if (value == NULL) {
+        return false;
+    }
+    gb_cell_init(&cell, state->dimension, state->cell);
+    for (size_t i = 0; i < style->count; i++) {
+        value[i] = units_per_metre(state) * displacement(&cell, state, request->since, i);
+    }
+    style->scale.title =
+        uses_nanometres(state) ? "displacement (nm)" : "displacement (\xce\xbcm)";
+    const bool good = colour_values(style, value, FROM_ZERO, request, err);
+    gb_alloc_free(value);
+    return good;
+}
+
+static int by_sign(const struct gb_state *state, int64_t pair)
+{
+    return state->pair_normal[pair] >= 0.0 ? 0 : 1;
+}
+
+static int by_bridge(const struct gb_state *state, int64_t pair)
+{
+    return state->pair_bridged[pair] != 0 ? 0 : 1;
+}
+
+static const struct gb_picture_colours_row table[] = {
+    {"coordination", "contacts per particle", GB_PICTURE_COLOURS_PARTICLES,
+     .particles = colour_coordination},
+    {"pressure", "mean particle stress", GB_PICTURE_COLOURS_PARTICLES,
+     .particles = colour_pressure},
+    {"bridges", "bridges per particle", GB_PICTURE_COLOURS_PARTICLES,
+     .particles = colour_bridges},
+    {"size", "particle diameter", GB_PICTURE_COLOURS_PARTICLES, .particles = colour_size},
+    {"displacement", "displacement since --since without the strain of the cell",
+     GB_PICTURE_COLOURS_PARTICLES, .particles = colour_displacement},
+    {"sign", "compressive or tensile force", GB_PICTURE_COLOURS_FORCES,
+     .legend = {{"compressive", {38, 96, 160}}, {"tensile", {222, 104, 24}}},
+     .force_class = by_sign},
+    {"bridged", "contact with or without a bridge", GB_PICTURE_COLOURS_FORCES,
+     .legend = {{"bridged contact", {150, 78, 132}},
+                {"unbridged contact", {86, 160, 211}}},
+     .force_class = by_bridge},
+    {0},
+};
+
+const struct gb_picture_colours_row *gb_picture_colours_table(void)
+{
+    return table;
+}
+
+const struct gb_picture_colours_row *gb_picture_colours_find(const char *name)
+{
+    for (const struct gb_picture_colours_row *row = table; row->name != NULL; row++) {
+        if (strcmp(row->name, name) == 0) {
+            return row;
+        }
+    }
+    return NULL;
+}
+
+char *gb_picture_colours_names(enum gb_picture_colours_kind kind)
+{
+    GString *names = g_string_new(NULL);
+    for (const struct gb_picture_colours_row *row = table; row->name != NULL; row++) {
+        if (row->kind == kind) {
+            g_string_append_printf(names, "%s%s", names->len > 0 ? ", " : "", row->name);
+        }
+    }
+    return g_string_free(names, FALSE);
+}

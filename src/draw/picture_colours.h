@@ -1,0 +1,31 @@
+#ifndef GB_DRAW_PICTURE_COLOURS_H
+#define GB_DRAW_PICTURE_COLOURS_H
+
+#include "draw/picture_style.h"
+
+/* The table of quantities that colour a picture (`--color`).  A quantity is a function and a
+ * row in picture_colours.c; parser, messages and help follow from the row. */
+
+enum gb_picture_colours_kind { GB_PICTURE_COLOURS_PARTICLES, GB_PICTURE_COLOURS_FORCES };
+
+struct gb_picture_colours_row {
+    const char *name;
+    const char *doc;
+    enum gb_picture_colours_kind kind;
+    /* Of particles: fills colours and scale. */
+    bool (*particles)(struct gb_picture_style *style, const struct gb_state *state,
+                      const struct gb_picture_style_request *request,
+                      struct gb_error *err);
+    /* Of forces: two classes, and the class of a contact (0 or 1). */
+    struct gb_picture_style_legend legend[2];
+    int (*force_class)(const struct gb_state *state, int64_t pair);
+};
+
+/* The last row has no name. */
+const struct gb_picture_colours_row *gb_picture_colours_table(void);
+/* NULL: no quantity of this name. */
+const struct gb_picture_colours_row *gb_picture_colours_find(const char *name);
+/* Names of one kind, separated by commas; g_free. */
+char *gb_picture_colours_names(enum gb_picture_colours_kind kind);
+
+#endif

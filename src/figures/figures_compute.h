@@ -1,0 +1,32 @@
+#ifndef GB_FIGURES_FIGURES_COMPUTE_H
+#define GB_FIGURES_FIGURES_COMPUTE_H
+
+#include "figures/figures.h"
+
+/* The functions of the table of figures, one line each; each is in the file of its name. */
+gb_figures_compute gb_figures_bridge_strength;
+gb_figures_compute gb_figures_chart;
+gb_figures_compute gb_figures_chart_error;
+gb_figures_compute gb_figures_contact;
+gb_figures_compute gb_figures_continuum;
+gb_figures_compute gb_figures_coordination;
+gb_figures_compute gb_figures_decay;
+gb_figures_compute gb_figures_densification;
+gb_figures_compute gb_figures_die_density;
+gb_figures_compute gb_figures_die_height;
+gb_figures_compute gb_figures_difference;
+gb_figures_compute gb_figures_force_angle;
+gb_figures_compute gb_figures_lateral;
+gb_figures_compute gb_figures_pair_force;
+gb_figures_compute gb_figures_pair_step;
+gb_figures_compute gb_figures_rate;
+gb_figures_compute gb_figures_rdf;
+gb_figures_compute gb_figures_relaxation;
+gb_figures_compute gb_figures_size_effect;
+gb_figures_compute gb_figures_sizes;
+gb_figures_compute gb_figures_sizes_volume;
+gb_figures_compute gb_figures_sweep;
+gb_figures_compute gb_figures_time;
+gb_figures_compute gb_figures_unloading;
+
+#endif

@@ -1,0 +1,27 @@
+#ifndef GB_FIGURES_REPORT_REPORT_TABLE_H
+#define GB_FIGURES_REPORT_REPORT_TABLE_H
+
+#include "figures/report/report.h"
+
+/* A table of the page and of a CSV file. */
+enum { GB_REPORT_TABLE_COLUMNS = 12 };
+
+struct gb_report_table {
+    const char *heads[GB_REPORT_TABLE_COLUMNS];
+    guint columns;
+    GPtrArray *cells; /* row by row */
+};
+
+/* heads: NULL at the end, not copied. */
+void gb_report_table_begin(struct gb_report_table *table, const char *const *heads);
+/* Appends a cell. */
+void gb_report_table_put(struct gb_report_table *table, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* "mean ± error"; without error when it is NaN, empty when the mean is. */
+void gb_report_table_put_mean(struct gb_report_table *table, double mean, double error,
+                              int decimals);
+/* Adds it to the page and to tables/NAME.csv; frees it. */
+bool gb_report_table_end(struct gb_report *report, struct gb_report_table *table,
+                         const char *name, const char *caption, struct gb_error *err);
+
+#endif

@@ -1,0 +1,81 @@
+#include "figures/figures_compute.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "figures/figures_label.h"
+#include "figures/runs/relaxation_curves.h"
+#include "figures/runs/runs_check.h"
+#include "measure/fit/fit.h"
+
+/* Points of a curve. */
+enum { CURVE_POINTS = 600 };
+
+/* Columns of t and p, thinned evenly in log t, and of the fit. */
+static void fill_columns(const double *t, const double *p, size_t count,
+                         const struct gb_fit_decay *fit, double *const column[3])
+{
+    size_t filled = 0;
+    double next = 0.0;
+    for (size_t k = 0; k < count && filled < CURVE_POINTS; k++) {
+        if (t[k] > 0.0 && t[k] >= next) {
+            next = t[k] * pow(t[count - 1] / fmax(t[k], 1e-300),
+                              1.0 / (double)(CURVE_POINTS - filled));
+            column[0][filled] = t[k];
+            column[1][filled] = p[k];
+            column[2][filled++] = fit != NULL ? gb_fit_decay_at(fit, t[k]) : NAN;
+        }
+    }
+}
+
+/* The mean of a group and its fit, where it converges. */
+static bool draw_group(struct gb_series *series, const struct gb_runset *set,
+                       size_t group, struct gb_error *err)
+{
+    double *t = NULL;
+    double *p = NULL;
+    size_t count = 0;
+    struct gb_relaxation_curves curves;
+    struct gb_fit_decay fit;
+    if (!gb_relaxation_curves_read(&curves, set, group, err)) {
+        return false;
+    }
+    double *const column[3] = {gb_series_column(series, "t_%zu_ns", group + 1),
+                               gb_series_column(series, "p_%zu_MPa", group + 1),
+                               gb_series_column(series, "fit_%zu_MPa", group + 1)};
+    const bool good =
+        gb_relaxation_curves_mean(curves.curve, curves.count, &t, &p, &count, err);
+    if (good) {
+        const bool fitted = gb_fit_decay(&fit, t, p, count, NULL);
+        fill_columns(t, p, count, fitted ? &fit : NULL, column);
+    }
+    gb_alloc_free(t);
+    gb_alloc_free(p);
+    gb_relaxation_curves_finish(&curves);
+    char *label = gb_figures_label(set, group, NULL);
+    gb_series_draw(series, column[0], column[1], NULL, GB_FIGURE_LINE, (int)group, label);
+    gb_series_draw(series, column[0], column[2], NULL, GB_FIGURE_FAINT, 3, NULL);
+    g_free(label);
+    return good;
+}
+
+/* P2 (4). */
+bool gb_figures_decay(struct gb_series *series, const struct gb_figures_input *input,
+                      struct gb_error *err)
+{
+    const struct gb_runset *set = input->set;
+    if (!gb_runs_check_dynamic(set, "decay", err)) {
+        return false;
+    }
+    gb_series_init(series, CURVE_POINTS);
+    const size_t max = gb_figures_label_groups(series, set);
+    if (max > 1) {
+        gb_series_caption(series, "Means of %zu runs.", max);
+    }
+    gb_series_caption(series, "Thin black: fit of P2 (4).");
+    bool good = true;
+    for (size_t g = 0; g < set->groups && good; g++) {
+        good = draw_group(series, set, g, err);
+    }
+    return good;
+}

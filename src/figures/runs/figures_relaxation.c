@@ -1,0 +1,179 @@
+#include "figures/figures_compute.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "figures/runs/relaxation_curves.h"
+#include "figures/runs/runs_check.h"
+#include "measure/fit/fit.h"
+
+/* Fit of the mean curve of a group. */
+struct group_fit {
+    struct gb_fit_decay decay;
+    double fall_error, efold_error;
+};
+
+static bool fit_mean(struct gb_fit_decay *fit, const struct gb_average_curve *curves,
+                     size_t members, struct gb_error *err)
+{
+    double *t = NULL;
+    double *p = NULL;
+    size_t count = 0;
+    const bool good = gb_relaxation_curves_mean(curves, members, &t, &p, &count, err) &&
+                      gb_fit_decay(fit, t, p, count, err);
+    gb_alloc_free(t);
+    gb_alloc_free(p);
+    return good;
+}
+
+/* Standard errors by the jackknife: fits without one run each; a fit that fails is left
+ * out. */
+static void jackknife(struct group_fit *fit, struct gb_average_curve *curves,
+                      size_t members)
+{
+    double *fall = g_new(double, 2 * members);
+    double *efold = fall + members;
+    for (size_t i = 0; i < members; i++) {
+        struct gb_fit_decay without;
+        struct gb_error ignored = {0};
+        const struct gb_average_curve removed = curves[i];
+        curves[i] = curves[members - 1]; /* the order does not affect a mean */
+        const bool good =
+            members > 1 && fit_mean(&without, curves, members - 1, &ignored);
+        curves[i] = removed;
+        fall[i] = good ? gb_fit_decay_fall(&without) : (double)NAN;
+        efold[i] = good ? gb_fit_decay_efold(&without) : (double)NAN;
+    }
+    fit->fall_error = gb_average_jackknife(fall, members);
+    fit->efold_error = gb_average_jackknife(efold, members);
+    g_free(fall);
+}
+
+static bool fit_group(struct group_fit *fit, const struct gb_runset *set, size_t group,
+                      struct gb_error *err)
+{
+    struct gb_relaxation_curves curves;
+    struct gb_error cause = {0};
+    bool good = gb_relaxation_curves_read(&curves, set, group, err);
+    if (good && !fit_mean(&fit->decay, curves.curve, curves.count, &cause)) {
+        good = gb_error_set(err, cause.code, "%.300s: relaxation: %s",
+                            gb_runset_first(set, group)->directory, cause.text);
+    }
+    if (good) {
+        jackknife(fit, curves.curve, curves.count);
+    }
+    gb_relaxation_curves_finish(&curves);
+    return good;
+}
+
+/* Columns of one parameter: value and interval. */
+static void value_columns(struct gb_series *series, const char *name, const char *unit,
+                          const struct group_fit *fits, size_t offset)
+{
+    double *value = gb_series_column(series, "%s_%s", name, unit);
+    double *low = gb_series_column(series, "%s_low_%s", name, unit);
+    double *high = gb_series_column(series, "%s_high_%s", name, unit);
+    for (size_t g = 0; g < series->rows; g++) {
+        const struct gb_fit_value *parameter =
+            (const struct gb_fit_value *)(const void *)((const char *)&fits[g].decay +
+                                                        offset);
+        value[g] = parameter->value;
+        low[g] = parameter->low;
+        high[g] = parameter->high;
+    }
+}
+
+static void fall_columns(struct gb_series *series, const struct group_fit *fits)
+{
+    double *const columns[] = {
+        gb_series_column(series, "scatter_MPa"), gb_series_column(series, "fall_MPa"),
+        gb_series_column(series, "fall_se_MPa"), gb_series_column(series, "efold_ns"),
+        gb_series_column(series, "efold_se_ns")};
+    for (size_t g = 0; g < series->rows; g++) {
+        const double row[] = {fits[g].decay.scatter, gb_fit_decay_fall(&fits[g].decay),
+                              fits[g].fall_error, gb_fit_decay_efold(&fits[g].decay),
+                              fits[g].efold_error};
+        for (size_t k = 0; k < G_N_ELEMENTS(row); k++) {
+            columns[k][g] = row[k];
+        }
+    }
+}
+
+/* The two times against the rate; bars: half of the 95 % interval. */
+static void draw_times(struct gb_series *series, const double *rate,
+                       const struct group_fit *fits)
+{
+    static const char *const names[] = {"fast, <i>\xcf\x84</i><sub>1</sub>",
+                                        "slow, <i>\xcf\x84</i><sub>2</sub>"};
+    for (int k = 0; k < GB_FIT_TERMS; k++) {
+        double *time = gb_series_column(series, "drawn_%d_ns", k + 1);
+        double *half = gb_series_column(series, "half_%d_ns", k + 1);
+        for (size_t g = 0; g < series->rows; g++) {
+            time[g] = fits[g].decay.tau[k].value;
+            half[g] = 0.5 * (fits[g].decay.tau[k].high - fits[g].decay.tau[k].low);
+        }
+        gb_series_draw(series, rate, time, half, GB_FIGURE_POINTS, k, names[k]);
+    }
+    gb_series_caption(series, "Times of the two exponentials of P2 (4); bars: 95 %% "
+                              "confidence intervals.");
+}
+
+static void relaxation_columns(struct gb_series *series, const struct gb_runset *set,
+                               const struct group_fit *fits)
+{
+    static const char *const reasons[] = {
+        "the number of P2 (4)", "no more by the F test",
+        "the interval of one more contains zero or is unbounded",
+        "the fit of one more did not converge"};
+    double *group = gb_series_column(series, "group");
+    double *rate = gb_series_column(series, "rate_per_s");
+    double *runs = gb_series_column(series, "runs");
+    double *terms = gb_series_column(series, "exponentials");
+    for (size_t g = 0; g < set->groups; g++) {
+        char *label = gb_runset_label(set, g);
+        group[g] = (double)(g + 1);
+        rate[g] = gb_runset_first(set, g)->params.rate_per_s;
+        runs[g] = (double)gb_runset_members(set, g);
+        terms[g] = fits[g].decay.terms;
+        gb_series_note(series, "group %zu: %s%s%d exponentials, %s", g + 1, label,
+                       *label ? "; " : "", fits[g].decay.terms,
+                       reasons[fits[g].decay.reason]);
+        g_free(label);
+    }
+    value_columns(series, "p0", "MPa", fits, offsetof(struct gb_fit_decay, p0));
+    value_columns(series, "p1", "MPa", fits, offsetof(struct gb_fit_decay, amplitude[0]));
+    value_columns(series, "tau1", "ns", fits, offsetof(struct gb_fit_decay, tau[0]));
+    value_columns(series, "p2", "MPa", fits, offsetof(struct gb_fit_decay, amplitude[1]));
+    value_columns(series, "tau2", "ns", fits, offsetof(struct gb_fit_decay, tau[1]));
+    fall_columns(series, fits);
+    draw_times(series, rate, fits);
+}
+
+bool gb_figures_relaxation(struct gb_series *series, const struct gb_figures_input *input,
+                           struct gb_error *err)
+{
+    const struct gb_runset *set = input->set;
+    if (!gb_runs_check_dynamic(set, "relaxation", err)) {
+        return false;
+    }
+    struct group_fit *fits = g_new0(struct group_fit, set->groups);
+    bool good = true;
+    for (size_t g = 0; g < set->groups && good; g++) {
+        good = fit_group(&fits[g], set, g, err);
+    }
+    if (good) {
+        gb_series_init(series, set->groups);
+        gb_series_note(series,
+                       "p(t) = p0 + p1 exp(-t/tau1) + p2 exp(-t/tau2), P2 (4), fitted to "
+                       "the mean of the runs; t from the end of compression");
+        gb_series_note(series,
+                       "intervals are at 95 %%, for as many points as the correlation of "
+                       "the residuals leaves independent");
+        gb_series_note(series,
+                       "fall: total decrease of p; efold: time after which 1/e of it "
+                       "remains; standard errors by the jackknife over the runs");
+        relaxation_columns(series, set, fits);
+    }
+    g_free(fits);
+    return good;
+}

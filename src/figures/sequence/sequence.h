@@ -1,0 +1,18 @@
+#ifndef GB_FIGURES_SEQUENCE_SEQUENCE_H
+#define GB_FIGURES_SEQUENCE_SEQUENCE_H
+
+#include "draw/packing_image.h"
+
+/* Images of all kept states of a run in the order of the run, with one camera and one scale
+ * of colours and forces. */
+struct gb_sequence {
+    const char *directory;
+    const char *output; /* x.png: animated; x-%03d.png: one file per frame; a video */
+    double frames_per_s;
+    bool force; /* replaces existing files */
+};
+
+bool gb_sequence_write(const struct gb_sequence *sequence,
+                       struct gb_packing_image *packing_image, struct gb_error *err);
+
+#endif

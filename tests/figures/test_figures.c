@@ -1,0 +1,458 @@
+/* The figure table, the formats and the report on small run directories made here. */
+#include "figures/figures.h"
+
+#include <glib/gstdio.h>
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <string.h>
+
+#include "figures/output_formats.h"
+#include "figures/plotting.h"
+#include "figures/report/report.h"
+#include "io/preset.h"
+#include "io/state.h"
+
+static char *folder;
+
+static char *path_in(const char *directory, const char *file)
+{
+    return g_build_filename(folder, directory, file, NULL);
+}
+
+static void write_text(const char *directory, const char *file, const char *text)
+{
+    char *path = path_in(directory, NULL);
+    char *full = path_in(directory, file);
+    g_mkdir_with_parents(path, 0700);
+    g_assert_true(g_file_set_contents(full, text, -1, NULL));
+    g_free(full);
+    g_free(path);
+}
+
+/* Sixty-four particles of two sizes on a grid, neighbours along z in contact. */
+static void write_state(const char *directory, uint64_t seed)
+{
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    char *path = path_in(directory, "state.h5");
+    g_assert_true(gb_state_create(&state, 64, 64, &err));
+    state->dimension = 3;
+    state->seed = seed;
+    state->metre_per_length = 1e-8;
+    state->pascal_per_stress = 1e9;
+    state->point.density = 0.6;
+    state->point.p_pa = 1e8;
+    g_strlcpy(state->preset, "grid", sizeof state->preset);
+    for (int k = 0; k < 3; k++) {
+        state->cell[k] = 4.0 * 0.99;
+    }
+    for (int i = 0; i < 64; i++) {
+        const int index[3] = {i % 4, i / 4 % 4, i / 16};
+        for (int k = 0; k < 3; k++) {
+            state->position[3 * i + k] = 0.99 * (index[k] + 0.5);
+        }
+        state->radius[i] = i % 2 ? 0.5 : 0.45;
+        state->contacts[i] = 2;
+        state->pair[2 * i] = i;
+        state->pair[2 * i + 1] = (i + 16) % 64;
+        state->pair_normal[i] = 0.01;
+        state->pair_force[3 * i + 2] = -0.01;
+    }
+    g_assert_true(gb_state_write(state, NULL, path, &err));
+    gb_state_destroy(state);
+    g_free(path);
+}
+
+/* p = 100 (rho - 0.4)^2 GPa less `offset` MPa; lateral 0.5; unloading back to 0. */
+static void write_curve(const char *directory, double offset, const char *more)
+{
+    GString *text = g_string_new("branch,step,density,p_MPa,px_MPa,pz_MPa,coordination,"
+                                 "bridged,rattlers,time_ns\n");
+    for (int i = 0; i <= 40; i++) {
+        const double rho = 0.4 + 0.005 * i;
+        const double p = 1e5 * (rho - 0.4) * (rho - 0.4) + offset;
+        g_string_append_printf(text, "load,%d,%.6f,%.6f,%.6f,%.6f,%.6f,0.5,0.01,%d\n", i,
+                               rho, p, 0.75 * p, 1.5 * p, 4.0 + 0.1 * i, i);
+    }
+    for (int i = 0; i <= 10; i++) {
+        g_string_append_printf(text, "unload_1,%d,%.6f,%.6f,,,8,0.5,0.01,%d\n", 41 + i,
+                               0.6 - 0.001 * i, 4000.0 - 400.0 * i, 41 + i);
+    }
+    g_string_append(text, more);
+    write_text(directory, "curve.csv", text->str);
+    g_string_free(text, TRUE);
+}
+
+static void write_quasistatic(const char *directory, int seed, const char *diameter,
+                              double offset)
+{
+    char *preset = g_strdup_printf(
+        "[scene]\ntitle = %s\n[particles]\ncount = 1000\ndiameter = %s\n[structure]\n"
+        "seed = %d\n[loading]\ngeometry = uniaxial\n",
+        directory, diameter, seed);
+    write_text(directory, "preset.ini", preset);
+    write_curve(directory, offset, "");
+    write_state(directory, (uint64_t)seed);
+    g_free(preset);
+}
+
+static void write_dynamic(const char *directory, const char *rate)
+{
+    GString *hold = g_string_new(NULL);
+    char *preset = g_strdup_printf(
+        "[scene]\ntitle = %s\nkind = dynamic\ndimension = 2\n[particles]\ncount = 1000\n"
+        "[loading]\ngeometry = isotropic\nuntil = density = 0.6\nrate = %s\n",
+        directory, rate);
+    for (int i = 1; i <= 200; i++) {
+        const double t = 0.2 * i;
+        const double p =
+            3000.0 + 800.0 * exp(-t / 0.7) + 200.0 * exp(-t / 9.0) + 1e-3 * sin(1e4 * i);
+        g_string_append_printf(hold, "hold,%d,0.6,%.9f,,,,,,%.6f\n", 52 + i, p, 40.0 + t);
+    }
+    write_text(directory, "preset.ini", preset);
+    write_curve(directory, 0.0, hold->str);
+    write_state(directory, 1);
+    g_string_free(hold, TRUE);
+    g_free(preset);
+}
+
+static void write_die(void)
+{
+    write_text("die", "preset.ini",
+               "[scene]\nkind = die\n[contact]\nnormal = hertz\n"
+               "[loading]\ngeometry = die\n");
+    write_text("die", "curve.csv",
+               "branch,p_MPa,wanted_MPa,density,central_density,height_change\n"
+               "load,1.1,1,0.6,0.65,-0.01\nload,2.1,2,0.62,0.67,-0.02\n");
+}
+
+static void write_chart(void)
+{
+    write_text("chart", "chart.csv",
+               "relaxer,particles,reference,seeds,evaluations,cpu_s,bound,front,chosen,"
+               "error_5MPa,error_se_5MPa,scatter_5MPa\n"
+               "fire,1000,1,3,900,9,,0,0,0,0,0.003\n"
+               "fire,1000,0,3,200,2,0.01,1,0,0.008,0.002,0.005\n"
+               "fire,1000,0,3,100,1,0.02,1,1,-0.02,0.001,0.004\n");
+}
+
+/* Sources of a figure: names of directories, or a preset. */
+static const struct source {
+    const char *figure;
+    const char *words[5];
+} sources[] = {
+    {"time", {"a1", "a2"}},
+    {"densification", {"a1", "a2", "b1"}},
+    {"difference", {"a1", "a2", "b1"}},
+    {"rate", {"fast", "slow"}},
+    {"relaxation", {"fast", "slow"}},
+    {"decay", {"fast", "slow"}},
+    {"unloading", {"a1", "a2"}},
+    {"continuum", {"a1", "a2"}},
+    {"coordination", {"a1", "b1"}},
+    {"lateral", {"a1", "a2"}},
+    {"size-effect", {"a1", "a2", "b1"}},
+    {"sweep", {"a1", "a2", "b1"}},
+    {"rdf", {"a1", "a2"}},
+    {"force-angle", {"a1"}},
+    {"sizes", {"a1"}},
+    {"sizes-volume", {"a1"}},
+    {"die-height", {"die"}},
+    {"die-density", {"die"}},
+    {"chart", {"chart"}},
+    {"chart-error", {"chart"}},
+};
+
+static bool run_scene(const struct gb_figures_row *row, struct gb_series *series,
+                      struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    g_assert_true(gb_preset_load(&preset, row->preset, err));
+    const struct gb_figures_input input = {.scene = gb_preset_params(preset)};
+    const bool done = gb_figures_run(row, series, &input, err);
+    gb_preset_destroy(preset);
+    return done;
+}
+
+/* Computes a figure from directories of the folder. */
+static bool run_words(const struct gb_figures_row *row, const char *const *words,
+                      struct gb_series *series, struct gb_error *err)
+{
+    struct gb_runset set = {0};
+    char *paths[6] = {NULL};
+    size_t count = 0;
+    for (; words[count] != NULL; count++) {
+        paths[count] = path_in(words[count], NULL);
+    }
+    struct gb_figures_input input = {.words = paths};
+    bool done = row->takes == GB_FIGURES_TABLE || gb_runset_read(&set, paths, count, err);
+    if (done) {
+        input.set = &set;
+        input.reference = set.groups > 1 ? 1 : 0;
+        gb_figures_group(row, &set);
+        done = gb_figures_run(row, series, &input, err);
+    }
+    gb_runset_finish(&set);
+    for (size_t k = 0; k < count; k++) {
+        g_free(paths[k]);
+    }
+    return done;
+}
+
+static bool run_named(const char *name, const char *const *words,
+                      struct gb_series *series, struct gb_error *err)
+{
+    return run_words(gb_figures_find(name), words, series, err);
+}
+
+static const struct source *source_of(const char *figure)
+{
+    for (size_t k = 0; k < G_N_ELEMENTS(sources); k++) {
+        if (strcmp(sources[k].figure, figure) == 0) {
+            return &sources[k];
+        }
+    }
+    g_error("no source for the figure %s", figure);
+}
+
+static void assert_drawn(const struct gb_figures_row *row, const struct gb_series *series)
+{
+    struct gb_figure figure;
+    struct gb_figure_layout layout;
+    struct gb_figure_curve *curves = NULL;
+    struct gb_image *image = NULL;
+    struct gb_error err = {0};
+    g_assert_nonnull(series->x.name);
+    g_assert_nonnull(series->x.label);
+    g_assert_nonnull(series->y.name);
+    g_assert_nonnull(series->y.label);
+    g_assert_cmpuint(series->curves->len, >, 0);
+    gb_series_figure(series, &figure, &curves);
+    g_assert_true(gb_figure_render(&image, &figure, 640, 480, &layout, &err));
+    g_assert_cmpstr(err.text, ==, "");
+    g_test_message("%s: %u curves", row->name, series->curves->len);
+    gb_image_destroy(image);
+    g_free(curves);
+}
+
+/* Every row draws. */
+static void test_rows(void)
+{
+    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+        struct gb_series series = {0};
+        struct gb_error err = {0};
+        const bool done =
+            row->takes == GB_FIGURES_SCENE
+                ? run_scene(row, &series, &err)
+                : run_words(row, source_of(row->name)->words, &series, &err);
+        g_test_message("%s: %s", row->name, err.text);
+        g_assert_true(done);
+        assert_drawn(row, &series);
+        gb_series_finish(&series);
+    }
+}
+
+/* A run without curve and state gives one line for every figure of runs. */
+static void test_errors(void)
+{
+    static const char *const empty[] = {"empty", NULL};
+    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+        struct gb_series series = {0};
+        struct gb_error err = {0};
+        if (row->takes == GB_FIGURES_SCENE) {
+            continue;
+        }
+        g_assert_false(run_words(row, empty, &series, &err));
+        g_test_message("%s: %s", row->name, err.text);
+        g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+        g_assert_cmpstr(err.text, !=, "");
+        g_assert_null(strchr(err.text, '\n'));
+        gb_series_finish(&series);
+    }
+}
+
+static void test_table(void)
+{
+    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+        struct gb_error err = {0};
+        char *text = gb_figures_describe(row);
+        g_assert_cmpuint(strlen(text), <=, 90);
+        g_assert_true(gb_figures_find(row->name) == row);
+        g_assert_nonnull(row->compute);
+        g_assert_true((row->takes == GB_FIGURES_SCENE) == (row->preset != NULL));
+        g_assert_true(gb_figures_check_options(row, row->options, &err));
+        g_free(text);
+    }
+    g_assert_null(gb_figures_find("pie"));
+}
+
+static void test_options(void)
+{
+    struct gb_error err = {0};
+    const struct gb_figures_row *time = gb_figures_find("time");
+    g_assert_false(gb_figures_check_options(time, GB_FIGURES_DENSITY, &err));
+    g_assert_cmpstr(err.text, ==, "--density is for the figure rate");
+    g_assert_false(gb_figures_check_options(time, GB_FIGURES_PRESSURE, &err));
+    g_assert_cmpstr(err.text, ==,
+                    "--pressure is for the figures size-effect, sweep, chart-error");
+    g_assert_false(gb_figures_check_options(gb_figures_find("difference"), 0, &err));
+    g_assert_cmpstr(err.text, ==, "the figure difference needs --reference DIR");
+}
+
+/* The cell of a column of the series as CSV; NaN when empty. */
+static double csv_cell(const struct gb_series *series, const char *column, int row)
+{
+    GString *csv = gb_series_csv(series);
+    char **lines = g_strsplit(csv->str, "\n", -1);
+    int head = 0;
+    guint k = 0;
+    while (lines[head][0] == '#') {
+        head++;
+    }
+    char **names = g_strsplit(lines[head], ",", -1);
+    while (names[k] != NULL && strcmp(names[k], column) != 0) {
+        k++;
+    }
+    g_assert_nonnull(names[k]);
+    char **cells = g_strsplit(lines[head + 1 + row], ",", -1);
+    const double value = cells[k][0] ? g_ascii_strtod(cells[k], NULL) : (double)NAN;
+    g_strfreev(cells);
+    g_strfreev(names);
+    g_strfreev(lines);
+    g_string_free(csv, TRUE);
+    return value;
+}
+
+/* Numbers of the CSV against the curves written above. */
+static void test_series(void)
+{
+    static const char *const runs[] = {"a1", "a2", "b1", NULL};
+    struct gb_series series = {0};
+    struct gb_error err = {0};
+    g_assert_true(run_named("densification", runs, &series, &err));
+    g_assert_cmpfloat_with_epsilon(csv_cell(&series, "density", 20), 0.5, 1e-9);
+    /* offsets 0 and 2 MPa: mean 1, standard error 1 */
+    g_assert_cmpfloat_with_epsilon(csv_cell(&series, "mean_1_MPa", 20), 1001.0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(csv_cell(&series, "se_1_MPa", 20), 1.0, 1e-6);
+    gb_series_finish(&series);
+    g_assert_true(run_named("lateral", runs, &series, &err));
+    g_assert_cmpfloat_with_epsilon(csv_cell(&series, "ratio_1", 20), 0.5, 1e-6);
+    g_assert_true(isnan(csv_cell(&series, "ratio_1", 0)));
+    gb_series_finish(&series);
+    g_assert_true(run_named("unloading", runs, &series, &err));
+    g_assert_cmpfloat_with_epsilon(csv_cell(&series, "density_1_unload_1", 0), 0.59,
+                                   1e-9);
+    gb_series_finish(&series);
+    g_assert_true(run_named("force-angle", runs, &series, &err));
+    /* all contacts along z: 0.01 E d^2 = 0.01 * 1e9 Pa * (1e-8 m)^2 = 1 nN */
+    g_assert_cmpfloat_with_epsilon(csv_cell(&series, "force_nN_1", 0), 1.0, 1e-9);
+    g_assert_true(isnan(csv_cell(&series, "force_nN_1", 17)));
+    gb_series_finish(&series);
+}
+
+static void test_formats(void)
+{
+    static const char *const runs[] = {"a1", NULL};
+    struct gb_series series = {0};
+    struct gb_error err = {0};
+    const struct gb_plotting_page page = {400, 300, "time", NULL, NULL};
+    g_assert_true(run_named("time", runs, &series, &err));
+    for (const struct gb_output_formats_row *row = gb_output_formats_table();
+         row->extension; row++) {
+        char *name = g_strconcat("out", row->extension, NULL);
+        char *path = g_build_filename(folder, name, NULL);
+        const bool figure = (row->uses & GB_OUTPUT_FORMATS_FIGURE) != 0;
+        g_assert_true(gb_plotting_check(path, GB_PLOTTING_REPLACE, &err) == figure);
+        if (figure) {
+            g_assert_true(gb_plotting_write(&series, &page, path, &err));
+            g_assert_true(g_file_test(path, G_FILE_TEST_EXISTS));
+            g_assert_false(gb_plotting_check(path, GB_PLOTTING_KEEP, &err));
+            g_assert_nonnull(strstr(err.text, "exists"));
+        }
+        g_free(path);
+        g_free(name);
+    }
+    gb_series_finish(&series);
+    char *names = gb_output_formats_names(GB_OUTPUT_FORMATS_FIGURE);
+    g_assert_cmpstr(names, ==, ".png, .svg, .pdf or .csv");
+    g_free(names);
+}
+
+static void remove_tree(const char *path)
+{
+    GDir *dir = g_dir_open(path, 0, NULL);
+    for (const char *name = dir ? g_dir_read_name(dir) : NULL; name;
+         name = g_dir_read_name(dir)) {
+        char *inner = g_build_filename(path, name, NULL);
+        remove_tree(inner);
+        g_free(inner);
+    }
+    if (dir) {
+        g_dir_close(dir);
+    }
+    g_remove(path);
+}
+
+/* Every part of the report has its heading and its files. */
+static void test_report(void)
+{
+    static const char *const files[] = {
+        "index.html",         "report.md",       "preset.ini",
+        "tables/density.csv", "tables/ends.csv", "tables/runs.csv",
+        "figures/time.svg",   "figures/rdf.csv", "runs/2-curve.csv"};
+    struct gb_runset set = {0};
+    struct gb_error err = {0};
+    char *paths[] = {path_in("a1", NULL), path_in("b1", NULL)};
+    char *output = path_in("report", NULL);
+    char *page = NULL;
+    g_assert_true(gb_runset_read(&set, paths, 2, &err));
+    g_assert_true(gb_report_write(&set, NULL, output, &err));
+    for (size_t k = 0; k < G_N_ELEMENTS(files); k++) {
+        char *file = g_build_filename(output, files[k], NULL);
+        g_test_message("%s", files[k]);
+        g_assert_true(g_file_test(file, G_FILE_TEST_EXISTS));
+        g_free(file);
+    }
+    char *html = g_build_filename(output, "index.html", NULL);
+    g_assert_true(g_file_get_contents(html, &page, NULL, NULL));
+    for (const struct gb_report_part *part = gb_report_parts(); part->name; part++) {
+        char *heading = g_strdup_printf("<h2>%s</h2>", part->heading);
+        g_assert_nonnull(strstr(page, heading));
+        g_free(heading);
+    }
+    g_assert_nonnull(strstr(page, "die-height (")); /* left out, with the reason */
+    g_assert_false(gb_report_write(&set, NULL, output, &err));
+    g_assert_nonnull(strstr(err.text, "exists"));
+    gb_runset_finish(&set);
+    g_free(page);
+    g_free(html);
+    g_free(output);
+    g_free(paths[0]);
+    g_free(paths[1]);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    gsl_set_error_handler_off(); /* as main does */
+    folder = g_dir_make_tmp("figures-XXXXXX", NULL);
+    write_quasistatic("a1", 1, "10 nm", 0.0);
+    write_quasistatic("a2", 2, "10 nm", 2.0);
+    write_quasistatic("b1", 1, "20 nm", 5.0);
+    write_dynamic("fast", "100 1/us");
+    write_dynamic("slow", "10 1/us");
+    write_die();
+    write_chart();
+    write_text("empty", "preset.ini", "[scene]\ntitle = empty\n");
+    g_test_add_func("/figures/table", test_table);
+    g_test_add_func("/figures/options", test_options);
+    g_test_add_func("/figures/rows", test_rows);
+    g_test_add_func("/figures/errors", test_errors);
+    g_test_add_func("/figures/series", test_series);
+    g_test_add_func("/figures/formats", test_formats);
+    g_test_add_func("/figures/report", test_report);
+    const int status = g_test_run();
+    remove_tree(folder);
+    g_free(folder);
+    return status;
+}
