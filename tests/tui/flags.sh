@@ -47,7 +47,7 @@ is "--diagnose tells of no runs yet" grep -q 'runs: 0 kept, ' "$here/out"
 is "--diagnose counts the runs that are kept" \
     grep -q 'kept: 1 kept, [0-9.]*.*kB on the disk' "$here/out"
 TERM=dumb "$greenbody" --diagnose >"$here/out" 2>&1
-is "--diagnose of a dumb terminal" grep -q 'none: .*cannot place the cursor' "$here/out"
+is "--diagnose of a dumb terminal" grep -q 'none: .*cannot position the cursor' "$here/out"
 TERM=xterm COLORTERM=truecolor "$greenbody" --diagnose >"$here/out" 2>&1
 is "COLORTERM gives more colours" grep -q '256 are used' "$here/out"
 NO_COLOR=1 "$greenbody" --diagnose >"$here/out" 2>&1
@@ -92,7 +92,7 @@ start "$small --ascii"
 shows "--ascii opens" 'Parameters'
 is "and all is ASCII" until_true is_ascii
 keys b
-shows "b stays there" 'Pressure against density'
+shows "b stays there" 'Pressure against relative density'
 is "and all is ASCII still" until_true is_ascii
 leaves "and closes"
 start "$small --color=never"
@@ -117,7 +117,7 @@ keys C-u "clear; sh -c 'echo \$\$ >$here/pid; exec $greenbody $long'" Enter
 shows "opens" 'Parameters'
 shows "computes" '▶'
 echo 'driver: no such thing' >>"/proc/$(cat "$here/pid")/fd/2"
-told "what a library says stands among the events" 'a library says: driver: no such'
+told "what a library says stands among the events" 'library message: driver: no such'
 keys q
 until_true asks_or_has_left
 keys y
@@ -142,7 +142,7 @@ shows "and back" '^ alpha *0\.24'
 click 60 8
 shows "a click takes a point of the curve" '^ point [0-9]* of'
 click 60 2
-shows "a click on the title goes to the next view" '2 Particles by'
+shows "a click on the title goes to the next view" '2 Distribution of'
 click "$(screen | tail -n 1 | sed 's/? help.*//' | wc -c)" 24
 shows "a click on the footer is its key" 'Keys (Up and Down'
 wheel 65 40 12

@@ -24,11 +24,11 @@ is "a directory without runs is refused" [ $? -eq 2 ]
 
 open_terminal
 start attach "$here/map"
-shows "attach shows the means" '1 Pressure against density, means'
+shows "attach shows the means" '1 Pressure against relative density: mean'
 shows "how many runs there are" '8 runs: 8 done, 0 under way, 0 failed  100 %'
 shows "what tells the groups apart" 'alpha = 0.4, contact.mu = 0.3, 2 cells'
 keys 2
-shows "2 shows the map" '2 Density over what was varied'
+shows "2 shows the map" '2 Relative density over the varied'
 shows "one key across" 'contact.alpha'
 shows "values with their errors" '0\.[2-6][0-9]* +-[0-9]'
 before=$(screen | sed -n 's/.*density at \(.*\), +-.*/\1/p')
@@ -43,7 +43,7 @@ shows "with curves" 'p, MPa'
 term resize-window -x 30 -y 10
 shows "too small says so" 'needs 40 x 12'
 term resize-window -x 80 -y 24
-shows "and comes back" 'means and their'
+shows "and comes back" 'mean and standard error'
 
 # --- more cells are computed while it is watched
 sweep --replicas 3 --jobs 1 &
@@ -53,7 +53,7 @@ wait
 shows "as cells of their groups" '3 cells'
 leaves "closes"
 with='LC_ALL=C' start attach "$here/map"
-shows "without UTF-8 it opens" 'means and their'
+shows "without UTF-8 it opens" 'mean and standard error'
 keys 2
 shows "shows the map" 'density at'
 is "in ASCII" until_true is_ascii
@@ -61,36 +61,36 @@ leaves "closes, too"
 
 cp -r "$here/map" "$here/lost"
 start attach "$here/lost"
-shows "a copy of it opens" 'means and their'
+shows "a copy of it opens" 'mean and standard error'
 rm -rf "$here/lost"
 shows "when it is removed, that is told" 'lost: '
-shows "over what was shown last" 'means and their'
+shows "over what was shown last" 'mean and standard error'
 leaves "closes without it"
 
 # --- more cells and a fit, started from the workbench
 start default particles.count=100 loading.until=10MPa loading.unload_from=
 shows "the workbench opens" '✓ done'
 keys C
-shows "a fit needs an experiment" 'needs an experiment over the plot'
+shows "a fit needs an experiment" 'needs measured data'
 keys R
-shows "R asks how many cells" 'More cells of this scene'
+shows "R asks how many cells" 'Replicas of this scene'
 keys C-u
 keys -l 'three'
 keys Enter
-shows "which is a number" 'accepted: 2 to 1000 cells'
+shows "which is a number" 'must be between 2 and 1000'
 keys C-u
 keys -l '3'
 keys Enter
 shows "their mean lies over the plot" 'mean of 3 cells'
-told "the events say where they are" 'cells: computed in'
+told "the events say where they are" 'replicas: computed in'
 printf 'p_MPa,density,density_error\n5,0.26,0.01\n10,0.28,0.01\n' >"$here/lab.csv"
 keys e
-shows "e asks for an experiment" 'Experiment over the plot'
+shows "e asks for an experiment" 'Measured data over the plot'
 keys -l "$here/lab.csv"
 keys Enter
-shows "which lies over the plot" 'experiment, misfit'
+shows "which lies over the plot" 'measured, RMS misfit'
 keys C
-shows "C asks for the keys" 'Fit to the experiment'
+shows "C asks for the keys" 'Calibration to the measured'
 keys C-u
 keys -l 'contact.nu'
 keys Enter

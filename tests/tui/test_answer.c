@@ -53,7 +53,7 @@ static void test_laws(void)
 {
     struct gb_preset *preset = NULL;
     struct gb_session session;
-    struct gb_panel_plot panel = {.view = GB_VIEW_CURVE};
+    struct gb_panel_plot panel = {.view = gb_views_at(0)};
     double least = HUGE_VAL;
     g_assert_true(gb_preset_create(&preset, NULL));
     *gb_preset_params(preset) = powder();

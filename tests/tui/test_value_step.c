@@ -2,7 +2,7 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-#include "tui/app/complete.h"
+#include "tui/panel/complete.h"
 #include "tui/session/value_step.h"
 
 static void expect(const char *group, const char *key, const char *value, int direction,

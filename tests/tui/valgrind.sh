@@ -62,7 +62,7 @@ greenbody=$here/checked
 open_terminal
 # shellcheck disable=SC2086
 start $small loading.until="'200 MPa'" loading.unload_from=
-shows 'the workbench opens' 'Pressure against density'
+shows 'the workbench opens' 'Pressure against relative density'
 shows 'its run comes to its end' '✓ done'
 for key in 2 3 4 1 '?' Escape Tab; do
     keys "$key"

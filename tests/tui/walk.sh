@@ -4,16 +4,16 @@
 . "$(dirname "$0")/terminal.sh"
 
 # title of each view, in the order of the keys 1, 2, ... 9, 0
-titles='Pressure against density
-Particles by their number
+titles='Pressure against relative density
+Distribution of the coordination
 Mean normal force by
 Pressure against step
 Radial distribution
-Lateral over axial
+Lateral-to-axial stress
 Normal force of two
-Strength of a bridge
+Bridge strength
 Packing
-Error against cost'
+Accuracy against cost'
 
 # The bottom line is the footer as long as the screen is whole.
 is_whole() {
@@ -31,7 +31,7 @@ walk_views() { # size
     keys v
     shows "$1: v goes round" '1 Pressure'
     keys V
-    shows "$1: V goes back" "0 Error against cost"
+    shows "$1: V goes back" "0 Accuracy against cost"
     keys 1
     shows "$1: 1 is the first again" '1 Pressure'
 }

@@ -24,7 +24,7 @@ open_terminal
 
 # --- the default scene
 start default
-shows "opens the default preset" 'Pressure against density'
+shows "opens the default preset" 'Pressure against relative density'
 [ "$bad" -eq 0 ] || { # without it every step below would wait in vain
     echo "Bail out! the workbench does not open"
     exit 1
@@ -47,7 +47,7 @@ keys Enter C-u abc Enter
 shows "a bad value is refused with the reason" 'contact.mu = abc: must be'
 keys C-u 0.2 Enter
 shows "a good value is marked" '^\*mu  *0\.2'
-shows "what applies when is said" 'the quick cell answers'
+shows "what applies when is said" 'the quick cell runs first'
 shows "a quick cell answers" 'q quick cell'
 told "behind it the full one waits" 'r starts the full cell'
 keys a
@@ -78,12 +78,12 @@ is "an idle screen sends nothing" until_true sends_nothing
 keys L
 shows "L makes the axis logarithmic" '(log)'
 keys 2
-shows "2 shows contacts" '2 Particles by their number'
+shows "2 shows contacts" '2 Distribution of the coordination'
 keys 3
 shows "3 shows directions" '3 Mean normal force'
 keys 4
 shows "4 shows the steps of a quasi-static run" '4 Pressure against step'
-is "its loading is one line" [ "$(screen | grep -c -w load)" -eq 1 ]
+is "its loading is one line" [ "$(screen | grep -c "● loading")" -eq 1 ]
 keys 1 '?'
 shows "? lists the keys" 'Keys (Up and Down'
 keys Escape
@@ -114,7 +114,7 @@ keys s
 if "$greenbody" --version | grep -q 'no pictures'; then
     told "s says that there are no pictures" 'this build has no pictures'
 else
-    told "s makes a picture" 'picture:$'
+    told "s makes a picture" 'picture saved:'
     is "and it is there" [ -s "$(ls "$runs"/default-*/picture-1.png)" ]
 fi
 
@@ -122,13 +122,13 @@ fi
 printf 'density,p_MPa\n0.4,100\n0.55,500\n' >"$here/experiment.csv"
 printf 'density,force\n0.4,100\n' >"$here/other.csv"
 keys e "$here/exp" Tab Enter
-shows "an experiment is drawn" '▲ experiment, misfit'
+shows "an experiment is drawn" '▲ measured, RMS misfit'
 keys e C-u "$here/other.csv" Enter
 shows "another table is refused in one line" 'needs density'
 keys Escape
-hides "Esc leaves the experiment" 'Experiment over the plot'
+hides "Esc leaves the experiment" 'Measured data over the plot'
 keys e C-u Enter
-hides "nothing takes it away" '▲ experiment'
+hides "an empty name removes it" '▲ measured'
 keys q
 shows "q leaves at once when the run is over" 'status=0'
 is "the terminal is back" terminal_is_back
@@ -137,7 +137,7 @@ is "the terminal is back" terminal_is_back
 start "$long"
 shows "opens with settings" 'N 6000'
 is "the full cell follows its quick one" full_cell_follows
-told "how long it takes is foretold" 'the full cell of 6000: about [0-9]'
+told "how long it takes is estimated" 'full cell of 6000: about [0-9]'
 keys p
 shows "p pauses the engine" '‖ paused'
 keys p
@@ -146,7 +146,7 @@ is "it runs again" until_true full_cell_runs
 keys f C-u 'mu=0.3; count=3' Enter
 shows "a what-if says what can change" 'count=3: a run under way'
 keys C-u 'mu=0.3' Enter
-told "a what-if goes on from a point" 'density 0.*what if'
+told "a what-if goes on from a point" 'changed after step'
 is "from then on it runs" until_true full_cell_runs
 keys c
 shows "the command repeats it" 'loading.changes='
@@ -157,12 +157,12 @@ hides "space again lets it go" 'view frozen'
 term resize-window -x 60 -y 20
 hides "60 x 20 has one pane" 'State'
 keys Tab
-shows "60 x 20 shows the plot" 'Pressure against density'
+shows "60 x 20 shows the plot" 'Pressure against relative density'
 shows "60 x 20 shows the state" 'State'
 term resize-window -x 30 -y 10
 shows "too small says so" 'needs 40 x 12'
 term resize-window -x 200 -y 60
-shows "200 x 60 spells names out" 'contacts a particle'
+shows "200 x 60 spells names out" 'mean coordination number'
 shows "nothing was lost" 'run 1 started'
 term resize-window -x 80 -y 24
 shows "80 x 24 again" 'Parameters'
@@ -275,7 +275,7 @@ with='TERM=of-tomorrow' start default
 shows "an unknown terminal gets the usual one" 'Parameters'
 leaves "and closes as well"
 with='TERM=dumb' start default
-shows "a dumb terminal gets one line" 'dumb cannot place the cursor'
+shows "a dumb terminal gets one line" 'dumb cannot position the cursor'
 shows "and status 3" 'status=3'
 
 # --- the terminal goes away

@@ -9,41 +9,42 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "tui/app/act.h"
-#include "tui/app/asks.h"
+#include "tui/app/dialogs.h"
+#include "tui/app/dispatch.h"
+#include "tui/app/key_commands.h"
 #include "tui/app/mouse.h"
 #include "tui/session/run_lifecycle.h"
 
-/* At most ten frames within any second, two when slow.  News of the engine alone is drawn
- * less often, so that a key nearly always finds a frame free and is answered at once. */
-static const double second_s = 1.0;
-static const double news_s = 0.15;
-static const double key_s = 0.02; /* a function key or a paste comes in one piece */
+/* At most ten frames within any second, two when slow.  Updates of the engine alone are
+ * drawn less often, so that a frame is left for a key, which is answered at once. */
+static const double window_s = 1.0;
+static const double update_spacing_s = 0.15;
+static const double key_spacing_s = 0.02; /* collects a function key or a paste */
 
 enum { STATUS_SIGNAL = 128 };
 
 /* The first Ctrl-C asks, the second one leaves. */
 static void interrupt(struct gb_app *app)
 {
-    if (app->screen.dialog.kind == GB_DIALOG_QUIT ||
+    if (app->screen.dialog.type == &gb_dialogs_quit ||
         !gb_session_live(&app->screen.session)) {
-        gb_asks_leave(app, STATUS_SIGNAL + SIGINT);
+        gb_screen_commands_leave(app, STATUS_SIGNAL + SIGINT);
     } else {
-        gb_asks_leave_live(app);
+        gb_screen_commands_ask_quit(app);
     }
 }
 
 static void handle(struct gb_app *app, const struct gb_term_event *event)
 {
-    app->urgent = app->urgent || event->kind != GB_TERM_TIMEOUT;
-    app->dirty = app->dirty || app->urgent;
+    app->input_pending = app->input_pending || event->kind != GB_TERM_TIMEOUT;
+    app->redraw = app->redraw || app->input_pending;
     switch (event->kind) {
     case GB_TERM_TIMEOUT:
     case GB_TERM_RESIZED:
         break;
     case GB_TERM_KEY:
     case GB_TERM_TEXT:
-        gb_act_type(app, event);
+        gb_dispatch_event(app, event);
         break;
     case GB_TERM_MOUSE:
         gb_mouse_handle(app, event);
@@ -52,11 +53,11 @@ static void handle(struct gb_app *app, const struct gb_term_event *event)
         interrupt(app);
         break;
     case GB_TERM_TERMINATE:
-        gb_asks_leave(app, STATUS_SIGNAL + event->code);
+        gb_screen_commands_leave(app, STATUS_SIGNAL + event->code);
         break;
     case GB_TERM_HANGUP:
-        app->gone = true;
-        gb_asks_leave(app, STATUS_SIGNAL + SIGHUP);
+        app->terminal_lost = true;
+        gb_screen_commands_leave(app, STATUS_SIGNAL + SIGHUP);
         break;
     }
 }
@@ -65,22 +66,23 @@ static void handle(struct gb_app *app, const struct gb_term_event *event)
 static double frame_wait(const struct gb_app *app)
 {
     const double now = gb_clock_s();
-    const double last = app->frame[(app->frames + app->max - 1) % app->max];
-    const double oldest = app->frame[app->frames % app->max];
-    const double spacing = app->urgent ? key_s : news_s;
-    return fmax(last + spacing, oldest + second_s) - now;
+    const double last =
+        app->frame_s[(app->frames + app->frames_max - 1) % app->frames_max];
+    const double oldest = app->frame_s[app->frames % app->frames_max];
+    const double spacing = app->input_pending ? key_spacing_s : update_spacing_s;
+    return fmax(last + spacing, oldest + window_s) - now;
 }
 
-/* Milliseconds to sleep: until the next frame may be drawn, until the engine or a picture
- * may have news, or for ever when nothing can happen without a key. */
-static int patience(const struct gb_app *app)
+/* Milliseconds to sleep: until the next frame may be drawn, until the engine or an image may
+ * have an update; -1 (for ever) when only a key can change the screen. */
+static int wait_timeout_ms(const struct gb_app *app)
 {
-    if (app->dirty) {
+    if (app->redraw) {
         const double left = frame_wait(app);
         return left > 0.0 ? (int)(1000.0 * left) + 1 : 0;
     }
     return gb_session_busy(&app->screen.session) || app->screen.image.waiting
-               ? (int)(1000.0 * news_s)
+               ? (int)(1000.0 * update_spacing_s)
                : -1;
 }
 
@@ -88,37 +90,38 @@ static void draw(struct gb_app *app)
 {
     struct gb_screen *screen = &app->screen;
     gb_screen_draw(screen);
-    if (gb_term_image_before(&screen->image, screen->term, gb_screen_picture(screen))) {
+    if (gb_term_image_before(&screen->image, screen->term, gb_screen_sample(screen))) {
         gb_term_repaint(screen->term);
     }
     gb_term_flush(screen->term);
-    gb_term_image_after(&screen->image, screen->term, gb_screen_picture(screen),
+    gb_term_image_after(&screen->image, screen->term, gb_screen_sample(screen),
                         &screen->plot.field, gb_clock_s());
-    app->frame[app->frames++ % app->max] = gb_clock_s();
-    app->dirty = app->urgent = false;
+    app->frame_s[app->frames++ % app->frames_max] = gb_clock_s();
+    app->redraw = app->input_pending = false;
 }
 
-/* True: there was something. */
+/* True: there was a line. */
 static bool poll_stderr(struct gb_app *app)
 {
     char line[160];
-    const bool heard = gb_stderr_tail_poll(&app->stderr_tail, line, sizeof line);
-    if (heard) {
-        gb_session_note(&app->screen.session, "a library says: %s", line);
+    const bool found = gb_stderr_tail_poll(&app->stderr_tail, line, sizeof line);
+    if (found) {
+        gb_session_note(&app->screen.session, "library message: %s", line);
     }
-    return heard;
+    return found;
 }
 
 static void loop(struct gb_app *app)
 {
     while (!app->leave) {
-        const struct gb_term_event event = gb_term_wait(app->screen.term, patience(app));
+        const struct gb_term_event event =
+            gb_term_wait(app->screen.term, wait_timeout_ms(app));
         handle(app, &event);
-        app->dirty = gb_session_refresh(&app->screen.session) || app->dirty ||
-                     gb_term_image_due(&app->screen.image, gb_clock_s());
-        app->dirty = poll_stderr(app) || app->dirty;
-        gb_asks_follow(app);
-        if (app->dirty && !app->leave && frame_wait(app) <= 0.0) {
+        app->redraw = gb_session_refresh(&app->screen.session) || app->redraw ||
+                      gb_term_image_due(&app->screen.image, gb_clock_s());
+        app->redraw = poll_stderr(app) || app->redraw;
+        gb_run_commands_follow_quick(app);
+        if (app->redraw && !app->leave && frame_wait(app) <= 0.0) {
             draw(app);
         }
     }
@@ -143,7 +146,7 @@ static bool open_first(struct gb_app *app, struct gb_error *err)
     if (session->attached != NULL) {
         return gb_run_lifecycle_attach(session, err);
     }
-    gb_asks_start_scene(app);
+    gb_run_commands_start_scene(app);
     return true;
 }
 
@@ -151,7 +154,7 @@ static bool open_first(struct gb_app *app, struct gb_error *err)
 static void close_screen(struct gb_app *app)
 {
     struct gb_screen *screen = &app->screen;
-    if (app->gone) {
+    if (app->terminal_lost) {
         gb_term_abandon(screen->term);
         app->status = gb_run_lifecycle_run_detached(&screen->session);
     } else {
@@ -172,9 +175,9 @@ int gb_app_run(struct gb_preset *preset, const char *folder, const char *attache
         gb_alloc_free(app);
         return gb_status_exit_code(GB_ERR_MACHINE);
     }
-    app->dirty = app->urgent = true;
+    app->redraw = app->input_pending = true;
     gb_stderr_tail_init(&app->stderr_tail);
-    app->max = settings->slow ? GB_APP_FRAMES_SLOW : GB_APP_FRAMES;
+    app->frames_max = settings->slow ? GB_APP_FRAMES_SLOW : GB_APP_FRAMES;
     first_focus(screen);
     gb_session_init(&screen->session, preset);
     screen->session.folder = folder;

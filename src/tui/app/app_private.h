@@ -4,21 +4,21 @@
 #include "tui/app/screen.h"
 #include "tui/term/stderr_tail.h"
 
-/* The workbench from inside: app.c is the loop, act.c what each key does, asks.c what is
- * asked and answered, pointer.c the mouse. */
+/* State of the workbench: app.c is the loop, dispatch.c and mouse.c take the events,
+ * *_commands.c are the functions of the keys. */
 enum { GB_APP_FRAMES = 10, GB_APP_FRAMES_SLOW = 2 };
 
 struct gb_app {
     struct gb_screen screen;
     struct gb_stderr_tail stderr_tail;
-    bool leave, dirty;
-    bool gone;   /* the terminal */
-    bool urgent; /* a key waits for its frame */
-    int status;
-    double frame[GB_APP_FRAMES]; /* clock of the last frames, the next one takes the
-                                    oldest */
-    int frames;
-    int max; /* of them within a second */
+    bool leave;
+    int status;                    /* exit status */
+    bool terminal_lost;            /* hang-up: the terminal must not be touched */
+    bool redraw;                   /* the screen has changed */
+    bool input_pending;            /* by a key: drawn without delay */
+    double frame_s[GB_APP_FRAMES]; /* clock of the last frames, a ring */
+    int frames;                    /* drawn so far */
+    int frames_max;                /* within any second */
 };
 
 #endif

@@ -6,48 +6,65 @@
 #include "tui/panel/prompt.h"
 #include "tui/term/paint.h"
 
-/* What lies over the panes: help, the list of presets, a line to type (the name to save
- * under, the file of an experiment, a what-if), the command that repeats what is shown,
- * the questions before quitting and before a run that takes long.  One at a time. */
-enum gb_dialog_kind {
-    GB_DIALOG_NONE,
-    GB_DIALOG_HELP,
-    GB_DIALOG_OPEN,
-    GB_DIALOG_SAVE,
-    GB_DIALOG_DATA,
-    GB_DIALOG_FORK,
-    GB_DIALOG_FIND,
-    GB_DIALOG_CELLS,
-    GB_DIALOG_FIT,
-    GB_DIALOG_COMMAND,
-    GB_DIALOG_QUIT,
-    GB_DIALOG_COSTLY
+struct gb_dialog;
+
+enum gb_dialog_result {
+    GB_DIALOG_OPEN,     /* waits for more */
+    GB_DIALOG_ACCEPTED, /* Enter, or y: the answer is in gb_dialog_answer */
+    GB_DIALOG_CANCELLED /* Esc, or n: closed */
 };
 
+/* How a family of dialogs is drawn and takes keys (dialog_forms.c). */
+struct gb_dialog_form {
+    void (*draw)(struct gb_dialog *dialog, const struct gb_paint *screen);
+    /* Takes an event as input; false: the keys below apply. */
+    bool (*edit)(struct gb_dialog *dialog, const struct gb_term_event *event);
+    enum gb_dialog_result (*key)(struct gb_dialog *dialog, int code);
+};
+
+/* One row for each dialog (dialogs.c). */
+struct gb_dialog_type {
+    const struct gb_dialog_form *form;
+    const char *title;
+    const char *label;    /* of the line to type */
+    const char *yes, *no; /* answers of a question */
+    bool completes_path;  /* Tab completes the line as a path */
+    void (*opened_by)(struct gb_app *app, const struct gb_key *key); /* closes it, too */
+    void (*accept)(struct gb_app *app);
+    void (*decline)(struct gb_app *app); /* NULL: closing is all */
+};
+
+enum gb_dialog_note { GB_DIALOG_NOTE_ERROR, GB_DIALOG_NOTE_WARNING };
+
+/* What lies over the panes, one at a time: help, the list of presets, a line to type, a
+ * shell command, a question. */
 struct gb_dialog {
-    enum gb_dialog_kind kind;
-    int top, focus, page;
+    const struct gb_dialog_type *type; /* NULL: none is open */
+    int top, focus, page;              /* of a page that scrolls */
     struct gb_preset_browser browser;
-    char *text;     /* the command shown; owned */
-    char note[400]; /* why the last answer was not taken; the question of a costly run */
-    bool warned;    /* the note was a warning: the same answer again is taken */
+    char *text;               /* shell command shown; owned */
+    char note[400];           /* question, or why the last answer was refused */
+    enum gb_dialog_note kind; /* of the note; after a warning the same answer is taken */
     struct gb_prompt prompt;
 };
 
-/* text: what a prompt begins with, the question of a costly run, the command; NULL is
- * fine. */
-void gb_dialog_show(struct gb_dialog *dialog, enum gb_dialog_kind kind, const char *text);
-/* The list of presets; current: the parameters they are compared with. */
-void gb_dialog_browse(struct gb_dialog *dialog, const struct gb_params *current);
+/* text: first content of the line, the question or the command; NULL is fine. */
+void gb_dialog_show(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                    const char *text);
+/* The list of presets, compared with the parameters `current`. */
+void gb_dialog_show_presets(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const struct gb_params *current);
 void gb_dialog_close(struct gb_dialog *dialog);
 
 void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);
 
-/* Takes an event; true when the answer is given and waits in gb_dialog_answer.  Esc
- * closes the dialog, n a question. */
-bool gb_dialog_type(struct gb_dialog *dialog, const struct gb_term_event *event);
+enum gb_dialog_result gb_dialog_handle(struct gb_dialog *dialog,
+                                       const struct gb_term_event *event);
 
-/* The preset chosen, the line typed; "" for yes. */
+/* Preset under the cursor, or the line typed. */
 const char *gb_dialog_answer(struct gb_dialog *dialog);
+
+void gb_dialog_set_note(struct gb_dialog *dialog, enum gb_dialog_note kind,
+                        const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #endif

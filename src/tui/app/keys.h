@@ -1,77 +1,48 @@
 #ifndef GB_TUI_APP_KEYS_H
 #define GB_TUI_APP_KEYS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
-/* What a key asks for.  Panes and dialogs read the same actions. */
-enum gb_action {
-    GB_ACTION_NONE,
-    GB_ACTION_UP,
-    GB_ACTION_DOWN,
-    GB_ACTION_LEFT,
-    GB_ACTION_RIGHT,
-    GB_ACTION_PAGE_UP,
-    GB_ACTION_PAGE_DOWN,
-    GB_ACTION_HOME,
-    GB_ACTION_END,
-    GB_ACTION_NEXT_PANE,
-    GB_ACTION_PREVIOUS_PANE,
-    GB_ACTION_ENTER,
-    GB_ACTION_BACK,
-    GB_ACTION_FIND,
-    GB_ACTION_MORE,
-    GB_ACTION_LESS,
-    GB_ACTION_UNDO,
-    GB_ACTION_RESTART,
-    GB_ACTION_PAUSE,
-    GB_ACTION_FREEZE,
-    GB_ACTION_VIEW_CURVE,
-    GB_ACTION_VIEW_HISTOGRAM,
-    GB_ACTION_VIEW_ROSE,
-    GB_ACTION_VIEW_TIME,
-    GB_ACTION_VIEW_DISTANCES,
-    GB_ACTION_VIEW_RATIO,
-    GB_ACTION_VIEW_FORCE,
-    GB_ACTION_VIEW_STRENGTH,
-    GB_ACTION_VIEW_PACKING,
-    GB_ACTION_VIEW_CHART,
-    GB_ACTION_NEXT_VIEW,
-    GB_ACTION_PREVIOUS_VIEW,
-    GB_ACTION_LOG,
-    GB_ACTION_EARLIER,
-    GB_ACTION_GLYPHS,
-    GB_ACTION_FORK,
-    GB_ACTION_FOLLOW,
-    GB_ACTION_ALL,
-    GB_ACTION_DATA,
-    GB_ACTION_COMMAND,
-    GB_ACTION_PICTURE,
-    GB_ACTION_REPORT,
-    GB_ACTION_CELLS,
-    GB_ACTION_FIT,
-    GB_ACTION_TAKE_OVER,
-    GB_ACTION_SAVE,
-    GB_ACTION_OPEN,
-    GB_ACTION_MOUSE,
-    GB_ACTION_REPAINT,
-    GB_ACTION_HELP,
-    GB_ACTION_QUIT
-};
+#include "tui/app/layout.h"
+#include "tui/panel/action.h"
+
+struct gb_app;
 
 enum { GB_KEYS_PER_ROW = 4, GB_KEY_ESCAPE = 27 };
 
-/* The one table behind dispatch, help screen and footer. */
+/* Where a key is valid: the panes that have the focus, one bit each. */
+enum gb_key_scope {
+    GB_KEY_PARAMS = 1 << GB_PANE_PARAMS,
+    GB_KEY_PLOT = 1 << GB_PANE_PLOT,
+    GB_KEY_STATE = 1 << GB_PANE_STATE,
+    GB_KEY_EVENTS = 1 << GB_PANE_EVENTS,
+    GB_KEY_LISTS = GB_KEY_PARAMS | GB_KEY_PLOT | GB_KEY_EVENTS,
+    GB_KEY_ANY_PANE = GB_KEY_LISTS | GB_KEY_STATE,
+    GB_KEY_TOO_SMALL = 1 << GB_PANES, /* also on a screen that is too small */
+    GB_KEY_ALWAYS = GB_KEY_ANY_PANE | GB_KEY_TOO_SMALL
+};
+
+/* One row for each key: dispatch, footer, help page, `greenbody --keys` and the manual
+ * page are made from it.  A new key is a command function and a row. */
 struct gb_key {
     int code[GB_KEYS_PER_ROW]; /* curses key codes, 0 ends */
     const char *name;          /* as shown: "p", "Tab" */
-    const char *brief;         /* in the footer; NULL: only in the help screen */
+    const char *brief;         /* in the footer; NULL: only on the help page */
     const char *help;
-    enum gb_action action;
+    int scope; /* bits of enum gb_key_scope */
+    void (*command)(struct gb_app *app, const struct gb_key *key);
+    enum gb_action action; /* of a navigation key */
 };
 
-const struct gb_key *gb_keys_table(size_t *count);
+/* Number of rows, the views' digits among them. */
+size_t gb_keys_count(void);
+struct gb_key gb_keys_at(size_t index);
 
-/* Action of a curses key code. */
+/* Row of a curses key code; false: not assigned. */
+bool gb_keys_find(int code, struct gb_key *key);
+
+/* Navigation action of a curses key code. */
 enum gb_action gb_keys_action(int code);
 
 #endif

@@ -3,11 +3,7 @@
 
 #include <stdbool.h>
 
-/* Cells of the screen; rows or cols 0: not shown. */
-struct gb_rect {
-    int row, col;
-    int rows, cols;
-};
+#include "tui/term/rect.h"
 
 /* Panes in the order of Tab. */
 enum gb_pane { GB_PANE_PARAMS, GB_PANE_PLOT, GB_PANE_STATE, GB_PANE_EVENTS, GB_PANES };

@@ -93,7 +93,7 @@ void gb_preset_browser_init(struct gb_preset_browser *browser,
     browser->names = gb_preset_list();
     browser->shown = g_new0(int, (gsize)length_of(browser->names) + 1);
     browser->base = *current;
-    g_strlcpy(browser->base_name, "the screen", sizeof browser->base_name);
+    g_strlcpy(browser->base_name, "the current parameters", sizeof browser->base_name);
     gb_prompt_set(&browser->filter, "");
     apply_filter(browser);
 }
@@ -122,8 +122,7 @@ static void draw_list(struct gb_preset_browser *browser, const struct gb_paint *
     scroll_to_focus(browser);
     if (browser->count == 0) {
         gb_paint_text(paint, 2, 0, GB_STYLE_DIM,
-                      length_of(browser->names) > 0 ? "no name fits"
-                                                    : "no preset was found");
+                      length_of(browser->names) > 0 ? "no match" : "no presets found");
     }
     for (int i = 0; i < browser->page && browser->top + i < browser->count; i++) {
         const int at = browser->top + i;

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "tui/app/panes.h"
+#include "tui/view/views.h"
 
 static struct gb_paint whole(const struct gb_screen *screen)
 {
@@ -23,7 +25,7 @@ static void draw_header(struct gb_screen *screen)
         word = gb_quick_cell_live(&session->quick_cell) ? "\u25b6 quick cell"
                                                         : "\u2713 quick cell";
     } else if (shown.curve != NULL) {
-        word = gb_panel_state_word(session->engine, &style);
+        word = gb_panel_state_word(session->run_state, &style);
     }
     char right[64];
     snprintf(right, sizeof right, "%s%s", session->frozen ? "view frozen  " : "", word);
@@ -56,28 +58,31 @@ static int footer_width(const struct gb_key *key, int gap)
     return gb_paint_width(name) + 1 + gb_paint_width(key->brief) + gap;
 }
 
-/* Where the keys of the footer stand: as many of the table as fit; the last two, help and
- * quit, always.  at[i] is -1 for those that do not.  Returns their number. */
 enum { FOOTER_KEYS = 64 };
 
+/* Columns of the keys in the footer: as many of the table as fit, always the last two, help
+ * and quit.  at[i] is -1 for the others.  Returns the rows of the table. */
 static size_t layout_footer(int cols, int at[FOOTER_KEYS])
 {
-    size_t count = 0;
-    const struct gb_key *key = gb_keys_table(&count);
+    const size_t count = gb_keys_count();
     int all = 0;
     for (size_t i = 0; i < count; i++) {
-        all += key[i].brief != NULL ? footer_width(&key[i], 2) : 0;
+        const struct gb_key key = gb_keys_at(i);
+        all += key.brief != NULL ? footer_width(&key, 2) : 0;
     }
     const int gap = all <= cols ? 2 : 1;
-    int reserved = footer_width(&key[count - 2], gap) + footer_width(&key[count - 1], 0);
+    const struct gb_key help = gb_keys_at(count - 2);
+    const struct gb_key quit = gb_keys_at(count - 1);
+    const int reserved = footer_width(&help, gap) + footer_width(&quit, 0);
     int col = gap - 1;
     for (size_t i = 0; i < count; i++) {
+        const struct gb_key key = gb_keys_at(i);
         const bool last = i + 2 >= count;
         at[i] = -1;
-        if (key[i].brief != NULL &&
-            (last || col + footer_width(&key[i], gap) + reserved <= cols)) {
+        if (key.brief != NULL &&
+            (last || col + footer_width(&key, gap) + reserved <= cols)) {
             at[i] = col;
-            col += footer_width(&key[i], gap);
+            col += footer_width(&key, gap);
         }
     }
     return count;
@@ -87,52 +92,44 @@ static void draw_footer(struct gb_screen *screen)
 {
     const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.footer);
     int at[FOOTER_KEYS];
-    size_t count = 0;
-    const struct gb_key *key = gb_keys_table(&count);
-    layout_footer(paint.rect.cols, at);
+    const size_t count = layout_footer(paint.rect.cols, at);
     for (size_t i = 0; i < count; i++) {
+        const struct gb_key key = gb_keys_at(i);
         char name[16];
-        brief_name(&key[i], name, sizeof name);
+        brief_name(&key, name, sizeof name);
         if (at[i] >= 0) {
             const int col = gb_paint_text(&paint, 0, at[i], GB_STYLE_BOLD, name) + 1;
-            gb_paint_text(&paint, 0, col, GB_STYLE_DIM, key[i].brief);
+            gb_paint_text(&paint, 0, col, GB_STYLE_DIM, key.brief);
         }
     }
 }
 
-const struct gb_key *gb_screen_key_at(const struct gb_screen *screen, int row, int col)
+bool gb_screen_key_at(const struct gb_screen *screen, int row, int col,
+                      struct gb_key *key)
 {
     const struct gb_rect *footer = &screen->layout.footer;
     int at[FOOTER_KEYS];
-    size_t count = 0;
-    const struct gb_key *key = gb_keys_table(&count);
     if (footer->rows == 0 || row != footer->row) {
-        return NULL;
+        return false;
     }
-    layout_footer(footer->cols, at);
+    const size_t count = layout_footer(footer->cols, at);
     for (size_t i = 0; i < count; i++) {
-        if (at[i] >= 0 && col >= at[i] && col < at[i] + footer_width(&key[i], 0)) {
-            return &key[i];
+        *key = gb_keys_at(i);
+        if (at[i] >= 0 && col >= at[i] && col < at[i] + footer_width(key, 0)) {
+            return true;
         }
     }
-    return NULL;
+    return false;
 }
 
+/* The last refusal or result, else the description of the focused pane. */
 static void draw_message(struct gb_screen *screen)
 {
     const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.message);
     struct gb_message message = screen->message;
-    if (message.text[0] == '\0' || screen->params.editing) {
-        struct gb_message shown = {.style = GB_STYLE_DIM};
-        if (screen->focus == GB_PANE_PARAMS) {
-            gb_panel_params_describe(&screen->params, &screen->session, &shown);
-        } else if (screen->focus == GB_PANE_PLOT) {
-            gb_panel_plot_describe(&screen->plot, &screen->session, &shown);
-        } else if (screen->session.now.error.text[0] != '\0') {
-            snprintf(shown.text, sizeof shown.text, "%s", screen->session.now.error.text);
-            shown.style = GB_STYLE_WARN;
-        }
-        message = message.text[0] == '\0' ? shown : message;
+    if (message.text[0] == '\0') {
+        message.style = GB_STYLE_DIM;
+        gb_panes_type(screen->focus)->describe(screen, &message);
     }
     gb_paint_wrap(&paint, 0, paint.rect.rows, message.style, message.text);
 }
@@ -140,24 +137,8 @@ static void draw_message(struct gb_screen *screen)
 static void draw_pane(struct gb_screen *screen, enum gb_pane pane)
 {
     const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.pane[pane]);
-    const bool focus = screen->focus == pane && screen->dialog.kind == GB_DIALOG_NONE;
-    switch (pane) {
-    case GB_PANE_PARAMS:
-        gb_panel_params_draw(&screen->params, &paint, &screen->session, focus);
-        break;
-    case GB_PANE_PLOT:
-        screen->plot.edited = gb_panel_params_edited(&screen->params, &screen->session);
-        gb_panel_plot_draw(&screen->plot, &paint, &screen->session, focus);
-        break;
-    case GB_PANE_STATE:
-        gb_panel_state_draw(&paint, &screen->session, focus);
-        break;
-    case GB_PANE_EVENTS:
-        gb_panel_events_draw(&screen->events, &paint, &screen->session, focus);
-        break;
-    case GB_PANES:
-        break;
-    }
+    const bool focus = screen->focus == pane && screen->dialog.type == NULL;
+    gb_panes_type(pane)->draw(screen, &paint, focus);
 }
 
 static void join(const struct gb_paint *paint, int row, int col, const char *sign)
@@ -220,11 +201,11 @@ void gb_screen_draw(struct gb_screen *screen)
     gb_dialog_draw(&screen->dialog, &paint);
 }
 
-const struct gb_view_sample *gb_screen_picture(const struct gb_screen *screen)
+const struct gb_view_sample *gb_screen_sample(const struct gb_screen *screen)
 {
     const struct gb_session_shown shown = gb_session_shown(&screen->session);
-    const bool wanted = screen->plot.pixels && screen->plot.view == GB_VIEW_PACKING &&
-                        screen->dialog.kind == GB_DIALOG_NONE &&
-                        gb_layout_shows(&screen->layout, GB_PANE_PLOT);
-    return wanted && shown.picture != NULL && shown.picture->valid ? shown.picture : NULL;
+    const bool wanted =
+        screen->plot.pixels && screen->plot.view->draw == gb_view_packing_draw &&
+        screen->dialog.type == NULL && gb_layout_shows(&screen->layout, GB_PANE_PLOT);
+    return wanted && shown.sample != NULL && shown.sample->valid ? shown.sample : NULL;
 }

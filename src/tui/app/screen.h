@@ -16,7 +16,7 @@ struct gb_screen {
     struct gb_panel_events events;
     struct gb_dialog dialog;
     struct gb_term_image image; /* on top of the packing's cells */
-    struct gb_message message;  /* "": the focused pane explains itself */
+    struct gb_message message;  /* "": the focused pane describes itself */
 };
 
 /* Draws all of it into curses' memory; what differs from the terminal is sent by
@@ -24,9 +24,10 @@ struct gb_screen {
 void gb_screen_draw(struct gb_screen *screen);
 
 /* What is to lie on the screen in pixels; NULL: nothing. */
-const struct gb_view_sample *gb_screen_picture(const struct gb_screen *screen);
+const struct gb_view_sample *gb_screen_sample(const struct gb_screen *screen);
 
-/* The key that stands in that cell of the footer; NULL: none. */
-const struct gb_key *gb_screen_key_at(const struct gb_screen *screen, int row, int col);
+/* The key in that cell of the footer; false: none. */
+bool gb_screen_key_at(const struct gb_screen *screen, int row, int col,
+                      struct gb_key *key);
 
 #endif

@@ -36,7 +36,7 @@ void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *
 {
     char title[GB_CHILD_COMMAND_LINE + 32] = "Events";
     if (session->child.progress[0] != '\0') {
-        snprintf(title, sizeof title, "Events: %s, %s", session->child.what,
+        snprintf(title, sizeof title, "Events: %s, %s", session->child.name,
                  session->child.progress);
     }
     gb_paint_title(paint, title, focus);
@@ -60,30 +60,30 @@ void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *
     }
 }
 
-bool gb_panel_events_act(struct gb_panel_events *panel, const struct gb_session *session,
-                         enum gb_action action)
+void gb_panel_events_navigate(struct gb_panel_events *panel,
+                              const struct gb_session *session, enum gb_action action)
 {
     const int max = scroll_max(panel, session);
     switch (action) {
     case GB_ACTION_UP:
         panel->back = limit(panel->back + 1, max);
-        return true;
+        break;
     case GB_ACTION_DOWN:
         panel->back = limit(panel->back - 1, max);
-        return true;
+        break;
     case GB_ACTION_PAGE_UP:
         panel->back = limit(panel->back + panel->page, max);
-        return true;
+        break;
     case GB_ACTION_PAGE_DOWN:
         panel->back = limit(panel->back - panel->page, max);
-        return true;
+        break;
     case GB_ACTION_HOME:
         panel->back = max;
-        return true;
+        break;
     case GB_ACTION_END:
         panel->back = 0;
-        return true;
+        break;
     default:
-        return false;
+        break;
     }
 }

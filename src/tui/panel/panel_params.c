@@ -5,12 +5,13 @@
 #include "scene/field.h"
 #include "tui/panel/panels.h"
 #include "tui/panel/param_list.h"
-#include "tui/session/value_step.h"
 
 /* Longest key of the field table, and the mark before it. */
 enum { KEY_COL = 1, VALUE_COL = 18 };
+/* From this width on the title says what r does. */
+enum { WIDE_COLS = 45 };
 
-static const struct gb_field *focused(const struct gb_panel_params *panel)
+const struct gb_field *gb_panel_params_field(const struct gb_panel_params *panel)
 {
     size_t count = 0;
     return &gb_params_fields(&count)[panel->focus];
@@ -24,7 +25,7 @@ static struct gb_param_list listed(const struct gb_panel_params *panel,
     return list;
 }
 
-/* Keeps the focus and, where there is room, its heading in sight. */
+/* Keeps the focus and, where there is room, its heading visible. */
 static void scroll(struct gb_panel_params *panel, const struct gb_param_list *list)
 {
     const int line = list->line[gb_param_list_index(list, panel->focus)];
@@ -48,7 +49,7 @@ static void draw_value(const struct gb_panel_params *panel, const struct gb_pain
     const int cols = paint->rect.cols - 1 - VALUE_COL;
     char value[256];
     gb_params_format(gb_session_params(session), field, value, sizeof value);
-    if (panel->editing && field == focused(panel)) {
+    if (panel->editing && field == gb_panel_params_field(panel)) {
         if (field->choices != NULL) {
             snprintf(value, sizeof value, "< %s >", field->choices[panel->choice]);
             gb_paint_cell(paint, row, VALUE_COL, cols, GB_STYLE_EDIT, value);
@@ -94,8 +95,13 @@ void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *
 {
     char title[64];
     const int changes = gb_session_changes(session);
-    snprintf(title, sizeof title, changes > 0 ? "Parameters * %d for r" : "Parameters",
-             changes);
+    if (changes > 0) {
+        snprintf(title, sizeof title, "%d change%s not run yet%s", changes,
+                 changes == 1 ? "" : "s",
+                 paint->rect.cols >= WIDE_COLS ? " (r runs them)" : " (r)");
+    } else {
+        snprintf(title, sizeof title, "Parameters");
+    }
     const struct gb_param_list list = listed(panel, session);
     size_t count = 0;
     const struct gb_field *field = gb_params_fields(&count);
@@ -116,113 +122,40 @@ void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *
     gb_paint_title(paint, title, focus);
 }
 
-static void begin_edit(struct gb_panel_params *panel, struct gb_session *session)
-{
-    const struct gb_field *field = focused(panel);
-    char value[GB_PROMPT_MAX];
-    gb_params_format(gb_session_params(session), field, value, sizeof value);
-    panel->editing = true;
-    panel->choice = 0;
-    gb_prompt_set(&panel->prompt, value);
-    for (int i = 0; field->choices != NULL && field->choices[i] != NULL; i++) {
-        if (strcmp(field->choices[i], value) == 0) {
-            panel->choice = i;
-        }
-    }
-}
-
-/* The value that the run uses comes back. */
-static void undo(struct gb_panel_params *panel, struct gb_session *session,
-                 struct gb_message *message)
-{
-    const struct gb_field *field = focused(panel);
-    char value[GB_PARAMS_VALUE_MAX];
-    if (session->runner == NULL) {
-        return;
-    }
-    gb_params_format(gb_runner_params(session->runner), field, value, sizeof value);
-    gb_params_set(gb_session_params(session), field, value, NULL);
-    snprintf(message->text, sizeof message->text, "%s.%s is %.256s again, as in the run",
-             field->group, field->key, value[0] != '\0' ? value : "empty");
-    message->style = GB_STYLE_PLAIN;
-    gb_session_start_quick(session);
-}
-
-static bool move(struct gb_panel_params *panel, struct gb_session *session, int by)
+static void move(struct gb_panel_params *panel, struct gb_session *session, int by)
 {
     const struct gb_param_list list = listed(panel, session);
     const int to = gb_param_list_index(&list, panel->focus) + by;
     panel->focus = list.field[to < 0 ? 0 : to < list.count ? to : list.count - 1];
-    return true;
 }
 
-static void toggle_all(struct gb_panel_params *panel, struct gb_message *message)
+void gb_panel_params_list_all(struct gb_panel_params *panel, struct gb_message *message)
 {
     panel->all = !panel->all;
     snprintf(message->text, sizeof message->text, "%s",
              panel->all ? "all parameters; those without effect on this scene are dim"
-                        : "the parameters that this scene uses");
+                        : "parameters used by this scene");
     message->style = GB_STYLE_PLAIN;
 }
 
-/* A good value is taken; one that does not fit the others is taken with a warning,
- * because the others may be changed next. */
-static bool take(struct gb_session *session, const struct gb_field *field,
-                 const char *text, struct gb_message *message)
-{
-    struct gb_error err = {0};
-    if (!gb_params_set(gb_session_params(session), field, text, &err)) {
-        snprintf(message->text, sizeof message->text, "%s", err.text);
-        message->style = GB_STYLE_BAD;
-        return false;
-    }
-    message->text[0] = '\0';
-    if (!gb_params_check(gb_session_params(session), &err)) {
-        snprintf(message->text, sizeof message->text, "does not fit the rest yet: %s",
-                 err.text);
-        message->style = GB_STYLE_WARN;
-        return true;
-    }
-    gb_session_start_quick(session);
-    return true;
-}
-
-/* The knob: the next value takes effect at once. */
-static bool turn(struct gb_panel_params *panel, struct gb_session *session, int direction,
-                 struct gb_message *message)
-{
-    const struct gb_field *field = focused(panel);
-    char value[GB_PARAMS_VALUE_MAX];
-    char text[GB_PARAMS_VALUE_MAX + 16];
-    gb_params_format(gb_session_params(session), field, value, sizeof value);
-    if (!gb_value_step_next(field, value, direction, text, sizeof text)) {
-        snprintf(message->text, sizeof message->text,
-                 "%s cannot be turned: Enter edits it", field->key);
-        message->style = GB_STYLE_WARN;
-        return true;
-    }
-    take(session, field, text, message);
-    return true;
-}
-
-bool gb_panel_params_click(struct gb_panel_params *panel, struct gb_session *session,
-                           int row, int col, bool *value)
+enum gb_panel_params_hit gb_panel_params_click(struct gb_panel_params *panel,
+                                               struct gb_session *session, int row,
+                                               int col)
 {
     const struct gb_param_list list = listed(panel, session);
-    *value = col >= VALUE_COL;
     for (int i = 0; i < list.count; i++) {
         if (row >= 1 && 1 + list.line[i] - panel->top == row) {
             panel->focus = list.field[i];
-            return true;
+            return col >= VALUE_COL ? GB_PANEL_PARAMS_VALUE : GB_PANEL_PARAMS_KEY;
         }
     }
-    return false;
+    return GB_PANEL_PARAMS_MISS;
 }
 
 void gb_panel_params_assignment(const struct gb_panel_params *panel,
                                 struct gb_session *session, char *text, size_t size)
 {
-    const struct gb_field *field = focused(panel);
+    const struct gb_field *field = gb_panel_params_field(panel);
     char value[GB_PARAMS_VALUE_MAX];
     gb_params_format(gb_session_params(session), field, value, sizeof value);
     snprintf(text, size, "%s.%s=%s", field->group, field->key, value);
@@ -250,108 +183,36 @@ bool gb_panel_params_find(struct gb_panel_params *panel, struct gb_session *sess
     return false;
 }
 
-bool gb_panel_params_act(struct gb_panel_params *panel, struct gb_session *session,
-                         enum gb_action action, struct gb_message *message)
+void gb_panel_params_navigate(struct gb_panel_params *panel, struct gb_session *session,
+                              enum gb_action action)
 {
+    const int page = panel->page > 2 ? panel->page - 2 : 1;
     switch (action) {
     case GB_ACTION_UP:
-        return move(panel, session, -1);
+        move(panel, session, -1);
+        break;
     case GB_ACTION_DOWN:
-        return move(panel, session, 1);
+        move(panel, session, 1);
+        break;
     case GB_ACTION_PAGE_UP:
-        return move(panel, session, panel->page > 2 ? 2 - panel->page : -1);
+        move(panel, session, -page);
+        break;
     case GB_ACTION_PAGE_DOWN:
-        return move(panel, session, panel->page > 2 ? panel->page - 2 : 1);
+        move(panel, session, page);
+        break;
     case GB_ACTION_HOME:
-        return move(panel, session, -GB_PARAM_LIST_MAX);
+        move(panel, session, -GB_PARAM_LIST_MAX);
+        break;
     case GB_ACTION_END:
-        return move(panel, session, GB_PARAM_LIST_MAX);
-    case GB_ACTION_ALL:
-        toggle_all(panel, message);
-        return true;
-    case GB_ACTION_ENTER:
-        begin_edit(panel, session);
-        return true;
-    case GB_ACTION_MORE:
-        return turn(panel, session, 1, message);
-    case GB_ACTION_LESS:
-        return turn(panel, session, -1, message);
-    case GB_ACTION_UNDO:
-        undo(panel, session, message);
-        return true;
-    default:
-        return false;
-    }
-}
-
-/* What is being typed or chosen. */
-static const char *typed(struct gb_panel_params *panel)
-{
-    const struct gb_field *field = focused(panel);
-    return field->choices != NULL ? field->choices[panel->choice]
-                                  : gb_prompt_text(&panel->prompt);
-}
-
-static void accept(struct gb_panel_params *panel, struct gb_session *session,
-                   struct gb_message *message)
-{
-    if (take(session, focused(panel), typed(panel), message)) {
-        panel->editing = false;
-    }
-}
-
-struct gb_params gb_panel_params_edited(struct gb_panel_params *panel,
-                                        struct gb_session *session)
-{
-    struct gb_params edited = *gb_session_params(session);
-    if (panel->editing) {
-        gb_params_set(&edited, focused(panel), typed(panel), NULL);
-    }
-    return edited;
-}
-
-static void choose(struct gb_panel_params *panel, int step)
-{
-    const char *const *choices = focused(panel)->choices;
-    int count = 0;
-    while (choices[count] != NULL) {
-        count++;
-    }
-    panel->choice = (panel->choice + step + count) % count;
-}
-
-void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *session,
-                              const struct gb_term_event *event,
-                              struct gb_message *message)
-{
-    const bool choices = focused(panel)->choices != NULL;
-    if (!choices && gb_prompt_handle(&panel->prompt, event)) {
-        message->text[0] = '\0';
-        return;
-    }
-    switch (gb_keys_action(event->code)) {
-    case GB_ACTION_ENTER:
-        accept(panel, session, message);
+        move(panel, session, GB_PARAM_LIST_MAX);
         break;
-    case GB_ACTION_BACK:
-        panel->editing = false;
-        message->text[0] = '\0';
+    case GB_ACTION_ENTER:
+        gb_panel_params_edit_begin(panel, session);
         break;
-    case GB_ACTION_UP:
     case GB_ACTION_LEFT:
-        if (choices) {
-            choose(panel, -1);
-        }
-        break;
-    case GB_ACTION_DOWN:
     case GB_ACTION_RIGHT:
-    case GB_ACTION_NEXT_PANE:
-    case GB_ACTION_FREEZE: /* the space bar */
-        if (choices) {
-            choose(panel, 1);
-        }
-        break;
-    default:
+    case GB_ACTION_BACK:
+    case GB_ACTION_NONE:
         break;
     }
 }
@@ -359,21 +220,21 @@ void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *
 void gb_panel_params_describe(const struct gb_panel_params *panel,
                               struct gb_session *session, struct gb_message *message)
 {
-    const struct gb_field *field = focused(panel);
+    const struct gb_field *field = gb_panel_params_field(panel);
     char accepted[256];
     char value[256];
     gb_field_accepted(field, accepted, sizeof accepted);
     if (panel->editing) {
         snprintf(message->text, sizeof message->text,
-                 "%s: %s.  Enter takes it, Esc leaves it.  Accepted: %s", field->key,
+                 "%s: %s.  Enter accepts, Esc cancels.  Accepted: %s", field->key,
                  field->meaning, accepted);
     } else if (gb_session_differs(session, field)) {
         gb_params_format(gb_runner_params(session->runner), field, value, sizeof value);
-        snprintf(
-            message->text, sizeof message->text,
-            "%s: %s.  * the quick cell answers, the full one follows or r starts it; the "
-            "run uses %s (u takes it back)",
-            field->key, field->meaning, value[0] != '\0' ? value : "none");
+        snprintf(message->text, sizeof message->text,
+                 "%s: %s.  * changed: the quick cell runs first, the full one follows or "
+                 "waits "
+                 "for r; the run uses %s (u reverts)",
+                 field->key, field->meaning, value[0] != '\0' ? value : "none");
     } else {
         snprintf(message->text, sizeof message->text, "%s: %s.  %s; default %s.  [%s]",
                  field->key, field->meaning, accepted,

@@ -1,24 +1,27 @@
 #ifndef GB_TUI_PANEL_PANELS_H
 #define GB_TUI_PANEL_PANELS_H
 
-#include "tui/app/keys.h"
+#include "tui/panel/action.h"
 #include "tui/panel/prompt.h"
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
 
-/* The four panes.  Each draws into its rectangle and answers actions while it has the
- * focus.  They see the run only through the session. */
+struct gb_plot_view;
 
-/* What stands on the message line, and how serious it is. */
+/* The four panes.  Each draws into its rectangle and answers navigation keys while it has
+ * the focus.  They see the run only through the session. */
+
+/* Text of the message line. */
 struct gb_message {
     char text[600];
     enum gb_style style;
 };
 
-/* [parameters] */
+/* --- parameters: panel_params.c, panel_params_edit.c -------------------------------- */
+
 struct gb_panel_params {
     int focus; /* row of the field table */
-    bool all;  /* also those that mean nothing to the scene */
+    bool all;  /* lists also the parameters without effect on the scene */
     int top;   /* first line shown */
     int page;  /* lines shown by the last draw */
     bool editing;
@@ -28,103 +31,119 @@ struct gb_panel_params {
 
 void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *paint,
                           struct gb_session *session, bool focus);
-/* False when the action is not for this pane. */
-bool gb_panel_params_act(struct gb_panel_params *panel, struct gb_session *session,
-                         enum gb_action action, struct gb_message *message);
-/* Moves to the next parameter whose name, or group.name, has that text in it; one that is
- * called so comes first.  All are listed when the scene does not use it.  False: there is
- * none. */
+void gb_panel_params_navigate(struct gb_panel_params *panel, struct gb_session *session,
+                              enum gb_action action);
+/* Toggles the list between all parameters and those of the scene. */
+void gb_panel_params_list_all(struct gb_panel_params *panel, struct gb_message *message);
+/* Moves to the next parameter with this text in "group.name"; an exact name first.  All
+ * parameters are listed when the scene does not use it.  False: there is none. */
 bool gb_panel_params_find(struct gb_panel_params *panel, struct gb_session *session,
                           const char *name);
-/* The parameter in a row of the pane gets the focus; false: there is none.  *value tells
- * whether the column is one of its value. */
-bool gb_panel_params_click(struct gb_panel_params *panel, struct gb_session *session,
-                           int row, int col, bool *value);
-/* "contact.mu=0.1": the parameter with the focus, as edited. */
+
+enum gb_panel_params_hit {
+    GB_PANEL_PARAMS_MISS,
+    GB_PANEL_PARAMS_KEY,
+    GB_PANEL_PARAMS_VALUE
+};
+
+/* Focuses the parameter in a row of the pane; tells what is in that column. */
+enum gb_panel_params_hit gb_panel_params_click(struct gb_panel_params *panel,
+                                               struct gb_session *session, int row,
+                                               int col);
+/* "contact.mu=0.1": the focused parameter, as edited. */
 void gb_panel_params_assignment(const struct gb_panel_params *panel,
                                 struct gb_session *session, char *text, size_t size);
+/* Field of the focused parameter. */
+const struct gb_field *gb_panel_params_field(const struct gb_panel_params *panel);
+/* Meaning and range of the focused parameter. */
+void gb_panel_params_describe(const struct gb_panel_params *panel,
+                              struct gb_session *session, struct gb_message *message);
+
+void gb_panel_params_edit_begin(struct gb_panel_params *panel,
+                                struct gb_session *session);
 /* A key while editing. */
 void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *session,
                               const struct gb_term_event *event,
                               struct gb_message *message);
-/* The parameters, with the value being typed where it is a good one. */
-struct gb_params gb_panel_params_edited(struct gb_panel_params *panel,
-                                        struct gb_session *session);
-/* Meaning and range of the parameter with the focus. */
-void gb_panel_params_describe(const struct gb_panel_params *panel,
-                              struct gb_session *session, struct gb_message *message);
+/* Increases (1) or decreases (-1) the focused value; the quick cell starts at once. */
+void gb_panel_params_edit_step(struct gb_panel_params *panel, struct gb_session *session,
+                               int direction, struct gb_message *message);
+/* The focused value becomes the one that the run uses. */
+void gb_panel_params_edit_revert(struct gb_panel_params *panel,
+                                 struct gb_session *session, struct gb_message *message);
+/* The parameters, with the value being typed where that is valid. */
+struct gb_params gb_panel_params_edit_params(struct gb_panel_params *panel,
+                                             struct gb_session *session);
 
-/* [plot] */
-/* In the order of their keys 1, 2, ... 9, 0. */
-enum gb_plot_view {
-    GB_VIEW_CURVE,
-    GB_VIEW_HISTOGRAM,
-    GB_VIEW_ROSE,
-    GB_VIEW_TIME,
-    GB_VIEW_DISTANCES,
-    GB_VIEW_RATIO,
-    GB_VIEW_FORCE,
-    GB_VIEW_STRENGTH,
-    GB_VIEW_PACKING,
-    GB_VIEW_CHART,
-    GB_VIEWS
-};
+/* --- plot: panel_plot.c, panel_plot_cursor.c ---------------------------------------- */
 
-/* Laws below the curve, where there is room. */
+/* Contact laws below the curve, where there is room. */
 enum { GB_PANEL_INSETS = 2 };
 
 struct gb_panel_plot {
-    enum gb_plot_view view;
+    const struct gb_plot_view *view;
     bool log, hide_previous;
-    bool shades; /* the screen can shade a relief */
-    bool utf8;   /* and has more than ASCII */
-    bool pixels; /* the packing is shown as a picture: its cells stay empty */
+    bool shades; /* the screen has the colours of shaded spheres */
+    bool utf8;   /* and more characters than ASCII */
+    bool pixels; /* the packing is an image over empty cells */
     enum gb_plot_glyphs glyphs;
     bool cursor_on;
     size_t cursor;        /* point of the curve */
     double unit_pa;       /* of the pressure axis */
     struct gb_rect field; /* cells of the screen that the view fills */
     struct gb_plot plot, inset[GB_PANEL_INSETS];
-    struct gb_plot *target;  /* the one a law is being drawn into */
-    struct gb_params edited; /* with the value being typed, if it is a good one */
+    struct gb_plot *target;  /* of the drawing under way: plot or an inset */
+    struct gb_params edited; /* gb_panel_params_edit_params */
     double *x, *y;           /* series under construction */
     size_t capacity;
 };
 
-/* graph: GB_GRAPH_AUTO or what is asked for. */
+/* graph: enum gb_settings_graph. */
 void gb_panel_plot_init(struct gb_panel_plot *panel, const struct gb_term *term,
                         int graph);
 void gb_panel_plot_finish(struct gb_panel_plot *panel);
 void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *paint,
                         const struct gb_session *session, bool focus);
-bool gb_panel_plot_act(struct gb_panel_plot *panel, const struct gb_session *session,
-                       enum gb_action action);
-/* The cursor goes to the point of the curve that is nearest to a cell of the pane. */
-void gb_panel_plot_click(struct gb_panel_plot *panel, const struct gb_session *session,
-                         int row, int col);
-/* Room for count points in x and y. */
+/* The next (1) or previous (-1) view of the scene. */
+void gb_panel_plot_step_view(struct gb_panel_plot *panel, int step);
+/* Room for count points in x and y; false: out of memory. */
 bool gb_panel_plot_reserve(struct gb_panel_plot *panel, size_t count);
-/* "relax", "compress" or "hold": the branch of a point of a dynamic run. */
+/* "relax", "compress" or "hold": stage of a point of a dynamic run. */
 const char *gb_panel_plot_stage(int branch);
-/* The point under the cursor, or what the view shows. */
-void gb_panel_plot_describe(const struct gb_panel_plot *panel,
-                            const struct gb_session *session, struct gb_message *message);
 
-/* [state] */
+/* Moves the cursor along the points of the curve. */
+void gb_panel_plot_cursor_navigate(struct gb_panel_plot *panel,
+                                   const struct gb_session *session,
+                                   enum gb_action action);
+/* Moves it to the point nearest to a cell of the pane. */
+void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
+                                const struct gb_session *session, int row, int col);
+/* x coordinate of a point in the view: relative density, ns or step. */
+double gb_panel_plot_cursor_x(const struct gb_panel_plot *panel,
+                              const struct gb_session *session,
+                              const struct gb_point *point);
+/* Values at the cursor, else the misfit to the measured data, else the view's hint. */
+void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
+                                   const struct gb_session *session,
+                                   struct gb_message *message);
+
+/* --- state: panel_state.c, panel_state_items.c -------------------------------------- */
+
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
                          bool focus);
 /* "running", with its sign; the style says the same in colour. */
 const char *gb_panel_state_word(int state, enum gb_style *style);
 
-/* [events] */
+/* --- events ------------------------------------------------------------------------- */
+
 struct gb_panel_events {
-    int back; /* lines scrolled back from the last */
+    int back; /* lines scrolled back from the newest */
     int page;
 };
 
 void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *paint,
                           const struct gb_session *session, bool focus);
-bool gb_panel_events_act(struct gb_panel_events *panel, const struct gb_session *session,
-                         enum gb_action action);
+void gb_panel_events_navigate(struct gb_panel_events *panel,
+                              const struct gb_session *session, enum gb_action action);
 
 #endif

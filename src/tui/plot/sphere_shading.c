@@ -16,10 +16,10 @@ struct frame {
     double left, top; /* dots of the window's corner */
 };
 
-static struct frame fit(const struct gb_view_sample *picture, int rows, int cols)
+static struct frame fit(const struct gb_view_sample *sample, int rows, int cols)
 {
-    const double wide = picture->window[0] + 2.0 * margin;
-    const double high = picture->window[2] + 2.0 * margin;
+    const double wide = sample->window[0] + 2.0 * margin;
+    const double high = sample->window[2] + 2.0 * margin;
     const double scale = fmin(cols / wide, rows / high);
     return (struct frame){rows, cols, scale, 0.5 * (cols - scale * wide),
                           0.5 * (rows - scale * high)};
@@ -36,15 +36,15 @@ static float brightness(double x, double z, double depth)
 
 /* What is already there is nearer when its depth is less: the relief is drawn from the
  * back, so that no buffer of depths is needed. */
-static void draw_sphere(const struct frame *frame, const struct gb_view_sample *picture,
+static void draw_sphere(const struct frame *frame, const struct gb_view_sample *sample,
                         int i, float *shade)
 {
-    const float *place = picture->position[i];
-    const double reach = fmax(picture->radius[i] * frame->scale, 0.5);
-    const double col = frame->left + (place[0] + margin) * frame->scale;
+    const float *position = sample->position[i];
+    const double reach = fmax(sample->radius[i] * frame->scale, 0.5);
+    const double col = frame->left + (position[0] + margin) * frame->scale;
     const double row =
-        frame->top + (picture->window[2] + margin - place[2]) * frame->scale;
-    const double depth = picture->dimension == 3 ? place[1] : 0.0;
+        frame->top + (sample->window[2] + margin - position[2]) * frame->scale;
+    const double depth = sample->dimension == 3 ? position[1] : 0.0;
     const int last_row = (int)fmin(frame->rows - 1, floor(row + reach));
     const int last_col = (int)fmin(frame->cols - 1, floor(col + reach));
     for (int r = (int)fmax(0.0, floor(row - reach)); r <= last_row; r++) {
@@ -61,16 +61,16 @@ static void draw_sphere(const struct frame *frame, const struct gb_view_sample *
 /* Spheres of one thin layer; layers go from the back to the front. */
 enum { LAYERS = 256 };
 
-static int layer_of(const struct gb_view_sample *picture, int i)
+static int layer_of(const struct gb_view_sample *sample, int i)
 {
-    if (picture->dimension != 3) {
+    if (sample->dimension != 3) {
         return 0;
     }
-    const double depth_share = picture->position[i][1] / fmax(picture->window[1], 1e-9);
+    const double depth_share = sample->position[i][1] / fmax(sample->window[1], 1e-9);
     return (int)(fmin(fmax(depth_share, 0.0), 0.999) * LAYERS);
 }
 
-void gb_sphere_shading_render(const struct gb_view_sample *picture, int rows, int cols,
+void gb_sphere_shading_render(const struct gb_view_sample *sample, int rows, int cols,
                               float *shade)
 {
     /* a counting sort by layer: first[l] is where the layer's chain begins */
@@ -82,15 +82,15 @@ void gb_sphere_shading_render(const struct gb_view_sample *picture, int rows, in
     for (int l = 0; l < LAYERS; l++) {
         first[l] = -1;
     }
-    for (int i = 0; i < picture->count; i++) {
-        const int l = layer_of(picture, i);
+    for (int i = 0; i < sample->count; i++) {
+        const int l = layer_of(sample, i);
         next[i] = (int16_t)first[l];
         first[l] = i;
     }
-    const struct frame frame = fit(picture, rows, cols);
+    const struct frame frame = fit(sample, rows, cols);
     for (int l = LAYERS - 1; l >= 0; l--) {
         for (int i = first[l]; i >= 0; i = next[i]) {
-            draw_sphere(&frame, picture, i, shade);
+            draw_sphere(&frame, sample, i, shade);
         }
     }
 }

@@ -9,7 +9,7 @@
  * shade   rows x cols, from the top: 0..1, negative where nothing is
  * Dots are square; the window of the picture is scaled to fit and stands in the middle.
  */
-void gb_sphere_shading_render(const struct gb_view_sample *picture, int rows, int cols,
+void gb_sphere_shading_render(const struct gb_view_sample *sample, int rows, int cols,
                               float *shade);
 
 #endif

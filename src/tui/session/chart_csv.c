@@ -20,17 +20,17 @@ static bool find_columns(const struct gb_table *table, const char *const *names,
     return true;
 }
 
-static void write_name(struct gb_chart_csv *choices, const struct gb_table *table,
+static void write_name(struct gb_chart_csv *chart, const struct gb_table *table,
                        size_t row)
 {
     const double *step = gb_table_column(table, "step", NULL);
     const double *tolerance = gb_table_column(table, "tolerance", NULL);
-    snprintf(choices->name, sizeof choices->name, "%.24s, step %.3g %%, tolerance %.3g",
+    snprintf(chart->name, sizeof chart->name, "%.24s, step %.3g %%, tolerance %.3g",
              gb_table_word(table, row), step != NULL ? 100.0 * step[row] : (double)NAN,
              tolerance != NULL ? tolerance[row] : (double)NAN);
 }
 
-static bool fill(struct gb_chart_csv *choices, const struct gb_table *table,
+static bool fill(struct gb_chart_csv *chart, const struct gb_table *table,
                  struct gb_error *err)
 {
     enum { SECONDS, ERROR, FRONT, CHOSEN, COLUMNS };
@@ -40,21 +40,21 @@ static bool fill(struct gb_chart_csv *choices, const struct gb_table *table,
     if (!find_columns(table, names, column, COLUMNS, err)) {
         return false;
     }
-    choices->seconds = gb_alloc_array(rows + 1, sizeof(double), err);
-    choices->error = gb_alloc_array(rows + 1, sizeof(double), err);
-    choices->front = gb_alloc_array(rows + 1, sizeof(bool), err);
-    if (choices->seconds == NULL || choices->error == NULL || choices->front == NULL) {
+    chart->seconds = gb_alloc_array(rows + 1, sizeof(double), err);
+    chart->error = gb_alloc_array(rows + 1, sizeof(double), err);
+    chart->front = gb_alloc_array(rows + 1, sizeof(bool), err);
+    if (chart->seconds == NULL || chart->error == NULL || chart->front == NULL) {
         return false;
     }
-    choices->count = rows;
-    choices->chosen = rows;
+    chart->count = rows;
+    chart->chosen = rows;
     for (size_t i = 0; i < rows; i++) {
-        choices->seconds[i] = column[SECONDS][i];
-        choices->error[i] = column[ERROR][i];
-        choices->front[i] = column[FRONT][i] > 0.0;
+        chart->seconds[i] = column[SECONDS][i];
+        chart->error[i] = column[ERROR][i];
+        chart->front[i] = column[FRONT][i] > 0.0;
         if (column[CHOSEN][i] > 0.0) {
-            choices->chosen = i;
-            write_name(choices, table, i);
+            chart->chosen = i;
+            write_name(chart, table, i);
         }
     }
     return true;
@@ -66,23 +66,23 @@ bool gb_chart_csv_read(struct gb_chart_csv **out, const char *path, struct gb_er
     if (!gb_table_read(&table, path, "relaxer", err)) {
         return false;
     }
-    struct gb_chart_csv *choices = gb_alloc_array(1, sizeof *choices, err);
-    const bool good = choices != NULL && fill(choices, table, err);
+    struct gb_chart_csv *chart = gb_alloc_array(1, sizeof *chart, err);
+    const bool good = chart != NULL && fill(chart, table, err);
     gb_table_destroy(table);
     if (!good) {
-        gb_chart_csv_destroy(choices);
+        gb_chart_csv_destroy(chart);
         return false;
     }
-    *out = choices;
+    *out = chart;
     return true;
 }
 
-void gb_chart_csv_destroy(struct gb_chart_csv *choices)
+void gb_chart_csv_destroy(struct gb_chart_csv *chart)
 {
-    if (choices != NULL) {
-        gb_alloc_free(choices->seconds);
-        gb_alloc_free(choices->error);
-        gb_alloc_free(choices->front);
-        gb_alloc_free(choices);
+    if (chart != NULL) {
+        gb_alloc_free(chart->seconds);
+        gb_alloc_free(chart->error);
+        gb_alloc_free(chart->front);
+        gb_alloc_free(chart);
     }
 }

@@ -18,6 +18,6 @@ struct gb_chart_csv {
 
 /* Errors: one line (GB_ERR_INPUT when it is another table). */
 bool gb_chart_csv_read(struct gb_chart_csv **out, const char *path, struct gb_error *err);
-void gb_chart_csv_destroy(struct gb_chart_csv *choices); /* NULL is fine */
+void gb_chart_csv_destroy(struct gb_chart_csv *chart); /* NULL is fine */
 
 #endif

@@ -9,10 +9,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { WORDS = 16, NICER = 5 };
+enum { WORDS = 16, LOWER_PRIORITY = 5 };
 
-/* The screen blocks signals; its helper is to be stopped by them as any program, and must
- * not write to the screen. */
+/* In the child: the signals that the screen blocks are released, and standard output goes
+ * the way of standard error, off the screen. */
 static void prepare_child(gpointer data)
 {
     const struct gb_child_command *child = data;
@@ -20,43 +20,42 @@ static void prepare_child(gpointer data)
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     (void)dup2(STDERR_FILENO, STDOUT_FILENO);
-    if (child->long_running) {
-        (void)setpriority(PRIO_PROCESS, 0, NICER);
+    if (child->kind == GB_CHILD_COMMAND_LONG) {
+        (void)setpriority(PRIO_PROCESS, 0, LOWER_PRIORITY);
     }
 }
 
-bool gb_child_command_start(struct gb_child_command *child, const char *what,
-                            const char *path, bool long_running, const char *const *words,
-                            struct gb_error *err)
+bool gb_child_command_start(struct gb_child_command *child, const char *name,
+                            const char *path, enum gb_child_command_kind kind,
+                            const char *const *words, struct gb_error *err)
 {
     static char self[] = "/proc/self/exe";
     char *argv[WORDS] = {self};
     GError *error = NULL;
     GPid pid = 0;
     if (child->pid != 0) {
-        return gb_error_set(err, GB_ERR_INPUT, "the %s before is not finished",
-                            child->what);
+        return gb_error_set(err, GB_ERR_INPUT, "the %s is not finished yet", child->name);
     }
-    struct gb_child_command next = {.output_fd = -1, .long_running = long_running};
+    struct gb_child_command next = {.output_fd = -1, .kind = kind};
     for (int i = 0; words[i] != NULL && i < WORDS - 2; i++) {
         argv[i + 1] = (char *)words[i];
     }
     if (!g_spawn_async_with_pipes(NULL, argv, NULL, G_SPAWN_DO_NOT_REAP_CHILD,
                                   prepare_child, &next, &pid, NULL, NULL, &next.output_fd,
                                   &error)) {
-        gb_error_set(err, GB_ERR_MACHINE, "%s: %s", what, error->message);
+        gb_error_set(err, GB_ERR_MACHINE, "%s: %s", name, error->message);
         g_error_free(error);
         return false;
     }
     (void)fcntl(next.output_fd, F_SETFL, fcntl(next.output_fd, F_GETFL) | O_NONBLOCK);
     next.pid = (int)pid;
-    g_strlcpy(next.what, what, sizeof next.what);
+    g_strlcpy(next.name, name, sizeof next.name);
     g_strlcpy(next.path, path, sizeof next.path);
     *child = next;
     return true;
 }
 
-/* True when a line is whole; a last one may have no end. */
+/* True: a whole line; the last one may end with the output. */
 static bool read_line(struct gb_child_command *child)
 {
     char c = '\0';
@@ -94,10 +93,10 @@ static void write_outcome(const struct gb_child_command *child, int status, char
                           size_t size)
 {
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
-        snprintf(text, size, "%s: %s", child->what, child->path);
+        snprintf(text, size, "%s saved: %s", child->name, child->path);
     } else {
-        snprintf(text, size, "%s: %s", child->what,
-                 child->line[0] != '\0' ? child->line : "it was stopped");
+        snprintf(text, size, "%s: %s", child->name,
+                 child->line[0] != '\0' ? child->line : "stopped");
     }
 }
 
@@ -109,12 +108,12 @@ enum gb_child_command_event gb_child_command_poll(struct gb_child_command *child
         return GB_CHILD_COMMAND_NONE;
     }
     while (read_line(child)) {
-        if (child->long_running && is_progress(child->line)) {
+        if (child->kind == GB_CHILD_COMMAND_LONG && is_progress(child->line)) {
             g_strlcpy(child->progress, child->line, sizeof child->progress);
             return GB_CHILD_COMMAND_PROGRESS;
         }
-        if (child->long_running) {
-            snprintf(text, size, "%s: %s", child->what, child->line);
+        if (child->kind == GB_CHILD_COMMAND_LONG) {
+            snprintf(text, size, "%s: %s", child->name, child->line);
             return GB_CHILD_COMMAND_OUTPUT;
         }
     }

@@ -8,34 +8,38 @@
 
 enum { GB_CHILD_COMMAND_LINE = 256 };
 
-/* A command of this program that works beside the screen: a picture, a report, more
- * cells, a calibration.  One at a time. */
+enum gb_child_command_kind {
+    GB_CHILD_COMMAND_SHORT, /* only the last line of its output is shown, if it fails */
+    GB_CHILD_COMMAND_LONG   /* its output is shown; runs at lower priority */
+};
+
+/* A command of this program as a child process: a picture, a report, replicas, a
+ * calibration.  One at a time. */
 struct gb_child_command {
-    int pid;           /* 0: none is under way */
-    int output_fd;     /* its standard output and error; -1 when they have ended */
-    bool long_running; /* what it says is news; else only its last line, when it fails */
-    char what[16];     /* "picture" */
-    char path[512];    /* what it makes */
+    int pid;       /* 0: none is running */
+    int output_fd; /* its standard output and error; -1: closed */
+    enum gb_child_command_kind kind;
+    char name[16];                        /* "picture" */
+    char path[512];                       /* of its result */
     char progress[GB_CHILD_COMMAND_LINE]; /* "12 of 40 runs, ..."; "" without */
-    char line[GB_CHILD_COMMAND_LINE];     /* not ended yet, or the last one */
+    char line[GB_CHILD_COMMAND_LINE];     /* incomplete, or the last one */
     size_t length;
 };
 
 /* words: command and arguments behind the program's name, NULL at the end, 14 at most.
- * One that talks computes for long: it gives way to the screen.  Errors: GB_ERR_INPUT
- * while another one is under way, GB_ERR_MACHINE. */
-bool gb_child_command_start(struct gb_child_command *child, const char *what,
-                            const char *path, bool long_running, const char *const *words,
-                            struct gb_error *err);
+ * Errors: GB_ERR_INPUT while another one is running, GB_ERR_MACHINE. */
+bool gb_child_command_start(struct gb_child_command *child, const char *name,
+                            const char *path, enum gb_child_command_kind kind,
+                            const char *const *words, struct gb_error *err);
 
 enum gb_child_command_event {
     GB_CHILD_COMMAND_NONE,
-    GB_CHILD_COMMAND_PROGRESS, /* in errand->progress */
+    GB_CHILD_COMMAND_PROGRESS, /* in child->progress */
     GB_CHILD_COMMAND_OUTPUT,
     GB_CHILD_COMMAND_ENDED
 };
 
-/* The next piece of news; text gets the line said, or how it ended. */
+/* The next event; text gets the line of output, or the outcome. */
 enum gb_child_command_event gb_child_command_poll(struct gb_child_command *child,
                                                   char *text, size_t size);
 

@@ -36,7 +36,7 @@ bool gb_cost_confirm_question(const struct gb_params *params, double particle_st
     write_advice(params, &cost, advice, sizeof advice);
     snprintf(text, size,
              "This run will take about %s: %.3g steps of %s%s for %lld particles at "
-             "%.3g million particle-steps a second (%s). Cheaper: %s.",
+             "%.3g million particle-steps/s (%s). Cheaper: %s.",
              duration, cost.steps, step, cost.step_assumed ? " (assumed)" : "",
              (long long)params->count, cost.particle_steps_per_s / 1e6,
              measured ? "as the last run" : "assumed", advice);
@@ -55,10 +55,11 @@ bool gb_cost_confirm_after_quick(const struct gb_params *full,
         return false;
     }
     gb_cost_duration(cost.seconds, duration, sizeof duration);
-    snprintf(text, size,
-             "This run will take about %s: %lld particles, by the %.1f s of its quick "
-             "cell. Cheaper: fewer particles.count%s.",
-             duration, (long long)full->count, quick_s,
-             full->fidelity == GB_FIDELITY_FAST ? "" : " or numerics.fidelity = fast");
+    snprintf(
+        text, size,
+        "This run will take about %s: %lld particles, estimated from the %.1f s of its "
+        "quick cell. Cheaper: fewer particles.count%s.",
+        duration, (long long)full->count, quick_s,
+        full->fidelity == GB_FIDELITY_FAST ? "" : " or numerics.fidelity = fast");
     return true;
 }

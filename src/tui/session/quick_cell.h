@@ -10,7 +10,7 @@ struct gb_quick_cell {
     struct gb_runner *runner;     /* NULL: there is none */
     struct gb_snapshot now;
     size_t points;
-    const struct gb_view_sample *picture;
+    const struct gb_view_sample *sample;
     int state;   /* enum gb_run_state */
     bool missed; /* news that came while the view was frozen */
 };

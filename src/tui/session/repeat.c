@@ -72,7 +72,8 @@ char *gb_repeat_command(const struct gb_preset *preset, const struct gb_params *
     char *name = name_of(gb_preset_path(preset));
     if (!gb_preset_load(&file, *name != '\0' ? name : "default", NULL)) {
         g_free(name);
-        return g_string_free(g_string_assign(text, "the preset's file is gone"), FALSE);
+        return g_string_free(
+            g_string_assign(text, "the preset file does not exist any more"), FALSE);
     }
     add_word(text, &line, "greenbody", cols);
     add_word(text, &line, "run", cols);

@@ -88,7 +88,7 @@ bool gb_run_lifecycle_attach(struct gb_session *session, struct gb_error *err)
     gb_session_note(session,
                     gb_rundir_busy(session->attached)
                         ? "attached to %s: t takes it over"
-                        : "%s: no engine works there, t goes on with it",
+                        : "%s: no engine is running there; t resumes the run",
                     session->attached);
     return true;
 }
@@ -108,7 +108,7 @@ void gb_run_lifecycle_take_over(struct gb_session *session, struct gb_message *m
         return;
     }
     gb_session_replace(session, runner);
-    gb_session_note(session, "goes on here: %s", session->attached);
+    gb_session_note(session, "continues here: %s", session->attached);
     session->attached = NULL;
 }
 
@@ -161,11 +161,13 @@ void gb_run_lifecycle_print_resume_hint(const struct gb_session *session)
     const char *directory =
         session->runner != NULL ? gb_runner_directory(session->runner) : NULL;
     if (directory != NULL && session->attached == NULL && gb_session_live(session)) {
-        fprintf(stderr, "greenbody: the run is kept; `greenbody resume %s` goes on\n",
+        fprintf(stderr,
+                "greenbody: the run is stored; `greenbody resume %s` continues it\n",
                 directory);
     }
-    if (session->child.pid != 0 && session->child.long_running) {
-        fprintf(stderr, "greenbody: %s go on in %s; `greenbody attach` shows them\n",
-                session->child.what, session->child.path);
+    if (session->child.pid != 0 && session->child.kind == GB_CHILD_COMMAND_LONG) {
+        fprintf(stderr,
+                "greenbody: %s: continued in %s; `greenbody attach` shows the runs\n",
+                session->child.name, session->child.path);
     }
 }

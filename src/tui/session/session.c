@@ -20,7 +20,7 @@ void gb_session_init(struct gb_session *session, struct gb_preset *preset)
     memset(session, 0, sizeof *session);
     session->preset = preset;
     session->now.seconds_left = -1.0;
-    session->follow = true;
+    session->auto_start = true;
 }
 
 void gb_session_finish(struct gb_session *session)
@@ -30,9 +30,9 @@ void gb_session_finish(struct gb_session *session)
     for (int i = 0; i < session->previous_count; i++) {
         gb_previous_curve_finish(&session->previous[i]);
     }
-    gb_replica_band_finish(&session->band);
+    gb_replica_band_finish(&session->replica_band);
     gb_measured_destroy(session->measured);
-    gb_chart_csv_destroy(session->choices);
+    gb_chart_csv_destroy(session->chart);
     gb_preset_destroy(session->opened);
     session->runner = NULL;
     session->opened = NULL;
@@ -161,9 +161,9 @@ void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
     session->frozen = false;
     session->pause_wanted = false;
     session->waiting = false;
-    session->engine = GB_RUN_PACKING;
+    session->run_state = GB_RUN_PACKING;
     session->points = 0;
-    session->picture = NULL;
+    session->sample = NULL;
     session->events_seen = 0;
     memset(&session->now, 0, sizeof session->now);
     session->now.seconds_left = -1.0;
@@ -188,7 +188,7 @@ bool gb_session_start(struct gb_session *session, struct gb_error *err)
 
 bool gb_session_run_is_live(const struct gb_session *session)
 {
-    return session->runner != NULL && session->engine <= GB_RUN_PAUSED;
+    return session->runner != NULL && session->run_state <= GB_RUN_PAUSED;
 }
 
 static void yield_engine(struct gb_session *session, bool yielded)
@@ -240,7 +240,7 @@ static void note_estimate(struct gb_session *session)
     double seconds = NAN;
     estimate_cost(session, &seconds, question, sizeof question);
     if (isfinite(seconds)) {
-        gb_session_note(session, "the full cell of %lld: about %s",
+        gb_session_note(session, "full cell of %lld: about %s (estimated)",
                         (long long)gb_session_params(session)->count,
                         gb_cost_duration(seconds, duration, sizeof duration));
     }
@@ -256,7 +256,7 @@ static void finish_quick_cell(struct gb_session *session)
         gb_session_note(session, "quick cell: %s", now->error.text);
         return;
     }
-    gb_session_note(session, "quick cell of %lld: whole curve in %.1f s",
+    gb_session_note(session, "quick cell of %lld particles: curve in %.1f s",
                     (long long)gb_runner_params(quick_cell->runner)->count, now->seconds);
     if (full_run_started(session)) {
         return;
@@ -265,10 +265,10 @@ static void finish_quick_cell(struct gb_session *session)
         gb_session_run_is_live(session) && session->now.seconds > replaced_max_s;
     note_estimate(session);
     /* a pause that came too late for the quick cell is one all the same */
-    session->start_due = session->follow && !works && !session->pause_wanted;
+    session->start_due = session->auto_start && !works && !session->pause_wanted;
     if (!session->start_due) {
         gb_session_note(session, "%sr starts the full cell",
-                        works ? "the run under way goes on: " : "");
+                        works ? "the current run continues; " : "");
     }
 }
 
@@ -281,7 +281,7 @@ struct gb_session_shown gb_session_shown(const struct gb_session *session)
                                          gb_runner_params(quick_cell->runner),
                                          gb_runner_curve(quick_cell->runner),
                                          quick_cell->points,
-                                         quick_cell->picture,
+                                         quick_cell->sample,
                                          quick_cell->state,
                                          true};
     }
@@ -293,8 +293,8 @@ struct gb_session_shown gb_session_shown(const struct gb_session *session)
                                      gb_runner_params(session->runner),
                                      gb_runner_curve(session->runner),
                                      session->points,
-                                     session->picture,
-                                     session->engine,
+                                     session->sample,
+                                     session->run_state,
                                      false};
 }
 
@@ -314,10 +314,10 @@ bool gb_session_load_data(struct gb_session *session, const char *path,
                           struct gb_error *err)
 {
     struct gb_measured *measured = NULL;
-    struct gb_chart_csv *choices = NULL;
-    if (*path != '\0' && gb_chart_csv_read(&choices, path, NULL)) {
-        gb_chart_csv_destroy(session->choices);
-        session->choices = choices;
+    struct gb_chart_csv *chart = NULL;
+    if (*path != '\0' && gb_chart_csv_read(&chart, path, NULL)) {
+        gb_chart_csv_destroy(session->chart);
+        session->chart = chart;
         return true;
     }
     if (*path != '\0' && !gb_measured_read(&measured, path, err)) {
@@ -353,7 +353,7 @@ static void show(struct gb_session *session, const struct gb_snapshot *snapshot)
 {
     session->now = *snapshot;
     session->points = gb_curve_count(gb_runner_curve(session->runner));
-    session->picture = gb_runner_picture(session->runner, NULL);
+    session->sample = gb_runner_picture(session->runner, NULL);
     take_events(session);
 }
 
@@ -375,9 +375,9 @@ static bool refresh_run(struct gb_session *session)
     bool changed = false;
     const struct gb_snapshot *snapshot = gb_runner_snapshot(session->runner, &changed);
     take_rate(session, snapshot);
-    const bool other_state = snapshot->state != session->engine;
+    const bool other_state = snapshot->state != session->run_state;
     if (other_state) {
-        session->engine = snapshot->state;
+        session->run_state = snapshot->state;
         session->waiting = false;
     }
     if (changed && !session->frozen) {
@@ -388,7 +388,7 @@ static bool refresh_run(struct gb_session *session)
 }
 
 /* News of the command beside the screen, and of the cells that it computes. */
-static bool refresh_errand(struct gb_session *session)
+static bool refresh_child(struct gb_session *session)
 {
     char text[GB_EVENT_TEXT];
     bool some = false;
@@ -403,7 +403,7 @@ static bool refresh_errand(struct gb_session *session)
         some = true;
         ended = news == GB_CHILD_COMMAND_ENDED;
     }
-    return (live && gb_replica_band_refresh(&session->band, ended)) || some;
+    return (live && gb_replica_band_refresh(&session->replica_band, ended)) || some;
 }
 
 bool gb_session_refresh(struct gb_session *session)
@@ -415,7 +415,7 @@ bool gb_session_refresh(struct gb_session *session)
     session->waiting = session->waiting && session->quick_cell.state == before;
     const bool ran = refresh_run(session);
     gb_whatif_refresh(session);
-    const bool made = refresh_errand(session);
+    const bool made = refresh_child(session);
     if (ended) {
         finish_quick_cell(session);
     }

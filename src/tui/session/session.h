@@ -24,26 +24,26 @@ struct gb_session {
     struct gb_quick_cell quick_cell; /* the quick cell of the last change */
     struct gb_snapshot now; /* what the screen shows; stands still while frozen */
     size_t points;          /* of the curve, shown */
-    const struct gb_view_sample *picture;
-    int engine; /* enum gb_run_state now, even while the view is frozen */
+    const struct gb_view_sample *sample;
+    int run_state; /* enum gb_run_state now, even while the view is frozen */
     bool frozen;
     bool pause_wanted;
-    bool waiting;   /* a command was sent, its effect not yet seen */
-    bool yielded;   /* the run waits while the quick cell computes */
-    bool follow;    /* the full cell starts by itself behind the quick one */
-    bool start_due; /* it is to be started now */
+    bool waiting;    /* a command was sent, its effect not yet seen */
+    bool yielded;    /* the run waits while the quick cell computes */
+    bool auto_start; /* the full cell starts by itself behind the quick one */
+    bool start_due;  /* it is to be started now */
     struct gb_previous_curve previous[GB_SESSION_PREVIOUS];
     int previous_count, kept; /* now, and ever */
-    char whatif[200];         /* asked for, waits for a point; "": none */
+    char whatif_text[200];    /* asked for, waits for a point; "": none */
     size_t
         fork_at[GB_SESSION_FORKS]; /* points of the curve, one behind the last before */
     int forks;
-    struct gb_child_command child; /* a picture, a report, cells being made */
-    struct gb_replica_band band;   /* mean of more cells */
-    struct gb_measured *measured;  /* an experiment over the plot, or NULL */
-    struct gb_chart_csv *choices;  /* a chart of numerical choices, or NULL */
-    int runs;                      /* started so far */
-    double particle_steps_per_s;   /* of the last dynamic run; 0: none yet */
+    struct gb_child_command child;       /* a picture, a report, cells being made */
+    struct gb_replica_band replica_band; /* mean of more cells */
+    struct gb_measured *measured;        /* an experiment over the plot, or NULL */
+    struct gb_chart_csv *chart;          /* a chart of numerical choices, or NULL */
+    int runs;                            /* started so far */
+    double particle_steps_per_s;         /* of the last dynamic run; 0: none yet */
     int64_t events_seen;
     char log[GB_SESSION_LOG][GB_EVENT_TEXT + 16];
     int64_t log_count; /* all lines ever; the last GB_SESSION_LOG are kept */
@@ -72,7 +72,7 @@ struct gb_session_shown {
     const struct gb_params *params; /* as computed; of the preset when there is nothing */
     const struct gb_curve *curve;   /* NULL: nothing yet */
     size_t points;
-    const struct gb_view_sample *picture; /* NULL: none */
+    const struct gb_view_sample *sample; /* NULL: none */
     int state;  /* enum gb_run_state, even while the view is frozen */
     bool quick; /* it is the quick cell */
 };

@@ -13,21 +13,20 @@ static const int64_t some_step = INT64_C(1000000000);
 bool gb_whatif_ask(struct gb_session *session, const char *text, struct gb_error *err)
 {
     if (!gb_session_run_is_live(session)) {
-        return gb_error_set(err, GB_ERR_INPUT, "no run is under way: r starts one");
+        return gb_error_set(err, GB_ERR_INPUT, "no live run: r starts one");
     }
     struct gb_params probe = *gb_runner_params(session->runner);
-    if (strlen(text) >= sizeof session->whatif ||
+    if (strlen(text) >= sizeof session->whatif_text ||
         !gb_changes_add(&probe, some_step, text, err)) {
-        return err->code != GB_OK ? false
-                                  : gb_error_set(err, GB_ERR_INPUT, "that is too long");
+        return err->code != GB_OK ? false : gb_error_set(err, GB_ERR_INPUT, "too long");
     }
     if (!gb_runner_send(session->runner, GB_COMMAND_FORK) ||
-        (session->engine == GB_RUN_PAUSED &&
+        (session->run_state == GB_RUN_PAUSED &&
          !gb_runner_send(session->runner, GB_COMMAND_RESUME))) {
         return gb_error_set(err, GB_ERR_INPUT, "the engine is busy: try again");
     }
     session->pause_wanted = false;
-    g_strlcpy(session->whatif, text, sizeof session->whatif);
+    g_strlcpy(session->whatif_text, text, sizeof session->whatif_text);
     return true;
 }
 
@@ -43,8 +42,9 @@ static void note(struct gb_session *session, int64_t step)
     if (session->forks < GB_SESSION_FORKS) {
         session->fork_at[session->forks++] = session->points;
     }
-    gb_session_note(session, "step %lld, density %.4f: what if %s", (long long)step,
-                    gb_curve_at(curve, session->points - 1)->density, session->whatif);
+    gb_session_note(session, "changed after step %lld (relative density %.4f): %s",
+                    (long long)step, gb_curve_at(curve, session->points - 1)->density,
+                    session->whatif_text);
 }
 
 void gb_whatif_refresh(struct gb_session *session)
@@ -52,23 +52,23 @@ void gb_whatif_refresh(struct gb_session *session)
     struct gb_error err = {0};
     struct gb_runner *runner = NULL;
     int64_t step = 0;
-    if (session->whatif[0] == '\0' || session->runner == NULL) {
+    if (session->whatif_text[0] == '\0' || session->runner == NULL) {
         return;
     }
     if (gb_runner_forked(session->runner, &step)) {
         char *directory = gb_run_lifecycle_directory(session);
-        const bool forked = gb_runner_create_fork(&runner, session->whatif,
+        const bool forked = gb_runner_create_fork(&runner, session->whatif_text,
                                                   session->runner, directory, &err);
         g_free(directory);
         if (forked) {
             gb_session_replace(session, runner);
             note(session, step);
         } else {
-            gb_session_note(session, "what if: %s", err.text);
+            gb_session_note(session, "what-if: %s", err.text);
         }
-        session->whatif[0] = '\0';
-    } else if (session->engine > GB_RUN_PAUSED) {
-        session->whatif[0] = '\0';
-        gb_session_note(session, "the run has ended before the what-if");
+        session->whatif_text[0] = '\0';
+    } else if (session->run_state > GB_RUN_PAUSED) {
+        session->whatif_text[0] = '\0';
+        gb_session_note(session, "the run ended before the what-if");
     }
 }

@@ -1,8 +1,8 @@
 #ifndef GB_TUI_TERM_PAINT_H
 #define GB_TUI_TERM_PAINT_H
 
-#include "tui/app/layout.h"
 #include "tui/plot/plot.h"
+#include "tui/term/rect.h"
 #include "tui/term/term.h"
 
 /* Drawing into a rectangle of the screen.  Rows and columns count from its top left

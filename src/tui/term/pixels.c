@@ -94,7 +94,7 @@ static char *print(int images, const uint8_t *rgb, int high, int wide, int rows,
     return g_string_free(text, FALSE);
 }
 
-char *gb_pixels_encode(int images, const struct gb_view_sample *picture, int rows,
+char *gb_pixels_encode(int images, const struct gb_view_sample *sample, int rows,
                        int cols, struct gb_pixels_cell cell)
 {
     const int wide = cols * cell.width, high = rows * cell.height;
@@ -106,7 +106,7 @@ char *gb_pixels_encode(int images, const struct gb_view_sample *picture, int row
     uint8_t *rgb = gb_alloc_array(count, 3, NULL);
     char *text = NULL;
     if (shade != NULL && rgb != NULL) {
-        gb_sphere_shading_render(picture, high, wide, shade);
+        gb_sphere_shading_render(sample, high, wide, shade);
         for (size_t i = 0; i < count; i++) {
             put_pixel(rgb + 3 * i, shade[i]);
         }
@@ -129,11 +129,11 @@ int gb_pixels_detect(void)
     return GB_IMAGES_NONE;
 }
 
-char *gb_pixels_encode(int images, const struct gb_view_sample *picture, int rows,
+char *gb_pixels_encode(int images, const struct gb_view_sample *sample, int rows,
                        int cols, struct gb_pixels_cell cell)
 {
     (void)images;
-    (void)picture;
+    (void)sample;
     (void)rows;
     (void)cols;
     (void)cell;

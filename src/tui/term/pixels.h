@@ -4,7 +4,7 @@
 #include <stdbool.h>
 
 #include "greenbody/snapshot.h"
-#include "tui/app/layout.h"
+#include "tui/term/rect.h"
 
 /* The packing in real pixels, for terminals that show pictures between their characters.
  * The pictures are encoded by libchafa, without which there are none. */
@@ -22,7 +22,7 @@ struct gb_pixels_cell {
 
 /* The relief of a packing in so many cells, as what is to be sent to the terminal with
  * the cursor in its upper left corner; g_free.  NULL: no memory, or no libchafa. */
-char *gb_pixels_encode(int images, const struct gb_view_sample *picture, int rows,
+char *gb_pixels_encode(int images, const struct gb_view_sample *sample, int rows,
                        int cols, struct gb_pixels_cell cell);
 
 /* What takes all pictures off a terminal of that kind; "" where text does. */

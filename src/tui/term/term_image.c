@@ -13,9 +13,9 @@ void gb_term_image_init(struct gb_term_image *image, int images)
 }
 
 bool gb_term_image_before(struct gb_term_image *image, struct gb_term *term,
-                          const struct gb_view_sample *picture)
+                          const struct gb_view_sample *sample)
 {
-    if (!image->shown || picture != NULL) {
+    if (!image->shown || sample != NULL) {
         return false;
     }
     gb_term_send(term, 0, 0, gb_pixels_wipe(image->images));
@@ -35,11 +35,11 @@ bool gb_term_image_due(const struct gb_term_image *image, double now_s)
 }
 
 static void show(struct gb_term_image *image, struct gb_term *term,
-                 const struct gb_view_sample *picture, const struct gb_rect *cells)
+                 const struct gb_view_sample *sample, const struct gb_rect *cells)
 {
     struct gb_pixels_cell cell;
     gb_term_cell(term, &cell.width, &cell.height);
-    char *text = gb_pixels_encode(image->images, picture, cells->rows, cells->cols, cell);
+    char *text = gb_pixels_encode(image->images, sample, cells->rows, cells->cols, cell);
     if (text != NULL) {
         gb_term_send(term, cells->row, cells->col, gb_pixels_wipe(image->images));
         gb_term_send(term, cells->row, cells->col, text);
@@ -48,23 +48,23 @@ static void show(struct gb_term_image *image, struct gb_term *term,
 }
 
 void gb_term_image_after(struct gb_term_image *image, struct gb_term *term,
-                         const struct gb_view_sample *picture,
-                         const struct gb_rect *cells, double now_s)
+                         const struct gb_view_sample *sample, const struct gb_rect *cells,
+                         double now_s)
 {
     const bool wiped = image->repaints != gb_term_repaints(term);
     image->repaints = gb_term_repaints(term);
-    if (picture == NULL || cells->rows < 1 || cells->cols < 1) {
+    if (sample == NULL || cells->rows < 1 || cells->cols < 1) {
         return;
     }
     const bool other = !image->shown || wiped || !same_rect(cells, &image->rect);
-    image->waiting = picture->density != image->density;
+    image->waiting = sample->density != image->density;
     if (!other && !gb_term_image_due(image, now_s)) {
         return;
     }
-    show(image, term, picture, cells);
+    show(image, term, sample, cells);
     image->shown = true;
     image->waiting = false;
     image->rect = *cells;
-    image->density = picture->density;
+    image->density = sample->density;
     image->last_s = now_s;
 }

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 
 #include "greenbody/snapshot.h"
-#include "tui/app/layout.h"
+#include "tui/term/rect.h"
 #include "tui/term/term.h"
 
 /* The picture that lies on the screen between the characters: drawn behind a frame, taken
@@ -24,11 +24,11 @@ void gb_term_image_init(struct gb_term_image *image, int images);
 /* Before a frame; picture: what is to lie there, NULL: nothing.  True: the screen must be
  * painted anew to lose the picture. */
 bool gb_term_image_before(struct gb_term_image *image, struct gb_term *term,
-                          const struct gb_view_sample *picture);
+                          const struct gb_view_sample *sample);
 /* Behind it: draws the picture into those cells when it is another, or was wiped. */
 void gb_term_image_after(struct gb_term_image *image, struct gb_term *term,
-                         const struct gb_view_sample *picture,
-                         const struct gb_rect *cells, double now_s);
+                         const struct gb_view_sample *sample, const struct gb_rect *cells,
+                         double now_s);
 
 /* Whether a picture that waits may be drawn now. */
 bool gb_term_image_due(const struct gb_term_image *image, double now_s);

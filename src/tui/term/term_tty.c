@@ -97,6 +97,6 @@ const char *gb_term_tty_type(int fd, struct gb_error *err)
     gb_error_set(err, GB_ERR_MACHINE,
                  "the terminal type TERM=%s %s; `greenbody run PRESET` needs no screen",
                  own == NULL ? "" : own,
-                 known ? "cannot place the cursor" : "is unknown");
+                 known ? "cannot position the cursor" : "is unknown");
     return NULL;
 }

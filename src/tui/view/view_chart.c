@@ -25,49 +25,49 @@ static void draw_point(struct gb_plot *plot, double x, double y, int ink, int ma
     gb_plot_line(plot, &point);
 }
 
-static void draw_settings(struct gb_plot *plot, const struct gb_chart_csv *choices)
+static void draw_settings(struct gb_plot *plot, const struct gb_chart_csv *chart)
 {
-    for (size_t i = 0; i < choices->count; i++) {
-        if (i == choices->chosen) {
+    for (size_t i = 0; i < chart->count; i++) {
+        if (i == chart->chosen) {
             continue;
         }
-        draw_point(plot, choices->seconds[i], choices->error[i],
-                   choices->front[i] ? INK_FRONT : INK_ALL,
-                   choices->front[i] ? MARK_FRONT : MARK_ALL);
+        draw_point(plot, chart->seconds[i], chart->error[i],
+                   chart->front[i] ? INK_FRONT : INK_ALL,
+                   chart->front[i] ? MARK_FRONT : MARK_ALL);
     }
-    if (choices->chosen < choices->count) {
-        draw_point(plot, choices->seconds[choices->chosen],
-                   choices->error[choices->chosen], INK_CHOSEN, MARK_CHOSEN);
+    if (chart->chosen < chart->count) {
+        draw_point(plot, chart->seconds[chart->chosen], chart->error[chart->chosen],
+                   INK_CHOSEN, MARK_CHOSEN);
     }
 }
 
 void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
     struct gb_plot *plot = &panel->plot;
-    const struct gb_chart_csv *choices = session->choices;
+    const struct gb_chart_csv *chart = session->chart;
     double x_ends[2] = {HUGE_VAL, 0.0};
     double y_ends[2] = {HUGE_VAL, 0.0};
-    for (size_t i = 0; choices != NULL && i < choices->count; i++) {
-        if (choices->error[i] > 0.0) {
-            extend(x_ends, choices->seconds[i]);
-            extend(y_ends, choices->error[i]);
+    for (size_t i = 0; chart != NULL && i < chart->count; i++) {
+        if (chart->error[i] > 0.0) {
+            extend(x_ends, chart->seconds[i]);
+            extend(y_ends, chart->error[i]);
         }
     }
     if (!(x_ends[1] > 0.0)) {
         gb_plot_text(plot, plot->rows / 2 - 1, 2, GB_PLOT_INK_TEXT,
-                     choices == NULL ? "no chart yet: e loads a chart.csv,"
-                                     : "the chart has no finished row yet:");
+                     chart == NULL ? "no chart yet: e loads a chart.csv,"
+                                   : "the chart has no finished row yet:");
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT,
                      "greenbody chart PRESET --out DIR measures one");
         return;
     }
     plot->log_x = true;
-    gb_plot_axes(plot, x_ends, y_ends, true, "CPU time of a cell, s",
-                 "error of density at most");
-    draw_settings(plot, choices);
-    struct gb_plot_entry entry[3] = {{INK_ALL, MARK_ALL, "a choice"},
-                                     {INK_FRONT, MARK_FRONT, "nothing beats it"},
+    gb_plot_axes(plot, x_ends, y_ends, true, "CPU time per cell, s",
+                 "density error bound");
+    draw_settings(plot, chart);
+    struct gb_plot_entry entry[3] = {{INK_ALL, MARK_ALL, "setting"},
+                                     {INK_FRONT, MARK_FRONT, "Pareto-optimal"},
                                      {INK_CHOSEN, MARK_CHOSEN, ""}};
-    snprintf(entry[2].name, sizeof entry[2].name, "%s", choices->name);
-    gb_plot_legend(plot, entry, choices->chosen < choices->count ? 3 : 2);
+    snprintf(entry[2].name, sizeof entry[2].name, "%s", chart->name);
+    gb_plot_legend(plot, entry, chart->chosen < chart->count ? 3 : 2);
 }

@@ -8,9 +8,9 @@ static const double shown_max = 8.0;
 
 void gb_view_distances_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    const struct gb_view_sample *picture = gb_session_shown(session).picture;
+    const struct gb_view_sample *sample = gb_session_shown(session).sample;
     struct gb_plot *plot = &panel->plot;
-    if (picture == NULL || !picture->valid || !(picture->rdf_reach > 0.0) ||
+    if (sample == NULL || !sample->valid || !(sample->rdf_reach > 0.0) ||
         !gb_panel_plot_reserve(panel, GB_VIEW_SAMPLE_RDF)) {
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no packing yet");
         return;
@@ -18,12 +18,12 @@ void gb_view_distances_draw(struct gb_panel_plot *panel, const struct gb_session
     double max = 2.0;
     double peak = 0.0;
     for (int i = 0; i < GB_VIEW_SAMPLE_RDF; i++) {
-        panel->x[i] = (i + 0.5) * picture->rdf_reach / GB_VIEW_SAMPLE_RDF;
-        panel->y[i] = fmin(picture->rdf[i], shown_max);
+        panel->x[i] = (i + 0.5) * sample->rdf_reach / GB_VIEW_SAMPLE_RDF;
+        panel->y[i] = fmin(sample->rdf[i], shown_max);
         max = fmax(max, panel->y[i]);
-        peak = fmax(peak, picture->rdf[i]);
+        peak = fmax(peak, sample->rdf[i]);
     }
-    const double x_ends[2] = {0.0, picture->rdf_reach};
+    const double x_ends[2] = {0.0, sample->rdf_reach};
     const double y_ends[2] = {0.0, max};
     const double one[2] = {1.0, 1.0};
     char text[64];
@@ -34,6 +34,7 @@ void gb_view_distances_draw(struct gb_panel_plot *panel, const struct gb_session
                                                 .y = panel->y,
                                                 .count = GB_VIEW_SAMPLE_RDF,
                                                 .ink = GB_PLOT_INK_SERIES});
-    snprintf(text, sizeof text, "first peak %.3g, density %.4f", peak, picture->density);
+    snprintf(text, sizeof text, "first peak %.3g, relative density %.4f", peak,
+             sample->density);
     gb_plot_text(plot, 1, plot->left + plot->field_cols / 3, GB_PLOT_INK_TEXT, text);
 }

@@ -103,8 +103,7 @@ static bool freeze(const struct gb_panel_plot *panel, const struct gb_session *s
 {
     before->count = 0;
     if (!gb_model_init(model, &panel->edited, NULL)) {
-        gb_plot_text(panel->target, 1, 1, GB_PLOT_INK_TEXT,
-                     "the parameters do not fit together yet");
+        gb_plot_text(panel->target, 1, 1, GB_PLOT_INK_TEXT, "the parameters conflict");
         return false;
     }
     if (session->runner != NULL &&
@@ -118,7 +117,7 @@ static bool freeze(const struct gb_panel_plot *panel, const struct gb_session *s
 static void write_numbers(struct gb_plot *plot, const struct gb_model *model)
 {
     char text[96];
-    snprintf(text, sizeof text, "adhesion %.4g nN, at rest h = %.4g nm",
+    snprintf(text, sizeof text, "adhesion %.4g nN, equilibrium h = %.4g nm",
              nano_newton(model, model->adhesion), nano_metre(model, model->h_eq));
     const int col = plot->left + plot->field_cols - (int)g_utf8_strlen(text, -1) - 1;
     if (model->terms.attraction && col > plot->left && plot->field_rows > 12) {
@@ -152,11 +151,12 @@ void gb_view_law_force(struct gb_panel_plot *panel, const struct gb_session *ses
         extend(y_ends, bridge_y[k], 2);
     }
     const double x_ends[2] = {line.x[0], line.x[POINTS - 1]};
-    gb_plot_axes(plot, x_ends, y_ends, false, "h = d - r, nm", "normal force, nN");
+    gb_plot_axes(plot, x_ends, y_ends, false, "overlap h = d - r, nm",
+                 "normal force, nN");
     draw_zero(plot, x_ends);
-    struct gb_plot_entry entry[3] = {{INK_LAW, 1, "contact"},
-                                     {INK_BRIDGE, 2, "bridge, opened"},
-                                     {GB_PLOT_INK_DIM, 3, "as in the run"}};
+    struct gb_plot_entry entry[3] = {{INK_LAW, 1, "unbridged contact"},
+                                     {INK_BRIDGE, 2, "bridged contact, unloading"},
+                                     {GB_PLOT_INK_DIM, 3, "law of the run"}};
     int entries = has_bridges(&model) ? 2 : 1;
     if (before.count > 0) {
         double old_range[2];
@@ -212,12 +212,13 @@ void gb_view_law_strength(struct gb_panel_plot *panel, const struct gb_session *
         extend(y_ends, old.y, POINTS);
     }
     const double x_ends[2] = {0.0, line.x[POINTS - 1]};
-    gb_plot_axes(plot, x_ends, y_ends, false, "h = d - r, nm", "breaks a bridge, GPa");
+    gb_plot_axes(plot, x_ends, y_ends, false, "overlap h = d - r, nm",
+                 "bridge strength, GPa");
     if (compare) {
         draw(plot, old.x, old.y, POINTS, GB_PLOT_INK_DIM, 3);
     }
     draw(plot, line.x, line.y, POINTS, INK_BRIDGE, 2);
     const struct gb_plot_entry entry[2] = {{INK_BRIDGE, 2, "bridge strength"},
-                                           {GB_PLOT_INK_DIM, 3, "as in the run"}};
+                                           {GB_PLOT_INK_DIM, 3, "law of the run"}};
     gb_plot_legend(plot, entry, compare ? 2 : 1);
 }

@@ -48,14 +48,14 @@ static void put_mean(struct gb_plot_cell *cell, float above, float below, bool a
 }
 
 /* Two short lines in the corner, or one below a picture. */
-static void write_caption(struct gb_plot *plot, const struct gb_view_sample *picture,
+static void write_caption(struct gb_plot *plot, const struct gb_view_sample *sample,
                           const struct gb_params *params, bool below)
 {
     char share[48];
     char size[48];
     char text[128];
-    snprintf(share, sizeof share, "%d of %lld", picture->count, (long long)params->count);
-    snprintf(size, sizeof size, "%.3g x %.3g d", picture->window[0], picture->window[2]);
+    snprintf(share, sizeof share, "%d of %lld", sample->count, (long long)params->count);
+    snprintf(size, sizeof size, "%.3g x %.3g d", sample->window[0], sample->window[2]);
     if (below) {
         snprintf(text, sizeof text, "%s, %s, z upwards", share, size);
         gb_plot_text(plot, plot->rows - 1, 0, GB_PLOT_INK_TEXT, text);
@@ -70,12 +70,12 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
 {
     const struct gb_session_shown shown = gb_session_shown(session);
     struct gb_plot *plot = &panel->plot;
-    if (shown.picture == NULL || !shown.picture->valid) {
+    if (shown.sample == NULL || !shown.sample->valid) {
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no packing yet");
         return;
     }
     if (panel->pixels) { /* the picture comes on top of these cells */
-        write_caption(plot, shown.picture, shown.params, true);
+        write_caption(plot, shown.sample, shown.params, true);
         return;
     }
     const size_t dots = (size_t)plot->rows * (size_t)plot->cols * 2;
@@ -83,7 +83,7 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
     if (shade == NULL) {
         return;
     }
-    gb_sphere_shading_render(shown.picture, 2 * plot->rows, plot->cols, shade);
+    gb_sphere_shading_render(shown.sample, 2 * plot->rows, plot->cols, shade);
     const bool ascii = plot->glyphs == GB_PLOT_ASCII;
     for (int r = 0; r < plot->rows; r++) {
         for (int c = 0; c < plot->cols; c++) {
@@ -98,5 +98,5 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
         }
     }
     gb_alloc_free(shade);
-    write_caption(plot, shown.picture, shown.params, false);
+    write_caption(plot, shown.sample, shown.params, false);
 }

@@ -75,8 +75,7 @@ void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *ses
     struct line line;
     struct line back;
     if (!gb_contact_pair_init(&pair, params, NULL)) {
-        gb_plot_text(plot, 1, 1, GB_PLOT_INK_TEXT,
-                     "the parameters do not fit together yet");
+        gb_plot_text(plot, 1, 1, GB_PLOT_INK_TEXT, "the parameters conflict");
         return;
     }
     const double max = depth * pair.diameter;
@@ -87,18 +86,18 @@ void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *ses
     struct gb_plot_entry entry[3];
     int entries = 0;
     if (draw_before(plot, params, session, max)) {
-        entry[entries++] = (struct gb_plot_entry){GB_PLOT_INK_DIM, 3, "as in the run"};
+        entry[entries++] = (struct gb_plot_entry){GB_PLOT_INK_DIM, 3, "law of the run"};
     }
     if (plastic(params)) {
         follow_back(&pair, max, &back);
         draw(plot, &back, INK_BACK, 2);
-        entry[entries++] = (struct gb_plot_entry){INK_BACK, 2, "opened again"};
+        entry[entries++] = (struct gb_plot_entry){INK_BACK, 2, "unloading"};
     }
     draw(plot, &line, INK_LAW, 1);
     entry[entries++] = (struct gb_plot_entry){
         INK_LAW, 1, "" /* the name of the law */
     };
     snprintf(entry[entries - 1].name, sizeof entry[0].name, "%s",
-             plastic(params) ? "Storakers, pressed" : "Hertz");
+             plastic(params) ? "Storakers, loading" : "Hertz");
     gb_plot_legend(plot, entry, entries);
 }

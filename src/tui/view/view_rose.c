@@ -92,7 +92,7 @@ void gb_view_rose_draw(struct gb_panel_plot *panel, const struct gb_session *ses
     draw_line(plot, x, y, close_rose(rose, -1.0, x, y), GB_PLOT_INK_SERIES + 4, 2);
     draw_line(plot, x, y, close_rose(rose, 1.0, x, y), GB_PLOT_INK_SERIES, 0);
     write_numbers(plot, rose, radius);
-    gb_plot_text(plot, 1, 1, GB_PLOT_INK_SERIES, "line: pressed");
+    gb_plot_text(plot, 1, 1, GB_PLOT_INK_SERIES, "line: compressive");
     gb_plot_text(plot, 2, 1, GB_PLOT_INK_SERIES + 4,
-                 plot->glyphs == GB_PLOT_ASCII ? "o: pulled" : "\u25cb: pulled");
+                 plot->glyphs == GB_PLOT_ASCII ? "o: tensile" : "\u25cb: tensile");
 }

@@ -118,7 +118,7 @@ static char **read_fit(const char *directory)
     add_lines(lines, directory, "calibration.csv");
     add_lines(lines, directory, "rounds.csv");
     if (lines->len == 0 && g_file_test(runs, G_FILE_TEST_IS_DIR)) {
-        g_ptr_array_add(lines, g_strdup("the first round is not done yet"));
+        g_ptr_array_add(lines, g_strdup("the first round is not finished yet"));
     }
     g_free(runs);
     const bool some = lines->len > 0;
@@ -296,7 +296,7 @@ bool gb_runset_view_read(struct gb_runset_view *runset, const char *directory,
     runset->fit = read_fit(directory);
     bool read = true;
     if (list->len == 0) {
-        read = gb_error_set(err, GB_ERR_INPUT, "%s: there is no run in it", directory);
+        read = gb_error_set(err, GB_ERR_INPUT, "%s: contains no run", directory);
     } else {
         read_states(runset, list);
         GPtrArray *good = readable(list);

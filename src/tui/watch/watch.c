@@ -15,7 +15,7 @@ static const double share = 10.0;
 /* The map begins at the pressure at which P1 compares powders. */
 static const double default_pa = 100e6;
 
-enum { STATUS_SIGNAL = 128, MIN_ROWS = 12, MIN_COLS = 40, PAGE = 10 };
+enum { STATUS_SIGNAL = 128, MIN_ROWS = 12, MIN_COLS = 40, PAGE = 10, LAST_ASCII = 126 };
 
 /* "8 runs: 5 done, 2 live, 1 failed  72 %" */
 static void draw_header(const struct gb_watch *watch, const struct gb_paint *paint)
@@ -88,26 +88,58 @@ static void show_view(struct gb_watch *watch, int view)
     }
 }
 
-/* True: leave. */
-static bool act(struct gb_watch *watch, struct gb_term *term, enum gb_action action)
+enum { CTRL_L = 'L' & 31 };
+
+static void next_view(struct gb_watch *watch, struct gb_term *term)
+{
+    (void)term;
+    show_view(watch, ((int)watch->view + 1) % views(watch));
+}
+
+static void previous_view(struct gb_watch *watch, struct gb_term *term)
+{
+    (void)term;
+    show_view(watch, ((int)watch->view + views(watch) - 1) % views(watch));
+}
+
+static void toggle_log(struct gb_watch *watch, struct gb_term *term)
+{
+    (void)term;
+    watch->linear = !watch->linear;
+}
+
+static void next_glyphs(struct gb_watch *watch, struct gb_term *term)
+{
+    if (gb_term_utf8(term)) {
+        watch->glyphs = (watch->glyphs + 1) % GB_PLOT_GLYPHS;
+    }
+}
+
+static void repaint(struct gb_watch *watch, struct gb_term *term)
+{
+    (void)watch;
+    gb_term_repaint(term);
+}
+
+static void leave(struct gb_watch *watch, struct gb_term *term)
+{
+    (void)term;
+    watch->leave = true;
+}
+
+/* Keys besides the digits of the views and the navigation. */
+static const struct {
+    int code[4];
+    void (*act)(struct gb_watch *watch, struct gb_term *term);
+} keys[] = {
+    {{'v', '\t', 'n'}, next_view}, {{'V', KEY_BTAB, 'N'}, previous_view},
+    {{'L'}, toggle_log},           {{'b'}, next_glyphs},
+    {{CTRL_L}, repaint},           {{'q', KEY_F(10)}, leave},
+};
+
+static void navigate(struct gb_watch *watch, enum gb_action action)
 {
     switch (action) {
-    case GB_ACTION_QUIT:
-        return true;
-    case GB_ACTION_VIEW_CURVE:
-    case GB_ACTION_VIEW_HISTOGRAM:
-    case GB_ACTION_VIEW_ROSE:
-    case GB_ACTION_VIEW_TIME:
-        show_view(watch, (int)action - GB_ACTION_VIEW_CURVE);
-        break;
-    case GB_ACTION_NEXT_VIEW:
-    case GB_ACTION_NEXT_PANE:
-        show_view(watch, ((int)watch->view + 1) % views(watch));
-        break;
-    case GB_ACTION_PREVIOUS_VIEW:
-    case GB_ACTION_PREVIOUS_PANE:
-        show_view(watch, ((int)watch->view + views(watch) - 1) % views(watch));
-        break;
     case GB_ACTION_LEFT:
         move_level(watch, -1);
         break;
@@ -126,25 +158,30 @@ static bool act(struct gb_watch *watch, struct gb_term *term, enum gb_action act
     case GB_ACTION_PAGE_DOWN:
         watch->top += PAGE;
         break;
-    case GB_ACTION_LOG:
-        watch->linear = !watch->linear;
-        break;
-    case GB_ACTION_GLYPHS:
-        if (gb_term_utf8(term)) {
-            watch->glyphs = (watch->glyphs + 1) % GB_PLOT_GLYPHS;
-        }
-        break;
-    case GB_ACTION_REPAINT:
-        gb_term_repaint(term);
-        break;
     default:
         break;
     }
-    return false;
 }
 
-/* What could not be read leaves what is shown, with a word; the next time may be better.
- */
+static void act(struct gb_watch *watch, struct gb_term *term, int code)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(keys); i++) {
+        for (size_t k = 0; k < G_N_ELEMENTS(keys[i].code) && keys[i].code[k] != 0; k++) {
+            if (keys[i].code[k] == code) {
+                keys[i].act(watch, term);
+                return;
+            }
+        }
+    }
+    if (code >= '1' && code <= '9') {
+        show_view(watch, code - '1');
+    } else {
+        navigate(watch, gb_keys_action(code));
+    }
+}
+
+/* A failure leaves the old state on the screen, with its message; the files are read again
+ * later. */
 static void reread(struct gb_watch *watch)
 {
     struct gb_runset_view fresh;
@@ -159,16 +196,17 @@ static void reread(struct gb_watch *watch)
     g_free(directory);
 }
 
-/* -1: goes on; else the exit status. */
+/* Exit status; -1: not over. */
 static int handle(struct gb_watch *watch, struct gb_term *term,
                   const struct gb_term_event *event)
 {
     switch (event->kind) {
     case GB_TERM_KEY:
     case GB_TERM_TEXT:
-        return event->code < 127 || event->kind == GB_TERM_KEY
-                   ? (act(watch, term, gb_keys_action(event->code)) ? 0 : -1)
-                   : -1;
+        if (event->code <= LAST_ASCII || event->kind == GB_TERM_KEY) {
+            act(watch, term, event->code);
+        }
+        return watch->leave ? 0 : -1;
     case GB_TERM_MOUSE:
         watch->top += event->code == GB_TERM_WHEEL_UP     ? -1
                       : event->code == GB_TERM_WHEEL_DOWN ? 1
@@ -187,7 +225,7 @@ static int handle(struct gb_watch *watch, struct gb_term *term,
     return -1;
 }
 
-static int loop(struct gb_watch *watch, struct gb_term *term, bool *gone)
+static int loop(struct gb_watch *watch, struct gb_term *term, bool *hangup)
 {
     double due = gb_clock_s() + reread_s;
     int status = -1;
@@ -197,7 +235,7 @@ static int loop(struct gb_watch *watch, struct gb_term *term, bool *gone)
         const struct gb_term_event event =
             gb_term_wait(term, left > 0.0 ? (int)(1e3 * left) + 1 : 0);
         status = handle(watch, term, &event);
-        *gone = event.kind == GB_TERM_HANGUP;
+        *hangup = event.kind == GB_TERM_HANGUP;
         if (gb_clock_s() >= due) {
             const double from = gb_clock_s();
             reread(watch);
@@ -224,7 +262,7 @@ int gb_watch_run(const char *directory, const struct gb_settings *settings,
 {
     struct gb_watch watch = {.view = GB_WATCH_CURVES};
     struct gb_term *term = NULL;
-    bool gone = false;
+    bool hangup = false;
     if (!gb_runset_view_read(&watch.runset, directory, err) ||
         !gb_term_start(&term, settings, err)) {
         gb_runset_view_finish(&watch.runset);
@@ -234,8 +272,8 @@ int gb_watch_run(const char *directory, const struct gb_settings *settings,
     watch.glyphs = first_glyphs(term, settings);
     watch.level = gb_runset_view_level(&watch.runset, default_pa);
     watch.view = watch.runset.fit != NULL ? GB_WATCH_FIT : GB_WATCH_CURVES;
-    const int status = loop(&watch, term, &gone);
-    if (gone) {
+    const int status = loop(&watch, term, &hangup);
+    if (hangup) {
         gb_term_abandon(term);
     } else {
         gb_term_stop(term);

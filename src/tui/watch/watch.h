@@ -18,7 +18,8 @@ enum gb_watch_view {
 
 struct gb_watch {
     struct gb_runset_view runset;
-    struct gb_error error; /* why it could not be read again; GB_OK: it could */
+    struct gb_error error; /* of the last reading */
+    bool leave;
     enum gb_watch_view view;
     size_t level; /* pressure of the map */
     bool linear;  /* pressure axis */

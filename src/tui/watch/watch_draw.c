@@ -81,7 +81,7 @@ static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
         return true;
     }
     watch->plot.foot = foot;
-    gb_plot_axes(&watch->plot, x, y, !watch->linear, "density", "p, MPa");
+    gb_plot_axes(&watch->plot, x, y, !watch->linear, "relative density", "p, MPa");
     for (size_t g = 0; g < runset->groups; g++) { /* bands below */
         draw_curve(watch, &runset->group[g], -1.0, GB_PLOT_INK_DIM, 0);
         draw_curve(watch, &runset->group[g], 1.0, GB_PLOT_INK_DIM, 0);
@@ -106,7 +106,7 @@ static void draw_curves(struct gb_watch *watch, const struct gb_paint *paint)
     int foot = 0;
     find_ends(watch, x, y);
     if (!(x[1] > x[0])) {
-        gb_paint_text(paint, 2, 2, GB_STYLE_PLAIN, "no curve has got to 1 MPa yet");
+        gb_paint_text(paint, 2, 2, GB_STYLE_PLAIN, "no curve has reached 1 MPa yet");
         return;
     }
     if (!draw_groups(watch, paint, x, y, 0, &foot)) { /* no room between the curves */
@@ -200,7 +200,7 @@ static void draw_map(const struct gb_watch *watch, const struct gb_paint *paint)
     char pressure[32];
     write_pressure(watch, pressure, sizeof pressure);
     gb_paint_format(paint, 1, 1, GB_STYLE_PLAIN,
-                    "density at %s, +- its standard error in units of 0.0001", pressure);
+                    "relative density at %s, +- standard error in 0.0001", pressure);
     if (watch->runset.keys == GB_RUNSET_VIEW_VARIED) {
         draw_matrix(watch, paint);
     } else {
@@ -247,8 +247,8 @@ static void draw_fit(const struct gb_watch *watch, const struct gb_paint *paint)
 void gb_watch_draw(struct gb_watch *watch, const struct gb_paint *paint)
 {
     static const char *const titles[GB_WATCH_VIEWS] = {
-        "1 Pressure against density, means and their standard errors",
-        "2 Density over what was varied", "3 Runs", "4 Fit"};
+        "1 Pressure against relative density: mean and standard error",
+        "2 Relative density over the varied parameters", "3 Runs", "4 Fit"};
     gb_paint_title(paint, titles[watch->view], true);
     switch (watch->view) {
     case GB_WATCH_CURVES:

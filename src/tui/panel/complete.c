@@ -1,4 +1,4 @@
-#include "tui/app/complete.h"
+#include "tui/panel/complete.h"
 
 #include <glib.h>
 #include <string.h>

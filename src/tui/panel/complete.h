@@ -1,5 +1,5 @@
-#ifndef GB_TUI_APP_COMPLETE_H
-#define GB_TUI_APP_COMPLETE_H
+#ifndef GB_TUI_PANEL_COMPLETE_H
+#define GB_TUI_PANEL_COMPLETE_H
 
 /* Completes a path as a shell does: to the longest beginning that all fitting names
  * share; a folder ends with a slash, "~/" is the home.  *count (may be NULL) says how

@@ -1,0 +1,12 @@
+#ifndef GB_TUI_APP_DISPATCH_H
+#define GB_TUI_APP_DISPATCH_H
+
+#include "tui/app/app_private.h"
+
+/* A key or a character: to the open dialog, the value being edited, or the key table. */
+void gb_dispatch_event(struct gb_app *app, const struct gb_term_event *event);
+
+/* The command of a row of the key table, where its scope allows it. */
+void gb_dispatch_key(struct gb_app *app, const struct gb_key *key);
+
+#endif

@@ -1,0 +1,153 @@
+#include <glib.h>
+
+#include "tui/app/dialogs.h"
+#include "tui/app/key_commands.h"
+#include "tui/panel/complete.h"
+#include "tui/session/repeat.h"
+#include "tui/session/user_presets.h"
+#include "tui/view/views.h"
+
+/* Presets, measured data, pictures, reports and the shell command of the run. */
+
+void gb_file_commands_save(struct gb_app *app, const struct gb_key *key)
+{
+    char *name = gb_user_presets_suggest(app->screen.session.preset);
+    (void)key;
+    gb_dialog_show(&app->screen.dialog, &gb_dialogs_save, name);
+    g_free(name);
+}
+
+/* A file that exists is replaced only when Enter is pressed again. */
+void gb_file_commands_accept_save(struct gb_app *app)
+{
+    struct gb_dialog *dialog = &app->screen.dialog;
+    struct gb_preset *preset = app->screen.session.preset;
+    struct gb_error err = {0};
+    char *path = gb_user_presets_file(gb_dialog_answer(dialog), &err);
+    const bool warned = dialog->kind == GB_DIALOG_NOTE_WARNING;
+    if (path == NULL) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
+    } else if (!warned && g_file_test(path, G_FILE_TEST_EXISTS)) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_WARNING,
+                           "%s exists: Enter again replaces it", path);
+    } else if (!gb_preset_save(preset, path, true, &err)) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
+    } else {
+        char *text = g_strdup_printf("saved as %s", path);
+        gb_session_note(&app->screen.session, "saved %s", path);
+        gb_screen_commands_message(app, GB_STYLE_GOOD, text);
+        g_free(text);
+        gb_dialog_close(dialog);
+    }
+    g_free(path);
+}
+
+void gb_file_commands_open(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    gb_dialog_show_presets(&app->screen.dialog, &gb_dialogs_open,
+                           gb_session_params(&app->screen.session));
+}
+
+void gb_file_commands_accept_open(struct gb_app *app)
+{
+    struct gb_dialog *dialog = &app->screen.dialog;
+    struct gb_error err = {0};
+    const char *name = gb_dialog_answer(dialog);
+    if (!gb_session_open(&app->screen.session, name, &err)) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
+        return;
+    }
+    gb_session_note(&app->screen.session, "opened %s", name);
+    gb_dialog_close(dialog);
+    gb_run_commands_start_scene(app);
+}
+
+void gb_file_commands_data(struct gb_app *app, const struct gb_key *key)
+{
+    const struct gb_measured *measured = app->screen.session.measured;
+    (void)key;
+    gb_dialog_show(&app->screen.dialog, &gb_dialogs_data,
+                   measured != NULL ? measured->path : "");
+}
+
+/* Shows the view that the data belong to. */
+void gb_file_commands_accept_data(struct gb_app *app)
+{
+    struct gb_screen *screen = &app->screen;
+    struct gb_session *session = &screen->session;
+    struct gb_error err = {0};
+    char *path = gb_complete_home(gb_dialog_answer(&screen->dialog));
+    const struct gb_chart_csv *chart = session->chart;
+    if (!gb_session_load_data(session, path, &err)) {
+        gb_dialog_set_note(&screen->dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
+    } else {
+        gb_session_note(session, *path != '\0' ? "loaded %s" : "measured data removed%s",
+                        path);
+        gb_dialog_close(&screen->dialog);
+        screen->plot.view =
+            session->chart != chart ? gb_views_with(GB_VIEW_NEEDS_CHART) : gb_views_at(0);
+        screen->focus = GB_PANE_PLOT;
+    }
+    g_free(path);
+}
+
+/* A file made by another command of this program from the directory of the run. */
+struct product {
+    const char *name, *command;
+    const char *middle, *end; /* of its path: directory, middle, a free number, end */
+    const char *started;      /* message */
+};
+
+static void make(struct gb_app *app, const struct product *product)
+{
+    struct gb_session *session = &app->screen.session;
+    const char *directory =
+        session->runner != NULL ? gb_runner_directory(session->runner) : NULL;
+    struct gb_error err = {0};
+    if (directory == NULL) {
+        gb_screen_commands_message(app, GB_STYLE_WARN, "no stored run yet: r starts one");
+        return;
+    }
+    char *path = NULL;
+    for (int i = 1; path == NULL || g_file_test(path, G_FILE_TEST_EXISTS); i++) {
+        g_free(path);
+        path = g_strdup_printf("%s%s%d%s", directory, product->middle, i, product->end);
+    }
+    const char *const words[] = {product->command, directory, "-o", path, NULL};
+    if (gb_child_command_start(&session->child, product->name, path,
+                               GB_CHILD_COMMAND_SHORT, words, &err)) {
+        gb_screen_commands_message(app, GB_STYLE_PLAIN, product->started);
+    } else {
+        gb_screen_commands_message(app, GB_STYLE_BAD, err.text);
+    }
+    g_free(path);
+}
+
+void gb_file_commands_picture(struct gb_app *app, const struct gb_key *key)
+{
+    static const struct product picture = {"picture", "snapshot", "/picture-", ".png",
+                                           "rendering..."};
+    (void)key;
+    make(app, &picture);
+}
+
+void gb_file_commands_report(struct gb_app *app, const struct gb_key *key)
+{
+    static const struct product report = {"report", "report", "-report-", "",
+                                          "writing the report..."};
+    (void)key;
+    make(app, &report);
+}
+
+void gb_file_commands_shell(struct gb_app *app, const struct gb_key *key)
+{
+    struct gb_session *session = &app->screen.session;
+    int rows = 0;
+    int cols = 0;
+    (void)key;
+    gb_term_size(app->screen.term, &rows, &cols);
+    char *text = gb_repeat_command(session->preset, gb_session_params(session), cols - 1);
+    gb_dialog_show(&app->screen.dialog, &gb_dialogs_shell, text);
+    g_free(text);
+}

@@ -1,0 +1,154 @@
+#include <glib.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "io/store.h"
+#include "tui/app/dialogs.h"
+#include "tui/app/key_commands.h"
+
+/* Replicas of the scene shown and its calibration to the measured data: the commands
+ * `sweep` and `calibrate` as child processes. */
+
+/* P1 averages ten cells; a standard error of 0.002 separates two powders of one study. */
+static const char default_replicas[] = "10 0.002@100MPa";
+static const char default_keys[] = "contact.mu,contact.alpha";
+
+enum { REPLICAS_MIN = 2, REPLICAS_MAX = 1000 };
+
+void gb_job_commands_replicas(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    gb_dialog_show(&app->screen.dialog, &gb_dialogs_replicas, default_replicas);
+}
+
+void gb_job_commands_calibrate(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    if (app->screen.session.measured == NULL) {
+        gb_screen_commands_message(
+            app, GB_STYLE_WARN, "a calibration needs measured data: e loads a CSV file");
+        return;
+    }
+    gb_dialog_show(&app->screen.dialog, &gb_dialogs_calibrate, default_keys);
+}
+
+/* The parameters shown as a preset file DIRECTORY/scene.ini (g_free). */
+static char *write_scene(struct gb_session *session, const char *directory,
+                         struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    char *path = NULL;
+    if (!gb_params_check(gb_session_params(session), err) ||
+        !gb_preset_create(&preset, err)) {
+        return NULL;
+    }
+    *gb_preset_params(preset) = *gb_session_params(session);
+    if (g_mkdir_with_parents(directory, 0777) != 0) {
+        gb_error_set(err, GB_ERR_MACHINE, "%.300s: cannot be created", directory);
+    } else {
+        path = g_build_filename(directory, "scene.ini", NULL);
+        if (!gb_preset_save(preset, path, true, err)) {
+            g_clear_pointer(&path, g_free);
+        }
+    }
+    gb_preset_destroy(preset);
+    return path;
+}
+
+/* Beside the directories of the runs: "default-replicas-1".  g_free. */
+static char *new_directory(const struct gb_session *session, const char *name)
+{
+    const char *path = gb_preset_path(session->preset);
+    char *base = g_path_get_basename(*path != '\0' ? path : "default.ini");
+    if (g_str_has_suffix(base, ".ini")) {
+        base[strlen(base) - strlen(".ini")] = '\0';
+    }
+    char *prefix = g_strdup_printf("%s-%s", base, name);
+    char *folder = session->folder != NULL
+                       ? g_strdup(session->folder)
+                       : g_build_filename(g_get_tmp_dir(), "greenbody", NULL);
+    char *directory = gb_store_new_directory(folder, prefix);
+    g_free(folder);
+    g_free(prefix);
+    g_free(base);
+    return directory;
+}
+
+/* Words of the child command, by place. */
+enum { SCENE = 1, DIRECTORY = 3 };
+
+/* Fills in the scene and the directory and starts the command.  True: started, and the
+ * dialog is closed; false: the dialog shows the reason.  band: shows the runs; NULL: none. */
+static bool start_job(struct gb_app *app, const char *name, const char **words,
+                      struct gb_replica_band *band)
+{
+    struct gb_session *session = &app->screen.session;
+    struct gb_dialog *dialog = &app->screen.dialog;
+    struct gb_error err = {0};
+    char *directory = new_directory(session, name);
+    char *scene = write_scene(session, directory, &err);
+    words[SCENE] = scene;
+    words[DIRECTORY] = directory;
+    const bool started =
+        scene != NULL && gb_child_command_start(&session->child, name, directory,
+                                                GB_CHILD_COMMAND_LONG, words, &err);
+    if (started) {
+        gb_session_note(session, "%s: computed in %s", name, directory);
+        if (band != NULL) {
+            gb_replica_band_follow(band, directory, gb_session_params(session));
+        }
+        gb_dialog_close(dialog);
+    } else {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
+    }
+    g_free(scene);
+    g_free(directory);
+    return started;
+}
+
+void gb_job_commands_accept_replicas(struct gb_app *app)
+{
+    struct gb_dialog *dialog = &app->screen.dialog;
+    char *answer = g_strdup(gb_dialog_answer(dialog));
+    char **parts = g_strsplit(g_strstrip(answer), " ", 2);
+    guint64 cells = 0;
+    if (parts[0] == NULL || !g_ascii_string_to_unsigned(parts[0], 10, REPLICAS_MIN,
+                                                        REPLICAS_MAX, &cells, NULL)) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR,
+                           "the number of cells must be between %d and %d; then, if "
+                           "wanted, a standard error at a pressure: 0.002@100MPa",
+                           REPLICAS_MIN, REPLICAS_MAX);
+    } else {
+        const bool target = parts[1] != NULL && *g_strstrip(parts[1]) != '\0';
+        const char *words[] = {"sweep",
+                               NULL,
+                               "-o",
+                               NULL,
+                               "--replicas",
+                               parts[0],
+                               target ? "--until-se" : NULL,
+                               target ? parts[1] : NULL,
+                               NULL};
+        start_job(app, "replicas", words, &app->screen.session.replica_band);
+    }
+    g_strfreev(parts);
+    g_free(answer);
+}
+
+void gb_job_commands_accept_calibrate(struct gb_app *app)
+{
+    const struct gb_session *session = &app->screen.session;
+    if (session->measured == NULL) { /* removed behind the dialog */
+        gb_dialog_close(&app->screen.dialog);
+        return;
+    }
+    char *keys = g_strdup(gb_dialog_answer(&app->screen.dialog));
+    const char *words[] = {"calibrate", NULL,     "-o",
+                           NULL,        "--data", session->measured->path,
+                           "--free",    keys,     NULL};
+    if (start_job(app, "calibration", words, NULL)) {
+        gb_screen_commands_message(app, GB_STYLE_PLAIN,
+                                   "calibration started: progress among the events");
+    }
+    g_free(keys);
+}

@@ -1,0 +1,73 @@
+#ifndef GB_TUI_APP_KEY_COMMANDS_H
+#define GB_TUI_APP_KEY_COMMANDS_H
+
+#include "tui/app/app_private.h"
+
+/* Command functions of the key table (keys.c) and accept functions of the dialog table
+ * (dialogs.c), by the file that defines them. */
+
+/* pane_commands.c: focus, navigation, parameters. */
+void gb_pane_commands_navigate(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_next(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_previous(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_find(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_list_all(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_increase(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_decrease(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_revert(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_accept_find(struct gb_app *app);
+
+/* view_commands.c: what the plot shows. */
+void gb_view_commands_show(struct gb_app *app, const struct gb_key *key);
+void gb_view_commands_next(struct gb_app *app, const struct gb_key *key);
+void gb_view_commands_previous(struct gb_app *app, const struct gb_key *key);
+void gb_view_commands_log(struct gb_app *app, const struct gb_key *key);
+void gb_view_commands_previous_curves(struct gb_app *app, const struct gb_key *key);
+void gb_view_commands_glyphs(struct gb_app *app, const struct gb_key *key);
+
+/* run_commands.c: the run and its quick cell. */
+void gb_run_commands_start(struct gb_app *app, const struct gb_key *key);
+void gb_run_commands_pause(struct gb_app *app, const struct gb_key *key);
+void gb_run_commands_freeze(struct gb_app *app, const struct gb_key *key);
+void gb_run_commands_take_over(struct gb_app *app, const struct gb_key *key);
+void gb_run_commands_auto_start(struct gb_app *app, const struct gb_key *key);
+void gb_run_commands_what_if(struct gb_app *app, const struct gb_key *key);
+void gb_run_commands_accept_what_if(struct gb_app *app);
+void gb_run_commands_accept_cost(struct gb_app *app);
+void gb_run_commands_decline_cost(struct gb_app *app);
+/* A scene that was opened: its quick cell first, unless it is fast enough itself. */
+void gb_run_commands_start_scene(struct gb_app *app);
+/* Starts the full cell when its quick cell has ended; a long one waits for r. */
+void gb_run_commands_follow_quick(struct gb_app *app);
+
+/* file_commands.c: presets, measured data, pictures, reports. */
+void gb_file_commands_save(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_open(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_data(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_picture(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_report(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_shell(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_accept_save(struct gb_app *app);
+void gb_file_commands_accept_open(struct gb_app *app);
+void gb_file_commands_accept_data(struct gb_app *app);
+
+/* job_commands.c: replicas and calibrations, computed by a child command. */
+void gb_job_commands_replicas(struct gb_app *app, const struct gb_key *key);
+void gb_job_commands_calibrate(struct gb_app *app, const struct gb_key *key);
+void gb_job_commands_accept_replicas(struct gb_app *app);
+void gb_job_commands_accept_calibrate(struct gb_app *app);
+
+/* screen_commands.c: mouse, help, leaving. */
+void gb_screen_commands_mouse(struct gb_app *app, const struct gb_key *key);
+void gb_screen_commands_repaint(struct gb_app *app, const struct gb_key *key);
+void gb_screen_commands_help(struct gb_app *app, const struct gb_key *key);
+void gb_screen_commands_quit(struct gb_app *app, const struct gb_key *key);
+void gb_screen_commands_accept_quit(struct gb_app *app);
+/* The question before a live run is left. */
+void gb_screen_commands_ask_quit(struct gb_app *app);
+void gb_screen_commands_leave(struct gb_app *app, int status);
+/* Text of the message line. */
+void gb_screen_commands_message(struct gb_app *app, enum gb_style style,
+                                const char *text);
+
+#endif

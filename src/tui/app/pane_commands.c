@@ -1,0 +1,80 @@
+#include "tui/app/dialogs.h"
+#include "tui/app/key_commands.h"
+#include "tui/app/panes.h"
+
+/* Focus, navigation and the parameters. */
+
+void gb_pane_commands_navigate(struct gb_app *app, const struct gb_key *key)
+{
+    const struct gb_pane_type *pane = gb_panes_type(app->screen.focus);
+    if (pane->navigate != NULL) {
+        pane->navigate(&app->screen, key->action);
+    }
+}
+
+/* In the compact layout plot and state are one stop. */
+static void change_focus(struct gb_screen *screen, int step)
+{
+    screen->focus = (enum gb_pane)(((int)screen->focus + step + GB_PANES) % GB_PANES);
+    if (screen->layout.kind == GB_LAYOUT_COMPACT && screen->focus == GB_PANE_STATE) {
+        screen->focus = step > 0 ? GB_PANE_EVENTS : GB_PANE_PLOT;
+    }
+}
+
+void gb_pane_commands_next(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    change_focus(&app->screen, 1);
+}
+
+void gb_pane_commands_previous(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    change_focus(&app->screen, -1);
+}
+
+void gb_pane_commands_find(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    gb_dialog_show(&app->screen.dialog, &gb_dialogs_find, NULL);
+}
+
+void gb_pane_commands_accept_find(struct gb_app *app)
+{
+    struct gb_screen *screen = &app->screen;
+    if (gb_panel_params_find(&screen->params, &screen->session,
+                             gb_dialog_answer(&screen->dialog))) {
+        screen->focus = GB_PANE_PARAMS;
+        gb_dialog_close(&screen->dialog);
+    } else {
+        gb_dialog_set_note(&screen->dialog, GB_DIALOG_NOTE_ERROR,
+                           "no parameter has this text in its name");
+    }
+}
+
+void gb_pane_commands_list_all(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    gb_panel_params_list_all(&app->screen.params, &app->screen.message);
+}
+
+void gb_pane_commands_increase(struct gb_app *app, const struct gb_key *key)
+{
+    struct gb_screen *screen = &app->screen;
+    (void)key;
+    gb_panel_params_edit_step(&screen->params, &screen->session, 1, &screen->message);
+}
+
+void gb_pane_commands_decrease(struct gb_app *app, const struct gb_key *key)
+{
+    struct gb_screen *screen = &app->screen;
+    (void)key;
+    gb_panel_params_edit_step(&screen->params, &screen->session, -1, &screen->message);
+}
+
+void gb_pane_commands_revert(struct gb_app *app, const struct gb_key *key)
+{
+    struct gb_screen *screen = &app->screen;
+    (void)key;
+    gb_panel_params_edit_revert(&screen->params, &screen->session, &screen->message);
+}

@@ -1,0 +1,88 @@
+#include "tui/app/panes.h"
+
+#include <stdio.h>
+
+static void draw_params(struct gb_screen *screen, const struct gb_paint *paint,
+                        bool focus)
+{
+    gb_panel_params_draw(&screen->params, paint, &screen->session, focus);
+}
+
+static void navigate_params(struct gb_screen *screen, enum gb_action action)
+{
+    gb_panel_params_navigate(&screen->params, &screen->session, action);
+}
+
+static void click_params(struct gb_screen *screen, int row, int col)
+{
+    gb_panel_params_click(&screen->params, &screen->session, row, col);
+}
+
+static void describe_params(struct gb_screen *screen, struct gb_message *message)
+{
+    gb_panel_params_describe(&screen->params, &screen->session, message);
+}
+
+static void draw_plot(struct gb_screen *screen, const struct gb_paint *paint, bool focus)
+{
+    screen->plot.edited = gb_panel_params_edit_params(&screen->params, &screen->session);
+    gb_panel_plot_draw(&screen->plot, paint, &screen->session, focus);
+}
+
+static void navigate_plot(struct gb_screen *screen, enum gb_action action)
+{
+    gb_panel_plot_cursor_navigate(&screen->plot, &screen->session, action);
+}
+
+/* The title shows the next view, a point of the field takes the cursor. */
+static void click_plot(struct gb_screen *screen, int row, int col)
+{
+    if (row == 0) {
+        gb_panel_plot_step_view(&screen->plot, 1);
+    } else {
+        gb_panel_plot_cursor_click(&screen->plot, &screen->session, row, col);
+    }
+}
+
+static void describe_plot(struct gb_screen *screen, struct gb_message *message)
+{
+    gb_panel_plot_cursor_describe(&screen->plot, &screen->session, message);
+}
+
+static void draw_state(struct gb_screen *screen, const struct gb_paint *paint, bool focus)
+{
+    gb_panel_state_draw(paint, &screen->session, focus);
+}
+
+/* Why the run failed, if it did. */
+static void describe_run(struct gb_screen *screen, struct gb_message *message)
+{
+    if (screen->session.now.error.text[0] != '\0') {
+        snprintf(message->text, sizeof message->text, "%s",
+                 screen->session.now.error.text);
+        message->style = GB_STYLE_WARN;
+    }
+}
+
+static void draw_events(struct gb_screen *screen, const struct gb_paint *paint,
+                        bool focus)
+{
+    gb_panel_events_draw(&screen->events, paint, &screen->session, focus);
+}
+
+static void navigate_events(struct gb_screen *screen, enum gb_action action)
+{
+    gb_panel_events_navigate(&screen->events, &screen->session, action);
+}
+
+static const struct gb_pane_type panes[GB_PANES] = {
+    [GB_PANE_PARAMS] = {draw_params, navigate_params, click_params, describe_params},
+    [GB_PANE_PLOT] = {draw_plot, navigate_plot, click_plot, describe_plot},
+    [GB_PANE_STATE] = {draw_state, NULL, NULL, describe_run},
+    [GB_PANE_EVENTS] = {draw_events, navigate_events, NULL, describe_run},
+};
+
+const struct gb_pane_type *gb_panes_type(enum gb_pane pane)
+{
+    return &panes[pane];
+}

@@ -1,0 +1,73 @@
+#include <glib.h>
+
+#include "tui/app/dialogs.h"
+#include "tui/app/key_commands.h"
+
+/* Mouse, help and leaving. */
+
+void gb_screen_commands_message(struct gb_app *app, enum gb_style style, const char *text)
+{
+    g_strlcpy(app->screen.message.text, text, sizeof app->screen.message.text);
+    app->screen.message.style = style;
+}
+
+void gb_screen_commands_mouse(struct gb_app *app, const struct gb_key *key)
+{
+    struct gb_term *term = app->screen.term;
+    const bool on = !gb_term_has_mouse(term);
+    (void)key;
+    gb_term_mouse(term, on);
+    gb_screen_commands_message(app, GB_STYLE_PLAIN,
+                               gb_term_has_mouse(term)
+                                   ? "mouse on: clicks and wheel; Shift-drag selects text"
+                               : on ? "this terminal reports no mouse"
+                                    : "mouse off: the terminal selects text");
+}
+
+void gb_screen_commands_repaint(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    gb_term_repaint(app->screen.term);
+}
+
+void gb_screen_commands_help(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    gb_dialog_show(&app->screen.dialog, &gb_dialogs_help, NULL);
+}
+
+void gb_screen_commands_leave(struct gb_app *app, int status)
+{
+    app->leave = true;
+    app->status = status;
+}
+
+void gb_screen_commands_ask_quit(struct gb_app *app)
+{
+    const struct gb_session *session = &app->screen.session;
+    const bool stored =
+        session->runner != NULL && gb_runner_directory(session->runner) != NULL;
+    const char *text =
+        session->attached != NULL ? "The attached run belongs to another process; it "
+                                    "continues."
+        : stored ? "A run is live. It stops with a checkpoint; `greenbody resume` "
+                   "continues it."
+                 : "A run is live; its results so far are not stored.";
+    gb_dialog_show(&app->screen.dialog, &gb_dialogs_quit, text);
+}
+
+void gb_screen_commands_quit(struct gb_app *app, const struct gb_key *key)
+{
+    const bool visible = app->screen.layout.kind != GB_LAYOUT_TOO_SMALL;
+    (void)key;
+    if (gb_session_live(&app->screen.session) && visible) {
+        gb_screen_commands_ask_quit(app);
+    } else {
+        gb_screen_commands_leave(app, 0);
+    }
+}
+
+void gb_screen_commands_accept_quit(struct gb_app *app)
+{
+    gb_screen_commands_leave(app, 0);
+}

@@ -1,0 +1,262 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "scene/loading_kind.h"
+#include "tui/panel/panel_state_items.h"
+#include "tui/panel/panels.h"
+
+static void write_number(char *text, size_t size, const char *format, double value)
+{
+    if (isfinite(value)) {
+        snprintf(text, size, format, value);
+    } else {
+        snprintf(text, size, "-");
+    }
+}
+
+/* All four pressures in the unit of the largest, so that they can be compared. */
+static void write_pressure(const struct gb_snapshot *now, double value, char *text,
+                           size_t size)
+{
+    const double max =
+        fmax(fmax(fabs(now->now.p_pa), fabs(now->now.pz_pa)), fabs(now->now.px_pa));
+    if (!isfinite(value)) {
+        snprintf(text, size, "-");
+    } else if (max >= 9.995e8) {
+        snprintf(text, size, "%.3f GPa", value * 1e-9);
+    } else {
+        snprintf(text, size, max >= 9.995e7 ? "%.1f MPa" : "%.2f MPa", value * 1e-6);
+    }
+}
+
+/* "812", "6.31 k", "12.3 M": three digits. */
+static void write_count(char *text, size_t size, double value)
+{
+    static const char *const prefix[] = {"", "k", "M", "G", "T"};
+    size_t k = 0;
+    while (fabs(value) >= 999.5 && k < 4) {
+        value *= 1e-3;
+        k++;
+    }
+    const int decimals = k == 0 || fabs(value) >= 99.95 ? 0
+                         : fabs(value) >= 9.995         ? 1
+                                                        : 2;
+    snprintf(text, size, "%.*f%s%s", decimals, value, k > 0 ? " " : "", prefix[k]);
+}
+
+static void density(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_number(text, size, "%.4f", now->now.density);
+}
+
+static void contacts(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_number(text, size, "%.2f", now->now.coordination);
+}
+
+static void bridged(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_number(text, size, "%.1f %%", 100.0 * now->now.bridged);
+}
+
+static void rattlers(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_number(text, size, "%.1f %%", 100.0 * now->now.rattlers);
+}
+
+static void p(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_pressure(now, now->now.p_pa, text, size);
+}
+
+static void px(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_pressure(now, now->now.px_pa, text, size);
+}
+
+static void py(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_pressure(now, now->now.py_pa, text, size);
+}
+
+static void pz(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_pressure(now, now->now.pz_pa, text, size);
+}
+
+static void simulated(const struct gb_snapshot *now, char *text, size_t size)
+{
+    const double ns = 1e9 * now->now.time_s;
+    write_number(text, size, ns < 99.995 ? "%.2f ns" : "%.0f ns", ns);
+}
+
+static void stage(const struct gb_snapshot *now, char *text, size_t size)
+{
+    snprintf(text, size, "%s", gb_panel_plot_stage(now->now.branch));
+}
+
+/* "31.2 aJ", "214 fJ": three digits, the prefix below one joule. */
+static void write_energy(char *text, size_t size, double value)
+{
+    static const char *const prefix[] = {"", "m", "u", "n", "p", "f", "a"};
+    size_t k = 0;
+    while (fabs(value) < 0.9995 && k < 6) {
+        value *= 1e3;
+        k++;
+    }
+    const int decimals = fabs(value) >= 99.95 ? 0 : fabs(value) >= 9.995 ? 1 : 2;
+    if (!isfinite(value)) {
+        snprintf(text, size, "-");
+    } else if (fabs(value) < 0.005) {
+        snprintf(text, size, "0 J");
+    } else {
+        snprintf(text, size, "%.*f %sJ", decimals, value, prefix[k]);
+    }
+}
+
+static void kinetic(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_energy(text, size, now->now.kinetic);
+}
+
+static void work(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_energy(text, size, now->now.work);
+}
+
+static void elastic(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_energy(text, size, now->now.elastic);
+}
+
+static void dissipated(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_energy(text, size, now->now.dissipated);
+}
+
+static void energy_error(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_number(text, size, "%.2g %%", 100.0 * now->now.energy_residual);
+}
+
+static void time_step(const struct gb_snapshot *now, char *text, size_t size)
+{
+    if (now->time_step_s > 0.0) {
+        gb_units_format_short(now->time_step_s, GB_DIM_TIME, 3, text, size);
+    }
+}
+
+static void residual(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_number(text, size, "%.0e", now->live_residual);
+}
+
+static void evaluations(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_count(text, size, (double)now->evaluations);
+}
+
+static void rate(const struct gb_snapshot *now, char *text, size_t size)
+{
+    write_count(text, size, now->evaluations_per_s);
+}
+
+char *gb_panel_state_items_duration(double seconds, char *text, size_t size)
+{
+    if (seconds >= 0.0 && seconds < 59.95) {
+        snprintf(text, size, "%.1f s", seconds);
+        return text;
+    }
+    return gb_paint_time(seconds, text, size);
+}
+
+static void elapsed_time(const struct gb_snapshot *now, char *text, size_t size)
+{
+    gb_panel_state_items_duration(now->seconds, text, size);
+}
+
+/* Order of the columns when all have room. */
+static const struct gb_panel_state_item still_items[] = {
+    {"density", "relative density", density},
+    {"coord.", "mean coordination number", contacts},
+    {"bridged", "bridged contacts", bridged},
+    {"rattlers", "rattlers", rattlers},
+    {"p", "pressure p", p},
+    {"px", "  along x", px},
+    {"py", "  along y", py},
+    {"pz", "  along z", pz},
+    {"residual", "force residual", residual},
+    {"evals", "force evaluations", evaluations},
+    {"evals/s", "force evaluations/s", rate},
+    {"elapsed", "elapsed time", elapsed_time},
+};
+
+enum { STILL_ITEMS = sizeof still_items / sizeof still_items[0] };
+
+/* Order of importance, for panes without room for all. */
+static const int still_weight[STILL_ITEMS] = {0, 4, 8, 1, 7, 10, 2, 3, 5, 6, 9, 11};
+
+/* The residual of a dynamic run is the unbalanced force. */
+static const struct gb_panel_state_item moving_items[] = {
+    {"stage", "stage", stage},
+    {"t", "simulated time", simulated},
+    {"density", "relative density", density},
+    {"p", "pressure p", p},
+    {"px", "  along x", px},
+    {"py", "  along y", py},
+    {"pz", "  along z", pz},
+    {"work", "work done", work},
+    {"kin", "kinetic energy", kinetic},
+    {"elast", "elastic energy", elastic},
+    {"diss", "dissipated", dissipated},
+    {"balance", "energy balance error", energy_error},
+    {"coord.", "mean coordination number", contacts},
+    {"bridged", "bridged contacts", bridged},
+    {"rattlers", "rattlers", rattlers},
+    {"unbal.", "unbalanced force", residual},
+    {"step", "time step", time_step},
+    {"steps/s", "time steps/s", rate},
+};
+
+enum { MOVING_ITEMS = sizeof moving_items / sizeof moving_items[0] };
+
+static const int moving_weight[MOVING_ITEMS] = {2,  3,  1,  0,  7,  8, 9, 10, 11,
+                                                15, 12, 16, 17, 13, 4, 6, 14, 5};
+
+static bool applies(const struct gb_panel_state_item *item,
+                    const struct gb_params *params)
+{
+    return item->write != py || params->dimension == 3;
+}
+
+struct gb_panel_state_choice gb_panel_state_items_choose(const struct gb_session *session)
+{
+    const struct gb_params *params = gb_session_shown(session).params;
+    const bool moving = gb_loading_kind_of(params)->columns == GB_COLUMNS_ENERGY;
+    const struct gb_panel_state_item *all = moving ? moving_items : still_items;
+    const int *weight = moving ? moving_weight : still_weight;
+    struct gb_panel_state_choice choice = {.count = 0};
+    int weighed = 0;
+    for (int i = 0; i < (moving ? (int)MOVING_ITEMS : (int)STILL_ITEMS); i++) {
+        if (applies(&all[i], params)) {
+            choice.item[choice.count++] = &all[i];
+        }
+        if (applies(&all[weight[i]], params)) {
+            choice.by_weight[weighed++] = &all[weight[i]];
+        }
+    }
+    return choice;
+}
+
+/* Before there is a state only the effort is known. */
+void gb_panel_state_items_write(const struct gb_panel_state_item *item,
+                                const struct gb_snapshot *now, char *text, size_t size)
+{
+    snprintf(text, size, "-");
+    if (now->now_valid || item->write == elapsed_time ||
+        (item->write == residual && now->evaluations > 0)) {
+        item->write(now, text, size);
+    }
+}

@@ -1,0 +1,49 @@
+#ifndef GB_TUI_VIEW_VIEW_CURVE_H
+#define GB_TUI_VIEW_VIEW_CURVE_H
+
+#include "tui/view/views.h"
+
+/* Parts of the view of the pressure curve, drawn from the back to the front. */
+
+enum {
+    GB_VIEW_CURVE_ENTRIES =
+        3 + 3 + GB_UNLOAD_MAX + GB_SESSION_PREVIOUS /* of the legend */
+};
+
+/* The drawing under way. */
+struct gb_view_curve {
+    struct gb_panel_plot *panel;
+    const struct gb_session *session;
+    double unit_pa; /* of the pressure axis */
+    struct gb_plot_entry entry[GB_VIEW_CURVE_ENTRIES];
+    int entries;
+};
+
+/* Draws a line and names it in the legend. */
+void gb_view_curve_add(struct gb_view_curve *view, const struct gb_plot_series *series,
+                       const char *name);
+
+/* x coordinate of a point: relative density, ns or step. */
+double gb_view_curve_x(const struct gb_view_curve *view, const struct gb_point *point);
+
+/* x coordinates of a previous curve; NULL: nanoseconds and steps share no axis. */
+const double *gb_view_curve_previous_x(const struct gb_view_curve *view,
+                                       const struct gb_previous_curve *previous);
+/* Whether the curve of the quick cell is drawn; whether the full cell supersedes it. */
+bool gb_view_curve_quick_shown(const struct gb_view_curve *view);
+bool gb_view_curve_quick_superseded(const struct gb_session *session);
+/* Mean of the replicas; NULL: none to draw. */
+const struct gb_runset_view_group *
+gb_view_curve_replicas(const struct gb_view_curve *view);
+
+/* view_overlays.c: everything but the run itself. */
+void gb_view_overlays_previous(struct gb_view_curve *view);
+void gb_view_overlays_quick(struct gb_view_curve *view);
+void gb_view_overlays_replicas(struct gb_view_curve *view);
+void gb_view_overlays_measured(struct gb_view_curve *view);
+void gb_view_overlays_what_ifs(struct gb_view_curve *view);
+
+/* view_branches.c: loading, unloading, stages of the run. */
+void gb_view_branches_draw(struct gb_view_curve *view);
+
+#endif

@@ -1,0 +1,173 @@
+#include "tui/view/views.h"
+
+#include <string.h>
+
+static bool has_rod_law(const struct gb_params *params)
+{
+    return params->normal == GB_NORMAL_ROD;
+}
+
+static const struct gb_plot_view views[] = {
+    {
+        .key = "1",
+        .help = "pressure against relative density",
+        .title = "Pressure against relative density",
+        .hint = "Left and Right move a cursor along the points; L log or linear",
+        .abscissa = GB_VIEW_DENSITY,
+        .options = GB_VIEW_PRESSURE_AXIS,
+        .draw = gb_view_curve_draw,
+    },
+    {
+        .key = "2",
+        .help = "distribution of the coordination number",
+        .title = "Distribution of the coordination number",
+        .hint = "share of particles with 0, 1, 2 ... contacts (r < d)",
+        .draw = gb_view_histogram_draw,
+    },
+    {
+        .key = "3",
+        .help = "contact force against direction",
+        .title = "Mean normal force by direction",
+        .hint = "mean force of contacts by the angle to z; a circle when all directions "
+                "carry the same load",
+        .need = GB_VIEW_NEEDS_CONTACTS,
+        .draw = gb_view_rose_draw,
+    },
+    {
+        .key = "4",
+        .help = "pressure against time, or against step",
+        .title = "Pressure against time",
+        .title_quasistatic = "Pressure against step",
+        .hint = "Left and Right move a cursor along the points; L log or linear",
+        .abscissa = GB_VIEW_ELAPSED,
+        .options = GB_VIEW_PRESSURE_AXIS,
+        .draw = gb_view_curve_draw,
+    },
+    {
+        .key = "5",
+        .help = "radial distribution function",
+        .title = "Radial distribution function g(r)",
+        .hint = "density of particles at a distance over the mean density; 1 without "
+                "order",
+        .need = GB_VIEW_NEEDS_SAMPLE,
+        .draw = gb_view_distances_draw,
+    },
+    {
+        .key = "6",
+        .help = "lateral-to-axial stress ratio",
+        .title = "Lateral-to-axial stress ratio px/pz",
+        .hint = "px/pz against relative density, 1 for a fluid; Left and Right move a "
+                "cursor",
+        .need = GB_VIEW_NEEDS_POINTS,
+        .abscissa = GB_VIEW_DENSITY,
+        .draw = gb_view_ratio_draw,
+    },
+    {
+        .key = "7",
+        .help = "contact law: normal force",
+        .title = "Normal force of two particles",
+        .hint = "contact law of the parameters shown, + and - change the focused one; "
+                "dim: law of the run",
+        .options = GB_VIEW_INSET,
+        .draw = gb_view_law_force,
+    },
+    {
+        .key = "8",
+        .help = "contact law: bridge strength",
+        .title = "Bridge strength",
+        .hint = "mean normal stress that breaks a bridge partly, at h = 0 wholly; dim: "
+                "law of the run",
+        .options = GB_VIEW_INSET,
+        .draw = gb_view_law_strength,
+        .applies = has_rod_law,
+        .excluded = "no bridges in this scene",
+    },
+    {
+        .key = "9",
+        .help = "the packing itself",
+        .title = "Packing",
+        .hint = "front of the cell along y, darker with depth",
+        .need = GB_VIEW_NEEDS_SAMPLE,
+        .draw = gb_view_packing_draw,
+    },
+    {
+        .key = "0",
+        .help = "accuracy against cost, from a chart.csv",
+        .title = "Accuracy against cost",
+        .hint = "density error and CPU time of each numerical setting of the chart",
+        .need = GB_VIEW_NEEDS_CHART,
+        .draw = gb_view_chart_draw,
+    },
+};
+
+enum { VIEWS = sizeof views / sizeof views[0] };
+
+size_t gb_views_count(void)
+{
+    return VIEWS;
+}
+
+const struct gb_plot_view *gb_views_at(size_t index)
+{
+    return &views[index];
+}
+
+const struct gb_plot_view *gb_views_find(const char *key)
+{
+    for (size_t i = 0; i < VIEWS; i++) {
+        if (strcmp(views[i].key, key) == 0) {
+            return &views[i];
+        }
+    }
+    return NULL;
+}
+
+const struct gb_plot_view *gb_views_with(enum gb_view_need need)
+{
+    for (size_t i = 0; i < VIEWS; i++) {
+        if (views[i].need == need) {
+            return &views[i];
+        }
+    }
+    return &views[0];
+}
+
+static bool excluded(const struct gb_plot_view *view, const struct gb_params *params)
+{
+    return view->applies != NULL && !view->applies(params);
+}
+
+const struct gb_plot_view *gb_views_step(const struct gb_plot_view *view, int step,
+                                         const struct gb_params *params)
+{
+    size_t at = (size_t)(view - views);
+    do {
+        at = (at + (size_t)(VIEWS + step)) % VIEWS;
+    } while (excluded(&views[at], params));
+    return &views[at];
+}
+
+const char *gb_views_missing(const struct gb_plot_view *view,
+                             const struct gb_session *session,
+                             const struct gb_params *edited)
+{
+    const struct gb_session_shown shown = gb_session_shown(session);
+    if (excluded(view, edited)) {
+        return view->excluded;
+    }
+    switch (view->need) {
+    case GB_VIEW_NEEDS_NOTHING:
+        return NULL;
+    case GB_VIEW_NEEDS_POINTS:
+        return shown.points < 2 ? "no points yet" : NULL;
+    case GB_VIEW_NEEDS_CONTACTS:
+        return !shown.now->now_valid ? "no contacts yet" : NULL;
+    case GB_VIEW_NEEDS_SAMPLE:
+        return shown.sample == NULL || !shown.sample->valid ? "no packing yet" : NULL;
+    case GB_VIEW_NEEDS_CHART:
+        return session->chart == NULL ? "no chart loaded: e loads a chart.csv\n"
+                                        "made by: greenbody chart PRESET --out DIR"
+                                      : NULL;
+    }
+    return NULL;
+}
