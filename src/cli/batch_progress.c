@@ -1,24 +1,21 @@
 #include "cli/batch_progress.h"
 
-#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <glib/gstdio.h>
 
 #include "base/clock.h"
 #include "cli/options.h"
 #include "many/single_run.h"
 #include "run/cost.h"
 
-static const double terminal_every_s = 0.25;
-static const double plain_every_s = 10.0;
+static const double terminal_interval_s = 0.25;
+static const double plain_interval_s = 10.0;
 
-enum { JOBS_MOST = 4096 };
+enum { JOBS_MAX = 4096 };
 
-/* Set by the handler, looked at between reports. */
+/* Set by the handler, polled between reports. */
 static volatile sig_atomic_t caught;
 
 static void on_signal(int number)
@@ -26,7 +23,7 @@ static void on_signal(int number)
     caught = number;
 }
 
-/* The first signal ends the runs in good order, the second at once. */
+/* The first signal stops the runs and keeps their points, the second ends the process. */
 static void install_handlers(void)
 {
     struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
@@ -34,7 +31,7 @@ static void install_handlers(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
-    signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error of a write */
+    signal(SIGXFSZ, SIG_IGN); /* a file beyond its size limit is an error of write() */
 }
 
 static bool is_cancelled(void *data)
@@ -43,53 +40,33 @@ static bool is_cancelled(void *data)
     return caught != 0;
 }
 
-static bool serve(struct gb_mpi_pool *ranks, int jobs, struct gb_error *err)
+static bool serve(struct gb_mpi_pool *mpi, int jobs, struct gb_error *err)
 {
     const size_t workers = jobs > 0 ? (size_t)jobs : 1;
-    struct gb_pool *crew = NULL;
+    struct gb_pool *local = NULL;
     install_handlers();
-    const bool good = gb_pool_create(&crew, workers, gb_single_run, NULL, err) &&
-                      gb_mpi_pool_serve(ranks, crew, workers, is_cancelled, NULL, err);
-    gb_pool_destroy(crew);
+    const bool good = gb_pool_create(&local, workers, gb_single_run, NULL, err) &&
+                      gb_mpi_pool_serve(mpi, local, workers, is_cancelled, NULL, err);
+    gb_pool_destroy(local);
     return good;
 }
 
-bool gb_batch_progress_serve(struct gb_batch_progress *crowd, int jobs, int *status)
+enum gb_batch_progress_rank gb_batch_progress_join(struct gb_batch_progress *batch,
+                                                   int jobs, int *status)
 {
     struct gb_error err = {0};
-    if (!gb_mpi_pool_create(&crowd->ranks, &err)) {
+    if (!gb_mpi_pool_create(&batch->mpi, &err)) {
         *status = gb_options_fail(&err);
-        return true;
+        return GB_BATCH_PROGRESS_OTHER;
     }
-    if (gb_mpi_pool_is_first(crowd->ranks)) {
-        return false;
+    if (gb_mpi_pool_is_first(batch->mpi)) {
+        return GB_BATCH_PROGRESS_FIRST;
     }
-    /* what went wrong with jobs or signals is told once, by the first one */
-    *status = serve(crowd->ranks, MIN(jobs, JOBS_MOST), &err)
-                  ? 0
-                  : gb_status_exit_code(err.code);
-    gb_mpi_pool_destroy(crowd->ranks);
-    return true;
-}
-
-bool gb_batch_progress_directory(const char *path, struct gb_error *err)
-{
-    char *preset = g_build_filename(path, "preset.ini", NULL);
-    const bool single = g_file_test(preset, G_FILE_TEST_EXISTS);
-    g_free(preset);
-    if (single) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "%.300s: holds a single run; many runs need a directory of "
-                            "their own",
-                            path);
-    }
-    if (g_mkdir_with_parents(path, 0777) != 0) {
-        const int why = errno;
-        return gb_error_set(
-            err, why == EEXIST || why == ENOTDIR ? GB_ERR_INPUT : GB_ERR_MACHINE,
-            "%.300s: cannot be made: %s", path, g_strerror(why));
-    }
-    return true;
+    /* errors of --jobs and signals are printed once, by the first rank */
+    *status =
+        serve(batch->mpi, MIN(jobs, JOBS_MAX), &err) ? 0 : gb_status_exit_code(err.code);
+    gb_mpi_pool_destroy(batch->mpi);
+    return GB_BATCH_PROGRESS_OTHER;
 }
 
 static bool is_terminal(void)
@@ -97,122 +74,107 @@ static bool is_terminal(void)
     return isatty(STDERR_FILENO) == 1;
 }
 
-static void clear_line(struct gb_batch_progress *crowd)
+static void clear_line(struct gb_batch_progress *batch)
 {
-    if (crowd->shown > 0) {
-        fprintf(stderr, "\r%*s\r", crowd->shown, "");
-        crowd->shown = 0;
+    if (batch->columns > 0) {
+        fprintf(stderr, "\r%*s\r", batch->columns, "");
+        batch->columns = 0;
     }
 }
 
-static void show(struct gb_batch_progress *crowd)
+static void format_remaining(const struct gb_batch_progress *batch, char *text,
+                             size_t size)
 {
-    char line[160];
-    char left[64] = "time left unknown";
-    const size_t fresh = crowd->ended - crowd->before;
-    const double gone = gb_clock_s() - crowd->started;
-    crowd->told_at = gb_clock_s();
-    if (fresh > 0) {
-        const double each = gone / (double)fresh;
-        char duration[48];
-        gb_cost_duration(each * (double)(crowd->total - crowd->ended), duration,
-                         sizeof duration);
-        snprintf(left, sizeof left, "%s left", duration);
+    const size_t done = batch->ended - batch->before;
+    if (done == 0) {
+        g_strlcpy(text, "time left unknown", size);
+        return;
     }
+    char duration[48];
+    const double each_s = (gb_clock_s() - batch->started_s) / (double)done;
+    gb_cost_duration(each_s * (double)(batch->total - batch->ended), duration,
+                     sizeof duration);
+    g_snprintf(text, (gulong)size, "%s left", duration);
+}
+
+static void print_line(struct gb_batch_progress *batch)
+{
+    char line[160], remaining[64];
+    batch->printed_s = gb_clock_s();
+    format_remaining(batch, remaining, sizeof remaining);
     const int length = snprintf(line, sizeof line, "%zu of %zu runs, %zu failed, %s",
-                                crowd->ended, crowd->total, crowd->failed, left);
+                                batch->ended, batch->total, batch->failed, remaining);
     if (!is_terminal()) {
         fprintf(stderr, "%s\n", line);
         return;
     }
-    fprintf(stderr, "\r%-*s", crowd->shown, line);
+    fprintf(stderr, "\r%-*s", batch->columns, line);
     fflush(stderr);
-    crowd->shown = length > crowd->shown ? length : crowd->shown;
+    batch->columns = MAX(length, batch->columns);
 }
 
-static void told(const struct gb_ensemble *ensemble, const struct gb_ensemble_run *run,
-                 void *data)
+static void on_progress(const struct gb_ensemble *ensemble,
+                        const struct gb_ensemble_run *run, void *data)
 {
-    struct gb_batch_progress *crowd = data;
+    struct gb_batch_progress *batch = data;
     (void)ensemble;
     if (run != NULL) {
-        crowd->ended++;
-        crowd->failed += run->error.code != GB_OK;
+        batch->ended++;
+        batch->failed += run->error.code != GB_OK;
     }
-    if (crowd->quiet) {
+    if (batch->output == GB_BATCH_PROGRESS_QUIET) {
         return;
     }
     if (run != NULL && run->error.code != GB_OK && run->error.code != GB_ERR_CANCELLED) {
-        clear_line(crowd);
+        clear_line(batch);
         fprintf(stderr, "%s: %s\n", run->directory, run->error.text);
     }
-    if (gb_clock_s() - crowd->told_at >=
-        (is_terminal() ? terminal_every_s : plain_every_s)) {
-        show(crowd);
+    if (gb_clock_s() - batch->printed_s >=
+        (is_terminal() ? terminal_interval_s : plain_interval_s)) {
+        print_line(batch);
     }
 }
 
-static void count(struct gb_batch_progress *crowd, const struct gb_ensemble *ensemble)
+static void begin(struct gb_batch_progress *batch, const struct gb_ensemble *ensemble)
 {
-    crowd->total = ensemble->points * ensemble->replicas;
-    crowd->ended = 0;
-    crowd->failed = 0;
-    for (size_t i = 0; i < crowd->total; i++) {
-        crowd->ended += ensemble->run[i].ended;
+    batch->total = ensemble->points * ensemble->replicas;
+    batch->ended = 0;
+    batch->failed = 0;
+    for (size_t i = 0; i < batch->total; i++) {
+        batch->ended += ensemble->run[i].ended;
     }
-    crowd->before = crowd->ended;
+    batch->before = batch->ended;
+    batch->started_s = gb_clock_s();
+    batch->printed_s = batch->started_s;
 }
 
-bool gb_batch_progress_work(struct gb_batch_progress *crowd, struct gb_ensemble *ensemble,
+bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble *ensemble,
                             int jobs, struct gb_error *err)
 {
-    struct gb_pool *crew = NULL;
-    const struct gb_ensemble_callbacks watch = {is_cancelled, told, crowd};
-    if (jobs < 0 || jobs > JOBS_MOST) {
+    struct gb_pool *pool = NULL;
+    const struct gb_ensemble_callbacks callbacks = {is_cancelled, on_progress, batch};
+    if (jobs < 0 || jobs > JOBS_MAX) {
         return gb_error_set(err, GB_ERR_INPUT, "--jobs %d: accepted 1 to %d, 0 for all",
-                            jobs, JOBS_MOST);
+                            jobs, JOBS_MAX);
     }
-    const size_t workers = jobs > 0               ? (size_t)jobs
-                           : crowd->ranks != NULL ? 1
-                                                  : g_get_num_processors();
+    const size_t workers = jobs > 0             ? (size_t)jobs
+                           : batch->mpi != NULL ? 1
+                                                : g_get_num_processors();
     install_handlers();
-    count(crowd, ensemble);
-    crowd->started = gb_clock_s();
-    crowd->told_at = crowd->started;
-    if (!crowd->quiet && !crowd->brief) {
-        fprintf(stderr, "%zu runs, %zu of them done before; %zu at once\n", crowd->total,
-                crowd->before, workers);
+    begin(batch, ensemble);
+    if (batch->output == GB_BATCH_PROGRESS_ALL) {
+        fprintf(stderr, "%zu runs, %zu of them done before; %zu at once\n", batch->total,
+                batch->before, workers);
     }
-    const bool good = gb_pool_create(&crew, workers, gb_single_run, crowd->ranks, err) &&
-                      gb_ensemble_work(ensemble, crew, &watch, err);
-    gb_pool_destroy(crew);
-    clear_line(crowd);
-    if (!crowd->quiet && !crowd->brief) {
-        fprintf(stderr, "%zu of %zu runs, %zu failed, after %.1f s\n", crowd->ended,
-                crowd->total, crowd->failed, gb_clock_s() - crowd->started);
+    const bool good = gb_pool_create(&pool, workers, gb_single_run, batch->mpi, err) &&
+                      gb_ensemble_work(ensemble, pool, &callbacks, err);
+    gb_pool_destroy(pool);
+    clear_line(batch);
+    if (batch->output == GB_BATCH_PROGRESS_ALL) {
+        fprintf(stderr, "%zu of %zu runs, %zu failed, after %.1f s\n", batch->ended,
+                batch->total, batch->failed, gb_clock_s() - batch->started_s);
     }
     return good;
-}
-
-bool gb_batch_progress_verdict(const struct gb_ensemble *ensemble, const char *where,
-                               struct gb_error *err)
-{
-    const struct gb_ensemble_run *first = NULL;
-    enum gb_status code = GB_ERR_GUARD;
-    size_t failed = 0;
-    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
-        const struct gb_ensemble_run *run = &ensemble->run[i];
-        if (run->ended && run->error.code != GB_OK) {
-            first = first ? first : run;
-            /* a disk that is full is no matter of the scene */
-            code = run->error.code == GB_ERR_MACHINE ? GB_ERR_MACHINE : code;
-            failed++;
-        }
-    }
-    return failed == 0 ||
-           gb_error_set(err, code,
-                        "%zu runs failed, listed in %.200s/runs.csv; the first: %.200s",
-                        failed, where, first->error.text);
 }
 
 int gb_batch_progress_exit(const struct gb_error *err)

@@ -8,34 +8,36 @@
 #include "many/ensemble.h"
 #include "many/mpi_pool.h"
 
+enum gb_batch_progress_output {
+    GB_BATCH_PROGRESS_ALL,
+    GB_BATCH_PROGRESS_RUNNING, /* while runs are under way, without first and last line */
+    GB_BATCH_PROGRESS_QUIET
+};
+
 /* Many runs at once, as commands do them: workers, progress on stderr, signals. */
 struct gb_batch_progress {
-    struct gb_mpi_pool *ranks; /* others started by mpirun or srun; NULL: alone */
-    bool quiet, brief;         /* nothing; nothing but progress */
-    size_t total, before, ended, failed; /* runs; before: done when it began */
-    double started, told_at;
-    int shown; /* columns occupied by the rewritten line */
+    struct gb_mpi_pool *mpi; /* ranks started by mpirun or srun; NULL: one process */
+    enum gb_batch_progress_output output;
+    size_t total, before, ended, failed; /* runs; before: done by an earlier command */
+    double started_s, printed_s;         /* clock of the begin, and of the last line */
+    int columns;                         /* occupied by the line that is rewritten */
+};
+
+enum gb_batch_progress_rank {
+    GB_BATCH_PROGRESS_FIRST, /* the command continues */
+    GB_BATCH_PROGRESS_OTHER  /* the rank has done its runs: the command is over */
 };
 
 /* Joins the processes that mpirun or srun started with this one.  A rank other than the
- * first does runs of this kind, `jobs` at a time (0: one), until the first one ends; then
- * it is over: true with *status.  False: go on, as the first one or alone; crowd->ranks
- * is for gb_mpi_pool_destroy. */
-bool gb_batch_progress_serve(struct gb_batch_progress *crowd, int jobs, int *status);
+ * first does runs, `jobs` at a time (0: one), until the first one ends it; *status is the
+ * exit status then, as after an error.  batch->mpi is for gb_mpi_pool_destroy. */
+enum gb_batch_progress_rank gb_batch_progress_join(struct gb_batch_progress *batch,
+                                                   int jobs, int *status);
 
-/* The directory that holds the runs: makes it; one that holds a single run is refused. */
-bool gb_batch_progress_directory(const char *path, struct gb_error *err);
-
-/* Does what is missing with `jobs` workers, 0 for one per processor, or one beside other
- * ranks, who help.  SIGINT, SIGTERM and
- * SIGHUP stop it in good order (GB_ERR_CANCELLED). */
-bool gb_batch_progress_work(struct gb_batch_progress *crowd, struct gb_ensemble *ensemble,
+/* Does the missing runs with `jobs` workers, 0 for one per processor, or one where other
+ * ranks help.  SIGINT, SIGTERM and SIGHUP stop them (GB_ERR_CANCELLED). */
+bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble *ensemble,
                             int jobs, struct gb_error *err);
-
-/* True when every run that counts was done; else GB_ERR_GUARD (GB_ERR_MACHINE when the
- * machine failed one) with how many failed and what the first one said. */
-bool gb_batch_progress_verdict(const struct gb_ensemble *ensemble, const char *where,
-                               struct gb_error *err);
 
 /* As gb_options_fail; after a signal 128 and its number. */
 int gb_batch_progress_exit(const struct gb_error *err);

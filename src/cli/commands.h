@@ -1,7 +1,27 @@
 #ifndef GB_CLI_COMMANDS_H
 #define GB_CLI_COMMANDS_H
 
-/* One command each: argv[0] is the command's name; returns the exit status. */
+#include <stdio.h>
+
+/* A command is a file cmd/cmd_NAME.c, its prototype below and a row in commands.c; help,
+ * manual page, dispatch and messages follow from the row. */
+struct gb_commands_row {
+    const char *group; /* heading in the help */
+    const char *name;
+    const char *doc;                        /* one line */
+    int (*function)(int argc, char **argv); /* argv[0] is the name; the exit status */
+};
+
+/* NULL for a word that is no command. */
+const struct gb_commands_row *gb_commands_find(const char *name);
+
+/* The commands by group, as in the help. */
+void gb_commands_print(FILE *to);
+/* "NAME DOC", a line each, for the manual page. */
+void gb_commands_print_plain(FILE *to);
+/* "run, resume, ...".  Caller g_frees. */
+char *gb_commands_names(void);
+
 int gb_cmd_attach(int argc, char **argv);
 int gb_cmd_bench(int argc, char **argv);
 int gb_cmd_calibrate(int argc, char **argv);
@@ -18,7 +38,9 @@ int gb_cmd_snapshot(int argc, char **argv);
 int gb_cmd_stability(int argc, char **argv);
 int gb_cmd_sweep(int argc, char **argv);
 int gb_cmd_verify(int argc, char **argv);
+
+/* Without a command: the workbench, and the list of its keys. */
 int gb_cmd_workbench(int argc, char **argv);
-void gb_cmd_workbench_keys(void); /* prints the keys of the workbench */
+void gb_cmd_workbench_keys(void);
 
 #endif

@@ -12,35 +12,8 @@
 
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "cli/screening.h"
+#include "cli/screen_options.h"
 #include "pack/kernel/simd.h"
-
-struct command {
-    const char *name;
-    const char *summary;
-    int (*function)(int argc, char **argv);
-};
-
-/* Every command that this build has; help, dispatch and messages follow from it. */
-static const struct command commands[] = {
-    {"run", "one run without a screen, results in a directory", gb_cmd_run},
-    {"sweep", "a grid of parameters with replicas, in one table", gb_cmd_sweep},
-    {"resume", "goes on with a run that was stopped or killed", gb_cmd_resume},
-    {"attach", "shows a run that is under way, or takes it over", gb_cmd_attach},
-    {"verify", "repeats the last stretch of a run and compares", gb_cmd_verify},
-    {"calibrate", "keys fitted to measured densities, with intervals", gb_cmd_calibrate},
-    {"sizes", "the log-normal law of a measured histogram of sizes", gb_cmd_sizes},
-    {"pack", "the initial structure alone", gb_cmd_pack},
-    {"snapshot", "picture of a packing", gb_cmd_snapshot},
-    {"plot", "figures over one or more runs, and of contact laws", gb_cmd_plot},
-    {"chart", "error against cost of the numerical choices of a scene", gb_cmd_chart},
-    {"stability", "where each method fails, beside theory", gb_cmd_stability},
-    {"report", "figures, pictures and tables of runs in a folder to hand in",
-     gb_cmd_report},
-    {"bench", "the speed figures", gb_cmd_bench},
-    {"law", "values of a contact law as CSV", gb_cmd_law},
-    {"params", "every preset key: unit, range, default, meaning, source", gb_cmd_params},
-};
 
 static void print_help(void)
 {
@@ -51,9 +24,7 @@ static void print_help(void)
          "Simulates the pressing of powders particle by particle.\n"
          "\n"
          "Commands:");
-    for (size_t i = 0; i < G_N_ELEMENTS(commands); i++) {
-        printf("  %-10s %s\n", commands[i].name, commands[i].summary);
-    }
+    gb_commands_print(stdout);
     char **presets = gb_preset_list();
     puts("\nPresets:");
     for (int i = 0; presets[i]; i++) {
@@ -62,8 +33,9 @@ static void print_help(void)
     g_strfreev(presets);
     puts("\nOptions:\n"
          "  -h, --help     this page\n"
-         "  --diagnose     what the terminal is taken for, and what the kept runs take\n"
-         "  --batch        no workbench: what run does, also in a terminal\n"
+         "  --diagnose     the detected features of the terminal, and the disk space of "
+         "kept runs\n"
+         "  --batch        greenbody run instead of the workbench, also in a terminal\n"
          "  --color, --graph, --images, --mouse, --ascii, --slow\n"
          "                 of the workbench: see greenbody default --help\n"
          "  --version      version, compiler, features, threads");
@@ -90,22 +62,19 @@ static void print_version(void)
     printf("threads: %u, vectors: %d bits\n", g_get_num_processors(), gb_simd_width(0));
 }
 
-static int unknown(const char *word)
+static int refuse_word(const char *word)
 {
-    GString *names = g_string_new(NULL);
-    for (size_t i = 0; i < G_N_ELEMENTS(commands); i++) {
-        g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", commands[i].name);
-    }
+    char *names = gb_commands_names();
     struct gb_error err;
     gb_error_set(&err, GB_ERR_INPUT,
                  "%.80s: no such option, command, file or preset; commands: %s; "
                  "see greenbody --help",
-                 word, names->str);
-    g_string_free(names, TRUE);
+                 word, names);
+    g_free(names);
     return gb_options_fail(&err);
 }
 
-/* A word that is no command must at least lead to a preset. */
+/* Can the first word of a workbench be a preset, a file or a value? */
 static bool may_open(const char *word)
 {
     if (strchr(word, '=') || strchr(word, '/') || g_file_test(word, G_FILE_TEST_EXISTS)) {
@@ -116,17 +85,17 @@ static bool may_open(const char *word)
     return path != NULL;
 }
 
-/* `greenbody [PRESET]`: the workbench, or what run does where there is no terminal. */
+/* `greenbody [PRESET]`: the workbench, or `greenbody run` without a terminal. */
 static int open_scene(int argc, char **argv)
 {
     if (argc > 1 && argv[1][0] != '-' && !may_open(argv[1])) {
-        return unknown(argv[1]);
+        return refuse_word(argv[1]);
     }
-    const bool asked = gb_screening_has(argc, argv, "--diagnose") ||
-                       gb_screening_has(argc, argv, "--help");
-    const bool batch = gb_screening_has(argc, argv, "--batch");
-    if (!asked && (batch || !isatty(STDOUT_FILENO))) {
-        argc = gb_screening_drop(argc, argv);
+    const bool prints = gb_screen_options_has(argc, argv, "--diagnose") ||
+                        gb_screen_options_has(argc, argv, "--help");
+    const bool batch = gb_screen_options_has(argc, argv, "--batch");
+    if (!prints && (batch || !isatty(STDOUT_FILENO))) {
+        argc = gb_screen_options_drop(argc, argv);
         static char name[] = "run";
         static char preset[] = "default";
         argv[0] = name;
@@ -149,23 +118,24 @@ static int dispatch(int argc, char **argv)
         print_version();
         return 0;
     }
-    if (strcmp(word, "--keys") == 0) {
+    if (strcmp(word, "--keys") == 0) { /* of the workbench, for the manual page */
         gb_cmd_workbench_keys();
         return 0;
     }
-    for (size_t i = 0; i < G_N_ELEMENTS(commands); i++) {
-        if (strcmp(word, commands[i].name) == 0) {
-            return commands[i].function(argc - 1, argv + 1);
-        }
+    if (strcmp(word, "--commands") == 0) { /* for the manual page */
+        gb_commands_print_plain(stdout);
+        return 0;
     }
-    return open_scene(argc, argv);
+    const struct gb_commands_row *command = gb_commands_find(word);
+    return command != NULL ? command->function(argc - 1, argv + 1)
+                           : open_scene(argc, argv);
 }
 
-/* Threads of the sweep that wait for each other shall not spin for long: beside other
- * work on the same cores, a spinning one keeps the one it waits for from running, and a
- * sweep on all cores took ten times as long as on one.  The runtime reads this before
- * main, hence the second start. */
-static void start_patient(char **argv)
+/* Limits how long an OpenMP thread spins at a barrier: where other processes use the same
+ * cores, a spinning thread takes the core from the one it waits for, and a sweep on all
+ * cores took ten times as long as on one.  libgomp reads the variable before main, hence
+ * the program is executed again. */
+static void limit_spinning(char **argv)
 {
 #ifdef _OPENMP
     if (!getenv("GOMP_SPINCOUNT") && !getenv("OMP_WAIT_POLICY") &&
@@ -179,12 +149,12 @@ static void start_patient(char **argv)
 
 int main(int argc, char **argv)
 {
-    start_patient(argv);
-    /* Text as the user's locale says, numbers always with a point. */
+    limit_spinning(argv);
+    /* Text in the user's locale, numbers always with a decimal point. */
     setlocale(LC_ALL, "");
     setlocale(LC_NUMERIC, "C");
     gsl_set_error_handler_off();
-    signal(SIGPIPE, SIG_IGN); /* a write to a closed pipe fails instead, with EPIPE */
+    signal(SIGPIPE, SIG_IGN); /* writing to a closed pipe is the error EPIPE instead */
     struct gb_error err;
     if (!gb_simd_check(&err)) {
         return gb_options_fail(&err);

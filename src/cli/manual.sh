@@ -16,13 +16,11 @@ verbatim() {
 }
 
 commands() {
-    "$greenbody" --help |
-        sed -n '/^Commands:/,/^$/s/^  \([a-z][a-z]*\)  *\(.*\)$/\1 \2/p' |
-        while read -r name summary; do
-            printf '.SS "greenbody %s: %s"\n.nf\n' "$name" "$summary"
-            "$greenbody" "$name" --help | verbatim
-            printf '.fi\n'
-        done
+    "$greenbody" --commands | while read -r name summary; do
+        printf '.SS "greenbody %s: %s"\n.nf\n' "$name" "$summary"
+        "$greenbody" "$name" --help | verbatim
+        printf '.fi\n'
+    done
 }
 
 # name in ten columns, then what it does

@@ -11,7 +11,7 @@
 static GOptionContext *make_context(const struct gb_options_page *page,
                                     const GOptionEntry *entries, const char *command)
 {
-    /* GLib's own help leaves through exit(), which would skip the check of stdout. */
+    /* GLib's own help calls exit(), which would skip the check of stdout. */
     GOptionContext *context = g_option_context_new(page->usage);
     g_option_context_set_help_enabled(context, FALSE);
     g_option_context_set_summary(context, page->summary);
@@ -32,7 +32,7 @@ static void print_help(GOptionContext *context)
     g_free(text);
 }
 
-/* The words behind the options, a '--' between them left out. */
+/* The words that are no options, without the first '--'. */
 static char **take_words(char **arguments)
 {
     GPtrArray *words = g_ptr_array_new();
@@ -62,14 +62,14 @@ bool gb_options_parse(const struct gb_options_page *page, const GOptionEntry *en
     for (int i = 0; i < argc; i++) {
         arguments[i] = g_strdup(argv[i]);
     }
-    GError *trouble = NULL;
-    const bool good = g_option_context_parse_strv(context, &arguments, &trouble);
+    GError *failure = NULL;
+    const bool good = g_option_context_parse_strv(context, &arguments, &failure);
     *status = 0;
     if (!good) {
         struct gb_error err;
-        gb_error_set(&err, GB_ERR_INPUT, "%s; see %s --help", trouble->message,
+        gb_error_set(&err, GB_ERR_INPUT, "%s; see %s --help", failure->message,
                      g_get_prgname());
-        g_error_free(trouble);
+        g_error_free(failure);
         *status = gb_options_fail(&err);
     } else if (help) {
         print_help(context);
@@ -81,31 +81,73 @@ bool gb_options_parse(const struct gb_options_page *page, const GOptionEntry *en
     return good && !help;
 }
 
-static bool assign_all(struct gb_params *params, char **assignments, bool skip_names,
-                       struct gb_error *err)
+GOptionEntry gb_options_set(char ***sets)
 {
-    for (int i = 0; assignments && assignments[i]; i++) {
-        if (skip_names && !strchr(assignments[i], '=')) {
-            continue;
-        }
-        if (!gb_params_assign(params, assignments[i], err)) {
+    return (GOptionEntry){"set",
+                          0,
+                          0,
+                          G_OPTION_ARG_STRING_ARRAY,
+                          sets,
+                          "give a parameter another value; may be repeated",
+                          "group.key=value"};
+}
+
+GOptionEntry gb_options_quiet(gboolean *quiet)
+{
+    return (GOptionEntry){
+        "quiet", 'q', 0, G_OPTION_ARG_NONE, quiet, "only errors on stderr", NULL};
+}
+
+static bool is_assignment(const char *word)
+{
+    return strchr(word, '=') != NULL;
+}
+
+/* The values of --set, all of them assignments. */
+static bool assign_sets(struct gb_params *params, char **sets, struct gb_error *err)
+{
+    for (int i = 0; sets != NULL && sets[i] != NULL; i++) {
+        if (!gb_params_assign(params, sets[i], err)) {
             return false;
         }
     }
     return true;
 }
 
-/* The only word without '=', or NULL. */
+static bool assign_words(struct gb_params *params, char **words, struct gb_error *err)
+{
+    for (int i = 0; words != NULL && words[i] != NULL; i++) {
+        if (is_assignment(words[i]) && !gb_params_assign(params, words[i], err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* "contact.mu" without a value, and no file of that name. */
+static bool is_key(const char *word)
+{
+    char **parts = g_strsplit(word, ".", 2);
+    const bool known = parts[0] != NULL && parts[1] != NULL &&
+                       gb_params_find(parts[0], parts[1]) != NULL;
+    g_strfreev(parts);
+    return known && !g_file_test(word, G_FILE_TEST_EXISTS);
+}
+
+/* The only word that is no assignment, or NULL. */
 static bool find_name(char **words, const char **name, struct gb_error *err)
 {
     *name = NULL;
-    for (int i = 0; words && words[i]; i++) {
-        if (strchr(words[i], '=')) {
+    for (int i = 0; words != NULL && words[i] != NULL; i++) {
+        if (is_assignment(words[i])) {
             continue;
         }
-        if (*name) {
+        if (is_key(words[i])) {
+            return gb_error_set(err, GB_ERR_INPUT, "%.80s: missing \"=value\"", words[i]);
+        }
+        if (*name != NULL) {
             return gb_error_set(err, GB_ERR_INPUT,
-                                "%.80s: one preset is enough, %.80s is given already",
+                                "%.80s: accepted one preset, %.80s is given already",
                                 words[i], *name);
         }
         *name = words[i];
@@ -113,7 +155,7 @@ static bool find_name(char **words, const char **name, struct gb_error *err)
     return true;
 }
 
-/* The preset inside a picture, by way of a file of the picture's name. */
+/* The preset stored in a picture, through a temporary file with the picture's name. */
 static bool load_from_picture(struct gb_preset **out, const char *path,
                               struct gb_error *err)
 {
@@ -127,8 +169,8 @@ static bool load_from_picture(struct gb_preset **out, const char *path,
     char *file = g_build_filename(folder != NULL ? folder : "/nowhere", name, NULL);
     bool good = g_file_set_contents(file, text, -1, NULL) ||
                 gb_error_set(err, GB_ERR_MACHINE,
-                             "%.300s: its preset needs a temporary file, and there can "
-                             "be none in %.100s",
+                             "%.300s: cannot make a temporary file for its preset in "
+                             "%.100s",
                              path, g_get_tmp_dir());
     good = good && gb_preset_load(out, file, err);
     g_unlink(file);
@@ -148,14 +190,14 @@ static bool load_named(struct gb_preset **out, const char *name, struct gb_error
                                           : gb_preset_load(out, name, err);
 }
 
-bool gb_options_preset(struct gb_preset **out, char **words, char **sets, bool needed,
-                       struct gb_error *err)
+bool gb_options_preset(struct gb_preset **out, char **words, char **sets,
+                       enum gb_options_preset need, struct gb_error *err)
 {
     const char *name = NULL;
     if (!find_name(words, &name, err)) {
         return false;
     }
-    if (needed && !name) {
+    if (need == GB_OPTIONS_PRESET_NEEDED && name == NULL) {
         char **known = gb_preset_list();
         char *list = g_strjoinv(", ", known);
         gb_error_set(err, GB_ERR_INPUT, "a preset is needed: a file, or one of %s", list);
@@ -168,7 +210,7 @@ bool gb_options_preset(struct gb_preset **out, char **words, char **sets, bool n
         return false;
     }
     struct gb_params *params = gb_preset_params(preset);
-    if (!assign_all(params, words, true, err) || !assign_all(params, sets, false, err)) {
+    if (!assign_words(params, words, err) || !assign_sets(params, sets, err)) {
         gb_preset_destroy(preset);
         return false;
     }
@@ -176,11 +218,11 @@ bool gb_options_preset(struct gb_preset **out, char **words, char **sets, bool n
     return true;
 }
 
-bool gb_options_scene(struct gb_preset **out, char **words, char **sets, bool needed,
-                      struct gb_error *err)
+bool gb_options_scene(struct gb_preset **out, char **words, char **sets,
+                      enum gb_options_preset need, struct gb_error *err)
 {
     struct gb_preset *preset = NULL;
-    if (!gb_options_preset(&preset, words, sets, needed, err)) {
+    if (!gb_options_preset(&preset, words, sets, need, err)) {
         return false;
     }
     if (!gb_params_check(gb_preset_params(preset), err)) {
@@ -189,6 +231,15 @@ bool gb_options_scene(struct gb_preset **out, char **words, char **sets, bool ne
     }
     *out = preset;
     return true;
+}
+
+const char *gb_options_directory(char **words, const char *command, struct gb_error *err)
+{
+    if (g_strv_length(words) == 1) {
+        return words[0];
+    }
+    gb_error_set(err, GB_ERR_INPUT, "%s: accepted one run directory", command);
+    return NULL;
 }
 
 int gb_options_fail(const struct gb_error *err)
@@ -203,7 +254,7 @@ bool gb_options_output_failed(struct gb_error *err)
 {
     const int number = errno;
     if (number == EPIPE) {
-        return gb_error_set(err, GB_OK, "the reader has gone");
+        return gb_error_set(err, GB_OK, "the reader has closed the pipe");
     }
     return gb_error_set(err, GB_ERR_MACHINE, "standard output: %s", g_strerror(number));
 }

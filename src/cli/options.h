@@ -15,32 +15,37 @@ struct gb_options_page {
     const char *description; /* last lines; may be NULL */
 };
 
-/* Reads a command's options (entries end with a zeroed one) and gives the words left over
- * (*words, g_strfreev).  False when the command is over: --help was printed (*status 0),
- * or a line about a bad option (*status 2). */
+/* Reads the options of a command (entries end with a zeroed one) and gives the words that
+ * are left (*words, g_strfreev).  False when the command is over: --help was printed
+ * (*status 0), or the error of an option (*status 2). */
 bool gb_options_parse(const struct gb_options_page *page, const GOptionEntry *entries,
                       int argc, char **argv, char ***words, int *status);
 
-/* The entry of --set, to be put into a command's list. */
-#define GB_OPTIONS_SET(target)                                                           \
-    {                                                                                    \
-        "set", 0, 0, G_OPTION_ARG_STRING_ARRAY, (target),                                \
-            "give a parameter another value; may be repeated", "group.key=value"         \
-    }
+/* The entry of --set. */
+GOptionEntry gb_options_set(char ***sets);
+/* The entry of --quiet, of commands with progress on stderr. */
+GOptionEntry gb_options_quiet(gboolean *quiet);
 
-/* Keys of a command: the preset named by the words, or the one inside a picture that
- * greenbody wrote, a word ending in .png (no word without '=': all defaults, unless
- * needed), then the words that contain '=' and the values of --set.  sets may be
- * NULL.  The caller destroys *out. */
-bool gb_options_preset(struct gb_preset **out, char **words, char **sets, bool needed,
-                       struct gb_error *err);
+enum gb_options_preset {
+    GB_OPTIONS_PRESET_OPTIONAL, /* all defaults where no word names a preset */
+    GB_OPTIONS_PRESET_NEEDED
+};
+
+/* The preset that the words name, or the one stored in a picture of this program (a word
+ * ending in .png); then the assignments among the words and the values of --set.  sets may
+ * be NULL.  The caller destroys *out. */
+bool gb_options_preset(struct gb_preset **out, char **words, char **sets,
+                       enum gb_options_preset need, struct gb_error *err);
 
 /* The same, checked as a scene. */
-bool gb_options_scene(struct gb_preset **out, char **words, char **sets, bool needed,
-                      struct gb_error *err);
+bool gb_options_scene(struct gb_preset **out, char **words, char **sets,
+                      enum gb_options_preset need, struct gb_error *err);
+
+/* The only word of a command that takes one run directory; NULL after an error. */
+const char *gb_options_directory(char **words, const char *command, struct gb_error *err);
 
 /* Writes "greenbody: text" to stderr and returns the exit status.  Silent for GB_OK: the
- * reader of a pipe went away. */
+ * reader of a pipe has closed it. */
 int gb_options_fail(const struct gb_error *err);
 
 /* Call when writing to stdout failed, before errno changes.  Returns false. */

@@ -1,15 +1,18 @@
 #include "many/ensemble.h"
 
+#include <errno.h>
 #include <string.h>
 
 #include <glib.h>
+#include <glib/gstdio.h>
 
 #include "base/alloc.h"
 #include "io/rundir.h"
 #include "many/single_run.h"
+#include "run/cost.h"
 
-/* Longest time between two looks at watch->cancelled. */
-static const double patience_s = 0.2;
+/* Longest time between two calls of callbacks->cancelled. */
+static const double poll_s = 0.2;
 
 bool gb_ensemble_init(struct gb_ensemble *ensemble, size_t points, size_t replicas,
                       struct gb_error *err)
@@ -67,89 +70,90 @@ bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err)
     return true;
 }
 
-/* The first k replicas have all ended and are enough, for some k. */
-static bool is_settled(const struct gb_ensemble *ensemble, size_t point)
+static bool has_converged(const struct gb_ensemble *ensemble, size_t point)
 {
-    return ensemble->enough != NULL && ensemble->enough(ensemble, point, ensemble->data);
+    return ensemble->converged != NULL &&
+           ensemble->converged(ensemble, point, ensemble->data);
 }
 
-/* Runs to be given: none before `from`, so many of them. */
+/* Runs to be submitted: their number, and an index that none of them precedes. */
 struct queue {
     size_t from, waiting;
 };
 
-/* The next run to be given, in the order of the list; NULL when there is none now. */
+/* The next run, in the order of the list; NULL when there is none now. */
 static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, struct queue *queue)
 {
     const size_t runs = ensemble->points * ensemble->replicas;
     for (; queue->from < runs; queue->from++) {
         struct gb_ensemble_run *run = &ensemble->run[queue->from];
-        if (!run->ended && !run->given && !is_settled(ensemble, run->point)) {
+        if (!run->ended && !run->submitted && !has_converged(ensemble, run->point)) {
             return run;
         }
     }
     return NULL;
 }
 
-/* Runs that can be given now.  Where those that end may be enough nothing is begun ahead
- * of need. */
-static size_t room(const struct gb_ensemble *ensemble, const struct gb_pool *crew,
+/* Runs that can be submitted now.  Nothing is prefetched where the runs under way may be
+ * enough. */
+static size_t room(const struct gb_ensemble *ensemble, const struct gb_pool *pool,
                    size_t waiting)
 {
-    const size_t idle = gb_pool_idle(crew);
-    return idle > 0 || ensemble->enough != NULL ? idle : gb_pool_prefetch(crew, waiting);
+    const size_t idle = gb_pool_idle(pool);
+    return idle > 0 || ensemble->converged != NULL ? idle
+                                                   : gb_pool_prefetch(pool, waiting);
 }
 
-/* Gives runs to workers; false when none can be started. */
-static bool give(struct gb_ensemble *ensemble, struct gb_pool *crew, struct queue *queue,
-                 struct gb_error *err)
+/* False when no worker can be started. */
+static bool submit(struct gb_ensemble *ensemble, struct gb_pool *pool,
+                   struct queue *queue, struct gb_error *err)
 {
     struct gb_ensemble_run *run = NULL;
-    while (room(ensemble, crew, queue->waiting) > 0 &&
+    while (room(ensemble, pool, queue->waiting) > 0 &&
            (run = next_run(ensemble, queue)) != NULL) {
         const size_t ticket = (size_t)(run - ensemble->run);
-        if (!gb_pool_submit(crew, ticket, &run->params, run->directory, err)) {
-            return gb_pool_busy(crew) > 0; /* with fewer workers then */
+        if (!gb_pool_submit(pool, ticket, &run->params, run->directory, err)) {
+            return gb_pool_busy(pool) > 0; /* with fewer workers then */
         }
-        run->given = true;
+        run->submitted = true;
         queue->waiting--;
     }
     return true;
 }
 
 static void tell(const struct gb_ensemble *ensemble,
-                 const struct gb_ensemble_callbacks *watch,
+                 const struct gb_ensemble_callbacks *callbacks,
                  const struct gb_ensemble_run *run)
 {
-    if (watch->told != NULL) {
-        watch->told(ensemble, run, watch->data);
+    if (callbacks->progress != NULL) {
+        callbacks->progress(ensemble, run, callbacks->data);
     }
 }
 
-static void take(struct gb_ensemble *ensemble, struct gb_pool *crew, struct queue *queue,
-                 const struct gb_ensemble_callbacks *watch)
+static void receive(struct gb_ensemble *ensemble, struct gb_pool *pool,
+                    struct queue *queue, const struct gb_ensemble_callbacks *callbacks)
 {
     struct gb_pool_report report;
-    if (!gb_pool_receive(crew, patience_s, &report)) {
-        tell(ensemble, watch, NULL);
+    if (!gb_pool_receive(pool, poll_s, &report)) {
+        tell(ensemble, callbacks, NULL);
         return;
     }
     struct gb_ensemble_run *run = &ensemble->run[report.ticket];
-    if (report.lost) { /* somebody else may do it */
-        run->given = false;
+    if (report.lost) { /* to be submitted again */
+        run->submitted = false;
         queue->from = MIN(queue->from, report.ticket);
         queue->waiting++;
-        tell(ensemble, watch, NULL);
+        tell(ensemble, callbacks, NULL);
         return;
     }
     run->ended = true;
     run->error = report.error;
     run->seconds = report.seconds;
-    tell(ensemble, watch, run);
+    tell(ensemble, callbacks, run);
 }
 
-bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *crew,
-                      const struct gb_ensemble_callbacks *watch, struct gb_error *err)
+bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *pool,
+                      const struct gb_ensemble_callbacks *callbacks, struct gb_error *err)
 {
     struct queue queue = {0};
     bool stopping = false;
@@ -158,19 +162,74 @@ bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *crew,
         queue.waiting += !ensemble->run[i].ended;
     }
     while (true) {
-        if (!stopping && watch->cancelled != NULL && watch->cancelled(watch->data)) {
+        if (!stopping && callbacks->cancelled != NULL &&
+            callbacks->cancelled(callbacks->data)) {
             stopping = true;
-            gb_pool_stop(crew);
+            gb_pool_stop(pool);
         }
-        good = good && (stopping || give(ensemble, crew, &queue, err));
-        if (gb_pool_busy(crew) == 0) {
+        good = good && (stopping || submit(ensemble, pool, &queue, err));
+        if (gb_pool_busy(pool) == 0) {
             break;
         }
-        take(ensemble, crew, &queue, watch);
+        receive(ensemble, pool, &queue, callbacks);
     }
     return good && (!stopping || gb_error_set(err, GB_ERR_CANCELLED,
-                                              "stopped; the same command does what is "
-                                              "missing"));
+                                              "stopped; the same command does the "
+                                              "missing runs"));
+}
+
+bool gb_ensemble_make_directory(const char *path, struct gb_error *err)
+{
+    char *preset = g_build_filename(path, "preset.ini", NULL);
+    const bool single = g_file_test(preset, G_FILE_TEST_EXISTS);
+    g_free(preset);
+    if (single) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%.300s: holds a single run; many runs need a directory of "
+                            "their own",
+                            path);
+    }
+    if (g_mkdir_with_parents(path, 0777) != 0) {
+        const int why = errno;
+        return gb_error_set(
+            err, why == EEXIST || why == ENOTDIR ? GB_ERR_INPUT : GB_ERR_MACHINE,
+            "%.300s: cannot be made: %s", path, g_strerror(why));
+    }
+    return true;
+}
+
+double gb_ensemble_remaining_s(const struct gb_ensemble *ensemble, size_t *runs)
+{
+    double seconds = 0.0;
+    *runs = 0;
+    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
+        const struct gb_ensemble_run *run = &ensemble->run[i];
+        if (!run->ended) {
+            seconds += gb_cost_assumed_s(&run->params);
+            (*runs)++;
+        }
+    }
+    return seconds;
+}
+
+bool gb_ensemble_check(const struct gb_ensemble *ensemble, const char *path,
+                       struct gb_error *err)
+{
+    const struct gb_ensemble_run *first = NULL;
+    enum gb_status code = GB_ERR_GUARD;
+    size_t failed = 0;
+    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
+        const struct gb_ensemble_run *run = &ensemble->run[i];
+        if (run->ended && run->error.code != GB_OK) {
+            first = first ? first : run;
+            /* a full disk says nothing about the scene */
+            code = run->error.code == GB_ERR_MACHINE ? GB_ERR_MACHINE : code;
+            failed++;
+        }
+    }
+    return failed == 0 ||
+           gb_error_set(err, code, "%zu runs failed, listed in %.200s; the first: %.200s",
+                        failed, path, first->error.text);
 }
 
 size_t gb_ensemble_used(const struct gb_ensemble *ensemble, size_t point)
@@ -178,7 +237,7 @@ size_t gb_ensemble_used(const struct gb_ensemble *ensemble, size_t point)
     struct gb_ensemble shorter = *ensemble;
     for (shorter.replicas = 1; shorter.replicas < ensemble->replicas;
          shorter.replicas++) {
-        if (is_settled(&shorter, point)) {
+        if (has_converged(&shorter, point)) {
             break;
         }
     }

@@ -8,26 +8,26 @@
 #include "many/pool.h"
 
 /* Many runs, a directory each: replicas (cells that differ by their seed) of one or more
- * scenes.  What comes out depends on the list alone, not on how many workers do it or in
- * which order they finish. */
+ * scenes.  The results depend on the list alone, not on the number of workers or the order
+ * in which they finish. */
 struct gb_ensemble_run {
     size_t point; /* which scene */
     size_t replica;
     struct gb_params params;
     char *directory;
-    bool given, ended;     /* to a worker; by it, or before */
-    bool before;           /* was done already when the ensemble was started */
-    struct gb_error error; /* once ended; GB_OK: done to the end of its programme */
+    bool submitted, ended; /* to a worker; by it, or by an earlier command */
+    bool before;           /* ended by an earlier command */
+    struct gb_error error; /* once ended; GB_OK: all stages of loading are done */
     double seconds;
 };
 
 struct gb_ensemble {
     struct gb_ensemble_run *run; /* replica 0 of all points, then replica 1, ... */
     size_t points, replicas;
-    /* May the replicas of a point end before the last one?  NULL: no.  Told after each
-     * run that ends, it looks only at runs that a smaller replica number cannot precede,
-     * so that the answer is the same for any number of workers. */
-    bool (*enough)(const struct gb_ensemble *ensemble, size_t point, void *data);
+    /* Are the first replicas of a point, all ended, enough?  NULL: all are done.  Called
+     * after each run that ends; the answer depends on the first replicas without a gap
+     * only, so that it is the same for any number of workers. */
+    bool (*converged)(const struct gb_ensemble *ensemble, size_t point, void *data);
     void *data;
 };
 
@@ -42,27 +42,41 @@ void gb_ensemble_finish(struct gb_ensemble *ensemble); /* zeroed is fine */
 struct gb_ensemble_run *gb_ensemble_at(const struct gb_ensemble *ensemble, size_t point,
                                        size_t replica);
 
-/* Marks what its directory says is done.  Errors: GB_ERR_INPUT for a directory that holds
- * a run of other parameters, or something that is no run: it is left as it is. */
+/* Marks the runs whose directories say that they are done.  Errors: GB_ERR_INPUT for a
+ * directory with a run of other parameters, or with other files: it is left as it is. */
 bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err);
 
-/* Who is told about the work, and may end it. */
+/* Callbacks of gb_ensemble_work; NULL members are not called. */
 struct gb_ensemble_callbacks {
     bool (*cancelled)(void *data); /* polled at least five times a second */
-    void (*told)(const struct gb_ensemble *ensemble, const struct gb_ensemble_run *run,
-                 void *data); /* a run has ended; NULL: nothing new */
+    void (*progress)(const struct gb_ensemble *ensemble,
+                     const struct gb_ensemble_run *run,
+                     void *data); /* run has ended; NULL: none has since the last call */
     void *data;
 };
 
-/* Does what is missing.  A run that fails is marked and costs only itself.
+/* Does the runs that have not ended.  One that fails is marked; the others go on.
  *
- * Errors: GB_ERR_CANCELLED (what was under way has stopped), GB_ERR_MACHINE when no
+ * Errors: GB_ERR_CANCELLED (the runs under way have stopped), GB_ERR_MACHINE when no
  * worker can be started at all. */
-bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *crew,
-                      const struct gb_ensemble_callbacks *watch, struct gb_error *err);
+bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *pool,
+                      const struct gb_ensemble_callbacks *callbacks,
+                      struct gb_error *err);
 
-/* How many replicas of a point count: those up to where `enough` was met first, else all.
- */
+/* Makes a directory for runs.  Errors: GB_ERR_INPUT (it is a single run, or a file),
+ * GB_ERR_MACHINE. */
+bool gb_ensemble_make_directory(const char *path, struct gb_error *err);
+
+/* Estimated time of the runs that have not ended, s of one core, and their number; NaN
+ * where there is no estimate. */
+double gb_ensemble_remaining_s(const struct gb_ensemble *ensemble, size_t *runs);
+
+/* True when no run failed; else GB_ERR_GUARD (GB_ERR_MACHINE when the machine failed one)
+ * with their number and the message of the first one; they are listed in path. */
+bool gb_ensemble_check(const struct gb_ensemble *ensemble, const char *path,
+                       struct gb_error *err);
+
+/* Replicas of a point that count: up to the first for which it has converged, else all. */
 size_t gb_ensemble_used(const struct gb_ensemble *ensemble, size_t point);
 
 #endif

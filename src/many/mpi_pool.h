@@ -10,45 +10,44 @@ struct gb_pool;
 struct gb_pool_report;
 
 /* The processes that mpirun or srun started together, on one machine or many: the first
- * hands out runs, the others do them.  Nothing is collective but the start, and the end
- * if all are still there: a rank that dies costs what it was doing.  Built without Open
- * MPI a process is always alone. */
+ * rank distributes runs, the others do them.  Nothing is collective but the start, and the
+ * end while all ranks are alive: a rank that dies costs the runs that it had. */
 struct gb_mpi_pool;
 
-/* Joins the others, if there are any: else *out is NULL and all is well.  Errors:
- * GB_ERR_INPUT when there are others and this build cannot reach them, GB_ERR_MACHINE. */
+/* Joins the other ranks; *out is NULL for a process that is alone.  Errors: GB_ERR_INPUT
+ * for several processes of a build without MPI, GB_ERR_MACHINE. */
 bool gb_mpi_pool_create(struct gb_mpi_pool **out, struct gb_error *err);
-/* Tells the others to end, or takes leave.  NULL is fine. */
-void gb_mpi_pool_destroy(struct gb_mpi_pool *ranks);
+/* The first rank ends the others; MPI is shut down unless a rank was lost.  NULL is fine. */
+void gb_mpi_pool_destroy(struct gb_mpi_pool *mpi);
 
-/* Is this the one that hands out?  True for NULL. */
-bool gb_mpi_pool_is_first(const struct gb_mpi_pool *ranks);
+/* Is this the rank that distributes runs?  True for NULL. */
+bool gb_mpi_pool_is_first(const struct gb_mpi_pool *mpi);
 
-/* What a rank other than the first does: runs of `workers` at a time with its crew, until
- * told to end or nothing is heard of the first one.  Errors: GB_ERR_CANCELLED,
- * GB_ERR_MACHINE (the first one is gone). */
-bool gb_mpi_pool_serve(struct gb_mpi_pool *ranks, struct gb_pool *crew, size_t workers,
+/* The work of any other rank: `workers` runs at a time in the local pool, until the first
+ * rank says quit or is silent for too long.  Errors: GB_ERR_CANCELLED, GB_ERR_MACHINE (the
+ * first rank is gone). */
+bool gb_mpi_pool_serve(struct gb_mpi_pool *mpi, struct gb_pool *local, size_t workers,
                        bool (*cancelled)(void *data), void *data, struct gb_error *err);
 
-/* The rest is for the first one; NULL has nobody.
+/* The rest is for the first rank; for NULL there are no workers.
  *
- * workers  of the others; idle: those of them without a run
+ * workers   of all other ranks; idle: those without a run
  *
- * ahead  runs that they may have in hand while they are busy, one for each worker
+ * prefetch  runs that busy ranks may hold as their next ones, one for each worker
  *
- * give  errors: GB_ERR_INPUT (a directory whose name is too long), GB_ERR_MEMORY
+ * submit    errors: GB_ERR_INPUT (a directory whose name is too long), GB_ERR_MEMORY
  *
- * take  a report that has come, without waiting; a rank that was not heard of for long is
- * lost, and so are its runs
+ * receive   a report that has arrived, without waiting; a rank that was silent for too
+ * long is lost, and so are its runs
  *
- * stop  asks all runs to stop */
-size_t gb_mpi_pool_workers(const struct gb_mpi_pool *ranks);
-size_t gb_mpi_pool_idle(const struct gb_mpi_pool *ranks);
-size_t gb_mpi_pool_prefetch(const struct gb_mpi_pool *ranks);
-bool gb_mpi_pool_submit(struct gb_mpi_pool *ranks, size_t ticket,
+ * stop      asks all runs to stop */
+size_t gb_mpi_pool_workers(const struct gb_mpi_pool *mpi);
+size_t gb_mpi_pool_idle(const struct gb_mpi_pool *mpi);
+size_t gb_mpi_pool_prefetch(const struct gb_mpi_pool *mpi);
+bool gb_mpi_pool_submit(struct gb_mpi_pool *mpi, size_t ticket,
                         const struct gb_params *params, const char *directory,
                         struct gb_error *err);
-bool gb_mpi_pool_receive(struct gb_mpi_pool *ranks, struct gb_pool_report *report);
-void gb_mpi_pool_stop(struct gb_mpi_pool *ranks);
+bool gb_mpi_pool_receive(struct gb_mpi_pool *mpi, struct gb_pool_report *report);
+void gb_mpi_pool_stop(struct gb_mpi_pool *mpi);
 
 #endif

@@ -6,15 +6,14 @@
 
 #include "greenbody/params.h"
 
-/* Workers that do runs at once, each a process that does one run after the other: what
- * starting a process and its libraries costs is paid once.  One that crashes or is killed
- * takes only its run with it, and another takes its place; libraries that know no threads
- * (HDF5) are met by one thread only.  The caller must not have started threads: its state
- * is copied by fork. */
+/* Worker processes that do one run after the other, so that starting a process and its
+ * libraries costs once.  A worker that crashes or is killed loses only its run, and another
+ * process takes its place; libraries without support of threads (HDF5) run in one thread.
+ * The caller must not have started threads: its state is copied by fork. */
 struct gb_pool;
 struct gb_mpi_pool;
 
-/* Whom a run answers to; NULL members are nobody. */
+/* Callbacks of a run; NULL members are not called. */
 struct gb_pool_callbacks {
     bool (*cancelled)(void *data); /* polled between slices: true ends the run */
     void (*loaded)(void *data);    /* called once: only files are left to be written */
@@ -23,46 +22,46 @@ struct gb_pool_callbacks {
 
 /* Does one run in a worker's process. */
 typedef bool gb_pool_work(const struct gb_params *params, const char *directory,
-                          const struct gb_pool_callbacks *boss, struct gb_error *err);
+                          const struct gb_pool_callbacks *callbacks,
+                          struct gb_error *err);
 
-/* What became of a run. */
+/* The end of a run. */
 struct gb_pool_report {
     size_t ticket;
     struct gb_error error; /* GB_OK: done; a process that died is GB_ERR_MACHINE */
-    double seconds;        /* since it was given */
-    bool lost;             /* not its fault: whoever did it is gone */
+    double seconds;        /* since it was submitted */
+    bool lost;             /* the rank that did it is gone: to be submitted again */
 };
 
-/* workers here, and those of other ranks if there are any (NULL: none; kept by the
+/* A pool of local workers, and of those of the other MPI ranks (NULL: none; owned by the
  * caller). */
 bool gb_pool_create(struct gb_pool **out, size_t workers, gb_pool_work *work,
-                    struct gb_mpi_pool *ranks, struct gb_error *err);
-/* Ends what is still running and waits for it.  NULL is fine. */
-void gb_pool_destroy(struct gb_pool *crew);
+                    struct gb_mpi_pool *mpi, struct gb_error *err);
+/* Stops the runs under way and waits for them.  NULL is fine. */
+void gb_pool_destroy(struct gb_pool *pool);
 
-/* How long to wait for a report before looking for what other ranks send, s. */
-double gb_pool_poll_interval(const struct gb_pool *crew);
+/* Time to wait for a local report between two looks at messages of other ranks, s. */
+double gb_pool_poll_interval(const struct gb_pool *pool);
 
 /* Workers without a run. */
-size_t gb_pool_idle(const struct gb_pool *crew);
-/* Runs that may be given now although nobody is idle, so that nobody waits: beside each
- * one that is only being kept, and for each worker of another rank as the next, as long
- * as more of them wait than there are workers. */
-size_t gb_pool_prefetch(const struct gb_pool *crew, size_t waiting);
-/* Runs that were given and not yet reported. */
-size_t gb_pool_busy(const struct gb_pool *crew);
+size_t gb_pool_idle(const struct gb_pool *pool);
+/* Runs that may be submitted although no worker is idle: one beside each run that only
+ * writes its files, and the next one of each worker of other ranks, while more runs wait
+ * than there are workers. */
+size_t gb_pool_prefetch(const struct gb_pool *pool, size_t waiting);
+/* Runs that were submitted and not yet reported. */
+size_t gb_pool_busy(const struct gb_pool *pool);
 
-/* Gives a run to an idle worker, or to whom it may be given ahead.  Errors:
- * GB_ERR_MACHINE (no process, no socket), GB_ERR_INPUT (the name of the directory is too
- * long). */
-bool gb_pool_submit(struct gb_pool *crew, size_t ticket, const struct gb_params *params,
+/* Submits a run to an idle worker, or as a prefetched one.  Errors: GB_ERR_MACHINE (no
+ * process, no socket), GB_ERR_INPUT (the name of the directory is too long). */
+bool gb_pool_submit(struct gb_pool *pool, size_t ticket, const struct gb_params *params,
                     const char *directory, struct gb_error *err);
 
-/* Waits up to seconds for a report; false when there was none.  A signal, or a worker
- * that only keeps its run from now on, ends the wait early. */
-bool gb_pool_receive(struct gb_pool *crew, double seconds, struct gb_pool_report *report);
+/* Waits up to `seconds` for a report; false when there was none.  A signal, or a worker
+ * whose run is loaded, ends the wait early. */
+bool gb_pool_receive(struct gb_pool *pool, double seconds, struct gb_pool_report *report);
 
 /* Asks all runs to stop; they still report. */
-void gb_pool_stop(struct gb_pool *crew);
+void gb_pool_stop(struct gb_pool *pool);
 
 #endif

@@ -92,20 +92,20 @@ static const struct branch {
     read_figures *read;
 } branches[] = {{"load", gb_reading_loaded}, {"unload", gb_reading_unloaded}};
 
-/* All figures of the runs of one point: [branch][pressure][quantity][run]. */
-struct sheet {
+/* All values of the runs of one point: [branch][pressure][quantity][run]. */
+struct readings {
     double *value;
     size_t pressures, runs;
 };
 
-static double *sheet_at(const struct sheet *sheet, size_t branch, size_t pressure,
-                        size_t quantity)
+static double *readings_at(const struct readings *readings, size_t branch,
+                           size_t pressure, size_t quantity)
 {
-    const size_t row = (branch * sheet->pressures + pressure) * GB_READING_QUANTITIES;
-    return sheet->value + (row + quantity) * sheet->runs;
+    const size_t row = (branch * readings->pressures + pressure) * GB_READING_QUANTITIES;
+    return readings->value + (row + quantity) * readings->runs;
 }
 
-static void read_run(const struct sheet *sheet, size_t column,
+static void read_run(const struct readings *readings, size_t column,
                      struct gb_ensemble_run *run,
                      const struct gb_sweep_table_pressures *at)
 {
@@ -117,7 +117,7 @@ static void read_run(const struct sheet *sheet, size_t column,
             double values[GB_READING_QUANTITIES];
             const bool there = good && branches[b].read(curve, at->pa[p], values);
             for (size_t q = 0; q < GB_READING_QUANTITIES; q++) {
-                sheet_at(sheet, b, p, q)[column] = there ? values[q] : (double)NAN;
+                readings_at(readings, b, p, q)[column] = there ? values[q] : (double)NAN;
             }
         }
     }
@@ -142,7 +142,7 @@ static void append_values(GString *text, const struct gb_axes *axes, size_t poin
     }
 }
 
-static void append_rows(GString *text, const struct sheet *sheet,
+static void append_rows(GString *text, const struct readings *readings,
                         const struct gb_axes *axes, size_t point,
                         const struct gb_sweep_table_pressures *at)
 {
@@ -150,8 +150,9 @@ static void append_rows(GString *text, const struct sheet *sheet,
         for (size_t p = 0; p < at->count; p++) {
             double mean = NAN;
             double error = NAN;
-            const size_t runs = gb_average_values(
-                sheet_at(sheet, b, p, GB_READING_DENSITY), sheet->runs, &mean, &error);
+            const size_t runs =
+                gb_average_values(readings_at(readings, b, p, GB_READING_DENSITY),
+                                  readings->runs, &mean, &error);
             if (runs == 0) {
                 continue;
             }
@@ -160,7 +161,8 @@ static void append_rows(GString *text, const struct sheet *sheet,
             g_string_append_printf(text, ",%s,%.12g,%zu", branches[b].name,
                                    at->pa[p] / 1e6, runs);
             for (size_t q = 0; q < GB_READING_QUANTITIES; q++) {
-                gb_average_values(sheet_at(sheet, b, p, q), sheet->runs, &mean, &error);
+                gb_average_values(readings_at(readings, b, p, q), readings->runs, &mean,
+                                  &error);
                 append_number(text, mean);
                 append_number(text, error);
             }
@@ -196,20 +198,20 @@ GString *gb_sweep_table_means(struct gb_ensemble *ensemble, const struct gb_axes
     GString *text = g_string_new(NULL);
     append_header(text, axes);
     for (size_t point = 0; point < ensemble->points; point++) {
-        struct sheet sheet = {.pressures = at->count};
-        sheet.runs = gb_ensemble_used(ensemble, point);
-        sheet.value = g_new(double, G_N_ELEMENTS(branches) * at->count *
-                                        GB_READING_QUANTITIES * sheet.runs);
-        for (size_t r = 0; r < sheet.runs; r++) {
-            read_run(&sheet, r, gb_ensemble_at(ensemble, point, r), at);
+        struct readings readings = {.pressures = at->count};
+        readings.runs = gb_ensemble_used(ensemble, point);
+        readings.value = g_new(double, G_N_ELEMENTS(branches) * at->count *
+                                           GB_READING_QUANTITIES * readings.runs);
+        for (size_t r = 0; r < readings.runs; r++) {
+            read_run(&readings, r, gb_ensemble_at(ensemble, point, r), at);
         }
-        append_rows(text, &sheet, axes, point, at);
-        g_free(sheet.value);
+        append_rows(text, &readings, axes, point, at);
+        g_free(readings.value);
     }
     return text;
 }
 
-/* Text as one cell: quotes as spreadsheets want them. */
+/* Text as one cell, with the quotes of CSV. */
 static void append_quoted(GString *text, const char *word)
 {
     g_string_append_c(text, '"');

@@ -9,8 +9,8 @@
 #include "many/axes.h"
 #include "many/ensemble.h"
 
-/* The tables of a sweep.  Both are made from the run directories alone, so that they are
- * the same for any number of workers and restarts. */
+/* The tables of a sweep.  Both depend on the run directories alone: they are the same for
+ * any number of workers and restarts. */
 
 enum { GB_SWEEP_TABLE_PRESSURES = 256 };
 
@@ -24,13 +24,13 @@ struct gb_sweep_table_pressures {
 bool gb_sweep_table_parse(struct gb_sweep_table_pressures *at, const char *text,
                           struct gb_error *err);
 
-/* Where nothing was asked for: 1, 2, 5, 10, ... MPa up to the end of the programme, and
- * the pressures that are unloaded from. */
+/* The default: 1, 2, 5, 10, ... MPa up to the end of loading, and the pressures of
+ * unloading. */
 void gb_sweep_table_default(struct gb_sweep_table_pressures *at,
                             const struct gb_params *params);
 
-/* sweep.csv: a row per point of the grid, branch and pressure: the varied values, how
- * many runs got there, mean and standard error of each figure over them.  Branch load is
+/* sweep.csv: a row per point of the grid, branch and pressure: the varied values, the
+ * number of runs that reached it, mean and standard error of each figure over them.  Branch load is
  * read at the pressure; unload is the end of unloading from it.  A run that cannot be
  * read counts as failed; its error goes to the run.  Caller frees. */
 GString *gb_sweep_table_means(struct gb_ensemble *ensemble, const struct gb_axes *axes,

@@ -283,7 +283,7 @@ double gb_bench_exponent(const double *count, const double *cost, size_t n)
 struct variant {
     const char *name;
     bool bridges, friction, attraction;
-    bool dry; /* Hertz, Mindlin and Coulomb only */
+    bool cohesionless; /* Hertz, Mindlin and Coulomb only */
 };
 
 static const struct variant variants[GB_BENCH_TERMS] = {
@@ -291,14 +291,15 @@ static const struct variant variants[GB_BENCH_TERMS] = {
     {"without bridges", false, true, true, false},
     {"without friction and bridges", false, false, true, false},
     {"without attraction", true, true, false, false},
-    {"dry grains only", false, true, false, true},
+    {"grains without cohesion", false, true, false, true},
     {"elastic spheres only", false, false, false, false},
 };
 
 static bool leave_out(struct gb_params *params, const struct variant *variant,
                       struct gb_error *err)
 {
-    return (!variant->dry || gb_params_assign(params, "contact.normal=hertz", err)) &&
+    return (!variant->cohesionless ||
+            gb_params_assign(params, "contact.normal=hertz", err)) &&
            (variant->bridges ||
             gb_params_assign(params, "contact.bridge_length=1 d", err)) &&
            (variant->friction || (gb_params_assign(params, "contact.mu=0", err) &&

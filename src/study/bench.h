@@ -41,12 +41,12 @@ struct gb_bench_size {
 enum { GB_BENCH_ROUNDS = 5 };
 typedef void gb_bench_tell(void *data, int64_t count, int round);
 
-/* How the cost grows with the size of the cell: the packing of params with other numbers
- * of particles.  All of them are timed in turn, round by round, as other work on the
- * machine comes and goes and would slow some of them only; medians over the rounds.
+/* Cost against the size of the cell: the packing of params with other numbers of
+ * particles.  They are timed alternately, round by round, so that other work on the
+ * machine slows all of them alike; medians over the rounds.
  *
  * size   sizes of them, with their counts
- * tell   NULL: nobody */
+ * tell   called with the progress; NULL is fine */
 bool gb_bench_growth_run(struct gb_bench_size *size, size_t sizes,
                          const struct gb_params *params, double coordination,
                          gb_bench_tell *tell, void *data, struct gb_error *err);

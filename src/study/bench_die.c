@@ -17,9 +17,9 @@
  * runs on one thread and other work on the machine comes and goes. */
 enum { BATCHES = 15, BATCH = 400 };
 
-/* P3's powder; the fall is shortened, since nothing is looked at but speed. */
-static bool hasty_params(struct gb_params *params, const char *law, double mu,
-                         struct gb_error *err)
+/* P3's powder; the fall is shortened, since only the speed matters. */
+static bool make_params(struct gb_params *params, const char *law, double mu,
+                        struct gb_error *err)
 {
     static const char *const assignment[] = {
         "scene.kind=die",
@@ -56,13 +56,12 @@ static bool hasty_params(struct gb_params *params, const char *law, double mu,
     return gb_params_check(params, err);
 }
 
-static bool press(struct gb_die_stages *programme, struct gb_bed *bed,
-                  struct gb_error *err)
+static bool press(struct gb_die_stages *stages, struct gb_bed *bed, struct gb_error *err)
 {
     char text[GB_EVENT_TEXT];
     enum gb_step_outcome how = GB_STEP_MORE;
     while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
-        how = gb_die_stages_advance(programme, bed, 100000, text, sizeof text, err);
+        how = gb_die_stages_advance(stages, bed, 100000, text, sizeof text, err);
     }
     return how == GB_STEP_DONE;
 }
@@ -74,7 +73,7 @@ static bool time_law(struct gb_bed *bed, const char *law, double mu, double *sec
     struct gb_params params;
     struct gb_leapfrog leap;
     double batch[BATCHES];
-    if (!hasty_params(&params, law, mu, err)) {
+    if (!make_params(&params, law, mu, err)) {
         return false;
     }
     const struct gb_bed_law frozen = gb_filling_pressing_law(&params);
@@ -113,17 +112,17 @@ bool gb_bench_die_run(struct gb_bench_die *bench, struct gb_error *err)
     struct gb_params params;
     struct gb_model model;
     struct gb_bed *bed = NULL;
-    struct gb_die_stages *programme = NULL;
+    struct gb_die_stages *stages = NULL;
     *bench = (struct gb_bench_die){0};
-    bool done = hasty_params(&params, "hertz", 0.0, err) &&
+    bool done = make_params(&params, "hertz", 0.0, err) &&
                 gb_model_init(&model, &params, err) &&
                 gb_filling_create(&bed, &params, &model, NULL, NULL, err);
     if (done) {
         const struct gb_bed_law law = gb_filling_pressing_law(&params);
-        done = gb_die_stages_create(&programme, &model.die, &law, err) &&
-               press(programme, bed, err) && time_laws(bench, bed, err);
+        done = gb_die_stages_create(&stages, &model.die, &law, err) &&
+               press(stages, bed, err) && time_laws(bench, bed, err);
     }
-    gb_die_stages_destroy(programme);
+    gb_die_stages_destroy(stages);
     gb_bed_destroy(bed);
     return done;
 }

@@ -12,7 +12,7 @@ struct gb_bench_die {
     double coordination, near; /* contacts and listed pairs per particle */
 };
 
-/* Pours a bed in haste (a few seconds), presses it and times it with every law.  Errors:
+/* Fills a die in a few seconds, compresses the bed and times it with every law.  Errors:
  * as of the stages. */
 bool gb_bench_die_run(struct gb_bench_die *bench, struct gb_error *err);
 

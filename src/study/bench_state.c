@@ -77,7 +77,7 @@ static bool time_all(struct timing *timing, struct gb_experiment *experiment,
     struct gb_store *store = NULL;
     struct gb_writer *writer = NULL;
     bool good = gb_store_create(&store, folder, params, GB_RUNDIR_KEEP, err) &&
-                gb_writer_create(&writer, store, params, &experiment->model, err);
+                gb_writer_create(&writer, store, params, experiment->model, err);
     /* the first one makes the arrays and is not counted */
     for (int k = -1; good && k < TIMES; k++) {
         good = time_one(timing, k < 0 ? 0 : k, experiment, store, writer, err);
@@ -100,8 +100,8 @@ bool gb_bench_state_run(struct gb_bench_state *bench, const struct gb_params *pa
         return false;
     }
     const bool good = gb_experiment_create(&experiment, params, NULL, NULL, err) &&
-                      gb_world_copy_restore(experiment->world, copy, err) &&
-                      gb_world_evaluate(experiment->world, err) &&
+                      gb_world_copy_restore(experiment->loading->world, copy, err) &&
+                      gb_world_evaluate(experiment->loading->world, err) &&
                       time_all(&timing, experiment, params, folder, err);
     if (good) {
         *bench = (struct gb_bench_state){.held = median(timing.held),

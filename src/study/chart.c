@@ -13,10 +13,10 @@
 #include "scene/loading_kind.h"
 #include "scene/model.h"
 
-/* Evaluations between two looks at whoever may want to cancel. */
+/* Evaluations between two calls of `cancelled`. */
 enum { SLICE = 2000 };
 
-bool gb_chart_setting_of(struct gb_chart_setting *choice, const struct gb_params *params,
+bool gb_chart_setting_of(struct gb_chart_setting *setting, const struct gb_params *params,
                          struct gb_error *err)
 {
     struct gb_model model;
@@ -24,7 +24,7 @@ bool gb_chart_setting_of(struct gb_chart_setting *choice, const struct gb_params
         return false;
     }
     const bool dynamic = gb_loading_kind_at(model.kind)->follows_time;
-    *choice = (struct gb_chart_setting){
+    *setting = (struct gb_chart_setting){
         .count = model.count,
         .strain_step = dynamic ? (double)NAN : model.strain_step / model.numerics.parts,
         .tolerance = dynamic ? (double)NAN : model.numerics.tolerance,
@@ -36,36 +36,36 @@ bool gb_chart_setting_of(struct gb_chart_setting *choice, const struct gb_params
                           ? model.dynamics.step_error
                           : (double)NAN,
     };
-    g_strlcpy(choice->relaxer, dynamic ? "verlet" : model.numerics.relaxer,
-              sizeof choice->relaxer);
+    g_strlcpy(setting->relaxer, dynamic ? "verlet" : model.numerics.relaxer,
+              sizeof setting->relaxer);
     return true;
 }
 
-void gb_chart_apply(struct gb_params *params, const struct gb_chart_setting *choice)
+void gb_chart_apply(struct gb_params *params, const struct gb_chart_setting *setting)
 {
-    if (choice->count != params->count) {
-        params->count = choice->count;
+    if (setting->count != params->count) {
+        params->count = setting->count;
         params->base = (struct gb_relative){0.0, true}; /* auto */
     }
-    params->cutoff = (struct gb_relative){choice->cutoff, true};
+    params->cutoff = (struct gb_relative){setting->cutoff, true};
     if (gb_loading_kind_of(params)->follows_time) {
-        params->time_step = (struct gb_relative){choice->time_step, true};
-        if (isnan(choice->time_step)) {
-            params->step_error = choice->step_error;
+        params->time_step = (struct gb_relative){setting->time_step, true};
+        if (isnan(setting->time_step)) {
+            params->step_error = setting->step_error;
         }
         return;
     }
-    g_strlcpy(params->relaxer, choice->relaxer, sizeof params->relaxer);
-    params->precision = choice->single ? GB_PRECISION_SINGLE : GB_PRECISION_DOUBLE;
-    /* recorded as often as before, where the choice allows it */
-    params->strain_part = choice->strain_step;
-    params->strain_step = fmax(params->strain_step, choice->strain_step);
-    params->tolerance = choice->tolerance;
+    g_strlcpy(params->relaxer, setting->relaxer, sizeof params->relaxer);
+    params->precision = setting->single ? GB_PRECISION_SINGLE : GB_PRECISION_DOUBLE;
+    /* as many recorded points as before, where the setting allows it */
+    params->strain_part = setting->strain_step;
+    params->strain_step = fmax(params->strain_step, setting->strain_step);
+    params->tolerance = setting->tolerance;
 }
 
 static bool same_number(double a, double b)
 {
-    /* a step divided and a part multiplied may differ in the last bit */
+    /* rounding differs between a step divided and a part multiplied */
     return fabs(a - b) <= 1e-12 * fabs(a) || (isnan(a) && isnan(b));
 }
 
@@ -78,21 +78,21 @@ bool gb_chart_same(const struct gb_chart_setting *a, const struct gb_chart_setti
            same_number(a->step_error, b->step_error);
 }
 
-char *gb_chart_describe(const struct gb_chart_setting *choice, char *buffer, size_t size)
+char *gb_chart_describe(const struct gb_chart_setting *setting, char *buffer, size_t size)
 {
     char numbers[96] = "";
-    if (isfinite(choice->strain_step)) {
+    if (isfinite(setting->strain_step)) {
         snprintf(numbers, sizeof numbers, "step %.4g %%, tolerance %.4g",
-                 100.0 * choice->strain_step, choice->tolerance);
-    } else if (isfinite(choice->time_step)) {
-        snprintf(numbers, sizeof numbers, "time step %.4g T", choice->time_step);
+                 100.0 * setting->strain_step, setting->tolerance);
+    } else if (isfinite(setting->time_step)) {
+        snprintf(numbers, sizeof numbers, "time step %.4g T", setting->time_step);
     } else {
         snprintf(numbers, sizeof numbers, "time step by an error of %.4g %%",
-                 100.0 * choice->step_error);
+                 100.0 * setting->step_error);
     }
     snprintf(buffer, size, "%s, %s, cutoff %.4g d, %s precision, %lld particles",
-             choice->relaxer, numbers, choice->cutoff,
-             choice->single ? "single" : "double", (long long)choice->count);
+             setting->relaxer, numbers, setting->cutoff,
+             setting->single ? "single" : "double", (long long)setting->count);
     return buffer;
 }
 
@@ -101,7 +101,7 @@ double gb_chart_cpu_s(void)
     return gb_clock_thread_s();
 }
 
-/* The loading branch as it is recorded. */
+/* The recorded loading branch. */
 struct branch {
     GArray *pressure, *density, *coordination; /* of double */
 };
@@ -167,7 +167,7 @@ static struct gb_params scene_of(const struct gb_chart_run *run,
                                  int pressures)
 {
     struct gb_params params = *scene;
-    gb_chart_apply(&params, &run->choice);
+    gb_chart_apply(&params, &run->setting);
     params.seed = run->seed;
     params.threads = 1;
     params.unload_count = 0;

@@ -5,13 +5,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/model.h"
 #include "measure/fit/average.h"
 #include "measure/structure.h"
 #include "pack/structure/chain_growth.h"
+#include "scene/model.h"
 
-/* A g(r) whose ripple is below this counts as 1.  At density 0.24 it is 0.02 from 2.6 to
- * 3.6 d, 0.004 from 3.5 to 4.5 d, of which the most is noise. */
+/* A g(r) whose ripple is below this counts as 1.  At density 0.24 the ripple is 0.02 from
+ * 2.6 to 3.6 d, and 0.004 from 3.5 to 4.5 d, which is mostly noise. */
 static const double flat = 0.01;
 static const double bin_width = 0.05;
 enum { STRUCTURES = 8 };
@@ -36,13 +36,13 @@ static bool add_g(const struct gb_model *model, double half, int bins, double *s
 }
 
 /* Mean g(r) over the first initial structures. */
-static bool look_at(struct gb_chart_size *size, const struct gb_chart_plan *plan,
-                    const struct gb_chart_setting *choice, struct gb_error *err)
+static bool measure_g(struct gb_chart_size *size, const struct gb_chart_plan *plan,
+                      const struct gb_chart_setting *setting, struct gb_error *err)
 {
     struct gb_params params = plan->params;
     struct gb_model model;
     struct gb_cell cell;
-    gb_chart_apply(&params, choice);
+    gb_chart_apply(&params, setting);
     if (!gb_model_init(&model, &params, err)) {
         return false;
     }
@@ -62,18 +62,19 @@ static bool look_at(struct gb_chart_size *size, const struct gb_chart_plan *plan
     if (done) {
         size->g_end = gb_structure_rdf_end(model.dimension, size->half_edge, bins, g,
                                            &size->ripple);
-        size->wide = size->ripple < flat;
+        size->large_enough = size->ripple < flat;
     }
     gb_alloc_free(g);
     return done;
 }
 
-/* The standard deviation goes with the root of the number of cells. */
-static double cells_for(const struct gb_chart_size *size, int pressures, double wanted)
+/* The standard error decreases with the square root of the number of cells. */
+static double cells_for(const struct gb_chart_size *size, int pressures,
+                        double standard_error)
 {
     double most = 0.0;
     for (int k = 0; k < pressures; k++) {
-        const double ratio = size->scatter[k] / wanted;
+        const double ratio = size->scatter[k] / standard_error;
         most = isfinite(ratio) ? fmax(most, ceil(ratio * ratio)) : most;
     }
     return most > 0.0 ? most : (double)NAN;
@@ -99,19 +100,19 @@ bool gb_chart_advice_init(struct gb_chart_advice *advice,
                           struct gb_error *err)
 {
     *advice = (struct gb_chart_advice){.standard_error = standard_error};
-    const struct gb_chart_setting *own = &plan->choice[1];
+    const struct gb_chart_setting *own = &plan->setting[1];
     for (size_t i = 1; i < table->rows && advice->sizes < GB_CHART_SIZES; i++) {
         const struct gb_chart_row *row = &table->row[i];
-        if (row->seeds < 2 || !differs_in_size_only(&row->choice, own)) {
+        if (row->seeds < 2 || !differs_in_size_only(&row->setting, own)) {
             continue;
         }
         struct gb_chart_size *size = &advice->size[advice->sizes++];
-        *size = (struct gb_chart_size){.count = row->choice.count, .cpu_s = row->cpu_s};
-        /* many rows tell the scatter of the preset's size, one that of another */
+        *size = (struct gb_chart_size){.count = row->setting.count, .cpu_s = row->cpu_s};
+        /* pooled over many rows for the preset's size, from one row for another */
         memcpy(size->scatter, i == 1 ? table->scatter : row->scatter,
                sizeof size->scatter);
         size->cells = cells_for(size, plan->pressures, standard_error);
-        if (!look_at(size, plan, &row->choice, err)) {
+        if (!measure_g(size, plan, &row->setting, err)) {
             return false;
         }
     }

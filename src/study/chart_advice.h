@@ -6,16 +6,16 @@
 
 #include "study/chart_table.h"
 
-/* How large a cell, and how many of them, for a wanted standard error. */
+/* Size and number of cells for a given standard error. */
 struct gb_chart_size {
     int64_t count;
-    double half_edge; /* half the shortest edge of the initial cell, d */
-    double g_end;     /* mean g(r) over the last diameter before it ... */
-    double ripple;    /* ... and how far its quarters are from 1, rms */
-    bool wide;        /* it is 1: the cell does not feel itself */
+    double half_edge;  /* half the shortest edge of the initial cell, d */
+    double g_end;      /* mean g(r) over the last diameter before it ... */
+    double ripple;     /* ... and how far its quarters are from 1, rms */
+    bool large_enough; /* it is 1: no correlation across the periodic cell */
     double scatter[GB_CHART_PRESSURES]; /* of one cell; NaN: not measured */
     double cpu_s;                       /* of one cell */
-    double cells; /* that bring the standard error at the worst pressure down to it */
+    double cells;                       /* for the standard error at every pressure */
 };
 
 enum { GB_CHART_SIZES = 8 };

@@ -14,7 +14,7 @@
 
 enum { TEXT_MAX = 1024 };
 
-/* Keys whose values are in the choices or do not matter for the results. */
+/* Keys that belong to the settings, or have no effect on the results. */
 static const char *const free_keys[] = {
     "scene.title",          "structure.seed",
     "loading.step",         "loading.unload_from",
@@ -168,19 +168,20 @@ static bool read_runs(struct gb_chart_log *log, struct gb_error *err)
         gb_table_read(&table, path, "relaxer", err) && find_columns(log, table, &c, err);
     for (size_t i = 0; good && i < gb_table_rows(table); i++) {
         struct gb_chart_run run = {
-            .choice = {.count = (int64_t)c.count[i],
-                       .strain_step = c.step[i],
-                       .tolerance = c.tolerance[i],
-                       .cutoff = c.cutoff[i],
-                       .single = c.bits[i] < 64.0,
-                       .time_step = c.time_step[i],
-                       .step_error = c.step_error[i]},
+            .setting = {.count = (int64_t)c.count[i],
+                        .strain_step = c.step[i],
+                        .tolerance = c.tolerance[i],
+                        .cutoff = c.cutoff[i],
+                        .single = c.bits[i] < 64.0,
+                        .time_step = c.time_step[i],
+                        .step_error = c.step_error[i]},
             .seed = (uint64_t)c.seed[i],
             .failed = c.failed[i] != 0.0,
             .evaluations = c.evaluations[i],
             .cpu_s = c.cpu_s[i],
         };
-        g_strlcpy(run.choice.relaxer, gb_table_word(table, i), sizeof run.choice.relaxer);
+        g_strlcpy(run.setting.relaxer, gb_table_word(table, i),
+                  sizeof run.setting.relaxer);
         for (int k = 0; k < log->plan->pressures; k++) {
             run.density[k] = c.density[k][i];
             run.coordination[k] = c.coordination[k][i];
@@ -203,7 +204,7 @@ static void add_number(GString *text, double value)
 static void add_row(const struct gb_chart_log *log, GString *text,
                     const struct gb_chart_run *run)
 {
-    const struct gb_chart_setting *c = &run->choice;
+    const struct gb_chart_setting *c = &run->setting;
     g_string_append(text, c->relaxer);
     const double number[] = {(double)c->count, c->strain_step,    c->tolerance,
                              c->cutoff,        gb_chart_bits(c),  c->time_step,
@@ -223,7 +224,7 @@ static bool write_runs(const struct gb_chart_log *log, struct gb_error *err)
 {
     GString *text = g_string_new(
         "# greenbody " GB_VERSION "\n"
-        "# cells pressed for chart.csv; cpu_s: of the pressing, one thread\n"
+        "# cells simulated for chart.csv; cpu_s: of the loading, one thread\n"
         "relaxer,particles,step,tolerance,cutoff_d,bits,time_step_T,step_error,"
         "seed,failed,evaluations,cpu_s");
     for (int k = 0; k < log->plan->pressures; k++) {
@@ -282,13 +283,13 @@ void gb_chart_log_close(struct gb_chart_log *log)
 }
 
 const struct gb_chart_run *gb_chart_log_find(const struct gb_chart_log *log,
-                                             const struct gb_chart_setting *choice,
+                                             const struct gb_chart_setting *setting,
                                              uint64_t seed)
 {
     for (guint i = 0; i < log->runs->len; i++) {
         const struct gb_chart_run *run =
             &g_array_index(log->runs, struct gb_chart_run, i);
-        if (run->seed == seed && gb_chart_same(&run->choice, choice)) {
+        if (run->seed == seed && gb_chart_same(&run->setting, setting)) {
             return run;
         }
     }

@@ -7,8 +7,8 @@
 
 #include "study/chart_plan.h"
 
-/* The directory of a chart: preset.ini (the scene), runs.csv (one row per cell that was
- * pressed, so that a chart goes on where it was left) and chart.csv. */
+/* The directory of a chart: preset.ini (the scene), runs.csv (one row per simulated
+ * cell, so that an interrupted chart can be continued) and chart.csv. */
 struct gb_chart_log {
     char *directory;
     GArray *runs; /* of struct gb_chart_run */
@@ -16,16 +16,16 @@ struct gb_chart_log {
     int lock;
 };
 
-/* Makes the directory, or takes up the chart that is there.  The plan must outlive it.
+/* Makes the directory, or continues the chart in it.  The plan must outlive the log.
  * Errors: GB_ERR_INPUT for the chart of another scene or other pressures, for a directory
- * that holds something else, and for a chart under way; GB_ERR_MACHINE. */
+ * with other files, and for a chart under way; GB_ERR_MACHINE. */
 bool gb_chart_log_open(struct gb_chart_log *log, const char *directory,
                        const struct gb_chart_plan *plan, struct gb_error *err);
 void gb_chart_log_close(struct gb_chart_log *log); /* zeroed is fine */
 
-/* What is known of a cell, or NULL. */
+/* The result of a cell, or NULL. */
 const struct gb_chart_run *gb_chart_log_find(const struct gb_chart_log *log,
-                                             const struct gb_chart_setting *choice,
+                                             const struct gb_chart_setting *setting,
                                              uint64_t seed);
 
 /* Adds a cell and writes runs.csv. */

@@ -16,8 +16,8 @@
 static const double reference_step = 2e-4, reference_tolerance = 1e-3;
 static const double reference_time_step = 0.04;
 
-/* Most runs of a plan: a mistyped list shall not take a week. */
-enum { CHOICES_MOST = 2000 };
+/* Limits a mistyped list. */
+enum { SETTINGS_MAX = 2000 };
 
 static const char *const varied[] = {
     "loading.step",        "numerics.relaxer",   "numerics.tolerance",
@@ -25,28 +25,29 @@ static const char *const varied[] = {
     "numerics.step_error", "particles.count",    NULL,
 };
 
-/* Adds what params choose, unless it is there already. */
-static bool add(GArray *choices, const struct gb_params *params, struct gb_error *err)
+/* Adds the setting of params, if it is new. */
+static bool add(GArray *settings, const struct gb_params *params, struct gb_error *err)
 {
-    struct gb_chart_setting choice;
-    if (!gb_params_check(params, err) || !gb_chart_setting_of(&choice, params, err)) {
+    struct gb_chart_setting setting;
+    if (!gb_params_check(params, err) || !gb_chart_setting_of(&setting, params, err)) {
         return false;
     }
-    /* the preset's own stays a row even when it is the reference */
-    for (guint i = choices->len == 1 ? 1 : 0; i < choices->len; i++) {
-        if (gb_chart_same(&g_array_index(choices, struct gb_chart_setting, i), &choice)) {
+    /* the preset's own is a row even where it equals the reference */
+    for (guint i = settings->len == 1 ? 1 : 0; i < settings->len; i++) {
+        if (gb_chart_same(&g_array_index(settings, struct gb_chart_setting, i),
+                          &setting)) {
             return true;
         }
     }
-    if (choices->len >= CHOICES_MOST) {
+    if (settings->len >= SETTINGS_MAX) {
         return gb_error_set(err, GB_ERR_INPUT, "--vary: accepted up to %d combinations",
-                            CHOICES_MOST);
+                            SETTINGS_MAX);
     }
-    g_array_append_val(choices, choice);
+    g_array_append_val(settings, setting);
     return true;
 }
 
-/* A strain step to be compared is relaxed at once, whatever parts the preset takes. */
+/* A strain step that is compared is not divided into parts. */
 static bool assign(struct gb_params *params, const char *assignment, struct gb_error *err)
 {
     if (!gb_params_assign(params, assignment, err)) {
@@ -58,21 +59,21 @@ static bool assign(struct gb_params *params, const char *assignment, struct gb_e
     return true;
 }
 
-static bool add_assigned(GArray *choices, const struct gb_params *params,
+static bool add_assigned(GArray *settings, const struct gb_params *params,
                          const char *first, const char *second, struct gb_error *err)
 {
     struct gb_params changed = *params;
     return assign(&changed, first, err) &&
            (second == NULL || assign(&changed, second, err)) &&
-           add(choices, &changed, err);
+           add(settings, &changed, err);
 }
 
 /* All combinations of the lists from `vary` on. */
-static bool add_product(GArray *choices, const struct gb_params *params,
+static bool add_product(GArray *settings, const struct gb_params *params,
                         const char *const *vary, struct gb_error *err)
 {
     if (*vary == NULL) {
-        return add(choices, params, err);
+        return add(settings, params, err);
     }
     const char *equals = strchr(*vary, '=');
     char *key = equals ? g_strndup(*vary, (gsize)(equals - *vary)) : g_strdup(*vary);
@@ -90,7 +91,7 @@ static bool add_product(GArray *choices, const struct gb_params *params,
         struct gb_params changed = *params;
         char *assignment = g_strconcat(key, "=", values[i], NULL);
         good = assign(&changed, assignment, err) &&
-               add_product(choices, &changed, vary + 1, err);
+               add_product(settings, &changed, vary + 1, err);
         g_free(assignment);
     }
     g_strfreev(values);
@@ -98,20 +99,20 @@ static bool add_product(GArray *choices, const struct gb_params *params,
     return good;
 }
 
-/* What costs more than this share of the reference teaches nothing new. */
-static const double effort_most = 0.25;
+/* Settings with more than this fraction of the cost of the reference are left out. */
+static const double effort_max = 0.25;
 
-static void drop_dear(GArray *choices)
+static void drop_expensive(GArray *settings)
 {
-    const struct gb_chart_setting *all = (const void *)choices->data;
-    const guint last = choices->len - 1;
+    const struct gb_chart_setting *all = (const void *)settings->data;
+    const guint last = settings->len - 1;
     if (last > 1 &&
-        gb_chart_plan_effort(&all[last]) > effort_most * gb_chart_plan_effort(&all[0])) {
-        g_array_set_size(choices, last);
+        gb_chart_plan_effort(&all[last]) > effort_max * gb_chart_plan_effort(&all[0])) {
+        g_array_set_size(settings, last);
     }
 }
 
-static bool add_grid(GArray *choices, const struct gb_params *params,
+static bool add_grid(GArray *settings, const struct gb_params *params,
                      struct gb_error *err)
 {
     static const char *const step[] = {"loading.step=0.02 %", "loading.step=0.05 %",
@@ -128,24 +129,24 @@ static bool add_grid(GArray *choices, const struct gb_params *params,
         struct gb_params changed = *params;
         g_strlcpy(changed.relaxer, name, sizeof changed.relaxer);
         if (strcmp(name, "steepest") == 0) {
-            /* hundreds of evaluations a step: loose and coarse, and P1's own step */
-            if (!add_assigned(choices, &changed, step[4], tolerance[0], err) ||
-                !add_assigned(choices, &changed, step[2], tolerance[3], err)) {
+            /* hundreds of evaluations per step: one loose setting, and P1's own step */
+            if (!add_assigned(settings, &changed, step[4], tolerance[0], err) ||
+                !add_assigned(settings, &changed, step[2], tolerance[3], err)) {
                 return false;
             }
             continue;
         }
         for (size_t s = 0; s < G_N_ELEMENTS(step); s++) {
             for (size_t t = 0; t < G_N_ELEMENTS(tolerance); t++) {
-                if (!add_assigned(choices, &changed, step[s], tolerance[t], err)) {
+                if (!add_assigned(settings, &changed, step[s], tolerance[t], err)) {
                     return false;
                 }
-                drop_dear(choices);
+                drop_expensive(settings);
             }
         }
-        /* what tightness alone brings */
+        /* the effect of the tolerance alone */
         for (size_t t = 0; t < G_N_ELEMENTS(tight); t++) {
-            if (!add_assigned(choices, &changed, step[5], tight[t], err)) {
+            if (!add_assigned(settings, &changed, step[5], tight[t], err)) {
                 return false;
             }
         }
@@ -153,8 +154,8 @@ static bool add_grid(GArray *choices, const struct gb_params *params,
     return true;
 }
 
-/* The cutoffs of the three fidelities, everything else as in the preset. */
-static bool add_cutoffs(GArray *choices, const struct gb_params *params,
+/* The cutoffs of the three fidelities, other keys as in the preset. */
+static bool add_cutoffs(GArray *settings, const struct gb_params *params,
                         struct gb_error *err)
 {
     static const double share[] = {GB_CUTOFF_FRACTION_FAST, GB_CUTOFF_FRACTION_BALANCED,
@@ -168,46 +169,46 @@ static bool add_cutoffs(GArray *choices, const struct gb_params *params,
         changed.cutoff = (struct gb_relative){
             fmax(gb_law_dispersion_range(&model.dispersion, share[k]), GB_CUTOFF_MIN),
             true};
-        if (!add(choices, &changed, err)) {
+        if (!add(settings, &changed, err)) {
             return false;
         }
     }
     return true;
 }
 
-/* The preset's numbers in both precisions, where both are to be had. */
-static bool add_precisions(GArray *choices, const struct gb_params *params,
+/* The preset's setting in both precisions, where both exist. */
+static bool add_precisions(GArray *settings, const struct gb_params *params,
                            struct gb_error *err)
 {
     struct gb_params changed = *params;
     for (int p = GB_PRECISION_DOUBLE; p <= GB_PRECISION_SINGLE; p++) {
         changed.precision = p;
-        if (params->dimension == 3 && !add(choices, &changed, err)) {
+        if (params->dimension == 3 && !add(settings, &changed, err)) {
             return false;
         }
     }
     return true;
 }
 
-/* From a quarter to eight times the particles, where the cell is wide enough. */
-static bool add_sizes(GArray *choices, const struct gb_params *params,
+/* From a quarter to eight times the particles, where the cell is large enough. */
+static bool add_sizes(GArray *settings, const struct gb_params *params,
                       struct gb_error *err)
 {
     static const double factor[] = {0.25, 0.5, 2.0, 4.0, 8.0};
     for (size_t k = 0; k < G_N_ELEMENTS(factor); k++) {
         struct gb_params changed = *params;
-        struct gb_error narrow = {0};
+        struct gb_error too_small = {0};
         changed.count = (int64_t)round(factor[k] * (double)params->count);
         changed.base = (struct gb_relative){0.0, true};
-        if (!add(choices, &changed, &narrow) && narrow.code != GB_ERR_INPUT) {
-            *err = narrow;
+        if (!add(settings, &changed, &too_small) && too_small.code != GB_ERR_INPUT) {
+            *err = too_small;
             return false;
         }
     }
     return true;
 }
 
-static bool add_dynamic(GArray *choices, const struct gb_params *params,
+static bool add_dynamic(GArray *settings, const struct gb_params *params,
                         struct gb_error *err)
 {
     static const char *const step[] = {
@@ -216,7 +217,7 @@ static bool add_dynamic(GArray *choices, const struct gb_params *params,
         "numerics.time_step=0.7 T",
     };
     for (size_t k = 0; k < G_N_ELEMENTS(step); k++) {
-        if (!add_assigned(choices, params, step[k], NULL, err)) {
+        if (!add_assigned(settings, params, step[k], NULL, err)) {
             return false;
         }
     }
@@ -225,7 +226,7 @@ static bool add_dynamic(GArray *choices, const struct gb_params *params,
          *error != NULL; error++) {
         char *assignment = g_strconcat("numerics.step_error=", *error, NULL);
         const bool good =
-            add_assigned(choices, params, "numerics.time_step=auto", assignment, err);
+            add_assigned(settings, params, "numerics.time_step=auto", assignment, err);
         g_free(assignment);
         if (!good) {
             return false;
@@ -234,7 +235,7 @@ static bool add_dynamic(GArray *choices, const struct gb_params *params,
     return true;
 }
 
-static bool add_reference(GArray *choices, const struct gb_params *params,
+static bool add_reference(GArray *settings, const struct gb_params *params,
                           const char *const *changes, struct gb_error *err)
 {
     struct gb_params reference = *params;
@@ -251,10 +252,10 @@ static bool add_reference(GArray *choices, const struct gb_params *params,
             return false;
         }
     }
-    return add(choices, &reference, err);
+    return add(settings, &reference, err);
 }
 
-/* The pressures into a list as the field of unloading reads it. */
+/* Pressures are read as the value of loading.unload_from. */
 static bool plan_pressures(struct gb_chart_plan *plan, const char *text,
                            struct gb_error *err)
 {
@@ -283,17 +284,17 @@ static bool plan_pressures(struct gb_chart_plan *plan, const char *text,
     return true;
 }
 
-double gb_chart_plan_effort(const struct gb_chart_setting *choice)
+double gb_chart_plan_effort(const struct gb_chart_setting *setting)
 {
-    const double reach = choice->cutoff * choice->cutoff;
-    if (isnan(choice->strain_step)) {
-        const double step = isnan(choice->time_step) ? sqrt(50.0 * choice->step_error)
-                                                     : choice->time_step;
-        return reach * (double)choice->count / step;
+    const double reach = setting->cutoff * setting->cutoff;
+    if (isnan(setting->strain_step)) {
+        const double step = isnan(setting->time_step) ? sqrt(50.0 * setting->step_error)
+                                                      : setting->time_step;
+        return reach * (double)setting->count / step;
     }
-    const double slow = strcmp(choice->relaxer, "steepest") == 0 ? 100.0 : 1.0;
-    return reach * slow * (double)choice->count /
-           sqrt(choice->strain_step * choice->tolerance);
+    const double slow = strcmp(setting->relaxer, "steepest") == 0 ? 100.0 : 1.0;
+    return reach * slow * (double)setting->count /
+           sqrt(setting->strain_step * setting->tolerance);
 }
 
 static int by_effort(const void *a, const void *b)
@@ -302,7 +303,7 @@ static int by_effort(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Empty lists stand for none. */
+/* An empty list is as good as NULL. */
 static bool given(const char *const *list)
 {
     return list != NULL && list[0] != NULL;
@@ -313,29 +314,29 @@ bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *para
                         const char *pressures, int seeds, struct gb_error *err)
 {
     *plan = (struct gb_chart_plan){.params = *params, .seeds = seeds};
-    GArray *choices = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_setting));
+    GArray *settings = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_setting));
     bool good = gb_loading_kind_check_cell(params, "a chart", err) &&
                 plan_pressures(plan, pressures, err) &&
-                add_reference(choices, params, reference, err) &&
-                add(choices, params, err);
+                add_reference(settings, params, reference, err) &&
+                add(settings, params, err);
     if (good && given(vary)) {
-        good = add_product(choices, params, vary, err);
+        good = add_product(settings, params, vary, err);
     } else if (good && gb_loading_kind_of(params)->follows_time) {
-        good = add_dynamic(choices, params, err) && add_sizes(choices, params, err);
+        good = add_dynamic(settings, params, err) && add_sizes(settings, params, err);
     } else if (good) {
-        good = add_grid(choices, params, err) && add_cutoffs(choices, params, err) &&
-               add_precisions(choices, params, err) && add_sizes(choices, params, err);
+        good = add_grid(settings, params, err) && add_cutoffs(settings, params, err) &&
+               add_precisions(settings, params, err) && add_sizes(settings, params, err);
     }
-    plan->choices = choices->len;
-    plan->choice = (struct gb_chart_setting *)(void *)g_array_free(choices, FALSE);
-    if (good && plan->choices > 2) {
-        qsort(plan->choice + 2, plan->choices - 2, sizeof *plan->choice, by_effort);
+    plan->settings = settings->len;
+    plan->setting = (struct gb_chart_setting *)(void *)g_array_free(settings, FALSE);
+    if (good && plan->settings > 2) {
+        qsort(plan->setting + 2, plan->settings - 2, sizeof *plan->setting, by_effort);
     }
     return good;
 }
 
 void gb_chart_plan_finish(struct gb_chart_plan *plan)
 {
-    g_free(plan->choice);
+    g_free(plan->setting);
     *plan = (struct gb_chart_plan){0};
 }

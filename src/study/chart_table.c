@@ -5,25 +5,25 @@
 
 #include "measure/fit/average.h"
 
-/* Standard errors that an error has to exceed to be told from noise. */
-static const double told = 2.0;
+/* An error below this many standard errors is noise. */
+static const double noise_limit = 2.0;
 
-/* Cells of one choice beside those of the reference. */
+/* Cells of one setting and those of the reference. */
 struct pairs {
     GArray *own, *reference; /* of struct gb_chart_run, same seeds */
 };
 
 static void gather(struct pairs *pairs, const struct gb_chart_log *log,
-                   const struct gb_chart_setting *choice)
+                   const struct gb_chart_setting *setting)
 {
     const struct gb_chart_plan *plan = log->plan;
     pairs->own = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_run));
     pairs->reference = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_run));
     for (int s = 0; s < plan->seeds; s++) {
         const uint64_t seed = plan->params.seed + (uint64_t)s;
-        const struct gb_chart_run *own = gb_chart_log_find(log, choice, seed);
+        const struct gb_chart_run *own = gb_chart_log_find(log, setting, seed);
         const struct gb_chart_run *reference =
-            gb_chart_log_find(log, &plan->choice[0], seed);
+            gb_chart_log_find(log, &plan->setting[0], seed);
         if (own && reference) {
             g_array_append_vals(pairs->own, own, 1);
             g_array_append_vals(pairs->reference, reference, 1);
@@ -55,7 +55,7 @@ static void compare(const double *own, const double *reference, size_t n, bool p
     *error_se = hypot(se[0], se[1]);
 }
 
-/* Fills what belongs to pressure k. */
+/* Means and errors at pressure k. */
 static void fill_pressure(struct gb_chart_row *row, const struct pairs *pairs, int k,
                           bool paired)
 {
@@ -75,7 +75,7 @@ static void fill_pressure(struct gb_chart_row *row, const struct pairs *pairs, i
     compare(own, reference, n, paired, &row->error[k], &row->error_se[k]);
     compare(contacts, reference_contacts, n, paired, &row->coordination_error[k],
             &row->coordination_error_se[k]);
-    if (used < n) { /* a pressure that not every cell reaches says nothing */
+    if (used < n) { /* a cell does not reach the pressure */
         row->error[k] = row->error_se[k] = NAN;
     }
     g_free(value);
@@ -84,7 +84,7 @@ static void fill_pressure(struct gb_chart_row *row, const struct pairs *pairs, i
 static void fill(struct gb_chart_row *row, const struct gb_chart_log *log, bool reference)
 {
     struct pairs pairs;
-    gather(&pairs, log, &row->choice);
+    gather(&pairs, log, &row->setting);
     row->seeds = (int)pairs.own->len;
     row->bound = NAN;
     for (guint i = 0; i < pairs.own->len; i++) {
@@ -92,7 +92,7 @@ static void fill(struct gb_chart_row *row, const struct gb_chart_log *log, bool 
         row->evaluations += run_at(pairs.own, i)->evaluations / (double)row->seeds;
         row->cpu_s += run_at(pairs.own, i)->cpu_s / (double)row->seeds;
     }
-    const bool paired = row->choice.count == log->plan->choice[0].count;
+    const bool paired = row->setting.count == log->plan->setting[0].count;
     bool known = row->seeds > 1 && row->failed == 0 && !reference;
     double bound = 0.0;
     row->noise_limited = known;
@@ -101,7 +101,7 @@ static void fill(struct gb_chart_row *row, const struct gb_chart_log *log, bool 
         bound = fmax(bound, fabs(row->error[k]) + row->error_se[k]);
         known = known && isfinite(row->error[k]) && isfinite(row->error_se[k]);
         row->noise_limited =
-            row->noise_limited && !(fabs(row->error[k]) > told * row->error_se[k]);
+            row->noise_limited && !(fabs(row->error[k]) > noise_limit * row->error_se[k]);
     }
     row->bound = known ? bound : (double)NAN;
     g_array_free(pairs.own, TRUE);
@@ -112,18 +112,18 @@ static void fill(struct gb_chart_row *row, const struct gb_chart_log *log, bool 
 static bool competes(const struct gb_chart_table *table, const struct gb_chart_row *row)
 {
     return isfinite(row->bound) && row->seeds == table->row[0].seeds &&
-           row->choice.count == table->row[0].choice.count;
+           row->setting.count == table->row[0].setting.count;
 }
 
-static void mark_front(struct gb_chart_table *table)
+static void mark_pareto(struct gb_chart_table *table)
 {
     for (size_t i = 0; i < table->rows; i++) {
         struct gb_chart_row *row = &table->row[i];
-        row->front = competes(table, row);
-        for (size_t j = 0; j < table->rows && row->front; j++) {
+        row->pareto = competes(table, row);
+        for (size_t j = 0; j < table->rows && row->pareto; j++) {
             const struct gb_chart_row *other = &table->row[j];
-            row->front = !(competes(table, other) && other->cpu_s < row->cpu_s &&
-                           other->bound < row->bound);
+            row->pareto = !(competes(table, other) && other->cpu_s < row->cpu_s &&
+                            other->bound < row->bound);
         }
     }
 }
@@ -134,7 +134,7 @@ static void pool_scatter(struct gb_chart_table *table, int pressures)
         double sum = 0.0, weight = 0.0;
         for (size_t i = 0; i < table->rows && k < pressures; i++) {
             const struct gb_chart_row *row = &table->row[i];
-            if (row->choice.count == table->row[0].choice.count && row->seeds > 1 &&
+            if (row->setting.count == table->row[0].setting.count && row->seeds > 1 &&
                 isfinite(row->scatter[k])) {
                 sum += (row->seeds - 1) * row->scatter[k] * row->scatter[k];
                 weight += row->seeds - 1;
@@ -144,8 +144,8 @@ static void pool_scatter(struct gb_chart_table *table, int pressures)
     }
 }
 
-static bool good_enough(const struct gb_chart_table *table,
-                        const struct gb_chart_row *row, int pressures)
+static bool is_within_limit(const struct gb_chart_table *table,
+                            const struct gb_chart_row *row, int pressures)
 {
     bool good = competes(table, row);
     for (int k = 0; k < pressures && good; k++) {
@@ -161,7 +161,8 @@ static void choose(struct gb_chart_table *table, int pressures)
     struct gb_chart_row *best = NULL;
     for (size_t i = 0; i < table->rows; i++) {
         struct gb_chart_row *row = &table->row[i];
-        if (good_enough(table, row, pressures) && (!best || row->cpu_s < best->cpu_s)) {
+        if (is_within_limit(table, row, pressures) &&
+            (!best || row->cpu_s < best->cpu_s)) {
             best = row;
         }
     }
@@ -174,14 +175,14 @@ void gb_chart_table_init(struct gb_chart_table *table, const struct gb_chart_log
                          double allowed)
 {
     const struct gb_chart_plan *plan = log->plan;
-    *table = (struct gb_chart_table){.rows = plan->choices, .allowed = allowed};
-    table->row = g_new0(struct gb_chart_row, plan->choices);
-    for (size_t i = 0; i < plan->choices; i++) {
-        table->row[i].choice = plan->choice[i];
+    *table = (struct gb_chart_table){.rows = plan->settings, .allowed = allowed};
+    table->row = g_new0(struct gb_chart_row, plan->settings);
+    for (size_t i = 0; i < plan->settings; i++) {
+        table->row[i].setting = plan->setting[i];
         fill(&table->row[i], log, i == 0);
     }
     pool_scatter(table, plan->pressures);
-    mark_front(table);
+    mark_pareto(table);
     choose(table, plan->pressures);
 }
 
@@ -232,15 +233,15 @@ static void add_head(GString *text, const struct gb_chart_plan *plan)
 static void add_row(GString *text, const struct gb_chart_row *row, bool reference,
                     int pressures)
 {
-    const struct gb_chart_setting *c = &row->choice;
-    const double number[] = {(double)c->count,   c->strain_step,
-                             c->tolerance,       c->cutoff,
-                             gb_chart_bits(c),   c->time_step,
-                             c->step_error,      (double)reference,
-                             row->seeds,         row->failed,
-                             row->evaluations,   row->cpu_s,
-                             row->bound,         (double)row->noise_limited,
-                             (double)row->front, (double)row->chosen};
+    const struct gb_chart_setting *c = &row->setting;
+    const double number[] = {(double)c->count,    c->strain_step,
+                             c->tolerance,        c->cutoff,
+                             gb_chart_bits(c),    c->time_step,
+                             c->step_error,       (double)reference,
+                             row->seeds,          row->failed,
+                             row->evaluations,    row->cpu_s,
+                             row->bound,          (double)row->noise_limited,
+                             (double)row->pareto, (double)row->chosen};
     g_string_append(text, c->relaxer);
     for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
         add_number(text, number[i]);
@@ -269,7 +270,7 @@ GString *gb_chart_table_csv(const struct gb_chart_table *table,
     g_strfreev(lines);
     add_head(text, plan);
     for (size_t i = 0; i < table->rows; i++) {
-        if (table->row[i].seeds > 0) { /* not begun: no row */
+        if (table->row[i].seeds > 0) {
             add_row(text, &table->row[i], i == 0, plan->pressures);
         }
     }

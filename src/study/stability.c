@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/vec.h"
+#include "law/critical_step.h"
 #include "solve/relax_fire.h"
 #include "solve/verlet.h"
 #include "study/stability_scene.h"
@@ -32,12 +33,6 @@ struct method {
                 struct gb_error *err);
     double (*used)(const struct gb_stability_scene *scene);
 };
-
-/* 2/omega, with damping times sqrt(1 + xi^2) - xi; P3 (28). */
-static double explicit_bound(double frequency, double damping)
-{
-    return 2.0 / frequency * (sqrt(1.0 + damping * damping) - damping);
-}
 
 /* (15): the disturbance is multiplied by 1 - k lambda. */
 static double steepest_bound(double frequency, double damping)
@@ -196,7 +191,7 @@ static double used_verlet(const struct gb_stability_scene *scene)
     const double frequency = scratch ? gb_verlet_frequency(scene->world, scratch) : NAN;
     gb_alloc_free(scratch);
     /* where the guard cuts a given step */
-    return explicit_bound(frequency, 0.5 * scene->model.dynamics.viscous * frequency);
+    return gb_critical_step(frequency, 0.5 * scene->model.dynamics.viscous * frequency);
 }
 
 static double used_steepest(const struct gb_stability_scene *scene)
@@ -223,9 +218,9 @@ static double used_predict(const struct gb_stability_scene *scene)
 static const double sphere = 0.1;
 
 static const struct method methods[] = {
-    {"verlet", sphere, 0.0, explicit_bound, run_verlet, used_verlet},
-    {"verlet", sphere, 0.3, explicit_bound, run_verlet, used_verlet},
-    {"verlet", sphere, 1.0, explicit_bound, run_verlet, used_verlet},
+    {"verlet", sphere, 0.0, gb_critical_step, run_verlet, used_verlet},
+    {"verlet", sphere, 0.3, gb_critical_step, run_verlet, used_verlet},
+    {"verlet", sphere, 1.0, gb_critical_step, run_verlet, used_verlet},
     {"steepest", GB_RELAX_INERTIA, 0.0, steepest_bound, run_steepest, used_steepest},
     {"fire", GB_RELAX_INERTIA, 0.0, fire_bound, run_fire, used_fire},
     {"predict", GB_RELAX_INERTIA, 0.0, fire_bound, run_predict, used_predict},
@@ -245,9 +240,9 @@ static const struct method *method_of(int index)
 static bool open_scene(int index, struct gb_stability_scene *scene, struct gb_error *err)
 {
     const struct method *method = method_of(index);
-    if (!gb_stability_scene_init(scene, (enum gb_stability_place)(index / LAWS % SCENES),
-                                 (enum gb_stability_law)(index % LAWS), method->inertia,
-                                 err)) {
+    if (!gb_stability_scene_init(
+            scene, (enum gb_stability_packing)(index / LAWS % SCENES),
+            (enum gb_stability_law)(index % LAWS), method->inertia, err)) {
         return false;
     }
     /* viscous forces are twice xi over omega times the rate of the elastic ones */
@@ -291,7 +286,7 @@ bool gb_stability_measure(int index, struct gb_stability_row *row, struct gb_err
     bool done = open_scene(index, &scene, err);
     if (done) {
         const double exact = gb_stability_scene_exact(
-            &scene, (enum gb_stability_place)(index / LAWS % SCENES),
+            &scene, (enum gb_stability_packing)(index / LAWS % SCENES),
             (enum gb_stability_law)(index % LAWS));
         *row = (struct gb_stability_row){
             .method = method->name,

@@ -36,7 +36,7 @@ static bool make_params(struct gb_params *params, enum gb_stability_law law,
 }
 
 /* Room for `along` particles in a row at the equilibrium distance r. */
-static void place_row(struct gb_model *model, double r, int along, double *position)
+static void set_row(struct gb_model *model, double r, int along, double *position)
 {
     model->count = along;
     model->edges[0] = along == 2 ? 8.0 : along * r;
@@ -47,7 +47,7 @@ static void place_row(struct gb_model *model, double r, int along, double *posit
     }
 }
 
-static void place_lattice(struct gb_model *model, double r, double *position)
+static void set_lattice(struct gb_model *model, double r, double *position)
 {
     model->count = LATTICE * LATTICE * LATTICE;
     for (int i = 0; i < LATTICE * LATTICE * LATTICE; i++) {
@@ -60,19 +60,20 @@ static void place_lattice(struct gb_model *model, double r, double *position)
     }
 }
 
-static bool place(struct gb_stability_scene *scene, enum gb_stability_place where,
-                  double *position, struct gb_error *err)
+static bool set_positions(struct gb_stability_scene *scene,
+                          enum gb_stability_packing packing, double *position,
+                          struct gb_error *err)
 {
     const double r = 1.0 - scene->model.h_eq;
-    switch (where) {
+    switch (packing) {
     case GB_STABILITY_PAIR:
-        place_row(&scene->model, r, 2, position);
+        set_row(&scene->model, r, 2, position);
         return true;
     case GB_STABILITY_CHAIN:
-        place_row(&scene->model, r, CHAIN, position);
+        set_row(&scene->model, r, CHAIN, position);
         return true;
     case GB_STABILITY_LATTICE:
-        place_lattice(&scene->model, r, position);
+        set_lattice(&scene->model, r, position);
         return true;
     default:
         break;
@@ -178,7 +179,7 @@ static bool settle(struct gb_stability_scene *scene, struct gb_error *err)
 }
 
 bool gb_stability_scene_init(struct gb_stability_scene *scene,
-                             enum gb_stability_place where, enum gb_stability_law law,
+                             enum gb_stability_packing packing, enum gb_stability_law law,
                              double inertia, struct gb_error *err)
 {
     struct gb_params params;
@@ -190,12 +191,13 @@ bool gb_stability_scene_init(struct gb_stability_scene *scene,
     scene->model.numerics.cutoff = 1.0;
     double *position =
         gb_alloc_array(3 * (size_t)scene->model.count, sizeof *position, err);
-    bool done = position && place(scene, where, position, err) &&
+    bool done = position && set_positions(scene, packing, position, err) &&
                 gb_world_create(&scene->world, &scene->model, position, err);
     gb_alloc_free(position);
     if (done) {
         gb_world_set_step(scene->world, 1.0);
-        done = settle(scene, err) && gb_world_copy_save(scene->world, &scene->rest, err) &&
+        done = settle(scene, err) &&
+               gb_world_copy_save(scene->world, &scene->rest, err) &&
                find_mode(scene, err);
     }
     return done;
@@ -210,15 +212,16 @@ void gb_stability_scene_finish(struct gb_stability_scene *scene)
 }
 
 double gb_stability_scene_exact(const struct gb_stability_scene *scene,
-                                enum gb_stability_place where, enum gb_stability_law law)
+                                enum gb_stability_packing packing,
+                                enum gb_stability_law law)
 {
     const struct gb_model *model = &scene->model;
     const double h = model->h_eq;
     const double normal = gb_law_rod_stiffness(&model->rod, h);
-    if (where == GB_STABILITY_CHAIN && law == GB_STABILITY_ROD) {
+    if (packing == GB_STABILITY_CHAIN && law == GB_STABILITY_ROD) {
         return sqrt(4.0 * normal);
     }
-    if (where != GB_STABILITY_PAIR) {
+    if (packing != GB_STABILITY_PAIR) {
         return NAN;
     }
     /* two masses, and two inertias on levers of half a distance */

@@ -1,10 +1,10 @@
 #ifndef GB_STUDY_STABILITY_SCENE_H
 #define GB_STUDY_STABILITY_SCENE_H
 
-#include "scene/model.h"
 #include "pack/cell/world.h"
+#include "scene/model.h"
 
-enum gb_stability_place {
+enum gb_stability_packing {
     GB_STABILITY_PAIR,
     GB_STABILITY_CHAIN,
     GB_STABILITY_LATTICE,
@@ -25,7 +25,7 @@ struct gb_stability_scene {
 
 /* inertia: 0.1 of a sphere, or what a relaxer takes. */
 bool gb_stability_scene_init(struct gb_stability_scene *scene,
-                             enum gb_stability_place place, enum gb_stability_law law,
+                             enum gb_stability_packing packing, enum gb_stability_law law,
                              double inertia, struct gb_error *err);
 void gb_stability_scene_finish(struct gb_stability_scene *scene);
 
@@ -35,6 +35,7 @@ bool gb_stability_scene_reset(struct gb_stability_scene *scene, struct gb_error 
 /* The frequency in closed form: normal or rotational-tangential mode of a pair, normal
  * mode of a chain; NaN for other scenes. */
 double gb_stability_scene_exact(const struct gb_stability_scene *scene,
-                                enum gb_stability_place place, enum gb_stability_law law);
+                                enum gb_stability_packing packing,
+                                enum gb_stability_law law);
 
 #endif

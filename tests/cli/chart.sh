@@ -22,14 +22,14 @@ sed -e 's/^count = .*/count = 200/' -e 's/^title = .*/title = mine  # kept/' \
 cp mine.ini before.ini
 
 is 'without --out nothing is done' refused "$greenbody" chart mine.ini
-is 'a key that is no choice' refused "$greenbody" chart mine.ini --vary contact.mu=0.1 \
+is 'a key that is no setting' refused "$greenbody" chart mine.ini --vary contact.mu=0.1 \
     --out out
 is 'a budget that is no time' refused "$greenbody" chart mine.ini --budget 10 --out out
 is 'one seed says nothing' refused "$greenbody" chart mine.ini --seeds 1 --out out
 is 'and nothing is made' [ ! -e out ]
 
 is 'a budget stops it in good order' chart --budget '1 ms' --out out
-is 'and says how to go on' grep -q 'the same command goes on' stdout
+is 'and says how to continue' grep -q 'the same command continues' stdout
 is 'nothing half measured is kept' [ "$(rows out/runs.csv)" -eq 0 ]
 is 'two seeds first' chart --seeds 2 --out out
 is 'all of them' [ "$(rows out/runs.csv)" -eq 12 ]
@@ -38,7 +38,7 @@ is 'a third one later' chart --out out
 is 'to the end' [ "$(rows out/runs.csv)" -eq 18 ]
 is 'what was measured is not measured again' sh -c \
     '[ "$(head -n 15 out/runs.csv | cksum)" = "$(cksum <first.csv)" ]'
-is 'a row per choice' [ "$(rows out/chart.csv)" -eq 6 ]
+is 'a row per setting' [ "$(rows out/chart.csv)" -eq 6 ]
 is 'with the error at each pressure' grep -q ',error_20MPa,error_se_20MPa,scatter_20MPa' \
     out/chart.csv
 is 'the command is kept' grep -q '^# command: greenbody chart mine.ini' out/chart.csv
@@ -50,12 +50,12 @@ is 'another scene does not go on there' refused "$greenbody" chart mine.ini \
 is 'nor other pressures' refused "$greenbody" chart mine.ini --at '30 MPa' --seeds 3 \
     --out out
 
-is 'the choice goes into a copy' chart --allow 1 --out out --write copy.ini
+is 'the setting goes into a copy' chart --allow 1 --out out --write copy.ini
 is 'that differs in its numbers only' sh -c "diff mine.ini copy.ini | grep '^[<>]' |
     grep -vqE '^[<>] (step|strain_part|relaxer|tolerance|cutoff|precision) = ' && exit 1; exit 0"
 is 'and keeps the rest' grep -q '^title = mine  # kept' copy.ini
 is 'with the cheapest step' grep -q '^step = 1 %' copy.ini
-is 'a file that is somebody else'\''s is not replaced' refused "$greenbody" chart \
+is 'another file is not replaced' refused "$greenbody" chart \
     mine.ini --seeds 3 --at '20 MPa; 50 MPa' --out out --write before.ini
 is 'but the preset itself is' chart --allow 1 --out out --write mine.ini
 is 'to the same' cmp -s mine.ini copy.ini

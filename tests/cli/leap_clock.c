@@ -1,5 +1,5 @@
-/* Preloaded (LD_PRELOAD): the clock of the day jumps a day forward or back every few
- * times it is asked, as where somebody sets it.  The monotonic clock stays as it is. */
+/* Preloaded (LD_PRELOAD): every few calls the wall clock jumps a day forward or back, as
+ * when it is set.  The monotonic clock stays as it is. */
 #include <dlfcn.h>
 #include <stdatomic.h>
 #include <stddef.h>

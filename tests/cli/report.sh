@@ -38,7 +38,7 @@ done <names
 result "what the page names is there" $missing
 ! grep -q "http" out/index.html
 result "nothing comes from elsewhere" $?
-grep -q "^| run " out/report.md && grep -q "2 runs of 1 experiment" out/report.md
+grep -q "^| run " out/report.md && grep -q "2 runs of 1 scene" out/report.md
 result "Markdown says the same" $?
 cmp -s "out/runs/1-curve.csv" "run 1/curve.csv"
 result "curves as they are" $?

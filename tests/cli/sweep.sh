@@ -58,7 +58,7 @@ is 'as the table has it' awk -F, '
 plot three/mu-0.1_seed-1 --figure sweep
 is 'nothing varied, nothing drawn' [ $? -eq 2 ]
 plot three --figure continuum
-is 'the continuum theory foretells other geometries' \
+is 'the continuum theory predicts other geometries' \
     grep -q 'theory_uniaxial_MPa.*theory_isotropic_MPa' stdout
 plot three/mu-0.1_seed-1 --figure continuum
 # from the same law: the uniaxial prediction is the curve itself, the isotropic one lower

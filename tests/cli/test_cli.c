@@ -89,13 +89,15 @@ static const char *const refused[][2] = {
     {"plot default contact.normal=hertz --figure contact",
      "contact: accepted contact.normal = rod"},
     {"law rod default contact.normal=hertz --at h=0.1",
-     "law rod: accepted contact.normal = rod; law hertz is that of dry grains"},
-    {"law rod --at h=0.1 --set contact.mu=-1", "contact.mu = -1: must be between 0 and 2"},
+     "law rod: accepted contact.normal = rod; law hertz is for grains without cohesion"},
+    {"law rod --at h=0.1 --set contact.mu=-1",
+     "contact.mu = -1: must be between 0 and 2"},
     {"law rod --at h=0.1 contact.muu=1", "no such key"},
     {"law rod --at h=0.1 --set nonsense", "must be group.key=value"},
     {"law rod --at h=0.1 no-preset",
      "no-preset: no such file or preset; presets: default"},
-    {"law rod --at h=0.1 default p1-set2-38nm", "one preset is enough"},
+    {"law rod --at h=0.1 default p1-set2-38nm", "p1-set2-38nm: accepted one preset"},
+    {"run default contact.mu", "contact.mu: missing \"=value\""},
     {"law rod --at h=0.1 /dev/zero", "/dev/zero: larger"},
     {"law equilibrium contact.alpha=0.05 'material.epsilon=100000 kB'", "adhesion"},
 };
@@ -305,7 +307,7 @@ static void test_plastic_path(void)
                       1e-12 * in);
 }
 
-/* A full disk is the machine's fault; a reader that goes away is nobody's. */
+/* A full disk is an error of the machine; a closed pipe is no error. */
 static void test_output(void)
 {
     static const struct {

@@ -125,14 +125,15 @@ static void make(struct gb_ensemble *ensemble, const struct gb_axes *axes,
 }
 
 static bool work(struct gb_ensemble *ensemble, size_t workers, gb_pool_work *how,
-                 const struct gb_ensemble_callbacks *watch, struct gb_error *err)
+                 const struct gb_ensemble_callbacks *callbacks, struct gb_error *err)
 {
-    struct gb_pool *crew = NULL;
-    static const struct gb_ensemble_callbacks nobody = {0};
+    struct gb_pool *pool = NULL;
+    static const struct gb_ensemble_callbacks no_callbacks = {0};
     g_assert_true(gb_ensemble_find_done(ensemble, err));
-    g_assert_true(gb_pool_create(&crew, workers, how, NULL, err));
-    const bool good = gb_ensemble_work(ensemble, crew, watch ? watch : &nobody, err);
-    gb_pool_destroy(crew);
+    g_assert_true(gb_pool_create(&pool, workers, how, NULL, err));
+    const bool good =
+        gb_ensemble_work(ensemble, pool, callbacks ? callbacks : &no_callbacks, err);
+    gb_pool_destroy(pool);
     return good;
 }
 
@@ -371,9 +372,9 @@ static void test_cancel(void)
     struct gb_axes axes = {0};
     struct gb_ensemble ensemble;
     struct gb_error err = {0};
-    const struct gb_ensemble_callbacks watch = {.cancelled = both_work};
+    const struct gb_ensemble_callbacks callbacks = {.cancelled = both_work};
     make(&ensemble, &axes, 5, "cancel");
-    g_assert_false(work(&ensemble, 2, endless, &watch, &err));
+    g_assert_false(work(&ensemble, 2, endless, &callbacks, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
     for (size_t i = 0; i < 5; i++) {
         g_assert_cmpint(ensemble.run[i].ended, ==, i < 2);
@@ -448,7 +449,7 @@ static void test_enough(void)
         struct gb_ensemble ensemble;
         struct gb_error err = {0};
         make(&ensemble, &axes, 20, name[k]);
-        ensemble.enough = three;
+        ensemble.converged = three;
         g_assert_true(work(&ensemble, workers[k], slow_to_keep, NULL, &err));
         size_t ended = 0;
         for (size_t i = 0; i < 40; i++) {

@@ -59,8 +59,9 @@ static double normal(uint64_t a, uint64_t b, double c, double d)
 }
 
 /* Small cells are off by half a point, and scatter twice as much. */
-static bool simulate(const double *parameters, size_t points, int stage, double *out,
-                     void *context, struct gb_error *err)
+static bool simulate(const double *parameters, size_t points,
+                     enum gb_calibrate_stage stage, double *out, void *context,
+                     struct gb_error *err)
 {
     struct bench *bench = context;
     (void)err;
@@ -70,13 +71,13 @@ static bool simulate(const double *parameters, size_t points, int stage, double 
         g_assert_true(mu >= 0.0 && mu <= 1.0 && alpha >= 0.05 && alpha <= 2.0);
         for (size_t r = 0; r < REPLICAS; r++) {
             const uint64_t cell = 1000 * bench->seed + 10 * (uint64_t)r + (uint64_t)stage;
-            const double scale = stage == 0 ? 2.0 : 1.0;
+            const double scale = stage == GB_CALIBRATE_COARSE ? 2.0 : 1.0;
             double *to = out + (p * REPLICAS + r) * DATA;
             const bool fails = fabs(normal(cell, 7, mu, alpha)) < 1.2 * bench->fail;
             for (size_t i = 0; i < DATA; i++) {
                 to[i] = fails ? (double)NAN
                               : density(mu, alpha, pressure(i), bench->twins) +
-                                    (stage == 0 ? 0.005 : 0.0) +
+                                    (stage == GB_CALIBRATE_COARSE ? 0.005 : 0.0) +
                                     scale * cell_scatter * normal(cell, 1, 0.0, 0.0) +
                                     scale * chaos_scatter * normal(cell, i, mu, alpha);
             }
@@ -103,7 +104,7 @@ static struct gb_calibrate_problem problem_of(struct bench *bench, double *value
                                          .value = value,
                                          .error = error,
                                          .replicas = REPLICAS,
-                                         .coarse = true,
+                                         .coarse_stage = true,
                                          .simulate = simulate,
                                          .context = bench};
 }
@@ -163,8 +164,9 @@ static void test_recover_scatter(void)
 }
 
 /* Without any noise the fit is exact, and says so. */
-static bool simulate_exactly(const double *parameters, size_t points, int stage,
-                             double *out, void *context, struct gb_error *err)
+static bool simulate_exactly(const double *parameters, size_t points,
+                             enum gb_calibrate_stage stage, double *out, void *context,
+                             struct gb_error *err)
 {
     (void)stage;
     (void)context;
@@ -189,7 +191,7 @@ static void test_exact(void)
     }
     problem.simulate = simulate_exactly;
     struct gb_calibrate_result result = fit(&problem);
-    g_assert_true(result.settled);
+    g_assert_true(result.converged);
     g_assert_cmpfloat_with_epsilon(result.value[0], true_mu, 2e-4);
     g_assert_cmpfloat_with_epsilon(result.value[1], true_alpha, 2e-3);
     g_assert_cmpfloat(result.error[0], <, 1e-3);
@@ -214,7 +216,7 @@ static void test_failures(void)
     g_assert_cmpint(err.code, ==, GB_ERR_GUARD);
 }
 
-/* Two parameters of which only the sum matters: told, and their intervals are wide. */
+/* Two parameters of which only the sum matters are reported, with wide intervals. */
 static void test_confused(void)
 {
     struct bench bench = {.seed = 3, .twins = true};

@@ -34,23 +34,23 @@ static void test_plan(void)
     const char *both[] = {"numerics.tolerance=0.05,0.02", "loading.step=0.1 %,0.5 %,1 %",
                           NULL};
     struct gb_chart_plan plan = plan_of(&params, both, 3);
-    g_assert_cmpuint(plan.choices, ==, 2 + 6); /* the preset's is none of them */
+    g_assert_cmpuint(plan.settings, ==, 2 + 6); /* the preset's is none of them */
     g_assert_cmpint(plan.pressures, ==, 1);
     g_assert_cmpfloat(plan.pressure_pa[0], ==, 100e6);
-    for (size_t i = 1; i < plan.choices; i++) {
-        g_assert_cmpfloat(plan.choice[0].strain_step, <, plan.choice[i].strain_step);
-        g_assert_cmpfloat(plan.choice[0].tolerance, <, plan.choice[i].tolerance);
+    for (size_t i = 1; i < plan.settings; i++) {
+        g_assert_cmpfloat(plan.setting[0].strain_step, <, plan.setting[i].strain_step);
+        g_assert_cmpfloat(plan.setting[0].tolerance, <, plan.setting[i].tolerance);
         for (size_t j = 0; j < i; j++) {
-            g_assert_false(gb_chart_same(&plan.choice[i], &plan.choice[j]));
+            g_assert_false(gb_chart_same(&plan.setting[i], &plan.setting[j]));
         }
     }
-    for (size_t i = 3; i < plan.choices; i++) { /* cheap ones first */
-        g_assert_cmpfloat(gb_chart_plan_effort(&plan.choice[i - 1]), <=,
-                          gb_chart_plan_effort(&plan.choice[i]));
+    for (size_t i = 3; i < plan.settings; i++) { /* cheap ones first */
+        g_assert_cmpfloat(gb_chart_plan_effort(&plan.setting[i - 1]), <=,
+                          gb_chart_plan_effort(&plan.setting[i]));
     }
     gb_chart_plan_finish(&plan);
     plan = plan_of(&params, NULL, 3);
-    g_assert_cmpuint(plan.choices, >, 25);
+    g_assert_cmpuint(plan.settings, >, 25);
     gb_chart_plan_finish(&plan);
     const char *wrong[] = {"contact.mu=0.1,0.2", NULL};
     struct gb_error err = {0};
@@ -67,13 +67,13 @@ static void test_choose(void)
 {
     const struct gb_params params = small_scene();
     struct gb_chart_plan plan = plan_of(&params, NULL, 2);
-    for (size_t i = 0; i < plan.choices; i++) {
+    for (size_t i = 0; i < plan.settings; i++) {
         struct gb_params chosen = params;
         struct gb_chart_setting back;
         struct gb_error err = {0};
-        gb_chart_apply(&chosen, &plan.choice[i]);
+        gb_chart_apply(&chosen, &plan.setting[i]);
         g_assert_true(gb_chart_setting_of(&back, &chosen, &err));
-        g_assert_true(gb_chart_same(&back, &plan.choice[i]));
+        g_assert_true(gb_chart_same(&back, &plan.setting[i]));
     }
     gb_chart_plan_finish(&plan);
 }
@@ -101,7 +101,7 @@ static void remove_directory(char *path)
 
 enum { SEEDS = 4 };
 
-/* Density of a cell: its own part, the error of the choice, and noise that has mean 0 and
+/* Density of a cell: its own part, the error of the setting, and noise that has mean 0 and
  * standard deviation 0.002 sqrt(20/3) over the four seeds. */
 static double made_up(int seed, double error, double noise)
 {
@@ -110,11 +110,11 @@ static double made_up(int seed, double error, double noise)
     return 0.4 + cell[seed] + error + 0.002 * noise * shape[seed];
 }
 
-static void fill_log(struct gb_chart_log *log, size_t choice, double error, double noise,
+static void fill_log(struct gb_chart_log *log, size_t setting, double error, double noise,
                      double cpu_s)
 {
     for (int s = 0; s < SEEDS; s++) {
-        struct gb_chart_run run = {.choice = log->plan->choice[choice],
+        struct gb_chart_run run = {.setting = log->plan->setting[setting],
                                    .seed = log->plan->params.seed + (uint64_t)s,
                                    .evaluations = 1000.0 * cpu_s,
                                    .cpu_s = cpu_s};
@@ -128,7 +128,7 @@ static void fill_log(struct gb_chart_log *log, size_t choice, double error, doub
 /* The reference, the preset's own (tolerance 0.01), 0.05 and 0.02. */
 static void fill_known(struct gb_chart_log *log)
 {
-    g_assert_cmpuint(log->plan->choices, ==, 4);
+    g_assert_cmpuint(log->plan->settings, ==, 4);
     fill_log(log, 0, 0.0, 0.0, 40.0);
     fill_log(log, 1, 0.004, 0.1, 4.0);  /* true error, below the scatter */
     fill_log(log, 2, 0.03, 0.1, 2.0);   /* above it */
@@ -158,7 +158,7 @@ static void test_table(void)
     g_assert_false(row[1].noise_limited);
     g_assert_false(row[2].noise_limited);
     g_assert_true(row[3].noise_limited);
-    g_assert_true(row[1].front && row[2].front && row[3].front);
+    g_assert_true(row[1].pareto && row[2].pareto && row[3].pareto);
     g_assert_true(gb_chart_table_chosen(&table) == &row[1]);
     gb_chart_table_finish(&table);
     gb_chart_table_init(&table, &log, 0.0035);
@@ -172,7 +172,7 @@ static void test_table(void)
     remove_directory(directory);
 }
 
-/* A failed cell and a choice with fewer seeds than the reference are never chosen. */
+/* A failed cell and a setting with fewer seeds than the reference are never chosen. */
 static void test_incomplete(void)
 {
     const struct gb_params params = small_scene();
@@ -215,13 +215,13 @@ static void test_log(void)
     gb_chart_log_close(&log);
     g_assert_true(gb_chart_log_open(&log, directory, &plan, &err));
     g_assert_cmpuint(log.runs->len, ==, 4 * SEEDS);
-    for (size_t i = 0; i < plan.choices; i++) {
+    for (size_t i = 0; i < plan.settings; i++) {
         const struct gb_chart_run *run =
-            gb_chart_log_find(&log, &plan.choice[i], plan.params.seed + 2);
+            gb_chart_log_find(&log, &plan.setting[i], plan.params.seed + 2);
         g_assert_nonnull(run);
         g_assert_cmpfloat(run->cpu_s, >, 1.0);
     }
-    g_assert_null(gb_chart_log_find(&log, &plan.choice[0], plan.params.seed + SEEDS));
+    g_assert_null(gb_chart_log_find(&log, &plan.setting[0], plan.params.seed + SEEDS));
     gb_chart_log_close(&log);
     gb_chart_plan_finish(&plan);
 
@@ -255,7 +255,7 @@ static void test_press(void)
     struct gb_error err = {0};
     struct gb_chart_run run[3];
     for (int i = 0; i < 3; i++) {
-        run[i] = (struct gb_chart_run){.choice = plan.choice[i < 2 ? 1 : 2], .seed = 7};
+        run[i] = (struct gb_chart_run){.setting = plan.setting[i < 2 ? 1 : 2], .seed = 7};
         g_assert_true(
             gb_chart_press(&run[i], &params, plan.pressure_pa, 1, NULL, NULL, &err));
         g_assert_false(run[i].failed);
@@ -283,7 +283,7 @@ static void test_advice(void)
     struct gb_error err = {0};
     char *directory = fresh_directory();
     g_assert_true(gb_chart_log_open(&log, directory, &plan, &err));
-    for (size_t i = 0; i < plan.choices; i++) {
+    for (size_t i = 0; i < plan.settings; i++) {
         fill_log(&log, i, 0.0, 0.0, 3.0);
     }
     struct gb_chart_table table;
@@ -297,8 +297,8 @@ static void test_advice(void)
     g_assert_cmpfloat(advice[0].size[1].cells, ==, ceil(16.0 * 20.0 / 3.0));
     g_assert_cmpfloat(advice[1].size[1].cells, ==, ceil(64.0 * 20.0 / 3.0));
     g_assert_cmpint(advice[0].size[0].count, ==, 150);
-    g_assert_false(advice[0].size[0].wide);
-    g_assert_true(advice[0].size[1].wide);
+    g_assert_false(advice[0].size[0].large_enough);
+    g_assert_true(advice[0].size[1].large_enough);
     gb_chart_table_finish(&table);
     gb_chart_log_close(&log);
     gb_chart_plan_finish(&plan);

@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
-#include "cli/screening.h"
+#include "cli/screen_options.h"
 #include "cli/signals.h"
 #include "io/rundir.h"
 #include "run/runner/runner.h"
@@ -15,27 +15,26 @@
 #include "tui/term/term_profile.h"
 #include "tui/watch/watch.h"
 
-/* Of many runs: how they stand, once. */
-static int tell_runs(const char *directory, struct gb_error *err)
+/* One line about a directory of many runs. */
+static int print_runs(const char *directory, struct gb_error *err)
 {
-    struct gb_runset_view swarm;
-    const bool read = gb_runset_view_read(&swarm, directory, err);
+    struct gb_runset_view view;
+    const bool read = gb_runset_view_read(&view, directory, err);
     if (read) {
-        printf("%zu runs: %zu done, %zu under way, %zu failed\n", swarm.runs, swarm.done,
-               swarm.live, swarm.failed);
+        printf("%zu runs: %zu done, %zu under way, %zu failed\n", view.runs, view.done,
+               view.live, view.failed);
     }
-    gb_runset_view_finish(&swarm);
+    gb_runset_view_finish(&view);
     return read ? 0 : gb_options_fail(err);
 }
 
-/* Without a screen: its progress, line by line, until it ends or the watcher is stopped.
- */
-static int watch(const char *directory, struct gb_error *err)
+/* Without a screen: progress lines, until the run or this command ends. */
+static int print_progress(const char *directory, struct gb_error *err)
 {
     struct gb_runner *runner = NULL;
     struct gb_progress progress;
     if (gb_runset_view_is(directory)) {
-        return tell_runs(directory, err);
+        return print_runs(directory, err);
     }
     if (!gb_runner_follow(&runner, directory, err)) {
         return gb_options_fail(err);
@@ -50,7 +49,8 @@ static int watch(const char *directory, struct gb_error *err)
             gb_progress_show(&progress, shot);
         }
     }
-    if (shot->error.code == GB_ERR_MACHINE) { /* not the run's own, which is told below */
+    if (shot->error.code ==
+        GB_ERR_MACHINE) { /* of reading; that of the run is printed below */
         *err = shot->error;
         gb_progress_clear(&progress);
         gb_runner_destroy(runner);
@@ -73,7 +73,7 @@ static int show(const char *directory, const struct gb_settings *settings,
     if (gb_runset_view_is(directory)) {
         status = gb_watch_run(directory, settings, err);
     } else if (!g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
-        gb_error_set(err, GB_ERR_INPUT, "%s: no run directory, it has no preset.ini",
+        gb_error_set(err, GB_ERR_INPUT, "%s: no run directory: it has no preset.ini",
                      directory);
     } else if (gb_preset_load(&preset, path, err)) {
         status = gb_app_run(preset, NULL, directory, settings, err);
@@ -83,38 +83,44 @@ static int show(const char *directory, const struct gb_settings *settings,
     return err->code != GB_OK ? gb_options_fail(err) : status;
 }
 
+static int attach(const struct gb_screen_options *screen, char **words)
+{
+    struct gb_error err = {0};
+    struct gb_settings settings;
+    if (screen->diagnose && gb_screen_options_settings(screen, &settings, &err)) {
+        gb_term_profile_print(stdout, STDOUT_FILENO, &settings);
+        return 0;
+    }
+    const char *directory = gb_options_directory(words, "attach", &err);
+    if (directory == NULL || !gb_screen_options_settings(screen, &settings, &err)) {
+        return gb_options_fail(&err);
+    }
+    return isatty(STDOUT_FILENO) ? show(directory, &settings, &err)
+                                 : print_progress(directory, &err);
+}
+
 int gb_cmd_attach(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "DIR",
-        "Shows a run that is under way elsewhere, live, from its directory.  Leaving "
-        "does "
-        "not touch the run.  For a directory of many runs (sweep, calibrate) it shows "
-        "their mean curves with standard errors, the density over what was varied, and "
-        "how far each run is.",
-        "t takes it over: its engine is asked to stop with a checkpoint, and the run "
-        "goes "
-        "on here.  Where stdout is no terminal, its progress is told line by line."};
+        "Shows a running simulation of another process, live, from its directory.\n"
+        "Leaving does not affect it.  For a directory of many runs (sweep, calibrate) "
+        "it\n"
+        "shows their mean curves with standard errors, the density over the varied\n"
+        "values, and the progress of each run.",
+        "t takes the run over: the other process is asked to stop with a checkpoint, "
+        "and\n"
+        "the run continues here.  Where stdout is no terminal, progress is printed line\n"
+        "by line."};
     char **words = NULL;
     int status = 0;
-    struct gb_screening screening = {0};
-    const GOptionEntry entries[] = {GB_SCREENING_OPTIONS(&screening), {0}};
+    struct gb_screen_options screen = {0};
+    GOptionEntry entries[GB_SCREEN_OPTIONS_ENTRIES + 1] = {0};
+    gb_screen_options_entries(&screen, entries);
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        struct gb_error err = {0};
-        struct gb_settings settings;
-        if (screening.diagnose && gb_screening_settings(&screening, &settings, &err)) {
-            gb_term_profile_print(stdout, STDOUT_FILENO, &settings);
-        } else if (words[0] == NULL || words[1] != NULL) {
-            gb_error_set(&err, GB_ERR_INPUT, "attach: one run directory is needed");
-            status = gb_options_fail(&err);
-        } else if (!gb_screening_settings(&screening, &settings, &err)) {
-            status = gb_options_fail(&err);
-        } else {
-            status = isatty(STDOUT_FILENO) ? show(words[0], &settings, &err)
-                                           : watch(words[0], &err);
-        }
+        status = attach(&screen, words);
     }
-    gb_screening_finish(&screening);
+    gb_screen_options_finish(&screen);
     g_strfreev(words);
     return status;
 }

@@ -12,15 +12,16 @@
 static const struct gb_options_page page = {
     .usage = "[PRESET] [group.key=value]...",
     .summary =
-        "Times the engine on this machine: the initial structure, and one force\n"
-        "evaluation with its move (forces, torques, history, relaxer) on one core and\n"
-        "on all of them, at a coordination number of a pressed packing; a checkpoint\n"
+        "Measures the speed of the engine on this machine: the initial structure; one\n"
+        "force evaluation with its move (forces, torques, history, relaxer) on one core\n"
+        "and on all of them, at a coordination number of a pressed packing; a "
+        "checkpoint\n"
         "of it, written in TMPDIR; the planar dynamic scene of P2 at density 0.9; and\n"
         "the bed of P3 at 50 MPa in its die.",
     .description =
         "Without a preset: 8000 particles of 9.7 nm with bridges (P1, set II).\n"
-        "The times are medians of 15 batches of 24 evaluations; several sizes are timed\n"
-        "in turn, in 5 rounds of 9 batches or more.",
+        "Times are medians of 15 batches of 24 evaluations; several sizes are timed\n"
+        "alternately, in 5 rounds of 9 batches or more.",
 };
 
 struct line {
@@ -56,10 +57,10 @@ static void report(const struct gb_bench *bench, double planar,
         {"same bits on one and all cores", bench->same_bits, "(1: yes)"},
         {"memory", bench->bytes_per_particle, "bytes per particle"},
         {"checkpoint", bench->state.bytes_per_particle, "bytes per particle"},
-        {"checkpoint, engine held", 1e3 * bench->state.held, "ms"},
-        {"checkpoint, processor beside it", 1e3 * bench->state.processor, "ms"},
-        {"checkpoint, written after", 1e3 * bench->state.written, "ms"},
-        {"  of this on the disk", 1e3 * bench->state.disk, "ms"},
+        {"checkpoint, engine blocked", 1e3 * bench->state.held, "ms"},
+        {"checkpoint, processor time of writer", 1e3 * bench->state.processor, "ms"},
+        {"checkpoint, time to write", 1e3 * bench->state.written, "ms"},
+        {"  of this the disk", 1e3 * bench->state.disk, "ms"},
         {"planar dynamic scene, one core", 1e-6 * planar, "million particle-steps per s"},
         {"die at coordination", die->coordination, ""},
         {"die, Hertz, one core", 1e6 * die->hertz, "us per particle-step"},
@@ -71,7 +72,7 @@ static void report(const struct gb_bench *bench, double planar,
     print_lines(line, G_N_ELEMENTS(line), csv);
 }
 
-/* Time of each variant, and what the terms that it lacks cost. */
+/* Time of an evaluation with and without terms of the contact laws. */
 static bool report_terms(const struct gb_params *params, double coordination,
                          gboolean csv, struct gb_error *err)
 {
@@ -92,14 +93,14 @@ static bool report_terms(const struct gb_params *params, double coordination,
     return true;
 }
 
-enum { SIZES_MOST = 16 };
+enum { SIZES_MAX = 16 };
 
 /* "1000, 8000": 2 to 16 numbers of particles. */
 static bool read_sizes(const char *text, struct gb_bench_size *size, size_t *sizes,
                        struct gb_error *err)
 {
-    char **parts = g_strsplit(text, ",", SIZES_MOST + 1);
-    bool good = g_strv_length(parts) >= 2 && g_strv_length(parts) <= SIZES_MOST;
+    char **parts = g_strsplit(text, ",", SIZES_MAX + 1);
+    bool good = g_strv_length(parts) >= 2 && g_strv_length(parts) <= SIZES_MAX;
     *sizes = 0;
     for (char **part = parts; *part && good; part++) {
         good = g_ascii_string_to_signed(g_strstrip(*part), 10, 10, 10000000,
@@ -111,15 +112,15 @@ static bool read_sizes(const char *text, struct gb_bench_size *size, size_t *siz
     return good || gb_error_set(err, GB_ERR_INPUT,
                                 "--sizes %s: accepted 2 to %d growing numbers of "
                                 "particles from 10 to 10000000, with commas between",
-                                text, SIZES_MOST);
+                                text, SIZES_MAX);
 }
 
-/* What is done, on stderr. */
-static void tell(void *data, int64_t count, int round)
+/* Progress on stderr. */
+static void print_progress(void *data, int64_t count, int round)
 {
     const int64_t *last = data;
     if (round == 0) {
-        fprintf(stderr, "%lld particles: pressed\n", (long long)count);
+        fprintf(stderr, "%lld particles: packing ready\n", (long long)count);
     } else if (count == *last) {
         fprintf(stderr, "round %d of %d\n", round, GB_BENCH_ROUNDS);
     }
@@ -127,9 +128,10 @@ static void tell(void *data, int64_t count, int round)
 
 static void print_sizes(const struct gb_bench_size *size, size_t sizes, gboolean csv)
 {
-    double particles[SIZES_MOST], one[SIZES_MOST], all[SIZES_MOST];
+    double particles[SIZES_MAX], one[SIZES_MAX], all[SIZES_MAX];
     puts(csv ? "particles,coordination,one_core_us,all_cores_us,bytes"
-             : " particles   coordination   one core   all cores, us   bytes a particle");
+             : " particles   coordination   one core   all cores, us   bytes per "
+               "particle");
     for (size_t i = 0; i < sizes; i++) {
         particles[i] = (double)size[i].count;
         one[i] = size[i].evaluation_s;
@@ -141,19 +143,19 @@ static void print_sizes(const struct gb_bench_size *size, size_t sizes, gboolean
                size[i].bytes_per_particle);
     }
     printf(csv ? "exponent,,%.4f,%.4f,\n"
-               : "cost grows with the power   %11.3f   %13.3f\n",
+               : "exponent of the cost        %11.3f   %13.3f\n",
            gb_bench_exponent(particles, one, sizes),
            gb_bench_exponent(particles, all, sizes));
 }
 
-/* How the cost of an evaluation grows with the size of the cell. */
+/* Cost of an evaluation against the number of particles. */
 static bool report_sizes(const struct gb_params *params, const char *text,
                          double coordination, gboolean csv, struct gb_error *err)
 {
-    struct gb_bench_size size[SIZES_MOST];
+    struct gb_bench_size size[SIZES_MAX];
     size_t sizes = 0;
     if (!read_sizes(text, size, &sizes, err) ||
-        !gb_bench_growth_run(size, sizes, params, coordination, tell,
+        !gb_bench_growth_run(size, sizes, params, coordination, print_progress,
                              &size[sizes - 1].count, err)) {
         return false;
     }
@@ -161,59 +163,84 @@ static bool report_sizes(const struct gb_params *params, const char *text,
     return true;
 }
 
+/* The options of the command line. */
+struct request {
+    char **sets, **words;
+    char *sizes;
+    gboolean csv, terms;
+    double coordination;
+};
+
+static bool check_request(const struct request *request, struct gb_error *err)
+{
+    if (!(request->coordination > 0.0 && request->coordination < 12.0)) {
+        return gb_error_set(err, GB_ERR_INPUT, "--coordination %g: accepted 0 to 12",
+                            request->coordination);
+    }
+    return !(request->terms && request->sizes) ||
+           gb_error_set(err, GB_ERR_INPUT, "--terms, --sizes: accepted one of them");
+}
+
+static bool report_all(const struct request *request, const struct gb_params *params,
+                       struct gb_error *err)
+{
+    struct gb_bench bench;
+    struct gb_bench_die die;
+    double planar = 0.0;
+    if (!gb_bench_run(&bench, params, request->coordination, err) ||
+        !gb_bench_planar(&planar, err) || !gb_bench_die_run(&die, err)) {
+        return false;
+    }
+    report(&bench, planar, &die, (double)params->count, request->csv);
+    return true;
+}
+
+static bool measure(const struct request *request, struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    if (!gb_options_scene(&preset, request->words, request->sets,
+                          GB_OPTIONS_PRESET_OPTIONAL, err)) {
+        return false;
+    }
+    struct gb_params *params = gb_preset_params(preset);
+    if (request->words[0] == NULL && request->sets == NULL) {
+        params->diameter_m = 9.7e-9;
+        params->fidelity = GB_FIDELITY_FAST;
+    }
+    bool done = check_request(request, err);
+    if (done && request->terms) {
+        done = report_terms(params, request->coordination, request->csv, err);
+    } else if (done && request->sizes != NULL) {
+        done = report_sizes(params, request->sizes, request->coordination, request->csv,
+                            err);
+    } else if (done) {
+        done = report_all(request, params, err);
+    }
+    gb_preset_destroy(preset);
+    return done;
+}
+
 int gb_cmd_bench(int argc, char **argv)
 {
-    gboolean csv = FALSE, terms = FALSE;
-    double coordination = 6.0;
-    char **sets = NULL, **words = NULL, *sizes = NULL;
+    struct request request = {.coordination = 6.0};
     const GOptionEntry entries[] = {
-        {"csv", 0, 0, G_OPTION_ARG_NONE, &csv, "print CSV", NULL},
-        {"coordination", 0, 0, G_OPTION_ARG_DOUBLE, &coordination,
+        {"csv", 0, 0, G_OPTION_ARG_NONE, &request.csv, "print CSV", NULL},
+        {"coordination", 0, 0, G_OPTION_ARG_DOUBLE, &request.coordination,
          "press until this coordination number", "6"},
-        {"terms", 0, 0, G_OPTION_ARG_NONE, &terms,
-         "what each term of the contact laws costs instead", NULL},
-        {"sizes", 0, 0, G_OPTION_ARG_STRING, &sizes,
-         "cells of so many particles instead, and how the cost grows", "1000,8000,64000"},
-        GB_OPTIONS_SET(&sets),
+        {"terms", 0, 0, G_OPTION_ARG_NONE, &request.terms,
+         "instead: the cost of each term of the contact laws", NULL},
+        {"sizes", 0, 0, G_OPTION_ARG_STRING, &request.sizes,
+         "instead: the cost against the number of particles", "1000,8000,64000"},
+        gb_options_set(&request.sets),
         {0},
     };
     int status = 0;
-    if (!gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        return status;
+    if (gb_options_parse(&page, entries, argc, argv, &request.words, &status)) {
+        struct gb_error err = {0};
+        status = measure(&request, &err) ? 0 : gb_options_fail(&err);
     }
-    struct gb_error err = {0};
-    struct gb_preset *preset = NULL;
-    struct gb_bench bench;
-    struct gb_bench_die die;
-    const bool named = words && words[0] && !strchr(words[0], '=');
-    bool done = gb_options_scene(&preset, words, sets, false, &err);
-    if (done && !(coordination > 0.0 && coordination < 12.0)) {
-        done = gb_error_set(&err, GB_ERR_INPUT, "--coordination %g: accepted 0 to 12",
-                            coordination);
-    }
-    if (done && terms && sizes) {
-        done = gb_error_set(&err, GB_ERR_INPUT, "--terms, --sizes: accepted one of them");
-    }
-    if (done) {
-        struct gb_params *params = gb_preset_params(preset);
-        if (!named && !sets && !(words && words[0])) {
-            params->diameter_m = 9.7e-9;
-            params->fidelity = GB_FIDELITY_FAST;
-        }
-        double planar = 0.0;
-        if (terms) {
-            done = report_terms(params, coordination, csv, &err);
-        } else if (sizes) {
-            done = report_sizes(params, sizes, coordination, csv, &err);
-        } else if ((done = gb_bench_run(&bench, params, coordination, &err) &&
-                           gb_bench_planar(&planar, &err) &&
-                           gb_bench_die_run(&die, &err))) {
-            report(&bench, planar, &die, (double)params->count, csv);
-        }
-    }
-    gb_preset_destroy(preset);
-    g_strfreev(words);
-    g_strfreev(sets);
-    g_free(sizes);
-    return done ? 0 : gb_options_fail(&err);
+    g_strfreev(request.words);
+    g_strfreev(request.sets);
+    g_free(request.sizes);
+    return status;
 }

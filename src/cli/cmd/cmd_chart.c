@@ -7,13 +7,14 @@
 
 #include "base/file.h"
 #include "base/units.h"
-#include "cli/chart_page.h"
+#include "cli/chart_plot.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "io/preset.h"
+#include "study/chart_text.h"
 
-enum { SEEDS_MOST = 1000, DESCRIPTION = 160 };
+enum { SEEDS_MAX = 1000, DESCRIPTION = 160 };
 
 struct chart {
     char *directory, *write, *pressures, *budget_text;
@@ -27,7 +28,7 @@ struct chart {
     struct gb_chart_log log;
     struct gb_progress progress;
     double spent_s;
-    int missing; /* cells that the budget did not reach */
+    int missing; /* cells beyond the budget */
 };
 
 static volatile sig_atomic_t caught;
@@ -52,7 +53,7 @@ static bool cancelled(void *data, double cpu_s)
     return caught != 0 || chart->spent_s + cpu_s > chart->budget_s;
 }
 
-/* The file to write may be new or the preset itself; another one only by force. */
+/* --write: a new file, or the preset itself; another file only with --force. */
 static bool check_write(const struct chart *chart, struct gb_error *err)
 {
     if (!chart->write || !gb_file_check_target(chart->write, err)) {
@@ -78,9 +79,9 @@ static bool check(struct chart *chart, struct gb_error *err)
         return gb_error_set(err, GB_ERR_INPUT,
                             "chart needs --out DIR, a directory for the chart");
     }
-    if (chart->seeds < 2 || chart->seeds > SEEDS_MOST) {
+    if (chart->seeds < 2 || chart->seeds > SEEDS_MAX) {
         return gb_error_set(err, GB_ERR_INPUT, "--seeds %d: accepted 2 to %d",
-                            chart->seeds, SEEDS_MOST);
+                            chart->seeds, SEEDS_MAX);
     }
     if (!(chart->standard_error > 0.0) || chart->allowed < 0.0) {
         return gb_error_set(err, GB_ERR_INPUT,
@@ -100,7 +101,7 @@ static bool check(struct chart *chart, struct gb_error *err)
 static bool prepare(struct chart *chart, char **words, char **sets, struct gb_error *err)
 {
     return check(chart, err) &&
-           gb_options_scene(&chart->preset, words, sets, true, err) &&
+           gb_options_scene(&chart->preset, words, sets, GB_OPTIONS_PRESET_NEEDED, err) &&
            check_write(chart, err) &&
            gb_chart_plan_init(&chart->plan, gb_preset_params(chart->preset),
                               (const char *const *)chart->vary,
@@ -109,7 +110,7 @@ static bool prepare(struct chart *chart, char **words, char **sets, struct gb_er
            gb_chart_log_open(&chart->log, chart->directory, &chart->plan, err);
 }
 
-static bool keep_table(const struct chart *chart, struct gb_error *err)
+static bool write_table(const struct chart *chart, struct gb_error *err)
 {
     struct gb_chart_table table;
     gb_chart_table_init(&table, &chart->log,
@@ -129,18 +130,18 @@ static bool keep_table(const struct chart *chart, struct gb_error *err)
     return good;
 }
 
-/* One cell, unless it is known.  False only when the chart cannot go on. */
-static bool measure(struct chart *chart, const struct gb_chart_setting *choice,
+/* Simulates a cell that is not in the log.  False only after an error. */
+static bool measure(struct chart *chart, const struct gb_chart_setting *setting,
                     uint64_t seed, struct gb_error *err)
 {
-    if (gb_chart_log_find(&chart->log, choice, seed)) {
+    if (gb_chart_log_find(&chart->log, setting, seed)) {
         return true;
     }
     if (chart->missing > 0) { /* the budget is spent */
         chart->missing++;
         return true;
     }
-    struct gb_chart_run run = {.choice = *choice, .seed = seed};
+    struct gb_chart_run run = {.setting = *setting, .seed = seed};
     const bool done = gb_chart_press(&run, &chart->plan.params, chart->plan.pressure_pa,
                                      chart->plan.pressures, cancelled, chart, err);
     chart->spent_s += run.cpu_s;
@@ -151,47 +152,49 @@ static bool measure(struct chart *chart, const struct gb_chart_setting *choice,
     return done && gb_chart_log_add(&chart->log, &run, err);
 }
 
-static bool press_all(struct chart *chart, struct gb_error *err)
+static bool measure_all(struct chart *chart, struct gb_error *err)
 {
     const struct gb_chart_plan *plan = &chart->plan;
-    for (size_t i = 0; i < plan->choices; i++) {
+    for (size_t i = 0; i < plan->settings; i++) {
         const double before = chart->spent_s;
         const int missing = chart->missing;
         for (int s = 0; s < plan->seeds; s++) {
-            if (!measure(chart, &plan->choice[i], plan->params.seed + (uint64_t)s, err)) {
+            if (!measure(chart, &plan->setting[i], plan->params.seed + (uint64_t)s,
+                         err)) {
                 return false;
             }
         }
         if (chart->spent_s > before && missing == chart->missing) {
             char text[DESCRIPTION];
             gb_progress_say(&chart->progress, "%3zu of %zu  %6.1f CPU s  %s", i + 1,
-                            plan->choices, chart->spent_s - before,
-                            gb_chart_describe(&plan->choice[i], text, sizeof text));
+                            plan->settings, chart->spent_s - before,
+                            gb_chart_describe(&plan->setting[i], text, sizeof text));
         }
-        if (chart->spent_s > before && !keep_table(chart, err)) {
+        if (chart->spent_s > before && !write_table(chart, err)) {
             return false;
         }
     }
-    return keep_table(chart, err);
+    return write_table(chart, err);
 }
 
-/* The chosen numbers into the preset as it is on disk; everything else stays. */
+/* Writes the recommended setting into the preset as it is on disk; other keys stay. */
 static bool write_preset(const struct chart *chart, const struct gb_chart_row *chosen,
                          struct gb_error *err)
 {
     struct gb_preset *preset = NULL;
     if (!chosen) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "--write %.300s: no choice is known to err less; nothing is "
-                            "written",
-                            chart->write);
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--write %.300s: no setting is known to have a smaller error; "
+            "nothing is written",
+            chart->write);
     }
     if (!gb_preset_load(&preset, gb_preset_path(chart->preset), err)) {
         return false;
     }
-    struct gb_chart_setting choice = chosen->choice;
-    choice.count = gb_preset_params(preset)->count;
-    gb_chart_apply(gb_preset_params(preset), &choice);
+    struct gb_chart_setting setting = chosen->setting;
+    setting.count = gb_preset_params(preset)->count;
+    gb_chart_apply(gb_preset_params(preset), &setting);
     const bool good = gb_params_check(gb_preset_params(preset), err) &&
                       gb_preset_save(preset, chart->write, false, err);
     gb_preset_destroy(preset);
@@ -199,6 +202,12 @@ static bool write_preset(const struct chart *chart, const struct gb_chart_row *c
         printf("written to %s\n", chart->write);
     }
     return good;
+}
+
+static void print_text(GString *text)
+{
+    fputs(text->str, stdout);
+    g_string_free(text, TRUE);
 }
 
 static bool conclude(struct chart *chart, struct gb_error *err)
@@ -210,12 +219,12 @@ static bool conclude(struct chart *chart, struct gb_error *err)
     bool good =
         gb_chart_advice_init(&advice, &table, &chart->plan, chart->standard_error, err);
     if (good) {
-        GString *page = gb_chart_page(&table, &chart->plan, &advice);
-        fputs(page->str, stdout);
-        g_string_free(page, TRUE);
+        print_text(gb_chart_text_table(&table, &chart->plan));
+        print_text(gb_chart_plot(&table, &chart->plan));
+        print_text(gb_chart_text_results(&table, &chart->plan, &advice));
         if (chart->missing > 0) {
             printf(
-                "%d cells are missing: the budget is spent; the same command goes on\n",
+                "%d cells are missing: the budget is spent; the same command continues\n",
                 chart->missing);
         }
         good = !chart->write || write_preset(chart, gb_chart_table_chosen(&table), err);
@@ -227,14 +236,14 @@ static bool conclude(struct chart *chart, struct gb_error *err)
 static int perform(struct chart *chart, char **words, char **sets)
 {
     struct gb_error err = {0};
-    if (prepare(chart, words, sets, &err) && press_all(chart, &err) &&
+    if (prepare(chart, words, sets, &err) && measure_all(chart, &err) &&
         conclude(chart, &err)) {
         return 0;
     }
     if (err.code == GB_ERR_CANCELLED && caught != 0) {
         struct gb_error ignored;
-        keep_table(chart, &ignored);
-        gb_progress_say(&chart->progress, "stopped; the same command goes on");
+        write_table(chart, &ignored);
+        gb_progress_say(&chart->progress, "stopped; the same command continues");
         return 128 + (int)caught;
     }
     return gb_options_fail(&err);
@@ -257,18 +266,17 @@ int gb_cmd_chart(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "PRESET [group.key=value]...",
-        "Measures the error of the numerical choices of a scene against their cost: "
-        "each\n"
-        "choice presses the same cells as a reference does with a small strain step and "
-        "a\n"
-        "tight tolerance, and its densities at given pressures are compared, cell by "
-        "cell.\n"
-        "Marks the choices that nothing beats, names the cheapest whose error is below "
+        "Measures the accuracy of numerical settings of a scene against their cost.  "
+        "Each\n"
+        "setting simulates the same cells as a reference with a small strain step and a\n"
+        "tight tolerance; densities at given pressures are compared cell by cell.  "
+        "Marks\n"
+        "the Pareto-optimal settings, recommends the cheapest one with an error below "
         "the\n"
-        "scatter between cells, and says which rows are limited by noise and how many\n"
-        "cells a wanted standard error takes.",
-        "DIR receives chart.csv (one row per choice), runs.csv (one row per cell) and\n"
-        "preset.ini.  The same command goes on where it was stopped.\n"
+        "scatter between cells, marks rows that are limited by noise, and estimates the\n"
+        "number of cells for a standard error.",
+        "DIR receives chart.csv (one row per setting), runs.csv (one row per cell) and\n"
+        "preset.ini.  Repeated, the command continues an interrupted chart.\n"
         "`greenbody plot DIR --figure chart` draws it, `--figure chart-error` the "
         "errors\n"
         "at one of the pressures."};
@@ -276,29 +284,29 @@ int gb_cmd_chart(int argc, char **argv)
     char **sets = NULL, **words = NULL;
     int status = 0;
     const GOptionEntry entries[] = {
-        GB_OPTIONS_SET(&sets),
+        gb_options_set(&sets),
         {"out", 'o', 0, G_OPTION_ARG_FILENAME, &chart.directory, "directory of the chart",
          "DIR"},
         {"seeds", 0, 0, G_OPTION_ARG_INT, &chart.seeds,
-         "cells per choice, from structure.seed on (4)", "N"},
+         "cells per setting, from structure.seed on (4)", "N"},
         {"budget", 0, 0, G_OPTION_ARG_STRING, &chart.budget_text,
-         "CPU time after which it stops for now", "'10 min'"},
+         "CPU time after which it stops", "'10 min'"},
         {"at", 0, 0, G_OPTION_ARG_STRING, &chart.pressures,
-         "pressures (where the preset unloads, and its end)", "'100 MPa; 1 GPa'"},
+         "pressures (those of unloading and the final one)", "'100 MPa; 1 GPa'"},
         {"vary", 0, 0, G_OPTION_ARG_STRING_ARRAY, &chart.vary,
-         "choices of a key; repeated: all combinations", "group.key=A,B,..."},
+         "values of a key; repeated: all combinations", "group.key=A,B,..."},
         {"reference", 0, 0, G_OPTION_ARG_STRING_ARRAY, &chart.reference,
-         "another number for the reference; may be repeated", "group.key=value"},
+         "another value for the reference; may be repeated", "group.key=value"},
         {"allow", 0, 0, G_OPTION_ARG_DOUBLE, &chart.allowed,
-         "error in density allowed to the chosen one (the scatter)", "0.002"},
+         "limit of the error in density (the scatter)", "0.002"},
         {"standard-error", 0, 0, G_OPTION_ARG_DOUBLE, &chart.standard_error,
-         "of a mean density, for the advice on cells (0.001)", "0.001"},
+         "of a mean density, for the number of cells (0.001)", "0.001"},
         {"write", 0, 0, G_OPTION_ARG_FILENAME, &chart.write,
-         "write the preset with the chosen numbers: a new file, or the preset itself",
+         "write the preset with the recommended setting: a new file, or the preset",
          "FILE"},
         {"force", 'f', 0, G_OPTION_ARG_NONE, &chart.force,
          "let --write replace another file", NULL},
-        {"quiet", 'q', 0, G_OPTION_ARG_NONE, &chart.quiet, "no progress", NULL},
+        {"quiet", 'q', 0, G_OPTION_ARG_NONE, &chart.quiet, "only errors on stderr", NULL},
         {0}};
     chart.command = join_command(argc, argv);
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {

@@ -1,103 +1,137 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/commands.h"
-#include "cli/law/law_rows.h"
-#include "cli/options.h"
+#include <glib.h>
 
-/* What the command line asks for. */
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "study/law_rows.h"
+
+/* The options of the command line. */
 struct request {
     struct gb_law_rows_request rows;
     char *vary;
 };
 
-/* The rows of every value of --vary group.key=A,B,..., one block after the other. */
-static bool varied_rows(struct request *request, const struct gb_params *params,
-                        const char *key, char **values, bool dry, struct gb_error *err)
+enum { VALUES_MAX = 64 };
+
+/* Prints a row; data is the value of the varied key, or NULL. */
+static bool print_row(const double *value, int columns, void *data, struct gb_error *err)
 {
-    for (int i = 0; values[i]; i++) {
+    if (data != NULL) {
+        printf("%s,", (const char *)data);
+    }
+    for (int k = 0; k < columns; k++) {
+        printf("%.17g%c", value[k], k + 1 < columns ? ',' : '\n');
+    }
+    return !ferror(stdout) || gb_options_output_failed(err);
+}
+
+/* The scenes of --vary group.key=A,B,..., one after the other. */
+struct variation {
+    char **pair;   /* key, values */
+    char **values; /* NULL-terminated */
+};
+
+static bool parse_variation(struct variation *variation, const char *text,
+                            struct gb_error *err)
+{
+    variation->pair = g_strsplit(text, "=", 2);
+    const char *values = variation->pair[0] ? variation->pair[1] : NULL;
+    variation->values = g_strsplit(values ? values : "", ",", VALUES_MAX);
+    for (int i = 0; variation->values[i] != NULL; i++) {
+        g_strstrip(variation->values[i]);
+    }
+    return (variation->values[0] && variation->values[0][0]) ||
+           gb_error_set(err, GB_ERR_INPUT, "--vary %.80s: accepted group.key=A,B,...",
+                        text);
+}
+
+static bool set_varied(struct gb_params *scene, const struct variation *variation, int i,
+                       struct gb_error *err)
+{
+    char *assignment = g_strdup_printf("%s=%s", variation->pair[0], variation->values[i]);
+    const bool good = gb_params_assign(scene, assignment, err);
+    g_free(assignment);
+    return good;
+}
+
+/* All scenes are checked before the first row is printed. */
+static bool print_scenes(const struct request *request, const struct gb_params *params,
+                         const struct variation *variation, struct gb_error *err)
+{
+    for (int i = 0; variation->values[i] != NULL; i++) {
         struct gb_params scene = *params;
-        char *assignment = g_strdup_printf("%s=%s", key, g_strstrip(values[i]));
-        request->rows.column = values[i];
-        const bool good = gb_params_assign(&scene, assignment, err) &&
-                          gb_law_rows_print(&request->rows, &scene, dry, err);
-        g_free(assignment);
-        if (!good) {
+        if (!set_varied(&scene, variation, i, err) ||
+            !gb_law_rows_check(&request->rows, &scene, err)) {
+            return false;
+        }
+    }
+    printf("%s,%s\n", variation->pair[0], request->rows.law->header);
+    for (int i = 0; variation->values[i] != NULL; i++) {
+        struct gb_params scene = *params;
+        if (!set_varied(&scene, variation, i, err) ||
+            !gb_law_rows_compute(&request->rows, &scene, print_row, variation->values[i],
+                                 err)) {
             return false;
         }
     }
     return true;
 }
 
-static bool print_varied(struct request *request, const struct gb_params *params,
+static bool print_varied(const struct request *request, const struct gb_params *params,
                          struct gb_error *err)
 {
-    char **pair = g_strsplit(request->vary, "=", 2);
-    char **values = g_strsplit(pair[0] && pair[1] ? pair[1] : "", ",", 64);
-    bool good = values[0] && values[0][0];
-    if (!good) {
-        gb_error_set(err, GB_ERR_INPUT, "--vary %.80s: accepted group.key=A,B,...",
-                     request->vary);
-    }
-    good = good && varied_rows(request, params, pair[0], values, true, err);
-    if (good) {
-        printf("%s,%s\n", pair[0], request->rows.law->header);
-        good = varied_rows(request, params, pair[0], values, false, err);
-    }
-    g_strfreev(values);
-    g_strfreev(pair);
+    struct variation variation;
+    const bool good = parse_variation(&variation, request->vary, err) &&
+                      print_scenes(request, params, &variation, err);
+    g_strfreev(variation.values);
+    g_strfreev(variation.pair);
     return good;
 }
 
-static bool print_law(struct request *request, const struct gb_params *params,
+static bool print_law(const struct request *request, const struct gb_params *params,
                       struct gb_error *err)
 {
     if (request->vary) {
         return print_varied(request, params, err);
     }
-    if (!gb_law_rows_print(&request->rows, params, true, err)) {
+    if (!gb_law_rows_check(&request->rows, params, err)) {
         return false;
     }
     puts(request->rows.law->header);
-    return gb_law_rows_print(&request->rows, params, false, err);
+    return gb_law_rows_compute(&request->rows, params, print_row, NULL, err);
 }
 
 static bool find_law(const char *name, const struct gb_law_table_law **out,
                      struct gb_error *err)
 {
-    GString *names = g_string_new(NULL);
-    *out = NULL;
     size_t count = 0;
     const struct gb_law_table_law *laws = gb_law_table_laws(&count);
+    *out = name != NULL ? gb_law_table_find(name) : NULL;
+    if (*out != NULL) {
+        return true;
+    }
+    GString *names = g_string_new(NULL);
     for (size_t i = 0; i < count; i++) {
-        if (name && strcmp(laws[i].name, name) == 0) {
-            *out = &laws[i];
-        }
         g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", laws[i].name);
     }
-    if (!*out) {
-        gb_error_set(err, GB_ERR_INPUT, "law %.40s: accepted %s",
-                     name ? name : "without name", names->str);
-    }
+    gb_error_set(err, GB_ERR_INPUT, "law %.40s: accepted %s",
+                 name ? name : "without name", names->str);
     g_string_free(names, TRUE);
-    return *out != NULL;
+    return false;
 }
 
 static bool find_lattice(const char *name, struct request *request, struct gb_error *err)
 {
-    if ((strcmp(request->rows.law->name, "lattice") == 0) != (name != NULL)) {
-        return gb_error_set(err, GB_ERR_INPUT, "law %s: %s", request->rows.law->name,
+    const char *law = request->rows.law->name;
+    if ((strcmp(law, "lattice") == 0) != (name != NULL)) {
+        return gb_error_set(err, GB_ERR_INPUT, "law %s: %s", law,
                             name ? "--lattice is for law lattice"
                                  : "needs --lattice sc, fcc, bcc or diamond");
     }
-    size_t count = 0;
-    const struct gb_law_table_lattice *lattices = gb_law_table_lattices(&count);
-    for (size_t i = 0; name && i < count; i++) {
-        if (strcmp(lattices[i].name, name) == 0) {
-            request->rows.lattice = &lattices[i];
-        }
-    }
-    return !name || request->rows.lattice ||
+    request->rows.lattice = name != NULL ? gb_law_table_find_lattice(name) : NULL;
+    return name == NULL || request->rows.lattice != NULL ||
            gb_error_set(err, GB_ERR_INPUT,
                         "--lattice %.40s: accepted sc, fcc, bcc or diamond", name);
 }
@@ -110,7 +144,7 @@ static bool run(struct request *request, const char *lattice, char **words, char
         return false;
     }
     struct gb_preset *preset = NULL;
-    if (!gb_options_preset(&preset, words + 1, sets, false, err)) {
+    if (!gb_options_preset(&preset, words + 1, sets, GB_OPTIONS_PRESET_OPTIONAL, err)) {
         return false;
     }
     const bool good = print_law(request, gb_preset_params(preset), err);
@@ -158,11 +192,9 @@ static const struct gb_options_page page = {
         "or\n"
         "over the diameter of the smaller body (h/2R=0.001, or h=0.001).\n"
         "\n"
-        "--path visits overlaps one after the other in fine steps and keeps the history\n"
-        "of one contact: bridges form and break on the way (normal and bridge), "
-        "storakers\n"
-        "unloads elastically below the deepest overlap and forgets it where the contact\n"
-        "opens:\n"
+        "--path visits overlaps in fine steps with the history of one contact: bridges\n"
+        "form and break (normal and bridge); storakers unloads elastically below the\n"
+        "deepest overlap, which is reset where the contact opens:\n"
         "  greenbody law storakers p3-pair --path 0,200nm,150nm,250nm,0\n"
         "\n"
         "Figure 1 of P1 (contact of 16 nm particles: A-B-C-D, then to C' and open):\n"
@@ -199,7 +231,7 @@ int gb_cmd_law(int argc, char **argv)
          "values of a key, one after the other, in a first column", "group.key=A,B,..."},
         {"lattice", 0, 0, G_OPTION_ARG_STRING, &lattice, "sc, fcc, bcc or diamond",
          "NAME"},
-        GB_OPTIONS_SET(&sets),
+        gb_options_set(&sets),
         {0},
     };
     int status = 0;

@@ -15,15 +15,15 @@
 #include "run/experiment.h"
 #include "scene/loading_kind.h"
 
-/* g(r) is taken in bins of about this width, d: it shows the peak of touching particles
- * and the edges at sqrt(3) and 2 apart. */
+/* Width of the bins of g(r), d: it resolves the peak of touching particles and the edges
+ * at r = sqrt(3) and 2. */
 static const double bin_width = 0.05;
 
-/* Beyond this distance (d) g(r) costs more than the packing itself and is 1. */
-static const double farthest = 12.0;
+/* Beyond this distance (d) g(r) is 1, and would cost more than the packing itself. */
+static const double r_limit = 12.0;
 
-/* Without adhesion touching particles are at r = d but for rounding. */
-static const double touch = 1e-9;
+/* Without adhesion touching particles are at r = d except for rounding. */
+static const double rounding = 1e-9;
 
 struct pack {
     char *directory;
@@ -32,14 +32,14 @@ struct pack {
     struct gb_packing packing;
 };
 
-/* Everything that can be known to be wrong before the packing is grown. */
+/* All checks that are possible before the packing is grown. */
 static bool prepare(struct pack *pack, char **words, char **sets, struct gb_error *err)
 {
     if (pack->directory == NULL) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "pack needs --out DIR, a directory for the packing");
     }
-    if (!gb_options_scene(&pack->preset, words, sets, true, err)) {
+    if (!gb_options_scene(&pack->preset, words, sets, GB_OPTIONS_PRESET_NEEDED, err)) {
         return false;
     }
     pack->packing.params = *gb_preset_params(pack->preset);
@@ -47,7 +47,7 @@ static bool prepare(struct pack *pack, char **words, char **sets, struct gb_erro
            gb_rundir_check(pack->directory, pack->mode, err);
 }
 
-/* The packing exactly as `run` would start from it. */
+/* The initial packing of `run` with the same preset. */
 static bool grow(struct gb_packing *packing, struct gb_error *err)
 {
     struct gb_experiment *experiment = NULL;
@@ -65,8 +65,8 @@ static bool measure(struct gb_packing *packing, struct gb_error *err)
     const struct gb_state *state = packing->state;
     struct gb_cell cell;
     gb_cell_init(&cell, state->dimension, state->cell);
-    packing->reach = packing->r_eq < 1.0 ? 1.0 : 1.0 + touch;
-    packing->r_max = fmin(0.5 * gb_cell_shortest(&cell), farthest);
+    packing->reach = packing->r_eq < 1.0 ? 1.0 : 1.0 + rounding;
+    packing->r_max = fmin(0.5 * gb_cell_shortest(&cell), r_limit);
     packing->bins = (int)ceil(packing->r_max / bin_width);
     packing->g = gb_alloc_array((size_t)packing->bins, sizeof *packing->g, err);
     if (packing->g == NULL ||
@@ -81,8 +81,8 @@ static bool measure(struct gb_packing *packing, struct gb_error *err)
     return true;
 }
 
-/* A packing that cannot be written whole leaves nothing behind. */
-static bool keep(const struct pack *pack, struct gb_error *err)
+/* Where not all files can be written, none is left. */
+static bool write_packing(const struct pack *pack, struct gb_error *err)
 {
     struct gb_rundir dir;
     if (!gb_rundir_make(&dir, pack->directory, pack->mode, err)) {
@@ -96,15 +96,15 @@ static bool keep(const struct pack *pack, struct gb_error *err)
     return true;
 }
 
-static void print_contacts(const struct gb_connectivity *found, int64_t count)
+static void print_contacts(const struct gb_connectivity *contacts, int64_t count)
 {
-    enum { BINS = sizeof found->histogram / sizeof found->histogram[0] };
-    printf("coordination   %.6g\n", found->coordination);
+    enum { BINS = sizeof contacts->histogram / sizeof contacts->histogram[0] };
+    printf("coordination   %.6g\n", contacts->coordination);
     for (int k = 0; k < BINS; k++) {
-        if (found->histogram[k] > 0) {
+        if (contacts->histogram[k] > 0) {
             printf("  %2d%s contacts %8" PRId64 "  %6.2f %%\n", k,
-                   k == BINS - 1 ? "+" : " ", found->histogram[k],
-                   100.0 * (double)found->histogram[k] / (double)count);
+                   k == BINS - 1 ? "+" : " ", contacts->histogram[k],
+                   100.0 * (double)contacts->histogram[k] / (double)count);
         }
     }
 }
@@ -112,7 +112,7 @@ static void print_contacts(const struct gb_connectivity *found, int64_t count)
 static void print_summary(const struct gb_packing *packing, const char *directory)
 {
     const struct gb_state *state = packing->state;
-    const struct gb_connectivity *found = &packing->connectivity;
+    const struct gb_connectivity *contacts = &packing->connectivity;
     const bool planar = state->dimension == 2;
     const char *const axes[] = {"x ", "y ", "z "};
     printf("particles      %" PRId64 ", seed %" PRIu64 "\n", state->count, state->seed);
@@ -123,14 +123,14 @@ static void print_summary(const struct gb_packing *packing, const char *director
                state->cell[2]);
     }
     printf("density        %.6g\n", state->point.density);
-    print_contacts(found, state->count);
+    print_contacts(contacts, state->count);
     printf("clusters       %" PRId64 ", the largest of %" PRId64 " particles\n",
-           found->clusters, found->largest);
+           contacts->clusters, contacts->largest);
     printf("spans along    ");
     bool any = false;
     for (int k = 0; k < 3; k++) {
-        fputs(found->percolates[k] ? axes[k] : "", stdout);
-        any = any || found->percolates[k];
+        fputs(contacts->percolates[k] ? axes[k] : "", stdout);
+        any = any || contacts->percolates[k];
     }
     puts(any ? "" : "no axis");
     printf("mean g(r)      %.5g for r = %.4g to %.4g d\n", packing->g_end,
@@ -152,16 +152,16 @@ int gb_cmd_pack(int argc, char **argv)
     char **words = NULL;
     gboolean force = FALSE;
     int status = 0;
-    const GOptionEntry entries[] = {GB_OPTIONS_SET(&sets),
-                                    {"out", 'o', 0, G_OPTION_ARG_FILENAME,
-                                     &pack.directory, "directory of the packing", "DIR"},
-                                    {"force", 'f', 0, G_OPTION_ARG_NONE, &force,
-                                     "replace what an earlier command left in DIR", NULL},
-                                    {0}};
+    const GOptionEntry entries[] = {
+        gb_options_set(&sets),
+        {"out", 'o', 0, G_OPTION_ARG_FILENAME, &pack.directory,
+         "directory of the packing", "DIR"},
+        {"force", 'f', 0, G_OPTION_ARG_NONE, &force, "replace a packing in DIR", NULL},
+        {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         pack.mode = force ? GB_RUNDIR_REPLACE : GB_RUNDIR_KEEP;
         if (prepare(&pack, words, sets, &err) && grow(&pack.packing, &err) &&
-            measure(&pack.packing, &err) && keep(&pack, &err)) {
+            measure(&pack.packing, &err) && write_packing(&pack, &err)) {
             print_summary(&pack.packing, pack.directory);
         } else {
             status = gb_options_fail(&err);

@@ -14,7 +14,7 @@
 
 enum { DIRECTORIES_MAX = 1000 };
 
-/* What the command line said. */
+/* The options of the command line. */
 struct request {
     char *figure, *reference, *densities, *pressure, *output, *size, *log, *data, *title,
         *inset;
@@ -37,13 +37,10 @@ static const struct gb_figures_row *find_figure(const char *name, struct gb_erro
 {
     const struct gb_figures_row *found = name ? gb_figures_find(name) : NULL;
     if (found == NULL) {
-        GString *names = g_string_new(NULL);
-        for (const struct gb_figures_row *row = gb_figures_all(); row->name; row++) {
-            g_string_append_printf(names, "%s%s", names->len ? ", " : "", row->name);
-        }
+        char *names = gb_figures_names(0);
         gb_error_set(err, GB_ERR_INPUT, "--figure %.80s: accepted %s", name ? name : "",
-                     names->str);
-        g_string_free(names, TRUE);
+                     names);
+        g_free(names);
     }
     return found;
 }
@@ -71,26 +68,12 @@ static bool parse_densities(const char *text, struct gb_figures_input *to,
 static bool check_options(const struct request *request,
                           const struct gb_figures_row *figure, struct gb_error *err)
 {
-    const bool differs = strcmp(figure->name, "difference") == 0;
-    if (differs != (request->reference != NULL)) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            differs ? "the figure difference needs --reference DIR"
-                                    : "--reference is for the figure difference");
-    }
-    if (request->densities != NULL && strcmp(figure->name, "rate") != 0) {
-        return gb_error_set(err, GB_ERR_INPUT, "--density is for the figure rate");
-    }
-    const bool at_pressure = strcmp(figure->name, "size-effect") == 0 ||
-                             strcmp(figure->name, "sweep") == 0 ||
-                             strcmp(figure->name, "chart-error") == 0;
-    if (request->pressure != NULL && !at_pressure) {
-        return gb_error_set(
-            err, GB_ERR_INPUT,
-            "--pressure is for the figures size-effect, sweep and chart-error");
-    }
-    if (request->at != NULL && figure->takes != GB_FIGURES_STATES) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "--at is for figures of packings: rdf, force-angle, sizes");
+    const unsigned given = (request->reference != NULL ? GB_FIGURES_REFERENCE : 0U) |
+                           (request->densities != NULL ? GB_FIGURES_DENSITY : 0U) |
+                           (request->pressure != NULL ? GB_FIGURES_PRESSURE : 0U) |
+                           (request->at != NULL ? GB_FIGURES_AT : 0U);
+    if (!gb_figures_check_options(figure, given, err)) {
+        return false;
     }
     if (request->log != NULL && strspn(request->log, "xy") != strlen(request->log)) {
         return gb_error_set(err, GB_ERR_INPUT, "--log %.80s: accepted x, y or xy",
@@ -106,7 +89,7 @@ static bool check_count(guint count, struct gb_error *err)
                         DIRECTORIES_MAX);
 }
 
-/* All that can be known to be wrong before the runs are read. */
+/* All checks that are possible before the runs are read. */
 static bool check_request(const struct request *request,
                           const struct gb_figures_row *figure, char **words,
                           struct gb_error *err)
@@ -115,10 +98,12 @@ static bool check_request(const struct request *request,
             check_count(g_strv_length(words), err)) &&
            check_options(request, figure, err) &&
            (request->output == NULL ||
-            gb_plotting_check(request->output, request->force, err));
+            gb_plotting_check(request->output,
+                              request->force ? GB_PLOTTING_REPLACE : GB_PLOTTING_KEEP,
+                              err));
 }
 
-static bool same_place(const char *a, const char *b)
+static bool same_path(const char *a, const char *b)
 {
     char *first = g_canonicalize_filename(a, NULL);
     char *second = g_canonicalize_filename(b, NULL);
@@ -128,15 +113,15 @@ static bool same_place(const char *a, const char *b)
     return same;
 }
 
-/* The directories to read; the reference comes last when it is none of them.  Returns
- * its place. */
+/* The directories to read; the reference is added where it is none of them.  Returns its
+ * index. */
 static size_t list_directories(char **words, const char *reference, GPtrArray *list)
 {
     for (size_t i = 0; words[i] != NULL; i++) {
         gb_runset_expand(list, words[i]);
     }
     for (guint i = 0; i < list->len; i++) {
-        if (reference == NULL || same_place(g_ptr_array_index(list, i), reference)) {
+        if (reference == NULL || same_path(g_ptr_array_index(list, i), reference)) {
             return i;
         }
     }
@@ -196,10 +181,9 @@ static bool plot_series(const struct request *request,
                         const struct gb_figures_input *input, struct gb_error *err)
 {
     struct gb_series series = {0};
-    bool good = figure->compute(&series, input, err) &&
+    bool good = gb_figures_run(figure, &series, input, err) &&
                 (request->inset == NULL || set_inset(&series, request->inset, err)) &&
-                (request->data == NULL ||
-                 gb_plotting_data(&series, request->data, figure->name, err));
+                (request->data == NULL || gb_plotting_data(&series, request->data, err));
     if (good) {
         set_log(&series, request->log);
         good = write_series(&series, request, figure, input->set, err);
@@ -213,13 +197,13 @@ static bool plot_runs(const struct request *request, const struct gb_figures_row
 {
     struct gb_runset set = {0};
     GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
-    const size_t place = list_directories(words, request->reference, list);
+    const size_t reference = list_directories(words, request->reference, list);
     bool good = check_count(list->len, err) &&
                 gb_runset_read(&set, (char *const *)list->pdata, list->len, err);
     if (good) {
-        gb_runset_merge(&set, gb_figures_ignored(figure));
+        gb_figures_group(figure, &set);
         input->set = &set;
-        input->reference = set.run[place].group;
+        input->reference = set.run[reference].group;
         good = plot_series(request, figure, input, err);
     }
     gb_runset_finish(&set);
@@ -244,7 +228,8 @@ static bool plot_scene(const struct request *request, const struct gb_figures_ro
         g_ptr_array_add(list, words[i]);
     }
     g_ptr_array_add(list, NULL);
-    bool good = gb_options_scene(&preset, (char **)list->pdata, NULL, false, err);
+    bool good = gb_options_scene(&preset, (char **)list->pdata, NULL,
+                                 GB_OPTIONS_PRESET_OPTIONAL, err);
     if (good) {
         input->scene = gb_preset_params(preset);
         good = plot_series(request, figure, input, err);
@@ -276,8 +261,10 @@ static bool plot(const struct request *request, char **words, struct gb_error *e
 static char *describe_figures(void)
 {
     GString *text = g_string_new("Figures:\n");
-    for (const struct gb_figures_row *row = gb_figures_all(); row->name != NULL; row++) {
-        g_string_append_printf(text, "  %-14s %s\n", row->name, row->doc);
+    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+        char *line = gb_figures_describe(row);
+        g_string_append_printf(text, "  %-15s %s\n", row->name, line);
+        g_free(line);
     }
     g_string_append(
         text, "\nRuns whose presets are equal but for seed, title, threads "
@@ -308,9 +295,9 @@ int gb_cmd_plot(int argc, char **argv)
         {"log", 0, 0, G_OPTION_ARG_STRING, &request.log, "axes that are logarithmic",
          "x|y|xy"},
         {"data", 0, 0, G_OPTION_ARG_FILENAME, &request.data,
-         "points of an experiment, drawn as marks", "FILE.csv"},
+         "measured points, drawn as marks", "FILE.csv"},
         {"inset", 0, 0, G_OPTION_ARG_STRING, &request.inset,
-         "a part of the lower axis drawn larger in a free corner; none", "FROM:TO"},
+         "enlarges a part of the x axis in a free corner; or none", "FROM:TO"},
         {"title", 0, 0, G_OPTION_ARG_STRING, &request.title, "above the figure", "TEXT"},
         {"force", 0, 0, G_OPTION_ARG_NONE, &request.force, "replace an existing file",
          NULL},
@@ -332,7 +319,8 @@ int gb_cmd_plot(int argc, char **argv)
         .description = figures,
     };
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error of a write */
+        signal(SIGXFSZ,
+               SIG_IGN); /* a file beyond its size limit is an error of write() */
         status = plot(&request, words, &err) ? 0 : gb_options_fail(&err);
     }
     g_free(figures);

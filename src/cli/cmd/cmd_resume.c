@@ -48,26 +48,25 @@ int gb_cmd_resume(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "DIR",
-        "Goes on with a run that was stopped or killed, from its last checkpoint, bit "
-        "for "
-        "bit as if it had never stopped.",
-        "Rows of curve.csv after the checkpoint are computed again.  preset.ini may have "
-        "changed only in [output], title and threads."};
+        "Continues an interrupted run from its last checkpoint, to the same bits as "
+        "without\n"
+        "the interruption.",
+        "Rows of curve.csv after the checkpoint are computed again.  preset.ini may "
+        "have\n"
+        "changed in [output], title and threads only."};
     struct gb_foreground run = {0};
     char **words = NULL;
     gboolean quiet = FALSE;
     int status = 0;
-    const GOptionEntry entries[] = {
-        {"quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "tell only what went wrong", NULL},
-        {0}};
+    const GOptionEntry entries[] = {gb_options_quiet(&quiet), {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         struct gb_error err = {0};
-        if (words[0] == NULL || words[1] != NULL) {
-            gb_error_set(&err, GB_ERR_INPUT, "resume: one run directory is needed");
+        const char *directory = gb_options_directory(words, "resume", &err);
+        if (directory == NULL) {
             status = gb_options_fail(&err);
         } else {
             gb_foreground_init(&run, quiet);
-            status = perform(&run, words[0]);
+            status = perform(&run, directory);
         }
     }
     gb_foreground_finish(&run);

@@ -37,7 +37,7 @@ static const struct gb_params *params_of(const struct run *run)
 /* Everything that can be known to be wrong before any work is done. */
 static bool prepare(struct run *run, char **words, char **sets, struct gb_error *err)
 {
-    if (!gb_options_scene(&run->preset, words, sets, true, err)) {
+    if (!gb_options_scene(&run->preset, words, sets, GB_OPTIONS_PRESET_NEEDED, err)) {
         return false;
     }
     if (run->directory == NULL) {
@@ -141,7 +141,7 @@ static int perform(struct run *run, char **words, char **sets)
     return gb_foreground_run(&run->foreground);
 }
 
-/* The words with one more in front of them, which they own then. */
+/* The words after `word`, which they own then. */
 static char **put_first(char **words, char *word)
 {
     const guint count = g_strv_length(words);
@@ -156,13 +156,11 @@ int gb_cmd_run(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "PRESET [group.key=value]...",
-        "One run without a screen.  The results go to a directory; progress goes to "
-        "stderr.",
-        "SIGINT and SIGTERM stop the run in good order: `greenbody resume DIR` goes on "
-        "from "
-        "there as if it had never stopped.  When the terminal goes away, "
-        "output.on_hangup "
-        "says what becomes of the run."};
+        "One run without a screen.  Results go to a directory, progress to stderr.",
+        "SIGINT and SIGTERM stop the run with a checkpoint: `greenbody resume DIR`\n"
+        "continues it to the same bits as without the interruption.  When the terminal "
+        "is\n"
+        "closed, output.on_hangup says whether the run continues."};
     struct run run = {0};
     char **sets = NULL;
     char *from = NULL;
@@ -172,15 +170,15 @@ int gb_cmd_run(int argc, char **argv)
     gboolean yes = FALSE;
     int status = 0;
     const GOptionEntry entries[] = {
-        GB_OPTIONS_SET(&sets),
+        gb_options_set(&sets),
         {"out", 'o', 0, G_OPTION_ARG_FILENAME, &run.directory,
          "directory of the results (default: runs/PRESET-1, -2, ...)", "DIR"},
         {"force", 'f', 0, G_OPTION_ARG_NONE, &force, "replace an old run in DIR", NULL},
         {"from", 0, 0, G_OPTION_ARG_FILENAME, &from,
-         "the run that a picture or figure was made from, once more", "FILE.png"},
+         "repeat the run of a picture or figure", "FILE.png"},
         {"yes", 'y', 0, G_OPTION_ARG_NONE, &yes,
-         "begin a dynamic run also when it is foretold to take more than an hour", NULL},
-        {"quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "tell only what went wrong", NULL},
+         "begin a dynamic run estimated to take more than an hour", NULL},
+        gb_options_quiet(&quiet),
         {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         run.mode = force ? GB_RUNDIR_REPLACE : GB_RUNDIR_KEEP;

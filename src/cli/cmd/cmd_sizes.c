@@ -84,7 +84,7 @@ static void print_law(const struct gb_lognormal *law, const char *unit)
         printf("# chi-squared %.3g for %zu degrees of freedom\n", law->chi_squared,
                law->degrees);
     } else {
-        printf(", sigma = %.4f; shares do not tell the errors\n", law->sigma);
+        printf(", sigma = %.4f; no errors from shares\n", law->sigma);
     }
     printf("# most frequent size %.4g %s\n", exp(law->m - law->sigma * law->sigma), unit);
 }
@@ -115,11 +115,12 @@ int gb_cmd_sizes(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "FILE.csv",
-        "Fits the log-normal law of particle sizes, P1 (17), to a measured histogram and "
-        "prints it as keys\nof a preset.",
-        "The file has a row per class: its middle in diameter_nm (or another unit of "
-        "length) and the\nparticles in it, count, or their share, share_number.  Maximum "
-        "likelihood; the borders of the\nclasses lie halfway between the middles."};
+        "Fits the log-normal law of particle sizes, P1 (17), to a measured histogram "
+        "and\n"
+        "prints it as keys of a preset.",
+        "The file has a row per class: its middle in diameter_nm (or another unit of\n"
+        "length) and the number of its particles, count, or their share, share_number.\n"
+        "Maximum likelihood; the limits of the classes lie halfway between the middles."};
     struct gb_error err = {0};
     char **words = NULL;
     int status = 0;

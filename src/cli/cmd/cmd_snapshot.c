@@ -8,36 +8,39 @@
 
 #if GB_WITH_PICTURES
 
-#include "draw/image/contact_sheet.h"
+#include "draw/packing_panels.h"
+#include "draw/picture_colours.h"
 #include "draw/picture_style_parse.h"
+#include "figures/output_formats.h"
 #include "figures/provenance.h"
-#include "figures/sequence.h"
+#include "figures/sequence/sequence.h"
 #include "figures/states.h"
-#include "figures/video.h"
 
-/* What the command line said. */
+/* The options of the command line. */
 struct request {
-    char *at, *view, *size, *ground, *output, *color, *show, *slice, *cut, *since;
+    char *at, *view, *size, *background, *output, *color, *show, *slice, *cut, *since;
     gboolean force, bare, rose, sequence;
     double fps;
 };
 
 static void free_request(struct request *request)
 {
-    char *const texts[] = {
-        request->at,    request->view, request->size,  request->ground, request->output,
-        request->color, request->show, request->slice, request->cut,    request->since};
+    char *const texts[] = {request->at,         request->view,   request->size,
+                           request->background, request->output, request->color,
+                           request->show,       request->slice,  request->cut,
+                           request->since};
     for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
         g_free(texts[k]);
     }
 }
 
-static bool parse_ground(const char *text, enum gb_ground *ground, struct gb_error *err)
+static bool parse_background(const char *text, enum gb_background *background,
+                             struct gb_error *err)
 {
     static const char *const names[] = {"white", "dark", "transparent"};
     for (int k = 0; k < 3; k++) {
         if (strcmp(text, names[k]) == 0) {
-            *ground = (enum gb_ground)k;
+            *background = (enum gb_background)k;
             return true;
         }
     }
@@ -45,78 +48,86 @@ static bool parse_ground(const char *text, enum gb_ground *ground, struct gb_err
                         "--ground %.80s: white, dark or transparent is accepted", text);
 }
 
-static bool parse_dress(const struct request *request,
-                        struct gb_picture_style_request *dress, struct gb_error *err)
+static bool parse_style(const struct request *request,
+                        struct gb_picture_style_request *style, struct gb_error *err)
 {
     return (request->color == NULL ||
-            gb_picture_style_parse_colour(dress, request->color, err)) &&
+            gb_picture_style_parse_colour(style, request->color, err)) &&
            (request->show == NULL ||
-            gb_picture_style_parse_show(dress, request->show, err)) &&
+            gb_picture_style_parse_show(style, request->show, err)) &&
            (request->slice == NULL ||
-            gb_picture_style_parse_slice(dress, request->slice, err)) &&
-           (request->cut == NULL || gb_picture_style_parse_cut(dress, request->cut, err));
+            gb_picture_style_parse_slice(style, request->slice, err)) &&
+           (request->cut == NULL || gb_picture_style_parse_cut(style, request->cut, err));
 }
 
-static bool parse_request(const struct request *request, struct gb_packing_image *picture,
-                          struct gb_error *err)
+static bool parse_request(const struct request *request,
+                          struct gb_packing_image *packing_image, struct gb_error *err)
 {
-    gb_packing_image_init(picture);
-    picture->words = !request->bare;
+    gb_packing_image_init(packing_image);
+    packing_image->annotated = !request->bare;
     if (request->output == NULL) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "snapshot needs -o FILE.png for the picture");
     }
-    if (!g_str_has_suffix(request->output, ".png") &&
-        !(request->sequence && gb_video_knows(request->output))) {
-        return gb_error_set(
-            err, GB_ERR_INPUT, "-o %.300s: a name ending in .png is accepted%s",
-            request->output, request->sequence ? ", or .mp4, .webm, .mkv, .gif" : "");
+    const enum gb_output_formats_use use =
+        request->sequence ? GB_OUTPUT_FORMATS_SEQUENCE : GB_OUTPUT_FORMATS_PICTURE;
+    if (gb_output_formats_find(request->output, use) == NULL) {
+        char *names = gb_output_formats_names(use);
+        gb_error_set(err, GB_ERR_INPUT, "-o %.300s: a name ending in %s is accepted",
+                     request->output, names);
+        g_free(names);
+        return false;
     }
-    return (request->view == NULL || gb_view_parse(request->view, &picture->look, err)) &&
+    return (request->view == NULL ||
+            gb_view_parse(request->view, &packing_image->viewpoint, err)) &&
            (request->size == NULL ||
-            gb_image_parse_size(request->size, &picture->width, &picture->height, err)) &&
-           (request->ground == NULL ||
-            parse_ground(request->ground, &picture->ground, err)) &&
-           parse_dress(request, &picture->dress, err);
+            gb_image_parse_size(request->size, &packing_image->width,
+                                &packing_image->height, err)) &&
+           (request->background == NULL ||
+            parse_background(request->background, &packing_image->background, err)) &&
+           parse_style(request, &packing_image->style, err);
 }
 
 /* --since: another run directory or state file, or a point of the same run. */
-static bool read_since(struct gb_state **out, const char *since, const char *place,
+static bool read_since(struct gb_state **out, const char *since, const char *path,
                        struct gb_error *err)
 {
-    const bool is_place = g_file_test(since, G_FILE_TEST_EXISTS);
-    return gb_states_read(out, is_place ? since : place, is_place ? NULL : since, err);
+    const bool is_path = g_file_test(since, G_FILE_TEST_EXISTS);
+    return gb_states_read(out, is_path ? since : path, is_path ? NULL : since, err);
 }
 
-enum { PLACES_MAX = 6 }; /* rows of one image */
+enum { PATHS_MAX = 6 }; /* rows of one image */
 
-/* All states and what --since names, which is measured within each run. */
+/* The states of all paths. */
 static bool read_states(struct gb_state **states, const struct request *request,
-                        char **places, struct gb_error *err)
+                        char **paths, struct gb_error *err)
 {
     bool good = true;
-    for (size_t i = 0; places[i] != NULL && good; i++) {
-        good = gb_states_read(&states[i], places[i], request->at, err);
+    for (size_t i = 0; paths[i] != NULL && good; i++) {
+        good = gb_states_read(&states[i], paths[i], request->at, err);
     }
     return good;
 }
 
-static bool write_picture(const struct request *request, struct gb_packing_image *picture,
-                          char **places, struct gb_error *err)
+static bool write_picture(const struct request *request,
+                          struct gb_packing_image *packing_image, char **paths,
+                          struct gb_error *err)
 {
-    struct gb_state *states[PLACES_MAX] = {NULL};
+    struct gb_state *states[PATHS_MAX] = {NULL};
     struct gb_state *since = NULL;
-    char *preset = gb_provenance_preset(places[0]);
+    char *preset = gb_provenance_preset(paths[0]);
     bool done =
-        read_states(states, request, places, err) &&
-        (request->since == NULL || read_since(&since, request->since, places[0], err));
+        read_states(states, request, paths, err) &&
+        (request->since == NULL || read_since(&since, request->since, paths[0], err));
     if (done) {
-        picture->preset = preset;
-        picture->dress.since = since;
-        done = gb_contact_sheet_write(picture, request->rose, states,
-                                      g_strv_length(places), request->output, err);
+        packing_image->preset = preset;
+        packing_image->style.since = since;
+        done = gb_packing_panels_write(
+            packing_image,
+            request->rose ? GB_PACKING_PANELS_WITH_ROSE : GB_PACKING_PANELS_PACKING,
+            states, g_strv_length(paths), request->output, err);
     }
-    for (int i = 0; i < PLACES_MAX; i++) {
+    for (int i = 0; i < PATHS_MAX; i++) {
         gb_state_destroy(states[i]);
     }
     gb_state_destroy(since);
@@ -124,8 +135,9 @@ static bool write_picture(const struct request *request, struct gb_packing_image
     return done;
 }
 
-static bool take_sequence(const struct request *request, struct gb_packing_image *picture,
-                          char **words, struct gb_error *err)
+static bool take_sequence(const struct request *request,
+                          struct gb_packing_image *packing_image, char **words,
+                          struct gb_error *err)
 {
     const struct gb_sequence sequence = {.directory = words[0],
                                          .output = request->output,
@@ -143,8 +155,8 @@ static bool take_sequence(const struct request *request, struct gb_packing_image
     }
     bool done =
         request->since == NULL || read_since(&since, request->since, words[0], err);
-    picture->dress.since = since;
-    done = done && gb_sequence_write(&sequence, picture, err);
+    packing_image->style.since = since;
+    done = done && gb_sequence_write(&sequence, packing_image, err);
     gb_state_destroy(since);
     return done;
 }
@@ -152,30 +164,42 @@ static bool take_sequence(const struct request *request, struct gb_packing_image
 static bool take_picture(const struct request *request, char **words,
                          struct gb_error *err)
 {
-    struct gb_packing_image picture;
+    struct gb_packing_image packing_image;
     const guint count = g_strv_length(words);
-    if (count == 0 || count > PLACES_MAX || (count > 1 && request->since != NULL)) {
+    if (count == 0 || count > PATHS_MAX || (count > 1 && request->since != NULL)) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "snapshot takes one run directory or .h5 file, or up to %d "
                             "without --since",
-                            PLACES_MAX);
+                            PATHS_MAX);
     }
-    if (!parse_request(request, &picture, err)) {
+    if (!parse_request(request, &packing_image, err)) {
         return false;
     }
     if (request->sequence) {
-        return take_sequence(request, &picture, words, err);
+        return take_sequence(request, &packing_image, words, err);
     }
     if (!request->force && g_file_test(request->output, G_FILE_TEST_EXISTS)) {
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: exists; --force replaces it",
                             request->output);
     }
-    return write_picture(request, &picture, words, err);
+    return write_picture(request, &packing_image, words, err);
+}
+
+/* The quantities of --color, for its help; g_free. */
+static char *describe_colours(void)
+{
+    char *particles = gb_picture_colours_names(GB_PICTURE_COLOURS_PARTICLES);
+    char *forces = gb_picture_colours_names(GB_PICTURE_COLOURS_FORCES);
+    char *text = g_strdup_printf("of particles: %s; of forces: %s", particles, forces);
+    g_free(forces);
+    g_free(particles);
+    return text;
 }
 
 int gb_cmd_snapshot(int argc, char **argv)
 {
     struct request request = {.fps = 8.0};
+    char *colours = describe_colours();
     const GOptionEntry entries[] = {
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, "the picture",
          "FILE.png"},
@@ -187,33 +211,32 @@ int gb_cmd_snapshot(int argc, char **argv)
          "VIEW"},
         {"size", 0, 0, G_OPTION_ARG_STRING, &request.size, "pixels (1600x1200)",
          "WIDTHxHEIGHT"},
-        {"ground", 0, 0, G_OPTION_ARG_STRING, &request.ground,
+        {"ground", 0, 0, G_OPTION_ARG_STRING, &request.background,
          "white, dark or transparent", "COLOUR"},
-        {"bare", 0, 0, G_OPTION_ARG_NONE, &request.bare, "the packing without words",
+        {"bare", 0, 0, G_OPTION_ARG_NONE, &request.bare, "the packing without text",
          NULL},
-        {"color", 0, 0, G_OPTION_ARG_STRING, &request.color,
-         "of particles: coordination, pressure, bridges, size, displacement; of forces: "
-         "sign, bridged",
-         "WHAT"},
+        {"color", 0, 0, G_OPTION_ARG_STRING, &request.color, colours, "WHAT"},
         {"show", 0, 0, G_OPTION_ARG_STRING, &request.show,
          "particles, forces (rods as thick as the force between two particles) or both",
          "WHAT"},
         {"slice", 0, 0, G_OPTION_ARG_STRING, &request.slice,
-         "a slab alone, at a share of an edge: y=0.5, or z=0.25:3d for 3 diameters (2)",
+         "a slab at a fraction of an edge: y=0.5, or z=0.25:3d for 3 diameters (2)",
          "PLANE"},
         {"cut", 0, 0, G_OPTION_ARG_STRING, &request.cut,
-         "leave out what lies beyond y=0.5, or the corner of the usual view", "PLANE"},
+         "hide particles beyond y=0.5, or the corner nearest to the viewer", "PLANE"},
         {"rose", 0, 0, G_OPTION_ARG_NONE, &request.rose,
-         "beside it the mean normal force over all directions, as a body", NULL},
+         "beside it the mean normal force by direction, as a surface", NULL},
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
-         "a kept state, as \"p=100 MPa\" or \"density=0.5\" (the last)", "POINT"},
+         "a kept state, as \"p=100 MPa\" or \"density=0.5\" (default: the last)",
+         "POINT"},
         {"sequence", 0, 0, G_OPTION_ARG_NONE, &request.sequence,
-         "all kept states: x.png moves, x.mp4 (.webm, .mkv, .gif) is a film by ffmpeg, "
-         "x-%03d.png one picture each",
+         "all kept states: x.png is animated, x.mp4 (.webm, .mkv, .gif) a video by "
+         "ffmpeg, "
+         "x-%03d.png one image per state",
          NULL},
         {"fps", 0, 0, G_OPTION_ARG_DOUBLE, &request.fps, "frames a second (8)", "N"},
         {"since", 0, 0, G_OPTION_ARG_STRING, &request.since,
-         "displacement: from which state, a point of the run or another directory",
+         "displacement from this state: a point of the run, or another directory",
          "POINT|DIR"},
         {0},
     };
@@ -222,20 +245,22 @@ int gb_cmd_snapshot(int argc, char **argv)
         .summary =
             "Picture of a packing: particles in their box, coloured by coordination\n"
             "number or another measure, or the forces between them.  DIR is a run\n"
-            "directory or a state.h5; several stand one below the other.\n"
-            "The file carries the preset: greenbody run --from FILE.png makes the same\n"
-            "run again.",
+            "directory or a state.h5; several are drawn one below the other.\n"
+            "The file contains the preset: greenbody run --from FILE.png repeats the "
+            "run.",
     };
     char **words = NULL;
     int status = 0;
     struct gb_error err = {0};
-    if (!gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+    const bool parsed = gb_options_parse(&page, entries, argc, argv, &words, &status);
+    g_free(colours);
+    if (!parsed) {
         free_request(&request);
         return status;
     }
-    /* a file that may not grow is an error of a write */
+    /* a file beyond its size limit is an error of write() */
     signal(SIGXFSZ, SIG_IGN);
-    signal(SIGPIPE, SIG_IGN); /* so is an ffmpeg that went away */
+    signal(SIGPIPE, SIG_IGN); /* and so is the pipe of an ffmpeg that has ended */
     const bool done = take_picture(&request, words, &err);
     g_strfreev(words);
     free_request(&request);
@@ -250,7 +275,7 @@ int gb_cmd_snapshot(int argc, char **argv)
     (void)argc;
     (void)argv;
     gb_error_set(&err, GB_ERR_INPUT,
-                 "snapshot: this build has no pictures (-Dpictures=enabled makes one)");
+                 "snapshot: built without pictures (-Dpictures=enabled)");
     return gb_options_fail(&err);
 }
 

@@ -56,7 +56,7 @@ static bool measure(GString *csv, struct gb_error *err)
     return true;
 }
 
-static bool keep(const GString *csv, const char *directory, struct gb_error *err)
+static bool write_csv(const GString *csv, const char *directory, struct gb_error *err)
 {
     char *path = g_build_filename(directory, "stability.csv", NULL);
     const bool good =
@@ -71,18 +71,19 @@ int gb_cmd_stability(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         NULL,
-        "Finds where each method fails, beside where theory says: the longest step of\n"
-        "velocity Verlet, fire and predict in sqrt(m/(E d)), the largest displacement "
-        "per\n"
-        "force k of P1 (15) (steepest) in 1/(E d), at which a small disturbance of a\n"
-        "packing at rest does not grow.",
+        "Measures the longest stable step of each method and compares it with theory: "
+        "the\n"
+        "time step of velocity Verlet, fire and predict in sqrt(m/(E d)), and the "
+        "largest\n"
+        "displacement per force k of P1 (15) (steepest) in 1/(E d), at which a small\n"
+        "disturbance of a packing at rest does not grow.",
         "theory: 2/omega of the fastest mode, with damping times sqrt(1+xi^2)-xi;\n"
-        "2/omega^2 for steepest, sqrt(2)/omega for fire and predict, which held at one "
-        "step\n"
-        "and stopped at every move are (15) with k = step^2.  damping: xi.  closed form: "
-        "the same without numerics.\n"
-        "used: where the guard of dynamic scenes cuts a step, or the longest step that\n"
-        "the relaxer takes.  Alumina of 9.7 nm, every pair at its equilibrium distance."};
+        "2/omega^2 for steepest, sqrt(2)/omega for fire and predict, which with a fixed\n"
+        "step and a stop at every move are (15) with k = step^2.  damping: xi.  closed\n"
+        "form: the same without numerics.\n"
+        "used: the step at which the guard of dynamic scenes intervenes, or the longest\n"
+        "step of the relaxer.  Alumina of 9.7 nm, every pair at its equilibrium "
+        "distance."};
     char *directory = NULL;
     char **words = NULL;
     int status = 0;
@@ -99,7 +100,8 @@ int gb_cmd_stability(int argc, char **argv)
         bool good = words[0] == NULL ||
                     gb_error_set(&err, GB_ERR_INPUT,
                                  "stability takes no words, got %.80s", words[0]);
-        good = good && measure(csv, &err) && (!directory || keep(csv, directory, &err));
+        good =
+            good && measure(csv, &err) && (!directory || write_csv(csv, directory, &err));
         status = good ? 0 : gb_options_fail(&err);
         g_string_free(csv, TRUE);
     }

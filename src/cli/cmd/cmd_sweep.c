@@ -1,28 +1,17 @@
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
-#include <string.h>
-#include <time.h>
 
 #include <glib.h>
 
-#include "base/alloc.h"
-#include "base/file.h"
-#include "base/units.h"
 #include "cli/batch_progress.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "many/axes.h"
-#include "many/ensemble.h"
-#include "many/reading.h"
-#include "many/sweep_table.h"
-#include "measure/fit/average.h"
+#include "many/param_sweep.h"
 #include "run/cost.h"
 
-/* Fewer replicas than this say too little about their own scatter to stop at. */
-enum { REPLICAS_LEAST = 4, REPLICAS_MOST = 100000 };
+enum { REPLICAS_MAX = 100000 };
 
-/* What the command line said. */
+/* The options of the command line. */
 struct request {
     char **sets, **vary;
     char *out, *at, *target;
@@ -30,137 +19,47 @@ struct request {
     gboolean quiet, yes;
 };
 
-struct sweep {
+struct command {
+    const struct request *request;
     struct gb_preset *preset;
-    struct gb_axes axes;
-    struct gb_ensemble ensemble;
-    struct gb_batch_progress crowd;
-    struct gb_sweep_table_pressures at;
-    /* --until-se */
-    double target, target_pa;
-    double *density; /* of every run at target_pa */
-    bool *known;
-    char foretold[160]; /* "": nobody knows, or nothing is to be done */
+    struct gb_param_sweep sweep;
+    struct gb_batch_progress batch;
+    char estimate[160]; /* a line for stderr; empty where there is no estimate */
 };
 
-static bool refuse_target(const char *text, struct gb_error *err)
+static bool check_request(const struct request *request, struct gb_error *err)
 {
-    return gb_error_set(
-        err, GB_ERR_INPUT,
-        "--until-se %.80s: accepted a standard error of the density and a "
-        "pressure, as in 0.002@100MPa",
-        text);
-}
-
-static bool parse_target(struct sweep *sweep, const char *text, struct gb_error *err)
-{
-    char **parts = g_strsplit(text, "@", 3);
-    const bool good =
-        g_strv_length(parts) == 2 &&
-        gb_units_parse(parts[0], GB_DIM_NONE, &sweep->target, NULL) &&
-        gb_units_parse(parts[1], GB_DIM_PRESSURE, &sweep->target_pa, NULL) &&
-        sweep->target > 0.0 && sweep->target_pa > 0.0;
-    g_strfreev(parts);
-    return good || refuse_target(text, err);
-}
-
-/* The density of a run that has ended, read once. */
-static double density_of(const struct sweep *sweep, const struct gb_ensemble_run *run)
-{
-    const size_t i = (size_t)(run - sweep->ensemble.run);
-    double values[GB_READING_QUANTITIES] = {NAN};
-    struct gb_table *curve = NULL;
-    if (sweep->known[i]) {
-        return sweep->density[i];
+    if (request->out == NULL || request->out[0] == '\0') {
+        return gb_error_set(err, GB_ERR_INPUT, "sweep needs --out DIR");
     }
-    if (run->error.code == GB_OK && gb_reading_open(&curve, run->directory, NULL)) {
-        gb_reading_loaded(curve, sweep->target_pa, values);
-    }
-    gb_table_destroy(curve);
-    sweep->known[i] = true;
-    sweep->density[i] = values[GB_READING_DENSITY];
-    return sweep->density[i];
+    return (request->replicas >= 1 && request->replicas <= REPLICAS_MAX) ||
+           gb_error_set(err, GB_ERR_INPUT, "--replicas %d: accepted 1 to %d",
+                        request->replicas, REPLICAS_MAX);
 }
 
-/* Some first replicas, all ended, know the density well enough. */
-static bool is_enough(const struct gb_ensemble *ensemble, size_t point, void *data)
+static bool add_axes(struct command *command, struct gb_error *err)
 {
-    const struct sweep *sweep = data;
-    double *values = g_new(double, ensemble->replicas);
-    bool enough = false;
-    for (size_t r = 0; r < ensemble->replicas && !enough; r++) {
-        const struct gb_ensemble_run *run = gb_ensemble_at(ensemble, point, r);
-        double mean = NAN;
-        double error = NAN;
-        if (!run->ended) {
-            break;
-        }
-        values[r] = density_of(sweep, run);
-        const size_t runs = gb_average_values(values, r + 1, &mean, &error);
-        enough = runs >= REPLICAS_LEAST && error <= sweep->target;
-    }
-    g_free(values);
-    return enough;
-}
-
-static bool watch_target(struct sweep *sweep, struct gb_error *err)
-{
-    const size_t runs = sweep->ensemble.points * sweep->ensemble.replicas;
-    sweep->density = gb_alloc_array(runs, sizeof *sweep->density, err);
-    sweep->known =
-        sweep->density ? gb_alloc_array(runs, sizeof *sweep->known, err) : NULL;
-    sweep->ensemble.enough = is_enough;
-    sweep->ensemble.data = sweep;
-    return sweep->known != NULL;
-}
-
-/* Parameters and directory of every run. */
-static bool fill(struct sweep *sweep, const char *out, struct gb_error *err)
-{
-    for (size_t i = 0; i < sweep->ensemble.points * sweep->ensemble.replicas; i++) {
-        struct gb_ensemble_run *run = &sweep->ensemble.run[i];
-        run->params = *gb_preset_params(sweep->preset);
-        if (!gb_axes_apply(&sweep->axes, run->point, &run->params, err)) {
+    char **vary = command->request->vary;
+    for (size_t i = 0; vary != NULL && vary[i] != NULL; i++) {
+        if (!gb_axes_add(&command->sweep.axes, vary[i], err)) {
             return false;
         }
-        run->params.seed += run->replica;
-        /* the runs keep the cores busy, not the threads of each */
-        run->params.threads = run->params.threads > 0 ? run->params.threads : 1;
-        char *name = gb_axes_name(&sweep->axes, run->point);
-        run->directory =
-            g_strdup_printf("%s/%s_seed-%" G_GUINT64_FORMAT, out, name, run->params.seed);
-        g_free(name);
     }
     return true;
 }
 
-/* Seconds of one core for what is still to be done; NaN: nobody knows. */
-static double missing_s(const struct sweep *sweep, size_t *runs)
+/* Refuses a sweep that takes unexpectedly long: a digit too many in --replicas costs
+ * nothing to type.  Under mpirun the number of ranks was chosen deliberately. */
+static bool estimate(struct command *command, struct gb_error *err)
 {
-    double seconds = 0.0;
-    *runs = 0;
-    for (size_t i = 0; i < sweep->ensemble.points * sweep->ensemble.replicas; i++) {
-        const struct gb_ensemble_run *run = &sweep->ensemble.run[i];
-        if (!run->ended) {
-            seconds += gb_cost_assumed_s(&run->params);
-            (*runs)++;
-        }
-    }
-    return seconds;
-}
-
-/* A digit too much in --replicas costs nothing to type.  Under mpirun nobody is asked:
- * how many ranks there are, and that they are paid for, was somebody's decision. */
-static bool foretell(struct sweep *sweep, const struct request *request,
-                     struct gb_error *err)
-{
+    const struct request *request = command->request;
     size_t runs = 0;
     char total[48], each[48];
-    const double all_s = missing_s(sweep, &runs);
+    const double all_s = gb_ensemble_remaining_s(&command->sweep.ensemble, &runs);
     const size_t workers =
         request->jobs > 0 ? (size_t)request->jobs : (size_t)g_get_num_processors();
     const double wait_s = all_s / (double)MAX(MIN(workers, runs), 1);
-    if (runs == 0 || isnan(all_s) || sweep->crowd.ranks != NULL) {
+    if (runs == 0 || isnan(all_s) || command->batch.mpi != NULL) {
         return true;
     }
     gb_cost_duration(wait_s, total, sizeof total);
@@ -171,107 +70,79 @@ static bool foretell(struct sweep *sweep, const struct request *request,
                             "once; accepted with --yes",
                             total, runs, each, workers);
     }
-    snprintf(sweep->foretold, sizeof sweep->foretold,
-             "foretold: about %s, %zu runs of about %s", total, runs, each);
+    g_snprintf(command->estimate, sizeof command->estimate,
+               "estimated: about %s, %zu runs of about %s", total, runs, each);
     return true;
 }
 
-/* All that can be known to be wrong before anything is done. */
-static bool prepare(struct sweep *sweep, const struct request *request, char **words,
-                    struct gb_error *err)
+/* All checks that are possible before anything is written. */
+static bool prepare(struct command *command, char **words, struct gb_error *err)
 {
-    if (request->out == NULL || request->out[0] == '\0') {
-        return gb_error_set(err, GB_ERR_INPUT, "sweep needs --out DIR");
-    }
-    if (request->replicas < 1 || request->replicas > REPLICAS_MOST) {
-        return gb_error_set(err, GB_ERR_INPUT, "--replicas %d: accepted 1 to %d",
-                            request->replicas, REPLICAS_MOST);
-    }
-    if (!gb_options_scene(&sweep->preset, words, request->sets, true, err)) {
+    const struct request *request = command->request;
+    struct gb_param_sweep *sweep = &command->sweep;
+    if (!check_request(request, err) ||
+        !gb_options_scene(&command->preset, words, request->sets,
+                          GB_OPTIONS_PRESET_NEEDED, err) ||
+        !add_axes(command, err)) {
         return false;
     }
-    for (size_t i = 0; request->vary && request->vary[i]; i++) {
-        if (!gb_axes_add(&sweep->axes, request->vary[i], err)) {
-            return false;
-        }
-    }
-    gb_sweep_table_default(&sweep->at, gb_preset_params(sweep->preset));
+    const struct gb_params *params = gb_preset_params(command->preset);
+    gb_sweep_table_default(&sweep->at, params);
     return (!request->at || gb_sweep_table_parse(&sweep->at, request->at, err)) &&
-           (!request->target || parse_target(sweep, request->target, err)) &&
-           gb_ensemble_init(&sweep->ensemble, gb_axes_points(&sweep->axes),
-                            (size_t)request->replicas, err) &&
-           fill(sweep, request->out, err) &&
-           (!request->target || watch_target(sweep, err)) &&
-           gb_ensemble_find_done(&sweep->ensemble, err) &&
-           foretell(sweep, request, err) &&
-           gb_batch_progress_directory(request->out, err);
+           (!request->target ||
+            gb_sweep_target_parse(&sweep->target, request->target, err)) &&
+           gb_param_sweep_fill(sweep, params, (size_t)request->replicas, request->out,
+                               err) &&
+           estimate(command, err) && gb_ensemble_make_directory(request->out, err);
 }
 
-static bool write_table(const char *out, const char *name, GString *text,
-                        struct gb_error *err)
+static void print_missed(const struct command *command)
 {
-    char *path = g_build_filename(out, name, NULL);
-    const bool good = gb_file_replace(path, text->str, text->len, err);
-    g_free(path);
-    g_string_free(text, TRUE);
+    const struct gb_param_sweep *sweep = &command->sweep;
+    const size_t missed = gb_sweep_target_missed(&sweep->target, &sweep->ensemble);
+    if (missed > 0 && !command->request->quiet) {
+        fprintf(stderr,
+                "%zu of %zu points: the standard error is still above %g; more "
+                "--replicas reduce it\n",
+                missed, sweep->ensemble.points, sweep->target.standard_error);
+    }
+}
+
+static bool check_runs(const struct command *command, struct gb_error *err)
+{
+    char *list = g_build_filename(command->request->out, "runs.csv", NULL);
+    const bool good = gb_ensemble_check(&command->sweep.ensemble, list, err);
+    g_free(list);
     return good;
 }
 
-/* Whatever became of the runs, the tables say what is there. */
-static bool write_tables(struct sweep *sweep, const char *out, struct gb_error *err)
+/* The tables are written after an interrupted sweep, too. */
+static bool perform(struct command *command, char **words, struct gb_error *err)
 {
-    return write_table(out, "sweep.csv",
-                       gb_sweep_table_means(&sweep->ensemble, &sweep->axes, &sweep->at),
-                       err) &&
-           write_table(out, "runs.csv", gb_sweep_table_runs(&sweep->ensemble), err);
-}
-
-/* Points whose replicas ran out before the target was met. */
-static void tell_missed(const struct sweep *sweep, bool quiet)
-{
-    size_t missed = 0;
-    for (size_t p = 0; p < sweep->ensemble.points && sweep->known; p++) {
-        missed += !is_enough(&sweep->ensemble, p, (void *)sweep);
-    }
-    if (missed > 0 && !quiet) {
-        fprintf(stderr,
-                "%zu of %zu points: the standard error is still above %g; more "
-                "--replicas would bring it down\n",
-                missed, sweep->ensemble.points, sweep->target);
-    }
-}
-
-static bool perform(struct sweep *sweep, const struct request *request, char **words,
-                    struct gb_error *err)
-{
-    struct gb_batch_progress *crowd = &sweep->crowd;
-    crowd->quiet = request->quiet;
-    if (!prepare(sweep, request, words, err)) {
+    const struct request *request = command->request;
+    struct gb_error stopped = {0};
+    command->batch.output =
+        request->quiet ? GB_BATCH_PROGRESS_QUIET : GB_BATCH_PROGRESS_ALL;
+    if (!prepare(command, words, err)) {
         return false;
     }
-    if (!request->quiet && sweep->foretold[0] != '\0') {
-        fprintf(stderr, "%s\n", sweep->foretold);
+    if (!request->quiet && command->estimate[0] != '\0') {
+        fprintf(stderr, "%s\n", command->estimate);
     }
-    struct gb_error stopped = {0};
-    const bool worked =
-        gb_batch_progress_work(crowd, &sweep->ensemble, request->jobs, &stopped);
-    if (!write_tables(sweep, request->out, err)) {
+    const bool worked = gb_batch_progress_work(&command->batch, &command->sweep.ensemble,
+                                               request->jobs, &stopped);
+    if (!gb_param_sweep_write(&command->sweep, request->out, err)) {
         return false;
     }
     if (!worked) {
         return gb_error_set(err, stopped.code, "%s", stopped.text);
     }
-    tell_missed(sweep, request->quiet);
-    return gb_batch_progress_verdict(&sweep->ensemble, request->out, err);
+    print_missed(command);
+    return check_runs(command, err);
 }
 
-static void finish(struct sweep *sweep, struct request *request)
+static void free_request(struct request *request)
 {
-    gb_alloc_free(sweep->density);
-    gb_alloc_free(sweep->known);
-    gb_ensemble_finish(&sweep->ensemble);
-    gb_axes_finish(&sweep->axes);
-    gb_preset_destroy(sweep->preset);
     g_strfreev(request->sets);
     g_strfreev(request->vary);
     g_free(request->out);
@@ -281,14 +152,12 @@ static void finish(struct sweep *sweep, struct request *request)
 
 static const struct gb_options_page page = {
     "PRESET [group.key=value]...",
-    "Many runs at once: a grid of varied keys, each point with replicas that differ by "
-    "their"
-    "\nseed.  Every run gets a directory in DIR; DIR/sweep.csv holds means with standard "
-    "errors,\nDIR/runs.csv what became of every run.",
-    "The same command again does only what is missing, failed runs included, and a "
-    "larger "
-    "grid or\nmore replicas add to what is there.  A run that fails costs only itself.  "
-    "Each run uses one\nthread unless numerics.threads is given.\n\n"
+    "Many runs at once: a grid of varied keys, each point with replicas that differ by\n"
+    "their seed.  Every run gets a directory in DIR; DIR/sweep.csv holds means with\n"
+    "standard errors, DIR/runs.csv the state of every run.",
+    "Repeated, the command does the missing and the failed runs; a larger grid or more\n"
+    "replicas add to the runs that exist.  A run that fails does not stop the others.\n"
+    "Each run uses one thread unless numerics.threads is given.\n\n"
     "Size effect (P1 Figs. 5 and 6), with bridges and by friction alone:\n"
     "  greenbody sweep p1-set2-9.7nm --vary 'particles.diameter=9.7;16;21;38 nm' "
     "--replicas 10 \\\n    --at '100 MPa' --out sizes\n"
@@ -307,12 +176,12 @@ static const struct gb_options_page page = {
 int gb_cmd_sweep(int argc, char **argv)
 {
     struct request request = {.replicas = 1};
-    struct sweep sweep = {0};
+    struct command command = {.request = &request};
     struct gb_error err = {0};
     char **words = NULL;
     int status = 0;
     const GOptionEntry entries[] = {
-        GB_OPTIONS_SET(&request.sets),
+        gb_options_set(&request.sets),
         {"vary", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.vary,
          "key=FROM:TO:COUNT[:log] or key=VALUE;VALUE...; may be repeated", "KEY=VALUES"},
         {"replicas", 0, 0, G_OPTION_ARG_INT, &request.replicas,
@@ -329,17 +198,18 @@ int gb_cmd_sweep(int argc, char **argv)
         {"jobs", 'j', 0, G_OPTION_ARG_INT, &request.jobs,
          "runs at once (one per processor)", "N"},
         {"yes", 'y', 0, G_OPTION_ARG_NONE, &request.yes,
-         "begin also when it is foretold to take more than an hour", NULL},
-        {"quiet", 'q', 0, G_OPTION_ARG_NONE, &request.quiet, "tell only what went wrong",
-         NULL},
+         "begin a sweep estimated to take more than an hour", NULL},
+        gb_options_quiet(&request.quiet),
         {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status) &&
-        !gb_batch_progress_serve(&sweep.crowd, request.jobs, &status)) {
-        status =
-            perform(&sweep, &request, words, &err) ? 0 : gb_batch_progress_exit(&err);
-        gb_mpi_pool_destroy(sweep.crowd.ranks);
+        gb_batch_progress_join(&command.batch, request.jobs, &status) ==
+            GB_BATCH_PROGRESS_FIRST) {
+        status = perform(&command, words, &err) ? 0 : gb_batch_progress_exit(&err);
+        gb_mpi_pool_destroy(command.batch.mpi);
     }
+    gb_param_sweep_finish(&command.sweep);
+    gb_preset_destroy(command.preset);
     g_strfreev(words);
-    finish(&sweep, &request);
+    free_request(&request);
     return status;
 }

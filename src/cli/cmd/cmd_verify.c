@@ -10,7 +10,7 @@
 
 enum { DIFFERENT = 1 };
 
-static int tell(const struct gb_verify *verify)
+static int print_result(const struct gb_verify *verify)
 {
     printf("repeated from step %" PRId64 " to step %" PRId64 "\n"
            "kept      %016" PRIx64 "\n"
@@ -32,28 +32,29 @@ static int perform(const char *directory)
         (void)gb_options_fail(&err);
         return gb_signals_exit_status(&err);
     }
-    return tell(&verify);
+    return print_result(&verify);
 }
 
 int gb_cmd_verify(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "DIR",
-        "Repeats the last stretch of a run, from the checkpoint before the last one (or "
-        "from the beginning), and compares the two states bit by bit.",
-        "Exit status 0: equal; 1: different, the first array and row that differ are "
-        "named.  The directory is left as it is."};
+        "Repeats the last part of a run, from the checkpoint before the last one (or "
+        "from\n"
+        "the beginning), and compares the two states bit by bit.",
+        "Exit status 0: equal; 1: different, with the first array and row that differ.\n"
+        "The directory is not changed."};
     char **words = NULL;
     int status = 0;
     const GOptionEntry entries[] = {{0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         struct gb_error err = {0};
-        if (words[0] == NULL || words[1] != NULL) {
-            gb_error_set(&err, GB_ERR_INPUT, "verify: one run directory is needed");
+        const char *directory = gb_options_directory(words, "verify", &err);
+        if (directory == NULL) {
             status = gb_options_fail(&err);
         } else {
             gb_signals_install();
-            status = perform(words[0]);
+            status = perform(directory);
         }
     }
     g_strfreev(words);

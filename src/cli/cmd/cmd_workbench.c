@@ -5,7 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "cli/screening.h"
+#include "cli/screen_options.h"
 #include "tui/app/app.h"
 #include "tui/app/keys.h"
 #include "tui/session/run_lifecycle.h"
@@ -21,7 +21,7 @@ static bool names_preset(char **words)
     return false;
 }
 
-/* Without a preset the workbench opens the one that answers in seconds. */
+/* The words after the preset `default`. */
 static char **with_default(char **words)
 {
     GPtrArray *all = g_ptr_array_new();
@@ -34,67 +34,68 @@ static char **with_default(char **words)
     return (char **)g_ptr_array_free(all, FALSE);
 }
 
-/* The table that the workbench itself is driven by. */
+/* From the table that the workbench itself uses. */
 void gb_cmd_workbench_keys(void)
 {
-    size_t count = 0;
-    const struct gb_key *key = gb_keys_table(&count);
+    const size_t count = gb_keys_count();
     for (size_t i = 0; i < count; i++) {
-        printf("%-10s%s\n", key[i].name, key[i].help);
+        const struct gb_key key = gb_keys_at(i);
+        printf("%-10s%s\n", key.name, key.help);
     }
 }
 
-int gb_cmd_workbench(int argc, char **argv)
+/* Prints what --diagnose asks for, or opens the workbench; returns the exit status. */
+static int open_workbench(const struct gb_screen_options *screen, char **words,
+                          char **sets, const char *folder)
 {
-    char **sets = NULL;
-    char **words = NULL;
-    int status = 0;
-    char *folder = NULL;
-    struct gb_screening screening = {0};
-    struct gb_settings settings;
-    const GOptionEntry entries[] = {
-        GB_OPTIONS_SET(&sets),
-        GB_SCREENING_OPTIONS(&screening),
-        {"runs", 0, 0, G_OPTION_ARG_FILENAME, &folder,
-         "folder that keeps the runs (default: greenbody/runs in $XDG_STATE_HOME)",
-         "DIR"},
-        {0}};
-    const struct gb_options_page page = {
-        .usage = "[PRESET] [group.key=value]...",
-        .summary = "The workbench: a pressing seen live, its parameters at hand.",
-        .description =
-            "Without a preset it opens the one named default.  ? lists the keys, and so "
-            "does greenbody --keys.  With --batch, or where stdout is no terminal, it "
-            "does what greenbody run does.  color, graph, images, mouse, ascii and slow "
-            "(on or off) can stand in [screen] of greenbody/screen.ini in "
-            "$XDG_CONFIG_HOME.",
-    };
-    if (!gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        g_strfreev(sets);
-        g_free(folder);
-        gb_screening_finish(&screening);
-        return status;
-    }
-    if (!names_preset(words)) {
-        words = with_default(words);
-    }
     struct gb_error err = {0};
+    struct gb_settings settings;
     struct gb_preset *preset = NULL;
-    folder = folder != NULL ? folder : gb_run_lifecycle_folder();
-    if (!gb_screening_settings(&screening, &settings, &err)) {
-        status = gb_options_fail(&err);
-        err.code = GB_OK;
-    } else if (screening.diagnose) {
+    int status = 0;
+    if (!gb_screen_options_settings(screen, &settings, &err)) {
+        return gb_options_fail(&err);
+    }
+    if (screen->diagnose) {
         gb_term_profile_print(stdout, STDOUT_FILENO, &settings);
         gb_run_lifecycle_print_runs(stdout, folder);
-    } else if (gb_options_scene(&preset, words, sets, false, &err)) {
+        return 0;
+    }
+    if (gb_options_scene(&preset, words, sets, GB_OPTIONS_PRESET_OPTIONAL, &err)) {
         status = gb_app_run(preset, folder, NULL, &settings, &err);
     }
-    if (err.code != GB_OK) {
-        status = gb_options_fail(&err);
-    }
     gb_preset_destroy(preset);
-    gb_screening_finish(&screening);
+    return err.code != GB_OK ? gb_options_fail(&err) : status;
+}
+
+static const struct gb_options_page page = {
+    .usage = "[PRESET] [group.key=value]...",
+    .summary = "The workbench: a live simulation with its parameters.",
+    .description =
+        "Without a preset it opens the preset default.  ? lists the keys, and so does\n"
+        "greenbody --keys.  With --batch, or where stdout is no terminal, it works as\n"
+        "greenbody run.  color, graph, images, mouse, ascii and slow (on or off) can be\n"
+        "set in the group [screen] of $XDG_CONFIG_HOME/greenbody/screen.ini.",
+};
+
+int gb_cmd_workbench(int argc, char **argv)
+{
+    enum { OWN = 2 };
+    char **sets = NULL;
+    char **words = NULL;
+    char *folder = NULL;
+    int status = 0;
+    struct gb_screen_options screen = {0};
+    GOptionEntry entries[GB_SCREEN_OPTIONS_ENTRIES + OWN + 1] = {
+        gb_options_set(&sets),
+        {"runs", 0, 0, G_OPTION_ARG_FILENAME, &folder,
+         "folder of the runs (default: greenbody/runs in $XDG_STATE_HOME)", "DIR"}};
+    gb_screen_options_entries(&screen, entries + OWN);
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        words = names_preset(words) ? words : with_default(words);
+        folder = folder != NULL ? folder : gb_run_lifecycle_folder();
+        status = open_workbench(&screen, words, sets, folder);
+    }
+    gb_screen_options_finish(&screen);
     g_free(folder);
     g_strfreev(words);
     g_strfreev(sets);

@@ -1,4 +1,4 @@
-#include "cli/law/points.h"
+#include "study/law_points.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "base/units.h"
 
 /* A whole text that is one number, or one length. */
-static bool read_number(const char *text, struct gb_points_number *number)
+static bool read_number(const char *text, struct gb_law_points_number *number)
 {
     number->length = !gb_units_parse(text, GB_DIM_NONE, &number->value, NULL);
     return !number->length || gb_units_parse(text, GB_DIM_LENGTH, &number->value, NULL);
@@ -35,14 +35,14 @@ static bool refuse(const char *option, const char *text, const char *accepted,
                         accepted);
 }
 
-bool gb_points_at(struct gb_points_at *at, const char *text, struct gb_error *err)
+bool gb_law_points_at(struct gb_law_points_at *at, const char *text, struct gb_error *err)
 {
-    *at = (struct gb_points_at){0};
-    char **parts = g_strsplit(text, ",", GB_POINTS_FIXED + 1);
+    *at = (struct gb_law_points_at){0};
+    char **parts = g_strsplit(text, ",", GB_LAW_POINTS_FIXED + 1);
     bool good = parts[0] != NULL;
     for (int i = 0; parts[i] && good; i++) {
-        struct gb_points_value *item = &at->item[at->count];
-        good = at->count < GB_POINTS_FIXED;
+        struct gb_law_points_value *item = &at->item[at->count];
+        good = at->count < GB_LAW_POINTS_FIXED;
         if (good) {
             const char *number = read_name(parts[i], item->name);
             good = number && read_number(number, &item->number);
@@ -54,7 +54,7 @@ bool gb_points_at(struct gb_points_at *at, const char *text, struct gb_error *er
                           "name=number, as in h=0.01, h_min=0.02,h=0.015 or h=20nm", err);
 }
 
-bool gb_points_refuse_range(const char *text, struct gb_error *err)
+bool gb_law_points_refuse_range(const char *text, struct gb_error *err)
 {
     return refuse("--range", text,
                   "name=from:to:count, from below to, count 1 to 10000000, as in "
@@ -62,8 +62,8 @@ bool gb_points_refuse_range(const char *text, struct gb_error *err)
                   err);
 }
 
-bool gb_points_range(struct gb_points_range *range, const char *text,
-                     struct gb_error *err)
+bool gb_law_points_range(struct gb_law_points_range *range, const char *text,
+                         struct gb_error *err)
 {
     const char *rest = read_name(text, range->name);
     char **parts = g_strsplit(rest ? rest : "", ":", 4);
@@ -71,13 +71,13 @@ bool gb_points_range(struct gb_points_range *range, const char *text,
     const bool good = g_strv_length(parts) == 3 && read_number(parts[0], &range->from) &&
                       read_number(parts[1], &range->to) &&
                       gb_units_parse(parts[2], GB_DIM_NONE, &count, NULL) &&
-                      count == floor(count) && count >= 1.0 && count <= GB_POINTS_MOST;
+                      count == floor(count) && count >= 1.0 && count <= GB_LAW_POINTS_MAX;
     g_strfreev(parts);
     range->count = good ? (int64_t)count : 0;
-    return good || gb_points_refuse_range(text, err);
+    return good || gb_law_points_refuse_range(text, err);
 }
 
-double gb_points_between(double from, double to, int64_t count, int64_t index)
+double gb_law_points_between(double from, double to, int64_t count, int64_t index)
 {
     if (index + 1 == count && index > 0) {
         return to;
@@ -86,16 +86,17 @@ double gb_points_between(double from, double to, int64_t count, int64_t index)
     return from + (to - from) * share;
 }
 
-bool gb_points_path(struct gb_points_path *path, const char *text, struct gb_error *err)
+bool gb_law_points_path(struct gb_law_points_path *path, const char *text,
+                        struct gb_error *err)
 {
     const char *rest = read_name(text, path->name);
     if (!rest) {
         path->name[0] = '\0';
         rest = text;
     }
-    char **parts = g_strsplit(rest, ",", GB_POINTS_CORNERS + 1);
+    char **parts = g_strsplit(rest, ",", GB_LAW_POINTS_CORNERS + 1);
     const guint length = g_strv_length(parts);
-    bool good = length >= 2 && length <= GB_POINTS_CORNERS;
+    bool good = length >= 2 && length <= GB_LAW_POINTS_CORNERS;
     for (guint i = 0; i < length && good; i++) {
         good = read_number(parts[i], &path->corner[i]);
     }

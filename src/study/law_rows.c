@@ -1,29 +1,30 @@
-#include "cli/law/law_rows.h"
+#include "study/law_rows.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-#include "cli/law/points.h"
-#include "cli/options.h"
+#include <glib.h>
+
+#include "study/law_points.h"
 
 /* Points between two corners of a path. */
 enum { PATH_STEPS = 200 };
 
-/* The rows of one scene under way. */
+/* A request for one scene. */
 struct rows {
     const struct gb_law_rows_request *request;
     const struct gb_law_table_law *law;
     struct gb_law_table_input input;
-    double diameter; /* in units of the variable: 1, or m for a pair */
-    double metre;    /* the same of 1 m */
-    bool dry;
+    double diameter;        /* in units of the variable: 1, or m for a pair */
+    double metre;           /* 1 m in units of the variable */
+    gb_law_rows_take *take; /* NULL: only check */
+    void *data;
 };
 
-/* The variable from what was typed: pure numbers are multiples of the diameter, except
- * where the name says m. */
+/* The variable from a typed number: pure numbers are multiples of the diameter, except
+ * where the name of the variable is in m. */
 static double to_variable(const struct rows *rows, const char *name,
-                          struct gb_points_number number)
+                          struct gb_law_points_number number)
 {
     if (number.length) {
         return number.value * rows->metre;
@@ -52,26 +53,15 @@ static bool check_value(const struct rows *rows, double value, struct gb_error *
                         law->variable, value, low, high, law->name);
 }
 
-static void print_column(const struct rows *rows)
+static bool take_row(struct rows *rows, double x, struct gb_error *err)
 {
-    if (rows->request->column) {
-        printf("%s,", rows->request->column);
-    }
-}
-
-/* One row; false when the reader has gone or the disk is full. */
-static bool print_row(struct rows *rows, double x, struct gb_error *err)
-{
-    if (!check_value(rows, x, err)) {
-        return false;
-    }
-    if (rows->dry) {
+    double value[GB_LAW_TABLE_COLUMNS];
+    if (rows->take == NULL) {
         return true;
     }
     rows->input.x = x;
-    print_column(rows);
-    rows->law->print(&rows->input);
-    return !ferror(stdout) || gb_options_output_failed(err);
+    rows->law->values(&rows->input, value);
+    return rows->take(value, gb_law_table_columns(rows->law), rows->data, err);
 }
 
 static bool set_h_min(struct rows *rows, double value, struct gb_error *err)
@@ -87,15 +77,15 @@ static bool set_h_min(struct rows *rows, double value, struct gb_error *err)
 /* Reads the variables of one --at; *x stays NaN when only h_min is there. */
 static bool read_at(struct rows *rows, const char *text, double *x, struct gb_error *err)
 {
-    struct gb_points_at at;
-    if (!gb_points_at(&at, text, err)) {
+    struct gb_law_points_at at;
+    if (!gb_law_points_at(&at, text, err)) {
         return false;
     }
     const struct gb_law_table_law *law = rows->law;
     *x = NAN;
     rows->input.h_min = NAN;
-    for (int i = 0; i < MIN(at.count, GB_POINTS_FIXED); i++) {
-        const struct gb_points_value *item = &at.item[i];
+    for (int i = 0; i < MIN(at.count, GB_LAW_POINTS_FIXED); i++) {
+        const struct gb_law_points_value *item = &at.item[i];
         const double value = to_variable(rows, item->name, item->number);
         const bool h_min = law->h_min && strcmp(item->name, "h_min") == 0;
         if (h_min && isnan(rows->input.h_min)) {
@@ -126,7 +116,7 @@ static bool missing_variable(const struct gb_law_table_law *law, struct gb_error
         law->name, law->variable, law->variable, law->follow ? " or --path H,H,..." : "");
 }
 
-static bool print_points(struct rows *rows, struct gb_error *err)
+static bool take_points(struct rows *rows, struct gb_error *err)
 {
     for (int i = 0; rows->request->at[i]; i++) {
         double x = NAN;
@@ -136,7 +126,7 @@ static bool print_points(struct rows *rows, struct gb_error *err)
         if (isnan(x)) {
             return missing_variable(rows->law, err);
         }
-        if (!print_row(rows, x, err)) {
+        if (!check_value(rows, x, err) || !take_row(rows, x, err)) {
             return false;
         }
     }
@@ -164,8 +154,8 @@ static bool read_range(struct rows *rows, double ends[2], int64_t *count,
                        struct gb_error *err)
 {
     const char *text = rows->request->range;
-    struct gb_points_range range;
-    if (!gb_points_range(&range, text, err) || !read_fixed(rows, err)) {
+    struct gb_law_points_range range;
+    if (!gb_law_points_range(&range, text, err) || !read_fixed(rows, err)) {
         return false;
     }
     if (!names_variable(rows->law, range.name)) {
@@ -176,7 +166,7 @@ static bool read_range(struct rows *rows, double ends[2], int64_t *count,
     ends[1] = to_variable(rows, range.name, range.to);
     *count = range.count;
     if (!(ends[0] < ends[1] || (ends[0] == ends[1] && range.count == 1))) {
-        return gb_points_refuse_range(text, err);
+        return gb_law_points_refuse_range(text, err);
     }
     if (!isnan(rows->input.h_min) && ends[1] > rows->input.h_min) {
         return gb_error_set(err, GB_ERR_INPUT, "--range %.80s: accepted h up to h_min",
@@ -185,16 +175,18 @@ static bool read_range(struct rows *rows, double ends[2], int64_t *count,
     return true;
 }
 
-static bool print_range(struct rows *rows, struct gb_error *err)
+static bool take_range(struct rows *rows, struct gb_error *err)
 {
-    double ends[2];
+    double ends[2] = {0.0, 0.0};
     int64_t count = 0;
     if (!read_range(rows, ends, &count, err)) {
         return false;
     }
-    const int64_t stride = rows->dry && count > 1 ? count - 1 : 1;
-    for (int64_t i = 0; i < count; i += stride) {
-        if (!print_row(rows, gb_points_between(ends[0], ends[1], count, i), err)) {
+    if (!check_value(rows, ends[0], err) || !check_value(rows, ends[1], err)) {
+        return false;
+    }
+    for (int64_t i = 0; rows->take != NULL && i < count; i++) {
+        if (!take_row(rows, gb_law_points_between(ends[0], ends[1], count, i), err)) {
             return false;
         }
     }
@@ -205,30 +197,30 @@ static bool print_range(struct rows *rows, struct gb_error *err)
 static bool follow(struct rows *rows, const double *corners, int count,
                    struct gb_error *err)
 {
-    double deepest = 0.0;
+    const int columns = gb_law_table_columns(rows->law);
+    double value[GB_LAW_TABLE_COLUMNS], deepest = 0.0;
     for (int leg = 0; leg < count; leg++) {
         const double from = corners[leg > 0 ? leg - 1 : 0];
         const int steps = leg > 0 ? PATH_STEPS : 1;
         for (int i = 1; i <= steps; i++) {
-            rows->input.x = gb_points_between(from, corners[leg], steps + 1, i);
-            print_column(rows);
-            rows->law->follow(&rows->input, &deepest);
-            if (ferror(stdout)) {
-                return gb_options_output_failed(err);
+            rows->input.x = gb_law_points_between(from, corners[leg], steps + 1, i);
+            rows->law->follow(&rows->input, &deepest, value);
+            if (!rows->take(value, columns, rows->data, err)) {
+                return false;
             }
         }
     }
     return true;
 }
 
-/* The corners in units of the variable; the ends of what the law describes are its own
- * affair, but centres do not meet. */
+/* The corners in units of the variable.  The range of the law is not checked along a path,
+ * but the centres must not meet. */
 static bool read_path(const struct rows *rows, double *corners, int *count,
                       struct gb_error *err)
 {
     const char *text = rows->request->path;
-    struct gb_points_path *path = g_new0(struct gb_points_path, 1);
-    bool good = gb_points_path(path, text, err);
+    struct gb_law_points_path *path = g_new0(struct gb_law_points_path, 1);
+    bool good = gb_law_points_path(path, text, err);
     if (good && path->name[0] && !names_variable(rows->law, path->name)) {
         good = gb_error_set(err, GB_ERR_INPUT, "--path %.80s: accepted %s for law %s",
                             text, rows->law->variable, rows->law->name);
@@ -245,12 +237,12 @@ static bool read_path(const struct rows *rows, double *corners, int *count,
     return good;
 }
 
-static bool print_path(struct rows *rows, struct gb_error *err)
+static bool take_path(struct rows *rows, struct gb_error *err)
 {
-    double *corners = g_new(double, GB_POINTS_CORNERS);
+    double *corners = g_new(double, GB_LAW_POINTS_CORNERS);
     int count = 0;
     const bool good = read_path(rows, corners, &count, err) &&
-                      (rows->dry || follow(rows, corners, count, err));
+                      (rows->take == NULL || follow(rows, corners, count, err));
     g_free(corners);
     return good;
 }
@@ -276,55 +268,71 @@ static bool check_request(const struct rows *rows, struct gb_error *err)
     return !law->variable || given > 0 || missing_variable(law, err);
 }
 
-static bool print_rows(struct rows *rows, struct gb_error *err)
+static bool take_rows(struct rows *rows, struct gb_error *err)
 {
     if (!check_request(rows, err)) {
         return false;
     }
     if (!rows->law->variable) {
-        if (!rows->dry) {
-            print_column(rows);
-            rows->law->print(&rows->input);
-        }
-        return true;
+        return take_row(rows, NAN, err);
     }
-    return rows->request->path    ? print_path(rows, err)
-           : rows->request->range ? print_range(rows, err)
-                                  : print_points(rows, err);
+    return rows->request->path    ? take_path(rows, err)
+           : rows->request->range ? take_range(rows, err)
+                                  : take_points(rows, err);
 }
 
-bool gb_law_rows_print(const struct gb_law_rows_request *request,
-                       const struct gb_params *params, bool dry, struct gb_error *err)
+/* The laws of P3: two bodies, SI units. */
+static bool take_pair(struct rows *rows, const struct gb_params *params,
+                      struct gb_error *err)
+{
+    struct gb_contact_pair pair;
+    if (!gb_params_check_fields(params, err) ||
+        !gb_contact_pair_init(&pair, params, err)) {
+        return false;
+    }
+    rows->input.pair = &pair;
+    rows->diameter = pair.diameter;
+    rows->metre = 1.0;
+    return take_rows(rows, err);
+}
+
+/* The laws of P1: particles of one size, reduced units. */
+static bool take_reduced(struct rows *rows, const struct gb_params *params,
+                         struct gb_error *err)
 {
     struct gb_model model;
-    struct gb_contact_pair pair;
+    if (!gb_params_check(params, err) || !gb_model_init(&model, params, err)) {
+        return false;
+    }
+    if (model.cohesionless) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "law %s: accepted contact.normal = rod; law hertz is "
+                            "for grains without cohesion",
+                            rows->law->name);
+    }
+    rows->input.model = &model;
+    rows->diameter = 1.0;
+    rows->metre = 1.0 / model.metre_per_length;
+    return take_rows(rows, err);
+}
+
+bool gb_law_rows_compute(const struct gb_law_rows_request *request,
+                         const struct gb_params *params, gb_law_rows_take *take,
+                         void *data, struct gb_error *err)
+{
     struct rows rows = {
         .request = request,
         .law = request->law,
         .input = {.lattice = request->lattice, .h_min = NAN},
-        .dry = dry,
+        .take = take,
+        .data = data,
     };
-    if (request->law->pair) {
-        if (!gb_params_check_fields(params, err) ||
-            !gb_contact_pair_init(&pair, params, err)) {
-            return false;
-        }
-        rows.input.pair = &pair;
-        rows.diameter = pair.diameter;
-        rows.metre = 1.0;
-    } else {
-        if (!gb_params_check(params, err) || !gb_model_init(&model, params, err)) {
-            return false;
-        }
-        if (model.cohesionless) {
-            return gb_error_set(err, GB_ERR_INPUT,
-                                "law %s: accepted contact.normal = rod; law hertz is "
-                                "that of dry grains",
-                                request->law->name);
-        }
-        rows.input.model = &model;
-        rows.diameter = 1.0;
-        rows.metre = 1.0 / model.metre_per_length;
-    }
-    return print_rows(&rows, err);
+    return request->law->pair ? take_pair(&rows, params, err)
+                              : take_reduced(&rows, params, err);
+}
+
+bool gb_law_rows_check(const struct gb_law_rows_request *request,
+                       const struct gb_params *params, struct gb_error *err)
+{
+    return gb_law_rows_compute(request, params, NULL, NULL, err);
 }

@@ -1,0 +1,68 @@
+#include "cli/commands.h"
+
+#include <string.h>
+
+#include <glib.h>
+
+static const char runs[] = "Runs", many[] = "Many runs", packings[] = "Packings",
+                  results[] = "Results", numerics[] = "Numerics", lists[] = "Lists";
+
+static const struct gb_commands_row rows[] = {
+    {runs, "run", "one run without a screen; results in a directory", gb_cmd_run},
+    {runs, "resume", "continues an interrupted run", gb_cmd_resume},
+    {runs, "attach", "shows a running simulation, or takes it over", gb_cmd_attach},
+    {runs, "verify", "repeats the last part of a run and compares", gb_cmd_verify},
+    {many, "sweep", "a grid of parameters with replicas, in one table", gb_cmd_sweep},
+    {many, "calibrate", "parameters fitted to measured densities, with intervals",
+     gb_cmd_calibrate},
+    {packings, "pack", "the initial structure alone", gb_cmd_pack},
+    {packings, "sizes", "log-normal law fitted to measured particle sizes", gb_cmd_sizes},
+    {packings, "snapshot", "picture of a packing", gb_cmd_snapshot},
+    {results, "plot", "figures over one or more runs, and of contact laws", gb_cmd_plot},
+    {results, "report", "figures, pictures and tables of runs in one folder",
+     gb_cmd_report},
+    {numerics, "chart", "accuracy against cost of the numerical settings of a scene",
+     gb_cmd_chart},
+    {numerics, "stability", "longest stable step of each method, beside theory",
+     gb_cmd_stability},
+    {numerics, "bench", "speed of the engine on this machine", gb_cmd_bench},
+    {lists, "law", "values of a contact law as CSV", gb_cmd_law},
+    {lists, "params", "every preset key: unit, range, default, meaning, source",
+     gb_cmd_params},
+};
+
+const struct gb_commands_row *gb_commands_find(const char *name)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        if (strcmp(rows[i].name, name) == 0) {
+            return &rows[i];
+        }
+    }
+    return NULL;
+}
+
+void gb_commands_print(FILE *to)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        if (i == 0 || rows[i].group != rows[i - 1].group) {
+            fprintf(to, "  %s\n", rows[i].group);
+        }
+        fprintf(to, "    %-10s %s\n", rows[i].name, rows[i].doc);
+    }
+}
+
+void gb_commands_print_plain(FILE *to)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        fprintf(to, "%s %s\n", rows[i].name, rows[i].doc);
+    }
+}
+
+char *gb_commands_names(void)
+{
+    GString *names = g_string_new(NULL);
+    for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+        g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", rows[i].name);
+    }
+    return g_string_free(names, FALSE);
+}

@@ -1,0 +1,148 @@
+#include "many/mpi_worker.h"
+
+#include <glib.h>
+
+#include "base/clock.h"
+#include "many/mpi_message.h"
+#include "many/mpi_protocol.h"
+#include "many/pool.h"
+
+/* The first rank may be busy for long, reading the results of a large sweep. */
+static const double first_lost_after_s = 600.0;
+
+/* Why a rank does no more runs. */
+enum stop {
+    RUNNING,
+    STOPPED_BY_FIRST, /* the first rank stops all runs */
+    LEAVING           /* a signal to this rank: others may do its runs */
+};
+
+struct rank {
+    struct gb_pool *local;
+    GQueue *queue; /* struct gb_mpi_run: prefetched, for workers that are busy */
+    enum stop stop;
+    bool quit;
+    int rank_lost;      /* content of the message quit */
+    double heard_s;     /* clock of the last message of the first rank */
+    double heartbeat_s; /* clock of the last heartbeat sent */
+};
+
+static void send_report(const struct gb_pool_report *report)
+{
+    gb_mpi_message_send(0, GB_MPI_TAG_REPORT, report, sizeof *report);
+}
+
+static void send_capacity(size_t workers)
+{
+    const uint64_t capacity = workers;
+    gb_mpi_message_send(0, GB_MPI_TAG_CAPACITY, &capacity, sizeof capacity);
+}
+
+static void send_heartbeat(struct rank *rank)
+{
+    const int unused = 0;
+    if (gb_clock_s() - rank->heartbeat_s > gb_mpi_heartbeat_s) {
+        rank->heartbeat_s = gb_clock_s();
+        gb_mpi_message_send(0, GB_MPI_TAG_HEARTBEAT, &unused, sizeof unused);
+    }
+}
+
+/* Starts a queued run, or returns it to the first rank. */
+static void start_run(struct rank *rank, const struct gb_mpi_run *run)
+{
+    struct gb_pool_report report = {.ticket = run->ticket};
+    if (rank->stop != RUNNING) {
+        gb_error_set(&report.error, GB_ERR_CANCELLED, "stopped before it began");
+        report.lost = rank->stop == LEAVING;
+        send_report(&report);
+    } else if (!gb_pool_submit(rank->local, run->ticket, &run->params, run->directory,
+                               &report.error)) {
+        send_report(&report);
+    }
+}
+
+static void start_runs(struct rank *rank)
+{
+    while (!g_queue_is_empty(rank->queue) &&
+           (rank->stop != RUNNING || gb_pool_prefetch(rank->local, 0) > 0)) {
+        struct gb_mpi_run *run = g_queue_pop_head(rank->queue);
+        start_run(rank, run);
+        g_free(run);
+    }
+}
+
+static void receive_messages(struct rank *rank)
+{
+    struct gb_mpi_message_head head;
+    while (!rank->quit && gb_mpi_message_probe(&head)) {
+        rank->heard_s = gb_clock_s();
+        if (head.tag == GB_MPI_TAG_RUN) {
+            struct gb_mpi_run *run = g_new0(struct gb_mpi_run, 1);
+            gb_mpi_message_receive(&head, run, sizeof *run);
+            g_queue_push_tail(rank->queue, run);
+            continue;
+        }
+        gb_mpi_message_receive(&head, &rank->rank_lost, sizeof rank->rank_lost);
+        if (head.tag == GB_MPI_TAG_STOP) {
+            rank->stop = STOPPED_BY_FIRST;
+        }
+        rank->quit = head.tag == GB_MPI_TAG_QUIT;
+    }
+}
+
+static void leave(struct rank *rank)
+{
+    rank->stop = rank->stop == RUNNING ? LEAVING : rank->stop;
+    send_capacity(0); /* before runs are returned, or they would be sent again */
+}
+
+/* Waits for a report of the local pool, and passes it on. */
+static void report_run(struct rank *rank)
+{
+    struct gb_pool_report report;
+    const double seconds = gb_pool_poll_interval(rank->local);
+    if (gb_pool_receive(rank->local, seconds, &report)) {
+        report.lost = rank->stop == LEAVING && report.error.code == GB_ERR_CANCELLED;
+        send_report(&report);
+    }
+}
+
+/* Starts and reports runs; false when the first rank is gone. */
+static bool work(struct rank *rank, bool *stopped)
+{
+    start_runs(rank);
+    if (rank->stop != RUNNING && !*stopped) {
+        *stopped = true;
+        gb_pool_stop(rank->local);
+    }
+    report_run(rank);
+    send_heartbeat(rank);
+    return gb_clock_s() - rank->heard_s <= first_lost_after_s;
+}
+
+bool gb_mpi_worker_serve(struct gb_pool *local, size_t workers,
+                         bool (*cancelled)(void *data), void *data,
+                         enum gb_mpi_worker_end *end, struct gb_error *err)
+{
+    struct rank rank = {.local = local, .heard_s = gb_clock_s()};
+    bool stopped = false, leaving = false, alive = true;
+    rank.queue = g_queue_new();
+    send_capacity(workers);
+    receive_messages(&rank);
+    while (alive && !rank.quit) {
+        if (!leaving && cancelled(data)) {
+            leaving = true;
+            leave(&rank);
+        }
+        alive = work(&rank, &stopped);
+        receive_messages(&rank);
+    }
+    g_queue_free_full(rank.queue, g_free);
+    *end = rank.quit && rank.rank_lost == 0 ? GB_MPI_WORKER_ALL_ALIVE
+                                            : GB_MPI_WORKER_RANK_LOST;
+    if (!rank.quit) {
+        return gb_error_set(err, GB_ERR_MACHINE, "no message of the first rank for %g s",
+                            first_lost_after_s);
+    }
+    return !leaving || gb_error_set(err, GB_ERR_CANCELLED, "stopped");
+}
