@@ -3,7 +3,8 @@
 #   1. a layer includes only headers of itself and of the layers that it may see,
 #   2. no two layers see each other,
 #   3. an exported symbol starts with gb_<file>_,
-#   4. no two files, struct, union or enum tags of one name; no file takes the symbols of another.
+#   4. no two files, struct, union or enum tags of one name; no file takes the symbols of another,
+#   5. the files of the periodic engine call each other in one direction only (docs/engine.md).
 # Usage: layers.sh SOURCE_DIR [library.a | object directory]...
 set -u
 
@@ -98,7 +99,6 @@ check_names() {
 exceptions() {
     cat <<'TABLE'
 publish:gb_command_ring_
-batch:gb_contacts_
 status:gb_error_
 main:main
 TABLE
@@ -146,6 +146,29 @@ check_exports() { # archive or object
     done <"$scratch/wrong"
 }
 
+check_calls() { # archive
+    nm -A -g "$1" 2>/dev/null | awk '
+        {
+            split($1, part, ":")
+            object = part[2]
+            kind = $(NF - 1)
+            sub(/.*\//, "", object)
+        }
+        object !~ /^(cell|f32|kernel|list)_/ { next }
+        kind == "U" { user[++uses] = object; used[uses] = $NF; next }
+        { owner[$NF] = object }
+        END {
+            for (k = 1; k <= uses; k++) {
+                called = owner[used[k]]
+                if (called != "" && called != user[k]) { print user[k], called }
+            }
+        }' | sort -u | tsort 2>"$scratch/cycle" >"$scratch/order"
+    if [ -s "$scratch/cycle" ]; then
+        complain "$1: files call each other in a circle: $(sed 's/.*: //' "$scratch/cycle" | tr '\n' ' ')"
+    fi
+    [ -s "$scratch/order" ] || complain "$1: no calls between its files"
+}
+
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 (cd "$source/src" && find . -name '*.c') | sed 's|^\./||; s|\.c$||' >"$scratch/paths"
@@ -179,6 +202,9 @@ for library in "$@"; do
     else
         check_exports "$library"
     fi
+    case $library in
+    */libpack.a) check_calls "$library" ;;
+    esac
 done
 
 [ "$bad" -eq 0 ] && echo "layers: the walls stand"

@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """Refuses words that docs/glossary.md replaced by terms of the field.
 
-Usage: words.py SOURCE_DIR
+Usage: words.py SOURCE_DIR [MOST]
+
+MOST: how many are left today (0 without it).  The number only falls: a change that removes words lowers
+it in tests/meson.build.
 
 Names: a part of an identifier between underscores, in C sources outside strings.
 Texts: whole words in comments, strings and pages.  Names in files are a contract and stand in
@@ -101,8 +104,9 @@ def main():
         for number, word, where in check(path, path.read_text(encoding='utf-8')):
             found += 1
             print(f'{path.relative_to(root)}:{number}: "{word}" in: {where}')
-    print(f'words: {found} found' if found else 'words: none of the old ones')
-    return found > 0
+    most = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    print(f'words: {found} old words, {most} accepted')
+    return found > most
 
 
 if __name__ == '__main__':
