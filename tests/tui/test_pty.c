@@ -318,7 +318,7 @@ static int64_t measure_latency(struct answer waited[LATENCY_KEYS])
     for (int i = 0; i < LATENCY_KEYS; i++) {
         waited[i] = await(&child, "?", "scroll,");
         fewest = MIN(fewest, waited[i].frames);
-        await(&child, "?", "against density");
+        await(&child, "?", "against relative density");
         receive(&child, 0.31, false);
     }
     quit(&child);

@@ -144,7 +144,7 @@ keys p
 hides "p again resumes it" '‖ paused'
 is "it runs again" until_true full_cell_runs
 keys f C-u 'mu=0.3; count=3' Enter
-shows "a what-if says what can change" 'count=3: a run under way'
+shows "a what-if says what can change" 'count=3: cannot change during a run'
 keys C-u 'mu=0.3' Enter
 told "a what-if goes on from a point" 'changed after step'
 is "from then on it runs" until_true full_cell_runs
