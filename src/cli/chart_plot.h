@@ -1,7 +1,7 @@
 #ifndef GB_CLI_CHART_PLOT_H
 #define GB_CLI_CHART_PLOT_H
 
-#include "study/chart_table.h"
+#include "study/chart/chart_table.h"
 
 /* Error against CPU time as a plot in characters, with its legend; empty where fewer than
  * two settings have errors.  g_string_free. */

@@ -8,7 +8,7 @@
 
 #include <glib.h>
 
-#include "study/calibrate.h"
+#include "study/calibrate/calibrate.h"
 
 /* Calibration on a stand-in for the engine: compaction curves that friction stiffens and
  * adhesion hinders at low pressure, cells that scatter as those of the engine do. */

@@ -6,7 +6,7 @@
 
 #include "common/scene.h"
 #include "scene/model.h"
-#include "study/law_rows.h"
+#include "study/law/law_rows.h"
 
 enum { ROWS_MAX = 1024 };
 

@@ -5,8 +5,8 @@
 
 #include "base/alloc.h"
 #include "solve/relax_fire.h"
-#include "study/stability.h"
-#include "study/stability_scene.h"
+#include "study/stability/stability.h"
+#include "study/stability/stability_scene.h"
 
 static void test_sides(void)
 {

@@ -6,8 +6,8 @@
 
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "study/bench.h"
-#include "study/bench_die.h"
+#include "study/bench/bench.h"
+#include "study/bench/bench_die.h"
 
 static const struct gb_options_page page = {
     .usage = "[PRESET] [group.key=value]...",

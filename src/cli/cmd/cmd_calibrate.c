@@ -5,7 +5,7 @@
 #include "cli/batch_progress.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "study/calibration_table.h"
+#include "study/calibrate/calibration_table.h"
 
 enum { REPLICAS_MIN = 3, REPLICAS_MAX = 1000 };
 

@@ -12,7 +12,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "io/preset.h"
-#include "study/chart_text.h"
+#include "study/chart/chart_text.h"
 
 enum { SEEDS_MAX = 1000, DESCRIPTION = 160 };
 

@@ -5,7 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "study/law_rows.h"
+#include "study/law/law_rows.h"
 
 /* The options of the command line. */
 struct request {

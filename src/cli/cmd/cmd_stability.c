@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "study/stability.h"
+#include "study/stability/stability.h"
 
 static void add_number(GString *text, double value)
 {

@@ -1,0 +1,19 @@
+#ifndef GB_STUDY_BENCH_BENCH_DIE_H
+#define GB_STUDY_BENCH_BENCH_DIE_H
+
+#include <stdbool.h>
+
+#include "greenbody/status.h"
+
+/* Speed of a bed of 1751 spheres pressed to 50 MPa as in P3, on one core: one time step
+ * (forces, histories, motion) per particle, s. */
+struct gb_bench_die {
+    double hertz, hertz_friction, storakers, storakers_friction;
+    double coordination, near; /* contacts and listed pairs per particle */
+};
+
+/* Fills a die in a few seconds, compresses the bed and times it with every law.  Errors:
+ * as of the stages. */
+bool gb_bench_die_run(struct gb_bench_die *bench, struct gb_error *err);
+
+#endif
