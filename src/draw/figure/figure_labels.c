@@ -47,7 +47,7 @@ static double distance(const double box[4], const struct gb_figure_layout *layou
                        const struct gb_figure_curve *curve)
 {
     double nearest = INFINITY;
-    double last[2];
+    double last[2] = {0.0, 0.0};
     bool have = false;
     for (size_t k = 0; k < curve->count; k++) {
         double at[2];
