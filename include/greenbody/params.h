@@ -9,8 +9,8 @@
 
 /* What the user typed: SI, unit in the field's name.  Const after gb_params_check.  The
  * reduced twin is struct gb_model; the two never meet.
- * One row per field in the field table (scene/params.c): preset files, --set, the editor,
- * `greenbody params` and the run directory follow from it. */
+ * One row per field in the field table (scene/field/params_table.c): preset files, --set,
+ * the editor, `greenbody params` and the run directory follow from it. */
 
 enum gb_kind { GB_KIND_QUASISTATIC, GB_KIND_DYNAMIC, GB_KIND_DIE };
 enum gb_distribution {
@@ -80,11 +80,11 @@ struct gb_params {
     /* [particles] */
     int64_t count;
     double diameter_m;
-    int distribution;          /* enum gb_distribution */
-    double median_m;           /* of lognormal; NaN: auto, the diameter */
-    double sigma;              /* of lognormal: deviation of ln d */
+    int distribution;                      /* enum gb_distribution */
+    double median_m;                       /* of lognormal; NaN: auto, the diameter */
+    double sigma;                          /* of lognormal: deviation of ln d */
     double diameter_min_m, diameter_max_m; /* where lognormal is cut; NaN: not cut */
-    struct gb_sizetable sizes; /* of table */
+    struct gb_sizetable sizes;             /* of table */
     /* [contact] */
     int normal; /* enum gb_normal */
     double alpha;
@@ -107,12 +107,12 @@ struct gb_params {
     uint64_t seed;
     /* [die] */
     double die_diameter_m;
-    double die_height_m;  /* of the funnel's outlet over the floor; NaN: auto */
-    double die_outlet_m;  /* diameter of the outlet; NaN: auto */
-    double die_angle_deg; /* of the funnel's wall to the axis */
-    double fill_gravity;  /* in g = 9.80665 m/s2, while pouring ... */
-    double rest_gravity;  /* ... and from then on */
-    double gravity_ramp_s;        /* time from one to the other */
+    double die_height_m;   /* of the funnel's outlet over the floor; NaN: auto */
+    double die_outlet_m;   /* diameter of the outlet; NaN: auto */
+    double die_angle_deg;  /* of the funnel's wall to the axis */
+    double fill_gravity;   /* in g = 9.80665 m/s2, while pouring ... */
+    double rest_gravity;   /* ... and from then on */
+    double gravity_ramp_s; /* time from one to the other */
     double flatten_m;
     double punch_mass; /* in masses of the powder */
     double central_m;  /* diameter of the sphere of the central density */
@@ -123,13 +123,13 @@ struct gb_params {
     double until_density;     /* NaN when the run stops at a pressure */
     double unload_from_pa[GB_UNLOAD_MAX];
     int unload_count;
-    char changes[256]; /* of a run under way: scene/changes.h */
+    char changes[256]; /* of a run under way: scene/field/changes.h */
     double rate_per_s; /* (1/rho) d rho/dt; this and the next four: dynamic scenes */
     double relax_s, hold_s;
     double record_density;     /* relative growth of density between recorded points */
     double record_time_s;      /* between recorded points of relax and hold */
     int ramp;                  /* enum gb_ramp; this and the next two: dies */
-    double ramp_s;         /* NaN: auto */
+    double ramp_s;             /* NaN: auto */
     double record_pressure_pa; /* between recorded points */
     /* [numerics]: NaN or negative means "auto", picked by fidelity when the model is made
      */
@@ -146,7 +146,7 @@ struct gb_params {
     double safety;                /* of the automatic step of a die; NaN: auto */
     double inertia_scale;         /* of the rotation of particles in a die */
     /* [output] */
-    char snapshots_at[192]; /* scene/keep_points.h */
+    char snapshots_at[192]; /* scene/field/keep_points.h */
     double checkpoint_every_s;
     int on_hangup; /* enum gb_on_hangup */
 };

@@ -11,7 +11,7 @@
 
 #include "base/file.h"
 #include "io/key_lines.h"
-#include "scene/size_table.h"
+#include "scene/size/size_table.h"
 
 /* A preset is a page of text; more is a mistake or an attack. */
 enum { PRESET_BYTES_MAX = 1 << 20 };

@@ -2,7 +2,7 @@
 
 #include "run/checkpoint.h"
 #include "run/experiment_private.h"
-#include "scene/changes.h"
+#include "scene/field/changes.h"
 
 bool gb_change_order(struct gb_experiment *experiment, struct gb_error *err)
 {

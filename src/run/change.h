@@ -3,7 +3,7 @@
 
 #include "run/experiment.h"
 
-/* Changes of a run under way (scene/changes.h), applied.
+/* Changes of a run under way (scene/field/changes.h), applied.
  *
  * The state passes through a record (run/checkpoint.h) into a world of the changed model,
  * whether the run changes on its own, is resumed there, or goes on as a what-if of

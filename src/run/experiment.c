@@ -11,7 +11,7 @@
 #include "run/experiment_private.h"
 #include "run/packing_state.h"
 #include "run/point_measure.h"
-#include "scene/changes.h"
+#include "scene/field/changes.h"
 
 _Static_assert((int)GB_EVENT_QUEUE_TEXT <= (int)GB_EVENT_TEXT, "events fit a snapshot");
 

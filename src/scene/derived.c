@@ -3,8 +3,8 @@
 #include <math.h>
 
 #include "law/law_storakers.h"
-#include "scene/field.h"
-#include "scene/sizes.h"
+#include "scene/field/field.h"
+#include "scene/size/sizes.h"
 
 /* sigma_b when the preset leaves it open, in E.  With bridges: P1's set II.  Without: P1
  * calls mu the only free parameter of such scenes, and with 0.018 E the strength, not mu,

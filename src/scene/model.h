@@ -9,7 +9,7 @@
 #include "law/law_dispersion.h"
 #include "law/law_rod.h"
 #include "law/law_slip.h"
-#include "scene/sizes.h"
+#include "scene/size/sizes.h"
 
 /* Which terms the force sweep of this scene carries.  A scene pays only for what it uses.
  */

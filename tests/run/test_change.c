@@ -9,7 +9,7 @@
 #include "pack/cell/world.h"
 #include "run/checkpoint.h"
 #include "run/runner/runner.h"
-#include "scene/changes.h"
+#include "scene/field/changes.h"
 
 enum { BEFORE = 100, BEHIND = 20 };
 

@@ -8,7 +8,7 @@
 #include "io/state.h"
 #include "many/single_run.h"
 #include "run/record/run_recorder.h"
-#include "scene/keep_points.h"
+#include "scene/field/keep_points.h"
 
 static const char *const wanted = "10 MPa; density = 0.26; every 50";
 

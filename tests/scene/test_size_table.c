@@ -1,4 +1,4 @@
-#include "scene/size_table.h"
+#include "scene/size/size_table.h"
 
 #include <math.h>
 #include <string.h>
@@ -204,7 +204,8 @@ static void test_params(void)
          "scene.dimension = 2"},
         {"particles.distribution=table", "particles.table=number: 1 um 1",
          "scene.dimension=2", "particles.distribution = table: must be mono"},
-        {"particles.distribution=table", NULL, NULL, "particles.table: must not be empty"},
+        {"particles.distribution=table", NULL, NULL,
+         "particles.table: must not be empty"},
         {"particles.distribution=lognormal", "particles.median=14 nm",
          "particles.least=14 nm", "particles.least = 14 nm: must be below the median"},
         {"particles.distribution=lognormal", "particles.largest=9 nm", NULL,

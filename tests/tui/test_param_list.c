@@ -1,6 +1,6 @@
 #include <glib.h>
 
-#include "scene/applies.h"
+#include "scene/field/applies.h"
 #include "tui/panel/param_list.h"
 
 static struct gb_params scene(const char *first, ...)

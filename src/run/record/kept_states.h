@@ -3,7 +3,7 @@
 
 #include "base/record.h"
 #include "greenbody/curve.h"
-#include "scene/keep_points.h"
+#include "scene/field/keep_points.h"
 #include "scene/model.h"
 
 /* States kept along a run, DIR/snapshots/<name>.h5: of the first recorded point of

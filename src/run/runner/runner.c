@@ -10,7 +10,7 @@
 #include "io/rundir.h"
 #include "run/checkpoint.h"
 #include "run/runner/runner_private.h"
-#include "scene/changes.h"
+#include "scene/field/changes.h"
 
 /* The thread inherits the mask it is created under: signals belong to the screen. */
 static bool start(struct gb_runner *runner, void *(*work)(void *data),

@@ -1,8 +1,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scene/applies.h"
-#include "scene/field.h"
+#include "scene/field/applies.h"
+#include "scene/field/field.h"
 #include "tui/panel/panels.h"
 #include "tui/panel/param_list.h"
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "scene/applies.h"
+#include "scene/field/applies.h"
 
 void gb_param_list_init(struct gb_param_list *list, const struct gb_params *params,
                         bool all)

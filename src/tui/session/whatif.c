@@ -3,7 +3,7 @@
 #include <glib.h>
 #include <string.h>
 
-#include "scene/changes.h"
+#include "scene/field/changes.h"
 #include "tui/session/run_lifecycle.h"
 
 /* What is asked is tried on a step that is never reached, so that it is refused at once

@@ -9,7 +9,7 @@
 #include "io/follow.h"
 #include "many/reading.h"
 #include "measure/fit/average.h"
-#include "scene/field.h"
+#include "scene/field/field.h"
 
 static const double min_pa = 1e6;
 

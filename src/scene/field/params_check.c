@@ -3,13 +3,13 @@
 #include <glib.h>
 
 #include "base/units.h"
-#include "scene/changes.h"
 #include "scene/derived.h"
-#include "scene/field.h"
-#include "scene/keep_points.h"
+#include "scene/field/changes.h"
+#include "scene/field/field.h"
+#include "scene/field/keep_points.h"
 #include "scene/loading_kind.h"
-#include "scene/size_table.h"
-#include "scene/sizes.h"
+#include "scene/size/size_table.h"
+#include "scene/size/sizes.h"
 
 /* Name of the choice that a member holds. */
 static char *choice(const struct gb_params *params, const char *group, const char *key,

@@ -1,4 +1,4 @@
-#include "scene/changes.h"
+#include "scene/field/changes.h"
 
 #include <glib.h>
 #include <inttypes.h>

@@ -4,8 +4,8 @@
 
 #include <glib.h>
 
-#include "scene/field.h"
-#include "scene/params_table.h"
+#include "scene/field/field.h"
+#include "scene/field/params_table.h"
 
 const struct gb_field *gb_params_fields(size_t *count)
 {

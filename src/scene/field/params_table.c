@@ -1,4 +1,4 @@
-#include "scene/params_table.h"
+#include "scene/field/params_table.h"
 
 #include <math.h>
 #include <stddef.h>

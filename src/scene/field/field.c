@@ -1,4 +1,4 @@
-#include "scene/field.h"
+#include "scene/field/field.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 
 #include "base/units.h"
 #include "scene/derived.h"
-#include "scene/size_table.h"
+#include "scene/size/size_table.h"
 
 static const void *member_const(const struct gb_params *params,
                                 const struct gb_field *field)

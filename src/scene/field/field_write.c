@@ -4,8 +4,8 @@
 #include <glib.h>
 
 #include "base/units.h"
-#include "scene/field.h"
-#include "scene/size_table.h"
+#include "scene/field/field.h"
+#include "scene/size/size_table.h"
 
 static const void *member_const(const struct gb_params *params,
                                 const struct gb_field *field)

@@ -5,8 +5,8 @@
 #include <glib.h>
 
 #include "base/units.h"
-#include "scene/field.h"
-#include "scene/size_table.h"
+#include "scene/field/field.h"
+#include "scene/size/size_table.h"
 
 static void *member(struct gb_params *params, const struct gb_field *field)
 {

@@ -1,4 +1,4 @@
-#include "scene/size_table.h"
+#include "scene/size/size_table.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include <glib.h>
 
 #include "base/units.h"
-#include "scene/field.h"
+#include "scene/field/field.h"
 
 /* A list says "0 to 2", a sentence "must be between 0 and 2". */
 enum style { LIST, SENTENCE };

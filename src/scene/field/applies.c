@@ -1,4 +1,4 @@
-#include "scene/applies.h"
+#include "scene/field/applies.h"
 
 #include <stddef.h>
 #include <string.h>

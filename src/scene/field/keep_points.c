@@ -1,4 +1,4 @@
-#include "scene/keep_points.h"
+#include "scene/field/keep_points.h"
 
 #include <glib.h>
 #include <string.h>

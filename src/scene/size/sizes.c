@@ -1,11 +1,11 @@
-#include "scene/sizes.h"
+#include "scene/size/sizes.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
 #include "scene/derived.h"
 #include "scene/loading_kind.h"
-#include "scene/size_table.h"
+#include "scene/size/size_table.h"
 
 /* Probability of a standard normal between a and b, without loss in either tail. */
 static double between(double a, double b)
