@@ -38,23 +38,23 @@ static bool parse_angles(const char *text, struct gb_viewpoint *viewpoint)
 bool gb_view_parse(const char *text, struct gb_viewpoint *viewpoint, struct gb_error *err)
 {
     struct gb_viewpoint result = *viewpoint;
-    char place[64];
-    const int length = snprintf(place, sizeof place, "%s", text);
-    char *flat = strstr(place, ",flat");
-    bool known = length > 0 && length < (int)sizeof place;
+    char direction[64];
+    const int length = snprintf(direction, sizeof direction, "%s", text);
+    char *flat = strstr(direction, ",flat");
+    bool known = length > 0 && length < (int)sizeof direction;
     if (flat != NULL && flat[5] == '\0') {
         *flat = '\0';
         result.orthographic = true;
     }
     bool by_name = false;
     for (size_t k = 0; k < sizeof named / sizeof named[0]; k++) {
-        if (strcmp(place, named[k].name) == 0) {
+        if (strcmp(direction, named[k].name) == 0) {
             result.azimuth_deg = named[k].azimuth;
             result.elevation_deg = named[k].elevation;
             by_name = true;
         }
     }
-    known = known && (by_name || parse_angles(place, &result));
+    known = known && (by_name || parse_angles(direction, &result));
     if (!known) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "--view %s: not a view; corner, front, side, top or "

@@ -16,7 +16,7 @@ bool gb_loading_cell_grow(struct gb_loading *loading, bool (*cancelled)(void *da
     struct gb_chain_growth growth = gb_chain_growth_from_model(model);
     growth.cancelled = cancelled;
     growth.data = data;
-    const bool done = gb_chain_growth_place(&growth, position, err) &&
+    const bool done = gb_chain_growth_run(&growth, position, err) &&
                       gb_hilbert_sort(model, position, err) &&
                       gb_world_create(&loading->world, model, position, err) &&
                       gb_world_evaluate(loading->world, err);

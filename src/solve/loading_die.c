@@ -26,7 +26,7 @@ static struct gb_die_stages_report stages_report(const struct gb_loading *loadin
 
 static bool create_stages(struct gb_loading *loading, struct gb_error *err)
 {
-    const struct gb_bed_law law = gb_filling_pressing_law(loading->params);
+    const struct gb_bed_law law = gb_filling_compaction_law(loading->params);
     return gb_die_stages_create(&own(loading)->stages, &loading->model->die, &law, err);
 }
 
@@ -42,7 +42,7 @@ static bool build(struct gb_loading *loading, bool (*cancelled)(void *data), voi
 static bool build_from(struct gb_loading *loading, struct gb_record *record,
                        struct gb_error *err)
 {
-    const struct gb_bed_law law = gb_filling_pressing_law(loading->params);
+    const struct gb_bed_law law = gb_filling_compaction_law(loading->params);
     (void)record;
     if (!create_stages(loading, err) ||
         !gb_filling_allocate(&loading->bed, loading->params, loading->model, err)) {

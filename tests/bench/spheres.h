@@ -26,7 +26,7 @@ static inline bool spheres_fail(const char *what, const char *where)
 
 /* One line: a bound of the box, or a row of a section, which carries the number of its
  * sphere. */
-static inline bool spheres_take(struct spheres *spheres, GHashTable *place_of, bool atoms,
+static inline bool spheres_take(struct spheres *spheres, GHashTable *index_of, bool atoms,
                                 const char *line, const char *path)
 {
     double n, a[6], low, high;
@@ -42,14 +42,14 @@ static inline bool spheres_take(struct spheres *spheres, GHashTable *place_of, b
         return true;
     }
     void *key = GINT_TO_POINTER((int)n);
-    if (atoms) { /* type, diameter, density, place */
+    if (atoms) { /* type, diameter, density, position */
         const struct sphere sphere = {.x = {a[3], a[4], a[5]}};
-        g_hash_table_insert(place_of, key, GINT_TO_POINTER((int)spheres->row->len));
+        g_hash_table_insert(index_of, key, GINT_TO_POINTER((int)spheres->row->len));
         g_array_append_val(spheres->row, sphere);
         return a[1] == 1.0 || spheres_fail("accepted: diameters of 1", path);
     }
-    if (g_hash_table_contains(place_of, key)) {
-        const int i = GPOINTER_TO_INT(g_hash_table_lookup(place_of, key));
+    if (g_hash_table_contains(index_of, key)) {
+        const int i = GPOINTER_TO_INT(g_hash_table_lookup(index_of, key));
         memcpy(g_array_index(spheres->row, struct sphere, i).v, a, sizeof a);
     }
     return true;
@@ -62,17 +62,17 @@ static inline bool spheres_read(const char *path, struct spheres *spheres)
     if (!g_file_get_contents(path, &text, NULL, NULL)) {
         return spheres_fail("cannot be read", path);
     }
-    GHashTable *place_of = g_hash_table_new(g_direct_hash, g_direct_equal);
+    GHashTable *index_of = g_hash_table_new(g_direct_hash, g_direct_equal);
     char **lines = g_strsplit(text, "\n", -1);
     bool atoms = false, good = true;
     for (char **line = lines; *line && good; line++) {
         if (g_str_has_prefix(*line, "Atoms") || g_str_has_prefix(*line, "Velocities")) {
             atoms = **line == 'A';
         } else {
-            good = spheres_take(spheres, place_of, atoms, *line, path);
+            good = spheres_take(spheres, index_of, atoms, *line, path);
         }
     }
-    g_hash_table_destroy(place_of);
+    g_hash_table_destroy(index_of);
     g_strfreev(lines);
     g_free(text);
     return good && (spheres->row->len > 0 || spheres_fail("holds no spheres", path));

@@ -64,10 +64,10 @@ static double virial(const struct gb_bed *bed)
 
 static bool time_steps(struct gb_bed *bed, int batches, struct gb_error *err)
 {
-    struct gb_leapfrog leap;
+    struct gb_leapfrog leapfrog;
     struct gb_contact_counts counts;
     double *batch = g_new(double, batches);
-    gb_leapfrog_init(&leap, 0.5, 1e-3);
+    gb_leapfrog_init(&leapfrog, 0.5, 1e-3);
     bool good = gb_bed_evaluate(bed, 0.0, 0.0, err);
     if (good) {
         gb_observe_die_contacts(bed, &counts, NULL, 0, NULL);
@@ -76,7 +76,7 @@ static bool time_steps(struct gb_bed *bed, int batches, struct gb_error *err)
     for (int b = -1; b < batches && good; b++) { /* the first one warms up */
         const double start = gb_clock_process_s();
         for (int k = 0; k < STEPS && good; k++) {
-            good = gb_leapfrog_step(&leap, bed, err);
+            good = gb_leapfrog_step(&leapfrog, bed, err);
         }
         batch[b < 0 ? 0 : b] = (gb_clock_process_s() - start) / STEPS;
     }

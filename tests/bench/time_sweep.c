@@ -26,7 +26,7 @@ enum { BLOCK = 500, RUNS = 1000, PARTICLES = 250, WORDS = 32 };
 static const char *const scene[] = {"structure.base=auto", "loading.until=100 MPa",
                                     "loading.unload_from=", "numerics.fidelity=fast"};
 
-struct way {
+struct method {
     const char *name;
     const char *words[WORDS]; /* before `sweep`; NULL first: in this process */
     const char *jobs;
@@ -120,20 +120,21 @@ static double spawn(char **argv)
            1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
-static double sweep(const struct way *way, const char *greenbody, const char *particles,
-                    const char *folder, int first, int runs)
+static double sweep(const struct method *method, const char *greenbody,
+                    const char *particles, const char *folder, int first, int runs)
 {
     char *argv[WORDS] = {NULL};
     int argc = 0;
-    char *out = g_strdup_printf("%s/%s%s-%d", folder, way->words[0], way->jobs, first);
+    char *out =
+        g_strdup_printf("%s/%s%s-%d", folder, method->words[0], method->jobs, first);
     char *seed = g_strdup_printf("structure.seed=%d", first);
     char *count = g_strconcat("particles.count=", particles, NULL);
     char *replicas = g_strdup_printf("--replicas=%d", runs);
-    for (int k = 0; way->words[k] != NULL; k++) {
-        append(argv, &argc, way->words[k]);
+    for (int k = 0; method->words[k] != NULL; k++) {
+        append(argv, &argc, method->words[k]);
     }
     const char *const words[] = {greenbody, "sweep",  "default", count,   seed,
-                                 replicas,  "-q",     "-o",      out,     way->jobs,
+                                 replicas,  "-q",     "-o",      out,     method->jobs,
                                  scene[0],  scene[1], scene[2],  scene[3]};
     for (size_t k = 0; k < G_N_ELEMENTS(words); k++) {
         append(argv, &argc, words[k]);
@@ -155,7 +156,7 @@ static bool has_mpirun(void)
 
 int main(int argc, char **argv)
 {
-    static struct way ways[] = {
+    static struct method methods[] = {
         {.name = "cells, nothing kept"},
         {.name = "cells with directories", .jobs = "kept"},
         {.name = "one process, --jobs 1", .words = {"env", NULL}, .jobs = "--jobs=1"},
@@ -173,19 +174,19 @@ int main(int argc, char **argv)
     }
     char *particles = argc > 3 ? g_strdup(argv[3]) : g_strdup_printf("%d", PARTICLES);
     const struct gb_params params = cell(particles);
-    const size_t count = G_N_ELEMENTS(ways) - !has_mpirun();
+    const size_t count = G_N_ELEMENTS(methods) - !has_mpirun();
     for (int first = 1; first + block - 1 <= runs; first += block) {
         for (size_t w = 0; w < count; w++) {
-            struct way *way = &ways[w];
+            struct method *method = &methods[w];
             const double begun = gb_clock_s();
             const double used = gb_clock_process_s();
-            if (way->words[0] == NULL) {
-                press_all(params, way->jobs ? folder : NULL, first, block);
-                way->cpu_s += gb_clock_process_s() - used;
+            if (method->words[0] == NULL) {
+                press_all(params, method->jobs ? folder : NULL, first, block);
+                method->cpu_s += gb_clock_process_s() - used;
             } else {
-                way->cpu_s += sweep(way, argv[1], particles, folder, first, block);
+                method->cpu_s += sweep(method, argv[1], particles, folder, first, block);
             }
-            way->elapsed_s += gb_clock_s() - begun;
+            method->elapsed_s += gb_clock_s() - begun;
         }
     }
     printf("%d cells of %s particles to 100 MPa, in blocks of %d\n"
@@ -194,8 +195,9 @@ int main(int argc, char **argv)
            "overhead");
     for (size_t w = 0; w < count; w++) {
         const double scale = 1e3 / (double)(runs / block * block);
-        printf("%-28s %14.2f %14.2f %9.1f%%\n", ways[w].name, scale * ways[w].cpu_s,
-               scale * ways[w].elapsed_s, 1e2 * (ways[w].cpu_s / ways[1].cpu_s - 1.0));
+        printf("%-28s %14.2f %14.2f %9.1f%%\n", methods[w].name, scale * methods[w].cpu_s,
+               scale * methods[w].elapsed_s,
+               1e2 * (methods[w].cpu_s / methods[1].cpu_s - 1.0));
     }
     char *const remove[] = {(char *)"rm", (char *)"-rf", folder, NULL};
     (void)spawn((char **)remove);

@@ -47,7 +47,8 @@ static inline struct gb_bed *bed_create(int64_t count, const double *radius,
     return bed;
 }
 
-static inline void bed_place(struct gb_bed *bed, int64_t i, double x, double y, double z)
+static inline void bed_set_position(struct gb_bed *bed, int64_t i, double x, double y,
+                                    double z)
 {
     bed->position[i][0] = x;
     bed->position[i][1] = y;

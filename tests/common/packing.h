@@ -27,10 +27,10 @@ static inline void packing_init(struct packing *packing, int dimension, int64_t 
     struct gb_chain_growth *grow = &packing->grow;
     struct gb_error err = {0};
     *grow = (struct gb_chain_growth){.dimension = dimension,
-                             .count = count,
-                             .r_eq = 1.0 - h_eq,
-                             .r_meso = 2.0,
-                             .seed = seed};
+                                     .count = count,
+                                     .r_eq = 1.0 - h_eq,
+                                     .r_meso = 2.0,
+                                     .seed = seed};
     const double solid = (dimension == 3 ? G_PI / 6.0 : G_PI / 4.0) * (double)count;
     grow->edges[0] = dimension == 3 ? base : sqrt(solid / density);
     grow->edges[1] = dimension == 3 ? base : 1.0;
@@ -45,7 +45,7 @@ static inline void packing_make(struct packing *packing, int dimension, int64_t 
 {
     struct gb_error err = {0};
     packing_init(packing, dimension, count, base, density, h_eq, seed);
-    if (!gb_chain_growth_place(&packing->grow, packing->position, &err)) {
+    if (!gb_chain_growth_run(&packing->grow, packing->position, &err)) {
         g_error("%s", err.text);
     }
 }

@@ -47,7 +47,7 @@ static inline double *scene_positions(const struct gb_model *model)
     struct gb_error err = {0};
     double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, &err);
     const struct gb_chain_growth grow = gb_chain_growth_from_model(model);
-    if (!position || !gb_chain_growth_place(&grow, position, &err)) {
+    if (!position || !gb_chain_growth_run(&grow, position, &err)) {
         g_error("%s", err.text);
     }
     return position;

@@ -81,41 +81,41 @@ static void test_odd_axes(void)
     }
 }
 
-struct sheet {
+struct page {
     double x[POINTS], y[2][POINTS], error[POINTS];
     struct gb_figure_curve curve[3];
     struct gb_figure figure;
 };
 
 /* A straight line with a band, a flat one, and three points. */
-static void make(struct sheet *sheet)
+static void make(struct page *page)
 {
-    *sheet = (struct sheet){0};
+    *page = (struct page){0};
     for (int k = 0; k < POINTS; k++) {
-        sheet->x[k] = k / (POINTS - 1.0);
-        sheet->y[0][k] = 100.0 * sheet->x[k];
-        sheet->y[1][k] = 20.0;
-        sheet->error[k] = 6.0;
+        page->x[k] = k / (POINTS - 1.0);
+        page->y[0][k] = 100.0 * page->x[k];
+        page->y[1][k] = 20.0;
+        page->error[k] = 6.0;
     }
-    sheet->curve[0] = (struct gb_figure_curve){.label = "steep",
-                                               .count = POINTS,
-                                               .x = sheet->x,
-                                               .y = sheet->y[0],
-                                               .error = sheet->error};
-    sheet->curve[1] = (struct gb_figure_curve){
-        .label = "flat", .style = 1, .count = POINTS, .x = sheet->x, .y = sheet->y[1]};
-    sheet->curve[2] = (struct gb_figure_curve){.label = "measured",
-                                               .kind = GB_FIGURE_POINTS,
-                                               .style = 2,
-                                               .count = 3,
-                                               .x = sheet->x + 30,
-                                               .y = sheet->y[0] + 5};
-    sheet->figure = (struct gb_figure){.title = "Title",
-                                       .caption = "Caption",
-                                       .x = {"density", false, NAN, NAN},
-                                       .y = {"pressure (MPa)", false, NAN, NAN},
-                                       .curve = sheet->curve,
-                                       .count = 3};
+    page->curve[0] = (struct gb_figure_curve){.label = "steep",
+                                              .count = POINTS,
+                                              .x = page->x,
+                                              .y = page->y[0],
+                                              .error = page->error};
+    page->curve[1] = (struct gb_figure_curve){
+        .label = "flat", .style = 1, .count = POINTS, .x = page->x, .y = page->y[1]};
+    page->curve[2] = (struct gb_figure_curve){.label = "measured",
+                                              .kind = GB_FIGURE_POINTS,
+                                              .style = 2,
+                                              .count = 3,
+                                              .x = page->x + 30,
+                                              .y = page->y[0] + 5};
+    page->figure = (struct gb_figure){.title = "Title",
+                                      .caption = "Caption",
+                                      .x = {"density", false, NAN, NAN},
+                                      .y = {"pressure (MPa)", false, NAN, NAN},
+                                      .curve = page->curve,
+                                      .count = 3};
 }
 
 static struct gb_image *paint(const struct gb_figure *figure,
@@ -150,10 +150,10 @@ static double distance_to(const uint8_t *rgba, int style)
 
 static void test_ink(void)
 {
-    struct sheet sheet;
+    struct page page;
     struct gb_figure_layout layout;
-    make(&sheet);
-    struct gb_image *image = paint(&sheet.figure, &layout);
+    make(&page);
+    struct gb_image *image = paint(&page.figure, &layout);
     /* the line where it is, its band pale beside it, nothing beyond */
     g_assert_cmpfloat(distance_to(pixel(image, &layout, 0.5, 50.0), 0), <, 0.3);
     const uint8_t *band = pixel(image, &layout, 0.5, 54.0);
@@ -161,25 +161,25 @@ static void test_ink(void)
     g_assert_cmpint(band[2], >, band[0]);
     g_assert_cmpint(pixel(image, &layout, 0.5, 70.0)[0], ==, 255);
     /* a point is a filled mark on top */
-    g_assert_cmpfloat(distance_to(pixel(image, &layout, sheet.x[31], sheet.y[0][6]), 2),
-                      <, 0.05);
+    g_assert_cmpfloat(distance_to(pixel(image, &layout, page.x[31], page.y[0][6]), 2), <,
+                      0.05);
     gb_image_destroy(image);
 }
 
 /* No ink of a curve under the legend: painted alone, curves leave its place white. */
 static void test_legend(void)
 {
-    struct sheet sheet;
+    struct page page;
     struct gb_figure_layout with;
     struct gb_figure_layout without;
-    make(&sheet);
-    gb_image_destroy(paint(&sheet.figure, &with));
+    make(&page);
+    gb_image_destroy(paint(&page.figure, &with));
     g_assert_cmpfloat(with.legend[2], >, 0.0);
     g_assert_cmpfloat(with.legend[2], <=, with.frame[2]);
     for (int k = 0; k < 3; k++) {
-        sheet.curve[k].label = NULL;
+        page.curve[k].label = NULL;
     }
-    struct gb_image *image = paint(&sheet.figure, &without);
+    struct gb_image *image = paint(&page.figure, &without);
     g_assert_cmpfloat(without.legend[2], ==, 0.0);
     for (int y = (int)with.legend[1]; y < (int)with.legend[3]; y++) {
         for (int x = (int)with.legend[0]; x < (int)with.legend[2]; x++) {
@@ -199,16 +199,16 @@ static bool is_white(const struct gb_image *image, int x, int y)
 /* A part of the axis drawn larger stands where nothing else does, and has its own ink. */
 static void test_inset(void)
 {
-    struct sheet sheet;
+    struct page page;
     struct gb_figure_layout with;
     struct gb_figure_layout without;
-    make(&sheet);
-    struct gb_image *plain = paint(&sheet.figure, &without);
+    make(&page);
+    struct gb_image *plain = paint(&page.figure, &without);
     g_assert_cmpfloat(without.inset[2], ==, 0.0);
     gb_image_destroy(plain);
-    sheet.figure.inset[0] = 0.1;
-    sheet.figure.inset[1] = 0.3;
-    struct gb_image *image = paint(&sheet.figure, &with);
+    page.figure.inset[0] = 0.1;
+    page.figure.inset[1] = 0.3;
+    struct gb_image *image = paint(&page.figure, &with);
     const double *box = with.inset;
     g_assert_cmpfloat(box[2], >, box[0]);
     g_assert_cmpfloat(box[2] - box[0], <, 0.6 * (with.frame[2] - with.frame[0]));
@@ -223,10 +223,10 @@ static void test_inset(void)
     g_assert_cmpint(ink, >, 100); /* the steep line */
     gb_image_destroy(image);
     for (int k = 0; k < 3; k++) {
-        sheet.curve[k].label = NULL;
+        page.curve[k].label = NULL;
     }
-    sheet.figure.inset[1] = sheet.figure.inset[0];
-    image = paint(&sheet.figure, &without);
+    page.figure.inset[1] = page.figure.inset[0];
+    image = paint(&page.figure, &without);
     for (int y = (int)box[1]; y < (int)box[3]; y++) {
         for (int x = (int)box[0]; x < (int)box[2]; x++) {
             g_assert_true(is_white(image, x, y));
@@ -239,16 +239,16 @@ static void test_inset(void)
  * alone they would be those of others without colours. */
 static void test_rounds(void)
 {
-    struct sheet sheet;
+    struct page page;
     struct gb_figure_layout layout;
     int ink[2] = {0, 0};
-    make(&sheet);
-    sheet.figure.count = 1;
-    sheet.curve[0].error = NULL;
+    make(&page);
+    page.figure.count = 1;
+    page.curve[0].error = NULL;
     for (int k = 0; k < 2; k++) {
-        sheet.curve[0].style = 3 + k * GB_FIGURE_STYLES;
-        sheet.curve[0].label = NULL;
-        struct gb_image *image = paint(&sheet.figure, &layout);
+        page.curve[0].style = 3 + k * GB_FIGURE_STYLES;
+        page.curve[0].label = NULL;
+        struct gb_image *image = paint(&page.figure, &layout);
         for (int y = (int)layout.frame[1] + 20; y < (int)layout.frame[3] - 20; y++) {
             for (int x = (int)layout.frame[0] + 20; x < (int)layout.frame[2] - 20; x++) {
                 ink[k] += !is_white(image, x, y);
@@ -264,35 +264,35 @@ static void test_full(void)
 {
     static double x[2500];
     static double y[2500];
-    struct sheet sheet;
+    struct page page;
     struct gb_figure_layout layout;
-    make(&sheet);
+    make(&page);
     for (int k = 0; k < 2500; k++) {
         x[k] = k % 50;
         y[k] = k / 50;
     }
-    sheet.curve[0] = (struct gb_figure_curve){
+    page.curve[0] = (struct gb_figure_curve){
         .label = "everywhere", .kind = GB_FIGURE_POINTS, .count = 2500, .x = x, .y = y};
-    sheet.figure.count = 1;
-    gb_image_destroy(paint(&sheet.figure, &layout));
+    page.figure.count = 1;
+    gb_image_destroy(paint(&page.figure, &layout));
     g_assert_cmpfloat(layout.legend[0], >=, layout.frame[2]);
     g_assert_cmpfloat(layout.legend[2], <=, WIDE);
 }
 
 static void test_nothing(void)
 {
-    struct sheet sheet;
+    struct page page;
     struct gb_figure_layout layout;
-    make(&sheet);
-    sheet.figure.count = 0;
-    gb_image_destroy(paint(&sheet.figure, &layout));
-    make(&sheet);
+    make(&page);
+    page.figure.count = 0;
+    gb_image_destroy(paint(&page.figure, &layout));
+    make(&page);
     for (int k = 0; k < POINTS; k++) {
-        sheet.y[0][k] = NAN;
-        sheet.y[1][k] = -1.0;
+        page.y[0][k] = NAN;
+        page.y[1][k] = -1.0;
     }
-    sheet.figure.y.log = true;
-    gb_image_destroy(paint(&sheet.figure, &layout));
+    page.figure.y.log = true;
+    gb_image_destroy(paint(&page.figure, &layout));
 }
 
 static gsize size_of(const char *path, char **text)
@@ -312,15 +312,15 @@ static void test_files(void)
                  {"x.svg", "<?xml", gb_figure_write_svg},
                  {"x.pdf", "%PDF", gb_figure_write_pdf}};
     char *folder = g_dir_make_tmp("greenbody-figure-XXXXXX", NULL);
-    struct sheet sheet;
+    struct page page;
     struct gb_error err = {0};
-    make(&sheet);
+    make(&page);
     for (size_t k = 0; k < G_N_ELEMENTS(kinds); k++) {
         char *path = g_build_filename(folder, kinds[k].name, NULL);
         char *text[2];
         gsize size[2];
         for (int i = 0; i < 2; i++) {
-            g_assert_true(kinds[k].write(&sheet.figure, WIDE, HIGH, NULL, 0, path, &err));
+            g_assert_true(kinds[k].write(&page.figure, WIDE, HIGH, NULL, 0, path, &err));
             size[i] = size_of(path, &text[i]);
             g_remove(path);
         }
@@ -334,7 +334,7 @@ static void test_files(void)
         g_free(path);
     }
     char *lost = g_build_filename(folder, "no", "x.pdf", NULL);
-    g_assert_false(gb_figure_write_pdf(&sheet.figure, WIDE, HIGH, NULL, 0, lost, &err));
+    g_assert_false(gb_figure_write_pdf(&page.figure, WIDE, HIGH, NULL, 0, lost, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_MACHINE);
     g_assert_nonnull(strstr(err.text, lost));
     g_rmdir(folder);

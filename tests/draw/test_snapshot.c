@@ -15,7 +15,8 @@ enum { SIDE = 400 };
 /* One sphere in front of another, and one aside; the box is large. */
 static struct gb_state *packing(int dimension)
 {
-    static const double place[3][3] = {{5.0, 2.0, 5.0}, {5.0, 8.0, 5.0}, {2.0, 5.0, 8.0}};
+    static const double centre[3][3] = {
+        {5.0, 2.0, 5.0}, {5.0, 8.0, 5.0}, {2.0, 5.0, 8.0}};
     static const int contacts[3] = {2, 12, 7};
     struct gb_state *state = NULL;
     struct gb_error err = {0};
@@ -23,7 +24,7 @@ static struct gb_state *packing(int dimension)
     state->dimension = dimension;
     for (int k = 0; k < 3; k++) {
         state->cell[k] = dimension == 2 && k == 1 ? 1.0 : 10.0;
-        memcpy(&state->position[3 * k], place[k], sizeof place[k]);
+        memcpy(&state->position[3 * k], centre[k], sizeof centre[k]);
         state->radius[k] = k == 1 ? 0.9 : 1.0;
         state->contacts[k] = contacts[k];
         if (dimension == 2) {

@@ -66,10 +66,10 @@ static void advance_scalar(const struct gb_bed_law *law, const struct motion *m,
     const double fn = h > 0.0 ? gb_law_hertz_damped_force(branch.force, damping,
                                                           -gb_vec_dot(m->slip, n))
                               : 0.0;
-    const double lever_arm[2] = {m->radius[0] * r / reach, m->radius[1] * r / reach};
+    const double lever_length[2] = {m->radius[0] * r / reach, m->radius[1] * r / reach};
     const double still[3] = {0.0, 0.0, 0.0};
-    gb_law_mindlin_slip(n, m->slip, still, m->spin[0], m->spin[1], lever_arm[0],
-                        lever_arm[1], slip);
+    gb_law_mindlin_slip(n, m->slip, still, m->spin[0], m->spin[1], lever_length[0],
+                        lever_length[1], slip);
     gb_law_mindlin_rotate(state->shear, n);
     gb_law_mindlin_advance(state->shear, slip, law->shear * branch.stiffness, step, mu,
                            fn);
@@ -78,8 +78,8 @@ static void advance_scalar(const struct gb_bed_law *law, const struct motion *m,
         force[k] = fn * n[k] + state->shear[k];
     }
     for (int b = 0; b < 2; b++) {
-        double lever[3] = {-lever_arm[b] * n[0], -lever_arm[b] * n[1],
-                           -lever_arm[b] * n[2]};
+        double lever[3] = {-lever_length[b] * n[0], -lever_length[b] * n[1],
+                           -lever_length[b] * n[2]};
         gb_vec_cross(lever, state->shear, torque[b]);
     }
 }
@@ -132,9 +132,9 @@ static void check_law(const struct gb_bed_law *law, double mu)
             const struct motion was = m[k];
             m[k] = random_motion(rand, 0.4 * step + k);
             if (step > 0) { /* the bodies stay */
-                const double stretch =
+                const double ratio =
                     (was.radius[0] + was.radius[1]) / (m[k].radius[0] + m[k].radius[1]);
-                gb_vec_scale(m[k].branch, stretch);
+                gb_vec_scale(m[k].branch, ratio);
                 memcpy(m[k].radius, was.radius, sizeof was.radius);
                 memcpy(m[k].mass, was.mass, sizeof was.mass);
             }
@@ -213,8 +213,8 @@ static struct gb_bed *cluster(const struct gb_bed_law *law, int64_t count)
     const struct gb_die die = bed_die(50.0);
     struct gb_bed *bed = bed_create(count, radius, &die, law);
     for (int64_t i = 0; i < count; i++) {
-        bed_place(bed, i, 4.0 * g_rand_double(rand), 4.0 * g_rand_double(rand),
-                  20.0 + 4.0 * g_rand_double(rand));
+        bed_set_position(bed, i, 4.0 * g_rand_double(rand), 4.0 * g_rand_double(rand),
+                         20.0 + 4.0 * g_rand_double(rand));
         for (int k = 0; k < 3; k++) {
             bed->velocity[i][k] = 1e-2 * (g_rand_double(rand) - 0.5);
             bed->spin[i][k] = 1e-2 * (g_rand_double(rand) - 0.5);
@@ -288,16 +288,16 @@ static void test_walls(void)
     die.punch = true;
     die.punch_position = 6.0;
     struct gb_bed *bed = bed_create(1, &radius, &die, &law);
-    bed_place(bed, 0, 0.0, 0.0, radius - h);
+    bed_set_position(bed, 0, 0.0, 0.0, radius - h);
     bed_evaluate(bed, 0.0);
     g_assert_cmpfloat_with_epsilon(bed->force[0][2], force, 1e-13 * force);
     g_assert_cmpfloat(bed->tally.floor, ==, bed->force[0][2]);
     g_assert_cmpfloat(bed->tally.punch, ==, 0.0);
-    bed_place(bed, 0, 0.0, 0.0, 6.0 - radius + h);
+    bed_set_position(bed, 0, 0.0, 0.0, 6.0 - radius + h);
     bed_evaluate(bed, 0.0);
     g_assert_cmpfloat_with_epsilon(bed->force[0][2], -force, 1e-12 * force);
     g_assert_cmpfloat(bed->tally.punch, ==, -bed->force[0][2]);
-    bed_place(bed, 0, 0.0, -(4.0 - radius + h), 3.0);
+    bed_set_position(bed, 0, 0.0, -(4.0 - radius + h), 3.0);
     bed_evaluate(bed, 0.0);
     g_assert_cmpfloat_with_epsilon(bed->force[0][1], force, 1e-12 * force);
     g_assert_cmpfloat_with_epsilon(bed->tally.side[1], force * (4.0 - radius + h),
@@ -317,7 +317,7 @@ static void test_funnel(void)
                                .sine = sin(0.6),
                                .cosine = cos(0.6)};
     GRand *rand = g_rand_new_with_seed(1);
-    for (int trial = 0; trial < 500; trial++) {
+    for (int round = 0; round < 500; round++) {
         double x[3], unit[3];
         do {
             x[0] = 8.0 * (g_rand_double(rand) - 0.5);
@@ -403,7 +403,7 @@ static void test_pour(void)
     double first = 0.0;
     for (uint64_t seed = 1; seed < 4; seed++) {
         g_assert_true(
-            gb_random_insertion_place(bed, seed < 3 ? 1 : 2, 0.2, NULL, NULL, &err));
+            gb_random_insertion_fill(bed, seed < 3 ? 1 : 2, 0.2, NULL, NULL, &err));
         g_assert_true(seed == 1 || (first == bed->position[7][0]) == (seed == 2));
         first = bed->position[7][0];
         bed_evaluate(bed, 0.0);
@@ -413,10 +413,10 @@ static void test_pour(void)
             g_assert_cmpfloat(bed->position[i][2], >, die.height);
         }
     }
-    g_assert_false(gb_random_insertion_place(bed, 1, 0.2, stop, NULL, &err));
+    g_assert_false(gb_random_insertion_fill(bed, 1, 0.2, stop, NULL, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
     g_assert_false(
-        gb_random_insertion_place(bed, 1, 0.7, NULL, NULL, &err)); /* too dense */
+        gb_random_insertion_fill(bed, 1, 0.7, NULL, NULL, &err)); /* too dense */
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     gb_bed_destroy(bed);
 }

@@ -288,15 +288,15 @@ static void random_batch(GRand *random, struct gb_batch *batch)
     }
 }
 
-static void round_batch(const struct gb_batch *batch, struct gb_batch_f32 *single)
+static void round_batch(const struct gb_batch *batch, struct gb_batch_f32 *rounded)
 {
-    single->n = batch->n;
-    single->cutoff2 = (float)batch->cutoff2;
+    rounded->n = batch->n;
+    rounded->cutoff2 = (float)batch->cutoff2;
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < batch->n; k++) {
-            single->r[c][k] = (float)batch->r[c][k];
-            single->rotation_sum[c][k] = (float)batch->rotation_sum[c][k];
-            single->rotation_difference[c][k] = (float)batch->rotation_difference[c][k];
+            rounded->r[c][k] = (float)batch->r[c][k];
+            rounded->rotation_sum[c][k] = (float)batch->rotation_sum[c][k];
+            rounded->rotation_difference[c][k] = (float)batch->rotation_difference[c][k];
         }
     }
 }
@@ -375,7 +375,7 @@ static void test_widths(void)
 }
 
 /* Single precision: the same bits for every vector width. */
-static uint64_t walk_single(const struct gb_params *params, int width)
+static uint64_t walk_f32(const struct gb_params *params, int width)
 {
     struct gb_model model = scene_model(params);
     struct gb_contacts contacts;
@@ -383,16 +383,16 @@ static uint64_t walk_single(const struct gb_params *params, int width)
     open_contacts(&contacts, f32);
     GRand *random = g_rand_new_with_seed(5);
     static struct gb_batch batch;
-    static struct gb_batch_f32 single;
+    static struct gb_batch_f32 rounded;
     struct gb_tally tally = {0};
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
     for (int i = 0; i < 50; i++) {
         random_batch(random, &batch);
-        round_batch(&batch, &single);
-        kernel.advance(&model, &single, &contacts, 3);
-        kernel.tally(&single, &contacts, 3, &tally);
-        add_to_sum(sum, single.force[0], (size_t)batch.n, sizeof(float));
-        add_to_sum(sum, single.torque_i[0], (size_t)batch.n, sizeof(float));
+        round_batch(&batch, &rounded);
+        kernel.advance(&model, &rounded, &contacts, 3);
+        kernel.tally(&rounded, &contacts, 3, &tally);
+        add_to_sum(sum, rounded.force[0], (size_t)batch.n, sizeof(float));
+        add_to_sum(sum, rounded.torque_i[0], (size_t)batch.n, sizeof(float));
         g_checksum_update(sum, (const guchar *)&tally, sizeof tally);
         add_history(sum, &contacts);
     }
@@ -401,26 +401,26 @@ static uint64_t walk_single(const struct gb_params *params, int width)
     return close_sum(sum);
 }
 
-static void test_widths_single(void)
+static void test_widths_f32(void)
 {
     for (int t = 0; t < 3; t++) {
         const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
-        const uint64_t reference = walk_single(&params, 128);
-        g_assert_cmpuint(walk_single(&params, 256), ==, reference);
-        g_assert_cmpuint(walk_single(&params, 512), ==, reference);
+        const uint64_t reference = walk_f32(&params, 128);
+        g_assert_cmpuint(walk_f32(&params, 256), ==, reference);
+        g_assert_cmpuint(walk_f32(&params, 512), ==, reference);
     }
 }
 
 /* The same small motion of pairs in both precisions: forces and torques agree within the
  * rounding of an overlap, 1e-7 of the distance. */
-static void test_single(void)
+static void test_f32(void)
 {
     for (int t = 0; t < 3; t++) {
         const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
         struct gb_model model = scene_model(&params);
         struct gb_contacts fine, coarse;
         static struct gb_batch batch, step;
-        static struct gb_batch_f32 single;
+        static struct gb_batch_f32 rounded;
         const struct gb_batch_kernel kernel = gb_batch_pick(&model, 0);
         const struct gb_batch_f32_kernel other = gb_batch_f32_pick(&model, 0);
         open_contacts(&fine, f64);
@@ -438,21 +438,21 @@ static void test_single(void)
                         0.03 * step.rotation_difference[c][k];
                 }
             }
-            round_batch(&batch, &single);
+            round_batch(&batch, &rounded);
             kernel.advance(&model, &batch, &fine, 0);
-            other.advance(&model, &single, &coarse, 0);
+            other.advance(&model, &rounded, &coarse, 0);
             for (int k = 0; k < batch.n; k++) {
                 for (int c = 0; c < 3; c++) {
                     const double most = 3e-4 * model.adhesion;
                     g_assert_cmpfloat_with_epsilon(batch.force[c][k],
-                                                   (double)single.force[c][k], most);
+                                                   (double)rounded.force[c][k], most);
                     g_assert_cmpfloat_with_epsilon(batch.torque_i[c][k],
-                                                   (double)single.torque_i[c][k], most);
+                                                   (double)rounded.torque_i[c][k], most);
                     g_assert_cmpfloat_with_epsilon(batch.torque_j[c][k],
-                                                   (double)single.torque_j[c][k], most);
+                                                   (double)rounded.torque_j[c][k], most);
                 }
                 held += gb_contacts_deepest(&coarse, k) > 0.0;
-                slid += single.sliding[k] > 0.0F;
+                slid += rounded.sliding[k] > 0.0F;
             }
         }
         g_assert_true(t != 0 || held > 1000);
@@ -529,8 +529,8 @@ int main(int argc, char **argv)
     g_test_add_func("/contact/switches", test_switches);
     g_test_add_func("/contact/laws", test_laws);
     g_test_add_func("/contact/widths", test_widths);
-    g_test_add_func("/contact/widths-single", test_widths_single);
-    g_test_add_func("/contact/single", test_single);
+    g_test_add_func("/contact/widths-single", test_widths_f32);
+    g_test_add_func("/contact/single", test_f32);
     g_test_add_func("/contact/planar", test_planar);
     return g_test_run();
 }

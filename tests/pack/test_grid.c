@@ -89,7 +89,7 @@ static void check_searches(int dimension, const double edges[3], double size,
                            GRand *random)
 {
     struct gb_grid *grid = make_grid(dimension, edges, size, random);
-    for (int trial = 0; trial < 20; trial++) {
+    for (int round = 0; round < 20; round++) {
         double origin[3], direction[3];
         double length = 0.0;
         for (int k = 0; k < 3; k++) {

@@ -87,7 +87,7 @@ static void test_too_dense(void)
         struct packing packing;
         struct gb_error err = {0};
         packing_init(&packing, dimension, 500, 6.0, dimension == 3 ? 0.7 : 0.9, 0.0, 1);
-        g_assert_false(gb_chain_growth_place(&packing.grow, packing.position, &err));
+        g_assert_false(gb_chain_growth_run(&packing.grow, packing.position, &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
         g_assert_true(g_str_has_prefix(err.text, dimension == 3
                                                      ? "structure.density = 0.7: "
@@ -102,11 +102,11 @@ static void test_bad_input(void)
     struct packing packing;
     struct gb_error err = {0};
     packing_init(&packing, 3, 10, 1.9, 0.1, 0.0, 1);
-    g_assert_false(gb_chain_growth_place(&packing.grow, packing.position, &err));
+    g_assert_false(gb_chain_growth_run(&packing.grow, packing.position, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     g_assert_true(g_str_has_prefix(err.text, "structure.base"));
     packing.grow.count = 0;
-    g_assert_false(gb_chain_growth_place(&packing.grow, packing.position, &err));
+    g_assert_false(gb_chain_growth_run(&packing.grow, packing.position, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     packing_finish(&packing);
 }
@@ -125,7 +125,7 @@ static void test_cancel(void)
     packing_init(&packing, 3, 1000, 9.0, 0.24, 0.0, 1);
     packing.grow.cancelled = after_some;
     packing.grow.data = &polls;
-    g_assert_false(gb_chain_growth_place(&packing.grow, packing.position, &err));
+    g_assert_false(gb_chain_growth_run(&packing.grow, packing.position, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
     g_assert_cmpint(polls, ==, 4);
     packing_finish(&packing);
@@ -142,7 +142,7 @@ static void test_memory(void)
     bool done = false;
     while (!done) {
         gb_alloc_fail_after(++k);
-        done = gb_chain_growth_place(&packing.grow, packing.position, &err);
+        done = gb_chain_growth_run(&packing.grow, packing.position, &err);
         gb_alloc_fail_after(0);
         g_assert_true(done || err.code == GB_ERR_MEMORY);
         g_assert_cmpuint(gb_alloc_bytes(), ==, held);

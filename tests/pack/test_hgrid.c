@@ -57,13 +57,13 @@ static double gap(const struct cloud *cloud, double skin, int64_t i, int64_t j)
 
 /* Every pair against the definition. */
 static void check_list(const struct cloud *cloud, double skin,
-                       const struct gb_hgrid *sift)
+                       const struct gb_hgrid *hgrid)
 {
     int64_t k = 0;
     for (int64_t i = 0; i < cloud->count; i++) {
-        g_assert_cmpint(sift->start[i], ==, k);
+        g_assert_cmpint(hgrid->start[i], ==, k);
         for (int64_t j = i + 1; j < cloud->count; j++) {
-            const bool listed = k < sift->start[i + 1] && sift->other[k] == j;
+            const bool listed = k < hgrid->start[i + 1] && hgrid->other[k] == j;
             const double g = gap(cloud, skin, i, j);
             if (fabs(g) > 1e-9 && listed != (g < 0.0)) {
                 g_error("pair %ld %ld: gap %g, %s", (long)i, (long)j, g,
@@ -71,24 +71,24 @@ static void check_list(const struct cloud *cloud, double skin,
             }
             k += listed;
         }
-        g_assert_cmpint(sift->start[i + 1], ==, k);
+        g_assert_cmpint(hgrid->start[i + 1], ==, k);
     }
-    g_assert_cmpint(sift->pair_count, ==, k);
+    g_assert_cmpint(hgrid->pair_count, ==, k);
 }
 
-static void check(const struct cloud *cloud, double skin, struct gb_hgrid *sift)
+static void check(const struct cloud *cloud, double skin, struct gb_hgrid *hgrid)
 {
     struct gb_error err = {0};
     for (int pass = 0; pass < 2; pass++) {
-        sift->levels = pass == 0 ? 16 : 1;
-        if (!gb_hgrid_build(sift, &cloud->box, cloud->count,
+        hgrid->levels = pass == 0 ? 16 : 1;
+        if (!gb_hgrid_build(hgrid, &cloud->box, cloud->count,
                             (const double(*)[4])cloud->sphere, cloud->margin, skin,
                             &err)) {
             g_error("%s", err.text);
         }
-        check_list(cloud, skin, sift);
+        check_list(cloud, skin, hgrid);
     }
-    sift->levels = 16;
+    hgrid->levels = 16;
 }
 
 static void fill(struct cloud *cloud, double ratio)
@@ -107,8 +107,8 @@ static void fill(struct cloud *cloud, double ratio)
 static void test_random(void)
 {
     static const double ratios[] = {1.0, 2.0, 12.0, 1e3, 1e6};
-    struct gb_hgrid sift;
-    g_assert_true(gb_hgrid_init(&sift, 0, NULL)); /* grows */
+    struct gb_hgrid hgrid;
+    g_assert_true(gb_hgrid_init(&hgrid, 0, NULL)); /* grows */
     for (int round = 0; round < 160; round++) {
         struct cloud cloud = make(g_test_rand_int_range(0, 400), 1.0);
         for (int k = 0; k < 3; k++) {
@@ -120,10 +120,10 @@ static void test_random(void)
         for (int64_t i = 0; i < cloud.count && round % 3 == 0; i++) {
             cloud.margin[i] = 0.2 * g_test_rand_double();
         }
-        check(&cloud, round % 2 ? 0.1 : 0.0, &sift);
+        check(&cloud, round % 2 ? 0.1 : 0.0, &hgrid);
         drop(&cloud);
     }
-    gb_hgrid_finish(&sift);
+    gb_hgrid_finish(&hgrid);
 }
 
 static double random_normal(void)
@@ -136,8 +136,8 @@ static double random_normal(void)
  * no radius, as large as the box. */
 static void test_degenerate(void)
 {
-    struct gb_hgrid sift;
-    g_assert_true(gb_hgrid_init(&sift, 300, NULL));
+    struct gb_hgrid hgrid;
+    g_assert_true(gb_hgrid_init(&hgrid, 300, NULL));
     for (int shape = 0; shape < 9; shape++) {
         struct cloud cloud = make(250, 30.0);
         fill(&cloud, 12.0);
@@ -179,22 +179,22 @@ static void test_degenerate(void)
                 break;
             }
         }
-        check(&cloud, shape == 7 ? 0.0 : 1e-3, &sift);
+        check(&cloud, shape == 7 ? 0.0 : 1e-3, &hgrid);
         for (int k = 0; k < 3; k++) { /* a box without bounds */
             cloud.box.low[k] = -INFINITY;
             cloud.box.high[k] = INFINITY;
         }
-        check(&cloud, 0.5, &sift);
+        check(&cloud, 0.5, &hgrid);
         drop(&cloud);
     }
-    gb_hgrid_finish(&sift);
+    gb_hgrid_finish(&hgrid);
 }
 
 /* A periodic box just wide enough, spheres on its faces and periods away. */
 static void test_periodic(void)
 {
-    struct gb_hgrid sift;
-    g_assert_true(gb_hgrid_init(&sift, 200, NULL));
+    struct gb_hgrid hgrid;
+    g_assert_true(gb_hgrid_init(&hgrid, 200, NULL));
     for (int round = 0; round < 40; round++) {
         struct cloud cloud = make(200, 4.2);
         fill(&cloud, 12.0);
@@ -207,26 +207,26 @@ static void test_periodic(void)
             cloud.sphere[i][(k + 1) % 3] += 4.2 * g_test_rand_int_range(-3, 4);
             cloud.sphere[i][3] *= round % 4 ? 0.5 : 0.999;
         }
-        check(&cloud, 0.02, &sift);
+        check(&cloud, 0.02, &hgrid);
         drop(&cloud);
     }
-    gb_hgrid_finish(&sift);
+    gb_hgrid_finish(&hgrid);
 }
 
 static void expect(struct cloud *cloud, double skin, enum gb_status code,
                    const char *said)
 {
-    struct gb_hgrid sift;
+    struct gb_hgrid hgrid;
     struct gb_error err = {0};
-    g_assert_true(gb_hgrid_init(&sift, cloud->count, NULL));
-    g_assert_false(gb_hgrid_build(&sift, &cloud->box, cloud->count,
+    g_assert_true(gb_hgrid_init(&hgrid, cloud->count, NULL));
+    g_assert_false(gb_hgrid_build(&hgrid, &cloud->box, cloud->count,
                                   (const double(*)[4])cloud->sphere, cloud->margin, skin,
                                   &err));
     g_test_message("%s", err.text);
     g_assert_cmpint(err.code, ==, code);
     g_assert_nonnull(strstr(err.text, said));
-    g_assert_cmpint(sift.pair_count, ==, 0);
-    gb_hgrid_finish(&sift);
+    g_assert_cmpint(hgrid.pair_count, ==, 0);
+    gb_hgrid_finish(&hgrid);
 }
 
 static void test_guards(void)
@@ -255,49 +255,49 @@ static void test_guards(void)
     }
     expect(&cloud, 0.0, GB_ERR_GUARD, "they overlap too much");
     drop(&cloud);
-    struct gb_hgrid sift;
+    struct gb_hgrid hgrid;
     struct gb_error err = {0};
-    g_assert_false(gb_hgrid_init(&sift, INT32_MAX, &err));
+    g_assert_false(gb_hgrid_init(&hgrid, INT32_MAX, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
 }
 
 /* Every allocation may fail; with room, none is made. */
 static void test_memory(void)
 {
-    struct gb_hgrid sift;
+    struct gb_hgrid hgrid;
     struct gb_error err = {0};
     struct cloud cloud = make(500, 12.0);
     fill(&cloud, 12.0);
     bool done = false;
     for (long k = 1; !done; k++) {
         gb_alloc_fail_after(k);
-        done = gb_hgrid_init(&sift, 100, &err);
+        done = gb_hgrid_init(&hgrid, 100, &err);
         if (done) {
-            done = gb_hgrid_build(&sift, &cloud.box, cloud.count,
+            done = gb_hgrid_build(&hgrid, &cloud.box, cloud.count,
                                   (const double(*)[4])cloud.sphere, NULL, 0.1, &err);
-            gb_hgrid_finish(&sift);
+            gb_hgrid_finish(&hgrid);
         }
         gb_alloc_fail_after(0);
         g_assert_true(done || err.code == GB_ERR_MEMORY);
         g_assert_cmpint(k, <, 100);
     }
-    g_assert_true(gb_hgrid_init(&sift, cloud.count, NULL));
-    check(&cloud, 0.1, &sift);
+    g_assert_true(gb_hgrid_init(&hgrid, cloud.count, NULL));
+    check(&cloud, 0.1, &hgrid);
     gb_alloc_fail_after(1);
-    check(&cloud, 0.1, &sift);
-    check(&cloud, 0.05, &sift);
+    check(&cloud, 0.1, &hgrid);
+    check(&cloud, 0.05, &hgrid);
     gb_alloc_fail_after(0);
-    gb_hgrid_finish(&sift);
+    gb_hgrid_finish(&hgrid);
     drop(&cloud);
 }
 
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/sift/random", test_random);
-    g_test_add_func("/sift/degenerate", test_degenerate);
-    g_test_add_func("/sift/periodic", test_periodic);
-    g_test_add_func("/sift/guards", test_guards);
-    g_test_add_func("/sift/memory", test_memory);
+    g_test_add_func("/hgrid/random", test_random);
+    g_test_add_func("/hgrid/degenerate", test_degenerate);
+    g_test_add_func("/hgrid/periodic", test_periodic);
+    g_test_add_func("/hgrid/guards", test_guards);
+    g_test_add_func("/hgrid/memory", test_memory);
     return g_test_run();
 }

@@ -37,7 +37,7 @@ static void p3_sizes(int64_t count, double *diameter)
 }
 
 /* Spheres at random places of a cube, density 0.6; returns its edge. */
-static double place(int kind, int64_t count, double (*sphere)[4])
+static double fill(int kind, int64_t count, double (*sphere)[4])
 {
     double *diameter = g_new(double, (gsize)count), volume = 0.0;
     if (kind == 1) {
@@ -71,21 +71,21 @@ static int compare(const void *a, const void *b)
 /* Median of the time a build takes, over the count. */
 static double per_sphere(int64_t count, double (*sphere)[4], double edge, int levels)
 {
-    struct gb_hgrid sift;
+    struct gb_hgrid hgrid;
     struct gb_error err = {0};
     const struct gb_hgrid_box box = {.high = {edge, edge, edge}};
     double spent[REPEATS];
-    g_assert_true(gb_hgrid_init(&sift, count, &err));
-    sift.levels = levels;
+    g_assert_true(gb_hgrid_init(&hgrid, count, &err));
+    hgrid.levels = levels;
     for (int k = 0; k < REPEATS; k++) {
         const double start = gb_clock_process_s();
-        if (!gb_hgrid_build(&sift, &box, count, (const double(*)[4])sphere, NULL,
+        if (!gb_hgrid_build(&hgrid, &box, count, (const double(*)[4])sphere, NULL,
                             0.02 * edge / cbrt((double)count), &err)) {
             g_error("%s", err.text);
         }
         spent[k] = (gb_clock_process_s() - start) / (double)count;
     }
-    gb_hgrid_finish(&sift);
+    gb_hgrid_finish(&hgrid);
     qsort(spent, REPEATS, sizeof *spent, compare);
     return spent[REPEATS / 2];
 }
@@ -94,21 +94,21 @@ static void test_time(void)
 {
     double(*sphere)[4] = g_malloc_n((gsize)counts[COUNTS - 1], sizeof *sphere);
     for (int kind = 0; kind < KINDS; kind++) {
-        double sifted[COUNTS], plain[COUNTS];
+        double levelled[COUNTS], plain[COUNTS];
         for (int c = 0; c < COUNTS; c++) {
-            const double edge = place(kind, counts[c], sphere);
-            sifted[c] = per_sphere(counts[c], sphere, edge, 16);
+            const double edge = fill(kind, counts[c], sphere);
+            levelled[c] = per_sphere(counts[c], sphere, edge, 16);
             plain[c] = per_sphere(counts[c], sphere, edge, 1);
             g_test_message("%s, %6" G_GINT64_FORMAT
                            ": %.3f us a sphere, plain grid %.3f us",
-                           kinds[kind], counts[c], 1e6 * sifted[c], 1e6 * plain[c]);
+                           kinds[kind], counts[c], 1e6 * levelled[c], 1e6 * plain[c]);
         }
         /* linear: what grows is the share of memory out of the cache */
-        g_assert_cmpfloat(sifted[COUNTS - 1], <, 4.0 * sifted[0]);
-        g_assert_cmpfloat(sifted[COUNTS - 1], <, 1.5 * plain[COUNTS - 1]);
-        g_assert_cmpfloat(sifted[COUNTS - 1], <, 2e-6);
+        g_assert_cmpfloat(levelled[COUNTS - 1], <, 4.0 * levelled[0]);
+        g_assert_cmpfloat(levelled[COUNTS - 1], <, 1.5 * plain[COUNTS - 1]);
+        g_assert_cmpfloat(levelled[COUNTS - 1], <, 2e-6);
         if (kind == 3) {
-            g_assert_cmpfloat(sifted[COUNTS - 1], <, 0.1 * plain[COUNTS - 1]);
+            g_assert_cmpfloat(levelled[COUNTS - 1], <, 0.1 * plain[COUNTS - 1]);
         }
     }
     g_free(sphere);
@@ -117,6 +117,6 @@ static void test_time(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/sift-time/linear", test_time);
+    g_test_add_func("/hgrid-time/linear", test_time);
     return g_test_run();
 }

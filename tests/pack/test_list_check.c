@@ -169,12 +169,12 @@ static void test_meeting(void)
     struct gb_model model = scene_model(&params);
     GRand *random = g_rand_new_with_seed(7);
     int outlived = 0, met = 0;
-    for (int trial = 0; trial < 800; trial++) {
+    for (int round = 0; round < 800; round++) {
         double x[90][3], unit[3];
         struct gb_error err = {0};
         struct gb_world *world = NULL;
         const bool small_cell =
-            trial >= 400; /* nearest images change during the approach */
+            round >= 400; /* nearest images change during the approach */
         for (int k = 0; k < 3; k++) {
             model.edges[k] = g_rand_double_range(random, small_cell ? 2.9 : 6.0,
                                                  small_cell ? 3.5 : 12.0);
@@ -198,7 +198,7 @@ static void test_meeting(void)
                 x[i]);
         }
         g_assert_true(gb_world_create(&world, &model, x[0], &err));
-        const double step_max = trial % 2 ? 0.03 : g_rand_double_range(random, 0.0, 0.06);
+        const double step_max = round % 2 ? 0.03 : g_rand_double_range(random, 0.0, 0.06);
         const struct gb_bodies b = gb_world_bodies(world);
         for (int step = 0; step < 100; step++) {
             const int64_t before = gb_world_rebuilds(world);
@@ -218,7 +218,7 @@ static void test_meeting(void)
                 b.position[k] += step_max * unit[k];
                 b.position[3 + k] -= (0.06 - step_max) * unit[k];
             }
-            scene_squeeze(world, trial % 3 == 0 ? 0.001 : trial % 3 == 1 ? -0.002 : 0.0);
+            scene_squeeze(world, round % 3 == 0 ? 0.001 : round % 3 == 1 ? -0.002 : 0.0);
         }
         gb_world_destroy(world);
     }

@@ -23,12 +23,12 @@ static void walk(int n, int bits)
         memcpy(at[index], cell, sizeof cell);
     }
     for (uint64_t k = 1; k < cells; k++) {
-        int way = 0;
+        int moved = 0;
         for (int c = 0; c < 3; c++) {
-            way += at[k][c] > at[k - 1][c] ? (int)(at[k][c] - at[k - 1][c])
-                                           : (int)(at[k - 1][c] - at[k][c]);
+            moved += at[k][c] > at[k - 1][c] ? (int)(at[k][c] - at[k - 1][c])
+                                             : (int)(at[k - 1][c] - at[k][c]);
         }
-        g_assert_cmpint(way, ==, 1);
+        g_assert_cmpint(moved, ==, 1);
     }
     g_free(at);
     g_free(seen);
@@ -42,7 +42,7 @@ static void test_curve(void)
     }
 }
 
-static int by_place(const void *a, const void *b)
+static int by_position(const void *a, const void *b)
 {
     return memcmp(a, b, 3 * sizeof(double));
 }
@@ -69,20 +69,20 @@ static void test_sort(void)
         }
         memcpy(before, position, sizeof before);
         g_assert_true(gb_hilbert_sort(&model, position, &err));
-        double way = 0.0;
+        double step_mean = 0.0;
         for (int i = 1; i < COUNT; i++) {
             double squared = 0.0;
             for (int c = 0; c < 3; c++) {
                 const double step = position[3 * i + c] - position[3 * i - 3 + c];
                 squared += step * step;
             }
-            way += sqrt(squared) / (COUNT - 1);
+            step_mean += sqrt(squared) / (COUNT - 1);
         }
         /* unsorted it would be 14; a particle's share of the space is 1.3 wide, in the
          * plane 0.35 */
-        g_assert_cmpfloat(way, <, dimension == 3 ? 2.0 : 0.6);
-        qsort(position, count, 3 * sizeof(double), by_place);
-        qsort(before, count, 3 * sizeof(double), by_place);
+        g_assert_cmpfloat(step_mean, <, dimension == 3 ? 2.0 : 0.6);
+        qsort(position, count, 3 * sizeof(double), by_position);
+        qsort(before, count, 3 * sizeof(double), by_position);
         g_assert_true(memcmp(position, before, sizeof before) == 0);
     }
     /* sizes are dealt out in the order in which particles were grown */

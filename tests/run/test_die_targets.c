@@ -128,7 +128,7 @@ static struct result press(struct gb_bed *bed, const struct gb_bed_copy *filled,
     struct result result = {.floor_low = HUGE_VAL};
     const struct gb_params params = load(name, seed);
     const struct gb_model model = freeze(&params);
-    const struct gb_bed_law law = gb_filling_pressing_law(&params);
+    const struct gb_bed_law law = gb_filling_compaction_law(&params);
     const double start = gb_clock_process_s(); /* other work does not lengthen it */
     const int64_t evaluations = bed->evaluations;
     g_assert_true(gb_bed_copy_restore(bed, filled, &err));
@@ -166,7 +166,7 @@ static struct bed_result study(int seed, size_t models_pressed)
     struct gb_bed_copy *filled = NULL;
     const struct gb_params params = load(&models[0], seed);
     const struct gb_model model = freeze(&params);
-    const struct gb_bed_law law = gb_filling_pressing_law(&params);
+    const struct gb_bed_law law = gb_filling_compaction_law(&params);
     const double start = gb_clock_process_s();
     if (!gb_filling_create(&bed, &params, &model, NULL, NULL, &err) ||
         !gb_die_stages_create(&programme, &model.die, &law, &err)) {

@@ -54,8 +54,8 @@ static double speed_after(const struct duo *duo, double speed, double safety,
     struct gb_leapfrog motion;
     gb_leapfrog_init(&motion, safety, 0.0);
     motion.fastest = speed;
-    bed_place(bed, 0, -duo->radius, 0.0, 5.0);
-    bed_place(bed, 1, duo->radius, 0.0, 5.0);
+    bed_set_position(bed, 0, -duo->radius, 0.0, 5.0);
+    bed_set_position(bed, 1, duo->radius, 0.0, 5.0);
     bed->velocity[0][0] = 0.5 * speed;
     bed->velocity[1][0] = -0.5 * speed;
     for (double time = 0.0; time < length; time += motion.step) {
@@ -122,8 +122,8 @@ static void test_closed(void)
     }
     struct gb_bed *bed = bed_create(SPHERES, radius, &die, &law);
     for (int i = 0; i < SPHERES; i++) {
-        bed_place(bed, i, 0.9 * (i % ACROSS - 1), 0.9 * (i / ACROSS % ACROSS - 1),
-                  0.6 + 1.2 * (i / (ACROSS * ACROSS)));
+        bed_set_position(bed, i, 0.9 * (i % ACROSS - 1), 0.9 * (i / ACROSS % ACROSS - 1),
+                         0.6 + 1.2 * (i / (ACROSS * ACROSS)));
         for (int c = 0; c < 3; c++) {
             bed->velocity[i][c] = 2e-3 * sin(1.0 + i + 37.0 * c);
         }

@@ -29,7 +29,7 @@ struct ball {
     float x, y, z, r;
 };
 
-static struct ball place(const struct gb_camera *camera, const float *at, float radius)
+static struct ball in_view(const struct gb_camera *camera, const float *at, float radius)
 {
     const float *m = camera->rotation;
     return (struct ball){
@@ -123,9 +123,8 @@ static void cover(struct screen *screen, struct ball ball)
     for (int row = top; row <= bottom + 1; row++) {
         for (int k = 0; k < count; k++) {
             node[k][0] = node[k][1];
-            node[k][1] =
-                enter(screen->camera, &ball, (float)((left + k) * screen->cell),
-                      (float)(row * screen->cell));
+            node[k][1] = enter(screen->camera, &ball, (float)((left + k) * screen->cell),
+                               (float)(row * screen->cell));
         }
         if (row > top) {
             lower_row(screen, row - 1, left, count, (const float(*)[2])node);
@@ -157,7 +156,7 @@ static bool is_behind(const struct screen *screen, const float x[2], const float
 
 static bool sphere_is_behind(const struct screen *screen, const float *sphere)
 {
-    const struct ball ball = place(screen->camera, sphere, sphere[3]);
+    const struct ball ball = in_view(screen->camera, sphere, sphere[3]);
     float x[2];
     float y[2];
     reach(screen->camera, &ball, 0, x);
@@ -167,8 +166,8 @@ static bool sphere_is_behind(const struct screen *screen, const float *sphere)
 
 static bool rod_is_behind(const struct screen *screen, const float *rod)
 {
-    const struct ball ends[2] = {place(screen->camera, rod, rod[3]),
-                                 place(screen->camera, rod + 4, rod[3])};
+    const struct ball ends[2] = {in_view(screen->camera, rod, rod[3]),
+                                 in_view(screen->camera, rod + 4, rod[3])};
     float span[2][2] = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
     for (int end = 0; end < 2; end++) {
         for (int axis = 0; axis < 2; axis++) {
@@ -188,7 +187,7 @@ static int choose_cell(const struct gb_scene *scene, const struct gb_camera *cam
     double sum = 0.0;
     for (size_t i = 0; i < scene->count; i++) {
         const float *at = &scene->sphere[4 * i];
-        const struct ball ball = place(camera, at, at[3]);
+        const struct ball ball = in_view(camera, at, at[3]);
         sum += (double)(ball.r / (camera->projection[3] != 0.0F ? 1.0F : ball.z));
     }
     const double radius = (double)camera->projection[2] * sum / (double)scene->count;
@@ -205,7 +204,7 @@ static void find(struct screen *screen, const struct gb_scene *scene, uint8_t *h
     }
     for (size_t i = 0; i < scene->count; i++) {
         const float *at = &scene->sphere[4 * i];
-        cover(screen, place(screen->camera, at, at[3]));
+        cover(screen, in_view(screen->camera, at, at[3]));
     }
     for (size_t i = 0; i < scene->count; i++) {
         hidden[i] = sphere_is_behind(screen, &scene->sphere[4 * i]);

@@ -319,10 +319,10 @@ static void new_texture(struct pass *pass, enum texture unit, GLint internal,
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-static void attach(GLuint frame, GLenum place, GLuint texture)
+static void attach(GLuint frame, GLenum attachment, GLuint texture)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, frame);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, place, GL_TEXTURE_2D, texture, 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture, 0);
 }
 
 static void make_targets(struct pass *pass)
@@ -372,8 +372,8 @@ static void bind_indices(const struct pass *pass, enum array array, enum buffer 
     glEnableVertexAttribArray(0);
 }
 
-/* One place per vertex. */
-static void bind_places(const struct pass *pass, enum array array, enum buffer buffer)
+/* One position per vertex. */
+static void bind_positions(const struct pass *pass, enum array array, enum buffer buffer)
 {
     glBindVertexArray(pass->array[array]);
     glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[buffer]);
@@ -397,8 +397,8 @@ static void make_inputs(struct pass *pass)
                36 * (scene->facets + 1));
     bind_indices(pass, ARRAY_SPHERES, BUFFER_INDICES);
     bind_indices(pass, ARRAY_RODS, BUFFER_ROD_INDICES);
-    bind_places(pass, ARRAY_RIBBONS, BUFFER_RIBBONS);
-    bind_places(pass, ARRAY_FACETS, BUFFER_FACETS);
+    bind_positions(pass, ARRAY_RIBBONS, BUFFER_RIBBONS);
+    bind_positions(pass, ARRAY_FACETS, BUFFER_FACETS);
 }
 
 static void free_lists(struct pass *pass)
@@ -578,11 +578,11 @@ static void draw_shadow(struct pass *pass)
 
 static void draw_seen(struct pass *pass, int width, int height)
 {
-    static const GLuint nobody[4] = {0xffffffffU, 0, 0, 0};
+    static const GLuint no_particle[4] = {0xffffffffU, 0, 0, 0};
     glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[0]);
     glViewport(0, 0, width, height);
     glEnable(GL_DEPTH_TEST);
-    glClearBufferuiv(GL_COLOR, 0, nobody);
+    glClearBufferuiv(GL_COLOR, 0, no_particle);
     glClear(GL_DEPTH_BUFFER_BIT);
     draw_parts(pass, &pass->eye, width, height);
     draw_edges(pass, width, height);

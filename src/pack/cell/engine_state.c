@@ -97,7 +97,7 @@ void gb_engine_state_use_lists(struct gb_engine_state *state)
     state->lists = GB_ENGINE_LISTS;
 }
 
-void gb_engine_state_widen_forces(struct gb_engine_state *state)
+void gb_engine_state_convert_forces(struct gb_engine_state *state)
 {
     state->forces = GB_ENGINE_FORCES_F64;
 }

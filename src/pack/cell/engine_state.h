@@ -96,6 +96,6 @@ void gb_engine_state_patch_lists(struct gb_engine_state *state);
 void gb_engine_state_use_lists(struct gb_engine_state *state);
 
 /* Forces. */
-void gb_engine_state_widen_forces(struct gb_engine_state *state);
+void gb_engine_state_convert_forces(struct gb_engine_state *state);
 
 #endif

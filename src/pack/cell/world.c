@@ -32,11 +32,11 @@ static int thread_count(const struct gb_model *model)
 static bool init_engine(struct gb_engine *engine, const struct gb_model *model,
                         const double *position, struct gb_error *err)
 {
-    const bool single = model->numerics.single;
+    const bool f32 = model->numerics.single;
     const size_t blocks = (size_t)gb_blocks_count(model->count);
     engine->model = model;
     engine->threads = thread_count(model);
-    engine->state.real = single ? GB_REAL_F32 : GB_REAL_F64;
+    engine->state.real = f32 ? GB_REAL_F32 : GB_REAL_F64;
     engine->kernel = gb_batch_pick(model, 0);
     gb_pair_results_init(&engine->pair, model);
     engine->check = gb_alloc_array(blocks, sizeof *engine->check, err);
@@ -45,8 +45,8 @@ static bool init_engine(struct gb_engine *engine, const struct gb_model *model,
         !gb_particles_init(&engine->particles, model, position, err) ||
         !gb_neighbour_list_init(
             &engine->list, model->count,
-            single ? GB_NEIGHBOUR_LIST_PATCHABLE : GB_NEIGHBOUR_LIST_TRANSPOSED, err) ||
-        (single && !gb_f32_state_init(&engine->f32, model, err))) {
+            f32 ? GB_NEIGHBOUR_LIST_PATCHABLE : GB_NEIGHBOUR_LIST_TRANSPOSED, err) ||
+        (f32 && !gb_f32_state_init(&engine->f32, model, err))) {
         return false;
     }
     if (engine->particles.diameter) {
@@ -133,7 +133,7 @@ struct gb_bodies gb_world_movable(struct gb_world *world)
 struct gb_bodies gb_world_bodies(struct gb_world *world)
 {
     struct gb_bodies bodies = gb_world_movable(world);
-    gb_f32_convert_widen_forces(&world->engine);
+    gb_f32_convert_forces_to_f64(&world->engine);
     bodies.force = world->engine.particles.force;
     bodies.torque = world->engine.particles.torque;
     return bodies;

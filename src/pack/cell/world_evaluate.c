@@ -32,7 +32,7 @@ bool gb_world_evaluate_rebuild(struct gb_world *world,
 static int64_t first_not_finite(struct gb_engine *engine)
 {
     const struct gb_particles *particles = &engine->particles;
-    gb_f32_convert_widen_forces(engine);
+    gb_f32_convert_forces_to_f64(engine);
     for (int64_t i = 0; i < particles->count; i++) {
         for (int k = 0; k < 3; k++) {
             if (!isfinite(particles->force[3 * i + k]) ||
@@ -132,7 +132,7 @@ bool gb_world_evaluate(struct gb_world *world, struct gb_error *err)
 {
     const bool done = evaluate(world, (struct gb_sweep_along){NULL, NULL}, err);
     gb_f32_convert_synchronise(&world->engine);
-    gb_f32_convert_widen_forces(&world->engine);
+    gb_f32_convert_forces_to_f64(&world->engine);
     return done;
 }
 

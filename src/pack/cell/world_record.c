@@ -250,7 +250,7 @@ static bool load(struct gb_world *world, struct gb_record *record, struct gb_err
         !record_vectors(world, record, "world/torque", "E d^3", particles->torque, err)) {
         return false;
     }
-    gb_f32_convert_narrow_forces(engine);
+    gb_f32_convert_forces_from_f64(engine);
     return gb_record_members(record, result_members, LENGTH(result_members), world, err);
 }
 
@@ -282,7 +282,7 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
     struct gb_particles *particles = &engine->particles;
     struct gb_neighbour_list *list = &engine->list;
     gb_f32_convert_synchronise(engine);
-    gb_f32_convert_widen_forces(engine);
+    gb_f32_convert_forces_to_f64(engine);
     return gb_contact_history_write(history, engine, GB_CONTACT_HISTORY_KEPT, err) &&
            gb_record_members(record, build_members, LENGTH(build_members), world, err) &&
            record_vectors(world, record, "world/built_at", "d", list->built_position,

@@ -35,8 +35,8 @@ static bool rows(struct gb_bed *bed, struct gb_record *record, const char *name,
 }
 
 /* The radii belong to the parameters; what the record says must be the same. */
-static bool check_places(const struct gb_bed *bed, const double *mass,
-                         struct gb_error *err)
+static bool check_positions(const struct gb_bed *bed, const double *mass,
+                            struct gb_error *err)
 {
     for (int64_t i = 0; i < bed->count; i++) {
         const double *x = bed->position[i];
@@ -96,8 +96,8 @@ static bool exchange_list(struct gb_bed *bed, bool walls, struct gb_bed_list *li
     }
     list->count = count;
     struct gb_bed_contacts *c = &list->contacts;
-    double *const plane[6] = {c->deepest,  c->permanent,     c->shear[0],
-                              c->shear[1], c->shear[2], c->normal};
+    double *const plane[6] = {c->deepest,  c->permanent, c->shear[0],
+                              c->shear[1], c->shear[2],  c->normal};
     int32_t *const index[2] = {list->first, list->other};
     for (int k = 0; k < 8; k++) {
         void *data = k < 2 ? (void *)index[k] : (void *)plane[k - 2];
@@ -137,7 +137,7 @@ bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error
            rows(bed, record, "bed/spin", "1/T", bed->spin, err) &&
            rows(bed, record, "bed/force", "E d^2", bed->force, err) &&
            rows(bed, record, "bed/torque", "E d^3", bed->torque, err) &&
-           check_places(bed, bed->mass, err) &&
+           check_positions(bed, bed->mass, err) &&
            exchange_contacts(bed, false, record, err) &&
            exchange_contacts(bed, true, record, err);
 }

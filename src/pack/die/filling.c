@@ -20,7 +20,7 @@ struct gb_bed_law gb_filling_law(const struct gb_params *params)
     return law;
 }
 
-struct gb_bed_law gb_filling_pressing_law(const struct gb_params *params)
+struct gb_bed_law gb_filling_compaction_law(const struct gb_params *params)
 {
     const struct gb_elastic elastic = {1.0, params->poisson};
     struct gb_bed_law law = gb_filling_law(params);
@@ -77,16 +77,17 @@ static bool size_die(struct gb_die *die, const struct gb_params *params,
                             2.0 * micron * scene->outlet, 2.0 * micron * largest);
     }
     if (volume > densest * area * die->height) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "particles.count = %lld: more powder than a die of height %.4g "
-                            "um holds; increase die.height or set it to auto",
-                            (long long)params->count, micron * die->height);
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "particles.count = %lld: more powder than a die of height %.4g "
+            "um holds; increase die.height or set it to auto",
+            (long long)params->count, micron * die->height);
     }
     return true;
 }
 
 bool gb_filling_allocate(struct gb_bed **out, const struct gb_params *params,
-                     const struct gb_model *model, struct gb_error *err)
+                         const struct gb_model *model, struct gb_error *err)
 {
     const struct gb_bed_law law = gb_filling_law(params);
     struct gb_die die;
@@ -108,7 +109,8 @@ bool gb_filling_create(struct gb_bed **out, const struct gb_params *params,
     if (!gb_filling_allocate(&bed, params, model, err)) {
         return false;
     }
-    if (!gb_random_insertion_place(bed, params->seed, model->die.loose_density, cancelled, data, err)) {
+    if (!gb_random_insertion_fill(bed, params->seed, model->die.loose_density, cancelled,
+                                  data, err)) {
         gb_bed_destroy(bed);
         return false;
     }

@@ -3,8 +3,8 @@
 
 #include <stdbool.h>
 
-#include "scene/model.h"
 #include "pack/die/bed.h"
+#include "scene/model.h"
 
 /* The powder of a scene with kind = die, loose in the funnel above its die and obeying
  * the law of filling.  Same sizes, seed and die: same bits, whatever law it is pressed
@@ -18,11 +18,11 @@ bool gb_filling_create(struct gb_bed **out, const struct gb_params *params,
 
 /* The same bed before its spheres have a place: they are to be loaded. */
 bool gb_filling_allocate(struct gb_bed **out, const struct gb_params *params,
-                     const struct gb_model *model, struct gb_error *err);
+                         const struct gb_model *model, struct gb_error *err);
 
 /* Law of filling: Hertz without friction between particles, P3 section 5. */
 struct gb_bed_law gb_filling_law(const struct gb_params *params);
 /* Law of pressing, as the keys of [contact] and [material] say. */
-struct gb_bed_law gb_filling_pressing_law(const struct gb_params *params);
+struct gb_bed_law gb_filling_compaction_law(const struct gb_params *params);
 
 #endif

@@ -110,7 +110,7 @@ static bool draw(struct pour *pour, double radius, double x[3])
            gb_die_overlap(die, GB_DIE_FUNNEL, x, radius, unit) < 0.0;
 }
 
-static bool place_one(struct pour *pour, int64_t i, struct gb_error *err)
+static bool insert_one(struct pour *pour, int64_t i, struct gb_error *err)
 {
     struct gb_bed *bed = pour->bed;
     double x[3];
@@ -127,17 +127,18 @@ static bool place_one(struct pour *pour, int64_t i, struct gb_error *err)
             return true;
         }
     }
-    return gb_error_set(err, GB_ERR_INPUT,
-                        "die.outlet, particles.diameter: no room in the funnel for a "
-                        "particle of diameter %.3g d; widen the die or reduce the particles",
-                        2.0 * bed->position[i][3]);
+    return gb_error_set(
+        err, GB_ERR_INPUT,
+        "die.outlet, particles.diameter: no room in the funnel for a "
+        "particle of diameter %.3g d; widen the die or reduce the particles",
+        2.0 * bed->position[i][3]);
 }
 
-static bool place_all(struct pour *pour, bool (*cancelled)(void *data), void *data,
-                      struct gb_error *err)
+static bool insert_all(struct pour *pour, bool (*cancelled)(void *data), void *data,
+                       struct gb_error *err)
 {
     for (int64_t k = pour->bed->count - 1; k >= 0; k--) { /* the largest first */
-        if (!place_one(pour, (int64_t)pour->order[k], err)) {
+        if (!insert_one(pour, (int64_t)pour->order[k], err)) {
             return false;
         }
         if (k % 256 == 0 && cancelled && cancelled(data)) {
@@ -147,8 +148,9 @@ static bool place_all(struct pour *pour, bool (*cancelled)(void *data), void *da
     return true;
 }
 
-bool gb_random_insertion_place(struct gb_bed *bed, uint64_t seed, double density,
-                   bool (*cancelled)(void *data), void *data, struct gb_error *err)
+bool gb_random_insertion_fill(struct gb_bed *bed, uint64_t seed, double density,
+                              bool (*cancelled)(void *data), void *data,
+                              struct gb_error *err)
 {
     struct pour pour = {.bed = bed};
     const size_t count = (size_t)bed->count;
@@ -159,7 +161,7 @@ bool gb_random_insertion_place(struct gb_bed *bed, uint64_t seed, double density
         gsl_sort_index(pour.order, bed->mass, 1, count);
         const double largest = bed->position[pour.order[count - 1]][3];
         done = boxes_open(&pour.boxes, &bed->die, pour.top, largest, bed->count, err) &&
-               place_all(&pour, cancelled, data, err);
+               insert_all(&pour, cancelled, data, err);
     }
     gb_bed_invalidate_lists(bed);
     gb_alloc_free(pour.order);

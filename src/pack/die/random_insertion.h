@@ -15,7 +15,8 @@
  * cancelled   may be NULL; polled, true fails with GB_ERR_CANCELLED
  * Errors: GB_ERR_INPUT when a sphere finds no place, GB_ERR_MEMORY.
  * Source: P3 section 5. */
-bool gb_random_insertion_place(struct gb_bed *bed, uint64_t seed, double density,
-                   bool (*cancelled)(void *data), void *data, struct gb_error *err);
+bool gb_random_insertion_fill(struct gb_bed *bed, uint64_t seed, double density,
+                              bool (*cancelled)(void *data), void *data,
+                              struct gb_error *err);
 
 #endif

@@ -62,7 +62,7 @@ void gb_f32_convert_synchronise(struct gb_engine *engine)
     gb_engine_state_synchronise(&engine->state);
 }
 
-void gb_f32_convert_widen_forces(struct gb_engine *engine)
+void gb_f32_convert_forces_to_f64(struct gb_engine *engine)
 {
     struct gb_particles *particles = &engine->particles;
     if (engine->state.forces == GB_ENGINE_FORCES_F64) {
@@ -76,10 +76,10 @@ void gb_f32_convert_widen_forces(struct gb_engine *engine)
             particles->torque[3 * i + c] = (double)engine->f32.wrench[i][TORQUE + c];
         }
     }
-    gb_engine_state_widen_forces(&engine->state);
+    gb_engine_state_convert_forces(&engine->state);
 }
 
-void gb_f32_convert_narrow_forces(struct gb_engine *engine)
+void gb_f32_convert_forces_from_f64(struct gb_engine *engine)
 {
     const struct gb_particles *particles = &engine->particles;
     for (int64_t i = 0; gb_engine_is_f32(engine) && i < particles->count; i++) {

@@ -14,7 +14,7 @@ void gb_f32_convert_particles(struct gb_engine *engine, int64_t begin, int64_t e
 void gb_f32_convert_synchronise(struct gb_engine *engine);
 
 /* Forces and torques as doubles, if they are in f32 only; and back, after a load. */
-void gb_f32_convert_widen_forces(struct gb_engine *engine);
-void gb_f32_convert_narrow_forces(struct gb_engine *engine);
+void gb_f32_convert_forces_to_f64(struct gb_engine *engine);
+void gb_f32_convert_forces_from_f64(struct gb_engine *engine);
 
 #endif

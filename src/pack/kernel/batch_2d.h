@@ -8,9 +8,9 @@
  * with the contact, and the rolling spring about y; there is no pivoting.  So no root is
  * needed to cut a spring, and a failing bridge is a choice between two numbers. */
 
-INLINE double clamp_2d(double trial, double most)
+INLINE double clamp_2d(double value, double most)
 {
-    return smaller(larger(trial, -most), most);
+    return smaller(larger(value, -most), most);
 }
 
 /* Caps over stiffnesses, without the contact's size. */

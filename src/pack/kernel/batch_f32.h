@@ -19,7 +19,7 @@
 typedef float real;
 
 /* As in batch_f64.h. */
-INLINE real root_guess(real x)
+INLINE real root_estimate(real x)
 {
     uint32_t bits;
     float y;
@@ -29,7 +29,7 @@ INLINE real root_guess(real x)
     return y;
 }
 
-INLINE real root_nearer(real y, real half)
+INLINE real root_newton(real y, real half)
 {
     return y * (1.5F - half * y * y);
 }
@@ -38,13 +38,13 @@ INLINE real root_nearer(real y, real half)
 INLINE real inverse_root_below(real x)
 {
     const float half = 0.5F * x;
-    return root_nearer(root_nearer(root_guess(x), half), half);
+    return root_newton(root_newton(root_estimate(x), half), half);
 }
 
 /* 1/sqrt(x) to the last digit but one. */
 INLINE real inverse_root(real x)
 {
-    return root_nearer(inverse_root_below(x), 0.5F * x);
+    return root_newton(inverse_root_below(x), 0.5F * x);
 }
 
 INLINE real root(real x)

@@ -19,7 +19,7 @@ typedef double real;
 /* Estimate of 1/sqrt(x) from the bits, within 3.5 %, and a step of Newton's iteration.
  * Multiplications and integer shifts are fast in every vector width; root and division
  * share one slow unit. */
-INLINE real root_guess(real x)
+INLINE real root_estimate(real x)
 {
     uint64_t bits;
     double y;
@@ -29,7 +29,7 @@ INLINE real root_guess(real x)
     return y;
 }
 
-INLINE real root_nearer(real y, real half)
+INLINE real root_newton(real y, real half)
 {
     return y * (1.5 - half * y * y);
 }
@@ -38,8 +38,8 @@ INLINE real root_nearer(real y, real half)
 INLINE real inverse_root(real x)
 {
     const double half = 0.5 * x;
-    const double rough = root_nearer(root_nearer(root_guess(x), half), half);
-    return root_nearer(root_nearer(rough, half), half);
+    const double rough = root_newton(root_newton(root_estimate(x), half), half);
+    return root_newton(root_newton(rough, half), half);
 }
 
 /* The same in this precision. */

@@ -69,8 +69,8 @@ static bool scan_part(struct gb_neighbour_list *list, const struct gb_list_scan 
 }
 
 /* First slots of every part, and room for all pairs. */
-static bool place_parts(struct gb_neighbour_list *list, struct part *part, int threads,
-                        struct gb_error *err)
+static bool assign_part_slots(struct gb_neighbour_list *list, struct part *part,
+                              int threads, struct gb_error *err)
 {
     const int64_t size = gb_blocks_size(list->count);
     const int64_t per_block = gb_neighbour_list_free_slots(list);
@@ -156,7 +156,7 @@ static bool fill_lists(struct gb_neighbour_list *list, const struct gb_list_scan
     for (int t = 0; t < threads; t++) {
         (void)scan_part(list, scan, &part[t]); /* the error is kept in the part */
     }
-    const bool good = place_parts(list, part, threads, err);
+    const bool good = assign_part_slots(list, part, threads, err);
 #pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
     for (int t = 0; t < threads; t++) {
         if (good) {
@@ -197,9 +197,9 @@ static void transpose_both(struct gb_neighbour_list *list, int threads)
     }
 }
 
-/* What the list check compares with, from here on. */
-static void keep_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
-                       const double *position, const struct gb_neighbour_grid *grid)
+/* Reference of the list check until the next build. */
+static void record_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
+                         const double *position, const struct gb_neighbour_grid *grid)
 {
     list->inserted_count = 0;
     list->grid = *grid;
@@ -236,6 +236,6 @@ bool gb_list_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
     if (list->layout == GB_NEIGHBOUR_LIST_TRANSPOSED) {
         transpose_both(list, threads);
     }
-    keep_build(list, cell, position, &scan.grid);
+    record_build(list, cell, position, &scan.grid);
     return true;
 }

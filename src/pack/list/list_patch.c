@@ -225,5 +225,5 @@ bool gb_list_patch_load(struct gb_engine *engine, const struct gb_inserted_pair 
     const bool done = good && apply(engine, &plan, err);
     plan_finish(&plan);
     return good ? done
-                : gb_error_set(err, GB_ERR_INPUT, "world/amended: is out of range");
+                : gb_error_set(err, GB_ERR_INPUT, "%s: is out of range", "world/amended");
 }

@@ -7,8 +7,8 @@
 #include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"
 
-/* Spare pairs that every growth of a list reserves. */
-enum { SPARE = 256 };
+/* Pairs reserved beyond the need whenever a list grows. */
+enum { EXTRA = 256 };
 
 /* Pairs that may be inserted between two builds: this many, plus one for so many
  * particles. */
@@ -93,7 +93,7 @@ bool gb_neighbour_list_reserve(struct gb_neighbour_list *list, struct gb_pair_li
     if (need <= pairs->capacity) {
         return true;
     }
-    const size_t room = (size_t)(need + need / 16 + SPARE);
+    const size_t room = (size_t)(need + need / 16 + EXTRA);
     free_pairs(pairs);
     pairs->first = gb_alloc_array(room, sizeof *pairs->first, err);
     pairs->other = gb_alloc_array(room, sizeof *pairs->other, err);

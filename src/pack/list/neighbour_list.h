@@ -34,7 +34,7 @@ struct gb_pair_list {
 };
 
 /* A pair inserted into a list after its build; see pack/list/list_patch.h.  The layout is
- * that of the item `world/amended` of a checkpoint. */
+ * that of the checkpoint's item of inserted pairs (pack/cell/world_record.c). */
 struct gb_inserted_pair {
     int32_t first, other, image;
     int32_t near; /* 1: into `near`; 0: into `far` */

@@ -28,18 +28,18 @@ enum { CANDIDATES_MOST = 824 };
  * last ones found, are not looked at. */
 enum { CANDIDATES_SIZED = 8 };
 
-/* Rays that find no place: after the first number another particle becomes the origin;
+/* Rays that find no position: after the first number another particle becomes the origin;
  * after the second, in a row, the structure counts as full. */
 enum { FAILURES_PER_ORIGIN = 64, FAILURES_MOST = 64 * 64 };
 
 /* The cancel flag is looked at once in this many rays. */
 enum { RAYS_PER_POLL = 64 };
 
-/* A place on the ray that touches particle j. */
+/* A position on the ray that touches particle j. */
 struct candidate {
     int64_t j;
-    double along;     /* of the place, from the origin of the ray */
-    double offset[3]; /* from j to the place; as long as they touch */
+    double along;     /* of the position, from the origin of the ray */
+    double offset[3]; /* from j to the position; as long as they touch */
 };
 
 struct growth {
@@ -131,30 +131,30 @@ static int collect_candidates(struct growth *growth, const struct gb_roll *roll,
     return count;
 }
 
-static void place_of(const struct growth *growth, const struct candidate *candidate,
-                     double place[3])
+static void position_of(const struct growth *growth, const struct candidate *candidate,
+                        double position[3])
 {
     const double *j = growth->grid->position + 3 * candidate->j;
     for (int k = 0; k < 3; k++) {
-        place[k] = j[k] + candidate->offset[k];
+        position[k] = j[k] + candidate->offset[k];
     }
 }
 
 /* Neighbours within r_meso; stops counting at enough. */
-static int count_neighbours(const struct growth *growth, const double place[3],
+static int count_neighbours(const struct growth *growth, const double position[3],
                             int enough)
 {
     struct gb_grid_ball ball;
     struct gb_grid_hit hit;
     int count = 0;
-    gb_grid_ball_init(&ball, growth->grid, place, growth->grow->r_meso);
+    gb_grid_ball_init(&ball, growth->grid, position, growth->grow->r_meso);
     while (count < enough && gb_grid_ball_next(&ball, &hit)) {
         count++;
     }
     return count;
 }
 
-/* The free place with the fewest neighbours, the farthest of several; NULL when the ray
+/* The free position with the fewest neighbours, the farthest of several; NULL when the ray
  * has none.  The candidates come farthest first, so only fewer neighbours win, and one
  * neighbour (the particle touched) cannot be beaten. */
 static const struct candidate *choose_candidate(const struct growth *growth,
@@ -163,12 +163,12 @@ static const struct candidate *choose_candidate(const struct growth *growth,
     const struct candidate *best = NULL;
     int fewest = INT32_MAX;
     for (int i = 0; i < count && fewest > 1; i++) {
-        double place[3];
-        place_of(growth, &growth->candidates[i], place);
-        if (gb_roll_overlaps(roll, place)) {
+        double position[3];
+        position_of(growth, &growth->candidates[i], position);
+        if (gb_roll_overlaps(roll, position)) {
             continue;
         }
-        const int neighbours = count_neighbours(growth, place, fewest);
+        const int neighbours = count_neighbours(growth, position, fewest);
         if (neighbours < fewest) {
             fewest = neighbours;
             best = &growth->candidates[i];
@@ -181,24 +181,24 @@ static const struct candidate *choose_candidate(const struct growth *growth,
 static bool shoot(struct growth *growth, int64_t origin)
 {
     const struct gb_roll roll = next_one(growth);
-    double start[3], direction[3], place[3];
+    double start[3], direction[3], position[3];
     memcpy(start, growth->grid->position + 3 * origin, sizeof(start));
     random_direction(growth, direction);
     growth->rays++;
     if (growth->grid->count == 1) {
         /* Nothing to roll onto: the second particle just touches the first. */
         for (int k = 0; k < 3; k++) {
-            place[k] = start[k] + gb_roll_contact_distance(&roll, 0) * direction[k];
+            position[k] = start[k] + gb_roll_contact_distance(&roll, 0) * direction[k];
         }
-        gb_grid_insert(growth->grid, place);
+        gb_grid_insert(growth->grid, position);
         return true;
     }
     const int count = collect_candidates(growth, &roll, start, direction);
     const struct candidate *best = choose_candidate(growth, &roll, count);
-    if (!best || !gb_roll_onto(&roll, best->j, best->offset, place)) {
+    if (!best || !gb_roll_onto(&roll, best->j, best->offset, position)) {
         return false;
     }
-    gb_grid_insert(growth->grid, place);
+    gb_grid_insert(growth->grid, position);
     return true;
 }
 
@@ -265,15 +265,15 @@ static bool check(const struct gb_chain_growth *grow, const struct gb_cell *cell
     return true;
 }
 
-static void place_first(struct growth *growth)
+static void insert_first(struct growth *growth)
 {
-    double place[3];
+    double position[3];
     for (int k = 0; k < 3; k++) {
         const double edge = growth->grid->cell.edge[k];
-        place[k] =
+        position[k] =
             growth->grid->cell.periodic[k] ? edge * gsl_rng_uniform(&growth->rng) : 0.0;
     }
-    gb_grid_insert(growth->grid, place);
+    gb_grid_insert(growth->grid, position);
 }
 
 struct gb_chain_growth gb_chain_growth_from_model(const struct gb_model *model)
@@ -289,7 +289,7 @@ struct gb_chain_growth gb_chain_growth_from_model(const struct gb_model *model)
     };
 }
 
-static bool deal(struct growth *growth, struct gb_error *err)
+static bool assign_diameters(struct growth *growth, struct gb_error *err)
 {
     if (!growth->grow->model) {
         return true;
@@ -300,7 +300,8 @@ static bool deal(struct growth *growth, struct gb_error *err)
            gb_assign_sizes_model(growth->grow->model, growth->diameter, err);
 }
 
-bool gb_chain_growth_place(const struct gb_chain_growth *grow, double *position, struct gb_error *err)
+bool gb_chain_growth_run(const struct gb_chain_growth *grow, double *position,
+                         struct gb_error *err)
 {
     struct growth growth = {.grow = grow};
     struct gb_cell cell;
@@ -312,7 +313,7 @@ bool gb_chain_growth_place(const struct gb_chain_growth *grow, double *position,
     if (!gb_random_open(&growth.rng, grow->seed, err)) {
         return false;
     }
-    if (!deal(&growth, err)) {
+    if (!assign_diameters(&growth, err)) {
         goto close_rng;
     }
     growth.room = CANDIDATES_MOST * (growth.diameter ? CANDIDATES_SIZED : 1);
@@ -324,7 +325,7 @@ bool gb_chain_growth_place(const struct gb_chain_growth *grow, double *position,
     if (!gb_grid_create(&growth.grid, &cell, grow->r_eq, grow->count, err)) {
         goto free_candidates;
     }
-    place_first(&growth);
+    insert_first(&growth);
     done = fill(&growth, err);
     if (done) {
         memcpy(position, growth.grid->position,

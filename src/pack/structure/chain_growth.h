@@ -4,9 +4,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "scene/model.h"
 #include "greenbody/status.h"
 #include "pack/cell/cell.h"
+#include "scene/model.h"
 
 /* Chain-growth initial structure of P1, section III, in 3D and 2D: periodic, connected.
  */
@@ -32,6 +32,7 @@ struct gb_chain_growth gb_chain_growth_from_model(const struct gb_model *model);
  * Errors: GB_ERR_INPUT "structure.density = 0.7: not reached, stopped at 0.44 (...)" when
  * no place is left, GB_ERR_MEMORY, GB_ERR_CANCELLED.
  * Deterministic: same struct, same bits.  Cost about linear in count. */
-bool gb_chain_growth_place(const struct gb_chain_growth *grow, double *position, struct gb_error *err);
+bool gb_chain_growth_run(const struct gb_chain_growth *grow, double *position,
+                         struct gb_error *err);
 
 #endif

@@ -83,13 +83,13 @@ static size_t cell_index(const struct gb_grid *grid, const int cell[3])
 
 void gb_grid_insert(struct gb_grid *grid, const double x[3])
 {
-    double *place = grid->position + 3 * grid->count;
-    memcpy(place, x, 3 * sizeof(double));
-    gb_cell_wrap(&grid->cell, place);
+    double *wrapped = grid->position + 3 * grid->count;
+    memcpy(wrapped, x, 3 * sizeof(double));
+    gb_cell_wrap(&grid->cell, wrapped);
     int cell[3];
     for (int k = 0; k < 3; k++) {
         const int last = grid->cells[k] - 1;
-        const int at = last > 0 ? (int)(place[k] / grid->size[k]) : 0;
+        const int at = last > 0 ? (int)(wrapped[k] / grid->size[k]) : 0;
         cell[k] = at < last ? at : last;
     }
     int32_t *first = &grid->first[cell_index(grid, cell)];

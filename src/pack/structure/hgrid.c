@@ -75,11 +75,12 @@ static bool ready(struct gb_hgrid *hgrid, int64_t count, struct gb_error *err)
 static bool reserve(struct gb_hgrid_search *search, int64_t need, struct gb_error *err)
 {
     struct gb_hgrid *hgrid = search->hgrid;
-    const int64_t crowd = GB_HGRID_PAIRS_PER_SPHERE_MAX * search->count;
-    if (search->found > (crowd > pairs_least ? crowd : pairs_least)) {
-        return gb_error_set(err, GB_ERR_GUARD,
-                            "more than %lld near pairs among %lld spheres: they overlap too much",
-                            (long long)search->found, (long long)search->count);
+    const int64_t most = GB_HGRID_PAIRS_PER_SPHERE_MAX * search->count;
+    if (search->found > (most > pairs_least ? most : pairs_least)) {
+        return gb_error_set(
+            err, GB_ERR_GUARD,
+            "more than %lld near pairs among %lld spheres: they overlap too much",
+            (long long)search->found, (long long)search->count);
     }
     const size_t room = (size_t)(need + need / 2);
     int32_t *found = gb_alloc_array(2 * room, sizeof *found, err);
@@ -111,11 +112,11 @@ static bool check_spheres(struct gb_hgrid_search *search, const double (*sphere)
         /* 0 times a number that is not finite is not 0; squares must be finite too */
         const double squares = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + reach * reach;
         if (0.0 * squares != 0.0 || s[3] < 0.0 || reach < 0.0) {
-            return gb_error_set(err, GB_ERR_GUARD,
-                                "sphere %lld: must be finite with a radius of at least 0: "
-                                "position (%.3g, %.3g, %.3g), radius %.3g, margin %.3g",
-                                (long long)i, s[0], s[1], s[2], s[3],
-                                margin ? margin[i] : 0.0);
+            return gb_error_set(
+                err, GB_ERR_GUARD,
+                "sphere %lld: must be finite with a radius of at least 0: "
+                "position (%.3g, %.3g, %.3g), radius %.3g, margin %.3g",
+                (long long)i, s[0], s[1], s[2], s[3], margin ? margin[i] : 0.0);
         }
         search->widest = reach > search->widest ? reach : search->widest;
     }

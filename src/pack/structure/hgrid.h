@@ -6,23 +6,24 @@
 
 #include "greenbody/status.h"
 
-/* Neighbour search for spheres of many sizes.
+/* Hierarchical grid: neighbour search for spheres of many sizes.
  *
- * A grid whose cells fit the largest sphere puts hundreds of the smallest into each: with
- * a size ratio of 12 most of what is looked at is far away.  Here spheres are sifted by
- * size into levels, each a factor of 2 wide with a grid of its own; a sphere looks
- * through its own level and those of larger spheres.  The work is linear in their number
- * for any spread of sizes, as long as most of them lie in the box and fill it evenly. */
+ * In a grid whose cells fit the largest sphere each cell holds hundreds of the smallest:
+ * with a size ratio of 12 most candidates are far away.  Here spheres are sorted by size
+ * into levels, each a factor of 2 wide with its own grid; the neighbours of a sphere are
+ * searched in its own level and in those of larger spheres.  The work is linear in the
+ * number of spheres for any size distribution, as long as most of them lie in the box and
+ * fill it evenly.  Lengths in any one unit. */
 
-/* Where the spheres are expected.  Along axes that are not periodic they may lie outside;
- * nothing is lost then but time. */
+/* Region that the grids cover.  Along axes that are not periodic spheres may lie outside:
+ * the result is the same, the search slower. */
 struct gb_hgrid_box {
     double low[3], high[3];
     bool periodic[3];
 };
 
 /* The pairs: (i, other[k]) with i < other[k] for k in [start[i], start[i + 1]),
- * ascending. The rest is scratch; only sift.c looks inside. */
+ * ascending.  The other members are scratch of hgrid.c and hgrid_levels.c. */
 struct gb_hgrid {
     int64_t pair_count;
     int64_t *start; /* capacity + 1 */
@@ -31,15 +32,15 @@ struct gb_hgrid {
 
     int64_t capacity, pair_capacity, cell_capacity;
     struct gb_hgrid_sphere *sphere; /* sorted by level, then by grid cell */
-    int32_t *name;                 /* of each sorted sphere */
-    int32_t *cell;                 /* of each sphere */
+    int32_t *name;                  /* of each sorted sphere */
+    int32_t *cell;                  /* of each sphere */
     int32_t *cell_start;
     int64_t *later_start; /* pairs by their later sphere */
-    int32_t *found;       /* pairs as they are met, two numbers each */
+    int32_t *found;       /* pairs in the order of the search, two numbers each */
     int32_t *earlier;     /* of the pairs sorted by the later one */
 };
 
-/* Room for so many spheres; more are taken too, but then memory is allocated.
+/* Room for so many spheres; a build with more allocates memory.
  * Errors: GB_ERR_MEMORY; GB_ERR_INPUT for more than 2^31 - 2. */
 bool gb_hgrid_init(struct gb_hgrid *hgrid, int64_t capacity, struct gb_error *err);
 void gb_hgrid_finish(struct gb_hgrid *hgrid);
@@ -48,11 +49,12 @@ void gb_hgrid_finish(struct gb_hgrid *hgrid);
  * the nearest image.  Nothing is allocated once there is room for the pairs.
  *
  * sphere   count rows of x, y, z, radius
- * margin   one per sphere, 0 or more: fast ones may need more room than others; NULL:
- * none skin     0 or more Errors: GB_ERR_MEMORY; GB_ERR_GUARD naming a sphere that is not
- * finite or has a negative radius, when a periodic edge is shorter than two reaches of
- * the largest sphere, or when spheres crowd (on average more than GB_HGRID_PAIRS_PER_SPHERE_MAX pairs
- * each).  The list is empty then.
+ * margin   one per sphere, 0 or more: fast ones need more than others; NULL: none
+ * skin     0 or more
+ * Errors: GB_ERR_MEMORY; GB_ERR_GUARD naming a sphere that is not finite or has a negative
+ * radius, when a periodic edge is shorter than two reaches of the largest sphere, or when
+ * spheres overlap so much that there are more than GB_HGRID_PAIRS_PER_SPHERE_MAX pairs a
+ * sphere on average.  The list is empty then.
  *
  * Deterministic.  Whether a pair on the very edge of the skin is listed may depend on
  * rounding; no force depends on such a pair. */

@@ -25,9 +25,10 @@ static int level_of(const struct gb_hgrid_search *search, double reach)
     return ratio < (double)(1 << last) ? ilogb(ratio) : last;
 }
 
-/* The grids cover the box along periodic axes, elsewhere what of it holds spheres. */
-bool gb_hgrid_levels_bounds(struct gb_hgrid_search *search, const struct gb_hgrid_box *box,
-                            const double (*sphere)[4], struct gb_error *err)
+/* The grids cover the box along periodic axes, along others its part with spheres. */
+bool gb_hgrid_levels_bounds(struct gb_hgrid_search *search,
+                            const struct gb_hgrid_box *box, const double (*sphere)[4],
+                            struct gb_error *err)
 {
     for (int k = 0; k < 3; k++) {
         double low = box->low[k], high = box->high[k];
@@ -36,10 +37,11 @@ bool gb_hgrid_levels_bounds(struct gb_hgrid_search *search, const struct gb_hgri
             search->edge[k] = high - low;
             const double shortest = 4.0 * search->widest;
             if (!(high - low >= shortest) || isinf(high - low)) {
-                return gb_error_set(err, GB_ERR_GUARD,
-                                    "the box is %.3g wide along %c: must be at least twice "
-                                    "the range of the largest pair, %.3g",
-                                    high - low, "xyz"[k], shortest);
+                return gb_error_set(
+                    err, GB_ERR_GUARD,
+                    "the box is %.3g wide along %c: must be at least twice "
+                    "the range of the largest pair, %.3g",
+                    high - low, "xyz"[k], shortest);
             }
         } else {
             double least = INFINITY, most = -INFINITY;
@@ -57,7 +59,8 @@ bool gb_hgrid_levels_bounds(struct gb_hgrid_search *search, const struct gb_hgri
     return true;
 }
 
-static void shape_level(const struct gb_hgrid_search *search, struct gb_hgrid_level *level)
+static void shape_level(const struct gb_hgrid_search *search,
+                        struct gb_hgrid_level *level)
 {
     const double most =
         fmax(GB_HGRID_CELLS_MIN, GB_HGRID_CELLS_PER_SPHERE * (double)level->count);
@@ -80,7 +83,7 @@ static void shape_level(const struct gb_hgrid_search *search, struct gb_hgrid_le
     }
 }
 
-/* Grid index of a place along an axis, outside of [0, cells) clamped. */
+/* Cell of coordinate x along axis k, clamped to [0, cells). */
 int gb_hgrid_levels_index(const struct gb_hgrid_search *search,
                           const struct gb_hgrid_level *level, int k, double x)
 {
@@ -134,8 +137,8 @@ void gb_hgrid_levels_assign(struct gb_hgrid_search *search, const double (*spher
     }
 }
 
-/* Counting sort by cell; a place is taken from the front of its cell, whose start moves
- * along and is put back at the end. */
+/* Counting sort by cell: each sphere takes the first free slot of its cell, whose start is
+ * advanced and restored at the end. */
 void gb_hgrid_levels_sort(struct gb_hgrid_search *search, const double (*sphere)[4],
                           const double *margin, double skin)
 {

@@ -3,8 +3,8 @@
 
 #include "pack/structure/hgrid.h"
 
-/* The sorting half of sift.c: spheres into levels of size, and within a level into the
- * cells of its grid.  No one else includes this. */
+/* First half of a build of hgrid.c: sorts spheres into levels of size, and within a level
+ * into the cells of its grid.  Private to hgrid*.c. */
 
 /* Levels of size, each a factor of 2; spheres smaller than the last share it. */
 enum { GB_HGRID_LEVELS = 16 };
@@ -36,21 +36,24 @@ struct gb_hgrid_search {
     struct gb_hgrid_level level[GB_HGRID_LEVELS]; /* the largest spheres first */
 };
 
-/* How far a sphere reaches: pairs closer than the sum of two reaches are wanted. */
+/* Reach of a sphere: radius, half the skin and margin.  Pairs closer than the sum of two
+ * reaches are listed. */
 double gb_hgrid_levels_reach(const double sphere[4], const double *margin, int64_t i,
                              double skin);
 
-/* Sets where the grids lie.  Errors: GB_ERR_GUARD for a periodic edge too short. */
-bool gb_hgrid_levels_bounds(struct gb_hgrid_search *search, const struct gb_hgrid_box *box,
-                            const double (*sphere)[4], struct gb_error *err);
+/* Sets the bounds of the grids.  Errors: GB_ERR_GUARD for a periodic edge too short. */
+bool gb_hgrid_levels_bounds(struct gb_hgrid_search *search,
+                            const struct gb_hgrid_box *box, const double (*sphere)[4],
+                            struct gb_error *err);
 
-/* Shapes the grids and notes which cell each sphere lies in; then sorts the spheres. */
+/* Sets the levels, the cells of their grids and the cell of each sphere; then sorts the
+ * spheres. */
 void gb_hgrid_levels_assign(struct gb_hgrid_search *search, const double (*sphere)[4],
                             const double *margin, double skin);
 void gb_hgrid_levels_sort(struct gb_hgrid_search *search, const double (*sphere)[4],
                           const double *margin, double skin);
 
-/* Grid index of a place along an axis, outside of [0, cells) clamped. */
+/* Cell of coordinate x along axis k, clamped to [0, cells). */
 int gb_hgrid_levels_index(const struct gb_hgrid_search *search,
                           const struct gb_hgrid_level *level, int k, double x);
 

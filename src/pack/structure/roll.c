@@ -15,13 +15,15 @@ double gb_roll_contact_distance(const struct gb_roll *roll, int64_t j)
     return law.mean_diameter - gb_law_unequal_equilibrium(&law);
 }
 
-bool gb_roll_overlaps(const struct gb_roll *roll, const double place[3])
+bool gb_roll_overlaps(const struct gb_roll *roll, const double position[3])
 {
     struct gb_grid_ball ball;
     struct gb_grid_hit hit;
-    gb_grid_ball_init(&ball, roll->grid, place, (1.0 - GB_ROLL_TOLERANCE) * roll->r_eq);
+    gb_grid_ball_init(&ball, roll->grid, position,
+                      (1.0 - GB_ROLL_TOLERANCE) * roll->r_eq);
     while (gb_grid_ball_next(&ball, &hit)) {
-        const double apart = (1.0 - GB_ROLL_TOLERANCE) * gb_roll_contact_distance(roll, hit.index);
+        const double apart =
+            (1.0 - GB_ROLL_TOLERANCE) * gb_roll_contact_distance(roll, hit.index);
         if (!roll->diameter || hit.square < apart * apart) {
             return true;
         }
@@ -100,7 +102,7 @@ static bool touch_two(double reach, const double offset[3], const struct partner
  * coordination number of 4.0037 at d = 9.7 nm, against P1's 4.0062 +- 0.0007; the nearest
  * particle gives 4.0062 +- 0.0002.  g(r) is the same within its scatter. */
 bool gb_roll_onto(const struct gb_roll *roll, int64_t j, const double offset[3],
-                  double place[3])
+                  double position[3])
 {
     const double *centre = roll->grid->position + 3 * j;
     const double reach = gb_roll_contact_distance(roll, j);
@@ -111,7 +113,7 @@ bool gb_roll_onto(const struct gb_roll *roll, int64_t j, const double offset[3],
         return false;
     }
     for (int k = 0; k < 3; k++) {
-        place[k] = centre[k] + found[k];
+        position[k] = centre[k] + found[k];
     }
-    return !gb_roll_overlaps(roll, place);
+    return !gb_roll_overlaps(roll, position);
 }

@@ -4,8 +4,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "scene/model.h"
 #include "pack/structure/grid.h"
+#include "scene/model.h"
 
 /* Centres closer than (1 - GB_ROLL_TOLERANCE) r_eq overlap.  Above the rounding of a place on
  * two spheres, so that the hexagons of 2D can close; below any distance that matters. */
@@ -25,7 +25,7 @@ struct gb_roll {
 double gb_roll_contact_distance(const struct gb_roll *roll, int64_t j);
 
 /* Does a particle at place overlap one that is there already? */
-bool gb_roll_overlaps(const struct gb_roll *roll, const double place[3]);
+bool gb_roll_overlaps(const struct gb_roll *roll, const double position[3]);
 
 /* Rolls a new particle around particle j until it touches one more, k, as well.
  * k is the particle nearest to the start among those that can be touched together with j;
@@ -35,6 +35,6 @@ bool gb_roll_overlaps(const struct gb_roll *roll, const double place[3]);
  * place    result
  * False when there is no such k, or when a third particle is in the way. */
 bool gb_roll_onto(const struct gb_roll *roll, int64_t j, const double offset[3],
-                  double place[3]);
+                  double position[3]);
 
 #endif

@@ -47,7 +47,7 @@ static bool grow(struct gb_world **world, const struct gb_model *model, double *
     }
     const struct gb_chain_growth order = gb_chain_growth_from_model(model);
     const double start = gb_clock_s();
-    const bool done = gb_chain_growth_place(&order, position, err);
+    const bool done = gb_chain_growth_run(&order, position, err);
     *seconds = gb_clock_s() - start;
     const bool made = done && gb_hilbert_sort(model, position, err) &&
                       gb_world_create(world, model, position, err);

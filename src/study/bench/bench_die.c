@@ -76,7 +76,7 @@ static bool time_law(struct gb_bed *bed, const char *law, double mu, double *sec
     if (!make_params(&params, law, mu, err)) {
         return false;
     }
-    const struct gb_bed_law frozen = gb_filling_pressing_law(&params);
+    const struct gb_bed_law frozen = gb_filling_compaction_law(&params);
     gb_bed_set_law(bed, &frozen);
     gb_leapfrog_init(&leap, 0.5, 0.0);
     bed->die.punch_velocity = 0.0;
@@ -118,7 +118,7 @@ bool gb_bench_die_run(struct gb_bench_die *bench, struct gb_error *err)
                 gb_model_init(&model, &params, err) &&
                 gb_filling_create(&bed, &params, &model, NULL, NULL, err);
     if (done) {
-        const struct gb_bed_law law = gb_filling_pressing_law(&params);
+        const struct gb_bed_law law = gb_filling_compaction_law(&params);
         done = gb_die_stages_create(&stages, &model.die, &law, err) &&
                press(stages, bed, err) && time_laws(bench, bed, err);
     }

@@ -79,7 +79,7 @@ static bool set_positions(struct gb_stability_scene *scene,
         break;
     }
     const struct gb_chain_growth grow = gb_chain_growth_from_model(&scene->model);
-    return gb_chain_growth_place(&grow, position, err);
+    return gb_chain_growth_run(&grow, position, err);
 }
 
 bool gb_stability_scene_reset(struct gb_stability_scene *scene, struct gb_error *err)
