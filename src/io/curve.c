@@ -6,27 +6,27 @@
 #include "base/alloc.h"
 #include "base/units.h"
 
-/* Chunk k holds FIRST_CHUNK << k points and is never moved or freed before the curve, so
- * a reader's pointer stays good while the writer goes on.  The chunks double: 32 of them
- * are more points than memory can hold. */
+/* Chunk k holds FIRST_CHUNK << k points and is never moved or freed before the curve:
+ * pointers of readers stay valid while points are appended.  The chunks double: 32 of
+ * them are more points than memory can hold. */
 enum { FIRST_CHUNK = 256, CHUNKS = 32 };
 
 struct gb_curve {
     struct gb_point *chunk[CHUNKS];
-    /* Released after the point and its chunk are written, acquired by readers: whoever
-     * sees the count sees the points below it. */
+    /* Released after the point and its chunk are written, acquired by readers: the points
+     * below the count are visible with it. */
     _Atomic size_t count;
 };
 
-/* Chunk of a point, and its place inside. */
-static size_t locate(size_t index, size_t *place)
+/* Chunk of a point, and its offset inside. */
+static size_t locate(size_t index, size_t *offset)
 {
     size_t k = 0;
     while (index >= (size_t)FIRST_CHUNK << k) {
         index -= (size_t)FIRST_CHUNK << k;
         k++;
     }
-    *place = index;
+    *offset = index;
     return k;
 }
 
@@ -56,8 +56,8 @@ bool gb_curve_append(struct gb_curve *curve, const struct gb_point *point,
                      struct gb_error *err)
 {
     const size_t count = atomic_load_explicit(&curve->count, memory_order_relaxed);
-    size_t place = 0;
-    const size_t k = locate(count, &place);
+    size_t offset = 0;
+    const size_t k = locate(count, &offset);
     if (k >= CHUNKS) {
         return gb_error_set(err, GB_ERR_MEMORY, "the curve is full: %zu points", count);
     }
@@ -67,7 +67,7 @@ bool gb_curve_append(struct gb_curve *curve, const struct gb_point *point,
             return false;
         }
     }
-    curve->chunk[k][place] = *point;
+    curve->chunk[k][offset] = *point;
     atomic_store_explicit(&curve->count, count + 1, memory_order_release);
     return true;
 }
@@ -79,9 +79,9 @@ size_t gb_curve_count(const struct gb_curve *curve)
 
 const struct gb_point *gb_curve_at(const struct gb_curve *curve, size_t index)
 {
-    size_t place = 0;
-    const size_t k = locate(index, &place);
-    return &curve->chunk[k][place];
+    size_t offset = 0;
+    const size_t k = locate(index, &offset);
+    return &curve->chunk[k][offset];
 }
 
 char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t size)

@@ -190,8 +190,8 @@ bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
     return done;
 }
 
-/* Has the process that directory open?  Every engine does, for its lock; a number out of
- * a file alone must not end somebody's process. */
+/* Has the process that directory open?  Every engine has, for its lock.  The number in a
+ * file alone is not enough to end a process: it may belong to another program by now. */
 static bool works_in(long long pid, const char *directory)
 {
     struct stat wanted;
@@ -214,7 +214,7 @@ static bool works_in(long long pid, const char *directory)
     return found;
 }
 
-bool gb_follow_ask_to_stop(const char *directory, struct gb_error *err)
+bool gb_follow_request_stop(const char *directory, struct gb_error *err)
 {
     struct gb_snapshot snapshot;
     struct gb_follow_engine engine = {0};

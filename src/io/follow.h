@@ -14,23 +14,24 @@
 bool gb_follow_params(const char *directory, struct gb_params *params,
                       struct gb_error *err);
 
-/* Appends the rows of curve.csv that the curve does not have yet; a last row that is only
- * half there waits. */
+/* Appends the rows of curve.csv that the curve does not have yet, but not an incomplete
+ * last row. */
 bool gb_follow_curve(const char *directory, const struct gb_params *params,
                      struct gb_curve *curve, struct gb_error *err);
 
-/* Who computes it. */
+/* The process that computes the run. */
 struct gb_follow_engine {
     long long pid;
     bool here; /* on this machine */
 };
 
-/* What status.json says.  Whether that is so still is the lock's to say. */
+/* Reads status.json.  It does not tell whether the engine still runs: the lock of the
+ * directory does (gb_rundir_busy). */
 bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
                       struct gb_follow_engine *engine, struct gb_error *err);
 
 /* Asks the engine of a run under way to stop with a checkpoint.  Errors: GB_ERR_INPUT
  * when it is on another machine, or not the process that status.json names. */
-bool gb_follow_ask_to_stop(const char *directory, struct gb_error *err);
+bool gb_follow_request_stop(const char *directory, struct gb_error *err);
 
 #endif

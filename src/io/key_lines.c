@@ -19,11 +19,11 @@ struct scanner {
     GHashTable *seen;  /* "group\nkey" -> line number */
 };
 
-static void add(struct gb_key_lines *lines, struct gb_keyline item)
+static void add(struct gb_key_lines *lines, struct gb_key_line item)
 {
     if (lines->count == lines->room) {
         lines->room = lines->room ? 2 * lines->room : 64;
-        lines->item = g_renew(struct gb_keyline, lines->item, lines->room);
+        lines->item = g_renew(struct gb_key_line, lines->item, lines->room);
     }
     lines->item[lines->count++] = item;
 }
@@ -42,7 +42,7 @@ static bool take_group(struct scanner *scanner, const struct piece *piece,
     if (length < 3 || piece->stop[-1] != ']') {
         return refuse(scanner, piece, "accepted [group]", err);
     }
-    struct gb_keyline item = {.line = piece->line, .end = piece->end};
+    struct gb_key_line item = {.line = piece->line, .end = piece->end};
     item.group = g_strndup(piece->start + 1, (size_t)length - 2);
     add(scanner->lines, item);
     scanner->group = item.group;
@@ -79,7 +79,7 @@ static bool take_key(struct scanner *scanner, const struct piece *piece,
     while (value < piece->stop && g_ascii_isspace(*value)) {
         value++;
     }
-    struct gb_keyline item = {.line = piece->line, .end = piece->end};
+    struct gb_key_line item = {.line = piece->line, .end = piece->end};
     item.value = (size_t)(value - scanner->text);
     item.value_end = (size_t)(piece->stop - scanner->text);
     item.group = g_strdup(scanner->group);
@@ -151,11 +151,11 @@ void gb_key_lines_finish(struct gb_key_lines *lines)
     *lines = (struct gb_key_lines){0};
 }
 
-const struct gb_keyline *gb_key_lines_find(const struct gb_key_lines *lines,
-                                           const char *group, const char *key)
+const struct gb_key_line *gb_key_lines_find(const struct gb_key_lines *lines,
+                                            const char *group, const char *key)
 {
     for (size_t i = 0; i < lines->count; i++) {
-        const struct gb_keyline *item = &lines->item[i];
+        const struct gb_key_line *item = &lines->item[i];
         if (strcmp(item->group, group) == 0 && g_strcmp0(item->key, key) == 0) {
             return item;
         }

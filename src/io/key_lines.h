@@ -8,7 +8,7 @@
 
 /* Where the keys of a key file stand.  GKeyFile parses values but forgets line numbers
  * and the exact bytes, which messages and saving need. */
-struct gb_keyline {
+struct gb_key_line {
     char *group;
     char *key;        /* NULL: the line of a [group] */
     int line;         /* from 1 */
@@ -18,7 +18,7 @@ struct gb_keyline {
 };
 
 struct gb_key_lines {
-    struct gb_keyline *item;
+    struct gb_key_line *item;
     size_t count, room;
 };
 
@@ -30,8 +30,8 @@ bool gb_key_lines_init(struct gb_key_lines *lines, const char *path, const char 
 void gb_key_lines_finish(struct gb_key_lines *lines); /* zeroed is fine */
 
 /* Line of group.key, or of [group] for key = NULL; NULL when there is none. */
-const struct gb_keyline *gb_key_lines_find(const struct gb_key_lines *lines,
-                                           const char *group, const char *key);
+const struct gb_key_line *gb_key_lines_find(const struct gb_key_lines *lines,
+                                            const char *group, const char *key);
 
 /* Offset at which a new key of the group goes: behind its last key or its header; text of
  * `length` bytes ends there when the group does not exist. */

@@ -111,7 +111,7 @@ static bool set_value(struct gb_params *params, const struct gb_field *field,
 
 /* One key of the file into params. */
 static bool apply_line(struct gb_preset *preset, GKeyFile *file,
-                       const struct gb_keyline *line, struct gb_error *err)
+                       const struct gb_key_line *line, struct gb_error *err)
 {
     if (!line->key || g_str_has_prefix(line->key, "x-") || !is_known_group(line->group)) {
         return true;
@@ -242,7 +242,7 @@ const char *gb_preset_path(const struct gb_preset *preset)
 /* Does the text of the file, read at path, still say what params hold?  Compared in
  * written form, so that "0.1nm" and "0.10 nm" stay as typed; the name of a table of sizes
  * stays only where the table lies beside the preset. */
-static bool says_same(const struct gb_preset *preset, const struct gb_keyline *line,
+static bool says_same(const struct gb_preset *preset, const struct gb_key_line *line,
                       const struct gb_field *field, const char *path, const char *now)
 {
     char *typed =
@@ -293,7 +293,7 @@ static bool update_field(struct gb_preset *preset, const struct gb_field *field,
 {
     char now[GB_PARAMS_VALUE_MAX];
     gb_params_format(&preset->params, field, now, sizeof now);
-    const struct gb_keyline *line =
+    const struct gb_key_line *line =
         gb_key_lines_find(&preset->lines, field->group, field->key);
     if (line ? says_same(preset, line, field, path, now)
              : !complete && is_fallback(field, now)) {

@@ -10,7 +10,7 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-/* Files of a run by name; everything else in a directory is somebody's and stays. */
+/* Files of a run by name; other files in a directory are never removed. */
 static const char *const known_files[] = {
     "preset.ini",  "curve.csv", "events.log",     "status.json",    "state.h5",
     "packing.csv", "g.csv",     "structure.json", "state-before.h5"};
@@ -99,7 +99,7 @@ static int lock_directory(const char *path)
     return fd;
 }
 
-/* Opens and locks dir->path as lock_directory does, and holds on to it. */
+/* Opens and locks dir->path as lock_directory does, and keeps the lock. */
 static bool hold(struct gb_rundir *dir)
 {
     struct stat info;
@@ -209,7 +209,7 @@ bool gb_rundir_check(const char *path, enum gb_rundir_mode mode, struct gb_error
                                    : check_parent(path, err);
 }
 
-/* Removes what a run wrote; entries of other names are not looked at. */
+/* Removes the files of a run; entries of other names stay. */
 static bool clear_files(const char *path, bool (*known)(const char *name),
                         struct gb_error *err)
 {
@@ -258,8 +258,8 @@ static void remove_made(const char *path, const char *made)
     g_free(at);
 }
 
-/* Makes path, which does not exist, with its parents; only one of two processes that try
- * at once succeeds.  Gives the topmost directory that was missing. */
+/* Makes path, which does not exist, with its parents; only one of two processes that do
+ * so at the same time succeeds.  Sets dir->made. */
 static bool make_missing(struct gb_rundir *dir, struct gb_error *err)
 {
     char *full = g_canonicalize_filename(dir->path, NULL);
@@ -301,7 +301,7 @@ bool gb_rundir_make(struct gb_rundir *dir, const char *path, enum gb_rundir_mode
                                   g_strerror(errno)));
         goto fail;
     }
-    /* once more: it may have changed before the lock was ours */
+    /* again: it may have changed before it was locked */
     if (!check_content(path, mode, err) || !clear_run(path, err)) {
         goto fail;
     }
@@ -343,7 +343,7 @@ bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *er
     return false;
 }
 
-bool gb_rundir_stands(const struct gb_rundir *dir, struct gb_error *err)
+bool gb_rundir_check_identity(const struct gb_rundir *dir, struct gb_error *err)
 {
     struct stat ours;
     struct stat named;
@@ -355,7 +355,7 @@ bool gb_rundir_stands(const struct gb_rundir *dir, struct gb_error *err)
 
 bool gb_rundir_result(const struct gb_rundir *dir, bool good, struct gb_error *err)
 {
-    if (good || err == NULL || !gb_rundir_stands(dir, err)) {
+    if (good || err == NULL || !gb_rundir_check_identity(dir, err)) {
         return good;
     }
     if (g_str_has_prefix(err->text, dir->held)) {
@@ -375,7 +375,7 @@ void gb_rundir_finish(struct gb_rundir *dir)
     *dir = (struct gb_rundir){.lock = -1};
 }
 
-void gb_rundir_unmake(struct gb_rundir *dir)
+void gb_rundir_remove(struct gb_rundir *dir)
 {
     (void)clear_run(dir->held, NULL);
     if (dir->made != NULL) {

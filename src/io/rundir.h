@@ -5,19 +5,18 @@
 
 #include "greenbody/status.h"
 
-/* The directory of a run as a place: may a run begin there, make it, take it back.  What
- * is inside the files is the store's business. */
+/* The directory of a run: checked, made, locked, removed.  io/store.h writes its files. */
 struct gb_rundir {
     char *path;
     char *made; /* topmost directory that was created for it, NULL when path existed */
     int lock;   /* open directory, locked as long as the run is written */
-    char *held; /* another path to it, through the lock: it leads there even when the
-                   directory has another name by now.  Where the system has none: path */
+    char *held; /* path through the open lock (/proc/self/fd): valid even after the
+                   directory was renamed.  Systems without it: path */
 };
 
 enum gb_rundir_mode {
-    GB_RUNDIR_KEEP,   /* a run that is there already is an error */
-    GB_RUNDIR_REPLACE /* it is removed, unless it is still being written */
+    GB_RUNDIR_KEEP,   /* an existing run is an error */
+    GB_RUNDIR_REPLACE /* an existing run is removed, unless it is still being written */
 };
 
 /* Could a run begin at path?  Changes nothing: a wrong --out is reported before minutes of
@@ -32,17 +31,17 @@ bool gb_rundir_check(const char *path, enum gb_rundir_mode mode, struct gb_error
 bool gb_rundir_make(struct gb_rundir *dir, const char *path, enum gb_rundir_mode mode,
                     struct gb_error *err);
 
-/* Locks the directory of a run that was begun before.  Errors: GB_ERR_INPUT when it is no
- * such directory or another process writes there; GB_ERR_MACHINE.  A lock is the
- * process's own: one that was killed has left none. */
+/* Locks the directory of an existing run.  Errors: GB_ERR_INPUT when it is no run
+ * directory or another process writes there; GB_ERR_MACHINE.  A lock ends with its
+ * process, also when that is killed. */
 bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *err);
 
 /* Is the directory still the one that was locked?  Errors: GB_ERR_MACHINE when it was
  * moved, removed or replaced by another. */
-bool gb_rundir_stands(const struct gb_rundir *dir, struct gb_error *err);
+bool gb_rundir_check_identity(const struct gb_rundir *dir, struct gb_error *err);
 
-/* The result of writing a file by its held path; its error is told of the name that the
- * user knows, or that the directory does not stand any more. */
+/* The result of writing a file by its held path.  The error names the path as the user
+ * gave it, or says that the directory was moved. */
 bool gb_rundir_result(const struct gb_rundir *dir, bool good, struct gb_error *err);
 
 /* Is a process writing there now? */
@@ -51,8 +50,8 @@ bool gb_rundir_busy(const char *path);
 /* Ends the lock and frees; the directory stays. */
 void gb_rundir_finish(struct gb_rundir *dir);
 
-/* Takes back what was begun: removes the files of the run and the directories that were
- * made, then finishes. */
-void gb_rundir_unmake(struct gb_rundir *dir);
+/* Removes the files of the run and the directories that were made for it, then
+ * finishes. */
+void gb_rundir_remove(struct gb_rundir *dir);
 
 #endif

@@ -10,7 +10,7 @@
 #include "pack/structure/assign_sizes.h"
 #include "scene/loading_kind.h"
 
-/* What is taken out of the record as it is. */
+/* Copies an item of the record. */
 static bool take(const struct gb_record *record, const char *name,
                  enum gb_record_type type, int64_t rows, int columns, void *data,
                  struct gb_error *err)
@@ -89,17 +89,18 @@ static void fill_header(struct gb_state *state, const struct gb_params *params,
     snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
 }
 
-/* Rows of a bed: places in the box of the die, true sizes. */
-static void place_spheres(struct gb_state *state, const double (*place)[4], double radius)
+/* Spheres of a bed in the box of the die, with their own radii. */
+static void copy_spheres(struct gb_state *state, const double (*position)[4],
+                         double radius)
 {
     state->die_radius = radius;
     state->cell[0] = state->cell[1] = 2.0 * radius;
     for (int64_t i = 0; i < state->count; i++) {
         for (int k = 0; k < 3; k++) {
-            state->position[3 * i + k] = place[i][k] + (k < 2 ? radius : 0.0);
+            state->position[3 * i + k] = position[i][k] + (k < 2 ? radius : 0.0);
         }
-        state->radius[i] = place[i][3];
-        state->cell[2] = fmax(state->cell[2], place[i][2] + place[i][3]);
+        state->radius[i] = position[i][3];
+        state->cell[2] = fmax(state->cell[2], position[i][2] + position[i][3]);
     }
 }
 
@@ -126,13 +127,13 @@ static bool fill_die(struct gb_state *state, const struct gb_record *record,
 {
     static const char *const names[3] = {"bed/shear_x", "bed/shear_y", "bed/shear_z"};
     const int64_t n = state->pair_count;
-    double(*place)[4] = (double(*)[4])work;
+    double(*position)[4] = (double(*)[4])work;
     double *const shear[3] = {work + 4 * state->count, work + 4 * state->count + n,
                               work + 4 * state->count + 2 * n};
     int32_t *index = (int32_t *)(void *)shear[0];
     double punch = 0.0;
     if (!take(record, "bed/punch_place", GB_RECORD_DOUBLE, 1, 1, &punch, err) ||
-        !take(record, "bed/place", GB_RECORD_DOUBLE, state->count, 4, place, err) ||
+        !take(record, "bed/place", GB_RECORD_DOUBLE, state->count, 4, position, err) ||
         !take(record, "bed/normal", GB_RECORD_DOUBLE, n, 1, state->pair_normal, err) ||
         !take_point(record, &state->point, err)) {
         return false;
@@ -152,7 +153,7 @@ static bool fill_die(struct gb_state *state, const struct gb_record *record,
         }
     }
     state->cell[2] = punch;
-    place_spheres(state, (const double(*)[4])place, model->die.radius);
+    copy_spheres(state, (const double(*)[4])position, model->die.radius);
     join_forces(state, shear);
     return true;
 }

@@ -169,8 +169,8 @@ static bool write_preset(const char *directory, const struct gb_params *params,
     return ok;
 }
 
-/* What is replaced is named by its held path: written by the other one it could land in a
- * directory that has taken the name meanwhile. */
+/* Replaced files are written by the held path: the other one may name another directory
+ * by now. */
 static void name_files(struct gb_store *store)
 {
     const char *held = store->dir.held;
@@ -220,13 +220,13 @@ void gb_store_destroy(struct gb_store *store)
     }
 }
 
-struct gb_store_place gb_store_place(const struct gb_store *store)
+struct gb_store_extent gb_store_extent(const struct gb_store *store)
 {
-    return (struct gb_store_place){store->points, store->curve.length,
-                                   store->events.length};
+    return (struct gb_store_extent){store->points, store->curve.length,
+                                    store->events.length};
 }
 
-/* As after gb_store_create: what was recorded before belongs to no checkpoint. */
+/* Empty files as after gb_store_create: rows without a checkpoint are dropped. */
 static bool begin_rows(struct gb_store *store, const struct gb_params *params,
                        struct gb_error *err)
 {
@@ -244,7 +244,7 @@ static bool begin_rows(struct gb_store *store, const struct gb_params *params,
 }
 
 bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
-                     const struct gb_params *params, const struct gb_store_place *place,
+                     const struct gb_params *params, const struct gb_store_extent *extent,
                      struct gb_error *err)
 {
     struct gb_store *store = g_new0(struct gb_store, 1);
@@ -254,14 +254,14 @@ bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
     *dir = (struct gb_rundir){.lock = -1};
     name_files(store);
     bool done;
-    if (place == NULL) {
+    if (extent == NULL) {
         done = begin_rows(store, params, err);
     } else {
-        store->points = place->points;
+        store->points = extent->points;
         done = gb_line_file_reopen(&store->curve, store->dir.path, "curve.csv",
-                                   (off_t)place->curve_bytes, err) &&
+                                   (off_t)extent->curve_bytes, err) &&
                gb_line_file_reopen(&store->events, store->dir.path, "events.log",
-                                   (off_t)place->events_bytes, err);
+                                   (off_t)extent->events_bytes, err);
     }
     if (!done) {
         gb_store_destroy(store);
@@ -274,7 +274,7 @@ bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
 void gb_store_discard(struct gb_store *store)
 {
     if (store != NULL) {
-        gb_rundir_unmake(&store->dir);
+        gb_rundir_remove(&store->dir);
         free_store(store);
     }
 }
@@ -297,7 +297,7 @@ bool gb_store_point(struct gb_store *store, const struct gb_point *point,
         g_ascii_formatd(seconds, sizeof seconds, "%.3f", point->seconds));
     column_sets[store->columns].append(row, point);
     g_string_append_c(row, '\n');
-    const bool ok = gb_rundir_stands(&store->dir, err) &&
+    const bool ok = gb_rundir_check_identity(&store->dir, err) &&
                     gb_line_file_append(&store->curve, row->str, err);
     store->points += ok;
     g_string_free(row, TRUE);
@@ -434,7 +434,7 @@ char *gb_store_status_text(const struct gb_store *store,
 bool gb_store_put_status(const struct gb_store *store, const char *text,
                          struct gb_error *err)
 {
-    return gb_rundir_stands(&store->dir, err) &&
+    return gb_rundir_check_identity(&store->dir, err) &&
            gb_rundir_result(&store->dir,
                             replace_file(store->status_path, text, strlen(text), err),
                             err);
@@ -462,7 +462,8 @@ static void keep_before(const struct gb_store *store)
 bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
                     const struct gb_record *record, struct gb_error *err)
 {
-    if (!gb_rundir_stands(&store->dir, err) || !gb_line_file_sync(&store->curve, err) ||
+    if (!gb_rundir_check_identity(&store->dir, err) ||
+        !gb_line_file_sync(&store->curve, err) ||
         !gb_line_file_sync(&store->events, err)) {
         return false;
     }

@@ -10,36 +10,37 @@
 #include "io/rundir.h"
 #include "io/state.h"
 
-/* A run directory (interface.md): preset.ini, curve.csv, events.log, status.json,
- * state.h5. Every file is either appended line by line or replaced atomically.  Once the
- * directory is moved, removed or replaced nothing more is written: GB_ERR_MACHINE. */
+/* The files of a run directory: preset.ini, curve.csv, events.log, status.json, state.h5
+ * (docs/manual.md).  Each is either appended line by line or replaced atomically.  Once
+ * the directory was moved, removed or replaced nothing is written any more:
+ * GB_ERR_MACHINE. */
 struct gb_store;
 
-/* Makes the directory.  An existing run directory is refused (GB_ERR_INPUT) or, with
- * GB_RUNDIR_REPLACE, the files of the old run are removed first; a directory with foreign files is never
- * touched.  Writes preset.ini. */
+/* Makes the directory and writes preset.ini.  An existing run directory is refused
+ * (GB_ERR_INPUT) or, with GB_RUNDIR_REPLACE, the files of the old run are removed first.
+ * A directory with other files is refused. */
 bool gb_store_create(struct gb_store **out, const char *directory,
                      const struct gb_params *params, enum gb_rundir_mode mode,
                      struct gb_error *err);
 
-/* What of the files belongs to a checkpoint: rows and events up to there. */
-struct gb_store_place {
+/* How much of the files belongs to a checkpoint: points, and bytes of whole lines. */
+struct gb_store_extent {
     int64_t points, curve_bytes, events_bytes;
 };
-struct gb_store_place gb_store_place(const struct gb_store *store);
+struct gb_store_extent gb_store_extent(const struct gb_store *store);
 
-/* The store of a run that is to go on in dir, which is locked and belongs to the store
- * from now on, also on error.  Cuts curve.csv and events.log to the place; NULL: begins
- * them anew.  Errors: GB_ERR_INPUT for files that do not reach the place. */
+/* The store of a run that is continued in dir, which is locked and owned by the store from
+ * now on, also on error.  Truncates curve.csv and events.log to the extent; NULL: to
+ * nothing.  Errors: GB_ERR_INPUT for files that are shorter. */
 bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
-                     const struct gb_params *params, const struct gb_store_place *place,
+                     const struct gb_params *params, const struct gb_store_extent *extent,
                      struct gb_error *err);
 void gb_store_destroy(struct gb_store *store); /* NULL is fine */
-/* Destroys and removes the files and directories that were made: for a run that could not
- * begin.  NULL is fine. */
+/* Destroys, and removes the files and directories that were made: for a run that could
+ * not start.  NULL is fine. */
 void gb_store_discard(struct gb_store *store);
 const char *gb_store_directory(const struct gb_store *store);
-/* For files that are not the store's own: written by its held path. */
+/* For other files of the directory, which are written by its held path. */
 const struct gb_rundir *gb_store_rundir(const struct gb_store *store);
 
 bool gb_store_point(struct gb_store *store, const struct gb_point *point,
@@ -55,9 +56,9 @@ char *gb_store_status_text(const struct gb_store *store,
                            const struct gb_snapshot *snapshot);
 bool gb_store_put_status(const struct gb_store *store, const char *text,
                          struct gb_error *err);
-/* Replaces state.h5; the one before becomes state-before.h5, from which
- * `greenbody verify` repeats the way to it.  Rows and events are on the disk first.  May
- * be called from another thread than the rest, one call at a time. */
+/* Replaces state.h5; the previous one becomes state-before.h5, from which
+ * `greenbody verify` repeats the steps up to state.h5.  Rows and events are synced first.
+ * May be called from another thread than the rest, one call at a time. */
 bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
                     const struct gb_record *record, struct gb_error *err);
 /* Flushes and syncs; call before the last status. */

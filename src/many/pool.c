@@ -96,8 +96,8 @@ static bool submit_local(struct gb_pool *pool, size_t ticket,
     while (pool->worker[idle].busy) {
         idle++;
     }
-    const bool given = gb_worker_give(pool->worker, pool->slots, idle, pool->work, ticket,
-                                      params, directory, err);
+    const bool given = gb_worker_submit(pool->worker, pool->slots, idle, pool->work,
+                                        ticket, params, directory, err);
     pool->busy += given;
     return given;
 }
@@ -118,8 +118,8 @@ bool gb_pool_submit(struct gb_pool *pool, size_t ticket, const struct gb_params 
 /* The message of worker i; true for a report. */
 static bool read_worker(struct gb_pool *pool, size_t i, struct gb_pool_report *report)
 {
-    const bool wrote = pool->worker[i].keeping;
-    const bool ended = gb_worker_take(&pool->worker[i], report);
+    const bool wrote = pool->worker[i].writing;
+    const bool ended = gb_worker_receive(&pool->worker[i], report);
     pool->active_s = gb_clock_s();
     pool->busy -= ended;
     pool->writing -= ended && wrote;

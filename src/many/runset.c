@@ -183,7 +183,7 @@ void gb_runset_expand(GPtrArray *list, const char *directory)
     while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
         char *path = g_build_filename(directory, name, NULL);
         char *status = g_build_filename(path, "status.json", NULL);
-        if (has_file(path, "preset.ini") && gb_single_run_says_done(status)) {
+        if (has_file(path, "preset.ini") && gb_single_run_status_is_done(status)) {
             g_ptr_array_add(found, g_steal_pointer(&path));
         }
         g_free(status);

@@ -63,7 +63,7 @@ bool gb_single_run(const struct gb_params *params, const char *directory,
            gb_error_set(err, run.loop.error.code, "%s", run.loop.error.text);
 }
 
-bool gb_single_run_says_done(const char *path)
+bool gb_single_run_status_is_done(const char *path)
 {
     JsonParser *parser = json_parser_new_immutable();
     bool done = false;
@@ -89,7 +89,7 @@ bool gb_single_run_done(const struct gb_params *params, const char *directory, b
     if (gb_preset_load(&preset, path, NULL)) {
         *same = gb_preset_params(preset)->seed == params->seed &&
                 gb_runset_same(gb_preset_params(preset), params);
-        done = *same && gb_single_run_says_done(status);
+        done = *same && gb_single_run_status_is_done(status);
         gb_preset_destroy(preset);
     }
     g_free(path);

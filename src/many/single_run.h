@@ -6,20 +6,19 @@
 #include "greenbody/params.h"
 #include "many/pool.h"
 
-/* One run from the first particle to the last file, without a screen: what each of the
- * many runs of a sweep is. */
+/* One run of a sweep, from the initial structure to the last file. */
 
 /* Runs params into directory; an old run there is replaced.
  *
- * callbacks   whom it answers to (NULL: nobody)
- * True when the programme came to its end.  Errors: GB_ERR_GUARD and
+ * callbacks   NULL: none
+ * True when all stages of loading are done.  Errors: GB_ERR_GUARD and
  * GB_ERR_NOT_CONVERGED (results kept), GB_ERR_CANCELLED (points kept), GB_ERR_INPUT,
  * GB_ERR_MACHINE, GB_ERR_MEMORY; status.json says the same where there is one. */
 bool gb_single_run(const struct gb_params *params, const char *directory,
                    const struct gb_pool_callbacks *callbacks, struct gb_error *err);
 
-/* Is a run of these parameters there, done to its end?  Title, threads and [output] may
- * differ: they change no result.
+/* Is there a finished run of these parameters?  Title, threads and [output] may differ:
+ * they change no result.
  *
  * same   false when directory holds the preset of another experiment; true when it holds
  *        this one's or none that can be read */
@@ -27,6 +26,6 @@ bool gb_single_run_done(const struct gb_params *params, const char *directory,
                         bool *same);
 
 /* Does this status.json say that its run was done? */
-bool gb_single_run_says_done(const char *path);
+bool gb_single_run_status_is_done(const char *path);
 
 #endif

@@ -13,57 +13,57 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 
-/* A run on its way: the parameters and, of any length up to that, the name. */
-struct parcel {
+/* Message to a worker: parameters, and the name of the directory at its own length. */
+struct run_message {
     struct gb_params params;
     char directory[PATH_MAX];
 };
 
-/* --- the worker's process -------------------------------------------------------- */
+/* --- in the worker's process ----------------------------------------------------- */
 
-/* SIGTERM stays blocked there and is looked for between slices. */
-static bool is_asked_to_stop(void *data)
+/* SIGTERM stays blocked; it is polled between two slices. */
+static bool is_cancelled(void *data)
 {
     sigset_t pending;
     (void)data;
     return sigpending(&pending) == 0 && sigismember(&pending, SIGTERM) == 1;
 }
 
-/* The next run; false when there is none any more, or nobody who would give one. */
-static bool await(int fd, struct parcel *parcel)
+/* Waits for the next run; false when the pool has closed the socket. */
+static bool receive_run(int fd, struct run_message *message)
 {
     ssize_t got = 0;
     do {
-        got = recv(fd, parcel, sizeof *parcel, 0);
+        got = recv(fd, message, sizeof *message, 0);
     } while (got < 0 && errno == EINTR);
-    return got > (ssize_t)sizeof parcel->params;
+    return got > (ssize_t)sizeof message->params;
 }
 
-/* One byte: a report is longer. */
-static void tell_pressed(void *data)
+/* A message of one byte: a report is longer. */
+static void send_loaded(void *data)
 {
     const int *fd = data;
     (void)!send(*fd, "", 1, MSG_NOSIGNAL);
 }
 
-/* Never returns.  The terminal's SIGINT reaches all processes: the first one decides what
- * it means and sends SIGTERM. */
-static void labour(gb_pool_work *work, pid_t parent, int fd)
+/* The worker's loop; never returns.  The terminal sends SIGINT to all processes: workers
+ * ignore it, the parent handles it and sends SIGTERM. */
+static void serve(gb_pool_work *work, pid_t parent, int fd)
 {
-    struct parcel *parcel = gb_alloc_array(1, sizeof *parcel, NULL);
-    const struct gb_pool_callbacks boss = {is_asked_to_stop, tell_pressed, &fd};
+    struct run_message *message = gb_alloc_array(1, sizeof *message, NULL);
+    const struct gb_pool_callbacks callbacks = {is_cancelled, send_loaded, &fd};
     signal(SIGINT, SIG_IGN);
     signal(SIGHUP, SIG_IGN);
     (void)prctl(PR_SET_PDEATHSIG, SIGTERM);
-    while (parcel != NULL && getppid() == parent && await(fd, parcel)) {
+    while (message != NULL && getppid() == parent && receive_run(fd, message)) {
         struct gb_error error = {0};
-        (void)work(&parcel->params, parcel->directory, &boss, &error);
+        (void)work(&message->params, message->directory, &callbacks, &error);
         (void)!send(fd, &error, sizeof error, MSG_NOSIGNAL);
     }
     _exit(0);
 }
 
-/* --- the crew's ------------------------------------------------------------------ */
+/* --- in the pool's process ------------------------------------------------------- */
 
 static pid_t fork_worker(const struct gb_worker *worker, size_t count, gb_pool_work *work,
                          const int ends[2])
@@ -72,16 +72,17 @@ static pid_t fork_worker(const struct gb_worker *worker, size_t count, gb_pool_w
     const pid_t parent = getpid();
     sigemptyset(&term);
     sigaddset(&term, SIGTERM);
-    sigprocmask(SIG_BLOCK, &term, &before); /* before it can be missed */
+    sigprocmask(SIG_BLOCK, &term, &before); /* before the fork: none is lost */
     const pid_t pid = fork();
     if (pid == 0) {
         close(ends[0]);
-        for (size_t i = 0; i < count; i++) { /* else they would not see the crew's end */
+        /* an inherited socket would hide the end of the pool from the other workers */
+        for (size_t i = 0; i < count; i++) {
             if (worker[i].fd >= 0) {
                 close(worker[i].fd);
             }
         }
-        labour(work, parent, ends[1]);
+        serve(work, parent, ends[1]);
     }
     const int why = errno;
     sigprocmask(SIG_SETMASK, &before, NULL);
@@ -109,7 +110,7 @@ static bool begin(struct gb_worker *worker, size_t count, size_t index,
     return true;
 }
 
-/* A run goes whole or not at all; false when the process is gone. */
+/* Sends a run as one message; false when the process is gone. */
 static bool send_run(const struct gb_worker *worker, const struct gb_params *params,
                      const char *directory)
 {
@@ -124,24 +125,25 @@ static bool send_run(const struct gb_worker *worker, const struct gb_params *par
     return sent >= 0;
 }
 
-bool gb_worker_give(struct gb_worker *worker, size_t count, size_t index,
-                    gb_pool_work *work, size_t ticket, const struct gb_params *params,
-                    const char *directory, struct gb_error *err)
+bool gb_worker_submit(struct gb_worker *worker, size_t count, size_t index,
+                      gb_pool_work *work, size_t ticket, const struct gb_params *params,
+                      const char *directory, struct gb_error *err)
 {
     struct gb_worker *own = &worker[index];
     if (strlen(directory) >= PATH_MAX) {
         return gb_error_set(err, GB_ERR_INPUT, "%.300s: the name is too long", directory);
     }
-    bool given = own->pid != 0 && send_run(own, params, directory);
-    if (!given) { /* none yet, or it died while it was idle */
+    bool sent = own->pid != 0 && send_run(own, params, directory);
+    if (!sent) { /* no process yet, or it died while it was idle */
         gb_worker_end(own);
         if (!begin(worker, count, index, work, err)) {
             return false;
         }
-        given = send_run(own, params, directory);
+        sent = send_run(own, params, directory);
     }
-    if (!given) {
-        gb_error_set(err, GB_ERR_MACHINE, "a worker takes no run: %s", strerror(errno));
+    if (!sent) {
+        gb_error_set(err, GB_ERR_MACHINE, "no run can be sent to a worker: %s",
+                     strerror(errno));
         gb_worker_end(own);
         return false;
     }
@@ -151,7 +153,7 @@ bool gb_worker_give(struct gb_worker *worker, size_t count, size_t index,
     return true;
 }
 
-static int await_end(const struct gb_worker *worker)
+static int wait_for_exit(const struct gb_worker *worker)
 {
     int status = 0;
     while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR) {
@@ -159,7 +161,7 @@ static int await_end(const struct gb_worker *worker)
     return status;
 }
 
-static void tell_death(int status, struct gb_error *error)
+static void set_exit_error(int status, struct gb_error *error)
 {
     if (WIFSIGNALED(status)) {
         gb_error_set(error, GB_ERR_MACHINE, "the process of the run was ended by %s",
@@ -169,24 +171,24 @@ static void tell_death(int status, struct gb_error *error)
     }
 }
 
-bool gb_worker_take(struct gb_worker *worker, struct gb_pool_report *report)
+bool gb_worker_receive(struct gb_worker *worker, struct gb_pool_report *report)
 {
     ssize_t got = 0;
     do {
         got = recv(worker->fd, &report->error, sizeof report->error, 0);
     } while (got < 0 && errno == EINTR);
     if (got == 1) {
-        worker->keeping = true;
+        worker->writing = true;
         return false;
     }
     report->ticket = worker->ticket;
     report->lost = false;
     report->seconds = gb_clock_s() - worker->since;
     worker->busy = false;
-    worker->keeping = false;
+    worker->writing = false;
     if (got != (ssize_t)sizeof report->error) {
         close(worker->fd);
-        tell_death(await_end(worker), &report->error);
+        set_exit_error(wait_for_exit(worker), &report->error);
         *worker = (struct gb_worker){.fd = -1};
     } else if (worker->stopped) {
         gb_worker_end(worker);
@@ -204,7 +206,7 @@ void gb_worker_end(struct gb_worker *worker)
 {
     if (worker->pid != 0) {
         close(worker->fd);
-        (void)await_end(worker);
+        (void)wait_for_exit(worker);
     }
     *worker = (struct gb_worker){.fd = -1};
 }

@@ -6,16 +6,16 @@
 /* Changes of a run under way (scene/field/changes.h), applied.
  *
  * The state passes through a record (run/checkpoint.h) into a world of the changed model,
- * whether the run changes on its own, is resumed there, or goes on as a what-if of
- * another run: the same bits on all three ways. */
+ * whether the run changes under way, is resumed there, or continues as a what-if of
+ * another run: the same bits in all three cases. */
 
-/* Called after each recorded point: what is due there takes effect; the next strain step
- * obeys it.  Errors: GB_ERR_INPUT for a step on an unloading branch, or for histories the
+/* Called after each recorded point: changes that are due there apply from the next strain
+ * step on.  Errors: GB_ERR_INPUT for a step on an unloading branch, or for histories the
  * contacts do not carry (bridges or friction where there were none); GB_ERR_MEMORY. */
 bool gb_change_apply(struct gb_experiment *experiment, struct gb_error *err);
 
-/* The rest of a resume: when a change was due at the step of the record, what the record
- * says about the next strain step may still be the order of before. */
+/* Last part of a resume: when a change was due at the step of the record, the next strain
+ * step is decided again with the changed parameters. */
 bool gb_change_order(struct gb_experiment *experiment, struct gb_error *err);
 
 #endif

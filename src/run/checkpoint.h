@@ -6,12 +6,12 @@
 #include "base/record.h"
 #include "run/experiment.h"
 
-/* An experiment into a record and back, whole: gb_experiment_resume on that record goes
- * on to the last bit as the experiment itself.
+/* The whole state of an experiment as a record: gb_experiment_resume on that record
+ * continues with the same bits as the experiment itself.
  *
- * Taken only right after GB_STEP_POINT.  There the relaxer remembers only what it lists
- * itself, the state to go back to is the present one, and no event has been taken yet:
- * little is left to keep.  Each loading mode lists its members in its `record`. */
+ * Taken only right after GB_STEP_POINT.  There the relaxer has only the state that it
+ * records, the state to return to after unloading is the present one, and no event has
+ * been taken yet.  Each loading mode records its members in its `record`. */
 
 /* Fills the record, using its memory again.  Errors: GB_ERR_MEMORY. */
 bool gb_checkpoint_take(struct gb_experiment *experiment, struct gb_record *record,

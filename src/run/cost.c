@@ -13,9 +13,8 @@
  * the run itself finds its step. */
 static const double step_of_auto = 0.4;
 
-/* Particle-steps per second and core, discs or spheres with friction and bridges: at the
- * low end of what was measured, so that it is asked once too often and not once too
- * seldom. */
+/* Particle-steps per second and core, discs or spheres with friction and bridges: the low
+ * end of the measurements, so that the estimate is rather too long. */
 static const double rate_of_core = 8e6;
 
 /* Particles that keep one thread busy: a smaller scene is swept by fewer threads. */
@@ -27,14 +26,14 @@ static const double sweep_s = 0.18e-6;
 /* Length of a row of curve.csv with the columns of a dynamic run. */
 static const double row_bytes = 250.0;
 
-/* Longer than this is nothing to begin by mistake. */
-static const double unasked_most_s = 3600.0;
+/* Runs estimated to take longer need a confirmation, s. */
+static const double limit_s = 3600.0;
 
 static bool check(const struct gb_params *params, double rate, struct gb_error *err)
 {
     if (params->kind != GB_KIND_DYNAMIC) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "scene.kind = quasistatic: the cost can be foretold with "
+                            "scene.kind = quasistatic: the cost can be estimated with "
                             "scene.kind = dynamic only");
     }
     if (!(rate > 0.0 && isfinite(rate))) {
@@ -154,9 +153,9 @@ double gb_cost_assumed_s(const struct gb_params *params)
     return seconds > 0.0 ? seconds : (double)NAN;
 }
 
-bool gb_cost_unasked_s(double seconds)
+bool gb_cost_within_limit(double seconds)
 {
-    return !(seconds > unasked_most_s);
+    return !(seconds > limit_s);
 }
 
 double gb_cost_rate_measured(const struct gb_experiment *experiment,
@@ -188,7 +187,7 @@ char *gb_cost_line(const struct gb_cost *cost, char *buffer, size_t size)
     char step[48], duration[48];
     gb_units_format_short(cost->time_step_s, GB_DIM_TIME, 4, step, sizeof step);
     snprintf(buffer, size,
-             "foretold: %.3g steps of %s%s (relax %.3g, compress %.3g, hold %.3g), %.3g "
+             "estimate: %.3g steps of %s%s (relax %.3g, compress %.3g, hold %.3g), %.3g "
              "particle-steps, %s at %.3gM/s; %.0f points, %.2g MB of curve.csv",
              cost->steps, step, cost->step_assumed ? " (assumed)" : "", cost->relax_steps,
              cost->compress_steps, cost->hold_steps, cost->particle_steps,
@@ -197,10 +196,10 @@ char *gb_cost_line(const struct gb_cost *cost, char *buffer, size_t size)
     return buffer;
 }
 
-bool gb_cost_unasked(const struct gb_cost *cost, struct gb_error *err)
+bool gb_cost_check_limit(const struct gb_cost *cost, struct gb_error *err)
 {
     char duration[48];
-    return gb_cost_unasked_s(cost->seconds) ||
+    return gb_cost_within_limit(cost->seconds) ||
            gb_error_set(err, GB_ERR_INPUT,
                         "the run will take about %s: %.3g particle-steps at %.3gM/s; "
                         "accepted with --yes",

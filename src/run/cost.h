@@ -10,9 +10,8 @@
 
 struct gb_experiment;
 
-/* What a dynamic run will take: the slowest rate of P2 is ten thousand times the work of
- * the fastest, so that it is told before it is begun.  Counts are doubles: nothing bounds
- * them. */
+/* Estimated cost of a dynamic run, shown before it starts: the slowest rate of P2 takes ten
+ * thousand times the work of the fastest.  Counts are doubles: they have no bound. */
 struct gb_cost {
     double time_step_s;
     bool step_assumed;                              /* auto: not known before the run */
@@ -32,7 +31,7 @@ bool gb_cost_estimate(const struct gb_params *params, double particle_steps_per_
 double gb_cost_rate_assumed(const struct gb_params *params);
 
 /* Particle-steps per second of a running experiment, one evaluation a step: of those
- * since there were evaluations_before, in seconds.  0 while nothing was evaluated. */
+ * after evaluations_before, in seconds.  0 while nothing was evaluated. */
 double gb_cost_rate_measured(const struct gb_experiment *experiment,
                              int64_t evaluations_before, double seconds);
 
@@ -48,12 +47,13 @@ double gb_cost_assumed_s(const struct gb_params *params);
 /* "9 s", "12 min", "8 h 52 min", "41 days".  Returns buffer. */
 char *gb_cost_duration(double seconds, char *buffer, size_t size);
 
-/* One line for people.  Returns buffer. */
+/* The estimate as one line of text.  Returns buffer. */
 char *gb_cost_line(const struct gb_cost *cost, char *buffer, size_t size);
 
-/* May it be run unasked?  Else GB_ERR_INPUT naming the cost and the option --yes. */
-bool gb_cost_unasked(const struct gb_cost *cost, struct gb_error *err);
-/* The same of anything that takes that long; NaN may. */
-bool gb_cost_unasked_s(double seconds);
+/* True for a cost that needs no confirmation (up to an hour); else GB_ERR_INPUT naming the
+ * cost and the option --yes. */
+bool gb_cost_check_limit(const struct gb_cost *cost, struct gb_error *err);
+/* The same for a time alone; NaN (unknown) needs none. */
+bool gb_cost_within_limit(double seconds);
 
 #endif

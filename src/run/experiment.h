@@ -6,13 +6,13 @@
 
 #include "base/record.h"
 #include "greenbody/curve.h"
-#include "scene/model.h"
 #include "greenbody/params.h"
 #include "greenbody/snapshot.h"
 #include "io/state.h"
+#include "scene/model.h"
 #include "solve/step_outcome.h"
 
-/* Params + loading programme -> points.  No threads, no files, no printing. */
+/* One simulation: parameters to recorded points.  No threads, no files, no printing. */
 struct gb_experiment;
 struct gb_world;
 
@@ -21,8 +21,8 @@ struct gb_world;
 bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *params,
                           bool (*cancelled)(void *data), void *data,
                           struct gb_error *err);
-/* Goes on from a checkpoint (run/checkpoint.h) of a run with the same parameters, as if
- * it had never stopped.  Errors: GB_ERR_INPUT naming what in the record does not fit. */
+/* Continues from a checkpoint (run/checkpoint.h) of a run with the same parameters, with
+ * the same bits.  Errors: GB_ERR_INPUT naming the item of the record that does not fit. */
 bool gb_experiment_resume(struct gb_experiment **out, const struct gb_params *params,
                           struct gb_record *record, struct gb_error *err);
 void gb_experiment_destroy(struct gb_experiment *experiment); /* NULL is fine */
@@ -38,7 +38,7 @@ const struct gb_point *gb_experiment_point(const struct gb_experiment *experimen
  */
 bool gb_experiment_event(struct gb_experiment *experiment, char *text, size_t size);
 
-/* Fills all of the snapshot that the experiment knows (not state, seconds, rates). */
+/* Fills the snapshot except state, seconds and rates. */
 void gb_experiment_observe(const struct gb_experiment *experiment,
                            struct gb_snapshot *snapshot);
 

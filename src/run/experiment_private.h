@@ -5,8 +5,8 @@
 #include "solve/event_queue.h"
 #include "solve/loading.h"
 
-/* The inside of gb_experiment, for the files that work on it: experiment.c (owner),
- * checkpoint.c (records), change.c. */
+/* Members of gb_experiment, for experiment.c (owner), checkpoint.c (records) and
+ * change.c. */
 struct gb_experiment {
     struct gb_params params;
     struct gb_model *model; /* owned; another one after a change */

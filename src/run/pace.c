@@ -2,16 +2,16 @@
 
 #include <string.h>
 
-/* Bounds of a slice: below the short one the bookkeeping between slices begins to cost,
- * above the long one a key press waits noticeably. */
+/* Bounds of a slice, s: shorter slices spend noticeable time between them, longer ones
+ * delay a key press noticeably. */
 static const double slice_short_s = 0.005;
 static const double slice_long_s = 0.02;
 static const int64_t slice_most = 1 << 16;
 
-/* Reports older than this say nothing about the rate now. */
+/* Window of the rate, s. */
 static const double window_s = 3.0;
 
-/* Before that much work the progress made is mostly luck. */
+/* Least work (s) and progress before a remaining time is estimated. */
 static const double left_known_s = 0.5;
 static const double left_known_progress = 1e-3;
 
@@ -21,8 +21,8 @@ void gb_pace_init(struct gb_pace *pace)
     pace->slice = 1;
 }
 
-/* The loading programme is uneven: late steps cost more than early ones.  So the rate of
- * progress forgets: its memory is a third of the time gone by. */
+/* Late steps of loading cost more than early ones.  The rate of progress is an exponential
+ * mean whose memory is a third of the time so far. */
 static void add_progress(struct gb_pace *pace, double seconds, double progress)
 {
     const double dt = seconds - pace->progress_at;

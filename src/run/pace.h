@@ -4,8 +4,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* How fast a run goes and how long it will still take, from what it reports about itself.
- * All times are seconds of work: pauses are left out by the caller. */
+/* Rate of a run and its remaining time, from its progress so far.  All times are seconds
+ * of work: the caller leaves out pauses. */
 enum { GB_PACE_WINDOW = 64 };
 
 struct gb_pace {
@@ -27,13 +27,13 @@ void gb_pace_add(struct gb_pace *pace, double seconds, int64_t evaluations,
 /* Force evaluations per second over the window; 0 while unknown. */
 double gb_pace_rate(const struct gb_pace *pace);
 
-/* Seconds to the end of the programme; negative while unknown. */
+/* Seconds to the end of loading; negative while unknown. */
 double gb_pace_left(const struct gb_pace *pace);
 
 /* Evaluations to allow in the next slice, so that it takes 5 to 20 ms. */
 int64_t gb_pace_slice(const struct gb_pace *pace);
 
-/* Tells how long the last slice took, and whether it used up what it was allowed. */
+/* Time of the last slice, s; full: it used all evaluations that it was allowed. */
 void gb_pace_sliced(struct gb_pace *pace, double seconds, bool full);
 
 #endif

@@ -20,7 +20,7 @@ static double second_per_time(const struct gb_loading *loading)
                         : loading->model->dynamics.second_per_time;
 }
 
-/* What only a die or only a scene in time has. */
+/* Members of dies and of dynamic scenes. */
 static void leave_empty(struct gb_point *point)
 {
     const double none = (double)NAN;

@@ -5,10 +5,10 @@
 
 #include "run/cost.h"
 
-/* Strain of a quick step: three times the usual one.  Less would take longer than two
- * seconds, more moves the curve by more than cells scatter. */
+/* Strain of a quick step: three times the default.  Smaller steps would take longer than
+ * two seconds; the error of larger ones would exceed the scatter between cells. */
 static const double quick_step = 0.003;
-/* Seconds a quick dynamic run may take, and the fewest discs worth looking at. */
+/* Longest time of a quick dynamic run, s, and the fewest discs that give a curve. */
 static const double dynamic_s = 1.5;
 static const double count_least = 200.0;
 
@@ -35,12 +35,12 @@ bool gb_quick_params(const struct gb_params *full, struct gb_params *quick)
     *quick = *full;
     if (quick->count > GB_QUICK_COUNT) {
         quick->count = GB_QUICK_COUNT;
-        /* a base meant for more particles would leave the cell too flat */
+        /* the base of a larger cell would make this one too flat */
         quick->base = (struct gb_relative){0.0, true};
     }
     quick->strain_step = fmax(quick->strain_step, quick_step);
     quick->unload_count = 0;
-    quick->changes[0] = '\0'; /* its steps are others */
+    quick->changes[0] = '\0'; /* they refer to other steps */
     quick->fidelity = GB_FIDELITY_FAST;
     quick->tolerance = NAN;
     quick->strain_part = NAN;

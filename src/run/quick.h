@@ -5,10 +5,11 @@
 
 #include "greenbody/params.h"
 
-/* The quick cell: the same powder and loading in a cell small enough, strained in steps
- * large enough, that its whole loading curve is there within about two seconds.  The
- * larger steps cost about 0.01 of density (four cells of set II, at 100 MPa: 0.010 above
- * the same cells in steps of 0.1 %); one cell of 1000 particles scatters by 0.005. */
+/* The quick cell: the same powder and loading in a cell so small, strained in steps so
+ * large, that the whole loading curve is computed within about two seconds.  The larger
+ * steps raise the density by about 0.01 (four cells of set II, at 100 MPa: 0.010 above the
+ * same cells in steps of 0.1 %); the density of one cell of 1000 particles scatters by
+ * 0.005. */
 enum { GB_QUICK_COUNT = 1000 };
 
 /* Fills quick with the quick twin of checked parameters: no unloading, no stages before

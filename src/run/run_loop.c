@@ -46,7 +46,7 @@ void gb_run_loop_attach(struct gb_run_loop *loop, struct gb_experiment *experime
     loop->packed_s = gb_run_loop_seconds(loop);
 }
 
-/* What a write to the run directory has come to. */
+/* Handles the result of a write to the run directory. */
 static void check_record(struct gb_run_loop *loop, bool good, const struct gb_error *err)
 {
     const struct gb_run_loop_hooks *hooks = &loop->hooks;

@@ -10,7 +10,7 @@
 #include "run/experiment.h"
 #include "run/record/run_recorder.h"
 
-/* Force evaluations between two looks at whether to go on. */
+/* Force evaluations between two calls of cancelled. */
 enum { SLICE = 200 };
 
 struct pair {
@@ -63,7 +63,7 @@ static bool repeat(struct gb_experiment *experiment, const struct gb_verify *ver
 
 static void compare(struct gb_verify *verify, struct pair *pair)
 {
-    gb_record_remove(&pair->kept, "journal/"); /* of the directory, not of the state */
+    gb_record_remove(&pair->kept, "journal/"); /* belongs to the directory */
     const char *name = gb_record_difference(&pair->kept, &pair->other, &verify->row);
     verify->kept = gb_record_hash(&pair->kept);
     verify->repeated = gb_record_hash(&pair->other);

@@ -8,7 +8,7 @@
 
 enum { GB_VERIFY_NAME = 64 };
 
-/* What repeating the last stretch of a run came to. */
+/* Result of repeating the last steps of a run. */
 struct gb_verify {
     int64_t from,
         to; /* recorded points: repeated from here (0: the beginning) to there */

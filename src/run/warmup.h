@@ -5,8 +5,8 @@
 
 #include "run/run_loop.h"
 
-/* The first moments of a run, before it has a directory: its speed is measured for the
- * cost estimate.  The run continues from there, nothing is computed twice. */
+/* The first seconds of a run, before it has a directory: its speed is measured for the
+ * cost estimate.  The run continues from there: nothing is computed twice. */
 struct gb_warmup {
     GArray *points;              /* of struct gb_point, recorded meanwhile */
     struct gb_record record;     /* of the last one */

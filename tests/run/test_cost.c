@@ -85,8 +85,8 @@ static void test_unasked(void)
     const struct gb_cost slow = cost_of(&params, 1e7), fast = cost_of(&params, 1e9);
     struct gb_error err = {0};
     char line[320];
-    g_assert_true(gb_cost_unasked(&fast, &err));
-    g_assert_false(gb_cost_unasked(&slow, &err));
+    g_assert_true(gb_cost_check_limit(&fast, &err));
+    g_assert_false(gb_cost_check_limit(&slow, &err));
     g_test_message("%s", err.text);
     g_assert_cmpint(gb_status_exit_code(err.code), ==, 2);
     g_assert_nonnull(strstr(err.text, "8 h 55 min"));

@@ -45,7 +45,7 @@ static void watch(struct gb_runner *runner, size_t points)
         char text[GB_EVENT_TEXT];
         const size_t count = gb_curve_count(curve);
         seen += count > 0 ? gb_curve_at(curve, count - 1)->density : 0.0;
-        seen += gb_runner_picture(runner, NULL)->valid;
+        seen += gb_runner_view_sample(runner, NULL)->valid;
         (void)gb_runner_event(runner, 0, text, sizeof text);
         g_usleep(1000);
     }

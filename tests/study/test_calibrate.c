@@ -144,7 +144,7 @@ static void recover(bool errors_known)
         /* an interval that says nothing would always hit */
         g_assert_cmpfloat(result.high[0] - result.low[0], <, 0.3);
         g_assert_cmpfloat(result.high[1] - result.low[1], <, 0.4);
-        g_assert_false(gb_calibrate_confused(&result, 0, 1));
+        g_assert_false(gb_calibrate_confounded(&result, 0, 1));
         g_assert_cmpuint(result.failed, ==, 0);
         gb_calibrate_finish(&result);
     }
@@ -223,7 +223,7 @@ static void test_confused(void)
     double value[DATA], error[DATA];
     struct gb_calibrate_problem problem = problem_of(&bench, value, error);
     struct gb_calibrate_result result = fit(&problem);
-    g_assert_true(gb_calibrate_confused(&result, 0, 1));
+    g_assert_true(gb_calibrate_confounded(&result, 0, 1));
     g_assert_cmpfloat(result.correlation[0][1], <, -0.97);
     g_assert_cmpfloat(result.high[0] - result.low[0], >, 0.2);
     gb_calibrate_finish(&result);

@@ -89,7 +89,7 @@ static bool write_packing(const struct pack *pack, struct gb_error *err)
         return false;
     }
     if (!gb_packing_write(&pack->packing, pack->directory, err)) {
-        gb_rundir_unmake(&dir);
+        gb_rundir_remove(&dir);
         return false;
     }
     gb_rundir_finish(&dir);

@@ -90,7 +90,7 @@ static bool estimate(struct run *run, char *line, size_t size, struct gb_error *
         return false;
     }
     gb_cost_line(&cost, line, size);
-    return run->yes || gb_run_loop_ended(loop) || gb_cost_unasked(&cost, err);
+    return run->yes || gb_run_loop_ended(loop) || gb_cost_check_limit(&cost, err);
 }
 
 static bool build_packing(struct run *run, struct gb_error *err)

@@ -64,7 +64,7 @@ static bool estimate(struct command *command, struct gb_error *err)
     }
     gb_cost_duration(wait_s, total, sizeof total);
     gb_cost_duration(all_s / (double)runs, each, sizeof each);
-    if (!request->yes && !gb_cost_unasked_s(wait_s)) {
+    if (!request->yes && !gb_cost_within_limit(wait_s)) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "the sweep will take about %s: %zu runs of about %s, %zu at "
                             "once; accepted with --yes",

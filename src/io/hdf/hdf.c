@@ -13,8 +13,8 @@
 
 enum { TEXT_MAX = 4096 }; /* longest text attribute that is read */
 
-/* Deflate cannot pack tighter than this: data that claims more is not there, and asking
- * for its memory would let a small file take all of it. */
+/* Largest ratio of deflate: a dataset that claims to be larger is damaged, and allocating
+ * it would let a small file exhaust the memory. */
 static const double packing_limit = 1032.0;
 
 static hid_t memory_type(enum gb_hdf_type type)
@@ -73,7 +73,7 @@ static struct gb_hdf *wrap(const char *path, struct gb_error *err)
 
 bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     *out = gb_file_check_target(path, err) ? wrap(path, err) : NULL;
     if (*out == NULL) {
         return false;
@@ -90,7 +90,7 @@ bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err)
 
 bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     const bool flushed = H5Fflush(file->file, H5F_SCOPE_GLOBAL) >= 0;
     const bool closed = H5Fclose(file->file) >= 0;
     file->file = H5I_INVALID_HID;
@@ -117,7 +117,7 @@ bool gb_hdf_open(struct gb_hdf **out, const char *path, struct gb_error *err)
         return gb_error_set(err, GB_ERR_MACHINE, "%s: %s", path, g_strerror(errno));
     }
     fclose(probe);
-    gb_hdf_hush();
+    gb_hdf_mute();
     *out = wrap(path, err);
     if (*out == NULL) {
         return false;
@@ -142,7 +142,7 @@ void gb_hdf_destroy(struct gb_hdf *file)
     if (file == NULL) {
         return;
     }
-    gb_hdf_hush();
+    gb_hdf_mute();
     if (file->file >= 0) {
         H5Fclose(file->file);
     }
@@ -172,7 +172,7 @@ static bool put_text_on(hid_t object, const char *name, const char *text)
 bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
                       const void *data, struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     const hsize_t shape[2] = {(hsize_t)array->rows, (hsize_t)array->columns};
     const int rank = array->columns > 1 ? 2 : 1;
     const hid_t space = H5Screate_simple(rank, shape, NULL);
@@ -196,7 +196,7 @@ bool gb_hdf_put_array(struct gb_hdf *file, const struct gb_hdf_array *array,
     return done || unwritten(file, array->name, err);
 }
 
-/* Same class, size and sign as what we would write; the byte order is HDF5's affair. */
+/* Same class, size and sign as in written files; HDF5 converts the byte order. */
 static bool type_fits(hid_t type, enum gb_hdf_type wanted)
 {
     const hid_t model = file_type(wanted);
@@ -283,7 +283,7 @@ static hid_t open_set(struct gb_hdf *file, const struct gb_hdf_array *array,
 bool gb_hdf_rows(struct gb_hdf *file, const struct gb_hdf_array *array, int64_t *rows,
                  struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     const hid_t set = open_set(file, array, rows, err);
     if (set < 0) {
         return false;
@@ -295,7 +295,7 @@ bool gb_hdf_rows(struct gb_hdf *file, const struct gb_hdf_array *array, int64_t 
 bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, void *data,
                       struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     int64_t rows = 0;
     const hid_t set = open_set(file, array, &rows, err);
     if (set < 0) {
@@ -316,7 +316,7 @@ bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, voi
 bool gb_hdf_put_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
                         int count, const void *data, struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     const hsize_t shape = (hsize_t)count;
     const hid_t space =
         count > 1 ? H5Screate_simple(1, &shape, NULL) : H5Screate(H5S_SCALAR);
@@ -355,7 +355,7 @@ static void close_attribute(const hid_t id[3])
 bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
                         int count, void *data, struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     hid_t id[3];
     const char *fault = NULL;
     if (!open_attribute(file, name, id)) {
@@ -374,7 +374,7 @@ bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type 
 bool gb_hdf_put_text(struct gb_hdf *file, const char *name, const char *text,
                      struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     return put_text_on(file->file, name, text) || unwritten(file, name, err);
 }
 
@@ -400,7 +400,7 @@ static void clean_text(char *text)
 bool gb_hdf_get_text(struct gb_hdf *file, const char *name, char *text, size_t size,
                      struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     hid_t id[3];
     char buffer[TEXT_MAX + 1] = "";
     const char *fault = NULL;

@@ -7,10 +7,10 @@
 
 #include "greenbody/status.h"
 
-/* HDF5 with one-line errors and suspicion.  Written files are built in memory and put in
- * place as a whole: HDF5 never meets a failing disk, after which it cannot close a file.
- * Read files are not trusted: types, ranks and sizes are checked before memory is asked
- * for, and links, external or virtual data that lead to other files are refused. */
+/* HDF5 files with one-line errors.  Written files are built in memory and replaced as a
+ * whole: after an I/O error HDF5 could not close the file.  Read files are not trusted:
+ * types, ranks and sizes are checked before memory is allocated, and links and external
+ * or virtual data are refused. */
 struct gb_hdf;
 
 enum gb_hdf_type {
@@ -21,8 +21,8 @@ enum gb_hdf_type {
     GB_HDF_UINT8
 };
 
-/* An empty file that gb_hdf_store puts at path; after that only gb_hdf_destroy is left.
- */
+/* An empty file in memory, which gb_hdf_store writes to path.  After that only
+ * gb_hdf_destroy may be called. */
 bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err);
 bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err);
 /* An existing file, to be read. */
@@ -49,7 +49,7 @@ bool gb_hdf_get_array(struct gb_hdf *file, const struct gb_hdf_array *array, voi
                       struct gb_error *err);
 
 /* Attributes of the root group: count numbers of one type, or a text.  A text that is
- * read is cut to size, made valid UTF-8 and freed from control characters. */
+ * read is cut to size and made valid UTF-8 without control characters. */
 bool gb_hdf_put_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,
                         int count, const void *data, struct gb_error *err);
 bool gb_hdf_get_numbers(struct gb_hdf *file, const char *name, enum gb_hdf_type type,

@@ -17,7 +17,7 @@ static bool refuse(const struct gb_hdf *file, const char *name, const char *what
 
 bool gb_hdf_list_has(struct gb_hdf *file, const char *name)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     return H5Lexists(file->file, name, H5P_DEFAULT) > 0;
 }
 
@@ -91,7 +91,7 @@ static bool read_group(struct gb_hdf *file, const char *group, int depth,
 bool gb_hdf_list_read(struct gb_hdf *file, const char *group, struct gb_hdf_list *list,
                       struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     list->count = 0;
     return read_group(file, group, 1, list, err);
 }
@@ -118,7 +118,7 @@ static bool type_of(hid_t type, enum gb_hdf_type *out)
 bool gb_hdf_list_probe(struct gb_hdf *file, struct gb_hdf_array *array,
                        struct gb_error *err)
 {
-    gb_hdf_hush();
+    gb_hdf_mute();
     hsize_t shape[2] = {0, 1};
     const hid_t set = H5Dopen2(file->file, array->name, H5P_DEFAULT);
     const hid_t type = set >= 0 ? H5Dget_type(set) : H5I_INVALID_HID;

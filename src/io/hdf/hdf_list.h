@@ -3,7 +3,7 @@
 
 #include "io/hdf/hdf.h"
 
-/* What a file holds that is not known by name beforehand. */
+/* Names of datasets that are not known beforehand. */
 enum { GB_HDF_LIST_NAME = 64 };
 
 struct gb_hdf_list {

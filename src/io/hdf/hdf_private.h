@@ -13,9 +13,9 @@ struct gb_hdf {
     struct gb_hdf_memory memory; /* of a file under construction */
 };
 
-/* HDF5 prints its error stack by itself; ours is the only voice.  The setting belongs to
- * the calling thread, so every entry makes it again. */
-static inline void gb_hdf_hush(void)
+/* HDF5 prints its error stack to stderr unless told otherwise.  The setting belongs to the
+ * calling thread: every entry point sets it. */
+static inline void gb_hdf_mute(void)
 {
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }

@@ -12,26 +12,26 @@
 #include "io/state.h"
 #include "io/state_record.h"
 
-void gb_kept_states_init(struct gb_kept_states *album, const struct gb_params *params)
+void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *params)
 {
-    *album = (struct gb_kept_states){.p_pa = -INFINITY, .density = -INFINITY};
-    (void)gb_keep_points_parse(params->snapshots_at, &album->marks, NULL);
+    *states = (struct gb_kept_states){.p_pa = -INFINITY, .density = -INFINITY};
+    (void)gb_keep_points_parse(params->snapshots_at, &states->marks, NULL);
 }
 
-void gb_kept_states_pass(struct gb_kept_states *album, const struct gb_point *point)
+void gb_kept_states_pass(struct gb_kept_states *states, const struct gb_point *point)
 {
     if (point->branch == GB_BRANCH_LOAD) {
-        album->p_pa = fmax(album->p_pa, point->p_pa);
-        album->density = fmax(album->density, point->density);
+        states->p_pa = fmax(states->p_pa, point->p_pa);
+        states->density = fmax(states->density, point->density);
     } else if (point->branch > GB_BRANCH_LOAD) {
-        album->p_pa = fmax(album->p_pa, point->branch_from_pa);
+        states->p_pa = fmax(states->p_pa, point->branch_from_pa);
     }
 }
 
-static bool reaches(const struct gb_kept_states *album, const struct gb_keep_point *mark,
+static bool reaches(const struct gb_kept_states *states, const struct gb_keep_point *mark,
                     const struct gb_point *point)
 {
-    const double before = mark->by_density ? album->density : album->p_pa;
+    const double before = mark->by_density ? states->density : states->p_pa;
     const double now = mark->by_density ? point->density : point->p_pa;
     return point->branch == GB_BRANCH_LOAD && before < mark->value && now >= mark->value;
 }
@@ -73,13 +73,13 @@ static bool write_state(const char *directory, const char *name,
 }
 
 /* Names of what is due, one for each mark. */
-static int list_due(const struct gb_kept_states *album, const struct gb_point *point,
+static int list_due(const struct gb_kept_states *states, const struct gb_point *point,
                     int64_t number, char names[GB_KEEP_POINTS_MAX + 1][64])
 {
-    const struct gb_keep_points *marks = &album->marks;
+    const struct gb_keep_points *marks = &states->marks;
     int count = 0;
     for (int i = 0; i < marks->count; i++) {
-        if (reaches(album, &marks->point[i], point)) {
+        if (reaches(states, &marks->point[i], point)) {
             gb_kept_states_name(&marks->point[i], names[count++], sizeof names[0]);
         }
     }
@@ -89,19 +89,19 @@ static int list_due(const struct gb_kept_states *album, const struct gb_point *p
     return count;
 }
 
-bool gb_kept_states_point(struct gb_kept_states *album, const char *directory,
+bool gb_kept_states_point(struct gb_kept_states *states, const char *directory,
                           const struct gb_point *point, int64_t number,
                           const struct gb_record *record, const struct gb_params *params,
                           const struct gb_model *model, struct gb_error *err)
 {
     char names[GB_KEEP_POINTS_MAX + 1][64];
     struct gb_state *state = NULL;
-    const int count = list_due(album, point, number, names);
+    const int count = list_due(states, point, number, names);
     bool good = count == 0 || gb_state_record(&state, record, params, model, err);
     for (int i = 0; i < count && good; i++) {
         good = write_state(directory, names[i], state, err);
     }
     gb_state_destroy(state);
-    gb_kept_states_pass(album, point);
+    gb_kept_states_pass(states, point);
     return good;
 }

@@ -7,9 +7,9 @@
 #include "scene/model.h"
 
 /* States kept along a run, DIR/snapshots/<name>.h5: of the first recorded point of
- * loading that reaches a pressure or a density ("p-100MPa", "density-0.5"), and of each
- * so manieth point ("point-000020").  They are made of the record that is taken at each
- * point anyway: the run does not know of them. */
+ * loading that reaches a pressure or a density ("p-100MPa", "density-0.5"), and of every
+ * n-th point ("point-000020").  They are made of the record that is taken at each point
+ * in any case. */
 struct gb_kept_states {
     struct gb_keep_points marks;
     double p_pa, density; /* highest so far while loading */
@@ -19,18 +19,17 @@ struct gb_kept_states {
 char *gb_kept_states_name(const struct gb_keep_point *mark, char *name, size_t size);
 
 /* The marks of checked params. */
-void gb_kept_states_init(struct gb_kept_states *album, const struct gb_params *params);
+void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *params);
 
-/* A point that belongs to what came before: it is not kept. */
-void gb_kept_states_pass(struct gb_kept_states *album, const struct gb_point *point);
+/* A point before the start or resume: its state is not kept. */
+void gb_kept_states_pass(struct gb_kept_states *states, const struct gb_point *point);
 
 /* Keeps the state of a point where one is due.
  *
  * number   of the point, from 1
  * record   taken at it
- * A state that is there already stays: a run that goes on from a checkpoint comes to the
- * same points again. */
-bool gb_kept_states_point(struct gb_kept_states *album, const char *directory,
+ * An existing state stays: a run that is continued from a checkpoint repeats points. */
+bool gb_kept_states_point(struct gb_kept_states *states, const char *directory,
                           const struct gb_point *point, int64_t number,
                           const struct gb_record *record, const struct gb_params *params,
                           const struct gb_model *model, struct gb_error *err);

@@ -7,9 +7,9 @@
 
 #define AT(member) offsetof(struct gb_run_journal, member)
 static const struct gb_record_member members[] = {
-    {"journal/points", GB_RECORD_INT64, 1, AT(place.points), "1"},
-    {"journal/curve_bytes", GB_RECORD_INT64, 1, AT(place.curve_bytes), "1"},
-    {"journal/events_bytes", GB_RECORD_INT64, 1, AT(place.events_bytes), "1"},
+    {"journal/points", GB_RECORD_INT64, 1, AT(extent.points), "1"},
+    {"journal/curve_bytes", GB_RECORD_INT64, 1, AT(extent.curve_bytes), "1"},
+    {"journal/events_bytes", GB_RECORD_INT64, 1, AT(extent.events_bytes), "1"},
     {"journal/events", GB_RECORD_INT64, 1, AT(events), "1"},
     {"journal/seconds", GB_RECORD_DOUBLE, 1, AT(seconds), "s"},
     {"journal/preset", GB_RECORD_INT64, 1, AT(preset), "1"},

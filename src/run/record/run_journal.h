@@ -5,9 +5,9 @@
 #include "greenbody/params.h"
 #include "io/store.h"
 
-/* What a checkpoint holds of the run directory, beside the experiment. */
+/* State of the run directory in a checkpoint, beside that of the experiment. */
 struct gb_run_journal {
-    struct gb_store_place place;
+    struct gb_store_extent extent;
     int64_t events;
     double seconds;
     int64_t preset; /* digest of the parameters that determine the results */

@@ -140,7 +140,7 @@ bool gb_run_recorder_resume(struct gb_run_recorder **out,
     if (!read_preset(directory, &params, err) || !create(&recorder, &params, err) ||
         (begun && !load_experiment(recorder, experiment, directory, err)) ||
         !gb_store_reopen(&recorder->store, &dir, &params,
-                         begun ? &recorder->journal.place : NULL, err) ||
+                         begun ? &recorder->journal.extent : NULL, err) ||
         !start_writer(recorder, err)) {
         gb_experiment_destroy(*experiment);
         *experiment = NULL;
@@ -178,7 +178,7 @@ struct gb_store *gb_run_recorder_store(struct gb_run_recorder *recorder)
 
 int64_t gb_run_recorder_points(const struct gb_run_recorder *recorder)
 {
-    return gb_store_place(recorder->store).points;
+    return gb_store_extent(recorder->store).points;
 }
 
 double gb_run_recorder_seconds(const struct gb_run_recorder *recorder)
@@ -195,7 +195,7 @@ int64_t gb_run_recorder_events(const struct gb_run_recorder *recorder)
 static bool add_journal(struct gb_run_recorder *recorder, double seconds,
                         struct gb_error *err)
 {
-    recorder->journal.place = gb_store_place(recorder->store);
+    recorder->journal.extent = gb_store_extent(recorder->store);
     recorder->journal.seconds = seconds;
     recorder->fresh = gb_run_journal_record(&recorder->journal,
                                             gb_writer_record(recorder->writer), err);

@@ -29,7 +29,7 @@ static void obey(struct gb_runner *runner, struct gb_command command)
     case GB_COMMAND_YIELD:
         runner->yielded = true;
         break;
-    case GB_COMMAND_TAKE_UP:
+    case GB_COMMAND_CONTINUE:
         runner->yielded = false;
         break;
     }
@@ -152,7 +152,7 @@ static void on_end(void *data)
     gb_runner_publish_snapshot(data);
 }
 
-/* A disk that fails does not end a run that is watched. */
+/* The run of a workbench continues without its directory. */
 static bool on_record_error(void *data, const struct gb_error *err)
 {
     char text[GB_EVENT_TEXT];

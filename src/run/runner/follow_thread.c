@@ -61,7 +61,7 @@ static bool refresh(struct gb_runner *runner, double *changed_s)
     }
     if (shown->state <= GB_RUN_PAUSED && gb_clock_s() - *changed_s > silence_s &&
         !gb_rundir_busy(runner->directory)) {
-        gb_runner_publish_event(runner, "the engine of this run has ended without a last "
+        gb_runner_publish_event(runner, "the engine of this run ended without a final "
                                         "status; t resumes from the last checkpoint");
         shown->state = GB_RUN_STOPPED;
     }

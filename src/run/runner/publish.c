@@ -6,58 +6,58 @@
 static const unsigned fresh = 4;
 static const unsigned index_mask = 3;
 
-void gb_publish_turn_init(struct gb_publish_turn *turn)
+void gb_publish_slots_init(struct gb_publish_slots *slots)
 {
-    turn->back = 0;
-    atomic_init(&turn->middle, 1);
-    turn->front = 2;
+    slots->back = 0;
+    atomic_init(&slots->middle, 1);
+    slots->front = 2;
 }
 
 /* Release: the slot's content goes out with its index.  Acquire: the slot that comes back
  * is no longer read by the other side. */
-void gb_publish_turn_swap(struct gb_publish_turn *turn)
+void gb_publish_slots_swap(struct gb_publish_slots *slots)
 {
-    const unsigned old =
-        atomic_exchange_explicit(&turn->middle, turn->back | fresh, memory_order_acq_rel);
-    turn->back = old & index_mask;
+    const unsigned old = atomic_exchange_explicit(&slots->middle, slots->back | fresh,
+                                                  memory_order_acq_rel);
+    slots->back = old & index_mask;
 }
 
-bool gb_publish_turn_take(struct gb_publish_turn *turn)
+bool gb_publish_slots_take(struct gb_publish_slots *slots)
 {
     /* Only the reader clears the bit, so it cannot vanish between the two steps. */
-    if (!(atomic_load_explicit(&turn->middle, memory_order_relaxed) & fresh)) {
+    if (!(atomic_load_explicit(&slots->middle, memory_order_relaxed) & fresh)) {
         return false;
     }
     const unsigned old =
-        atomic_exchange_explicit(&turn->middle, turn->front, memory_order_acq_rel);
-    turn->front = old & index_mask;
+        atomic_exchange_explicit(&slots->middle, slots->front, memory_order_acq_rel);
+    slots->front = old & index_mask;
     return true;
 }
 
 void gb_publish_init(struct gb_publish *publish)
 {
     memset(publish->slot, 0, sizeof publish->slot);
-    gb_publish_turn_init(&publish->turn);
+    gb_publish_slots_init(&publish->slots);
 }
 
 struct gb_snapshot *gb_publish_back(struct gb_publish *publish)
 {
-    return &publish->slot[publish->turn.back];
+    return &publish->slot[publish->slots.back];
 }
 
 void gb_publish_swap(struct gb_publish *publish)
 {
-    gb_publish_turn_swap(&publish->turn);
+    gb_publish_slots_swap(&publish->slots);
 }
 
 bool gb_publish_take(struct gb_publish *publish)
 {
-    return gb_publish_turn_take(&publish->turn);
+    return gb_publish_slots_take(&publish->slots);
 }
 
 const struct gb_snapshot *gb_publish_front(const struct gb_publish *publish)
 {
-    return &publish->slot[publish->turn.front];
+    return &publish->slot[publish->slots.front];
 }
 
 void gb_command_ring_init(struct gb_command_ring *ring)

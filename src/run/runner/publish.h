@@ -6,18 +6,18 @@
 
 #include "greenbody/snapshot.h"
 
-/* The only atomics between engine and screen.
+/* The atomics between engine and screen.
  *
- * Triple buffer: the engine writes its private slot and swaps it in; the reader takes the
- * newest.  Neither ever waits.  One writer, one reader. */
-struct gb_publish_turn {
+ * Triple buffer: the engine writes its private slot and swaps it with the shared one; the
+ * reader takes the newest.  Neither waits.  One writer, one reader. */
+struct gb_publish_slots {
     _Atomic unsigned middle; /* index of the shared slot, bit 2: fresh */
     unsigned back, front;    /* writer's and reader's own */
 };
 
 struct gb_publish {
     struct gb_snapshot slot[3];
-    struct gb_publish_turn turn;
+    struct gb_publish_slots slots;
 };
 
 void gb_publish_init(struct gb_publish *publish);
@@ -28,11 +28,11 @@ void gb_publish_swap(struct gb_publish *publish);
 bool gb_publish_take(struct gb_publish *publish);
 const struct gb_snapshot *gb_publish_front(const struct gb_publish *publish);
 
-/* The same for any other three slots: which one is whose.  swap: the engine's is filled;
- * take: true when the reader has got a new one. */
-void gb_publish_turn_init(struct gb_publish_turn *turn);
-void gb_publish_turn_swap(struct gb_publish_turn *turn);
-bool gb_publish_turn_take(struct gb_publish_turn *turn);
+/* The same for any three slots of the caller, by their indices.  swap: the engine's slot
+ * is filled; take: true when the reader has a new one. */
+void gb_publish_slots_init(struct gb_publish_slots *slots);
+void gb_publish_slots_swap(struct gb_publish_slots *slots);
+bool gb_publish_slots_take(struct gb_publish_slots *slots);
 
 /* Screen to engine: a ring of commands, drained between slices.  One writer, one reader.
  */
@@ -40,10 +40,10 @@ enum gb_command_kind {
     GB_COMMAND_PAUSE,
     GB_COMMAND_RESUME,
     GB_COMMAND_STOP,
-    GB_COMMAND_WATCH,  /* take pictures of the packing from now on */
-    GB_COMMAND_FORK,   /* hand over the state at the next point of the loading */
-    GB_COMMAND_YIELD,  /* stand aside for another engine: no event, no change of state */
-    GB_COMMAND_TAKE_UP /* ... and go on */
+    GB_COMMAND_WATCH, /* take view samples of the packing from now on */
+    GB_COMMAND_FORK,  /* hand over the state at the next point of the loading */
+    GB_COMMAND_YIELD, /* sleep while another engine computes: no event, no other state */
+    GB_COMMAND_CONTINUE /* ends YIELD */
 };
 
 struct gb_command {

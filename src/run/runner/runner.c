@@ -60,7 +60,7 @@ static struct gb_runner *create(const struct gb_params *params, const char *dire
     runner->params = *params;
     runner->directory = g_strdup(directory);
     gb_publish_init(&runner->publish);
-    gb_publish_turn_init(&runner->turn);
+    gb_publish_slots_init(&runner->view_slots);
     gb_command_ring_init(&runner->ring);
     gb_run_loop_init(&runner->loop, &(struct gb_run_loop_hooks){0});
     return runner;
@@ -144,7 +144,7 @@ bool gb_runner_resume(struct gb_runner **out, const char *directory, struct gb_e
     struct gb_params params;
     struct gb_runner *runner = NULL;
     if (!gb_follow_params(directory, &params, err) ||
-        (gb_rundir_busy(directory) && !gb_follow_ask_to_stop(directory, err))) {
+        (gb_rundir_busy(directory) && !gb_follow_request_stop(directory, err))) {
         return false;
     }
     runner = create(&params, directory, err);
@@ -189,7 +189,7 @@ bool gb_runner_send(struct gb_runner *runner, enum gb_command_kind kind)
     if (!gb_command_ring_push(&runner->ring, (struct gb_command){kind})) {
         return false;
     }
-    /* under the mutex, or the engine could miss it between looking and sleeping */
+    /* under the mutex: the engine could miss it between its test and its wait */
     pthread_mutex_lock(&runner->mutex);
     pthread_cond_signal(&runner->wake);
     pthread_mutex_unlock(&runner->mutex);
@@ -205,13 +205,14 @@ const struct gb_snapshot *gb_runner_snapshot(struct gb_runner *runner, bool *cha
     return gb_publish_front(&runner->publish);
 }
 
-const struct gb_view_sample *gb_runner_picture(struct gb_runner *runner, bool *changed)
+const struct gb_view_sample *gb_runner_view_sample(struct gb_runner *runner,
+                                                   bool *changed)
 {
-    const bool fresh = gb_publish_turn_take(&runner->turn);
+    const bool fresh = gb_publish_slots_take(&runner->view_slots);
     if (changed != NULL) {
         *changed = fresh;
     }
-    return &runner->view[runner->turn.front];
+    return &runner->view[runner->view_slots.front];
 }
 
 const struct gb_curve *gb_runner_curve(const struct gb_runner *runner)

@@ -11,8 +11,7 @@
 #include "io/state.h"
 #include "run/runner/publish.h"
 
-/* One experiment in a background thread: the only place that creates threads.  The thread
- * blocks all signals. */
+/* One experiment in a background thread, which blocks all signals. */
 struct gb_runner;
 
 /* Freezes params and starts the engine thread, which first builds the packing.  A bad
@@ -40,11 +39,11 @@ bool gb_runner_create_in(struct gb_runner **out, const struct gb_params *params,
  * there is asked to stop and waited for. */
 bool gb_runner_resume(struct gb_runner **out, const char *directory,
                       struct gb_error *err);
-/* Shows a run that another process computes, and writes nothing: no command but the end
- * has an effect.  Pictures of the packing are not taken. */
+/* Shows a run that another process computes, and writes nothing: commands other than
+ * GB_COMMAND_STOP have no effect, and there are no view samples. */
 bool gb_runner_follow(struct gb_runner **out, const char *directory,
                       struct gb_error *err);
-/* Where it is kept, or what is followed; NULL: nowhere. */
+/* The directory in which the run is recorded, or that is followed; NULL: none. */
 const char *gb_runner_directory(const struct gb_runner *runner);
 /* Asks the engine to stop, waits for it (at most one slice), frees all.  NULL is fine. */
 void gb_runner_destroy(struct gb_runner *runner);
@@ -55,10 +54,11 @@ bool gb_runner_send(struct gb_runner *runner, enum gb_command_kind kind);
 /* Newest snapshot; *changed (may be NULL) tells whether it is new since the last call. */
 const struct gb_snapshot *gb_runner_snapshot(struct gb_runner *runner, bool *changed);
 
-/* Newest picture of the packing, one that is not valid before the first.  They are taken
- * once GB_COMMAND_WATCH was sent: a few a second and one at each end or pause, for a few
- * percent of the engine's time. */
-const struct gb_view_sample *gb_runner_picture(struct gb_runner *runner, bool *changed);
+/* Newest view sample; not valid before the first.  Samples are taken once GB_COMMAND_WATCH
+ * was sent: a few per second and one at each end or pause, for a few percent of the
+ * engine's time. */
+const struct gb_view_sample *gb_runner_view_sample(struct gb_runner *runner,
+                                                   bool *changed);
 
 /* The growing curve; readable from the screen's thread at any time. */
 const struct gb_curve *gb_runner_curve(const struct gb_runner *runner);

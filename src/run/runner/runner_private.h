@@ -9,9 +9,9 @@
 #include "run/runner/publish.h"
 #include "run/runner/runner.h"
 
-/* The inside of gb_runner, for the files that work on it: runner.c (creation, calls of
- * the screen's thread), engine_thread.c and follow_thread.c (the two threads),
- * runner_publish.c (what the threads show). */
+/* Members of gb_runner, for runner.c (creation, calls of the screen's thread),
+ * engine_thread.c and follow_thread.c (the two threads) and runner_publish.c (what the
+ * threads publish). */
 
 enum { GB_RUNNER_EVENTS = 256 }; /* the last ones are kept */
 
@@ -25,7 +25,7 @@ struct gb_runner {
 
     /* shared without a lock: see publish.h */
     struct gb_publish publish;
-    struct gb_publish_turn turn; /* of the view samples */
+    struct gb_publish_slots view_slots; /* of the view samples */
     struct gb_view_sample view[3];
     struct gb_command_ring ring;
 
@@ -35,11 +35,11 @@ struct gb_runner {
     bool quit;
     bool forked;             /* record holds the requested state */
     size_t forked_points;    /* of the curve, at that state */
-    struct gb_record record; /* the engine's until it is forked, then the screen's */
+    struct gb_record record; /* of the engine until forked, then of the screen */
     int64_t events;          /* number of all so far */
     char event[GB_RUNNER_EVENTS][GB_EVENT_TEXT];
 
-    /* the thread's own */
+    /* of the thread alone */
     struct gb_run_loop loop;
     bool paused, stop;
     bool yielded;             /* sleeps while another engine computes */

@@ -21,8 +21,8 @@ void gb_runner_publish_event(struct gb_runner *runner, const char *text)
     pthread_mutex_unlock(&runner->mutex);
 }
 
-/* The screen counts its own list of events: it has more than events.log, and none from
- * before a resume. */
+/* The screen shows the list of events of the runner, which has more than events.log
+ * (pauses, disk errors), and none from before a resume. */
 void gb_runner_publish_snapshot(struct gb_runner *runner)
 {
     struct gb_snapshot *shown = gb_publish_back(&runner->publish);
@@ -52,8 +52,8 @@ void gb_runner_publish_view(struct gb_runner *runner)
     if (runner->loop.experiment == NULL || !runner->view_wanted) {
         return;
     }
-    gb_view_sample_take(runner->loop.experiment, &runner->view[runner->turn.back]);
-    gb_publish_turn_swap(&runner->turn);
+    gb_view_sample_take(runner->loop.experiment, &runner->view[runner->view_slots.back]);
+    gb_publish_slots_swap(&runner->view_slots);
     runner->sampled_s = gb_clock_s();
     runner->sample_cost_s = runner->sampled_s - before;
 }

@@ -7,10 +7,10 @@
 #include "pack/cell/cell.h"
 #include "scene/loading_kind.h"
 
-/* Distances that g(r) is taken to, diameters: P1 finds no order beyond. */
+/* Largest distance of g(r), diameters: P1 finds no order beyond. */
 static const double rdf_reach = 5.0;
 
-/* Room left in the array, because the front is not as dense as the mean. */
+/* Share of the array that is planned for, because the front may be denser than the mean. */
 static const double filling = 0.9;
 
 /* A slab behind the front less deep than this would look full of holes. */
@@ -32,32 +32,30 @@ static void choose_window(const struct gb_state *state, double window[3])
     window[2] = sqrt(share) * edge[2];
 }
 
-/* Particles of the window.  A die is cut through its middle, a periodic cell begins
- * anywhere. */
+/* Particles of the window.  A die is cut through its middle, a periodic cell at y = 0. */
 static void copy_front(const struct gb_state *state, bool die,
-                       struct gb_view_sample *picture)
+                       struct gb_view_sample *sample)
 {
     const double cut = die ? 0.5 * state->cell[1] : 0.0;
-    for (int64_t i = 0; i < state->count && picture->count < GB_VIEW_SAMPLE_POINTS; i++) {
+    for (int64_t i = 0; i < state->count && sample->count < GB_VIEW_SAMPLE_POINTS; i++) {
         const double *at = state->position + 3 * i;
-        const double place[3] = {at[0], at[1] - cut, at[2]};
-        bool inside = place[1] >= 0.0;
+        const double position[3] = {at[0], at[1] - cut, at[2]};
+        bool inside = position[1] >= 0.0;
         for (int c = 0; c < 3; c++) {
-            inside = inside && place[c] <= picture->window[c];
+            inside = inside && position[c] <= sample->window[c];
         }
         if (inside) {
-            const int k = picture->count++;
+            const int k = sample->count++;
             for (int c = 0; c < 3; c++) {
-                picture->position[k][c] = (float)place[c];
+                sample->position[k][c] = (float)position[c];
             }
-            picture->radius[k] = (float)state->radius[i];
+            sample->radius[k] = (float)state->radius[i];
         }
     }
 }
 
-/* Only where the cell is periodic: walls have an order of their own. */
-static void measure_distances(const struct gb_state *state,
-                              struct gb_view_sample *picture)
+/* g(r), in periodic cells only: layers at walls would distort it. */
+static void measure_distances(const struct gb_state *state, struct gb_view_sample *sample)
 {
     struct gb_cell cell;
     double reach = rdf_reach;
@@ -68,30 +66,30 @@ static void measure_distances(const struct gb_state *state,
     }
     gb_cell_init(&cell, state->dimension, state->cell);
     if (gb_structure_rdf(&cell, state->count, state->position, reach, GB_VIEW_SAMPLE_RDF,
-                         picture->rdf, NULL)) {
-        picture->rdf_reach = reach;
+                         sample->rdf, NULL)) {
+        sample->rdf_reach = reach;
     }
 }
 
 void gb_view_sample_take(const struct gb_experiment *experiment,
-                         struct gb_view_sample *picture)
+                         struct gb_view_sample *sample)
 {
     struct gb_state *state = NULL;
     const bool die = !gb_loading_kind_of(gb_experiment_params(experiment))->periodic_cell;
-    picture->valid = false;
+    sample->valid = false;
     if (!gb_experiment_state(experiment, &state, NULL)) {
         return;
     }
-    picture->dimension = state->dimension;
-    picture->density = state->point.density;
-    picture->count = 0;
-    picture->rdf_reach = 0.0;
-    memcpy(picture->edge, state->cell, sizeof picture->edge);
-    choose_window(state, picture->window);
-    copy_front(state, die, picture);
+    sample->dimension = state->dimension;
+    sample->density = state->point.density;
+    sample->count = 0;
+    sample->rdf_reach = 0.0;
+    memcpy(sample->edge, state->cell, sizeof sample->edge);
+    choose_window(state, sample->window);
+    copy_front(state, die, sample);
     if (!die) {
-        measure_distances(state, picture);
+        measure_distances(state, sample);
     }
     gb_state_destroy(state);
-    picture->valid = true;
+    sample->valid = true;
 }

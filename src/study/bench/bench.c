@@ -234,7 +234,7 @@ static double median_of(GArray *seconds)
 
 bool gb_bench_growth_run(struct gb_bench_size *size, size_t sizes,
                          const struct gb_params *params, double coordination,
-                         gb_bench_tell *tell, void *data, struct gb_error *err)
+                         gb_bench_progress *tell, void *data, struct gb_error *err)
 {
     struct growing *growing = g_new0(struct growing, sizes);
     bool done = true;

@@ -39,7 +39,7 @@ struct gb_bench_size {
 /* Told when a cell of so many particles has been pressed (round 0), and when it has been
  * timed in a round. */
 enum { GB_BENCH_ROUNDS = 5 };
-typedef void gb_bench_tell(void *data, int64_t count, int round);
+typedef void gb_bench_progress(void *data, int64_t count, int round);
 
 /* Cost against the size of the cell: the packing of params with other numbers of
  * particles.  They are timed alternately, round by round, so that other work on the
@@ -49,7 +49,7 @@ typedef void gb_bench_tell(void *data, int64_t count, int round);
  * tell   called with the progress; NULL is fine */
 bool gb_bench_growth_run(struct gb_bench_size *size, size_t sizes,
                          const struct gb_params *params, double coordination,
-                         gb_bench_tell *tell, void *data, struct gb_error *err);
+                         gb_bench_progress *tell, void *data, struct gb_error *err);
 
 /* b of cost ~ count^b, by least squares of the logarithms over n sizes (2 or more). */
 double gb_bench_exponent(const double *count, const double *cost, size_t n);

@@ -71,19 +71,19 @@ static bool time_law(struct gb_bed *bed, const char *law, double mu, double *sec
                      struct gb_error *err)
 {
     struct gb_params params;
-    struct gb_leapfrog leap;
+    struct gb_leapfrog integrator;
     double batch[BATCHES];
     if (!make_params(&params, law, mu, err)) {
         return false;
     }
     const struct gb_bed_law frozen = gb_filling_compaction_law(&params);
     gb_bed_set_law(bed, &frozen);
-    gb_leapfrog_init(&leap, 0.5, 0.0);
+    gb_leapfrog_init(&integrator, 0.5, 0.0);
     bed->die.punch_velocity = 0.0;
     for (int b = -1; b < BATCHES; b++) { /* the first one warms up */
         const double start = gb_clock_process_s();
         for (int k = 0; k < BATCH; k++) {
-            if (!gb_leapfrog_step(&leap, bed, err)) {
+            if (!gb_leapfrog_step(&integrator, bed, err)) {
                 return false;
             }
         }

@@ -253,7 +253,7 @@ void gb_calibrate_finish(struct gb_calibrate_result *result)
     result->fitted_error = NULL;
 }
 
-bool gb_calibrate_confused(const struct gb_calibrate_result *result, size_t i, size_t j)
+bool gb_calibrate_confounded(const struct gb_calibrate_result *result, size_t i, size_t j)
 {
     return fabs(result->correlation[i][j]) > confused;
 }

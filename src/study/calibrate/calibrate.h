@@ -67,6 +67,7 @@ void gb_calibrate_finish(struct gb_calibrate_result *result); /* zeroed is fine 
 
 /* Parameters i < j that the data cannot separate: their errors are so correlated that
  * one can stand for the other. */
-bool gb_calibrate_confused(const struct gb_calibrate_result *result, size_t i, size_t j);
+bool gb_calibrate_confounded(const struct gb_calibrate_result *result, size_t i,
+                             size_t j);
 
 #endif

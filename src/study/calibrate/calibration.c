@@ -8,7 +8,7 @@
 /* Cells of the coarse stage: this fraction of the particles, but not fewer. */
 enum { COARSE_FRACTION = 8, COARSE_MIN = 200 };
 
-const char *gb_calibration_name(const struct gb_freekey *key, char *buffer, size_t size)
+const char *gb_calibration_name(const struct gb_free_key *key, char *buffer, size_t size)
 {
     g_snprintf(buffer, (gulong)size, "%s.%s", key->field->group, key->field->key);
     return buffer;

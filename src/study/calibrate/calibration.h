@@ -37,6 +37,6 @@ bool gb_calibration_fit(struct gb_calibration *calibration, struct gb_error *err
 void gb_calibration_finish(struct gb_calibration *calibration); /* zeroed is fine */
 
 /* "contact.mu" */
-const char *gb_calibration_name(const struct gb_freekey *key, char *buffer, size_t size);
+const char *gb_calibration_name(const struct gb_free_key *key, char *buffer, size_t size);
 
 #endif

@@ -27,7 +27,7 @@ static GString *parameter_table(const struct gb_calibration *calibration)
         g_string_append_printf(text, ",correlation_%s", name_of(calibration, k, name));
     }
     for (size_t k = 0; k < n; k++) {
-        const struct gb_freekey *key = &calibration->keys.key[k];
+        const struct gb_free_key *key = &calibration->keys.key[k];
         g_string_append_printf(
             text, "\n%s,%s,%.8g,%.8g,%.8g,%.8g", name_of(calibration, k, name),
             key->relative ? key->field->relative : "SI", result->value[k],
@@ -84,7 +84,7 @@ bool gb_calibration_table_write(const struct gb_calibration *calibration,
            write_table(calibration, "calibration.csv", parameter_table(calibration), err);
 }
 
-static const char *unit_of(const struct gb_freekey *key)
+static const char *unit_of(const struct gb_free_key *key)
 {
     if (key->relative) {
         return key->field->relative;
@@ -96,7 +96,7 @@ static void add_parameter(GString *text, const struct gb_calibration *calibratio
                           size_t k)
 {
     const struct gb_calibrate_result *result = &calibration->result;
-    const struct gb_freekey *key = &calibration->keys.key[k];
+    const struct gb_free_key *key = &calibration->keys.key[k];
     const char *unit = unit_of(key);
     char name[NAME_MAX_BYTES];
     name_of(calibration, k, name);
@@ -124,7 +124,7 @@ static void add_correlation(GString *text, const struct gb_calibration *calibrat
     name_of(calibration, j, second);
     g_string_append_printf(text, "correlation of %s and %s: %.2f\n", first, second,
                            result->correlation[i][j]);
-    if (gb_calibrate_confused(result, i, j)) {
+    if (gb_calibrate_confounded(result, i, j)) {
         g_string_append_printf(text,
                                "  the data cannot separate %s and %s: fix one of them, "
                                "or add data that depend on them differently\n",

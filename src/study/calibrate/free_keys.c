@@ -28,7 +28,7 @@ static double number_of(const struct gb_params *params, const struct gb_field *f
 }
 
 /* One end of a range; takes the unit behind the whole when it has none. */
-static bool read_end(struct gb_freekey *key, const char *text, const char *unit,
+static bool read_end(struct gb_free_key *key, const char *text, const char *unit,
                      double *value, struct gb_error *err)
 {
     struct gb_params params;
@@ -43,7 +43,7 @@ static bool read_end(struct gb_freekey *key, const char *text, const char *unit,
     return good;
 }
 
-static bool read_range(struct gb_freekey *key, const char *text, struct gb_error *err)
+static bool read_range(struct gb_free_key *key, const char *text, struct gb_error *err)
 {
     char **ends = g_strsplit(text, ":", 3);
     bool good = g_strv_length(ends) == 2;
@@ -69,7 +69,7 @@ static bool read_range(struct gb_freekey *key, const char *text, struct gb_error
                                 key->field->group, key->field->key, text);
 }
 
-static bool take_around(struct gb_freekey *key, const struct gb_params *params,
+static bool take_around(struct gb_free_key *key, const struct gb_params *params,
                         struct gb_error *err)
 {
     const double value = number_of(params, key->field, &key->relative);
@@ -87,7 +87,7 @@ static bool take_around(struct gb_freekey *key, const struct gb_params *params,
     return true;
 }
 
-static bool find_field(const struct gb_free_keys *keys, struct gb_freekey *key,
+static bool find_field(const struct gb_free_keys *keys, struct gb_free_key *key,
                        const char *name, struct gb_error *err)
 {
     char **words = g_strsplit(name, ".", 2);
@@ -119,9 +119,9 @@ bool gb_free_keys_parse(struct gb_free_keys *keys, const char *text,
                             text, GB_CALIBRATE_FREE);
     }
     for (size_t i = 0; good && parts[i] != NULL; i++) {
-        struct gb_freekey *key = &keys->key[keys->count];
+        struct gb_free_key *key = &keys->key[keys->count];
         char **sides = g_strsplit(g_strstrip(parts[i]), "=", 2);
-        *key = (struct gb_freekey){0};
+        *key = (struct gb_free_key){0};
         good = sides[0] != NULL
                    ? find_field(keys, key, g_strstrip(sides[0]), err)
                    : gb_error_set(err, GB_ERR_INPUT, "--free: a key is empty");
@@ -134,7 +134,7 @@ bool gb_free_keys_parse(struct gb_free_keys *keys, const char *text,
     return good;
 }
 
-char *gb_free_keys_text(const struct gb_freekey *key, double value, char *buffer,
+char *gb_free_keys_text(const struct gb_free_key *key, double value, char *buffer,
                         size_t size)
 {
     if (key->relative) {

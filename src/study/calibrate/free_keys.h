@@ -9,7 +9,7 @@
 
 /* Keys of a preset as plain numbers that a fit may change: SI, or the multiple where the
  * preset gives one ("0.008 d"). */
-struct gb_freekey {
+struct gb_free_key {
     const struct gb_field *field;
     bool relative;
     double low, high; /* never left */
@@ -17,7 +17,7 @@ struct gb_freekey {
 };
 
 struct gb_free_keys {
-    struct gb_freekey key[GB_CALIBRATE_FREE];
+    struct gb_free_key key[GB_CALIBRATE_FREE];
     size_t count;
 };
 
@@ -32,7 +32,7 @@ bool gb_free_keys_parse(struct gb_free_keys *keys, const char *text,
                         const struct gb_params *params, struct gb_error *err);
 
 /* The value of a key as a preset would write it, ten digits.  Returns buffer. */
-char *gb_free_keys_text(const struct gb_freekey *key, double value, char *buffer,
+char *gb_free_keys_text(const struct gb_free_key *key, double value, char *buffer,
                         size_t size);
 
 /* Gives params the values. */

@@ -27,7 +27,8 @@ bool gb_cost_confirm_question(const struct gb_params *params, double particle_st
     const bool measured = particle_steps_per_s > 0.0;
     const double rate = measured ? particle_steps_per_s : gb_cost_rate_assumed(params);
     if (!gb_loading_kind_of(params)->given_rate ||
-        !gb_cost_estimate(params, rate, &cost, &err) || gb_cost_unasked(&cost, &err)) {
+        !gb_cost_estimate(params, rate, &cost, &err) ||
+        gb_cost_check_limit(&cost, &err)) {
         return false;
     }
     char duration[48], step[48], advice[128];
@@ -51,7 +52,7 @@ bool gb_cost_confirm_after_quick(const struct gb_params *full,
     struct gb_error err = {0};
     const struct gb_cost cost = {.seconds = gb_cost_from_quick(full, quick, quick_s)};
     *seconds = cost.seconds;
-    if (!isfinite(cost.seconds) || gb_cost_unasked(&cost, &err)) {
+    if (!isfinite(cost.seconds) || gb_cost_check_limit(&cost, &err)) {
         return false;
     }
     gb_cost_duration(cost.seconds, duration, sizeof duration);

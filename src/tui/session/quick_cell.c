@@ -46,7 +46,7 @@ bool gb_quick_cell_refresh(struct gb_quick_cell *quick_cell, bool frozen, bool *
     quick_cell->missed = false;
     quick_cell->now = *snapshot;
     quick_cell->points = gb_curve_count(gb_runner_curve(quick_cell->runner));
-    quick_cell->sample = gb_runner_picture(quick_cell->runner, NULL);
+    quick_cell->sample = gb_runner_view_sample(quick_cell->runner, NULL);
     return true;
 }
 

@@ -195,7 +195,7 @@ static void yield_engine(struct gb_session *session, bool yielded)
 {
     if (session->yielded != yielded && session->runner != NULL &&
         gb_runner_send(session->runner,
-                       yielded ? GB_COMMAND_YIELD : GB_COMMAND_TAKE_UP)) {
+                       yielded ? GB_COMMAND_YIELD : GB_COMMAND_CONTINUE)) {
         session->yielded = yielded;
     }
 }
@@ -353,7 +353,7 @@ static void show(struct gb_session *session, const struct gb_snapshot *snapshot)
 {
     session->now = *snapshot;
     session->points = gb_curve_count(gb_runner_curve(session->runner));
-    session->sample = gb_runner_picture(session->runner, NULL);
+    session->sample = gb_runner_view_sample(session->runner, NULL);
     take_events(session);
 }
 
