@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "solve/relax.h"
+#include "solve/relax/relax.h"
 #include "tui/plot/plot.h"
 
 enum { ROWS = 18, COLUMNS = 78 };

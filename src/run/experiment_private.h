@@ -3,7 +3,7 @@
 
 #include "run/experiment.h"
 #include "solve/event_queue.h"
-#include "solve/loading.h"
+#include "solve/loading/loading.h"
 
 /* Members of gb_experiment, for experiment.c (owner), checkpoint.c (records) and
  * change.c. */

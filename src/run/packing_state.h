@@ -2,7 +2,7 @@
 #define GB_RUN_PACKING_STATE_H
 
 #include "io/state.h"
-#include "solve/loading.h"
+#include "solve/loading/loading.h"
 
 /* Copies a packing for pictures and files: positions, contacts, forces, and its measures
  * as state->point.

@@ -4,7 +4,7 @@
 
 #include "measure/observe.h"
 #include "measure/observe_die.h"
-#include "solve/compressed_axes.h"
+#include "solve/loading/compressed_axes.h"
 
 static int branch_of(const struct gb_loading_report *report)
 {

@@ -3,7 +3,7 @@
 
 #include "greenbody/curve.h"
 #include "greenbody/snapshot.h"
-#include "solve/loading.h"
+#include "solve/loading/loading.h"
 
 /* Measures of a packing as a row of curve.csv, in SI.  The members step and seconds are
  * the caller's. */

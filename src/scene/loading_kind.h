@@ -11,7 +11,7 @@ struct gb_model;
 
 /* What a scene with a given scene.kind is: one row per kind.  Everything but the rows
  * themselves asks for the properties below and never for the kind.  The functions that
- * advance a scene are the rows of solve/loading.h, with the same index. */
+ * advance a scene are the rows of solve/loading/loading.h, with the same index. */
 
 /* Columns of curve.csv beside those that all runs have. */
 enum gb_curve_columns {

@@ -1,7 +1,7 @@
 #ifndef GB_SOLVE_STEP_OUTCOME_H
 #define GB_SOLVE_STEP_OUTCOME_H
 
-/* How a slice of work of a loading mode (solve/loading.h) ended, from the integrator up
+/* How a slice of work of a loading mode (solve/loading/loading.h) ended, from the integrator up
  * to the run loop. */
 enum gb_step_outcome {
     GB_STEP_MORE,   /* the slice is used up, no new point */

@@ -16,7 +16,7 @@
 #include "measure/observe.h"
 #include "pack/kernel/virial.h"
 #include "pack/structure/hilbert.h"
-#include "solve/relax.h"
+#include "solve/relax/relax.h"
 #include "spheres.h"
 
 enum { STEPS = 100 };

@@ -5,7 +5,7 @@
 #include "base/vec.h"
 #include "common/scene.h"
 #include "measure/observe.h"
-#include "solve/dynamic.h"
+#include "solve/loading/dynamic.h"
 #include "solve/verlet.h"
 
 /* Two particles in a wide cell, without attraction unless asked for. */

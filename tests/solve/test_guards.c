@@ -6,9 +6,9 @@
 
 #include "common/scene.h"
 #include "scene/tolerances.h"
-#include "solve/guard.h"
-#include "solve/quasistatic.h"
-#include "solve/relax.h"
+#include "solve/relax/guard.h"
+#include "solve/loading/quasistatic.h"
+#include "solve/relax/relax.h"
 
 /* Two particles `gap` apart in a wide cell. */
 static struct gb_world *two(struct gb_model *model, double gap)

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "common/scene.h"
-#include "solve/quasistatic.h"
+#include "solve/loading/quasistatic.h"
 
 /* A made-up powder: pressure follows density, unloading is ten times stiffer. */
 struct powder {

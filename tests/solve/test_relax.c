@@ -6,9 +6,9 @@
 #include "measure/observe.h"
 #include "pack/cell/world_private.h"
 #include "scene/tolerances.h"
-#include "solve/guard.h"
-#include "solve/relax.h"
-#include "solve/relax_fire.h"
+#include "solve/relax/guard.h"
+#include "solve/relax/relax.h"
+#include "solve/relax/relax_fire.h"
 
 /* Every relaxer brings every small problem to the same stopping rule. */
 static void test_all(void)

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "solve/relax_fire.h"
+#include "solve/relax/relax_fire.h"
 #include "study/stability/stability.h"
 #include "study/stability/stability_scene.h"
 

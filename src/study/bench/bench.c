@@ -16,7 +16,7 @@
 #include "run/experiment.h"
 #include "scene/loading_kind.h"
 #include "scene/model.h"
-#include "solve/relax.h"
+#include "solve/relax/relax.h"
 
 /* Batches timed, and evaluations in each: the median of the batches is what counts,
  * because other work on the machine comes and goes. */

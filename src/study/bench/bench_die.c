@@ -10,7 +10,7 @@
 #include "greenbody/snapshot.h"
 #include "measure/observe_die.h"
 #include "pack/die/filling.h"
-#include "solve/die_stages.h"
+#include "solve/loading/die_stages.h"
 #include "solve/leapfrog.h"
 
 /* Batches timed, and steps in each: the median counts.  Processor time, because a bed

@@ -9,7 +9,7 @@
 #include "scene/loading_kind.h"
 #include "scene/model.h"
 #include "scene/tolerances.h"
-#include "solve/relax.h"
+#include "solve/relax/relax.h"
 
 /* The reference of a quasi-static chart: a fifth of P1's strain step, relaxed twice as
  * far as fidelity = reference; of a dynamic one P2's own step. */

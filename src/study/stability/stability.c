@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "law/critical_step.h"
-#include "solve/relax_fire.h"
+#include "solve/relax/relax_fire.h"
 #include "solve/verlet.h"
 #include "study/stability/stability_scene.h"
 

@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "pack/structure/chain_growth.h"
-#include "solve/relax.h"
+#include "solve/relax/relax.h"
 
 /* Disturbances in d: far below every overlap, far above rounding. */
 static const double small = 1e-8;

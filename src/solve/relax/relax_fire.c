@@ -10,7 +10,7 @@
 #include "base/vec.h"
 #include "pack/f32/integrate_f32.h"
 #include "pack/kernel/simd.h"
-#include "solve/relax_fire.h"
+#include "solve/relax/relax_fire.h"
 
 static const double grow = 1.1;
 

@@ -1,7 +1,7 @@
-#ifndef GB_SOLVE_RELAX_FIRE_H
-#define GB_SOLVE_RELAX_FIRE_H
+#ifndef GB_SOLVE_RELAX_RELAX_FIRE_H
+#define GB_SOLVE_RELAX_RELAX_FIRE_H
 
-#include "solve/relax.h"
+#include "solve/relax/relax.h"
 
 /* The motion of FIRE, for relaxers that build on it: velocities in vectors 0 and 1 of the
  * relaxation, everything else here. */

@@ -1,7 +1,7 @@
-/* The mode `dynamic`: a periodic cell compressed at a rate, solve/dynamic.h. */
-#include "solve/dynamic.h"
-#include "solve/loading.h"
-#include "solve/loading_cell.h"
+/* The mode `dynamic`: a periodic cell compressed at a rate, solve/loading/dynamic.h. */
+#include "solve/loading/dynamic.h"
+#include "solve/loading/loading.h"
+#include "solve/loading/loading_cell.h"
 
 struct dynamic_loading {
     struct gb_loading base;

@@ -1,4 +1,4 @@
-#include "solve/punch.h"
+#include "solve/loading/punch.h"
 
 #include <math.h>
 

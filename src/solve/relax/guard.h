@@ -1,11 +1,11 @@
-#ifndef GB_SOLVE_GUARD_H
-#define GB_SOLVE_GUARD_H
+#ifndef GB_SOLVE_RELAX_GUARD_H
+#define GB_SOLVE_RELAX_GUARD_H
 
 #include <stdbool.h>
 
 #include "greenbody/status.h"
 #include "pack/cell/nonaffine.h"
-#include "solve/relax.h"
+#include "solve/relax/relax.h"
 
 /* What is done when a strain step fails, in one place. */
 enum gb_guard_action {

@@ -1,4 +1,4 @@
-#include "solve/compressed_axes.h"
+#include "solve/loading/compressed_axes.h"
 
 struct gb_compressed_axes gb_compressed_axes_of(const struct gb_model *model)
 {

@@ -9,7 +9,7 @@
 #include <math.h>
 
 #include "base/vec.h"
-#include "solve/relax.h"
+#include "solve/relax/relax.h"
 
 static const double inertia = GB_RELAX_INERTIA;
 /* Displacement under the largest force when there is no adhesion and h_eq = 0 (d). */

@@ -12,7 +12,7 @@
 #include "base/record.h"
 #include "base/vec.h"
 #include "scene/tolerances.h"
-#include "solve/relax_fire.h"
+#include "solve/relax/relax_fire.h"
 
 const struct gb_relax_fire_tuning gb_relax_predict_tuning = {
     .step_first = 1.2,

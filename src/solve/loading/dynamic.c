@@ -1,4 +1,4 @@
-#include "solve/dynamic.h"
+#include "solve/loading/dynamic.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 #include "law/critical_step.h"
 #include "pack/cell/world_measure.h"
 #include "scene/tolerances.h"
-#include "solve/compressed_axes.h"
+#include "solve/loading/compressed_axes.h"
 #include "solve/verlet.h"
 
 struct gb_dynamic {

@@ -1,5 +1,5 @@
-#ifndef GB_SOLVE_PUNCH_H
-#define GB_SOLVE_PUNCH_H
+#ifndef GB_SOLVE_LOADING_PUNCH_H
+#define GB_SOLVE_LOADING_PUNCH_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-#include "solve/relax.h"
+#include "solve/relax/relax.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-#ifndef GB_SOLVE_LOADING_H
-#define GB_SOLVE_LOADING_H
+#ifndef GB_SOLVE_LOADING_LOADING_H
+#define GB_SOLVE_LOADING_LOADING_H
 
 #include <stdbool.h>
 #include <stddef.h>

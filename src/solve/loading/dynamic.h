@@ -1,5 +1,5 @@
-#ifndef GB_SOLVE_DYNAMIC_H
-#define GB_SOLVE_DYNAMIC_H
+#ifndef GB_SOLVE_LOADING_DYNAMIC_H
+#define GB_SOLVE_LOADING_DYNAMIC_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-#include "solve/guard.h"
+#include "solve/relax/guard.h"
 
 #include <stdio.h>
 

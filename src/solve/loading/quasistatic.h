@@ -1,12 +1,12 @@
-#ifndef GB_SOLVE_QUASISTATIC_H
-#define GB_SOLVE_QUASISTATIC_H
+#ifndef GB_SOLVE_LOADING_QUASISTATIC_H
+#define GB_SOLVE_LOADING_QUASISTATIC_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "base/record.h"
 #include "scene/model.h"
-#include "solve/compressed_axes.h"
+#include "solve/loading/compressed_axes.h"
 
 /* The loading programme of P1 section IV as a state machine: told the pressure and
  * density of each relaxed state, it says what comes next.  It owns no world and saves

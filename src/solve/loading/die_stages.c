@@ -1,4 +1,4 @@
-#include "solve/die_stages.h"
+#include "solve/loading/die_stages.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 #include "pack/die/bed_copy.h"
 #include "scene/tolerances.h"
 #include "solve/leapfrog.h"
-#include "solve/punch.h"
+#include "solve/loading/punch.h"
 
 /* Steps between looks at whether the powder is at rest, and at most between looks for
  * particles that are nowhere they could be: one that leaves is on its way for a while,

@@ -1,11 +1,11 @@
-/* The mode `die`: powder poured into a die and pressed, solve/die_stages.h. */
+/* The mode `die`: powder poured into a die and pressed, solve/loading/die_stages.h. */
 #include <math.h>
 #include <stdio.h>
 
 #include "pack/die/filling.h"
 #include "scene/tolerances.h"
-#include "solve/die_stages.h"
-#include "solve/loading.h"
+#include "solve/loading/die_stages.h"
+#include "solve/loading/loading.h"
 
 struct die_loading {
     struct gb_loading base;

@@ -1,4 +1,4 @@
-#include "solve/loading.h"
+#include "solve/loading/loading.h"
 
 #include <math.h>
 

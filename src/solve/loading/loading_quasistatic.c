@@ -1,16 +1,16 @@
 /* The mode `quasistatic`: a periodic cell strained in steps, each relaxed to equilibrium,
- * in the order of solve/quasistatic.h. */
+ * in the order of solve/loading/quasistatic.h. */
 #include <math.h>
 #include <stdio.h>
 
 #include "pack/cell/nonaffine.h"
 #include "pack/cell/world_measure.h"
 #include "pack/cell/world_record.h"
-#include "solve/guard.h"
-#include "solve/loading.h"
-#include "solve/loading_cell.h"
-#include "solve/quasistatic.h"
-#include "solve/relax.h"
+#include "solve/relax/guard.h"
+#include "solve/loading/loading.h"
+#include "solve/loading/loading_cell.h"
+#include "solve/loading/quasistatic.h"
+#include "solve/relax/relax.h"
 
 struct quasistatic_loading {
     struct gb_loading base;

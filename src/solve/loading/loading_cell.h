@@ -1,7 +1,7 @@
-#ifndef GB_SOLVE_LOADING_CELL_H
-#define GB_SOLVE_LOADING_CELL_H
+#ifndef GB_SOLVE_LOADING_LOADING_CELL_H
+#define GB_SOLVE_LOADING_LOADING_CELL_H
 
-#include "solve/loading.h"
+#include "solve/loading/loading.h"
 
 /* What the modes in a periodic cell share: their world. */
 

@@ -1,5 +1,5 @@
-#ifndef GB_SOLVE_DIE_STAGES_H
-#define GB_SOLVE_DIE_STAGES_H
+#ifndef GB_SOLVE_LOADING_DIE_STAGES_H
+#define GB_SOLVE_LOADING_DIE_STAGES_H
 
 #include <stdbool.h>
 #include <stddef.h>

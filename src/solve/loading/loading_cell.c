@@ -1,4 +1,4 @@
-#include "solve/loading_cell.h"
+#include "solve/loading/loading_cell.h"
 
 #include "base/alloc.h"
 #include "pack/cell/world_record.h"

@@ -1,4 +1,4 @@
-#include "solve/quasistatic.h"
+#include "solve/loading/quasistatic.h"
 
 #include <math.h>
 

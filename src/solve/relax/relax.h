@@ -1,5 +1,5 @@
-#ifndef GB_SOLVE_RELAX_H
-#define GB_SOLVE_RELAX_H
+#ifndef GB_SOLVE_RELAX_RELAX_H
+#define GB_SOLVE_RELAX_RELAX_H
 
 #include <stdbool.h>
 #include <stddef.h>
