@@ -15,7 +15,7 @@ static const double plain_interval_s = 10.0;
 
 enum { JOBS_MAX = 4096 };
 
-/* Set by the handler, polled between reports. */
+/* Set by the signal handler, polled between reports. */
 static volatile sig_atomic_t caught;
 
 static void on_signal(int number)

@@ -14,7 +14,7 @@ enum gb_batch_progress_output {
     GB_BATCH_PROGRESS_QUIET
 };
 
-/* Many runs at once, as commands do them: workers, progress on stderr, signals. */
+/* Many runs of one command: workers, progress on stderr, signals. */
 struct gb_batch_progress {
     struct gb_mpi_pool *mpi; /* ranks started by mpirun or srun; NULL: one process */
     enum gb_batch_progress_output output;

@@ -9,7 +9,7 @@
 
 /* --- hooks of the loop ----------------------------------------------------------- */
 
-/* The terminal is gone: from now on messages go to the run directory only. */
+/* After a hang-up messages go to the run directory only. */
 static void handle_hangup(struct gb_foreground *run)
 {
     if (gb_experiment_params(run->loop.experiment)->on_hangup == GB_ON_HANGUP_STOP) {

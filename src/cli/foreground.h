@@ -4,7 +4,7 @@
 #include "cli/progress.h"
 #include "run/run_loop.h"
 
-/* A run without a screen: the run loop (run/run_loop.h) with signals, progress on stderr
+/* A run without screen: the run loop (run/run_loop.h) with signals, progress on stderr
  * and the exit status of the command. */
 struct gb_foreground {
     struct gb_run_loop loop;

@@ -74,7 +74,7 @@ static int refuse_word(const char *word)
     return gb_options_fail(&err);
 }
 
-/* Can the first word of a workbench be a preset, a file or a value? */
+/* Whether the first word can be a preset, a file or an assignment. */
 static bool may_open(const char *word)
 {
     if (strchr(word, '=') || strchr(word, '/') || g_file_test(word, G_FILE_TEST_EXISTS)) {
@@ -131,10 +131,10 @@ static int dispatch(int argc, char **argv)
                            : open_scene(argc, argv);
 }
 
-/* Limits how long an OpenMP thread spins at a barrier: where other processes use the same
- * cores, a spinning thread takes the core from the one it waits for, and a sweep on all
- * cores took ten times as long as on one.  libgomp reads the variable before main, hence
- * the program is executed again. */
+/* Limits the spinning of OpenMP threads at barriers: on cores shared with other processes
+ * a spinning thread displaces the thread that it waits for (a sweep on all cores took ten
+ * times as long as on one).  libgomp reads the variable before main, hence the program is
+ * executed again. */
 static void limit_spinning(char **argv)
 {
 #ifdef _OPENMP

@@ -32,7 +32,7 @@ static void print_help(GOptionContext *context)
     g_free(text);
 }
 
-/* The words that are no options, without the first '--'. */
+/* The words that are no options, without the first "--". */
 static char **take_words(char **arguments)
 {
     GPtrArray *words = g_ptr_array_new();
@@ -124,7 +124,7 @@ static bool assign_words(struct gb_params *params, char **words, struct gb_error
     return true;
 }
 
-/* "contact.mu" without a value, and no file of that name. */
+/* A word like "contact.mu", without a value and without a file of that name. */
 static bool is_key(const char *word)
 {
     char **parts = g_strsplit(word, ".", 2);

@@ -5,8 +5,8 @@
 
 #include "greenbody/snapshot.h"
 
-/* What a run without a screen tells on stderr: one line rewritten on a terminal, a plain
- * line every few seconds elsewhere, nothing when quiet. */
+/* Progress of a run without screen on stderr: one rewritten line on a terminal, a line
+ * every few seconds elsewhere, nothing when quiet. */
 struct gb_progress {
     bool quiet, terminal;
     int shown;      /* columns now occupied by the rewritten line */
@@ -15,17 +15,18 @@ struct gb_progress {
 
 void gb_progress_init(struct gb_progress *progress, bool quiet);
 
-/* A line that stays. */
+/* Prints a permanent line. */
 void gb_progress_say(struct gb_progress *progress, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Is it time for the next gb_progress_show?  Filling a snapshot costs a sweep. */
+/* Whether gb_progress_show is due.  Filling a snapshot costs an evaluation of the
+ * forces. */
 bool gb_progress_due(const struct gb_progress *progress, double seconds);
 
-/* Where the run stands. */
+/* Shows the progress of the run. */
 void gb_progress_show(struct gb_progress *progress, const struct gb_snapshot *snapshot);
 
-/* Takes the rewritten line away. */
+/* Removes the rewritten line. */
 void gb_progress_clear(struct gb_progress *progress);
 
 #endif

@@ -24,7 +24,7 @@ void gb_screen_options_finish(struct gb_screen_options *options);
  * the number of words left. */
 int gb_screen_options_drop(int argc, char **argv);
 
-/* Is `word` among the words before a "--"? */
+/* Whether `word` is among the words before a "--". */
 bool gb_screen_options_has(int argc, char **argv, const char *word);
 
 #endif

@@ -7,12 +7,12 @@
 
 /* Signals of a command without a screen. */
 
-/* Installs the handlers: the first INT or TERM asks for an end in good order, the second
- * ends the process at once.  HUP is noted, or ignored under nohup.  A file size limit and
- * a closed pipe become errors of the write. */
+/* Installs the handlers: the first INT or TERM requests an orderly end, the second ends
+ * the process at once.  HUP is noted, or ignored under nohup.  A file size limit and a
+ * closed pipe become errors of the write. */
 void gb_signals_install(void);
 
-/* Number of the signal that asks for the end; 0: none. */
+/* Number of the signal that requests the end; 0: none. */
 int gb_signals_caught(void);
 /* The same as a callback; data is not used. */
 bool gb_signals_cancelled(void *data);

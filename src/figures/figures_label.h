@@ -19,7 +19,8 @@ size_t gb_figures_label_groups(struct gb_series *series, const struct gb_runset 
 /* The same, with the meaning of bands and bars in the caption. */
 void gb_figures_label_note(struct gb_series *series, const struct gb_runset *set);
 
-/* Columns NAME_1UNIT and se_1UNIT, and a curve, of the mean of every group over the grid. */
+/* Columns NAME_1UNIT and se_1UNIT, and a curve, of the mean of every group over the
+ * grid. */
 bool gb_figures_label_means(struct gb_series *series,
                             const struct gb_series_sample *sample,
                             const struct gb_runset *set, const double *grid,

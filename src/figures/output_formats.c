@@ -9,7 +9,7 @@
 #define FRAMES(writer) .frames = NULL
 #endif
 
-/* Video encoders take even sides and 4:2:0 colours, which every player shows. */
+/* Even sides and 4:2:0 colours, which all encoders accept and all players show. */
 #define EVEN_YUV420 "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p"
 /* GIF has 256 colours, chosen from all frames. */
 #define OWN_PALETTE "split[a][b];[a]palettegen[p];[b][p]paletteuse"

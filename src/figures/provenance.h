@@ -3,6 +3,6 @@
 
 /* Text of preset.ini of a run directory, or of the run of a state file (in the directory or
  * in its folder snapshots); NULL: none.  g_free. */
-char *gb_provenance_preset(const char *place);
+char *gb_provenance_preset(const char *path);
 
 #endif

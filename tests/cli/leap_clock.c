@@ -1,5 +1,5 @@
-/* Preloaded (LD_PRELOAD): every few calls the wall clock jumps a day forward or back, as
- * when it is set.  The monotonic clock stays as it is. */
+/* For LD_PRELOAD: every few calls the wall clock jumps by a day forward or back.  The
+ * monotonic clock is unchanged. */
 #include <dlfcn.h>
 #include <stdatomic.h>
 #include <stddef.h>

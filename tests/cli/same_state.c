@@ -1,5 +1,6 @@
-/* Are the states of two run directories equal to the last bit, apart from times?  Names
- * the first array that is not.  Usage: same_state DIR DIR */
+/* Compares the states of two run directories bit by bit, except times.  Prints the first
+ * different array.
+ * Usage: same_state DIR DIR */
 #include <stdio.h>
 #include <stdlib.h>
 

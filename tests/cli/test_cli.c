@@ -7,7 +7,7 @@
 
 #include "common/program.h"
 
-/* The real program as a user calls it: exit status, one line on stderr, numbers. */
+/* The installed commands: exit status, the line on stderr, numbers. */
 
 static const char *program;
 
@@ -281,9 +281,9 @@ static double path_work(const char *words, double *last)
     return work;
 }
 
-/* One contact of NiAl in and out: nothing lost below the crossing of the two laws, half
- * of the work and more well above it, the same whether a part of the way was gone twice;
- * a contact that has opened starts anew. */
+/* One contact of NiAl loaded and unloaded: no loss below the crossing of the two laws,
+ * more than half of the work lost well above it, independent of a repeated part of the
+ * path; a contact that has opened starts anew. */
 static void test_plastic_path(void)
 {
     double force = 0.0, again = 0.0;
@@ -337,7 +337,7 @@ static void test_output(void)
 }
 
 /* Usage: test_cli PROGRAM PRESET_FOLDER */
-/* What P1's law expects of 1000 particles in classes of 4 nm. */
+/* Expected numbers of P1's law for 1000 particles in classes of 4 nm. */
 static void test_sizes(void)
 {
     static const char text[] =
@@ -369,8 +369,8 @@ static void test_sizes(void)
     g_free(path);
 }
 
-/* Every variant of a pressed packing has a time; a scene without attraction has no row
- * for leaving it out. */
+/* Every variant of a compressed packing has a time; a scene without attraction has no row
+ * for its omission. */
 static void test_bench_terms(void)
 {
     static const struct {
@@ -395,7 +395,7 @@ static void test_bench_terms(void)
     }
 }
 
-/* A row for every size, and the power between them. */
+/* A row for every size, and the exponent between them. */
 static void test_bench_sizes(void)
 {
     struct result result = call("bench --sizes=150,300,600 --csv --coordination 4.2");

@@ -20,7 +20,7 @@ static double relaxation(double t)
     return 2603.9 + 441.1 * exp(-t / 0.0719) + 35.3 * exp(-t / 4.9304);
 }
 
-/* p_stat and k_v of (9); each seed is off by its number. */
+/* p_stat and k_v of (9), with an offset per seed. */
 static double pressure(double rho, double rate, int seed)
 {
     return 5000.0 * pow(rho - 0.5, 2.0) + 21.5 * pow(rate, 0.25) * pow(rho - 0.5, 3.0) +
@@ -142,8 +142,8 @@ static void test_densification(void)
     program_finish(&result);
 }
 
-/* Runs that differ in what comes after the loading are one group of a figure of the
- * loading, but the same seed counts once. */
+/* Runs that differ after the loading only are one group in a figure of the loading
+ * branch, but equal seeds count once. */
 static void test_held(void)
 {
     static const char *const hold = "hold = 2 ns\n";
@@ -247,7 +247,7 @@ static void test_output(void)
     g_free(path);
 }
 
-/* A figure of each kind, its data beside it, and nothing replaced. */
+/* A figure of each format with its data; existing files are not replaced. */
 static void test_figures(void)
 {
     static const char *const names[] = {"fig.png", "fig2.svg", "fig3.pdf"};

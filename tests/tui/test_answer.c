@@ -1,7 +1,8 @@
-/* From a knob to its curves: the laws within the frame, the whole quick curve of 1000
- * particles to 1 GPa within two seconds of processor time of one core.  These targets are
- * asserted with 'hard', on a machine that does nothing else; else what does not depend on
- * the machine: both laws come, and the curve costs no more evaluations than it did.
+/* Time from a changed parameter to its curves: the laws within a frame, the whole quick
+ * curve of 1000 particles to 1 GPa within two seconds of processor time of one core.
+ * These limits are asserted with 'hard' on an idle machine; otherwise only what does not
+ * depend on the machine: both laws are drawn, and the curve needs no more evaluations
+ * than before.
  * Usage: test_answer [hard] */
 #include <glib.h>
 #include <math.h>
@@ -30,7 +31,7 @@ static struct gb_params powder(void)
     return params;
 }
 
-/* Both laws as a screen of 200 x 60 shows them, with those of the run dim behind. */
+/* Both laws on a screen of 200 x 60, with dim laws of the run. */
 static double draw_laws(struct gb_panel_plot *panel, const struct gb_session *session)
 {
     const double from = gb_clock_process_s();
@@ -101,7 +102,7 @@ static double press(const struct gb_params *params)
     return seconds;
 }
 
-/* The quick twin of 8000 particles, packing included. */
+/* The quick cell of 8000 particles, packing included. */
 static void test_quick_curve(void)
 {
     struct gb_params quick;

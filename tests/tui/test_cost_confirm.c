@@ -3,7 +3,7 @@
 
 #include "tui/session/cost_confirm.h"
 
-/* P2's discs at a rate of loading, before anything is measured, on one core. */
+/* Discs of P2 at a loading rate, without measured speed, on one core. */
 static struct gb_params planar(const char *rate, const char *time_step)
 {
     static const char *const scene[] = {"scene.kind=dynamic",
@@ -36,9 +36,9 @@ static bool asks(const char *rate, const char *time_step, double measured)
 {
     const struct gb_params params = planar(rate, time_step);
     char text[400] = "";
-    const bool asked = gb_cost_confirm_question(&params, measured, text, sizeof text);
+    const bool needed = gb_cost_confirm_question(&params, measured, text, sizeof text);
     g_test_message("%s %s: %s", rate, time_step, text);
-    return asked;
+    return needed;
 }
 
 /* All rates of the paper, at its step and at the chosen one. */
@@ -79,7 +79,7 @@ static void test_text(void)
     g_assert_null(strstr(text, "time_step"));
 }
 
-/* What cannot be foretold or run is not asked about. */
+/* No question without an estimate and for invalid parameters. */
 static void test_others(void)
 {
     struct gb_params params;

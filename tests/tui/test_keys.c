@@ -19,7 +19,7 @@ static void test_no_duplicates(void)
     g_hash_table_destroy(codes);
 }
 
-/* Dispatch finds what the help page shows, row by row. */
+/* Dispatch finds every row of the help page. */
 static void test_dispatch(void)
 {
     struct gb_key found;
@@ -39,8 +39,8 @@ static void test_dispatch(void)
     g_assert_cmpint(gb_keys_action('$'), ==, GB_ACTION_NONE);
 }
 
-/* Every navigation action and every view has its one row, so that the help page cannot
- * leave one out; all other rows have a command of their own. */
+/* Every navigation action and every view has exactly one row; all other rows have
+ * different commands. */
 static void test_every_row(void)
 {
     for (int action = GB_ACTION_NONE + 1; action <= GB_ACTION_BACK; action++) {
@@ -65,7 +65,7 @@ static void test_every_row(void)
     }
 }
 
-/* Each view has its texts, and `v` comes back to it. */
+/* Each view has its texts, and `v` is cyclic. */
 static void test_views(void)
 {
     struct gb_params params;
@@ -82,7 +82,7 @@ static void test_views(void)
         view = gb_views_step(view, 1, &params);
     }
     g_assert_true(view == gb_views_at(0));
-    /* no bridges in the law of Hertz: that view is left out */
+    /* the law of Hertz has no bridges: no view of them */
     g_assert_true(gb_params_assign(&params, "contact.normal=hertz", NULL));
     for (size_t i = 0; i < gb_views_count(); i++) {
         view = gb_views_step(view, 1, &params);

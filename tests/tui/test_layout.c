@@ -52,7 +52,7 @@ static void check(int rows, int cols, enum gb_pane focus)
             g_assert_false(shown(&all[k]) && overlap(&all[i], &all[k]));
         }
     }
-    g_assert_cmpint(cells, ==, rows * cols); /* nothing is left over either */
+    g_assert_cmpint(cells, ==, rows * cols); /* no cell is unused */
 }
 
 static void test_all_sizes(void)
@@ -66,7 +66,7 @@ static void test_all_sizes(void)
     }
 }
 
-/* What the manual promises for the sizes it names. */
+/* The layouts of the sizes that the manual names. */
 static void test_promises(void)
 {
     struct gb_layout layout;

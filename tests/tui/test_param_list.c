@@ -29,7 +29,7 @@ static bool listed(const struct gb_params *params, const char *group, const char
     return listing.field[gb_param_list_index(&listing, row)] == row;
 }
 
-/* A scene lists what it uses. */
+/* The list of a scene has the parameters that it uses. */
 static void test_scenes(void)
 {
     const struct gb_params still = scene("scene.kind=quasistatic", NULL);
@@ -52,7 +52,7 @@ static void test_scenes(void)
     g_assert_false(listed(&die, "material", "yield"));
 }
 
-/* All: every row of the field table, in order, each on a line of its own, two lines free
+/* All: every row of the field table, in order, each on a line of its own, with two lines
  * before a group. */
 static void test_all(void)
 {
@@ -73,8 +73,8 @@ static void test_all(void)
     }
 }
 
-/* A row that is not listed stands with the listed one before it. */
-static void test_place(void)
+/* The index of a row that is not listed is that of the listed one before it. */
+static void test_index(void)
 {
     const struct gb_params params = scene("scene.kind=quasistatic", NULL);
     struct gb_param_list listing;
@@ -83,10 +83,10 @@ static void test_place(void)
     gb_param_list_init(&listing, &params, false);
     g_assert_cmpint(listing.count, <, (int)count);
     for (int row = 0; row < (int)count; row++) {
-        const int place = gb_param_list_index(&listing, row);
-        g_assert_cmpint(listing.field[place], <=, row);
-        if (place + 1 < listing.count) {
-            g_assert_cmpint(listing.field[place + 1], >, row);
+        const int index = gb_param_list_index(&listing, row);
+        g_assert_cmpint(listing.field[index], <=, row);
+        if (index + 1 < listing.count) {
+            g_assert_cmpint(listing.field[index + 1], >, row);
         }
     }
 }
@@ -96,6 +96,6 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/listing/scenes", test_scenes);
     g_test_add_func("/listing/all", test_all);
-    g_test_add_func("/listing/place", test_place);
+    g_test_add_func("/listing/index", test_index);
     return g_test_run();
 }

@@ -64,7 +64,7 @@ static const char golden_legend[] = "1000+ p, MPa                    |     .*\n"
                                     "    +------+----------+----------+------\n"
                                     "          0.3        0.4        0.5\n";
 
-static const char golden_crowd[] =
+static const char golden_groups[] =
     "1000+ p, MPa                    .:' .: .:' .:'..' .:' .: .:' .:'..' .:' .:\n"
     "    |                        ..:'..' .:'..''.:'..:'..' .:'..''.:'..:'..'\n"
     "    |                      .:* .:o..# .:+ .^'.:v .:@..* .:o .#'.:+ .:^\n"
@@ -95,7 +95,7 @@ static const char golden_bars[] = "40┤ %           ███\n"
                                   "  └┬────────┬───────┬────────┬\n"
                                   "   0        2       4        6\n";
 
-/* A curve that looks like a pressing. */
+/* A curve like a compaction curve. */
 static void make_curve(void)
 {
     for (int i = 0; i < POINTS; i++) {
@@ -195,7 +195,8 @@ static void draw_fan(struct gb_plot *plot, struct gb_plot_entry *entry, int coun
     }
 }
 
-/* The fan with its legend as a view draws it: in a foot where there is no other room. */
+/* The curves with their legend as a view draws them: in a foot where there is no other
+ * room. */
 static bool draw_whole(struct gb_plot *plot, int count, int foot, size_t *covered)
 {
     struct gb_plot_entry entry[24];
@@ -214,7 +215,7 @@ static bool draw_whole(struct gb_plot *plot, int count, int foot, size_t *covere
     return whole || foot > 0 ? whole : draw_whole(plot, count, needed, covered);
 }
 
-/* However many curves there are, the legend covers none of them, and says what it leaves
+/* For any number of curves the legend covers none of them, and counts the entries left
  * out. */
 static void test_crowded_legend(void)
 {
@@ -233,7 +234,7 @@ static void test_crowded_legend(void)
     }
     struct gb_plot plot = plot_of(20, 78, GB_PLOT_ASCII);
     g_assert_true(draw_whole(&plot, 12, 0, &covered));
-    check_text(&plot, golden_crowd);
+    check_text(&plot, golden_groups);
 }
 
 static void test_bars(void)
@@ -249,8 +250,8 @@ static void test_bars(void)
     check_text(&plot, golden_bars);
 }
 
-/* NaN, infinities and far points: the line breaks or is cut, and no cell outside the
- * field is touched. */
+/* NaN, infinities and distant points: the line is interrupted or clipped, and no cell
+ * outside the field is written. */
 static void test_clipping(void)
 {
     static const double x[] = {0.1, 0.5, NAN, 0.6, 1e300, -5.0, 0.5, INFINITY, 0.5};
@@ -292,7 +293,7 @@ static void test_nan_breaks(void)
     check_text(&plot, ".....   ...\n");
 }
 
-/* Any size, also absurd ones, with all there is to draw. */
+/* Any size, including extreme ones, with all elements. */
 static void test_all_sizes(void)
 {
     struct gb_plot plot;
@@ -321,9 +322,9 @@ static void check_axis(double low, double high, bool log_y, int most)
     g_assert_true(isfinite(axis.low) && isfinite(axis.high));
     g_assert_cmpint(axis.ticks, >=, 1);
     for (int i = 0; i < axis.ticks; i++) {
-        const double place = gb_plot_axis_position(&axis, axis.tick[i]);
-        g_assert_cmpfloat(place, >=, -1e-6);
-        g_assert_cmpfloat(place, <=, 1.0 + 1e-6);
+        const double position = gb_plot_axis_position(&axis, axis.tick[i]);
+        g_assert_cmpfloat(position, >=, -1e-6);
+        g_assert_cmpfloat(position, <=, 1.0 + 1e-6);
         g_assert_true(i == 0 || axis.tick[i] > axis.tick[i - 1]);
         g_assert_cmpuint(strlen(axis.text[i]), >, 0);
     }

@@ -1,6 +1,6 @@
-/* The program behind a pseudo-terminal: what it sends, how often, how soon it answers,
- * and that no sequence of keys and sizes breaks it. Usage: test_pty GREENBODY
- * PRESET_FOLDER */
+/* The program on a pseudo-terminal: output, frame rate, time of answers, and random keys
+ * and sizes.
+ * Usage: test_pty GREENBODY PRESET_FOLDER */
 #include <errno.h>
 #include <glib.h>
 #include <glib/gstdio.h>
@@ -19,10 +19,10 @@
 #include "common/patience.h"
 #include "tui/term/pixels.h"
 
-/* The targets of speed are asserted with 'long', on a machine that does nothing else;
- * here what no other work and no slow machine can spoil. */
+/* Limits of time are asserted with 'long' on an idle machine; otherwise only what does
+ * not depend on the load. */
 static const char *program, *presets;
-static char *home, *reports; /* reports: what a sanitizer says, which no terminal keeps */
+static char *home, *reports; /* folder of the reports of sanitizers */
 
 struct child {
     pid_t pid;
@@ -31,12 +31,12 @@ struct child {
     int64_t bytes, bursts; /* received; a burst ends with 15 ms of silence */
     gint64 last_us;
     bool saw_leave;      /* the sequence that leaves the alternate screen */
-    const char *awaited; /* any text, NULL: none; and whether it has come */
+    const char *awaited; /* text to wait for, NULL: none; whether it was received */
     bool saw_awaited;
     char tail[64];
 };
 
-/* Reports of a sanitizer go to files: the terminal may be gone when one comes. */
+/* Reports of sanitizers go to files: the terminal may be closed already. */
 static void keep_reports(const char *name)
 {
     const char *options = g_getenv(name);
@@ -87,8 +87,8 @@ static void become_program(char **words)
     _exit(127);
 }
 
-/* At fidelity = reference, so that no engine is through with its run while the screen is
- * looked at.  Settings are words. */
+/* fidelity = reference, so that no run ends during a test of the screen.  Settings are
+ * words. */
 static void open_program(struct child *child, int rows, int cols, const char *settings)
 {
     struct winsize size = {.ws_row = (unsigned short)rows,
@@ -156,7 +156,7 @@ static void send_text(struct child *child, const char *text, size_t length)
     while (length > 0) {
         const ssize_t n = write(child->fd, text, length);
         if (n < 0 && errno != EINTR) {
-            return; /* it has left */
+            return; /* the program has quit */
         }
         text += n > 0 ? n : 0;
         length -= n > 0 ? (size_t)n : 0;
@@ -191,7 +191,7 @@ static int wait_for_end(struct child *child)
     return status;
 }
 
-/* It has ended by itself, with one of two statuses. */
+/* The program has ended with one of two statuses. */
 static void check_status(int status, int good, int as_good)
 {
     if (!WIFEXITED(status) ||
@@ -223,8 +223,7 @@ static void quit(struct child *child)
     check_restored(child);
 }
 
-/* Frames that the program has drawn and seconds it had the terminal, as it has told its
- * log when it gave the terminal back. */
+/* Frames drawn and seconds with the screen, from the log written at the end. */
 static void read_frames(long long *frames, double *seconds)
 {
     char *path = g_build_filename(home, "greenbody", "workbench.log", NULL);
@@ -238,15 +237,15 @@ static void read_frames(long long *frames, double *seconds)
     g_free(path);
 }
 
-/* A running screen of 120 x 40: under 2 kB a frame on average, the first whole one
- * included, at most ten frames within any second. The program counts its frames itself:
- * here they may come in one piece on a loaded machine. */
+/* A running screen of 120 x 40: below 2 kB per frame on average including the first whole
+ * one, at most ten frames within any second.  The frames are counted by the program:
+ * several may be received at once on a loaded machine. */
 static void test_running(void)
 {
     struct child child;
     long long frames = 0;
     double seconds = 0.0;
-    for (int bursts = 40; frames < 20; bursts *= 2) { /* a busy machine tears frames */
+    for (int bursts = 40; frames < 20; bursts *= 2) { /* a loaded machine splits frames */
         open_program(&child, 40, 120, "particles.count=4000");
         receive_bursts(&child, bursts);
         quit(&child);
@@ -259,8 +258,8 @@ static void test_running(void)
     g_assert_cmpfloat(mean, <, 2048.0);
 }
 
-/* Paused, after the last frame has come, however late: nothing at all for three seconds,
- * in which an engine that works has twenty frames of news. */
+/* Paused, after the last frame: no output for three seconds, in which a computing engine
+ * has twenty updates. */
 static void test_paused(void)
 {
     struct child child;
@@ -330,17 +329,16 @@ static int64_t measure_latency(struct answer waited[LATENCY_KEYS])
     return fewest;
 }
 
-/* A key is answered by the very next frame.  One that is drawn or on its way while the
- * key comes is no answer, and a busy machine tears frames to pieces, but not every time:
- * an answer that this program itself held back would have news of the engine before it
- * always. */
+/* The next frame answers a key.  A frame that is being drawn while the key arrives does
+ * not count, and a loaded machine splits frames sometimes; an answer delayed by the
+ * program itself would always follow updates of the engine. */
 static void test_latency(void)
 {
     struct answer waited[LATENCY_KEYS];
     g_assert_cmpint(measure_latency(waited), <=, 1);
 }
 
-/* The target itself, for a machine that does nothing else. */
+/* The limit of time, for an idle machine. */
 static void test_latency_median(void)
 {
     struct answer waited[LATENCY_KEYS];
@@ -348,8 +346,8 @@ static void test_latency_median(void)
     g_assert_cmpfloat(waited[LATENCY_KEYS / 2].seconds, <, 0.05);
 }
 
-/* The packing in real pixels where that is asked for: a picture comes with its view, and
- * none once the view is another. */
+/* The packing as pixel image with --images: an image with its view, and none after a
+ * change of the view. */
 static void check_images(const char *option, const char *begins)
 {
     struct child child;
@@ -371,8 +369,8 @@ static void test_images(void)
     check_images("--images=kitty", "\033_G");
 }
 
-/* Lines of a file of the first run of the default preset in a folder of its own; 0: it is
- * not there. */
+/* Number of lines of a file of the first run of the default preset in a folder of its
+ * own; 0: no such file. */
 static int count_lines(const char *folder, const char *name)
 {
     char *path = g_build_filename(folder, "greenbody", "runs", "default-1", name, NULL);
@@ -388,13 +386,13 @@ static int count_lines(const char *folder, const char *name)
     return lines;
 }
 
-/* Lines of a curve after which there is something to keep. */
+/* Lines of a curve from which on the run has results. */
 enum { POINTS = 8 };
 
-/* Asking for the end a second time, while the engine is still being stopped, does not
- * lose the run.  Its steps are so small that points come soon and the end never; r begins
- * it beside its quick cell, which may take minutes. */
-static void test_asked_twice(void)
+/* A second request to end, while the engine is being stopped, does not lose the run.  Its
+ * strain steps are so small that points are recorded soon and the run does not end; r
+ * starts it beside its quick cell, which may take minutes. */
+static void test_interrupted_twice(void)
 {
     char *const before = home;
     struct child child;
@@ -423,8 +421,8 @@ static void test_asked_twice(void)
     home = before;
 }
 
-/* Keys of the table, text, escape sequences; none that sends a signal, and no slash,
- * which would let a saved preset land anywhere. */
+/* Keys of the table, text, escape sequences; none that sends a signal, and no slash, so
+ * that saved presets stay in their folder. */
 enum { KEY_MOST = 32 };
 
 static const char *random_key(GRand *rand, char buffer[KEY_MOST])
@@ -463,12 +461,12 @@ static bool has_ended(struct child *child)
         return false;
     }
     receive(child, 0.05, false);
-    check_status(status, 0, 0); /* q, and y where it asks */
+    check_status(status, 0, 0); /* q, and y to a question */
     check_restored(child);
     return true;
 }
 
-/* With its first frame: before, a signal would find no handler. */
+/* After the first frame: before it, no signal handler is installed. */
 static void open_for_storm(struct child *child)
 {
     open_program(child, 24, 80, "particles.count=120");
@@ -496,7 +494,7 @@ static void storm(int keys, int resizes)
     }
     g_test_message("%d keys, %d resizes, started %d times", keys, resizes, starts);
     g_rand_free(rand);
-    /* it may be leaving on its own: both ways out are good ones */
+    /* it may be ending already: both statuses are correct */
     if (!child.saw_leave) {
         kill(child.pid, SIGTERM);
     }
@@ -532,7 +530,7 @@ int main(int argc, char **argv)
         g_test_add_func("/tui/pty/paused", test_paused);
         g_test_add_func("/tui/pty/latency", test_latency);
         g_test_add_func("/tui/pty/images", test_images);
-        g_test_add_func("/tui/pty/asked-twice", test_asked_twice);
+        g_test_add_func("/tui/pty/asked-twice", test_interrupted_twice);
         g_test_add_func("/tui/pty/storm", test_storm);
     }
     const int status = g_test_run();

@@ -1,4 +1,4 @@
-/* The command that repeats what is on the screen. */
+/* The shell command that repeats the run on screen. */
 #include <glib.h>
 #include <string.h>
 

@@ -54,7 +54,7 @@ static void test_one(void)
     g_free(picture);
 }
 
-/* Deeper is darker, and what is in front hides what is behind, in any order. */
+/* Deeper spheres are darker, and nearer ones cover farther ones in any order. */
 static void test_depth(void)
 {
     struct gb_view_sample *near = one_sphere(3, 0.0F);
@@ -77,7 +77,7 @@ static void test_depth(void)
     g_free(far);
 }
 
-/* Any size and a full picture stay inside the array. */
+/* No write outside the array for any size. */
 static void test_sizes(void)
 {
     struct gb_view_sample *picture = one_sphere(2, 0.0F);

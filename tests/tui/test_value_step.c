@@ -1,4 +1,4 @@
-/* Parameters as knobs, and paths completed. */
+/* Steps of parameters, and completion of paths. */
 #include <glib.h>
 #include <glib/gstdio.h>
 
@@ -11,11 +11,11 @@ static void expect(const char *group, const char *key, const char *value, int di
     char text[64] = "";
     const struct gb_field *field = gb_params_find(group, key);
     g_assert_nonnull(field);
-    const bool turned = gb_value_step_next(field, value, direction, text, sizeof text);
+    const bool stepped = gb_value_step_next(field, value, direction, text, sizeof text);
     if (wanted == NULL) {
-        g_assert_false(turned);
+        g_assert_false(stepped);
     } else {
-        g_assert_true(turned);
+        g_assert_true(stepped);
         g_assert_cmpstr(text, ==, wanted);
     }
 }
@@ -42,7 +42,7 @@ static void test_choices(void)
     expect("loading", "unload_from", "100 MPa; 1 GPa", 1, NULL);
 }
 
-/* Up and down again is where it was, and the table takes what a knob gives. */
+/* A step up and one down restore the value, and gb_params_set accepts both. */
 static void test_there_and_back(void)
 {
     const struct gb_field *mu = gb_params_find("contact", "mu");

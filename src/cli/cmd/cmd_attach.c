@@ -50,7 +50,7 @@ static int print_progress(const char *directory, struct gb_error *err)
         }
     }
     if (shot->error.code ==
-        GB_ERR_MACHINE) { /* of reading; that of the run is printed below */
+        GB_ERR_MACHINE) { /* error of reading; the error of the run is printed below */
         *err = shot->error;
         gb_progress_clear(&progress);
         gb_runner_destroy(runner);

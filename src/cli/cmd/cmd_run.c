@@ -34,7 +34,7 @@ static const struct gb_params *params_of(const struct run *run)
     return gb_preset_params(run->preset);
 }
 
-/* Everything that can be known to be wrong before any work is done. */
+/* All checks that are possible before any work. */
 static bool prepare(struct run *run, char **words, char **sets, struct gb_error *err)
 {
     if (!gb_options_scene(&run->preset, words, sets, GB_OPTIONS_PRESET_NEEDED, err)) {
@@ -71,9 +71,8 @@ static bool packing_cancelled(void *data)
     return gb_signals_cancelled(NULL);
 }
 
-/* Fills the line with the estimated cost of a dynamic run and refuses one that would take
- * unexpectedly long, before there is a directory: a rate of loading costs nothing to
- * type. */
+/* Fills the line with the estimated cost of a dynamic run.  Refuses one that takes longer
+ * than an hour without --yes, before its directory is created. */
 static bool estimate(struct run *run, char *line, size_t size, struct gb_error *err)
 {
     const struct gb_params *params = params_of(run);
@@ -141,7 +140,7 @@ static int perform(struct run *run, char **words, char **sets)
     return gb_foreground_run(&run->foreground);
 }
 
-/* The words after `word`, which they own then. */
+/* Inserts a copy of the words after `word`; owned. */
 static char **put_first(char **words, char *word)
 {
     const guint count = g_strv_length(words);

@@ -17,7 +17,7 @@ struct histogram {
     struct gb_table *table;
     const char *unit; /* of the diameters, within a name of the table */
     const double *middle, *weight;
-    bool particles; /* weights are numbers of particles */
+    bool particles; /* weights by number of particles */
 };
 
 static const double *find_diameter(struct histogram *histogram, struct gb_error *err)
@@ -66,7 +66,7 @@ static bool read_histogram(struct histogram *histogram, const char *path,
     return histogram->middle != NULL;
 }
 
-/* As keys of a preset, rounded to what is known. */
+/* As keys of a preset, rounded to their accuracy. */
 static void print_keys(const struct gb_lognormal *law, const char *unit)
 {
     printf("particles.distribution = lognormal\n"

@@ -48,8 +48,8 @@ static bool add_axes(struct command *command, struct gb_error *err)
     return true;
 }
 
-/* Refuses a sweep that takes unexpectedly long: a digit too many in --replicas costs
- * nothing to type.  Under mpirun the number of ranks was chosen deliberately. */
+/* Refuses a sweep that is estimated to take longer than an hour without --yes.  Under
+ * mpirun the number of ranks shows that it is deliberate. */
 static bool estimate(struct command *command, struct gb_error *err)
 {
     const struct request *request = command->request;

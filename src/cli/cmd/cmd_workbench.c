@@ -34,7 +34,7 @@ static char **with_default(char **words)
     return (char **)g_ptr_array_free(all, FALSE);
 }
 
-/* From the table that the workbench itself uses. */
+/* From the key table of the workbench. */
 void gb_cmd_workbench_keys(void)
 {
     const size_t count = gb_keys_count();
@@ -44,7 +44,7 @@ void gb_cmd_workbench_keys(void)
     }
 }
 
-/* Prints what --diagnose asks for, or opens the workbench; returns the exit status. */
+/* Prints the output of --diagnose, or opens the workbench; returns the exit status. */
 static int open_workbench(const struct gb_screen_options *screen, char **words,
                           char **sets, const char *folder)
 {

@@ -37,9 +37,9 @@ static void draw_branch(struct gb_series *series, const struct gb_model *model,
     gb_series_draw(series, h, force, NULL, GB_FIGURE_LINE, style, branch->label);
 }
 
-/* Letters of P1 Fig. 1. */
-static void add_letters(struct gb_series *series, const struct gb_model *model,
-                        double length)
+/* Points of P1 Fig. 1. */
+static void add_point_labels(struct gb_series *series, const struct gb_model *model,
+                             double length)
 {
     const double far = min_overlap * length;
     const double deep = max_overlap * length;
@@ -78,7 +78,7 @@ bool gb_figures_contact(struct gb_series *series, const struct gb_figures_input 
     for (size_t k = 0; k < G_N_ELEMENTS(branches); k++) {
         draw_branch(series, &model, &branches[k], (int)k);
     }
-    add_letters(series, &model, length);
+    add_point_labels(series, &model, length);
     gb_series_caption(series,
                       "<i>d</i> = %g nm, <i>\xce\xb1</i> = %g, "
                       "\xce\x94<i>r</i><sub>ch</sub> = %g <i>d</i>. A bridge forms at "

@@ -97,14 +97,14 @@ static GString *structure_text(const struct gb_packing *packing)
     json_builder_begin_object(builder);
     json_builder_set_member_name(builder, "preset");
     json_builder_add_string_value(builder, state->preset);
-    /* JSON numbers are doubles to most readers; a seed has 64 bits */
+    /* most readers take JSON numbers as doubles; a seed has 64 bits */
     char seed[32];
     snprintf(seed, sizeof seed, "%" PRIu64, state->seed);
     json_builder_set_member_name(builder, "seed");
     json_builder_add_string_value(builder, seed);
     add_integer(builder, "dimension", state->dimension);
     add_integer(builder, "particles", state->count);
-    /* nm, to 1e-6 nm: json-glib writes 1e-08 as "1e-08.0", which no reader takes */
+    /* nm, rounded to 1e-6 nm: json-glib writes 1e-08 as "1e-08.0", which is invalid */
     add_number(builder, "diameter_nm", rint(state->metre_per_length * 1e15) / 1e6);
     add_number(builder, "density", state->point.density);
     add_number(builder, "touching_distance_d", packing->r_eq);

@@ -7,7 +7,7 @@
 #include "io/state.h"
 #include "measure/structure.h"
 
-/* An initial structure with what was measured on it. */
+/* An initial structure and the quantities measured on it. */
 struct gb_packing {
     struct gb_params params;
     struct gb_state *state;

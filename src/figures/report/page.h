@@ -3,8 +3,8 @@
 
 #include <glib.h>
 
-/* A document written as HTML and as Markdown at once.  Texts are plain unless they are
- * said to be markup; files are relative to the page. */
+/* A document written as HTML and Markdown.  Texts are plain unless called markup; file
+ * names are relative to the page. */
 struct gb_page {
     GString *html, *markdown;
 };

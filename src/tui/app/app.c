@@ -15,15 +15,15 @@
 #include "tui/app/mouse.h"
 #include "tui/session/run_lifecycle.h"
 
-/* At most ten frames within any second, two when slow.  Updates of the engine alone are
- * drawn less often, so that a frame is left for a key, which is answered at once. */
+/* At most ten frames within any second, two with --slow.  Updates of the engine are
+ * spaced wider, so that a frame is left for the answer to a key. */
 static const double window_s = 1.0;
 static const double update_spacing_s = 0.15;
 static const double key_spacing_s = 0.02; /* collects a function key or a paste */
 
 enum { STATUS_SIGNAL = 128 };
 
-/* The first Ctrl-C asks, the second one leaves. */
+/* The first Ctrl-C opens the question, the second one quits. */
 static void interrupt(struct gb_app *app)
 {
     if (app->screen.dialog.type == &gb_dialogs_quit ||
@@ -100,7 +100,7 @@ static void draw(struct gb_app *app)
     app->redraw = app->input_pending = false;
 }
 
-/* True: there was a line. */
+/* Whether standard error had a new line. */
 static bool poll_stderr(struct gb_app *app)
 {
     char line[160];
@@ -127,7 +127,7 @@ static void loop(struct gb_app *app)
     }
 }
 
-/* Where only one pane fits, the curve comes first. */
+/* Where only one pane fits, the plot has the focus at first. */
 static void first_focus(struct gb_screen *screen)
 {
     int rows = 0;
@@ -139,7 +139,7 @@ static void first_focus(struct gb_screen *screen)
     }
 }
 
-/* The scene of the preset, or the run that is attached. */
+/* Starts the scene of the preset, or attaches to the run. */
 static bool open_first(struct gb_app *app, struct gb_error *err)
 {
     struct gb_session *session = &app->screen.session;
@@ -150,7 +150,7 @@ static bool open_first(struct gb_app *app, struct gb_error *err)
     return true;
 }
 
-/* Gives the terminal back, if there still is one. */
+/* Restores the terminal; after a hang-up only detaches from it. */
 static void close_screen(struct gb_app *app)
 {
     struct gb_screen *screen = &app->screen;

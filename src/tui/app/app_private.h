@@ -4,19 +4,19 @@
 #include "tui/app/screen.h"
 #include "tui/term/stderr_tail.h"
 
-/* State of the workbench: app.c is the loop, dispatch.c and mouse.c take the events,
- * *_commands.c are the functions of the keys. */
+/* State of the workbench.  app.c: the event loop; dispatch.c and mouse.c: events;
+ * *_commands.c: functions of the keys. */
 enum { GB_APP_FRAMES = 10, GB_APP_FRAMES_SLOW = 2 };
 
 struct gb_app {
     struct gb_screen screen;
     struct gb_stderr_tail stderr_tail;
     bool leave;
-    int status;                    /* exit status */
-    bool terminal_lost;            /* hang-up: the terminal must not be touched */
-    bool redraw;                   /* the screen has changed */
-    bool input_pending;            /* by a key: drawn without delay */
-    double frame_s[GB_APP_FRAMES]; /* clock of the last frames, a ring */
+    int status;         /* exit status */
+    bool terminal_lost; /* hang-up: no more output to the terminal */
+    bool redraw;        /* the screen has changed */
+    bool input_pending; /* key or resize since the last frame: drawn without delay */
+    double frame_s[GB_APP_FRAMES]; /* clock of the last frames, s; ring buffer */
     int frames;                    /* drawn so far */
     int frames_max;                /* within any second */
 };

@@ -9,12 +9,12 @@
 struct gb_dialog;
 
 enum gb_dialog_result {
-    GB_DIALOG_OPEN,     /* waits for more */
+    GB_DIALOG_OPEN,     /* incomplete */
     GB_DIALOG_ACCEPTED, /* Enter, or y: the answer is in gb_dialog_answer */
     GB_DIALOG_CANCELLED /* Esc, or n: closed */
 };
 
-/* How a family of dialogs is drawn and takes keys (dialog_forms.c). */
+/* How one kind of dialogs is drawn and takes keys (dialog_forms.c). */
 struct gb_dialog_form {
     void (*draw)(struct gb_dialog *dialog, const struct gb_paint *screen);
     /* Takes an event as input; false: the keys below apply. */
@@ -26,21 +26,22 @@ struct gb_dialog_form {
 struct gb_dialog_type {
     const struct gb_dialog_form *form;
     const char *title;
-    const char *label;    /* of the line to type */
+    const char *label;    /* of the input line */
     const char *yes, *no; /* answers of a question */
     bool completes_path;  /* Tab completes the line as a path */
-    void (*opened_by)(struct gb_app *app, const struct gb_key *key); /* closes it, too */
+    void (*opened_by)(struct gb_app *app,
+                      const struct gb_key *key); /* its key closes the dialog, too */
     void (*accept)(struct gb_app *app);
-    void (*decline)(struct gb_app *app); /* NULL: closing is all */
+    void (*decline)(struct gb_app *app); /* NULL: nothing besides closing */
 };
 
 enum gb_dialog_note { GB_DIALOG_NOTE_ERROR, GB_DIALOG_NOTE_WARNING };
 
-/* What lies over the panes, one at a time: help, the list of presets, a line to type, a
- * shell command, a question. */
+/* The dialog over the panes, at most one at a time: help, list of presets, input line,
+ * shell command, question. */
 struct gb_dialog {
     const struct gb_dialog_type *type; /* NULL: none is open */
-    int top, focus, page;              /* of a page that scrolls */
+    int top, focus, page; /* first line, focused line and lines per page of a list */
     struct gb_preset_browser browser;
     char *text;               /* shell command shown; owned */
     char note[400];           /* question, or why the last answer was refused */
@@ -48,7 +49,7 @@ struct gb_dialog {
     struct gb_prompt prompt;
 };
 
-/* text: first content of the line, the question or the command; NULL is fine. */
+/* text: initial content of the line, the question or the command; may be NULL. */
 void gb_dialog_show(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                     const char *text);
 /* The list of presets, compared with the parameters `current`. */
@@ -61,7 +62,7 @@ void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);
 enum gb_dialog_result gb_dialog_handle(struct gb_dialog *dialog,
                                        const struct gb_term_event *event);
 
-/* Preset under the cursor, or the line typed. */
+/* Selected preset, or the text of the line. */
 const char *gb_dialog_answer(struct gb_dialog *dialog);
 
 void gb_dialog_set_note(struct gb_dialog *dialog, enum gb_dialog_note kind,

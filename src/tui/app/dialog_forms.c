@@ -16,7 +16,7 @@ enum {
     NOTE_ROWS = 3
 };
 
-/* A box in the middle of the screen, as large as fits. */
+/* A centred box, at most as large as the screen. */
 static struct gb_paint box(const struct gb_paint *screen, int rows, int cols,
                            const char *title)
 {
@@ -47,7 +47,7 @@ static void draw_note(const struct gb_dialog *dialog, const struct gb_paint *pai
     }
 }
 
-/* An edited answer makes the note on the last one void. */
+/* A note on the last answer no longer applies to an edited one. */
 static bool clear_note(struct gb_dialog *dialog, bool edited)
 {
     if (edited) {
@@ -74,7 +74,7 @@ static void draw_help(struct gb_dialog *dialog, const struct gb_paint *screen)
     }
 }
 
-/* The end of the page is known when it is drawn. */
+/* No upper limit here: draw_help limits the position. */
 static enum gb_dialog_result scroll_help(struct gb_dialog *dialog, int code)
 {
     int to = dialog->focus;
@@ -135,7 +135,7 @@ static enum gb_dialog_result accept_preset(struct gb_dialog *dialog, int code)
 const struct gb_dialog_form gb_dialog_forms_presets = {draw_presets, edit_presets,
                                                        accept_preset};
 
-/* --- one line --------------------------------------------------------------------- */
+/* --- input line -------------------------------------------------------------------- */
 
 static void draw_prompt(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
@@ -180,8 +180,8 @@ const struct gb_dialog_form gb_dialog_forms_prompt = {draw_prompt, edit_prompt,
 
 /* --- command ---------------------------------------------------------------------- */
 
-/* Without a frame at its sides, so that it can be copied with the mouse: the lines end in
- * backslashes and are one command for a shell. */
+/* No frame at the sides, so that the mouse can select the text: the lines end in
+ * backslashes and are one shell command. */
 static void draw_command(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     char **lines = g_strsplit(dialog->text, "\n", -1);
@@ -212,7 +212,7 @@ const struct gb_dialog_form gb_dialog_forms_command = {draw_command, NULL, stay_
 
 /* --- question --------------------------------------------------------------------- */
 
-/* The two answers in one row. */
+/* Both answers in one row. */
 static void draw_answers(const struct gb_dialog *dialog, const struct gb_paint *paint,
                          int row)
 {
@@ -222,7 +222,7 @@ static void draw_answers(const struct gb_dialog *dialog, const struct gb_paint *
     gb_paint_text(paint, row, col + 2, GB_STYLE_PLAIN, dialog->type->no);
 }
 
-/* As high as the question needs. */
+/* The height follows from the wrapped question. */
 static void draw_question(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     struct gb_paint probe = *screen;

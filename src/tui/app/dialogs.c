@@ -3,8 +3,7 @@
 #include "tui/app/dialog_forms.h"
 #include "tui/app/key_commands.h"
 
-/* One row for each dialog.  The accept functions stand beside the commands that open
- * them. */
+/* One row per dialog.  Accept functions are in the file of the command that opens it. */
 
 const struct gb_dialog_type gb_dialogs_help = {
     .form = &gb_dialog_forms_help,

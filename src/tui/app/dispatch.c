@@ -47,7 +47,7 @@ void gb_dispatch_event(struct gb_app *app, const struct gb_term_event *event)
             return;
         }
     }
-    /* characters beyond ASCII share their numbers with curses' function keys */
+    /* code points beyond ASCII overlap with the key codes of curses */
     if (event->kind == GB_TERM_TEXT && event->code > LAST_ASCII) {
         return;
     }

@@ -17,7 +17,7 @@ void gb_file_commands_save(struct gb_app *app, const struct gb_key *key)
     g_free(name);
 }
 
-/* A file that exists is replaced only when Enter is pressed again. */
+/* An existing file is replaced when Enter is pressed twice. */
 void gb_file_commands_accept_save(struct gb_app *app)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
@@ -71,7 +71,7 @@ void gb_file_commands_data(struct gb_app *app, const struct gb_key *key)
                    measured != NULL ? measured->path : "");
 }
 
-/* Shows the view that the data belong to. */
+/* Switches to the view that shows the data. */
 void gb_file_commands_accept_data(struct gb_app *app)
 {
     struct gb_screen *screen = &app->screen;
@@ -92,10 +92,10 @@ void gb_file_commands_accept_data(struct gb_app *app)
     g_free(path);
 }
 
-/* A file made by another command of this program from the directory of the run. */
+/* A file that a child command makes from the run directory. */
 struct product {
     const char *name, *command;
-    const char *middle, *end; /* of its path: directory, middle, a free number, end */
+    const char *middle, *end; /* path: directory, middle, first free number, end */
     const char *started;      /* message */
 };
 

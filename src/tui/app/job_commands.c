@@ -55,7 +55,7 @@ static char *write_scene(struct gb_session *session, const char *directory,
     return path;
 }
 
-/* Beside the directories of the runs: "default-replicas-1".  g_free. */
+/* A new directory beside those of the runs: "default-replicas-1".  g_free. */
 static char *new_directory(const struct gb_session *session, const char *name)
 {
     const char *path = gb_preset_path(session->preset);
@@ -74,11 +74,12 @@ static char *new_directory(const struct gb_session *session, const char *name)
     return directory;
 }
 
-/* Words of the child command, by place. */
+/* Indices of words of the child command. */
 enum { SCENE = 1, DIRECTORY = 3 };
 
-/* Fills in the scene and the directory and starts the command.  True: started, and the
- * dialog is closed; false: the dialog shows the reason.  band: shows the runs; NULL: none. */
+/* Fills in the scene and the directory, and starts the command.  True: started, the
+ * dialog is closed; false: the dialog shows the reason.  band: to show the runs; NULL:
+ * none. */
 static bool start_job(struct gb_app *app, const char *name, const char **words,
                       struct gb_replica_band *band)
 {
@@ -138,7 +139,7 @@ void gb_job_commands_accept_replicas(struct gb_app *app)
 void gb_job_commands_accept_calibrate(struct gb_app *app)
 {
     const struct gb_session *session = &app->screen.session;
-    if (session->measured == NULL) { /* removed behind the dialog */
+    if (session->measured == NULL) { /* removed while the dialog was open */
         gb_dialog_close(&app->screen.dialog);
         return;
     }

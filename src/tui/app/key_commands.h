@@ -17,7 +17,7 @@ void gb_pane_commands_decrease(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_revert(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_accept_find(struct gb_app *app);
 
-/* view_commands.c: what the plot shows. */
+/* view_commands.c: views and their options. */
 void gb_view_commands_show(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_next(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_previous(struct gb_app *app, const struct gb_key *key);
@@ -25,7 +25,7 @@ void gb_view_commands_log(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_previous_curves(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_glyphs(struct gb_app *app, const struct gb_key *key);
 
-/* run_commands.c: the run and its quick cell. */
+/* run_commands.c: run and quick cell. */
 void gb_run_commands_start(struct gb_app *app, const struct gb_key *key);
 void gb_run_commands_pause(struct gb_app *app, const struct gb_key *key);
 void gb_run_commands_freeze(struct gb_app *app, const struct gb_key *key);
@@ -35,9 +35,10 @@ void gb_run_commands_what_if(struct gb_app *app, const struct gb_key *key);
 void gb_run_commands_accept_what_if(struct gb_app *app);
 void gb_run_commands_accept_cost(struct gb_app *app);
 void gb_run_commands_decline_cost(struct gb_app *app);
-/* A scene that was opened: its quick cell first, unless it is fast enough itself. */
+/* Starts an opened scene: the quick cell first, except for scenes that are fast
+ * themselves. */
 void gb_run_commands_start_scene(struct gb_app *app);
-/* Starts the full cell when its quick cell has ended; a long one waits for r. */
+/* Starts the full cell when its quick cell has finished; an expensive one waits for r. */
 void gb_run_commands_follow_quick(struct gb_app *app);
 
 /* file_commands.c: presets, measured data, pictures, reports. */
@@ -57,16 +58,16 @@ void gb_job_commands_calibrate(struct gb_app *app, const struct gb_key *key);
 void gb_job_commands_accept_replicas(struct gb_app *app);
 void gb_job_commands_accept_calibrate(struct gb_app *app);
 
-/* screen_commands.c: mouse, help, leaving. */
+/* screen_commands.c: mouse, help, quitting. */
 void gb_screen_commands_mouse(struct gb_app *app, const struct gb_key *key);
 void gb_screen_commands_repaint(struct gb_app *app, const struct gb_key *key);
 void gb_screen_commands_help(struct gb_app *app, const struct gb_key *key);
 void gb_screen_commands_quit(struct gb_app *app, const struct gb_key *key);
 void gb_screen_commands_accept_quit(struct gb_app *app);
-/* The question before a live run is left. */
+/* Opens the question before quitting with a live run. */
 void gb_screen_commands_ask_quit(struct gb_app *app);
 void gb_screen_commands_leave(struct gb_app *app, int status);
-/* Text of the message line. */
+/* Sets the text of the message line. */
 void gb_screen_commands_message(struct gb_app *app, enum gb_style style,
                                 const char *text);
 

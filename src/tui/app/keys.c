@@ -7,9 +7,10 @@
 
 enum { CTRL_L = 'L' & 31 };
 
-/* clang-format off: one key in two lines */
+/* clang-format off: one key per block */
 
-/* Every row has a plain letter: terminals and multiplexers intercept function keys. */
+/* Every command has a plain character: terminals and multiplexers intercept function
+ * keys. */
 static const struct gb_key before_views[] = {
     {{KEY_UP, 'k'},
      "Up k",
@@ -146,7 +147,7 @@ static const struct gb_key before_views[] = {
      GB_ACTION_NONE},
 };
 
-/* The digits of the views stand between the two parts: see row_of_view. */
+/* The digits of the views come between the two tables: see row_of_view. */
 static const struct gb_key after_views[] = {
     {{'v'},
      "v",

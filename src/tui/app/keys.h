@@ -11,7 +11,7 @@ struct gb_app;
 
 enum { GB_KEYS_PER_ROW = 4, GB_KEY_ESCAPE = 27 };
 
-/* Where a key is valid: the panes that have the focus, one bit each. */
+/* Panes in whose focus a key is valid, one bit each. */
 enum gb_key_scope {
     GB_KEY_PARAMS = 1 << GB_PANE_PARAMS,
     GB_KEY_PLOT = 1 << GB_PANE_PLOT,
@@ -23,10 +23,10 @@ enum gb_key_scope {
     GB_KEY_ALWAYS = GB_KEY_ANY_PANE | GB_KEY_TOO_SMALL
 };
 
-/* One row for each key: dispatch, footer, help page, `greenbody --keys` and the manual
- * page are made from it.  A new key is a command function and a row. */
+/* One row per key: dispatch, footer, help page, `greenbody --keys` and the manual page
+ * follow from it.  A new key is a command function and a row. */
 struct gb_key {
-    int code[GB_KEYS_PER_ROW]; /* curses key codes, 0 ends */
+    int code[GB_KEYS_PER_ROW]; /* curses key codes; 0 after the last */
     const char *name;          /* as shown: "p", "Tab" */
     const char *brief;         /* in the footer; NULL: only on the help page */
     const char *help;
@@ -35,7 +35,7 @@ struct gb_key {
     enum gb_action action; /* of a navigation key */
 };
 
-/* Number of rows, the views' digits among them. */
+/* Number of rows, including the digits of the views. */
 size_t gb_keys_count(void);
 struct gb_key gb_keys_at(size_t index);
 

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* Widths and heights below are what the panes' content was drawn for; what is left over
- * goes to the plot. */
+/* Fixed widths and heights of the panes, characters; the plot takes the remaining
+ * area. */
 enum {
     PARAMS_COLS = 31,
     PARAMS_COLS_ROOMY = 37,
@@ -28,7 +28,7 @@ static int limited(int value, int limit)
     return value < limit ? value : limit;
 }
 
-/* Header above, message and footer below; returns what is left between. */
+/* Cuts off header, message and footer; returns the area between. */
 static struct gb_rect cut_edges(struct gb_layout *layout, int rows, int cols,
                                 int message_rows)
 {

@@ -9,8 +9,8 @@
 enum gb_pane { GB_PANE_PARAMS, GB_PANE_PLOT, GB_PANE_STATE, GB_PANE_EVENTS, GB_PANES };
 
 enum gb_layout_kind {
-    GB_LAYOUT_TOO_SMALL, /* only a message that says which size it needs */
-    GB_LAYOUT_COMPACT,   /* plot and state, or the one pane that has the focus */
+    GB_LAYOUT_TOO_SMALL, /* only a message with the required size */
+    GB_LAYOUT_COMPACT,   /* plot and state, or the focused pane */
     GB_LAYOUT_FULL,      /* everything, state below the plot */
     GB_LAYOUT_WIDE       /* everything, state to the right of the plot */
 };
@@ -22,15 +22,15 @@ enum {
     GB_LAYOUT_FULL_COLS = 80
 };
 
-/* The first row of a pane is its title.  In full and wide layouts the parameters' last
- * column is the line between them and the rest; in wide ones the plot's last column is,
+/* The first row of a pane is its title.  In full and wide layouts the last column of the
+ * parameters is the separator; in wide layouts the last column of the plot is one,
  * too. */
 struct gb_layout {
     enum gb_layout_kind kind;
     struct gb_rect header, pane[GB_PANES], message, footer;
 };
 
-/* Places everything.  Pure: same sizes and focus, same rectangles. */
+/* Computes all rectangles.  Pure: the result depends on size and focus only. */
 void gb_layout_make(struct gb_layout *layout, int rows, int cols, enum gb_pane focus);
 
 /* Whether a pane is on the screen. */

@@ -13,7 +13,7 @@ static bool contains(const struct gb_rect *rect, int row, int col)
            col < rect->col + rect->cols;
 }
 
-/* GB_PANES: none. */
+/* The pane at a cell; GB_PANES: none. */
 static enum gb_pane pane_at(const struct gb_layout *layout, int row, int col)
 {
     for (enum gb_pane pane = GB_PANE_PARAMS; pane < GB_PANES; pane++) {
@@ -32,7 +32,7 @@ static void navigate(struct gb_screen *screen, enum gb_action action, int times)
     }
 }
 
-/* Dialogs and choices take the wheel as arrow keys. */
+/* In dialogs and lists of choices the wheel acts as arrow keys. */
 static void send_arrow(struct gb_app *app, const struct gb_term_event *event)
 {
     const struct gb_term_event key = {
@@ -50,7 +50,7 @@ static void click(struct gb_screen *screen, enum gb_pane pane, int row, int col)
     }
 }
 
-/* The wheel changes only the focused value: else it would start runs by accident. */
+/* The wheel changes the focused value only, so that scrolling does not start runs. */
 static bool over_value(struct gb_screen *screen, int row, int col)
 {
     struct gb_panel_params probe = screen->params;

@@ -3,9 +3,9 @@
 
 #include "tui/app/app_private.h"
 
-/* The mouse: a click takes the pane, its row or its point, a key of the footer, the title
- * of the plot (next view); the wheel scrolls, or changes the focused value below it.  Keys
- * do all of this, too. */
+/* Mouse events.  A click focuses the pane and selects its row or point, presses a key of
+ * the footer, or, on the title of the plot, shows the next view.  The wheel scrolls; over
+ * the focused value it changes it.  Everything is possible with keys, too. */
 void gb_mouse_handle(struct gb_app *app, const struct gb_term_event *event);
 
 #endif

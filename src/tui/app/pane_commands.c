@@ -12,7 +12,7 @@ void gb_pane_commands_navigate(struct gb_app *app, const struct gb_key *key)
     }
 }
 
-/* In the compact layout plot and state are one stop. */
+/* In the compact layout plot and state share the focus. */
 static void change_focus(struct gb_screen *screen, int step)
 {
     screen->focus = (enum gb_pane)(((int)screen->focus + step + GB_PANES) % GB_PANES);

@@ -34,7 +34,7 @@ static void navigate_plot(struct gb_screen *screen, enum gb_action action)
     gb_panel_plot_cursor_navigate(&screen->plot, &screen->session, action);
 }
 
-/* The title shows the next view, a point of the field takes the cursor. */
+/* A click on the title shows the next view, one on the field moves the cursor. */
 static void click_plot(struct gb_screen *screen, int row, int col)
 {
     if (row == 0) {
@@ -54,7 +54,7 @@ static void draw_state(struct gb_screen *screen, const struct gb_paint *paint, b
     gb_panel_state_draw(paint, &screen->session, focus);
 }
 
-/* Why the run failed, if it did. */
+/* The error of a failed run. */
 static void describe_run(struct gb_screen *screen, struct gb_message *message)
 {
     if (screen->session.now.error.text[0] != '\0') {

@@ -3,7 +3,7 @@
 
 #include "tui/app/screen.h"
 
-/* One row for each pane; NULL: the pane does not do it. */
+/* One row per pane; NULL: not supported. */
 struct gb_pane_type {
     void (*draw)(struct gb_screen *screen, const struct gb_paint *paint, bool focus);
     void (*navigate)(struct gb_screen *screen, enum gb_action action);

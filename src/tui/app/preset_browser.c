@@ -20,7 +20,7 @@ const char *gb_preset_browser_selected(const struct gb_preset_browser *browser)
     return browser->count > 0 ? browser->names[browser->shown[browser->focus]] : NULL;
 }
 
-/* The first lines of the file that are comments: source and purpose. */
+/* Comment lines at the beginning of the file: source and purpose. */
 static char *read_head(const char *name)
 {
     char *path = gb_preset_find(name);
@@ -69,7 +69,7 @@ static void go_to(struct gb_preset_browser *browser, int to)
     read_preview(browser);
 }
 
-/* Keeps the names in which the filter occurs, whatever its case. */
+/* Keeps the names that contain the filter, ignoring case. */
 static void apply_filter(struct gb_preset_browser *browser)
 {
     const int all = length_of(browser->names);
@@ -191,7 +191,7 @@ void gb_preset_browser_draw(struct gb_preset_browser *browser,
     draw_preview(browser, &preview);
 }
 
-/* The preset under the cursor becomes what others are compared with. */
+/* Others are compared with the selected preset from now on. */
 static void mark(struct gb_preset_browser *browser)
 {
     if (browser->preset != NULL) {

@@ -6,32 +6,32 @@
 #include "tui/panel/prompt.h"
 #include "tui/term/paint.h"
 
-/* The list of presets: what is typed filters the names, beside it stands what the one
- * under the cursor is, where it comes from and what differs from the parameters on the
- * screen, or from another preset that Tab has marked. */
+/* The list of presets, filtered by the text typed.  Beside it: description, source and
+ * differences of the selected preset to the parameters on screen, or to a preset marked
+ * with Tab. */
 struct gb_preset_browser {
     char **names; /* all; owned */
-    int *shown;   /* indices of those that fit the filter; owned */
+    int *shown;   /* indices of the names that match the filter; owned */
     int count, focus, top, page;
     struct gb_prompt filter;
-    struct gb_preset *preset; /* the one under the cursor, or NULL: cannot be read */
-    char *head;               /* its comment lines, or why it cannot be read */
-    struct gb_params base;    /* what it is compared with */
+    struct gb_preset *preset; /* the selected one; NULL: not readable */
+    char *head;               /* its comment lines, or the error of reading */
+    struct gb_params base;    /* reference of the comparison */
     char base_name[64];
 };
 
-/* current: the parameters on the screen. */
+/* current: the parameters on screen. */
 void gb_preset_browser_init(struct gb_preset_browser *browser,
                             const struct gb_params *current);
 void gb_preset_browser_finish(struct gb_preset_browser *browser); /* zeroed is fine */
 
 void gb_preset_browser_draw(struct gb_preset_browser *browser,
                             const struct gb_paint *inside);
-/* Moves, filters, marks; false when the event is for somebody else (Enter, Esc). */
+/* Navigation, filter, mark; false: the event is not handled (Enter, Esc). */
 bool gb_preset_browser_handle(struct gb_preset_browser *browser,
                               const struct gb_term_event *event);
 
-/* Name under the cursor; NULL when nothing fits the filter. */
+/* Selected name; NULL when none matches the filter. */
 const char *gb_preset_browser_selected(const struct gb_preset_browser *browser);
 
 #endif

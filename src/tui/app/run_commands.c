@@ -7,12 +7,11 @@
 #include "tui/session/run_lifecycle.h"
 #include "tui/session/whatif.h"
 
-/* The run under way, its quick cell, and what-ifs. */
+/* The current run, its quick cell, and what-ifs. */
 
 enum { QUESTION = 400 };
 
-/* A refusal stays on the message line until the next key, even when a run starts behind
- * it. */
+/* A refusal stays on the message line until the next key, even if a run starts. */
 static bool is_refusal(const struct gb_message *message)
 {
     return message->text[0] != '\0' &&
@@ -33,7 +32,7 @@ static void start_run(struct gb_app *app)
     }
 }
 
-/* A run of hours is not started by a single key. */
+/* An expensive run is started after a confirmation only. */
 static void start_or_ask(struct gb_app *app)
 {
     char question[QUESTION];
@@ -119,7 +118,7 @@ void gb_run_commands_auto_start(struct gb_app *app, const struct gb_key *key)
                                    : "the full cell waits for r");
 }
 
-/* Starts with the parameter that has the focus. */
+/* Prefills the dialog with the focused parameter. */
 void gb_run_commands_what_if(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_screen *screen = &app->screen;
@@ -148,7 +147,7 @@ void gb_run_commands_accept_what_if(struct gb_app *app)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
     struct gb_error err = {0};
-    if (!gb_whatif_ask(&app->screen.session, gb_dialog_answer(dialog), &err)) {
+    if (!gb_whatif_request(&app->screen.session, gb_dialog_answer(dialog), &err)) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
         return;
     }

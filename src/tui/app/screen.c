@@ -44,7 +44,7 @@ static void draw_header(struct gb_screen *screen)
     gb_paint_text(&paint, 0, word_at, style, word);
 }
 
-/* First name of a key: "?" of "? F1". */
+/* First name of a key: "?" for "? F1". */
 static void brief_name(const struct gb_key *key, char *name, size_t size)
 {
     const size_t length = strcspn(key->name, " ");
@@ -60,8 +60,9 @@ static int footer_width(const struct gb_key *key, int gap)
 
 enum { FOOTER_KEYS = 64 };
 
-/* Columns of the keys in the footer: as many of the table as fit, always the last two, help
- * and quit.  at[i] is -1 for the others.  Returns the rows of the table. */
+/* Columns of the keys in the footer: the first rows of the table that fit, and always the
+ * last two, help and quit.  at[i] is -1 for the others.  Returns the number of rows of
+ * the table. */
 static size_t layout_footer(int cols, int at[FOOTER_KEYS])
 {
     const size_t count = gb_keys_count();
@@ -122,7 +123,7 @@ bool gb_screen_key_at(const struct gb_screen *screen, int row, int col,
     return false;
 }
 
-/* The last refusal or result, else the description of the focused pane. */
+/* The last message, or the description of the focused pane. */
 static void draw_message(struct gb_screen *screen)
 {
     const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.message);
@@ -146,7 +147,7 @@ static void join(const struct gb_paint *paint, int row, int col, const char *sig
     gb_paint_text(paint, row, col, GB_STYLE_DIM, sign);
 }
 
-/* The lines between panes that stand side by side. */
+/* Separators between panes side by side. */
 static void draw_lines(const struct gb_screen *screen)
 {
     const struct gb_layout *layout = &screen->layout;

@@ -5,7 +5,7 @@
 #include "tui/panel/panels.h"
 #include "tui/term/term_image.h"
 
-/* Everything the screen shows, in one place: app.c changes it, screen.c draws it. */
+/* All state of the screen: app.c changes it, screen.c draws it. */
 struct gb_screen {
     struct gb_term *term;
     struct gb_session session;
@@ -15,18 +15,18 @@ struct gb_screen {
     struct gb_panel_plot plot;
     struct gb_panel_events events;
     struct gb_dialog dialog;
-    struct gb_term_image image; /* on top of the packing's cells */
-    struct gb_message message;  /* "": the focused pane describes itself */
+    struct gb_term_image image; /* picture over the cells of the packing */
+    struct gb_message message;  /* "": the description of the focused pane instead */
 };
 
-/* Draws all of it into curses' memory; what differs from the terminal is sent by
- * gb_term_flush. */
+/* Draws everything into curses' virtual screen; gb_term_flush sends the differences to
+ * the terminal. */
 void gb_screen_draw(struct gb_screen *screen);
 
-/* What is to lie on the screen in pixels; NULL: nothing. */
+/* The packing to be shown in pixels; NULL: none. */
 const struct gb_view_sample *gb_screen_sample(const struct gb_screen *screen);
 
-/* The key in that cell of the footer; false: none. */
+/* The key at a cell of the footer; false: none. */
 bool gb_screen_key_at(const struct gb_screen *screen, int row, int col,
                       struct gb_key *key);
 

@@ -3,7 +3,7 @@
 #include "tui/app/dialogs.h"
 #include "tui/app/key_commands.h"
 
-/* Mouse, help and leaving. */
+/* Mouse, help and quitting. */
 
 void gb_screen_commands_message(struct gb_app *app, enum gb_style style, const char *text)
 {

@@ -1,7 +1,7 @@
 #include "tui/app/key_commands.h"
 #include "tui/view/views.h"
 
-/* A view that is chosen is shown: the compact layout may hide the plot. */
+/* Focuses the plot where the compact layout hides it. */
 static void uncover_plot(struct gb_screen *screen)
 {
     if (!gb_layout_shows(&screen->layout, GB_PANE_PLOT)) {
@@ -41,7 +41,7 @@ void gb_view_commands_previous_curves(struct gb_app *app, const struct gb_key *k
     app->screen.plot.hide_previous = !app->screen.plot.hide_previous;
 }
 
-/* The glyphs that this screen can show, in turn. */
+/* Cycles through the glyph sets; without UTF-8 there is only one. */
 void gb_view_commands_glyphs(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_panel_plot *plot = &app->screen.plot;

@@ -1,7 +1,7 @@
 #ifndef GB_TUI_PANEL_ACTION_H
 #define GB_TUI_PANEL_ACTION_H
 
-/* Navigation keys: panes, dialogs and lists each give them their own meaning. */
+/* Navigation keys, whose meaning depends on the pane, dialog or list. */
 enum gb_action {
     GB_ACTION_NONE,
     GB_ACTION_UP,

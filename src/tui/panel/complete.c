@@ -10,7 +10,7 @@ char *gb_complete_home(const char *path)
                : g_strdup(path);
 }
 
-/* Cuts a to what it has in common with b, at a whole character. */
+/* Truncates a to the common prefix with b, at a whole character. */
 static void cut_to_common(GString *a, const char *b)
 {
     gsize n = 0;
@@ -23,7 +23,7 @@ static void cut_to_common(GString *a, const char *b)
     g_string_truncate(a, n);
 }
 
-/* Common beginning of the names in a folder that begin like `begun`; NULL: none. */
+/* Common prefix of the names in a folder that begin with `begun`; NULL: none. */
 static GString *common_name(const char *folder, const char *begun, int *count)
 {
     GString *common = NULL;

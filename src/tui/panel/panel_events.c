@@ -15,7 +15,7 @@ static int scroll_max(const struct gb_panel_events *panel,
     return kept > panel->page ? (int)kept - panel->page : 0;
 }
 
-/* Rows that all lines from the newest shown back would take. */
+/* Rows of all lines from the newest down to this one. */
 static int total_rows(const struct gb_panel_events *panel, const struct gb_paint *paint,
                       const struct gb_session *session, int max)
 {
@@ -30,7 +30,7 @@ static int total_rows(const struct gb_panel_events *panel, const struct gb_paint
     return total;
 }
 
-/* The newest line at the bottom; a long one takes up to half of the pane. */
+/* The newest line at the bottom; a long one is wrapped, into half of the pane at most. */
 void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *paint,
                           const struct gb_session *session, bool focus)
 {

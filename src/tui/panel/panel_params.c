@@ -6,9 +6,9 @@
 #include "tui/panel/panels.h"
 #include "tui/panel/param_list.h"
 
-/* Longest key of the field table, and the mark before it. */
+/* Columns; the longest key of the field table has 16 characters. */
 enum { KEY_COL = 1, VALUE_COL = 18 };
-/* From this width on the title says what r does. */
+/* Width of the pane from which on the title explains r. */
 enum { WIDE_COLS = 45 };
 
 const struct gb_field *gb_panel_params_field(const struct gb_panel_params *panel)
@@ -25,7 +25,7 @@ static struct gb_param_list listed(const struct gb_panel_params *panel,
     return list;
 }
 
-/* Keeps the focus and, where there is room, its heading visible. */
+/* Keeps the focused line visible, and its heading where there is room. */
 static void scroll(struct gb_panel_params *panel, const struct gb_param_list *list)
 {
     const int line = list->line[gb_param_list_index(list, panel->focus)];
@@ -106,7 +106,7 @@ void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *
     size_t count = 0;
     const struct gb_field *field = gb_params_fields(&count);
     panel->page = paint->rect.rows - 1;
-    if (!panel->editing) { /* a change of the scene may have hidden it */
+    if (!panel->editing) { /* a change of the scene may have removed its line */
         panel->focus = list.field[gb_param_list_index(&list, panel->focus)];
     }
     scroll(panel, &list);

@@ -5,7 +5,7 @@
 #include "tui/panel/panels.h"
 #include "tui/session/value_step.h"
 
-/* Changing the focused parameter: typed, chosen, stepped, reverted. */
+/* Editing of the focused parameter: typed, chosen, stepped, reverted. */
 
 void gb_panel_params_edit_begin(struct gb_panel_params *panel, struct gb_session *session)
 {
@@ -75,7 +75,7 @@ void gb_panel_params_edit_step(struct gb_panel_params *panel, struct gb_session 
     }
 }
 
-/* Text typed, or choice shown. */
+/* The text typed, or the choice shown. */
 static const char *edited_text(struct gb_panel_params *panel)
 {
     const struct gb_field *field = gb_panel_params_field(panel);

@@ -6,7 +6,7 @@
 #include "tui/panel/panels.h"
 #include "tui/view/views.h"
 
-/* INSET: size of a pane from which on the contact laws are drawn below the curve. */
+/* INSET: size of a pane from which on contact laws are drawn below the curve. */
 enum { INSET_FROM_ROWS = 30, INSET_COLS = 50, INSET_SHARE = 3 };
 
 void gb_panel_plot_init(struct gb_panel_plot *panel, const struct gb_term *term,
@@ -87,7 +87,8 @@ static void write_title(const struct gb_panel_plot *panel,
              session->frozen ? ", view frozen" : "");
 }
 
-/* What is missing, in the middle of the plot; lines end with '\n'. */
+/* Text in the middle of an empty plot; lines end with '
+ * '. */
 static void write_missing(struct gb_plot *plot, const char *missing)
 {
     char **lines = g_strsplit(missing, "\n", -1);

@@ -7,7 +7,7 @@
 #include "tui/panel/panels.h"
 #include "tui/view/views.h"
 
-/* The cursor along the points of the curve, and what the message line says of it. */
+/* The cursor along the points of the curve, and its line of values. */
 
 enum { PAGE_POINTS = 10 };
 
@@ -75,7 +75,7 @@ void gb_panel_plot_cursor_navigate(struct gb_panel_plot *panel,
     }
 }
 
-/* Distance in cells between a point of the curve and a cell of the field; only across
+/* Distance in cells between a point of the curve and a cell of the field; only horizontal
  * where the y axis is not the pressure. */
 static double distance_to(const struct gb_panel_plot *panel,
                           const struct gb_session *session, const struct gb_point *point,

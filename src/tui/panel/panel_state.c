@@ -5,7 +5,7 @@
 #include "tui/panel/panel_state_items.h"
 #include "tui/panel/panels.h"
 
-/* Width of a column from which on names are spelled out; least width of the bar. */
+/* Width of a column from which on names are not abbreviated; least width of the bar. */
 enum { FULL_NAME_COLS = 30, BAR_MIN = 4 };
 
 const char *gb_panel_state_word(int state, enum gb_style *style)
@@ -25,7 +25,7 @@ const char *gb_panel_state_word(int state, enum gb_style *style)
     return words[state].word;
 }
 
-/* State with its time: "done in 0.7 s", "stopped after 3:04"; of a live run the state. */
+/* "done in 0.7 s", "stopped after 3:04"; of a live run only the state. */
 static void write_state(const struct gb_snapshot *now, const char *word, char *text,
                         size_t size)
 {
@@ -50,7 +50,7 @@ static void write_share(const struct gb_snapshot *now, double share, char *text,
              live ? " left" : "");
 }
 
-/* State, bar, share and time in one row, or the bar in a row of its own. */
+/* State, bar, percentage and time in one row, or the bar in a row of its own. */
 static void draw_progress(const struct gb_paint *paint, const struct gb_session *session,
                           bool own_row)
 {
@@ -62,7 +62,7 @@ static void draw_progress(const struct gb_paint *paint, const struct gb_session 
     if (shown.curve != NULL) {
         write_state(now, gb_panel_state_word(now->state, &style), state, sizeof state);
     }
-    /* the last step of a dynamic run ends a little before or after its time */
+    /* the last time step of a dynamic run ends slightly before or after its end time */
     const bool done = shown.curve != NULL && now->state == GB_RUN_DONE;
     const double share = done ? 1.0 : now->progress;
     const int inner = paint->rect.cols - 2;

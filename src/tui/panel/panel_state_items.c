@@ -16,7 +16,7 @@ static void write_number(char *text, size_t size, const char *format, double val
     }
 }
 
-/* All four pressures in the unit of the largest, so that they can be compared. */
+/* All four pressures in the unit of the largest, for comparison. */
 static void write_pressure(const struct gb_snapshot *now, double value, char *text,
                            size_t size)
 {
@@ -177,7 +177,7 @@ static void elapsed_time(const struct gb_snapshot *now, char *text, size_t size)
     gb_panel_state_items_duration(now->seconds, text, size);
 }
 
-/* Order of the columns when all have room. */
+/* Order of the columns when all fit. */
 static const struct gb_panel_state_item still_items[] = {
     {"density", "relative density", density},
     {"coord.", "mean coordination number", contacts},
@@ -195,7 +195,7 @@ static const struct gb_panel_state_item still_items[] = {
 
 enum { STILL_ITEMS = sizeof still_items / sizeof still_items[0] };
 
-/* Order of importance, for panes without room for all. */
+/* Order of importance, for panes that are too small for all. */
 static const int still_weight[STILL_ITEMS] = {0, 4, 8, 1, 7, 10, 2, 3, 5, 6, 9, 11};
 
 /* The residual of a dynamic run is the unbalanced force. */
@@ -250,7 +250,7 @@ struct gb_panel_state_choice gb_panel_state_items_choose(const struct gb_session
     return choice;
 }
 
-/* Before there is a state only the effort is known. */
+/* Items of a run without state: elapsed time and evaluations. */
 void gb_panel_state_items_write(const struct gb_panel_state_item *item,
                                 const struct gb_snapshot *now, char *text, size_t size)
 {

@@ -8,10 +8,10 @@
 
 struct gb_plot_view;
 
-/* The four panes.  Each draws into its rectangle and answers navigation keys while it has
- * the focus.  They see the run only through the session. */
+/* The four panes.  Each draws into its rectangle and handles navigation keys while it has
+ * the focus.  They read the run through the session only. */
 
-/* Text of the message line. */
+/* The message line. */
 struct gb_message {
     char text[600];
     enum gb_style style;
@@ -21,9 +21,9 @@ struct gb_message {
 
 struct gb_panel_params {
     int focus; /* row of the field table */
-    bool all;  /* lists also the parameters without effect on the scene */
+    bool all;  /* list parameters without effect on the scene, too */
     int top;   /* first line shown */
-    int page;  /* lines shown by the last draw */
+    int page;  /* lines visible at the last draw */
     bool editing;
     int choice; /* of a field with choices, while editing */
     struct gb_prompt prompt;
@@ -33,10 +33,11 @@ void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *
                           struct gb_session *session, bool focus);
 void gb_panel_params_navigate(struct gb_panel_params *panel, struct gb_session *session,
                               enum gb_action action);
-/* Toggles the list between all parameters and those of the scene. */
+/* Switches the list between all parameters and those of the scene. */
 void gb_panel_params_list_all(struct gb_panel_params *panel, struct gb_message *message);
-/* Moves to the next parameter with this text in "group.name"; an exact name first.  All
- * parameters are listed when the scene does not use it.  False: there is none. */
+/* Moves to the next parameter with this text in "group.name"; an exact name is preferred.
+ * The list shows all parameters if the scene does not use it.  False: no such
+ * parameter. */
 bool gb_panel_params_find(struct gb_panel_params *panel, struct gb_session *session,
                           const char *name);
 
@@ -46,7 +47,7 @@ enum gb_panel_params_hit {
     GB_PANEL_PARAMS_VALUE
 };
 
-/* Focuses the parameter in a row of the pane; tells what is in that column. */
+/* Focuses the parameter in a row of the pane; returns what is in the column. */
 enum gb_panel_params_hit gb_panel_params_click(struct gb_panel_params *panel,
                                                struct gb_session *session, int row,
                                                int col);
@@ -65,34 +66,34 @@ void gb_panel_params_edit_begin(struct gb_panel_params *panel,
 void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *session,
                               const struct gb_term_event *event,
                               struct gb_message *message);
-/* Increases (1) or decreases (-1) the focused value; the quick cell starts at once. */
+/* Increases (1) or decreases (-1) the focused value and starts the quick cell. */
 void gb_panel_params_edit_step(struct gb_panel_params *panel, struct gb_session *session,
                                int direction, struct gb_message *message);
-/* The focused value becomes the one that the run uses. */
+/* Restores the value that the run uses. */
 void gb_panel_params_edit_revert(struct gb_panel_params *panel,
                                  struct gb_session *session, struct gb_message *message);
-/* The parameters, with the value being typed where that is valid. */
+/* The parameters including the value being typed, if that is valid. */
 struct gb_params gb_panel_params_edit_params(struct gb_panel_params *panel,
                                              struct gb_session *session);
 
 /* --- plot: panel_plot.c, panel_plot_cursor.c ---------------------------------------- */
 
-/* Contact laws below the curve, where there is room. */
+/* Contact laws below the curve, if there is room. */
 enum { GB_PANEL_INSETS = 2 };
 
 struct gb_panel_plot {
     const struct gb_plot_view *view;
     bool log, hide_previous;
-    bool shades; /* the screen has the colours of shaded spheres */
-    bool utf8;   /* and more characters than ASCII */
-    bool pixels; /* the packing is an image over empty cells */
+    bool shades; /* shades of one hue are available */
+    bool utf8;   /* UTF-8, not ASCII only */
+    bool pixels; /* the packing is a pixel image; its cells stay empty */
     enum gb_plot_glyphs glyphs;
     bool cursor_on;
     size_t cursor;        /* point of the curve */
     double unit_pa;       /* of the pressure axis */
-    struct gb_rect field; /* cells of the screen that the view fills */
+    struct gb_rect field; /* the view's cells on the screen */
     struct gb_plot plot, inset[GB_PANEL_INSETS];
-    struct gb_plot *target;  /* of the drawing under way: plot or an inset */
+    struct gb_plot *target;  /* target of the current drawing: plot or an inset */
     struct gb_params edited; /* gb_panel_params_edit_params */
     double *x, *y;           /* series under construction */
     size_t capacity;
@@ -106,7 +107,7 @@ void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *pain
                         const struct gb_session *session, bool focus);
 /* The next (1) or previous (-1) view of the scene. */
 void gb_panel_plot_step_view(struct gb_panel_plot *panel, int step);
-/* Room for count points in x and y; false: out of memory. */
+/* Allocates x and y for count points; false: out of memory. */
 bool gb_panel_plot_reserve(struct gb_panel_plot *panel, size_t count);
 /* "relax", "compress" or "hold": stage of a point of a dynamic run. */
 const char *gb_panel_plot_stage(int branch);
@@ -115,14 +116,14 @@ const char *gb_panel_plot_stage(int branch);
 void gb_panel_plot_cursor_navigate(struct gb_panel_plot *panel,
                                    const struct gb_session *session,
                                    enum gb_action action);
-/* Moves it to the point nearest to a cell of the pane. */
+/* Moves the cursor to the point nearest to a cell of the pane. */
 void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
                                 const struct gb_session *session, int row, int col);
 /* x coordinate of a point in the view: relative density, ns or step. */
 double gb_panel_plot_cursor_x(const struct gb_panel_plot *panel,
                               const struct gb_session *session,
                               const struct gb_point *point);
-/* Values at the cursor, else the misfit to the measured data, else the view's hint. */
+/* Values at the cursor, or the misfit to the measured data, or the view's hint. */
 void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
                                    const struct gb_session *session,
                                    struct gb_message *message);
@@ -131,7 +132,7 @@ void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
 
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
                          bool focus);
-/* "running", with its sign; the style says the same in colour. */
+/* "running" with a symbol; *style repeats the meaning as colour. */
 const char *gb_panel_state_word(int state, enum gb_style *style);
 
 /* --- events ------------------------------------------------------------------------- */

@@ -27,9 +27,9 @@ void gb_param_list_init(struct gb_param_list *list, const struct gb_params *para
 
 int gb_param_list_index(const struct gb_param_list *list, int field)
 {
-    int place = 0;
-    while (place + 1 < list->count && list->field[place + 1] <= field) {
-        place++;
+    int position = 0;
+    while (position + 1 < list->count && list->field[position + 1] <= field) {
+        position++;
     }
-    return place;
+    return position;
 }

@@ -7,9 +7,8 @@
 
 enum { GB_PARAM_LIST_MAX = 160 };
 
-/* Which parameters the pane lists, and on which lines: those that mean something to the
- * scene, or all.  Every group has a heading, and a blank line before all but the first.
- */
+/* The parameters that the pane lists, and their lines: those with an effect on the scene,
+ * or all.  Every group has a heading, with a blank line before all but the first. */
 struct gb_param_list {
     int count;
     int field[GB_PARAM_LIST_MAX]; /* rows of the field table, ascending */
@@ -20,8 +19,8 @@ struct gb_param_list {
 void gb_param_list_init(struct gb_param_list *list, const struct gb_params *params,
                         bool all);
 
-/* Place of a row of the field table in the list; of the last listed one before it (or
- * the first of all) where it is not listed itself. */
+/* Index in the list of a row of the field table; for a row that is not listed, of the
+ * last listed one before it, or 0. */
 int gb_param_list_index(const struct gb_param_list *list, int field);
 
 #endif

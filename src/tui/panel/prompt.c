@@ -18,7 +18,7 @@ void gb_prompt_set(struct gb_prompt *prompt, const char *text)
     g_free(valid);
 }
 
-/* Takes `count` characters out before place `end`. */
+/* Removes `count` characters before index `end`. */
 static void cut(struct gb_prompt *prompt, int end, int count)
 {
     memmove(prompt->text + end - count, prompt->text + end,

@@ -6,7 +6,7 @@
 #include "greenbody/params.h"
 #include "tui/term/paint.h"
 
-/* One line of text being typed: a value, a name. */
+/* An input line: a value, a name. */
 enum { GB_PROMPT_MAX = GB_PARAMS_VALUE_MAX };
 
 struct gb_prompt {
@@ -15,11 +15,10 @@ struct gb_prompt {
     char utf8[4 * GB_PROMPT_MAX + 1];
 };
 
-/* Begins with a text; the cursor stands behind it. */
+/* Sets the text; the cursor is at its end. */
 void gb_prompt_set(struct gb_prompt *prompt, const char *text);
 
-/* Takes a key or a character; false when it is not for the prompt (Enter, Esc, Tab, ...).
- */
+/* Handles a key or a character; false: not handled (Enter, Esc, Tab, ...). */
 bool gb_prompt_handle(struct gb_prompt *prompt, const struct gb_term_event *event);
 
 /* The text as UTF-8, valid until the next change. */

@@ -89,19 +89,19 @@ static uint32_t line_char(const struct gb_plot *plot, uint32_t wide, uint32_t as
     return plot->glyphs == GB_PLOT_ASCII ? ascii : wide;
 }
 
-/* Row and column of a place in the field, 0..1 along each axis. */
-static int field_row(const struct gb_plot *plot, double place)
+/* Row and column of a position in the field, 0..1 along each axis. */
+static int field_row(const struct gb_plot *plot, double position)
 {
     const int dots = plot->field_rows * gb_plot_raster_dots_y(plot->glyphs);
-    return plot->top + (int)floor((1.0 - place) * (dots - 1) + 0.5) /
+    return plot->top + (int)floor((1.0 - position) * (dots - 1) + 0.5) /
                            gb_plot_raster_dots_y(plot->glyphs);
 }
 
-static int field_col(const struct gb_plot *plot, double place)
+static int field_col(const struct gb_plot *plot, double position)
 {
     const int dots = plot->field_cols * gb_plot_raster_dots_x(plot->glyphs);
     return plot->left +
-           (int)floor(place * (dots - 1) + 0.5) / gb_plot_raster_dots_x(plot->glyphs);
+           (int)floor(position * (dots - 1) + 0.5) / gb_plot_raster_dots_x(plot->glyphs);
 }
 
 static void draw_y_axis(struct gb_plot *plot)
@@ -201,7 +201,7 @@ static uint32_t mark_char(const struct gb_plot *plot, int marker)
     return plot->glyphs == GB_PLOT_ASCII ? ascii_marks[marker] : wide_marks[marker];
 }
 
-/* The label of an axis stays whole: the line itself shows that the curve is there. */
+/* Markers do not cover labels of the axes; the line shows the curve there. */
 static void put_marker(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
 {
     if (row < 0 || row >= plot->rows || col < 0 || col >= plot->cols) {
@@ -260,7 +260,7 @@ void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int
     if (!(from >= 0.0 && to <= 1.0 && from <= to && top > 0.0)) {
         return;
     }
-    /* bars of equal share get equal widths, with a column between them */
+    /* equal widths in cells for equal widths in x, with a gap of one column */
     const int width = MAX((int)floor((to - from) * plot->field_cols) - 1, 1);
     const int col = field_col(plot, from);
     const int end = MIN(col + width, plot->left + plot->field_cols);
@@ -291,12 +291,12 @@ void gb_plot_cursor(struct gb_plot *plot, double x, double y)
     put(plot, row, col, line_char(plot, 0x253c, '+'), GB_PLOT_INK_CURSOR);
 }
 
-/* A legend on its way to its place. */
+/* A candidate position of the legend. */
 struct box {
     int rows, columns; /* of entries */
     int width;         /* of an entry */
     int row, col;
-    int taken; /* cells under it */
+    int taken; /* occupied cells below it */
 };
 
 static int box_cols(const struct box *box)
@@ -304,7 +304,7 @@ static int box_cols(const struct box *box)
     return box->columns * box->width + (box->columns - 1) * 2;
 }
 
-/* Cells of a box that are taken; counts no further than enough. */
+/* Occupied cells below a box; the count ends at `enough`. */
 static int taken(const struct gb_plot *plot, const struct box *box, int enough)
 {
     const int cols = box_cols(box);
@@ -317,7 +317,7 @@ static int taken(const struct gb_plot *plot, const struct box *box, int enough)
     return sum;
 }
 
-/* Moves the box to a place where it covers less than so far. */
+/* Moves the box to a position that covers fewer cells, if this one does. */
 static void try_position(const struct gb_plot *plot, struct box *box, int row, int col)
 {
     struct box there = *box;
@@ -329,7 +329,8 @@ static void try_position(const struct gb_plot *plot, struct box *box, int row, i
     }
 }
 
-/* Left above the curves or right below them, where they seldom are, else anywhere. */
+/* First the corners top left and bottom right, mostly free of curves, then all
+ * positions. */
 static void find_position(const struct gb_plot *plot, struct box *box)
 {
     const int bottom = plot->top + plot->field_rows - 1 - box->rows;
@@ -344,8 +345,7 @@ static void find_position(const struct gb_plot *plot, struct box *box)
     }
 }
 
-/* A box for so many entries that covers nothing, in one column or more; false when there
- * is none. */
+/* A box for the entries that covers nothing, in one to three columns; false: none. */
 static bool find_free(const struct gb_plot *plot, struct box *box, int entries)
 {
     for (box->columns = 1; box->columns <= 3; box->columns++) {
@@ -361,14 +361,14 @@ static bool find_free(const struct gb_plot *plot, struct box *box, int entries)
     return false;
 }
 
-/* Columns of entries below a plot. */
+/* Columns of entries in the foot. */
 static int foot_columns(const struct gb_plot *plot, int width)
 {
     return MAX(1, (plot->cols + 2) / (width + 2));
 }
 
-/* Where so many entries stand: in the foot if there is one, where nothing is, or where
- * they hide least.  Returns how many fit. */
+/* Position of the entries: the foot if there is one, or a free area, or the box that
+ * covers least.  Returns how many fit. */
 static int arrange(const struct gb_plot *plot, struct box *box, int count)
 {
     if (plot->foot > 0) {

@@ -8,13 +8,13 @@
 #include "greenbody/status.h"
 #include "tui/plot/plot_axis.h"
 
-/* Series -> cells, without curses: what is drawn here can be read in a test. */
+/* Plots in character cells, without curses, so that tests can compare the text. */
 
-/* How dots become characters: 2 x 4 dots a cell (braille), 1 x 2 (half blocks, which
- * every console font has), 1 x 2 of ' . : (ASCII). */
+/* Dots per character: 2 x 4 (braille), 1 x 2 (half blocks, which every console font has),
+ * 1 x 2 by ' . : (ASCII). */
 enum gb_plot_glyphs { GB_PLOT_BRAILLE, GB_PLOT_BLOCK, GB_PLOT_ASCII, GB_PLOT_GLYPHS };
 
-/* Meaning of a cell, for whoever gives it colours. */
+/* Meaning of a cell; gb_paint_plot assigns the colours. */
 enum gb_plot_ink {
     GB_PLOT_INK_NONE,
     GB_PLOT_INK_AXIS,
@@ -31,10 +31,10 @@ struct gb_plot_cell {
     uint32_t ch; /* Unicode */
     int ink;     /* enum gb_plot_ink, or GB_PLOT_INK_SERIES + colour */
     bool fixed;  /* a marker or a text: lines pass behind it */
-    int back;    /* of a shaded cell: 1 + shade of its background; 0: the screen's own */
+    int back; /* of a shaded cell: 1 + shade of its background; 0: background of the terminal */
 };
 
-/* A line of points.  NaN breaks it; what lies outside the axes is clipped. */
+/* A series of points.  NaN interrupts the line; the part outside the axes is clipped. */
 struct gb_plot_series {
     const double *x, *y;
     size_t count;
@@ -56,8 +56,8 @@ struct gb_plot {
     int top, left;  /* of the field inside the axes */
     int field_rows, field_cols;
     enum gb_plot_glyphs glyphs;
-    bool log_x; /* of the axes to come; resizing clears it */
-    int foot;   /* rows below the axes to come, for the legend; resizing clears it */
+    bool log_x; /* set before gb_plot_axes; cleared by gb_plot_resize */
+    int foot;   /* rows for the legend below the axes; set and cleared as log_x */
     struct gb_plot_axis x, y;
     struct gb_plot_cell *cell; /* rows x cols */
     uint8_t *dots;             /* rows x cols: bits of the raster */
@@ -71,7 +71,7 @@ void gb_plot_finish(struct gb_plot *plot);
 bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyphs glyphs,
                     struct gb_error *err);
 
-/* Axes, ticks and labels around the field, chosen for data between the given ends. */
+/* Axes, ticks and labels around the field; the ranges contain the given ends. */
 void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_ends[2],
                   bool log_y, const char *x_label, const char *y_label);
 /* No axes: the whole picture is the field (polar pictures). */
@@ -82,18 +82,18 @@ void gb_plot_line(struct gb_plot *plot, const struct gb_plot_series *series);
 /* A vertical bar from the bottom of the field. */
 void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int ink);
 
-/* Cross hairs at a point; only empty cells are drawn over. */
+/* Cross hairs at a point, drawn into empty cells only. */
 void gb_plot_cursor(struct gb_plot *plot, double x, double y);
 
-/* Text inside the picture, cut at its edge.  UTF-8. */
+/* Text inside the picture, UTF-8, cut at its edge. */
 void gb_plot_text(struct gb_plot *plot, int row, int col, int ink, const char *text);
 
-/* What the lines mean: in the foot, if there is one, else where no line is (top left,
- * bottom right or anywhere, in up to three columns), else where it hides least.  The last
- * entries that do not fit are counted.  Call it after the lines.  False when it hides
- * something or leaves something out. */
+/* The legend, drawn after the lines: in the foot if there is one, or in a free area (top
+ * left, bottom right or anywhere, in up to three columns), or where it covers least.  A
+ * last line counts the entries that do not fit.  False when it covers something or is
+ * incomplete. */
 bool gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int count);
-/* Rows that a foot takes for them; a third of the plot at most. */
+/* Rows of a foot for the entries; at most a third of the plot. */
 int gb_plot_foot_for(const struct gb_plot *plot, const struct gb_plot_entry *entry,
                      int count);
 

@@ -4,16 +4,16 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Decades shown below the largest value when the data reach down to zero or beyond. */
+/* Decades shown below the largest value if the smallest one is not positive. */
 static const double log_decades = 3.0;
 
-/* The smallest of 1, 2, 5 x 10^k that is not below the given step. */
+/* The smallest number 1, 2 or 5 x 10^k not below a step. */
 static double nice_step(double step)
 {
     const double decade = pow(10.0, floor(log10(step)));
     static const double nice[] = {1.0, 2.0, 5.0, 10.0};
     for (size_t i = 0; i < 4; i++) {
-        /* the tolerance keeps 0.2 from becoming 0.5 when 2 x 0.1 rounds up */
+        /* the tolerance keeps 0.2 when 2 x 0.1 rounds up */
         if (nice[i] * decade >= step * (1.0 - 1e-9)) {
             return nice[i] * decade;
         }
@@ -21,7 +21,7 @@ static double nice_step(double step)
     return 10.0 * decade;
 }
 
-/* Plain digits where they are short, powers of ten where they are not. */
+/* Decimal digits where they are short, otherwise powers of ten. */
 static void write_tick(char *text, double value, double step)
 {
     const double size = fabs(value);
@@ -45,15 +45,15 @@ static void add_tick(struct gb_plot_axis *axis, double value, double step)
     }
 }
 
-/* Whole steps between two values. */
+/* Multiples of the step between two values. */
 static double steps_inside(const struct gb_plot_axis *axis, double step, double *first)
 {
     *first = ceil(axis->low / step - 1e-6);
     return floor(axis->high / step + 1e-6) - *first;
 }
 
-/* The ends are round to a fifth of a tick: whole ticks would leave up to half of a small
- * plot empty.  Fewer than two ticks would leave the scale open. */
+/* Ends are multiples of a fifth of a tick: whole ticks would leave up to half of a small
+ * plot empty.  Fewer than two ticks would leave the scale undefined. */
 static void fit_linear(struct gb_plot_axis *axis, double low, double high, int max)
 {
     double step = nice_step((high - low) / (max > 2 ? max - 1 : 1));
@@ -71,7 +71,7 @@ static void fit_linear(struct gb_plot_axis *axis, double low, double high, int m
     }
 }
 
-/* The nearest of 1, 2, 5 x 10^k below a value. */
+/* The largest number 1, 2 or 5 x 10^k not above a value. */
 static double nice_floor(double value)
 {
     const double decade = pow(10.0, floor(log10(value) + 1e-9));
@@ -86,8 +86,8 @@ static void add_log_tick(struct gb_plot_axis *axis, double value, double decade)
     }
 }
 
-/* Ticks at the decades; every second, third, ... when there is no room, 2 and 5 between
- * them when there is plenty or when there would be hardly any. */
+/* Ticks at the decades: every second, third, ... where space is short; with 2 and 5
+ * between them where there are few decades or enough space. */
 static void fit_log(struct gb_plot_axis *axis, double low, double high, int max)
 {
     axis->low = nice_floor(low);

@@ -6,7 +6,7 @@
 
 enum { GB_PLOT_TICKS = 24, GB_PLOT_TICK_TEXT = 16 };
 
-/* Ends that are round numbers, and ticks at 1, 2 or 5 times a power of ten. */
+/* An axis: round ends, and ticks at 1, 2 or 5 times a power of ten. */
 struct gb_plot_axis {
     double low, high;
     bool log;
@@ -24,7 +24,7 @@ struct gb_plot_axis {
 void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool log,
                       int max);
 
-/* 0 at low, 1 at high; NaN for what a logarithm cannot show. */
+/* 0 at low, 1 at high; NaN for values without a logarithm on a logarithmic axis. */
 double gb_plot_axis_position(const struct gb_plot_axis *axis, double value);
 
 #endif

@@ -12,12 +12,13 @@ int gb_plot_raster_dots_y(enum gb_plot_glyphs glyphs)
     return glyphs == GB_PLOT_BRAILLE ? 4 : 2;
 }
 
-/* Character of a cell's dots.  Bit y * 2 + x in braille, bit y otherwise. */
+/* Character of the dots of a cell.  Bit y * 2 + x in braille, bit y otherwise. */
 static uint32_t glyph(enum gb_plot_glyphs glyphs, unsigned bits)
 {
     static const uint32_t block[] = {' ', 0x2580, 0x2584, 0x2588};
     static const uint32_t ascii[] = {' ', '\'', '.', ':'};
-    /* Unicode numbers the dots down the left column, then the right, then the last row */
+    /* Unicode numbers the dots of the left column, then of the right one, then the last
+     * row */
     static const unsigned braille[8] = {0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80};
     if (glyphs != GB_PLOT_BRAILLE) {
         return glyphs == GB_PLOT_BLOCK ? block[bits & 3] : ascii[bits & 3];
@@ -97,7 +98,7 @@ static void segment(struct gb_plot *plot, const double from[2], const double end
     const double dx = b[0] * last_x - x;
     const double dy = (1.0 - b[1]) * last_y - y;
     if (!isfinite(x + y + dx + dy)) {
-        return; /* ends so far apart that their distance overflows */
+        return; /* the length of the segment overflows */
     }
     const int steps = (int)ceil(fmax(fabs(dx), fabs(dy)));
     for (int i = 0; i <= steps; i++) {

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Light from above, left and the front: direction towards it, and what the shadow side
- * still gets.  The deepest layer keeps depth_floor of its light. */
+/* Direction to the light, from above, left and front; ambient is the light of the shadow
+ * side, depth_floor the factor of the deepest layer. */
 static const double light[3] = {-0.40, -0.76, 0.51};
 static const double ambient = 0.12;
 static const double depth_floor = 0.15;
@@ -12,8 +12,8 @@ static const double margin = 0.5;      /* d, around the window */
 
 struct frame {
     int rows, cols;
-    double scale;     /* dots a diameter */
-    double left, top; /* dots of the window's corner */
+    double scale;     /* dots per diameter */
+    double left, top; /* dots from the corner of the picture to the window */
 };
 
 static struct frame fit(const struct gb_view_sample *sample, int rows, int cols)
@@ -25,7 +25,8 @@ static struct frame fit(const struct gb_view_sample *sample, int rows, int cols)
                           0.5 * (rows - scale * high)};
 }
 
-/* Light on a sphere at (x, z) from its middle, in radii; depth behind the front in d. */
+/* Brightness of a sphere at (x, z) from its centre, in radii; depth behind the front in
+ * d. */
 static float brightness(double x, double z, double depth)
 {
     const double y = -sqrt(fmax(0.0, 1.0 - x * x - z * z));
@@ -34,8 +35,8 @@ static float brightness(double x, double z, double depth)
     return (float)(far * (ambient + (1.0 - ambient) * lambert));
 }
 
-/* What is already there is nearer when its depth is less: the relief is drawn from the
- * back, so that no buffer of depths is needed. */
+/* Layers are drawn from the back to the front, so that nearer spheres cover farther ones
+ * without a depth buffer. */
 static void draw_sphere(const struct frame *frame, const struct gb_view_sample *sample,
                         int i, float *shade)
 {
@@ -58,7 +59,7 @@ static void draw_sphere(const struct frame *frame, const struct gb_view_sample *
     }
 }
 
-/* Spheres of one thin layer; layers go from the back to the front. */
+/* Number of layers in depth. */
 enum { LAYERS = 256 };
 
 static int layer_of(const struct gb_view_sample *sample, int i)
@@ -73,7 +74,7 @@ static int layer_of(const struct gb_view_sample *sample, int i)
 void gb_sphere_shading_render(const struct gb_view_sample *sample, int rows, int cols,
                               float *shade)
 {
-    /* a counting sort by layer: first[l] is where the layer's chain begins */
+    /* counting sort by layer: first[l] is the first sphere of a linked list */
     int first[LAYERS];
     int16_t next[GB_VIEW_SAMPLE_POINTS];
     for (int i = 0; i < rows * cols; i++) {

@@ -3,12 +3,12 @@
 
 #include "greenbody/snapshot.h"
 
-/* A packing as a relief of lit spheres, seen along y: what is in front hides what is
- * behind, and what is deeper is darker.  Pure.
+/* Shaded view of a packing along y: nearer spheres cover farther ones, and brightness
+ * falls with depth.  Pure.
  *
- * shade   rows x cols, from the top: 0..1, negative where nothing is
- * Dots are square; the window of the picture is scaled to fit and stands in the middle.
- */
+ * shade   rows x cols from the top: 0..1, negative for background
+ *
+ * Dots are square; the picture is scaled to fit and centred. */
 void gb_sphere_shading_render(const struct gb_view_sample *sample, int rows, int cols,
                               float *shade);
 

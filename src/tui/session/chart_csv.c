@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "base/table.h"
 
-/* NULL when a column is missing; err names it. */
+/* A column; NULL if missing, err has the name. */
 static bool find_columns(const struct gb_table *table, const char *const *names,
                          const double **column, size_t count, struct gb_error *err)
 {

@@ -6,17 +6,16 @@
 
 #include "greenbody/status.h"
 
-/* The table of numerical choices that `greenbody chart` writes (chart.csv): what each one
- * costs and how far it errs. */
+/* The chart.csv of `greenbody chart`: cost and error of numerical settings. */
 struct gb_chart_csv {
     size_t count;
-    double *seconds, *error; /* of CPU time a cell; bound of the error in density */
-    bool *front;             /* nothing is both cheaper and better */
+    double *seconds, *error; /* CPU time of one cell; bound of the density error */
+    bool *front;             /* on the Pareto front */
     size_t chosen;           /* count: none */
-    char name[64];           /* of the chosen one: "fire, step 0.1 %, tolerance 0.02" */
+    char name[64]; /* of the recommended one: "fire, step 0.1 %, tolerance 0.02" */
 };
 
-/* Errors: one line (GB_ERR_INPUT when it is another table). */
+/* Errors: GB_ERR_INPUT for another table, in one line. */
 bool gb_chart_csv_read(struct gb_chart_csv **out, const char *path, struct gb_error *err);
 void gb_chart_csv_destroy(struct gb_chart_csv *chart); /* NULL is fine */
 

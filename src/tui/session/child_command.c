@@ -11,8 +11,8 @@
 
 enum { WORDS = 16, LOWER_PRIORITY = 5 };
 
-/* In the child: the signals that the screen blocks are released, and standard output goes
- * the way of standard error, off the screen. */
+/* In the child: unblocks the signals that the screen blocks, and redirects standard
+ * output to standard error, off the screen. */
 static void prepare_child(gpointer data)
 {
     const struct gb_child_command *child = data;
@@ -55,7 +55,7 @@ bool gb_child_command_start(struct gb_child_command *child, const char *name,
     return true;
 }
 
-/* True: a whole line; the last one may end with the output. */
+/* True: a complete line; the last one may lack its newline. */
 static bool read_line(struct gb_child_command *child)
 {
     char c = '\0';
@@ -82,7 +82,7 @@ static bool read_line(struct gb_child_command *child)
     return false;
 }
 
-/* "12 of 40 runs, 0 failed, 3 min left": the next one takes its place. */
+/* "12 of 40 runs, 0 failed, 3 min left": replaced by the next one. */
 static bool is_progress(const char *line)
 {
     return strstr(line, " of ") != NULL && strstr(line, " runs, ") != NULL &&

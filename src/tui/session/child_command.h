@@ -9,24 +9,24 @@
 enum { GB_CHILD_COMMAND_LINE = 256 };
 
 enum gb_child_command_kind {
-    GB_CHILD_COMMAND_SHORT, /* only the last line of its output is shown, if it fails */
-    GB_CHILD_COMMAND_LONG   /* its output is shown; runs at lower priority */
+    GB_CHILD_COMMAND_SHORT, /* its last line of output is shown if it fails */
+    GB_CHILD_COMMAND_LONG   /* all its output is shown; lower scheduling priority */
 };
 
-/* A command of this program as a child process: a picture, a report, replicas, a
- * calibration.  One at a time. */
+/* A command of this program as a child process: picture, report, replicas, calibration.
+ * One at a time. */
 struct gb_child_command {
-    int pid;       /* 0: none is running */
-    int output_fd; /* its standard output and error; -1: closed */
+    int pid;       /* 0: no child */
+    int output_fd; /* pipe of its standard output and error; -1: closed */
     enum gb_child_command_kind kind;
     char name[16];                        /* "picture" */
     char path[512];                       /* of its result */
     char progress[GB_CHILD_COMMAND_LINE]; /* "12 of 40 runs, ..."; "" without */
-    char line[GB_CHILD_COMMAND_LINE];     /* incomplete, or the last one */
+    char line[GB_CHILD_COMMAND_LINE];     /* incomplete line, or the last one */
     size_t length;
 };
 
-/* words: command and arguments behind the program's name, NULL at the end, 14 at most.
+/* words: command and arguments without the program's name, NULL at the end, 14 at most.
  * Errors: GB_ERR_INPUT while another one is running, GB_ERR_MACHINE. */
 bool gb_child_command_start(struct gb_child_command *child, const char *name,
                             const char *path, enum gb_child_command_kind kind,
@@ -39,7 +39,7 @@ enum gb_child_command_event {
     GB_CHILD_COMMAND_ENDED
 };
 
-/* The next event; text gets the line of output, or the outcome. */
+/* The next event; text receives the line of output, or the outcome. */
 enum gb_child_command_event gb_child_command_poll(struct gb_child_command *child,
                                                   char *text, size_t size);
 

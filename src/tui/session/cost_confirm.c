@@ -8,14 +8,14 @@
 #include "scene/derived.h"
 #include "scene/loading_kind.h"
 
-/* What would be cheaper, by the stage that takes most.  A longer step helps every stage,
- * and so does auto where the step was given. */
+/* Cheaper parameters for the stage that takes most.  A longer time step shortens every
+ * stage, and auto may be longer than a given one. */
 static void write_advice(const struct gb_params *params, const struct gb_cost *cost,
                          char *text, size_t size)
 {
-    const bool pressing = cost->compress_steps >= cost->relax_steps + cost->hold_steps;
+    const bool compression = cost->compress_steps >= cost->relax_steps + cost->hold_steps;
     snprintf(text, size, "%s%s or fewer particles.count",
-             pressing ? "a higher loading.rate" : "a shorter loading.relax or hold",
+             compression ? "a higher loading.rate" : "a shorter loading.relax or hold",
              isnan(gb_derived_time_step_s(params)) ? "" : ", numerics.time_step = auto");
 }
 

@@ -6,16 +6,16 @@
 
 #include "greenbody/params.h"
 
-/* Is this run one to ask about first?  Then text says what it takes and what would make
- * it cheaper.  Parameters that cannot be run are not asked about: starting them tells
- * why.
+/* Whether a run needs a confirmation because of its estimated cost; text then receives
+ * the estimate and cheaper parameters.  False for invalid parameters, whose error comes
+ * at the start.
  *
- * particle_steps_per_s  as measured before; 0: not yet, an assumption is taken */
+ * particle_steps_per_s  measured speed; 0: none yet, an assumption is used */
 bool gb_cost_confirm_question(const struct gb_params *params, double particle_steps_per_s,
                               char *text, size_t size);
 
-/* The same of a quasi-static run, by what its quick cell took.  *seconds: that the run
- * will take about, NaN when it cannot be foretold. */
+/* The same for a quasi-static run, estimated from the time of its quick cell.  *seconds:
+ * estimated duration of the run, NaN: no estimate. */
 bool gb_cost_confirm_after_quick(const struct gb_params *full,
                                  const struct gb_params *quick, double quick_s,
                                  double *seconds, char *text, size_t size);

@@ -6,7 +6,7 @@
 
 #include "greenbody/params.h"
 
-/* Differences between two sets of parameters, compared as a preset writes their values. */
+/* Differences between two sets of parameters, compared as text of a preset. */
 
 enum { GB_PARAMS_DIFF_TEXT = 96 };
 
@@ -14,11 +14,11 @@ enum { GB_PARAMS_DIFF_TEXT = 96 };
 bool gb_params_diff_same(const struct gb_params *a, const struct gb_params *b,
                          const struct gb_field *field);
 
-/* Number of fields, without the title, in which they differ. */
+/* Number of different fields, the title excepted. */
 int gb_params_diff_count(const struct gb_params *a, const struct gb_params *b);
 
-/* "mu 0.1, alpha 0.24": the values of `own` where they differ from those of `other`;
- * "same parameters" where they do not.  Returns text. */
+/* "mu 0.1, alpha 0.24": the different values of `own`, or "same parameters".  Returns
+ * text. */
 char *gb_params_diff_describe(const struct gb_params *own, const struct gb_params *other,
                               char *text, size_t size);
 

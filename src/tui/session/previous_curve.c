@@ -20,7 +20,7 @@ double gb_previous_curve_elapsed(int kind, const struct gb_point *point)
                                                 : (double)point->step;
 }
 
-/* The branches of a curve one after the other, NaN between them. */
+/* Copies the branches of a curve one after the other, with NaN between them. */
 static void copy_branches(struct gb_previous_curve *previous,
                           const struct gb_curve *curve, size_t count)
 {

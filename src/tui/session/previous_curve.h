@@ -5,25 +5,25 @@
 #include "greenbody/params.h"
 #include "tui/session/params_diff.h"
 
-/* Curve of a run or of a quick cell that was replaced, as the plot shows it. */
+/* Curve of a replaced run or quick cell, as the plot shows it. */
 struct gb_previous_curve {
     struct gb_params params;
-    char letter;                          /* 'a', 'b', ...: its marker in the plot */
+    char marker;                          /* 'a', 'b', ...: marker in the plot */
     bool quick;                           /* of a quick cell */
-    char difference[GB_PARAMS_DIFF_TEXT]; /* its values where the new run differs */
+    char difference[GB_PARAMS_DIFF_TEXT]; /* its different values */
     size_t count;
     double *density, *pressure_pa; /* NaN between branches */
     double *elapsed;               /* gb_previous_curve_elapsed of the points */
 };
 
-/* Copies the first count points; false: out of memory. */
+/* Copies the first `count` points; false: out of memory. */
 bool gb_previous_curve_copy(struct gb_previous_curve *previous,
                             const struct gb_params *params, const struct gb_curve *curve,
                             size_t count);
 void gb_previous_curve_finish(struct gb_previous_curve *previous);
 
-/* Time coordinate of a point of a run of that kind: simulated ns of a dynamic run, number
- * of the recorded step of a quasi-static one. */
+/* Time coordinate of a point: simulated ns of a dynamic run, number of the recorded step
+ * of a quasi-static one. */
 double gb_previous_curve_elapsed(int kind, const struct gb_point *point);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "tui/session/previous_curve.h"
 
-/* "p1-set2-38nm" when the file is found by that name, else its path. */
+/* "p1-set2-38nm" if the preset is found by that name, otherwise its path. */
 static char *name_of(const char *path)
 {
     char *base = g_path_get_basename(path);
@@ -20,7 +20,7 @@ static char *name_of(const char *path)
     return name;
 }
 
-/* Quoted only where a shell needs it. */
+/* Quotes for the shell where necessary. */
 static char *quote(const char *word)
 {
     for (const char *at = word; *at != '\0'; at++) {

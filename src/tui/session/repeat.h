@@ -3,11 +3,12 @@
 
 #include "io/preset.h"
 
-/* The shell command that runs what is on the screen: the preset by name or path, and
- * every value that is not the file's.
+/* The shell command that runs the parameters on screen: the preset by name or path, and
+ * every value that differs from the file.
  *
- * params  as run
- * cols    longer lines are broken behind a blank, with a backslash
+ * params  the parameters on screen
+ * cols    longer lines are broken at a blank, with a backslash
+ *
  * g_free. */
 char *gb_repeat_command(const struct gb_preset *preset, const struct gb_params *params,
                         int cols);

@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 
-/* Read again after this time, and after ten times what reading took. */
+/* Seconds between two readings, or ten times the duration of one, whichever is longer. */
 static const double reread_s = 1.0;
 static const double share = 10.0;
 
@@ -17,7 +17,7 @@ void gb_replica_band_follow(struct gb_replica_band *band, const char *directory,
     band->params = *params;
 }
 
-/* What cannot be read leaves what is shown: the next time may be better. */
+/* An error of reading keeps the band shown: the next reading may succeed. */
 bool gb_replica_band_refresh(struct gb_replica_band *band, bool at_once)
 {
     struct gb_runset_view fresh;

@@ -6,23 +6,23 @@
 #include "greenbody/params.h"
 #include "tui/watch/runset_view.h"
 
-/* More cells of a scene behind the plot: their mean with its standard error, read from
- * their directory while they are computed. */
+/* Replicas of a scene for the plot: mean and standard error, read from their directory
+ * while they are computed. */
 struct gb_replica_band {
     char *directory; /* NULL: none */
     struct gb_params params;
     struct gb_runset_view runset;
-    double due; /* s: when it is read again */
+    double due; /* clock of the next reading, s */
 };
 
-/* From now on the cells in that directory are shown. */
+/* Shows the replicas in a directory from now on. */
 void gb_replica_band_follow(struct gb_replica_band *band, const char *directory,
                             const struct gb_params *params);
-/* Reads it again when it is time, or at once; true when it did. */
+/* Reads again when due, or now; true if it was read. */
 bool gb_replica_band_refresh(struct gb_replica_band *band, bool at_once);
 void gb_replica_band_finish(struct gb_replica_band *band); /* zeroed is fine */
 
-/* What there is to be drawn; NULL: nothing yet. */
+/* The band to draw; NULL: none yet. */
 const struct gb_runset_view_group *
 gb_replica_band_group(const struct gb_replica_band *band);
 

@@ -16,14 +16,14 @@ char *gb_run_lifecycle_folder(void)
     return g_build_filename(g_get_user_state_dir(), "greenbody", "runs", NULL);
 }
 
-/* Bytes on the disk of all that lies there. */
+/* Bytes on disk of a directory tree. */
 static int64_t bytes_of(const char *path)
 {
     struct stat info;
     if (lstat(path, &info) != 0) {
         return 0;
     }
-    int64_t bytes = (int64_t)info.st_blocks * 512; /* POSIX counts in these */
+    int64_t bytes = (int64_t)info.st_blocks * 512; /* unit of st_blocks */
     GDir *dir = S_ISDIR(info.st_mode) ? g_dir_open(path, 0, NULL) : NULL;
     const char *name;
     while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
@@ -119,7 +119,7 @@ static bool survives_hangup(const struct gb_session *session)
                GB_ON_HANGUP_DETACH;
 }
 
-/* The full cell that was to follow the quick one still does, unless it takes hours. */
+/* Starts the full cell that is due after the quick one, unless it is expensive. */
 static void follow(struct gb_session *session)
 {
     char question[400];
@@ -133,21 +133,21 @@ static void follow(struct gb_session *session)
 
 int gb_run_lifecycle_run_detached(struct gb_session *session)
 {
-    const struct timespec patience = {.tv_sec = 1};
-    sigset_t asked;
-    sigemptyset(&asked);
-    sigaddset(&asked, SIGINT);
-    sigaddset(&asked, SIGTERM);
-    sigaddset(&asked, SIGQUIT);
+    const struct timespec interval = {.tv_sec = 1};
+    sigset_t stop_signals;
+    sigemptyset(&stop_signals);
+    sigaddset(&stop_signals, SIGINT);
+    sigaddset(&stop_signals, SIGTERM);
+    sigaddset(&stop_signals, SIGQUIT);
     if (!survives_hangup(session)) {
         return STATUS_SIGNAL + SIGHUP;
     }
     gb_session_note(session, "terminal closed; the run continues");
-    if (session->pause_wanted) { /* nobody is left to end the pause */
+    if (session->pause_wanted) { /* without a terminal no key can end the pause */
         gb_session_toggle_pause(session);
     }
     while (gb_session_live(session)) {
-        const int number = sigtimedwait(&asked, NULL, &patience);
+        const int number = sigtimedwait(&stop_signals, NULL, &interval);
         if (number > 0) {
             return STATUS_SIGNAL + number;
         }

@@ -12,7 +12,7 @@
 #include "tui/session/whatif.h"
 #include "tui/term/crash.h"
 
-/* A live run that has worked longer than this is not replaced unasked. */
+/* A live run is not replaced automatically after this computing time, s. */
 static const double replaced_max_s = 60.0;
 
 void gb_session_init(struct gb_session *session, struct gb_preset *preset)
@@ -64,8 +64,8 @@ const char *gb_session_event_line(const struct gb_session *session, int index)
     return session->log[at % GB_SESSION_LOG];
 }
 
-/* Keeps the curve of what is about to be replaced.  A curve without points is not worth a
- * place; without memory it is forgotten. */
+/* Keeps the curve of a run that is replaced, unless it has fewer than two points or
+ * memory is short. */
 static void keep(struct gb_session *session, const struct gb_params *params,
                  const struct gb_runner *runner, bool quick)
 {
@@ -81,7 +81,7 @@ static void keep(struct gb_session *session, const struct gb_params *params,
                 (GB_SESSION_PREVIOUS - 1) * sizeof session->previous[0]);
         session->previous_count--;
     }
-    previous.letter = (char)('a' + session->kept++ % 26);
+    previous.marker = (char)('a' + session->previous_total++ % 26);
     previous.quick = quick;
     session->previous[session->previous_count++] = previous;
 }
@@ -93,15 +93,14 @@ static bool quick_cell_matches(const struct gb_session *session,
            gb_params_diff_count(&session->quick_cell.full_params, params) == 0;
 }
 
-/* The run has the parameters of the quick cell: it followed, or r did not wait for that.
- */
+/* Whether the full run of the quick cell has been started. */
 static bool full_run_started(const struct gb_session *session)
 {
     return session->runner != NULL &&
            quick_cell_matches(session, gb_runner_params(session->runner));
 }
 
-/* A quick curve has done its work once the full run of its scene has been started. */
+/* Keeps the curve of the quick cell unless the full run of its scene has been started. */
 static void keep_quick_curve(struct gb_session *session)
 {
     if (session->quick_cell.runner != NULL && !full_run_started(session)) {
@@ -109,7 +108,7 @@ static void keep_quick_curve(struct gb_session *session)
     }
 }
 
-/* What tells the curves before from the one of these parameters. */
+/* Updates the differences of the previous curves to these parameters. */
 static void describe_all(struct gb_session *session, const struct gb_params *params)
 {
     for (int i = 0; i < session->previous_count; i++) {
@@ -121,7 +120,8 @@ static void describe_all(struct gb_session *session, const struct gb_params *par
     }
 }
 
-/* What the quick cell foretells of the full one; NaN: nothing. */
+/* Cost of the full run, estimated from the quick cell; NaN: no estimate.  True: it needs
+ * a confirmation, whose text is in text. */
 static bool estimate_cost(const struct gb_session *session, double *seconds, char *text,
                           size_t size)
 {
@@ -180,7 +180,7 @@ bool gb_session_start(struct gb_session *session, struct gb_error *err)
     if (session->quick_cell.runner != NULL && !quick_cell_matches(session, params)) {
         gb_quick_cell_drop(&session->quick_cell);
     }
-    session->forks = 0;
+    session->whatifs = 0;
     gb_session_replace(session, runner);
     gb_session_note(session, "run %d started", session->runs);
     return true;
@@ -246,7 +246,7 @@ static void note_estimate(struct gb_session *session)
     }
 }
 
-/* The full run follows, unless that would throw away work. */
+/* The full run follows unless it would replace a run with much computing time. */
 static void finish_quick_cell(struct gb_session *session)
 {
     const struct gb_quick_cell *quick_cell = &session->quick_cell;
@@ -264,7 +264,7 @@ static void finish_quick_cell(struct gb_session *session)
     const bool works =
         gb_session_run_is_live(session) && session->now.seconds > replaced_max_s;
     note_estimate(session);
-    /* a pause that came too late for the quick cell is one all the same */
+    /* a pause requested during the quick cell also applies to the full run */
     session->start_due = session->auto_start && !works && !session->pause_wanted;
     if (!session->start_due) {
         gb_session_note(session, "%sr starts the full cell",
@@ -348,7 +348,7 @@ static void take_events(struct gb_session *session)
     }
 }
 
-/* The newest snapshot becomes what the screen shows. */
+/* Takes over a snapshot for display. */
 static void show(struct gb_session *session, const struct gb_snapshot *snapshot)
 {
     session->now = *snapshot;
@@ -357,7 +357,7 @@ static void show(struct gb_session *session, const struct gb_snapshot *snapshot)
     take_events(session);
 }
 
-/* What the next run is foretold by. */
+/* Measured speed, for the cost estimate of the next run. */
 static void take_rate(struct gb_session *session, const struct gb_snapshot *snapshot)
 {
     if (gb_loading_kind_of(gb_runner_params(session->runner))->given_rate &&
@@ -366,7 +366,7 @@ static void take_rate(struct gb_session *session, const struct gb_snapshot *snap
     }
 }
 
-/* News of the run; the quick cell has its own. */
+/* Updates of the run; true if the screen changes. */
 static bool refresh_run(struct gb_session *session)
 {
     if (session->runner == NULL) {
@@ -387,7 +387,7 @@ static bool refresh_run(struct gb_session *session)
     return other_state;
 }
 
-/* News of the command beside the screen, and of the cells that it computes. */
+/* Updates of the child command and of the replicas that it computes. */
 static bool refresh_child(struct gb_session *session)
 {
     char text[GB_EVENT_TEXT];

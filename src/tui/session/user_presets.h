@@ -3,14 +3,14 @@
 
 #include "io/preset.h"
 
-/* Where presets of the user are kept. */
+/* The user's presets. */
 
-/* A name to save a preset under: its own when it is the user's, else "my-" and its own,
- * so that a shipped preset is not hidden by accident.  g_free. */
+/* Suggested name for saving a preset: its own for a preset of the user, otherwise with
+ * the prefix "my-", so that an installed preset is not hidden by accident.  g_free. */
 char *gb_user_presets_suggest(const struct gb_preset *preset);
 
-/* Path of a name among the user's presets (the folder is made), or the name itself when
- * it has a slash.  NULL and GB_ERR_INPUT when it cannot be a name.  g_free. */
+/* Path of a name in the folder of the user's presets, which is created, or the name
+ * itself if it has a slash.  NULL and GB_ERR_INPUT for an invalid name.  g_free. */
 char *gb_user_presets_file(const char *name, struct gb_error *err);
 
 #endif

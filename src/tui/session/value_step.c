@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A step of a knob: a tenth to a twentieth of the value, so that it stays a short number.
- */
+/* A step of 4 to 10 % of the value, so that the number stays short. */
 static double increment_of(double value)
 {
     const double decade = pow(10.0, floor(log10(fabs(value)) + 1e-9));
@@ -25,21 +24,21 @@ static void step_choice(const struct gb_field *field, const char *value, int dir
     snprintf(text, size, "%s", field->choices[(at + direction + count) % count]);
 }
 
-/* "9.7 nm" becomes "10.2 nm": whatever follows the number stays as it is. */
+/* "9.7 nm" becomes "10.2 nm": the text after the number is kept. */
 static bool step_number(const struct gb_field *field, const char *value, int direction,
                         char *text, size_t size)
 {
     char *rest = NULL;
     const double number = strtod(value, &rest);
     if (rest == value) {
-        return false; /* "auto", or nothing */
+        return false; /* "auto", or empty */
     }
     if (field->type == GB_FIELD_SEED) {
         snprintf(text, size, "%.0f%s", fmax(number + direction, 0.0), rest);
         return true;
     }
     const double step = number != 0.0 ? increment_of(number) : 0.01;
-    /* down from 1 the steps are those of 0.9 */
+    /* below 1 the steps are those of 0.9 */
     const double down = number != 0.0 ? increment_of(number * (1.0 - 1e-6)) : step;
     const double next = direction > 0 ? number + step : number - down;
     snprintf(text, size, "%.6g%s",

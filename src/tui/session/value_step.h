@@ -6,10 +6,10 @@
 
 #include "greenbody/params.h"
 
-/* A parameter as a knob: the value one step up (direction 1) or down (-1), as typed in a
- * preset.  Numbers move by a tenth to a twentieth and keep their unit, choices go round,
- * a seed goes by one.  False: the value has no next one (a text, a list, "auto").  The
- * text can be out of the field's range: gb_params_set tells. */
+/* The next value of a parameter upwards (direction 1) or downwards (-1), as text of a
+ * preset.  Numbers change by 4 to 10 % and keep their unit, choices are cyclic, a seed
+ * changes by 1.  False: no next value (a text, a list, "auto").  The result may be out of
+ * range; gb_params_set checks it. */
 bool gb_value_step_next(const struct gb_field *field, const char *value, int direction,
                         char *text, size_t size);
 

@@ -6,11 +6,11 @@
 #include "scene/field/changes.h"
 #include "tui/session/run_lifecycle.h"
 
-/* What is asked is tried on a step that is never reached, so that it is refused at once
- * and not when the state has come. */
+/* The changes are checked with a step that is never reached, so that an error is reported
+ * now and not at the next point. */
 static const int64_t some_step = INT64_C(1000000000);
 
-bool gb_whatif_ask(struct gb_session *session, const char *text, struct gb_error *err)
+bool gb_whatif_request(struct gb_session *session, const char *text, struct gb_error *err)
 {
     if (!gb_session_run_is_live(session)) {
         return gb_error_set(err, GB_ERR_INPUT, "no live run: r starts one");
@@ -30,8 +30,8 @@ bool gb_whatif_ask(struct gb_session *session, const char *text, struct gb_error
     return true;
 }
 
-/* The parameters on the screen get the change, too: a restart repeats it, a saved preset
- * keeps it. */
+/* Applies the changes to the edited parameters, so that a restart and a saved preset
+ * contain them. */
 static void note(struct gb_session *session, int64_t step)
 {
     const struct gb_curve *curve = gb_runner_curve(session->runner);
@@ -39,8 +39,8 @@ static void note(struct gb_session *session, int64_t step)
     memcpy(edited->changes, gb_runner_params(session->runner)->changes,
            sizeof edited->changes);
     session->points = gb_curve_count(curve);
-    if (session->forks < GB_SESSION_FORKS) {
-        session->fork_at[session->forks++] = session->points;
+    if (session->whatifs < GB_SESSION_WHATIFS) {
+        session->whatif_at[session->whatifs++] = session->points;
     }
     gb_session_note(session, "changed after step %lld (relative density %.4f): %s",
                     (long long)step, gb_curve_at(curve, session->points - 1)->density,

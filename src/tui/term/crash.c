@@ -10,14 +10,15 @@ static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
 enum { FAULTS = sizeof faults / sizeof faults[0] };
 
-/* A signal handler has no other way to its data. */
+/* File scope: a signal handler has no argument for its data. */
 static struct {
     int screen, err;
     struct termios modes;
     char reset[256];
     size_t length;
     struct sigaction before[FAULTS];
-    char state[4200], resume[4300]; /* path of the checkpoint, line that names it */
+    char state[4200],
+        resume[4300]; /* path of the checkpoint, and the line that names it */
 } installed;
 
 static bool put(const char *text, size_t length)
@@ -68,7 +69,7 @@ void gb_crash_remove(void)
 
 void gb_crash_set_run(const char *directory)
 {
-    installed.state[0] = '\0'; /* until the line is whole */
+    installed.state[0] = '\0'; /* set after the line is complete */
     if (directory == NULL) {
         return;
     }

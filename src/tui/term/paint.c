@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What stands for the workbench's own signs where there is no UTF-8. */
+/* ASCII replacements of the symbols of the screen, for terminals without UTF-8. */
 static const struct {
     gunichar sign;
     char ascii;
@@ -127,7 +127,7 @@ int gb_paint_cell(const struct gb_paint *paint, int row, int col, int cols,
     return col;
 }
 
-/* One row of wrapped text; -1 as the row only counts. */
+/* Draws one row of wrapped text; row -1: rows are only counted. */
 static void wrap_row(const struct gb_paint *paint, int row, enum gb_style style,
                      const char *text)
 {
@@ -136,10 +136,10 @@ static void wrap_row(const struct gb_paint *paint, int row, enum gb_style style,
     }
 }
 
-/* Text being broken into rows. */
+/* State of breaking a text into rows. */
 struct wrapping {
     const struct gb_paint *paint;
-    int row, rows, used; /* row < 0: they are only counted */
+    int row, rows, used; /* row < 0: rows are only counted */
     enum gb_style style;
     GString *line;
 };
@@ -155,8 +155,8 @@ static void end_row(struct wrapping *wrapping)
     g_string_truncate(wrapping->line, 0);
 }
 
-/* A word longer than a row, such as a path, goes on in the next one; what is left of it.
- */
+/* A word longer than a row, such as a path, continues in the next one; returns its
+ * rest. */
 static const char *break_word(struct wrapping *wrapping, const char *word, int room)
 {
     while (gb_paint_width(word) > room && wrapping->used < wrapping->rows - 1) {
@@ -170,7 +170,8 @@ static const char *break_word(struct wrapping *wrapping, const char *word, int r
     return word;
 }
 
-/* The last row takes all that is left: what does not fit shows as cut. */
+/* The last row takes the rest of the text and ends with an ellipsis if it does not
+ * fit. */
 static void add_word(struct wrapping *wrapping, const char *word, int room)
 {
     GString *line = wrapping->line;

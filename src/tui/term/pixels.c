@@ -55,7 +55,7 @@ static void put_pixel(uint8_t *pixel, float shade)
         memcpy(pixel, background, sizeof background);
         return;
     }
-    /* in levels, so that a picture is sent in runs of one colour */
+    /* in levels: runs of one colour compress well */
     const float level = floorf(CLAMP(shade, 0.0F, 1.0F) * (float)LEVELS) / (float)LEVELS;
     const float at = level * (float)(RAMP - 1);
     const int low = MIN((int)at, RAMP - 2);
@@ -70,7 +70,7 @@ static char *print(int images, const uint8_t *rgb, int high, int wide, int rows,
                    struct gb_pixels_cell cell)
 {
 #if GB_CHAFA_POOL
-    /* no pool of threads for a picture of a second's pace: the cores are the engine's */
+    /* one thread: the cores belong to the engine */
     chafa_set_n_threads(1);
 #endif
     ChafaTermInfo *info = describe_terminal();

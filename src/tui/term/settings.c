@@ -32,7 +32,8 @@ const struct gb_settings_row *gb_settings_table(size_t *count)
 
 void gb_settings_init(struct gb_settings *settings)
 {
-    memset(settings, 0, sizeof *settings); /* the first value of each row */
+    memset(settings, 0,
+           sizeof *settings); /* the first value of each row is the default */
 }
 
 static int *at(struct gb_settings *settings, const struct gb_settings_row *row)
@@ -75,7 +76,7 @@ const char *gb_settings_word(const struct gb_settings *settings, const char *nam
     return row->values[*at((struct gb_settings *)settings, row)];
 }
 
-/* The values of the group [screen]. */
+/* Sets the values of the group [screen]. */
 static bool take_all(struct gb_settings *settings, GKeyFile *file, const char *path,
                      struct gb_error *err)
 {

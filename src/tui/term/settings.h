@@ -6,9 +6,9 @@
 
 #include "greenbody/status.h"
 
-/* What the user says about his terminal, where the workbench would guess: in
- * greenbody/screen.ini of $XDG_CONFIG_HOME, group [screen], and by options of the same
- * names, which go before. */
+/* Settings of the terminal that override detection: in greenbody/screen.ini of
+ * $XDG_CONFIG_HOME, group [screen], and as options of the same names, which have
+ * priority. */
 
 enum gb_settings_colour { GB_COLOUR_AUTO, GB_COLOUR_ALWAYS, GB_COLOUR_NEVER };
 enum gb_settings_graph {
@@ -29,7 +29,7 @@ struct gb_settings {
     int ascii, mouse, slow;    /* 0 or 1 */
 };
 
-/* One row for each setting: the option --name, the key of the file. */
+/* One row per setting: option --name and key of the file. */
 struct gb_settings_row {
     const char *name;
     const char *const *values; /* NULL ends; the first is the default */
@@ -41,19 +41,19 @@ const struct gb_settings_row *gb_settings_table(size_t *count);
 
 void gb_settings_init(struct gb_settings *settings);
 
-/* Error (GB_ERR_INPUT): names the setting and what is accepted. */
+/* Errors: GB_ERR_INPUT with the setting and the accepted values. */
 bool gb_settings_set(struct gb_settings *settings, const char *name, const char *value,
                      struct gb_error *err);
 
-/* The word for what is set. */
+/* Current value as a word. */
 const char *gb_settings_word(const struct gb_settings *settings, const char *name);
 
-/* Reads the file; one that is not there changes nothing.  Keys it does not know are left
- * alone, other groups too. */
+/* Reads the file; a missing file is no error.  Unknown keys and other groups are
+ * ignored. */
 bool gb_settings_read(struct gb_settings *settings, const char *path,
                       struct gb_error *err);
 
-/* Where the file is looked for; g_free. */
+/* Path of the file; g_free. */
 char *gb_settings_path(void);
 
 #endif

@@ -14,7 +14,7 @@ void gb_stderr_tail_init(struct gb_stderr_tail *stderr_tail)
     stderr_tail->length = -1;
 }
 
-/* The last line of what stands there, without control characters. */
+/* The last line of a text, without control characters. */
 static bool last_line(char *text, char *line, size_t size)
 {
     g_strchomp(text);

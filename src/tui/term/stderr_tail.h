@@ -5,16 +5,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What libraries and drivers say while the screen has the terminal goes to the log; its
- * newest line belongs among the events. */
+/* Messages of libraries and drivers on standard error go to the log while the screen is
+ * open; the newest line is shown among the events. */
 struct gb_stderr_tail {
-    int64_t length; /* of the log, as far as it was read; -1: not looked at yet */
+    int64_t length; /* bytes of the log read so far; -1: not opened yet */
 };
 
 void gb_stderr_tail_init(struct gb_stderr_tail *stderr_tail);
 
-/* The last whole line that was written to standard error since the call before; false:
- * there is none, or standard error is no file. */
+/* The last complete line written to standard error since the previous call; false: none,
+ * or standard error is not a file. */
 bool gb_stderr_tail_poll(struct gb_stderr_tail *stderr_tail, char *line, size_t size);
 
 #endif

@@ -19,10 +19,10 @@
 #include "tui/term/term_style.h"
 #include "tui/term/term_tty.h"
 
-/* After Esc a terminal sends the rest of a function key within this time. */
+/* Longest time between Esc and the rest of a function key, ms. */
 enum { ESCAPE_MS = 40 };
 
-/* Pixels, where the terminal does not tell them. */
+/* Width of a cell in pixels where the terminal does not report it. */
 enum { DEFAULT_CELL_WIDTH = 10 };
 
 static const int handled_signals[] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,
@@ -57,7 +57,7 @@ static void set_modes(void)
 
 static bool start_screen(struct gb_term *term, const char *type, struct gb_error *err)
 {
-    use_env(FALSE); /* stale LINES and COLUMNS lie */
+    use_env(FALSE); /* LINES and COLUMNS may be outdated */
     use_tioctl(TRUE);
     term->screen = newterm(type, term->out, term->in);
     if (term->screen == NULL) {
@@ -86,7 +86,7 @@ static void catch_signals(struct gb_term *term)
     term->signal_fd = signalfd(-1, &mask, SFD_CLOEXEC | SFD_NONBLOCK);
 }
 
-/* Those that still wait asked for an end that has come. */
+/* Pending signals requested the end that has come, and are discarded. */
 static void release_signals(struct gb_term *term)
 {
     struct signalfd_siginfo late;
@@ -119,7 +119,7 @@ static int duplicate(int fd)
     return fcntl(fd, F_DUPFD_CLOEXEC, 3);
 }
 
-/* Keys come from standard input, or from the terminal itself when input is a pipe. */
+/* Keys are read from standard input, or from /dev/tty if input is a pipe. */
 static bool open_streams(struct gb_term *term, struct gb_error *err)
 {
     if (!isatty(STDOUT_FILENO)) {
@@ -230,13 +230,13 @@ void gb_term_suspend(struct gb_term *term)
     const struct sigaction plain = {.sa_handler = SIG_DFL};
     sigaction(SIGTSTP, &plain, NULL);
     pthread_sigmask(SIG_UNBLOCK, &stop, NULL);
-    raise(SIGTSTP); /* returns when the process goes on */
+    raise(SIGTSTP); /* returns after SIGCONT */
     pthread_sigmask(SIG_BLOCK, &stop, NULL);
     gb_term_tty_redirect();
     set_modes();
 }
 
-/* The new size is taken from the kernel here and not in a handler. */
+/* The new size is read from the kernel here, not in a signal handler. */
 static struct gb_term_event resized(struct gb_term *term)
 {
     term->repaints++;
@@ -279,7 +279,7 @@ static struct gb_term_event from_signal(struct gb_term *term)
     }
 }
 
-/* A press of the left button or a turn of the wheel; the rest is nothing. */
+/* Left button and wheel; other mouse events are ignored. */
 static struct gb_term_event from_mouse(void)
 {
     struct gb_term_event event = {.kind = GB_TERM_TIMEOUT};
@@ -322,8 +322,7 @@ static bool next_key(struct gb_term *term, struct gb_term_event *event)
     return true;
 }
 
-/* A closed terminal answers every read at once with nothing: asking it again would spin.
- */
+/* A closed terminal returns 0 bytes at once for every read: polling would spin. */
 static bool is_closed(const struct gb_term *term, short revents)
 {
     int waiting = 0;
@@ -403,7 +402,7 @@ void gb_term_mouse(struct gb_term *term, bool on)
 {
     const mmask_t wanted = BUTTON1_PRESSED | BUTTON4_PRESSED | BUTTON5_PRESSED;
     term->mouse = on && term->profile.can_mouse;
-    mouseinterval(0); /* a press counts at once, clicks are not waited for */
+    mouseinterval(0); /* report presses at once, no click detection */
     mousemask(term->mouse ? wanted : 0, NULL);
 }
 

@@ -7,30 +7,30 @@
 #include "tui/term/rect.h"
 #include "tui/term/term.h"
 
-/* The picture that lies on the screen between the characters: drawn behind a frame, taken
- * away before one that does not have it.  At most one a second. */
+/* The pixel image on the screen: drawn after a frame, deleted before a frame without it.
+ * At most one per second. */
 struct gb_term_image {
     int images;   /* GB_IMAGES_NONE, _SIXEL or _KITTY */
-    bool shown;   /* it lies there now */
-    bool waiting; /* another one is to be drawn when its time has come */
+    bool shown;   /* visible now */
+    bool waiting; /* a new one is due */
     struct gb_rect rect;
-    double density; /* of the packing shown, which tells it from the next */
+    double density; /* hash of the packing shown */
     int64_t repaints;
-    double last_s; /* clock of the last one */
+    double last_s; /* clock of the last image, s */
 };
 
 void gb_term_image_init(struct gb_term_image *image, int images);
 
-/* Before a frame; picture: what is to lie there, NULL: nothing.  True: the screen must be
- * painted anew to lose the picture. */
+/* Call before a frame; picture: the packing to show, NULL: none.  True: the screen must
+ * be repainted to delete the image. */
 bool gb_term_image_before(struct gb_term_image *image, struct gb_term *term,
                           const struct gb_view_sample *sample);
-/* Behind it: draws the picture into those cells when it is another, or was wiped. */
+/* Call after a frame: draws the image into the cells if it is new or was deleted. */
 void gb_term_image_after(struct gb_term_image *image, struct gb_term *term,
                          const struct gb_view_sample *sample, const struct gb_rect *cells,
                          double now_s);
 
-/* Whether a picture that waits may be drawn now. */
+/* Whether a pending image may be drawn now. */
 bool gb_term_image_due(const struct gb_term_image *image, double now_s);
 
 #endif

@@ -25,8 +25,8 @@ static bool in_multiplexer(const char *type)
            g_str_has_prefix(type, "screen") || g_str_has_prefix(type, "tmux");
 }
 
-/* A terminal with all colours is often named xterm, which has eight: its entry with more
- * is taken where there is one. */
+/* Terminals with 256 colours are often named xterm, whose entry has eight: an entry with
+ * more colours is preferred if there is one. */
 static void prefer_colours(struct gb_term_profile *profile, int fd)
 {
     const char *colorterm = from_env("COLORTERM");
@@ -73,7 +73,7 @@ static int detect_images(const struct gb_term_profile *profile,
     if (settings->images != GB_IMAGES_AUTO) {
         return settings->images;
     }
-    /* a picture is a hundred times as long as a frame: not unasked over a network */
+    /* an image has about 100 times the bytes of a frame: over ssh only if requested */
     const bool far = *from_env("SSH_CONNECTION") != '\0';
     return profile->inside || far || !profile->coloured ? GB_IMAGES_NONE
                                                         : gb_pixels_detect();
@@ -83,7 +83,7 @@ bool gb_term_profile_detect(struct gb_term_profile *profile, int fd,
                             const struct gb_settings *settings, struct gb_error *err)
 {
     setlocale(LC_ALL, "");
-    setlocale(LC_NUMERIC, "C"); /* numbers keep their point everywhere */
+    setlocale(LC_NUMERIC, "C"); /* decimal point in every locale */
     *profile =
         (struct gb_term_profile){.own = from_env("TERM"), .images = GB_IMAGES_NONE};
     const bool ascii = settings->ascii != 0;
@@ -107,7 +107,7 @@ static const char *yes_no(bool value)
     return value ? "yes" : "no";
 }
 
-static void print_place(FILE *out, int fd)
+static void print_size(FILE *out, int fd)
 {
     struct winsize size = {0};
     if (!isatty(fd) || ioctl(fd, TIOCGWINSZ, &size) != 0) {
@@ -159,7 +159,7 @@ void gb_term_profile_print(FILE *out, int fd, const struct gb_settings *settings
     fprintf(out, "locale     %s, %s: UTF-8 %s%s\n", setlocale(LC_CTYPE, NULL),
             nl_langinfo(CODESET), profile.utf8 ? "is used" : "is not used",
             settings->ascii ? " (--ascii)" : "");
-    print_place(out, fd);
+    print_size(out, fd);
     if (works) {
         print_terminal(out, &profile, settings);
     } else {

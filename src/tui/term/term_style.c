@@ -5,9 +5,9 @@
 
 #include "tui/term/term.h"
 
-/* Okabe and Ito's palette, which every kind of colour vision can tell apart, in the
- * nearest of 256 colours that also read on a white background; and what 8 colours have of
- * it. */
+/* Palette of Okabe and Ito, distinguishable with every kind of colour vision, in the
+ * nearest of 256 colours with enough contrast on a white background; and its nearest of 8
+ * colours. */
 static const short series_256[] = {74, 172, 36, 175, 166, 32};
 static const short series_8[] = {COLOR_CYAN,    COLOR_YELLOW, COLOR_GREEN,
                                  COLOR_MAGENTA, COLOR_RED,    COLOR_BLUE};
@@ -52,11 +52,11 @@ static void set_colours(uint64_t *style)
     style[GB_STYLE_FOCUS] = pair[0] | A_REVERSE | A_BOLD;
 }
 
-/* One hue from dark to light, so that it reads as depth for every kind of vision. */
+/* One hue from dark to light: depth is visible with every kind of colour vision. */
 static const short shades_256[GB_TERM_SHADES] = {17, 23, 24, 31, 38, 74, 117, 195};
 
 enum {
-    SHADE_PAIRS = SERIES + 2, /* the first */
+    SHADE_PAIRS = SERIES + 2, /* first colour pair of the shades */
     PAIRS = SHADE_PAIRS + GB_TERM_SHADES * (GB_TERM_SHADES + 1)
 };
 

@@ -35,8 +35,8 @@ static int open_log(void)
     return fd;
 }
 
-/* Libraries write to standard error, some to standard output; on the screen that would be
- * garbage. */
+/* Libraries print to standard error and standard output, which would corrupt the
+ * screen. */
 void gb_term_tty_redirect(void)
 {
     fflush(stdout);
@@ -61,9 +61,9 @@ static bool can_position_cursor(const char *type, int fd)
     if (setupterm(type, fd, &found) != OK) {
         return false;
     }
-    const bool places = cursor_address != NULL;
+    const bool positions = cursor_address != NULL;
     del_curterm(cur_term);
-    return places;
+    return positions;
 }
 
 int gb_term_tty_colours(const char *type, int fd)

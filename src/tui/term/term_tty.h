@@ -3,25 +3,25 @@
 
 #include "greenbody/status.h"
 
-/* What the terminal needs before curses takes it. */
+/* The terminal apart from curses: redirection and choice of the type. */
 
 /* Path of the log file; g_free. */
 char *gb_term_tty_log(void);
 
-/* The log opened for reading; -1: it cannot be. */
+/* Descriptor of the log for reading; -1: error. */
 int gb_term_tty_read_log(void);
 
-/* Sends standard output and error to a log file ($XDG_STATE_HOME/greenbody/workbench.log,
- * or nowhere). */
+/* Redirects standard output and error to a log file
+ * ($XDG_STATE_HOME/greenbody/workbench.log, or /dev/null). */
 void gb_term_tty_redirect(void);
-/* Puts back the descriptors that were duplicated before. */
+/* Restores the descriptors that were duplicated before. */
 void gb_term_tty_restore(int out, int err);
 
-/* The terminal's own type, or for one that terminfo does not know (common over ssh) the
- * one that nearly all of them understand.  NULL: no type that can place the cursor. */
+/* The terminal's own type, or for an unknown one (common over ssh) a type that nearly all
+ * terminals understand.  NULL: no type with cursor addressing. */
 const char *gb_term_tty_type(int fd, struct gb_error *err);
 
-/* Colours that terminfo promises of a type, 0: none or it is unknown. */
+/* Number of colours in terminfo; 0: none, or an unknown type. */
 int gb_term_tty_colours(const char *type, int fd);
 
 #endif

@@ -31,7 +31,7 @@ static const struct gb_point *point_at(const struct gb_view_curve *view, size_t 
     return gb_curve_at(gb_runner_curve(view->session->runner), i);
 }
 
-/* A quasi-static run has no stages: its relaxed initial state is part of loading. */
+/* A quasi-static run has no stages: its initial state is part of loading. */
 static bool on_branch(const struct gb_point *point, int branch, bool dynamic)
 {
     if (!dynamic && point->branch <= 0) {
@@ -76,7 +76,7 @@ static size_t gather(const struct gb_view_curve *view, int branch, double *from_
     return n;
 }
 
-/* Colour and marker of a branch; its name for the legend. */
+/* Colour, marker and legend of a branch. */
 static struct gb_plot_series branch_style(int branch, bool dynamic, double from_pa,
                                           char *name, size_t size)
 {
@@ -125,8 +125,8 @@ static int last_branch(const struct gb_view_curve *view)
     return last;
 }
 
-/* Unloading branches below, loading on top.  The legend names the last line first: the
- * stages are drawn against the order of time. */
+/* Unloading branches are drawn first, loading on top.  The legend lists the last line
+ * first: stages are drawn in reverse order of time. */
 void gb_view_branches_draw(struct gb_view_curve *view)
 {
     for (int branch = last_branch(view); branch > 0; branch--) {

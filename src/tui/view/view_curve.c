@@ -6,7 +6,8 @@
 
 #include "scene/loading_kind.h"
 
-/* Ratio of pressures that a logarithmic axis shows at most: below are single contacts. */
+/* Largest ratio of pressures on a logarithmic axis: smaller pressures come from single
+ * contacts. */
 static const double log_range = 1e5;
 /* From this pressure on the axis is in GPa. */
 static const double giga_from_pa = 9.9e9;
@@ -54,8 +55,8 @@ bool gb_view_curve_quick_superseded(const struct gb_session *session)
                                 gb_runner_params(session->runner)) == 0;
 }
 
-/* A superseded quick curve is hidden with the previous ones.  Quasi-static quick cells
- * have longer steps: against the step number they cannot be compared. */
+/* A superseded quick curve is hidden together with the previous curves.  Against the step
+ * number, quick cells of quasi-static runs are hidden: their strain steps are longer. */
 bool gb_view_curve_quick_shown(const struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
@@ -152,7 +153,7 @@ static void draw_axes(struct gb_view_curve *view)
                  giga ? "p, GPa" : "p, MPa");
 }
 
-/* Text of the empty field before the first point. */
+/* Text of the empty plot before the first point. */
 static void draw_waiting(const struct gb_view_curve *view)
 {
     const struct gb_session_shown shown = gb_session_shown(view->session);
@@ -166,7 +167,7 @@ static void draw_waiting(const struct gb_view_curve *view)
                  GB_PLOT_INK_TEXT, text);
 }
 
-/* The line on top was drawn last and is named first. */
+/* The legend lists the line on top, which is drawn last, first. */
 static void draw_legend(struct gb_view_curve *view)
 {
     for (int i = 0; i < view->entries / 2; i++) {

@@ -3,14 +3,14 @@
 
 #include "tui/view/views.h"
 
-/* Parts of the view of the pressure curve, drawn from the back to the front. */
+/* Parts of the view of the pressure curve, drawn from back to front. */
 
 enum {
     GB_VIEW_CURVE_ENTRIES =
         3 + 3 + GB_UNLOAD_MAX + GB_SESSION_PREVIOUS /* of the legend */
 };
 
-/* The drawing under way. */
+/* State of the drawing. */
 struct gb_view_curve {
     struct gb_panel_plot *panel;
     const struct gb_session *session;
@@ -19,7 +19,7 @@ struct gb_view_curve {
     int entries;
 };
 
-/* Draws a line and names it in the legend. */
+/* Draws a line and adds it to the legend. */
 void gb_view_curve_add(struct gb_view_curve *view, const struct gb_plot_series *series,
                        const char *name);
 
@@ -29,14 +29,15 @@ double gb_view_curve_x(const struct gb_view_curve *view, const struct gb_point *
 /* x coordinates of a previous curve; NULL: nanoseconds and steps share no axis. */
 const double *gb_view_curve_previous_x(const struct gb_view_curve *view,
                                        const struct gb_previous_curve *previous);
-/* Whether the curve of the quick cell is drawn; whether the full cell supersedes it. */
+/* Whether the curve of the quick cell is drawn, and whether that of the full cell
+ * supersedes it. */
 bool gb_view_curve_quick_shown(const struct gb_view_curve *view);
 bool gb_view_curve_quick_superseded(const struct gb_session *session);
-/* Mean of the replicas; NULL: none to draw. */
+/* Mean of the replicas; NULL: none. */
 const struct gb_runset_view_group *
 gb_view_curve_replicas(const struct gb_view_curve *view);
 
-/* view_overlays.c: everything but the run itself. */
+/* view_overlays.c: previous curves, quick cell, replicas, measured data, what-ifs. */
 void gb_view_overlays_previous(struct gb_view_curve *view);
 void gb_view_overlays_quick(struct gb_view_curve *view);
 void gb_view_overlays_replicas(struct gb_view_curve *view);

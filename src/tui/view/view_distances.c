@@ -3,7 +3,7 @@
 
 #include "tui/view/views.h"
 
-/* The first peak is a delta function: higher than this it only hides the rest. */
+/* Upper limit of the axis: the first peak is a delta function and would hide the rest. */
 static const double shown_max = 8.0;
 
 void gb_view_distances_draw(struct gb_panel_plot *panel, const struct gb_session *session)

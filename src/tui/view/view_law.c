@@ -5,12 +5,12 @@
 #include "scene/model.h"
 #include "tui/view/views.h"
 
-/* Points of a curve; how deep beyond the formation of a bridge it is drawn, in bridge
- * lengths; where a scene without bridges and adhesion ends, in diameters. */
+/* Points of a curve; its depth beyond the formation of a bridge, in bridge lengths; its
+ * end for scenes without bridges and adhesion, in diameters. */
 enum { POINTS = 160 };
 static const double bridge_lengths = 2.5;
 static const double depth_min = 0.012;
-/* Share of the largest attraction down to which the gap is drawn. */
+/* Fraction of the largest attraction down to which the gap is drawn. */
 static const double gap_share = 0.1;
 static const double gap_max = 0.1;
 
@@ -25,7 +25,7 @@ static bool has_bridges(const struct gb_model *model)
     return model->terms.bridges && model->bridge.length < 1.0;
 }
 
-/* Overlaps between which the laws differ from scene to scene, diameters. */
+/* Range of overlaps that is drawn, in diameters. */
 static void find_range(const struct gb_model *model, double range[2])
 {
     range[0] = model->terms.attraction
@@ -49,7 +49,7 @@ static double nano_newton(const struct gb_model *model, double force)
     return 1e9 * model->newton_per_force * force;
 }
 
-/* f_n = f_e - f_a of a contact that was never deeper: P1 Fig. 1, A-B-C-C'. */
+/* f_n = f_e - f_a of a contact at its largest overlap so far: P1 Fig. 1, A-B-C-C'. */
 static void follow_loading(const struct gb_model *model, const double range[2],
                            struct line *line)
 {
@@ -63,7 +63,7 @@ static void follow_loading(const struct gb_model *model, const double range[2],
     }
 }
 
-/* A bridge being opened, from its deepest overlap until it breaks: C-D. */
+/* Unloading of a bridged contact, from its largest overlap until it breaks: C-D. */
 static void follow_bridge(const struct gb_model *model, double deepest, double x[2],
                           double y[2])
 {
@@ -97,7 +97,7 @@ static void draw_zero(struct gb_plot *plot, const double range[2])
     draw(plot, range, zero, 2, GB_PLOT_INK_AXIS, 0);
 }
 
-/* The model of what is being edited, and of the run when it is another one. */
+/* Models of the edited parameters, and of the run if they differ. */
 static bool freeze(const struct gb_panel_plot *panel, const struct gb_session *session,
                    struct gb_model *model, struct gb_model *before)
 {
@@ -184,7 +184,7 @@ static void follow_strength(const struct gb_model *model, double max, struct lin
     }
 }
 
-/* As far as P1 Fig. 2: overlaps of a hard pressing. */
+/* Range of P1 Fig. 2. */
 static const double strength_depth = 0.1;
 
 void gb_view_law_strength(struct gb_panel_plot *panel, const struct gb_session *session)

@@ -31,7 +31,7 @@ void gb_view_overlays_previous(struct gb_view_curve *view)
                                               .y = panel->y,
                                               .count = previous->count,
                                               .ink = GB_PLOT_INK_DIM,
-                                              .marker = previous->letter};
+                                              .marker = previous->marker};
         gb_view_curve_add(view, &series, previous->difference);
     }
 }
@@ -79,7 +79,7 @@ void gb_view_overlays_quick(struct gb_view_curve *view)
     gb_view_curve_add(view, &series, name);
 }
 
-/* The mean of the replicas, shifted by so many standard errors. */
+/* The mean of the replicas plus `shift` standard errors. */
 static void shift_mean(const struct gb_view_curve *view, double errors,
                        double x[GB_RUNSET_VIEW_LEVELS], double y[GB_RUNSET_VIEW_LEVELS])
 {
@@ -165,12 +165,12 @@ void gb_view_overlays_measured(struct gb_view_curve *view)
     gb_view_curve_add(view, &named, name);
 }
 
-/* A letter where the run continued with other values. */
+/* A letter where a what-if began. */
 void gb_view_overlays_what_ifs(struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
-    for (int i = 0; i < session->forks; i++) {
-        const size_t at = session->fork_at[i];
+    for (int i = 0; i < session->whatifs; i++) {
+        const size_t at = session->whatif_at[i];
         if (at == 0 || at > session->points) {
             continue;
         }

@@ -5,7 +5,7 @@
 #include "tui/plot/sphere_shading.h"
 #include "tui/view/views.h"
 
-/* Characters that grow darker, for screens without enough colours: one a cell. */
+/* Characters of increasing darkness, one per cell, for screens with few colours. */
 static const uint32_t wide_ramp[] = {0x2591, 0x2592, 0x2593, 0x2588};
 static const uint32_t ascii_ramp[] = {'.', ':', '-', '=', '+', '*', '#', '%', '@'};
 
@@ -20,7 +20,7 @@ static int level(float shade, int levels)
     return k < 0 ? 0 : k >= levels ? levels - 1 : k;
 }
 
-/* Two dots of a cell in two colours: a half block, its ink above and its back below. */
+/* A half block shows two dots of a cell: foreground above, background below. */
 static void put_halves(struct gb_plot_cell *cell, float above, float below)
 {
     if (above < 0.0F && below < 0.0F) {
@@ -47,7 +47,7 @@ static void put_mean(struct gb_plot_cell *cell, float above, float below, bool a
     cell->ch = ascii ? ascii_ramp[level(mean, ASCII)] : wide_ramp[level(mean, WIDE)];
 }
 
-/* Two short lines in the corner, or one below a picture. */
+/* The caption: two short lines in the corner, or one below an image. */
 static void write_caption(struct gb_plot *plot, const struct gb_view_sample *sample,
                           const struct gb_params *params, bool below)
 {
@@ -74,7 +74,7 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT, "no packing yet");
         return;
     }
-    if (panel->pixels) { /* the picture comes on top of these cells */
+    if (panel->pixels) { /* the image covers these cells */
         write_caption(plot, shown.sample, shown.params, true);
         return;
     }

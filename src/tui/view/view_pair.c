@@ -5,7 +5,7 @@
 #include "scene/contact_pair.h"
 #include "tui/view/views.h"
 
-/* Overlap to which the law is drawn, in diameters of the smaller body. */
+/* Largest overlap drawn, in diameters of the smaller body. */
 static const double depth = 0.05;
 
 enum { POINTS = 160 };
@@ -31,7 +31,7 @@ static void follow(const struct gb_contact_pair *pair, bool flows, double max,
     }
 }
 
-/* Opened again from the deepest overlap. */
+/* Unloading from the largest overlap. */
 static void follow_back(const struct gb_contact_pair *pair, double max, struct line *line)
 {
     for (int i = 0; i < POINTS; i++) {
@@ -49,7 +49,7 @@ static void draw(struct gb_plot *plot, const struct line *line, int ink, int mar
     gb_plot_line(plot, &series);
 }
 
-/* The same for the run when its law is another one. */
+/* The law of the run, if it differs. */
 static bool draw_before(struct gb_plot *plot, const struct gb_params *edited,
                         const struct gb_session *session, double max)
 {
@@ -95,7 +95,7 @@ void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *ses
     }
     draw(plot, &line, INK_LAW, 1);
     entry[entries++] = (struct gb_plot_entry){
-        INK_LAW, 1, "" /* the name of the law */
+        INK_LAW, 1, "" /* name of the law */
     };
     snprintf(entry[entries - 1].name, sizeof entry[0].name, "%s",
              plastic(params) ? "Storakers, loading" : "Hertz");

@@ -10,7 +10,7 @@ static double ratio(const struct gb_point *point)
                                                     : (double)NAN;
 }
 
-/* Below this share of the highest pressure the ratio is that of two noises. */
+/* Below this fraction of the highest pressure the ratio is noise. */
 static const double noise = 0.01;
 
 void gb_view_ratio_draw(struct gb_panel_plot *panel, const struct gb_session *session)

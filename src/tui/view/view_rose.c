@@ -13,16 +13,18 @@ static void draw_line(struct gb_plot *plot, const double *x, const double *y,
     gb_plot_line(plot, &series);
 }
 
-/* The angle to z has no side: each bin stands for four directions of the picture. */
+/* The distribution depends on the angle to z only: each bin is drawn in four
+ * directions. */
 static size_t close_rose(const double rose[GB_SNAPSHOT_ROSE], double sign, double *x,
                          double *y)
 {
     for (int i = 0; i < ROSE_POINTS; i++) {
-        const int turn = i % (ROSE_POINTS - 1);
-        const int quarter = turn / GB_SNAPSHOT_ROSE;
-        const int place = turn % GB_SNAPSHOT_ROSE;
-        const int bin = quarter % 2 == 0 ? place : GB_SNAPSHOT_ROSE - 1 - place;
-        const double angle = (turn + 0.5) * 2.0 * M_PI / (ROSE_POINTS - 1);
+        const int step = i % (ROSE_POINTS - 1);
+        const int quarter = step / GB_SNAPSHOT_ROSE;
+        const int bin_from_axis = step % GB_SNAPSHOT_ROSE;
+        const int bin =
+            quarter % 2 == 0 ? bin_from_axis : GB_SNAPSHOT_ROSE - 1 - bin_from_axis;
+        const double angle = (step + 0.5) * 2.0 * M_PI / (ROSE_POINTS - 1);
         const double r = sign * rose[bin] > 0.0 ? sign * rose[bin] : NAN;
         x[i] = r * sin(angle);
         y[i] = r * cos(angle);
@@ -45,7 +47,7 @@ static void draw_frame(struct gb_plot *plot, double radius)
     draw_line(plot, none, across, 2, GB_PLOT_INK_AXIS, 0);
 }
 
-/* Dots are square in all three glyph sets, so a circle needs the picture's own ratio. */
+/* Dots are square in all glyph sets: equal scales of both axes make a circle round. */
 static void make_square(struct gb_plot *plot, double radius)
 {
     const double wide = plot->cols;

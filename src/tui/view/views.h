@@ -3,58 +3,58 @@
 
 #include "tui/panel/panels.h"
 
-/* What has to be there before a view can be drawn; else its place says what is missing. */
+/* Data that a view needs; without it a text is drawn instead. */
 enum gb_view_need {
     GB_VIEW_NEEDS_NOTHING,
     GB_VIEW_NEEDS_POINTS,   /* two points of the curve */
-    GB_VIEW_NEEDS_CONTACTS, /* a state with contacts */
+    GB_VIEW_NEEDS_CONTACTS, /* a packing with contacts */
     GB_VIEW_NEEDS_SAMPLE,   /* positions of particles */
     GB_VIEW_NEEDS_CHART     /* a chart.csv */
 };
 
-/* x axis of the views of the curve's points; the cursor moves along those. */
+/* x axis of the views of curve points, on which the cursor moves. */
 enum gb_view_abscissa { GB_VIEW_NO_CURSOR, GB_VIEW_DENSITY, GB_VIEW_ELAPSED };
 
 enum gb_view_option {
-    GB_VIEW_PRESSURE_AXIS = 1, /* y is the pressure: L makes it logarithmic */
-    GB_VIEW_INSET = 2          /* also below the curve, where there is room */
+    GB_VIEW_PRESSURE_AXIS = 1, /* y is the pressure: L switches its axis */
+    GB_VIEW_INSET = 2          /* also drawn below the curve, if there is room */
 };
 
-/* One row for each view: key digit, help, title, footer hint, cursor, insets and `v` are
- * made from it.  A new view is a file, a row in views.c and a line in meson.build. */
+/* One row per view: digit, help, title, footer hint, cursor, insets and `v` follow from
+ * it.  A new view is a file, a row in views.c and a line in meson.build. */
 struct gb_plot_view {
     const char *key;               /* digit */
-    const char *help;              /* in the list of keys, < 50 characters */
+    const char *help;              /* in the list of keys, at most 49 characters */
     const char *title;             /* of the pane */
-    const char *title_quasistatic; /* where it differs; NULL: the same */
+    const char *title_quasistatic; /* title for other scenes; NULL: the same */
     const char *hint;              /* message line */
     enum gb_view_need need;
     enum gb_view_abscissa abscissa;
     int options; /* bits of enum gb_view_option */
     void (*draw)(struct gb_panel_plot *panel, const struct gb_session *session);
-    bool (*applies)(const struct gb_params *params); /* NULL: to all scenes */
-    const char *excluded;                            /* why not to the others */
+    bool (*applies)(const struct gb_params *params); /* scenes of the view; NULL: all */
+    const char *excluded;                            /* reason for the other scenes */
 };
 
 size_t gb_views_count(void);
 const struct gb_plot_view *gb_views_at(size_t index);
-/* By its key digit; NULL: none. */
+/* The view of a digit; NULL: none. */
 const struct gb_plot_view *gb_views_find(const char *key);
-/* The first view with that need. */
+/* The first view with this need. */
 const struct gb_plot_view *gb_views_with(enum gb_view_need need);
 /* The next (1) or previous (-1) view that applies to the scene. */
 const struct gb_plot_view *gb_views_step(const struct gb_plot_view *view, int step,
                                          const struct gb_params *params);
 
-/* Text for the place of a view that cannot be drawn yet; NULL: it can. */
+/* Text in place of a view that lacks its data; NULL: it can be drawn. */
 const char *gb_views_missing(const struct gb_plot_view *view,
                              const struct gb_session *session,
                              const struct gb_params *edited);
 
-/* --- the drawing functions, by file ------------------------------------------------- */
+/* --- drawing functions, by file ----------------------------------------------------- */
 
-/* Pressure against relative density or time: previous curves, unloading branches, the
- * loading branch on top; the three stages of a dynamic run. */
+/* Pressure against relative density or time: previous curves, unloading branches, loading
+ * branch on top; the stages of a dynamic run. */
 void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
 /* Distribution of the coordination number. */
@@ -71,18 +71,18 @@ void gb_view_distances_draw(struct gb_panel_plot *panel,
 /* Lateral-to-axial stress ratio against relative density, P1 Fig. 13. */
 void gb_view_ratio_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
-/* Laws of the edited parameters, dim those of the run, into panel->target: normal force
- * of two particles (P1 Fig. 1), bridge strength (P1 Fig. 2). */
+/* Laws of the edited parameters, and dim those of the run, into panel->target: normal
+ * force of two particles (P1 Fig. 1), bridge strength (P1 Fig. 2). */
 void gb_view_law_force(struct gb_panel_plot *panel, const struct gb_session *session);
 void gb_view_law_strength(struct gb_panel_plot *panel, const struct gb_session *session);
 
-/* Law of Hertz or Storakers, for scenes that use it; called by gb_view_law_force. */
+/* Law of Hertz or Storakers, for scenes with it; called by gb_view_law_force. */
 void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
 /* The packing along y: shaded spheres, darker with depth; discs in 2D. */
 void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
-/* Accuracy against cost of the numerical settings in the chart that was loaded. */
+/* Accuracy against cost of the numerical settings in the loaded chart. */
 void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
 #endif

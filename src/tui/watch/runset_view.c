@@ -26,7 +26,7 @@ static int compare(const void *a, const void *b)
     return gb_runset_compare(*(char *const *)a, *(char *const *)b);
 }
 
-/* Directories of runs inside, by name; each to be freed. */
+/* Run directories in a directory, sorted by name; free-func set. */
 static GPtrArray *list_runs(const char *directory)
 {
     GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
@@ -49,7 +49,7 @@ static GPtrArray *list_runs(const char *directory)
     return list;
 }
 
-/* A calibration keeps its runs in a folder. */
+/* The same, or of its folder `runs` (calibrations). */
 static GPtrArray *list_all(const char *directory)
 {
     GPtrArray *list = list_runs(directory);
@@ -73,7 +73,7 @@ bool gb_runset_view_is(const char *directory)
     return is;
 }
 
-/* "name value" of each cell. */
+/* "name value" of every cell of a row. */
 static char *line_of(char **names, char **cells)
 {
     GString *line = g_string_new(NULL);
@@ -83,7 +83,7 @@ static char *line_of(char **names, char **cells)
     return g_string_free(line, FALSE);
 }
 
-/* The rows of a table of a calibration as lines. */
+/* Appends the rows of a CSV table of a calibration as lines. */
 static void add_lines(GPtrArray *lines, const char *directory, const char *name)
 {
     char *path = g_build_filename(directory, name, NULL);
@@ -110,7 +110,7 @@ static void add_lines(GPtrArray *lines, const char *directory, const char *name)
     g_free(path);
 }
 
-/* The result, then the rounds that led there; NULL where nothing is fitted. */
+/* Lines of the result and of the rounds of a calibration; NULL for other directories. */
 static char **read_fit(const char *directory)
 {
     GPtrArray *lines = g_ptr_array_new();
@@ -152,7 +152,7 @@ static void read_states(struct gb_runset_view *runset, GPtrArray *list)
     runset->progress = list->len > 0 ? progress / (double)list->len : 0.0;
 }
 
-/* Those whose curve can be read by now: one that is just being begun has none yet. */
+/* Runs with a readable curve: at its start a run has none. */
 static GPtrArray *readable(const GPtrArray *list)
 {
     GPtrArray *good = g_ptr_array_new();
@@ -175,7 +175,7 @@ static void set_levels(struct gb_runset_view *runset, const struct gb_runset *se
     for (size_t i = 0; i < set->count; i++) {
         const double *p = gb_table_column(set->run[i].table, "p_MPa", NULL);
         for (size_t k = 0; p != NULL && k < gb_table_rows(set->run[i].table); k++) {
-            max_pa = fmax(max_pa, 1e6 * p[k]); /* NaN is left out */
+            max_pa = fmax(max_pa, 1e6 * p[k]); /* fmax ignores NaN */
         }
     }
     for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
@@ -184,7 +184,7 @@ static void set_levels(struct gb_runset_view *runset, const struct gb_runset *se
     }
 }
 
-/* Mean and standard error over the replicas that got to each level. */
+/* Mean and standard error over the replicas that reached each level. */
 static void average(struct gb_runset_view *runset, const struct gb_runset *set,
                     size_t group)
 {
@@ -204,7 +204,7 @@ static void average(struct gb_runset_view *runset, const struct gb_runset *set,
     g_free(values);
 }
 
-/* Place of a value in a key's list, at its end when it is new. */
+/* Index of a value in the list of a key, to which new values are appended. */
 static size_t index_of_value(struct gb_runset_view_key *key, const char *value)
 {
     for (size_t i = 0; i < key->count; i++) {
@@ -224,8 +224,9 @@ static double number_of(const char *value)
     return gb_units_number(value, NULL, &number) ? number : (double)NAN;
 }
 
-/* Numbers of one unit in their order; words stay as they came. */
-static void sort_values(struct gb_runset_view_key *key, size_t *place, size_t groups)
+/* Sorts numbers of one unit; words keep their order. */
+static void sort_values(struct gb_runset_view_key *key, size_t *value_index,
+                        size_t groups)
 {
     for (size_t i = 1; i < key->count; i++) {
         for (size_t k = i;
@@ -234,7 +235,9 @@ static void sort_values(struct gb_runset_view_key *key, size_t *place, size_t gr
             key->values[k] = key->values[k - 1];
             key->values[k - 1] = kept;
             for (size_t g = 0; g < groups; g++) {
-                place[g] = place[g] == k ? k - 1 : place[g] == k - 1 ? k : place[g];
+                value_index[g] = value_index[g] == k       ? k - 1
+                                 : value_index[g] == k - 1 ? k
+                                                           : value_index[g];
             }
         }
     }
@@ -246,24 +249,24 @@ static void find_keys(struct gb_runset_view *runset, const struct gb_runset *set
     const struct gb_field *field = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
         struct gb_runset_view_key key = {&field[i], NULL, 0};
-        size_t *place = g_new0(size_t, set->groups + 1);
+        size_t *value_index = g_new0(size_t, set->groups + 1);
         for (size_t g = 0; g < set->groups && !gb_runset_bookkeeping(&field[i]); g++) {
             char value[GB_PARAMS_VALUE_MAX];
             gb_params_format(&gb_runset_first(set, g)->params, &field[i], value,
                              sizeof value);
-            place[g] = index_of_value(&key, value);
+            value_index[g] = index_of_value(&key, value);
         }
         if (key.count > 1 && runset->keys++ < GB_RUNSET_VIEW_VARIED) {
             const size_t k = runset->keys - 1;
-            sort_values(&key, place, set->groups);
+            sort_values(&key, value_index, set->groups);
             runset->key[k] = key;
             for (size_t g = 0; g < set->groups; g++) {
-                runset->group[g].place[k] = place[g];
+                runset->group[g].value_index[k] = value_index[g];
             }
         } else {
             g_strfreev(key.values);
         }
-        g_free(place);
+        g_free(value_index);
     }
 }
 
@@ -353,7 +356,8 @@ const struct gb_runset_view_group *gb_runset_view_at(const struct gb_runset_view
                                                      size_t first, size_t second)
 {
     for (size_t g = 0; g < runset->groups; g++) {
-        if (runset->group[g].place[0] == first && runset->group[g].place[1] == second) {
+        if (runset->group[g].value_index[0] == first &&
+            runset->group[g].value_index[1] == second) {
             return &runset->group[g];
         }
     }

@@ -7,8 +7,8 @@
 #include "greenbody/status.h"
 #include "many/runset.h"
 
-/* A directory of many runs as it stands now: of a sweep, a calibration, replicas.  Read
- * from the runs' own files, so that it can be watched while others compute. */
+/* Summary of a directory of many runs: sweep, calibration or replicas.  Read from the
+ * files of the runs, which other processes may still be writing. */
 
 enum { GB_RUNSET_VIEW_LEVELS = 48, GB_RUNSET_VIEW_VARIED = 2 };
 
@@ -19,19 +19,19 @@ struct gb_runset_view_run {
     char error[120];
 };
 
-/* Replicas of one point: density where the loading first reaches each level. */
+/* Replicas of one setting: density where loading first reaches each level. */
 struct gb_runset_view_group {
-    char *label; /* what tells it from the others; "" for a single one */
+    char *label; /* difference to the other groups; "" for a single one */
     size_t members;
-    size_t reached[GB_RUNSET_VIEW_LEVELS]; /* how many of them got there */
+    size_t reached[GB_RUNSET_VIEW_LEVELS]; /* members that reached the level */
     double mean[GB_RUNSET_VIEW_LEVELS], error[GB_RUNSET_VIEW_LEVELS];
-    size_t place[GB_RUNSET_VIEW_VARIED]; /* which value of each varied key */
+    size_t value_index[GB_RUNSET_VIEW_VARIED]; /* index of the value of each varied key */
 };
 
-/* A key of which the groups have several values. */
+/* A key with several values among the groups. */
 struct gb_runset_view_key {
     const struct gb_field *field;
-    char **values; /* as a preset would write them; numbers in their order */
+    char **values; /* as in a preset; numbers sorted */
     size_t count;
 };
 
@@ -39,28 +39,27 @@ struct gb_runset_view {
     char *directory;
     struct gb_runset_view_run *run;
     size_t runs, done, failed, live;
-    double progress; /* mean over the runs that are there */
+    double progress; /* mean over the existing runs */
     struct gb_runset_view_group *group;
     size_t groups;
-    double level_pa[GB_RUNSET_VIEW_LEVELS]; /* spaced evenly in the logarithm */
+    double level_pa[GB_RUNSET_VIEW_LEVELS]; /* logarithmic spacing */
     struct gb_runset_view_key key[GB_RUNSET_VIEW_VARIED];
-    size_t keys; /* varied keys; more than GB_RUNSET_VIEW_VARIED: no map */
-    char **fit;  /* of a calibration: lines of what it has found so far; else NULL */
+    size_t keys; /* number of varied keys; above GB_RUNSET_VIEW_VARIED: no map */
+    char **fit;  /* lines of the fit of a calibration; NULL: none */
 };
 
-/* Whether a directory has runs in it, or in its folder `runs` as that of a calibration,
- * and is none itself. */
+/* Whether a directory, or its folder `runs`, contains runs and is no run itself. */
 bool gb_runset_view_is(const char *directory);
 
-/* Reads all of it.  Errors: GB_ERR_INPUT when there is no run that can be read. */
+/* Reads the directory.  Errors: GB_ERR_INPUT when no run can be read. */
 bool gb_runset_view_read(struct gb_runset_view *runset, const char *directory,
                          struct gb_error *err);
 void gb_runset_view_finish(struct gb_runset_view *runset); /* zeroed is fine */
 
-/* The level nearest to a pressure, or below it where more groups got there as a whole. */
+/* The level nearest to a pressure, or a lower one that more groups reached completely. */
 size_t gb_runset_view_level(const struct gb_runset_view *runset, double pressure_pa);
 
-/* The group at these values of the two varied keys; NULL: there is none yet. */
+/* The group with these values of the two varied keys; NULL: none yet. */
 const struct gb_runset_view_group *gb_runset_view_at(const struct gb_runset_view *runset,
                                                      size_t first, size_t second);
 

@@ -9,10 +9,11 @@
 #include "base/clock.h"
 #include "tui/app/keys.h"
 
-/* The files are read again after this time, and after ten times what that took. */
+/* Seconds between two readings of the files, or `share` times the duration of one,
+ * whichever is longer. */
 static const double reread_s = 1.0;
 static const double share = 10.0;
-/* The map begins at the pressure at which P1 compares powders. */
+/* Initial pressure of the map: P1 compares powders there. */
 static const double default_pa = 100e6;
 
 enum { STATUS_SIGNAL = 128, MIN_ROWS = 12, MIN_COLS = 40, PAGE = 10, LAST_ASCII = 126 };
@@ -75,7 +76,7 @@ static void move_level(struct gb_watch *watch, int by)
     watch->level = (size_t)CLAMP(to, 0, GB_RUNSET_VIEW_LEVELS - 1);
 }
 
-/* Only a calibration has a fit. */
+/* Number of views: only a calibration has a fit. */
 static int views(const struct gb_watch *watch)
 {
     return watch->runset.fit != NULL ? GB_WATCH_VIEWS : GB_WATCH_FIT;
@@ -127,7 +128,7 @@ static void leave(struct gb_watch *watch, struct gb_term *term)
     watch->leave = true;
 }
 
-/* Keys besides the digits of the views and the navigation. */
+/* Keys other than digits of the views and navigation. */
 static const struct {
     int code[4];
     void (*act)(struct gb_watch *watch, struct gb_term *term);
@@ -180,8 +181,8 @@ static void act(struct gb_watch *watch, struct gb_term *term, int code)
     }
 }
 
-/* A failure leaves the old state on the screen, with its message; the files are read again
- * later. */
+/* After an error the old data stay on the screen with the message; the files are read
+ * again later. */
 static void reread(struct gb_watch *watch)
 {
     struct gb_runset_view fresh;
@@ -196,7 +197,7 @@ static void reread(struct gb_watch *watch)
     g_free(directory);
 }
 
-/* Exit status; -1: not over. */
+/* Exit status; -1: continue. */
 static int handle(struct gb_watch *watch, struct gb_term *term,
                   const struct gb_term_event *event)
 {

@@ -6,8 +6,8 @@
 #include "tui/term/settings.h"
 #include "tui/watch/runset_view.h"
 
-/* The screen of many runs: their curves as means with bands, a map over two varied keys
- * at a pressure, the runs themselves, the fit of a calibration.  It only reads. */
+/* The screen of many runs, read-only: curves as means with bands, a map over two varied
+ * keys at a pressure, the runs, the fit of a calibration. */
 enum gb_watch_view {
     GB_WATCH_CURVES,
     GB_WATCH_MAP,
@@ -18,21 +18,21 @@ enum gb_watch_view {
 
 struct gb_watch {
     struct gb_runset_view runset;
-    struct gb_error error; /* of the last reading */
+    struct gb_error error; /* error of the last reading */
     bool leave;
     enum gb_watch_view view;
     size_t level; /* pressure of the map */
-    bool linear;  /* pressure axis */
+    bool linear;  /* linear pressure axis */
     int top;      /* first run listed */
     int glyphs;   /* enum gb_plot_glyphs */
     struct gb_plot plot;
 };
 
-/* Shows a directory until the user leaves; returns the exit status. */
+/* Shows a directory until the user quits; returns the exit status. */
 int gb_watch_run(const char *directory, const struct gb_settings *settings,
                  struct gb_error *err);
 
-/* Draws the view into a rectangle; drawing only (watch_draw.c). */
+/* Draws the view into a rectangle (watch_draw.c). */
 void gb_watch_draw(struct gb_watch *watch, const struct gb_paint *paint);
 
 #endif

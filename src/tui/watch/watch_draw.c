@@ -44,7 +44,7 @@ static void find_ends(const struct gb_watch *watch, double x[2], double y[2])
     }
 }
 
-/* A line `off` standard errors beside the mean. */
+/* The mean plus `off` standard errors. */
 static void draw_curve(struct gb_watch *watch, const struct gb_runset_view_group *group,
                        double off, int ink, int marker)
 {
@@ -68,8 +68,8 @@ static void name_group(const struct gb_runset_view_group *group, char *name, siz
              group->members, group->members == 1 ? "cell" : "cells");
 }
 
-/* All groups and the legend, which stands in `foot` rows below if there are any; false
- * when it is not whole.  *needed: rows that it takes below. */
+/* Draws all groups and the legend, with `foot` rows for it below the plot; false when the
+ * legend is incomplete or covers a line.  *needed: rows of a complete foot. */
 static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
                         const double x[2], const double y[2], int foot, int *needed)
 {
@@ -82,7 +82,7 @@ static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
     }
     watch->plot.foot = foot;
     gb_plot_axes(&watch->plot, x, y, !watch->linear, "relative density", "p, MPa");
-    for (size_t g = 0; g < runset->groups; g++) { /* bands below */
+    for (size_t g = 0; g < runset->groups; g++) { /* bands first */
         draw_curve(watch, &runset->group[g], -1.0, GB_PLOT_INK_DIM, 0);
         draw_curve(watch, &runset->group[g], 1.0, GB_PLOT_INK_DIM, 0);
     }
@@ -109,7 +109,7 @@ static void draw_curves(struct gb_watch *watch, const struct gb_paint *paint)
         gb_paint_text(paint, 2, 2, GB_STYLE_PLAIN, "no curve has reached 1 MPa yet");
         return;
     }
-    if (!draw_groups(watch, paint, x, y, 0, &foot)) { /* no room between the curves */
+    if (!draw_groups(watch, paint, x, y, 0, &foot)) { /* no free area inside */
         (void)draw_groups(watch, paint, x, y, foot, &foot);
     }
     gb_paint_plot(paint, 1, 1, &watch->plot);
@@ -126,14 +126,13 @@ static struct range range_of(const struct gb_watch *watch)
     struct range range = {HUGE_VAL, -HUGE_VAL};
     for (size_t g = 0; g < watch->runset.groups; g++) {
         const double mean = watch->runset.group[g].mean[watch->level];
-        range.min = fmin(range.min, mean); /* NaN is left out */
+        range.min = fmin(range.min, mean); /* fmin and fmax ignore NaN */
         range.max = fmax(range.max, mean);
     }
     return range;
 }
 
-/* "▓▓ 0.5120 +-30": darker is denser, and the number says how dense; "▓0.512" where there
- * is less room. */
+/* "▓▓ 0.5120 +-30": darker is denser; "▓0.512" in narrow columns. */
 static void draw_cell(const struct gb_watch *watch, const struct gb_paint *paint, int row,
                       int col, int cols, const struct gb_runset_view_group *group,
                       struct range range)
@@ -182,7 +181,7 @@ static void draw_matrix(const struct gb_watch *watch, const struct gb_paint *pai
     }
 }
 
-/* Where one key varies, or more than two: a row for each group. */
+/* One row per group, where one key varies or more than two. */
 static void draw_list(const struct gb_watch *watch, const struct gb_paint *paint)
 {
     const struct range range = range_of(watch);
