@@ -1,13 +1,12 @@
 #include "run/record/writer.h"
 
 #include <pthread.h>
-#include <signal.h>
-#include <string.h>
 
 #include <glib.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/thread.h"
 #include "io/state_record.h"
 
 struct gb_writer {
@@ -94,20 +93,6 @@ static void *work(void *data)
     return NULL;
 }
 
-/* The thread inherits the mask it is created under: signals belong to the program. */
-static bool start(struct gb_writer *writer, struct gb_error *err)
-{
-    sigset_t all;
-    sigset_t old;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &old);
-    const int failure = pthread_create(&writer->thread, NULL, work, writer);
-    pthread_sigmask(SIG_SETMASK, &old, NULL);
-    return failure == 0 ||
-           gb_error_set(err, GB_ERR_MACHINE, "cannot start the writer thread: %s",
-                        strerror(failure));
-}
-
 bool gb_writer_create(struct gb_writer **out, const struct gb_store *store,
                       const struct gb_params *params, const struct gb_model *model,
                       struct gb_error *err)
@@ -121,7 +106,7 @@ bool gb_writer_create(struct gb_writer **out, const struct gb_store *store,
     writer->model = model;
     pthread_mutex_init(&writer->mutex, NULL);
     pthread_cond_init(&writer->change, NULL);
-    if (!start(writer, err)) {
+    if (!gb_thread_start(&writer->thread, work, writer, "the writer thread", err)) {
         pthread_cond_destroy(&writer->change);
         pthread_mutex_destroy(&writer->mutex);
         gb_alloc_free(writer);

@@ -1,33 +1,16 @@
 #include "run/runner/runner.h"
 
 #include <glib.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/thread.h"
 #include "io/follow.h"
 #include "io/rundir.h"
 #include "run/checkpoint.h"
 #include "run/runner/runner_private.h"
 #include "scene/field/changes.h"
-
-/* The thread inherits the mask it is created under: signals belong to the screen. */
-static bool start(struct gb_runner *runner, void *(*work)(void *data),
-                  struct gb_error *err)
-{
-    sigset_t all;
-    sigset_t old;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &old);
-    const int failure = pthread_create(&runner->thread, NULL, work, runner);
-    pthread_sigmask(SIG_SETMASK, &old, NULL);
-    if (failure != 0) {
-        return gb_error_set(err, GB_ERR_MACHINE, "cannot start the engine thread: %s",
-                            strerror(failure));
-    }
-    return true;
-}
 
 static void free_runner(struct gb_runner *runner)
 {
@@ -72,7 +55,7 @@ static bool launch(struct gb_runner **out, struct gb_runner *runner,
     pthread_mutex_init(&runner->mutex, NULL);
     pthread_cond_init(&runner->wake, NULL);
     gb_runner_publish_state(runner, GB_RUN_PACKING);
-    if (!start(runner, work, err)) {
+    if (!gb_thread_start(&runner->thread, work, runner, "the engine thread", err)) {
         pthread_cond_destroy(&runner->wake);
         pthread_mutex_destroy(&runner->mutex);
         free_runner(runner);

@@ -50,7 +50,7 @@ struct gb_runner {
     double sampled_s, sample_cost_s;    /* the same of the view sample */
 };
 
-/* The threads' work, for pthread_create; data is the runner. */
+/* The threads' work, for gb_thread_start; data is the runner. */
 void *gb_engine_thread(void *data);
 void *gb_follow_thread(void *data);
 
