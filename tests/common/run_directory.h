@@ -1,5 +1,5 @@
-#ifndef GB_TESTS_PLACE_H
-#define GB_TESTS_PLACE_H
+#ifndef GB_TESTS_RUN_DIRECTORY_H
+#define GB_TESTS_RUN_DIRECTORY_H
 
 #include <string.h>
 
@@ -8,25 +8,25 @@
 
 #include "run/record/run_recorder.h"
 
-/* A run directory in a folder of its own. */
-struct place {
+/* A run directory in a temporary folder. */
+struct run_directory {
     char *folder, *directory, *state, *curve, *snapshots;
 };
 
-static inline struct place place_make(const char *name)
+static inline struct run_directory run_directory_make(const char *name)
 {
-    struct place place;
-    place.folder = g_dir_make_tmp("greenbody-test-XXXXXX", NULL);
-    g_assert_nonnull(place.folder);
-    place.directory = g_build_filename(place.folder, name, NULL);
-    place.state = g_build_filename(place.directory, "state.h5", NULL);
-    place.curve = g_build_filename(place.directory, "curve.csv", NULL);
-    place.snapshots = g_build_filename(place.directory, "snapshots", NULL);
-    return place;
+    struct run_directory dir;
+    dir.folder = g_dir_make_tmp("greenbody-test-XXXXXX", NULL);
+    g_assert_nonnull(dir.folder);
+    dir.directory = g_build_filename(dir.folder, name, NULL);
+    dir.state = g_build_filename(dir.directory, "state.h5", NULL);
+    dir.curve = g_build_filename(dir.directory, "curve.csv", NULL);
+    dir.snapshots = g_build_filename(dir.directory, "snapshots", NULL);
+    return dir;
 }
 
 /* Removes a directory and the files in it, if it is there. */
-static inline void place_remove(const char *directory)
+static inline void remove_directory(const char *directory)
 {
     GDir *dir = g_dir_open(directory, 0, NULL);
     const char *name;
@@ -41,29 +41,29 @@ static inline void place_remove(const char *directory)
     g_rmdir(directory);
 }
 
-static inline void place_clear(const struct place *place)
+static inline void run_directory_clear(const struct run_directory *dir)
 {
-    place_remove(place->snapshots);
-    place_remove(place->directory);
+    remove_directory(dir->snapshots);
+    remove_directory(dir->directory);
 }
 
-static inline void place_finish(struct place *place)
+static inline void run_directory_finish(struct run_directory *dir)
 {
-    place_clear(place);
-    g_assert_cmpint(g_rmdir(place->folder), ==, 0);
-    g_free(place->folder);
-    g_free(place->directory);
-    g_free(place->state);
-    g_free(place->curve);
-    g_free(place->snapshots);
+    run_directory_clear(dir);
+    g_assert_cmpint(g_rmdir(dir->folder), ==, 0);
+    g_free(dir->folder);
+    g_free(dir->directory);
+    g_free(dir->state);
+    g_free(dir->curve);
+    g_free(dir->snapshots);
 }
 
-/* The rows without the column of seconds, which are of the clock. */
-static inline char *place_rows(const struct place *place)
+/* The rows of curve.csv without the column of seconds, which depends on the machine. */
+static inline char *run_directory_rows(const struct run_directory *dir)
 {
     enum { SECONDS = 13 };
     char *text = NULL;
-    g_assert_true(g_file_get_contents(place->curve, &text, NULL, NULL));
+    g_assert_true(g_file_get_contents(dir->curve, &text, NULL, NULL));
     char **lines = g_strsplit(text, "\n", -1);
     for (int i = 0; lines[i] != NULL; i++) {
         char **cells = g_strsplit(lines[i], ",", -1);
@@ -81,12 +81,12 @@ static inline char *place_rows(const struct place *place)
     return joined;
 }
 
-/* Rows of points that are there now. */
-static inline int place_points(const struct place *place)
+/* Number of points recorded so far. */
+static inline int run_directory_points(const struct run_directory *dir)
 {
     char *text = NULL;
     int lines = 0, comments = 0;
-    if (g_file_get_contents(place->curve, &text, NULL, NULL)) {
+    if (g_file_get_contents(dir->curve, &text, NULL, NULL)) {
         for (const char *at = text; (at = strchr(at, '\n')) != NULL; at++) {
             lines++;
         }
@@ -98,18 +98,18 @@ static inline int place_points(const struct place *place)
     return lines > comments ? lines - comments - 1 : 0;
 }
 
-/* Goes on with what was kept, to the end, without a screen. */
-static inline void place_go_on(const struct place *place)
+/* Resumes the run from its last checkpoint to the end, without a screen. */
+static inline void run_directory_continue(const struct run_directory *dir)
 {
-    struct gb_run_recorder *keep = NULL;
+    struct gb_run_recorder *recorder = NULL;
     struct gb_experiment *experiment = NULL;
     struct gb_error err = {0};
     struct gb_snapshot shot = {0};
-    if (!gb_run_recorder_resume(&keep, &experiment, place->directory, &err)) {
+    if (!gb_run_recorder_resume(&recorder, &experiment, dir->directory, &err)) {
         g_error("%s", err.text);
     }
     if (experiment == NULL &&
-        !gb_experiment_create(&experiment, gb_run_recorder_params(keep), NULL, NULL,
+        !gb_experiment_create(&experiment, gb_run_recorder_params(recorder), NULL, NULL,
                               &err)) {
         g_error("%s", err.text);
     }
@@ -118,16 +118,16 @@ static inline void place_go_on(const struct place *place)
         char text[GB_EVENT_TEXT];
         how = gb_experiment_advance(experiment, 1000, &err);
         while (gb_experiment_event(experiment, text, sizeof text)) {
-            g_assert_true(gb_run_recorder_event(keep, 0, text, &err));
+            g_assert_true(gb_run_recorder_event(recorder, 0, text, &err));
         }
         if (how == GB_STEP_POINT) {
-            g_assert_true(gb_run_recorder_point(keep, experiment,
+            g_assert_true(gb_run_recorder_point(recorder, experiment,
                                                 gb_experiment_point(experiment), &err));
         }
     }
     g_assert_cmpint(how, ==, GB_STEP_DONE);
-    g_assert_true(gb_run_recorder_conclude(keep, &shot, &err));
-    gb_run_recorder_destroy(keep);
+    g_assert_true(gb_run_recorder_conclude(recorder, &shot, &err));
+    gb_run_recorder_destroy(recorder);
     gb_experiment_destroy(experiment);
 }
 

@@ -108,8 +108,8 @@ static void check(struct gb_params params, int every, int64_t least)
 }
 
 /* Loading with two branches of unloading. */
-static struct gb_params pressing(const char *contact, const char *geometry,
-                                 const char *relaxer)
+static struct gb_params quasistatic(const char *contact, const char *geometry,
+                                    const char *relaxer)
 {
     return scene_params("loading.until=30 MPa", "loading.unload_from=8 MPa; 20 MPa",
                         "loading.step=0.4 %", "numerics.tolerance=1e-2", contact,
@@ -118,29 +118,30 @@ static struct gb_params pressing(const char *contact, const char *geometry,
 
 static void test_bridges(void)
 {
-    check(
-        pressing("contact.mu=0.1", "loading.geometry=uniaxial", "numerics.relaxer=fire"),
-        3, 60);
+    check(quasistatic("contact.mu=0.1", "loading.geometry=uniaxial",
+                      "numerics.relaxer=fire"),
+          3, 60);
 }
 
 static void test_every_point(void)
 {
-    check(pressing("contact.mu=0.1", "loading.geometry=biaxial", "numerics.relaxer=fire"),
+    check(quasistatic("contact.mu=0.1", "loading.geometry=biaxial",
+                      "numerics.relaxer=fire"),
           1, 30);
 }
 
 static void test_no_bridges(void)
 {
-    check(pressing("contact.bridge_length=1 d", "loading.geometry=isotropic",
-                   "numerics.relaxer=fire"),
+    check(quasistatic("contact.bridge_length=1 d", "loading.geometry=isotropic",
+                      "numerics.relaxer=fire"),
           4, 15);
 }
 
 /* Its memory of the last strain step is part of the state. */
 static void test_predict(void)
 {
-    check(pressing("contact.mu=0.1", "loading.geometry=uniaxial",
-                   "numerics.relaxer=predict"),
+    check(quasistatic("contact.mu=0.1", "loading.geometry=uniaxial",
+                      "numerics.relaxer=predict"),
           2, 50);
 }
 

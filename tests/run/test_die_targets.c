@@ -80,12 +80,12 @@ static struct gb_model freeze(const struct gb_params *params)
 }
 
 /* To the next point; false at the end. */
-static bool next_point(struct gb_die_stages *programme, struct gb_bed *bed)
+static bool next_point(struct gb_die_stages *stages, struct gb_bed *bed)
 {
     char text[GB_EVENT_TEXT];
     struct gb_error err = {0};
     for (;;) {
-        switch (gb_die_stages_advance(programme, bed, 100000, text, sizeof text, &err)) {
+        switch (gb_die_stages_advance(stages, bed, 100000, text, sizeof text, &err)) {
         case GB_STEP_MORE:
             if (text[0] != '\0') {
                 g_test_message("%s", text);
@@ -124,7 +124,7 @@ static struct result press(struct gb_bed *bed, const struct gb_bed_copy *filled,
                            const struct model *name, int seed)
 {
     struct gb_error err = {0};
-    struct gb_die_stages *programme = NULL;
+    struct gb_die_stages *stages = NULL;
     struct result result = {.floor_low = HUGE_VAL};
     const struct gb_params params = load(name, seed);
     const struct gb_model model = freeze(&params);
@@ -132,13 +132,13 @@ static struct result press(struct gb_bed *bed, const struct gb_bed_copy *filled,
     const double start = gb_clock_process_s(); /* other work does not lengthen it */
     const int64_t evaluations = bed->evaluations;
     g_assert_true(gb_bed_copy_restore(bed, filled, &err));
-    g_assert_true(gb_die_stages_create(&programme, &model.die, &law, &err));
-    g_assert_true(gb_die_stages_begin(programme, bed, &err));
-    while (next_point(programme, bed)) {
-        const struct gb_die_stages_report report = gb_die_stages_report(programme, bed);
+    g_assert_true(gb_die_stages_create(&stages, &model.die, &law, &err));
+    g_assert_true(gb_die_stages_begin(stages, bed, &err));
+    while (next_point(stages, bed)) {
+        const struct gb_die_stages_report report = gb_die_stages_report(stages, bed);
         book(&result, &report, bed, &model);
     }
-    gb_die_stages_destroy(programme);
+    gb_die_stages_destroy(stages);
     const double seconds = gb_clock_process_s() - start;
     const double steps = (double)(bed->evaluations - evaluations);
     g_test_message(
@@ -162,19 +162,19 @@ static struct bed_result study(int seed, size_t models_pressed)
     struct gb_error err = {0};
     struct bed_result result;
     struct gb_bed *bed = NULL;
-    struct gb_die_stages *programme = NULL;
+    struct gb_die_stages *stages = NULL;
     struct gb_bed_copy *filled = NULL;
     const struct gb_params params = load(&models[0], seed);
     const struct gb_model model = freeze(&params);
     const struct gb_bed_law law = gb_filling_compaction_law(&params);
     const double start = gb_clock_process_s();
     if (!gb_filling_create(&bed, &params, &model, NULL, NULL, &err) ||
-        !gb_die_stages_create(&programme, &model.die, &law, &err)) {
+        !gb_die_stages_create(&stages, &model.die, &law, &err)) {
         g_error("%s", err.text);
     }
-    g_assert_true(next_point(programme, bed));
+    g_assert_true(next_point(stages, bed));
     g_assert_true(gb_bed_copy_take(bed, &filled, &err));
-    const struct gb_die_stages_report report = gb_die_stages_report(programme, bed);
+    const struct gb_die_stages_report report = gb_die_stages_report(stages, bed);
     result.height_um = 1e6 * report.height * model.metre_per_length;
     result.whole = gb_observe_die_density(bed, report.height);
     result.central = gb_observe_die_central(bed, report.height, model.die.central_radius);
@@ -185,7 +185,7 @@ static struct bed_result study(int seed, size_t models_pressed)
         result.model[k] = press(bed, filled, &models[k], seed);
     }
     gb_bed_copy_destroy(filled);
-    gb_die_stages_destroy(programme);
+    gb_die_stages_destroy(stages);
     gb_bed_destroy(bed);
     return result;
 }

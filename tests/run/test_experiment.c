@@ -59,9 +59,9 @@ static const struct gb_point *at(const struct trace *trace, guint i)
     return &g_array_index(trace->points, struct gb_point, i);
 }
 
-/* Loading goes up, unloading comes back to zero and gives most of the way to loading
- * again. */
-static void test_programme(void)
+/* The density rises on loading; unloading ends near zero pressure; loading continues near
+ * the pressure where unloading began. */
+static void test_branches(void)
 {
     const struct gb_params params =
         scene_params("loading.until=40 MPa", "loading.unload_from=20 MPa",
@@ -291,7 +291,7 @@ static void test_state(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/experiment/programme", test_programme);
+    g_test_add_func("/experiment/branches", test_branches);
     g_test_add_func("/experiment/repeat", test_repeat);
     g_test_add_func("/experiment/scenes", test_scenes);
     g_test_add_func("/experiment/stop", test_stop);

@@ -1,13 +1,13 @@
-/* The k-th write and the k-th allocation fail, for every k until the run passes: one
- * clear line, nothing half written, and what was kept goes on to the undisturbed end.
- * With "-m slow" in every kind of run, else in one. */
+/* The k-th write or the k-th allocation fails, for every k until the run succeeds: the
+ * error is one line, no file is incomplete, and the run resumes from its checkpoint to the
+ * same result.  With "-m slow" for every kind of scene, else for one. */
 #include <glib.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/file.h"
 #include "common/die.h"
-#include "common/place.h"
+#include "common/run_directory.h"
 #include "common/scene.h"
 #include "io/hdf/hdf_record.h"
 #include "io/rundir.h"
@@ -49,19 +49,19 @@ static struct gb_params scene_in_die(void)
                       "numerics.threads=1", NULL);
 }
 
-/* What there is, is whole: rows end with a line, a state can be read. */
-static void check_whole(const struct place *place)
+/* Files that exist are complete: curve.csv ends with a line, the state can be read. */
+static void check_whole(const struct run_directory *run_dir)
 {
     char *text = NULL;
     gsize size = 0;
-    if (g_file_get_contents(place->curve, &text, &size, NULL)) {
+    if (g_file_get_contents(run_dir->curve, &text, &size, NULL)) {
         g_assert_true(size == 0 || text[size - 1] == '\n');
         g_free(text);
     }
-    if (g_file_test(place->state, G_FILE_TEST_EXISTS)) {
+    if (g_file_test(run_dir->state, G_FILE_TEST_EXISTS)) {
         struct gb_record record = {0};
         struct gb_error err = {0};
-        if (!gb_hdf_record_read(&record, place->state, &err)) {
+        if (!gb_hdf_record_read(&record, run_dir->state, &err)) {
             g_error("%s", err.text);
         }
         gb_record_finish(&record);
@@ -79,28 +79,28 @@ static void check_line(const struct gb_error *err, enum gb_status code)
 
 static void fail_writes(struct gb_params params)
 {
-    struct place place = place_make("run");
+    struct run_directory run_dir = run_directory_make("run");
     struct gb_error err = {0};
-    g_assert_true(gb_single_run(&params, place.directory, NULL, &err));
-    char *whole = place_rows(&place);
+    g_assert_true(gb_single_run(&params, run_dir.directory, NULL, &err));
+    char *whole = run_directory_rows(&run_dir);
     bool done = false;
     long k = 1;
     for (; !done; k++) {
-        place_clear(&place);
+        run_directory_clear(&run_dir);
         err = (struct gb_error){0};
         gb_file_fail_after(k);
-        done = gb_single_run(&params, place.directory, NULL, &err);
+        done = gb_single_run(&params, run_dir.directory, NULL, &err);
         const long left = gb_file_fail_after(0);
         if (done) { /* not because a failure was passed over */
             g_assert_cmpint(left, >, 0);
             break;
         }
         check_line(&err, GB_ERR_MACHINE);
-        g_assert_nonnull(strstr(err.text, place.directory));
-        check_whole(&place);
-        if (g_file_test(place.directory, G_FILE_TEST_IS_DIR)) {
-            place_go_on(&place);
-            char *rows = place_rows(&place);
+        g_assert_nonnull(strstr(err.text, run_dir.directory));
+        check_whole(&run_dir);
+        if (g_file_test(run_dir.directory, G_FILE_TEST_IS_DIR)) {
+            run_directory_continue(&run_dir);
+            char *rows = run_directory_rows(&run_dir);
             g_assert_cmpstr(rows, ==, whole);
             g_free(rows);
         }
@@ -108,7 +108,7 @@ static void fail_writes(struct gb_params params)
     g_assert_cmpint(k, >, 20);
     g_test_message("%ld writes failed, one at a time", k - 1);
     g_free(whole);
-    place_finish(&place);
+    run_directory_finish(&run_dir);
 }
 
 static void test_writes(void)
@@ -123,26 +123,26 @@ static void test_writes(void)
 
 static void fail_allocations(struct gb_params params)
 {
-    struct place place = place_make("run");
+    struct run_directory run_dir = run_directory_make("run");
     bool done = false;
     long k = 1;
     for (; !done; k++) {
         struct gb_error err = {0};
         const size_t before = gb_alloc_bytes();
-        place_clear(&place);
+        run_directory_clear(&run_dir);
         gb_alloc_fail_after(k);
-        done = gb_single_run(&params, place.directory, NULL, &err);
+        done = gb_single_run(&params, run_dir.directory, NULL, &err);
         const long left = gb_alloc_fail_after(0);
         g_assert_cmpint(left > 0, ==, done);
         if (!done) {
             check_line(&err, GB_ERR_MEMORY);
         }
-        check_whole(&place);
+        check_whole(&run_dir);
         g_assert_cmpuint(gb_alloc_bytes(), ==, before);
     }
     g_assert_cmpint(k, >, 60);
     g_test_message("%ld allocations failed, one at a time", k - 2);
-    place_finish(&place);
+    run_directory_finish(&run_dir);
 }
 
 static void test_memory(void)
@@ -155,80 +155,79 @@ static void test_memory(void)
     }
 }
 
-/* What happens to a directory behind the back of its run, once it has points. */
+/* What another process does to the directory of a run, once it has points. */
 enum loss { MOVED, REPLACED, REMOVED };
 
-struct thief {
-    struct place place;
+struct run_to_move {
+    struct run_directory run_dir;
     char *elsewhere;
     enum loss loss;
     bool done;
 };
 
-/* Looked at between slices; never cancels. */
-static bool steal(void *data)
+/* Callback between two slices: moves the directory once, never cancels. */
+static bool move_once(void *data)
 {
-    struct thief *thief = data;
-    const char *directory = thief->place.directory;
-    if (thief->done || place_points(&thief->place) < 3) {
+    struct run_to_move *moved = data;
+    const char *directory = moved->run_dir.directory;
+    if (moved->done || run_directory_points(&moved->run_dir) < 3) {
         return false;
     }
-    thief->done = true;
-    g_assert_cmpint(g_rename(directory, thief->elsewhere), ==, 0);
-    if (thief->loss == REMOVED) {
-        place_remove(thief->elsewhere);
-    } else if (thief->loss == REPLACED) {
+    moved->done = true;
+    g_assert_cmpint(g_rename(directory, moved->elsewhere), ==, 0);
+    if (moved->loss == REMOVED) {
+        remove_directory(moved->elsewhere);
+    } else if (moved->loss == REPLACED) {
         g_assert_cmpint(g_mkdir(directory, 0777), ==, 0);
     }
     return false;
 }
 
-static struct thief thief_make(enum loss loss)
+static struct run_to_move run_to_move_make(enum loss loss)
 {
-    struct thief thief = {.place = place_make("run"), .loss = loss};
-    thief.elsewhere = g_build_filename(thief.place.folder, "elsewhere", NULL);
-    return thief;
+    struct run_to_move moved = {.run_dir = run_directory_make("run"), .loss = loss};
+    moved.elsewhere = g_build_filename(moved.run_dir.folder, "elsewhere", NULL);
+    return moved;
 }
 
-static void thief_finish(struct thief *thief)
+static void run_to_move_finish(struct run_to_move *moved)
 {
-    place_remove(thief->elsewhere);
-    g_free(thief->elsewhere);
-    place_finish(&thief->place);
+    remove_directory(moved->elsewhere);
+    g_free(moved->elsewhere);
+    run_directory_finish(&moved->run_dir);
 }
 
-/* Nothing is written by the old name any more; what was moved goes on from its new one.
- */
+/* Nothing is written under the old name any more; the moved directory can be resumed. */
 static void check_lost(enum loss loss, const struct gb_params *params, const char *whole)
 {
-    struct thief thief = thief_make(loss);
-    struct place *place = &thief.place;
-    const struct gb_pool_callbacks callbacks = {.cancelled = steal, .data = &thief};
+    struct run_to_move moved = run_to_move_make(loss);
+    struct run_directory *run_dir = &moved.run_dir;
+    const struct gb_pool_callbacks callbacks = {.cancelled = move_once, .data = &moved};
     struct gb_error err = {0};
-    g_assert_false(gb_single_run(params, place->directory, &callbacks, &err));
+    g_assert_false(gb_single_run(params, run_dir->directory, &callbacks, &err));
     check_line(&err, GB_ERR_MACHINE);
-    g_assert_nonnull(strstr(err.text, place->directory));
+    g_assert_nonnull(strstr(err.text, run_dir->directory));
     g_assert_nonnull(strstr(err.text, "was moved or removed"));
-    g_assert_cmpint(g_rmdir(place->directory) == 0, ==, loss == REPLACED);
+    g_assert_cmpint(g_rmdir(run_dir->directory) == 0, ==, loss == REPLACED);
     if (loss != REMOVED) {
-        g_assert_cmpint(g_rename(thief.elsewhere, place->directory), ==, 0);
-        check_whole(place);
-        place_go_on(place);
-        char *rows = place_rows(place);
+        g_assert_cmpint(g_rename(moved.elsewhere, run_dir->directory), ==, 0);
+        check_whole(run_dir);
+        run_directory_continue(run_dir);
+        char *rows = run_directory_rows(run_dir);
         g_assert_cmpstr(rows, ==, whole);
         g_free(rows);
     }
-    thief_finish(&thief);
+    run_to_move_finish(&moved);
 }
 
 static void test_lost(void)
 {
     struct gb_params params = scene();
-    struct place place = place_make("run");
+    struct run_directory run_dir = run_directory_make("run");
     struct gb_error err = {0};
-    g_assert_true(gb_single_run(&params, place.directory, NULL, &err));
-    char *whole = place_rows(&place);
-    place_finish(&place);
+    g_assert_true(gb_single_run(&params, run_dir.directory, NULL, &err));
+    char *whole = run_directory_rows(&run_dir);
+    run_directory_finish(&run_dir);
     check_lost(MOVED, &params, whole);
     check_lost(REMOVED, &params, whole);
     check_lost(REPLACED, &params, whole);
@@ -244,31 +243,31 @@ static char *read_text(const char *folder, const char *name)
     return text;
 }
 
-/* What is on its way while another directory takes the name lands in the one it is of. */
+/* A file being written while another directory takes the name goes to the moved one. */
 static void test_held(void)
 {
-    struct thief thief = thief_make(REPLACED);
+    struct run_to_move moved = run_to_move_make(REPLACED);
     struct gb_rundir dir = {.lock = -1};
     struct gb_error err = {0};
-    g_assert_true(gb_rundir_make(&dir, thief.place.directory, GB_RUNDIR_KEEP, &err));
+    g_assert_true(gb_rundir_make(&dir, moved.run_dir.directory, GB_RUNDIR_KEEP, &err));
     char *path = g_build_filename(dir.held, "status.json", NULL);
     g_assert_true(gb_rundir_result(&dir, gb_file_replace(path, "old", 3, &err), &err));
     gb_file_fail_after(1);
     g_assert_false(gb_rundir_result(&dir, gb_file_replace(path, "new", 3, &err), &err));
-    g_assert_true(g_str_has_prefix(err.text, thief.place.directory));
-    g_assert_cmpint(g_rename(thief.place.directory, thief.elsewhere), ==, 0);
-    g_assert_cmpint(g_mkdir(thief.place.directory, 0777), ==, 0);
+    g_assert_true(g_str_has_prefix(err.text, moved.run_dir.directory));
+    g_assert_cmpint(g_rename(moved.run_dir.directory, moved.elsewhere), ==, 0);
+    g_assert_cmpint(g_mkdir(moved.run_dir.directory, 0777), ==, 0);
     g_assert_true(gb_file_replace(path, "new", 3, &err));
-    char *moved = read_text(thief.elsewhere, "status.json");
-    g_assert_cmpstr(moved, ==, "new");
-    g_assert_cmpint(g_rmdir(thief.place.directory), ==, 0);
+    char *text = read_text(moved.elsewhere, "status.json");
+    g_assert_cmpstr(text, ==, "new");
+    g_assert_cmpint(g_rmdir(moved.run_dir.directory), ==, 0);
     gb_file_fail_after(1);
     g_assert_false(gb_rundir_result(&dir, gb_file_replace(path, "no", 2, &err), &err));
     g_assert_nonnull(strstr(err.text, "was moved or removed"));
-    g_free(moved);
+    g_free(text);
     g_free(path);
     gb_rundir_finish(&dir);
-    thief_finish(&thief);
+    run_to_move_finish(&moved);
 }
 
 /* False: the run was over before this thread could ask for a pause. */
@@ -284,31 +283,32 @@ static bool pause_early(struct gb_runner **runner, const struct gb_params *param
     return gb_runner_snapshot(*runner, NULL)->state == GB_RUN_PAUSED;
 }
 
-/* Behind a screen the run goes on without its directory, and says so once. */
+/* In the workbench a run continues without its directory, with one event. */
 static void test_lost_watched(void)
 {
     const struct gb_params params = scene();
-    struct thief thief = thief_make(MOVED);
+    struct run_to_move moved = run_to_move_make(MOVED);
     struct gb_runner *runner = NULL;
     char text[GB_EVENT_TEXT];
     int told = 0;
-    while (!pause_early(&runner, &params, thief.place.directory)) {
+    while (!pause_early(&runner, &params, moved.run_dir.directory)) {
         gb_runner_destroy(runner);
-        place_clear(&thief.place);
+        run_directory_clear(&moved.run_dir);
     }
-    g_assert_cmpint(g_rename(thief.place.directory, thief.elsewhere), ==, 0);
+    g_assert_cmpint(g_rename(moved.run_dir.directory, moved.elsewhere), ==, 0);
     g_assert_true(gb_runner_send(runner, GB_COMMAND_RESUME));
     while (gb_runner_snapshot(runner, NULL)->state < GB_RUN_DONE) {
         g_usleep(1000);
     }
     g_assert_cmpint(gb_runner_snapshot(runner, NULL)->state, ==, GB_RUN_DONE);
     for (int64_t k = 0; gb_runner_event(runner, k, text, sizeof text); k++) {
-        told += strstr(text, "no longer recorded") && strstr(text, "was moved or removed");
+        told +=
+            strstr(text, "no longer recorded") && strstr(text, "was moved or removed");
     }
     g_assert_cmpint(told, ==, 1);
-    g_assert_false(g_file_test(thief.place.directory, G_FILE_TEST_EXISTS));
+    g_assert_false(g_file_test(moved.run_dir.directory, G_FILE_TEST_EXISTS));
     gb_runner_destroy(runner);
-    thief_finish(&thief);
+    run_to_move_finish(&moved);
 }
 
 int main(int argc, char **argv)

@@ -185,33 +185,34 @@ static void press(struct gb_run_recorder *keep, struct gb_experiment *experiment
 static void test_resume(void)
 {
     char *base = g_dir_make_tmp("album-XXXXXX", NULL);
-    char *place = g_build_filename(base, "run", NULL);
+    char *directory = g_build_filename(base, "run", NULL);
     const struct gb_params params = scene("1 kPa; 10 MPa; 20 MPa; every 50");
     struct gb_experiment *experiment = NULL;
     struct gb_run_recorder *keep = NULL;
     struct gb_snapshot shot = {0};
     struct gb_error err = {0};
     g_assert_true(gb_experiment_create(&experiment, &params, NULL, NULL, &err));
-    g_assert_true(gb_run_recorder_create(&keep, place, &params, GB_RUNDIR_KEEP, &err));
+    g_assert_true(
+        gb_run_recorder_create(&keep, directory, &params, GB_RUNDIR_KEEP, &err));
     press(keep, experiment, 60);
     g_assert_true(gb_run_recorder_conclude(keep, &shot, &err));
     gb_run_recorder_destroy(keep);
     gb_experiment_destroy(experiment);
-    char *first = g_build_filename(place, "snapshots", "point-000051.h5", NULL);
+    char *first = g_build_filename(directory, "snapshots", "point-000051.h5", NULL);
     g_assert_cmpint(g_remove(first), ==, 0);
-    g_assert_true(gb_run_recorder_resume(&keep, &experiment, place, &err));
+    g_assert_true(gb_run_recorder_resume(&keep, &experiment, directory, &err));
     press(keep, experiment, 10000);
     gb_run_recorder_destroy(keep);
     gb_experiment_destroy(experiment);
-    struct gb_table *curve = curve_of(place);
-    check_at(place, curve, first_row(curve, "p_MPa", 20.0), "snapshots/p-20MPa.h5");
-    check_at(place, curve, 100, "snapshots/point-000101.h5");
+    struct gb_table *curve = curve_of(directory);
+    check_at(directory, curve, first_row(curve, "p_MPa", 20.0), "snapshots/p-20MPa.h5");
+    check_at(directory, curve, 100, "snapshots/point-000101.h5");
     g_assert_false(g_file_test(first, G_FILE_TEST_EXISTS));
     gb_table_destroy(curve);
-    remove_run(place);
+    remove_run(directory);
     g_rmdir(base);
     g_free(first);
-    g_free(place);
+    g_free(directory);
     g_free(base);
 }
 

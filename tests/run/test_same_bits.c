@@ -1,41 +1,42 @@
-/* Same parameters, same bits: on 1 to 8 threads, stopped and resumed or not, behind a
- * screen or not, with snapshots or not, for every kind of scene.  Curve and state. */
+/* Same parameters, same bits: on 1 to 8 threads, resumed or not, with a screen or without,
+ * with kept states or without, for every kind of scene.  Compared: curve and state. */
 #include <glib.h>
 #include <string.h>
 
 #include "common/die.h"
-#include "common/place.h"
+#include "common/run_directory.h"
 #include "common/scene.h"
 #include "many/single_run.h"
 #include "run/runner/runner.h"
 
-/* How a run is run; all eight combinations, each on another number of threads. */
-enum { RESUMED = 1, SCREEN = 2, SNAPSHOTS = 4, WAYS = 8 };
+/* Options of a run; all eight combinations, each on another number of threads. */
+enum { RESUMED = 1, SCREEN = 2, SNAPSHOTS = 4, COMBINATIONS = 8 };
 
 /* Points after which a run is stopped. */
 enum { STOP_AFTER = 3 };
 
 static bool has_points(void *data)
 {
-    return place_points(data) >= STOP_AFTER;
+    return run_directory_points(data) >= STOP_AFTER;
 }
 
-static void run_plainly(const struct gb_params *params, struct place *place, bool resumed)
+static void run_without_screen(const struct gb_params *params,
+                               struct run_directory *run_dir, bool resumed)
 {
     struct gb_error err = {0};
-    const struct gb_pool_callbacks callbacks = {.cancelled = has_points, .data = place};
+    const struct gb_pool_callbacks callbacks = {.cancelled = has_points, .data = run_dir};
     const bool done =
-        gb_single_run(params, place->directory, resumed ? &callbacks : NULL, &err);
+        gb_single_run(params, run_dir->directory, resumed ? &callbacks : NULL, &err);
     if (done == resumed) {
         g_error("%s", err.text);
     }
     if (resumed) {
         g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
-        place_go_on(place);
+        run_directory_continue(run_dir);
     }
 }
 
-/* Looks at everything a screen shows, until so many points are there or the run ends. */
+/* Reads all that a screen reads, until there are so many points or the run ends. */
 static void watch(struct gb_runner *runner, size_t points)
 {
     const struct gb_curve *curve = gb_runner_curve(runner);
@@ -62,19 +63,19 @@ static void pause_once(struct gb_runner *runner)
 }
 
 static struct gb_runner *start_watched(const struct gb_params *params,
-                                       const struct place *place)
+                                       const struct run_directory *run_dir)
 {
     struct gb_error err = {0};
     struct gb_runner *runner = NULL;
-    g_assert_true(gb_runner_create_in(&runner, params, place->directory, &err));
+    g_assert_true(gb_runner_create_in(&runner, params, run_dir->directory, &err));
     g_assert_true(gb_runner_send(runner, GB_COMMAND_WATCH));
     watch(runner, STOP_AFTER);
     return runner;
 }
 
-static bool was_stopped(const struct place *place)
+static bool was_stopped(const struct run_directory *run_dir)
 {
-    char *path = g_build_filename(place->directory, "status.json", NULL);
+    char *path = g_build_filename(run_dir->directory, "status.json", NULL);
     char *text = NULL;
     g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
     const bool stopped = strstr(text, "\"stopped\"") != NULL;
@@ -83,29 +84,29 @@ static bool was_stopped(const struct place *place)
     return stopped;
 }
 
-/* Stopped in its midst and resumed.  It is begun anew where it was over before this
- * thread had seen its first points. */
+/* Stops a run under way and resumes it.  A run that had ended before this thread saw its
+ * first points is started again. */
 static struct gb_runner *resume_watched(const struct gb_params *params,
-                                        const struct place *place)
+                                        const struct run_directory *run_dir)
 {
     struct gb_error err = {0};
     struct gb_runner *runner = NULL;
-    gb_runner_destroy(start_watched(params, place));
-    while (!was_stopped(place)) {
-        place_clear(place);
-        gb_runner_destroy(start_watched(params, place));
+    gb_runner_destroy(start_watched(params, run_dir));
+    while (!was_stopped(run_dir)) {
+        run_directory_clear(run_dir);
+        gb_runner_destroy(start_watched(params, run_dir));
     }
-    if (!gb_runner_resume(&runner, place->directory, &err)) {
+    if (!gb_runner_resume(&runner, run_dir->directory, &err)) {
         g_error("%s", err.text);
     }
     return runner;
 }
 
-static void run_watched(const struct gb_params *params, const struct place *place,
-                        bool resumed)
+static void run_watched(const struct gb_params *params,
+                        const struct run_directory *run_dir, bool resumed)
 {
     struct gb_runner *runner =
-        resumed ? resume_watched(params, place) : start_watched(params, place);
+        resumed ? resume_watched(params, run_dir) : start_watched(params, run_dir);
     pause_once(runner);
     watch(runner, SIZE_MAX);
     const struct gb_snapshot *shot = gb_runner_snapshot(runner, NULL);
@@ -115,37 +116,37 @@ static void run_watched(const struct gb_params *params, const struct place *plac
     gb_runner_destroy(runner);
 }
 
-/* What is left of a run: its rows without times, and the state without the directory's
- * own numbers. */
+/* Result of a run: its rows without times, and the state without the journal of its
+ * directory. */
 struct result {
     char *rows;
     int points;
     struct gb_record state;
 };
 
-static void run(struct gb_params params, int way, struct result *result)
+static void run(struct gb_params params, int options, struct result *result)
 {
     struct gb_error err = {0};
-    struct place place = place_make("run");
-    params.threads = 1 + way;
-    if (way & SNAPSHOTS) {
+    struct run_directory run_dir = run_directory_make("run");
+    params.threads = 1 + options;
+    if (options & SNAPSHOTS) {
         g_assert_true(gb_params_assign(&params, "output.snapshots_at=every 2", &err));
     }
-    if (way & SCREEN) {
-        run_watched(&params, &place, way & RESUMED);
+    if (options & SCREEN) {
+        run_watched(&params, &run_dir, options & RESUMED);
     } else {
-        run_plainly(&params, &place, way & RESUMED);
+        run_without_screen(&params, &run_dir, options & RESUMED);
     }
-    g_assert_cmpint(g_file_test(place.snapshots, G_FILE_TEST_IS_DIR), ==,
-                    (way & SNAPSHOTS) != 0);
-    result->rows = place_rows(&place);
-    result->points = place_points(&place);
-    if (!gb_run_recorder_read(place.directory, "state.h5", &params, &result->state,
+    g_assert_cmpint(g_file_test(run_dir.snapshots, G_FILE_TEST_IS_DIR), ==,
+                    (options & SNAPSHOTS) != 0);
+    result->rows = run_directory_rows(&run_dir);
+    result->points = run_directory_points(&run_dir);
+    if (!gb_run_recorder_read(run_dir.directory, "state.h5", &params, &result->state,
                               &err)) {
         g_error("%s", err.text);
     }
     gb_record_remove(&result->state, "journal/");
-    place_finish(&place);
+    run_directory_finish(&run_dir);
 }
 
 static void finish(struct result *result)
@@ -159,15 +160,16 @@ static void check(const struct gb_params *params)
     static struct result first, other;
     run(*params, 0, &first);
     g_assert_cmpint(first.points, >, 2 * STOP_AFTER);
-    for (int way = 1; way < WAYS; way++) {
+    for (int options = 1; options < COMBINATIONS; options++) {
         int64_t row = 0;
-        run(*params, way, &other);
+        run(*params, options, &other);
         g_assert_cmpstr(first.rows, ==, other.rows);
         const char *name = gb_record_difference(&first.state, &other.state, &row);
         if (name != NULL) {
-            g_error("%d threads%s%s%s: %s differs in row %lld", 1 + way,
-                    way & RESUMED ? ", resumed" : "", way & SCREEN ? ", screen" : "",
-                    way & SNAPSHOTS ? ", snapshots" : "", name, (long long)row);
+            g_error("%d threads%s%s%s: %s differs in row %lld", 1 + options,
+                    options & RESUMED ? ", resumed" : "",
+                    options & SCREEN ? ", screen" : "",
+                    options & SNAPSHOTS ? ", snapshots" : "", name, (long long)row);
         }
         finish(&other);
     }
