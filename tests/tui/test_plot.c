@@ -211,7 +211,7 @@ static bool draw_whole(struct gb_plot *plot, int count, int foot, size_t *covere
         *covered += before[c].ch != ' ' && before[c].ch != plot->cell[c].ch;
     }
     g_free(before);
-    const int needed = gb_plot_foot_for(plot, entry, count);
+    const int needed = gb_plot_legend_foot(plot, entry, count);
     return whole || foot > 0 ? whole : draw_whole(plot, count, needed, covered);
 }
 

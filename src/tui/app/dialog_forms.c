@@ -227,7 +227,7 @@ static void draw_question(struct gb_dialog *dialog, const struct gb_paint *scree
 {
     struct gb_paint probe = *screen;
     probe.rect.cols = MIN(PROMPT_COLS, screen->rect.cols - 2) - 4;
-    const int rows = gb_paint_wrapped(&probe, screen->rect.rows - 5, dialog->note);
+    const int rows = gb_paint_wrap_rows(&probe, screen->rect.rows - 5, dialog->note);
     const struct gb_paint frame = box(screen, rows + 4, PROMPT_COLS, dialog->type->title);
     const struct gb_paint paint = inside(&frame);
     gb_paint_wrap(&paint, 0, paint.rect.rows - 2, GB_STYLE_PLAIN, dialog->note);

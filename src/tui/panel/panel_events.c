@@ -25,7 +25,7 @@ static int total_rows(const struct gb_panel_events *panel, const struct gb_paint
         if (line == NULL) {
             break;
         }
-        total += gb_paint_wrapped(paint, max, line);
+        total += gb_paint_wrap_rows(paint, max, line);
     }
     return total;
 }
@@ -51,7 +51,7 @@ void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *
         if (line == NULL) {
             return;
         }
-        const int rows = gb_paint_wrapped(paint, max, line);
+        const int rows = gb_paint_wrap_rows(paint, max, line);
         if (end - rows < 1) {
             return;
         }

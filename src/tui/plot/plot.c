@@ -1,7 +1,6 @@
 #include "tui/plot/plot.h"
 
 #include <glib.h>
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -70,7 +69,7 @@ bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyph
     return true;
 }
 
-static void put(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
+void gb_plot_put(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
 {
     if (row >= 0 && row < plot->rows && col >= 0 && col < plot->cols) {
         plot->cell[row * plot->cols + col] = (struct gb_plot_cell){ch, ink, true, 0};
@@ -80,7 +79,7 @@ static void put(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
 void gb_plot_text(struct gb_plot *plot, int row, int col, int ink, const char *text)
 {
     for (const char *at = text; *at != '\0'; at = g_utf8_next_char(at)) {
-        put(plot, row, col++, g_utf8_get_char(at), ink);
+        gb_plot_put(plot, row, col++, g_utf8_get_char(at), ink);
     }
 }
 
@@ -108,7 +107,8 @@ static void draw_y_axis(struct gb_plot *plot)
 {
     const int col = plot->left - 1;
     for (int row = 0; row < plot->field_rows; row++) {
-        put(plot, plot->top + row, col, line_char(plot, 0x2502, '|'), GB_PLOT_INK_AXIS);
+        gb_plot_put(plot, plot->top + row, col, line_char(plot, 0x2502, '|'),
+                    GB_PLOT_INK_AXIS);
     }
     int last = plot->rows;
     for (int i = 0; i < plot->y.ticks; i++) {
@@ -119,16 +119,18 @@ static void draw_y_axis(struct gb_plot *plot)
         last = row;
         const int width = (int)strlen(plot->y.text[i]);
         gb_plot_text(plot, row, col - width, GB_PLOT_INK_TEXT, plot->y.text[i]);
-        put(plot, row, col, line_char(plot, 0x2524, '+'), GB_PLOT_INK_AXIS);
+        gb_plot_put(plot, row, col, line_char(plot, 0x2524, '+'), GB_PLOT_INK_AXIS);
     }
 }
 
 static void draw_x_axis(struct gb_plot *plot)
 {
     const int row = plot->top + plot->field_rows;
-    put(plot, row, plot->left - 1, line_char(plot, 0x2514, '+'), GB_PLOT_INK_AXIS);
+    gb_plot_put(plot, row, plot->left - 1, line_char(plot, 0x2514, '+'),
+                GB_PLOT_INK_AXIS);
     for (int col = 0; col < plot->field_cols; col++) {
-        put(plot, row, plot->left + col, line_char(plot, 0x2500, '-'), GB_PLOT_INK_AXIS);
+        gb_plot_put(plot, row, plot->left + col, line_char(plot, 0x2500, '-'),
+                    GB_PLOT_INK_AXIS);
     }
     int free_from = 0;
     for (int i = 0; i < plot->x.ticks; i++) {
@@ -140,7 +142,7 @@ static void draw_x_axis(struct gb_plot *plot)
             continue;
         }
         free_from = from + width + 1;
-        put(plot, row, col, line_char(plot, 0x252c, '+'), GB_PLOT_INK_AXIS);
+        gb_plot_put(plot, row, col, line_char(plot, 0x252c, '+'), GB_PLOT_INK_AXIS);
         gb_plot_text(plot, row + 1, from, GB_PLOT_INK_TEXT, plot->x.text[i]);
     }
 }
@@ -193,7 +195,7 @@ void gb_plot_bare(struct gb_plot *plot, const double x_ends[2], const double y_e
     plot->y = (struct gb_plot_axis){.low = y_ends[0], .high = y_ends[1]};
 }
 
-static uint32_t mark_char(const struct gb_plot *plot, int marker)
+uint32_t gb_plot_mark_char(const struct gb_plot *plot, int marker)
 {
     if (marker >= MARKS) {
         return (uint32_t)marker; /* a letter */
@@ -210,14 +212,14 @@ static void put_marker(struct gb_plot *plot, int row, int col, uint32_t ch, int 
     const struct gb_plot_cell *cell = &plot->cell[row * plot->cols + col];
     const bool text = cell->ink == GB_PLOT_INK_TEXT || cell->ink == GB_PLOT_INK_AXIS;
     if (!cell->fixed || !text) {
-        put(plot, row, col, ch, ink);
+        gb_plot_put(plot, row, col, ch, ink);
     }
 }
 
 /* Markers at least `spacing` cells apart, and one at the last point. */
 static void draw_markers(struct gb_plot *plot, const struct gb_plot_series *series)
 {
-    const uint32_t ch = mark_char(plot, series->marker);
+    const uint32_t ch = gb_plot_mark_char(plot, series->marker);
     int last_row = INT16_MIN;
     int last_col = INT16_MIN;
     int end_row = -1;
@@ -280,154 +282,15 @@ void gb_plot_cursor(struct gb_plot *plot, double x, double y)
     const int col = field_col(plot, px);
     for (int r = plot->top; r < plot->top + plot->field_rows; r++) {
         if (plot->cell[r * plot->cols + col].ch == ' ') {
-            put(plot, r, col, line_char(plot, 0x2502, '|'), GB_PLOT_INK_CURSOR);
+            gb_plot_put(plot, r, col, line_char(plot, 0x2502, '|'), GB_PLOT_INK_CURSOR);
         }
     }
     for (int c = plot->left; c < plot->left + plot->field_cols; c++) {
         if (plot->cell[row * plot->cols + c].ch == ' ') {
-            put(plot, row, c, line_char(plot, 0x2500, '-'), GB_PLOT_INK_CURSOR);
+            gb_plot_put(plot, row, c, line_char(plot, 0x2500, '-'), GB_PLOT_INK_CURSOR);
         }
     }
-    put(plot, row, col, line_char(plot, 0x253c, '+'), GB_PLOT_INK_CURSOR);
-}
-
-/* A candidate position of the legend. */
-struct box {
-    int rows, columns; /* of entries */
-    int width;         /* of an entry */
-    int row, col;
-    int taken; /* occupied cells below it */
-};
-
-static int box_cols(const struct box *box)
-{
-    return box->columns * box->width + (box->columns - 1) * 2;
-}
-
-/* Occupied cells below a box; the count ends at `enough`. */
-static int taken(const struct gb_plot *plot, const struct box *box, int enough)
-{
-    const int cols = box_cols(box);
-    int sum = 0;
-    for (int r = box->row; r < box->row + box->rows; r++) {
-        for (int c = box->col; c < box->col + cols && sum < enough; c++) {
-            sum += plot->cell[r * plot->cols + c].ch != ' ';
-        }
-    }
-    return sum;
-}
-
-/* Moves the box to a position that covers fewer cells, if this one does. */
-static void try_position(const struct gb_plot *plot, struct box *box, int row, int col)
-{
-    struct box there = *box;
-    there.row = row;
-    there.col = col;
-    there.taken = taken(plot, &there, box->taken);
-    if (there.taken < box->taken) {
-        *box = there;
-    }
-}
-
-/* First the corners top left and bottom right, mostly free of curves, then all
- * positions. */
-static void find_position(const struct gb_plot *plot, struct box *box)
-{
-    const int bottom = plot->top + plot->field_rows - 1 - box->rows;
-    const int right = plot->left + plot->field_cols - box_cols(box);
-    box->taken = INT_MAX;
-    try_position(plot, box, plot->top + 1, plot->left + 1);
-    try_position(plot, box, bottom, right);
-    for (int row = plot->top + 1; row <= bottom; row++) {
-        for (int col = plot->left + 1; col <= right && box->taken > 0; col++) {
-            try_position(plot, box, row, col);
-        }
-    }
-}
-
-/* A box for the entries that covers nothing, in one to three columns; false: none. */
-static bool find_free(const struct gb_plot *plot, struct box *box, int entries)
-{
-    for (box->columns = 1; box->columns <= 3; box->columns++) {
-        box->rows = (entries + box->columns - 1) / box->columns;
-        if (box->rows > plot->field_rows - 2 || box_cols(box) > plot->field_cols - 1) {
-            continue;
-        }
-        find_position(plot, box);
-        if (box->taken == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Columns of entries in the foot. */
-static int foot_columns(const struct gb_plot *plot, int width)
-{
-    return MAX(1, (plot->cols + 2) / (width + 2));
-}
-
-/* Position of the entries: the foot if there is one, or a free area, or the box that
- * covers least.  Returns how many fit. */
-static int arrange(const struct gb_plot *plot, struct box *box, int count)
-{
-    if (plot->foot > 0) {
-        box->rows = plot->foot;
-        box->row = plot->rows - plot->foot;
-        box->columns = foot_columns(plot, box->width);
-        return MIN(count, box->rows * box->columns);
-    }
-    if (!find_free(plot, box, count)) {
-        box->columns = 1;
-        box->rows = MIN(count, plot->field_rows - 2);
-        find_position(plot, box);
-    }
-    return MIN(count, box->rows * box->columns);
-}
-
-static void write_entry(struct gb_plot *plot, int row, int col, int width,
-                        const struct gb_plot_entry *entry)
-{
-    char name[GB_PLOT_NAME];
-    g_utf8_strncpy(name, entry->name, (gsize)(width - 2));
-    put(plot, row, col, entry->marker ? mark_char(plot, entry->marker) : ' ', entry->ink);
-    put(plot, row, col + 1, ' ', GB_PLOT_INK_NONE);
-    gb_plot_text(plot, row, col + 2, entry->ink, name);
-}
-
-static int entry_width(const struct gb_plot *plot, const struct gb_plot_entry *entry,
-                       int count)
-{
-    int width = 0;
-    for (int i = 0; i < count; i++) {
-        width = MAX(width, 2 + (int)g_utf8_strlen(entry[i].name, -1));
-    }
-    return MIN(width, 2 * plot->field_cols / 3);
-}
-
-int gb_plot_foot_for(const struct gb_plot *plot, const struct gb_plot_entry *entry,
-                     int count)
-{
-    const int columns = foot_columns(plot, entry_width(plot, entry, count));
-    return MIN((count + columns - 1) / columns, plot->rows / 3);
-}
-
-bool gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int count)
-{
-    struct box box = {.width = entry_width(plot, entry, count)};
-    if (count <= 0 || plot->field_rows < 5 || box.width < 4) {
-        return count <= 0;
-    }
-    const int shown = arrange(plot, &box, count);
-    for (int i = 0; i < shown; i++) {
-        struct gb_plot_entry more = {.ink = GB_PLOT_INK_DIM};
-        snprintf(more.name, sizeof more.name, "and %d more", count - shown + 1);
-        const bool whole = i + 1 < shown || shown == count;
-        write_entry(plot, box.row + i % box.rows,
-                    box.col + i / box.rows * (box.width + 2), box.width,
-                    whole ? &entry[i] : &more);
-    }
-    return shown == count && box.taken == 0;
+    gb_plot_put(plot, row, col, line_char(plot, 0x253c, '+'), GB_PLOT_INK_CURSOR);
 }
 
 char *gb_plot_dump(const struct gb_plot *plot)

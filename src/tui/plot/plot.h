@@ -88,14 +88,21 @@ void gb_plot_cursor(struct gb_plot *plot, double x, double y);
 /* Text inside the picture, UTF-8, cut at its edge. */
 void gb_plot_text(struct gb_plot *plot, int row, int col, int ink, const char *text);
 
+/* One character, drawn if inside the picture; lines do not overwrite it. */
+void gb_plot_put(struct gb_plot *plot, int row, int col, uint32_t ch, int ink);
+/* Character of a marker: 1.. a shape, larger numbers a letter. */
+uint32_t gb_plot_mark_char(const struct gb_plot *plot, int marker);
+
+/* plot_legend.c */
+
 /* The legend, drawn after the lines: in the foot if there is one, or in a free area (top
  * left, bottom right or anywhere, in up to three columns), or where it covers least.  A
  * last line counts the entries that do not fit.  False when it covers something or is
  * incomplete. */
 bool gb_plot_legend(struct gb_plot *plot, const struct gb_plot_entry *entry, int count);
 /* Rows of a foot for the entries; at most a third of the plot. */
-int gb_plot_foot_for(const struct gb_plot *plot, const struct gb_plot_entry *entry,
-                     int count);
+int gb_plot_legend_foot(const struct gb_plot *plot, const struct gb_plot_entry *entry,
+                        int count);
 
 /* The picture as UTF-8 lines without trailing blanks; g_free. */
 char *gb_plot_dump(const struct gb_plot *plot);

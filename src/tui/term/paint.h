@@ -30,7 +30,7 @@ int gb_paint_wrap(const struct gb_paint *paint, int row, int rows, enum gb_style
                   const char *text);
 
 /* Number of rows that gb_paint_wrap would use. */
-int gb_paint_wrapped(const struct gb_paint *paint, int rows, const char *text);
+int gb_paint_wrap_rows(const struct gb_paint *paint, int rows, const char *text);
 
 /* First row of a pane: a rule with the name of the pane. */
 void gb_paint_title(const struct gb_paint *paint, const char *title, bool focus);
@@ -50,6 +50,8 @@ void gb_paint_plot(const struct gb_paint *paint, int row, int col,
 
 /* Width of a text in cells. */
 int gb_paint_width(const char *text);
+/* Width of a character in cells: 0, 1 or 2. */
+int gb_paint_char_width(uint32_t ch);
 
 /* "0:07", "12:34", "3:04:05". */
 char *gb_paint_time(double seconds, char *buffer, size_t size);

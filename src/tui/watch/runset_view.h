@@ -48,9 +48,6 @@ struct gb_runset_view {
     char **fit;  /* lines of the fit of a calibration; NULL: none */
 };
 
-/* Whether a directory, or its folder `runs`, contains runs and is no run itself. */
-bool gb_runset_view_is(const char *directory);
-
 /* Reads the directory.  Errors: GB_ERR_INPUT when no run can be read. */
 bool gb_runset_view_read(struct gb_runset_view *runset, const char *directory,
                          struct gb_error *err);

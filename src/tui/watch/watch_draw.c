@@ -96,7 +96,7 @@ static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
             entries++;
         }
     }
-    *needed = gb_plot_foot_for(&watch->plot, entry, entries);
+    *needed = gb_plot_legend_foot(&watch->plot, entry, entries);
     return gb_plot_legend(&watch->plot, entry, entries);
 }
 
@@ -237,7 +237,7 @@ static void draw_fit(const struct gb_watch *watch, const struct gb_paint *paint)
     int row = 1;
     for (char **line = watch->runset.fit; line != NULL && *line != NULL; line++) {
         const int left = rect.rows - row;
-        const int rows = left > 0 ? gb_paint_wrapped(&inside, left, *line) : 0;
+        const int rows = left > 0 ? gb_paint_wrap_rows(&inside, left, *line) : 0;
         gb_paint_wrap(&inside, row, rows, GB_STYLE_PLAIN, *line);
         row += rows;
     }
