@@ -13,6 +13,7 @@
 #include "run/runner/runner.h"
 #include "tui/app/app.h"
 #include "tui/term/term_profile.h"
+#include "tui/watch/runset_files.h"
 #include "tui/watch/watch.h"
 
 /* One line about a directory of many runs. */
