@@ -22,7 +22,7 @@ static const double cells_most = 3e6;
 /* Share of the radius that counts: samples at the very rim may be missed by rounding. */
 static const float firm = 0.995F;
 
-/* Samples across which a sphere is looked at. */
+/* Most cell corners across a sphere; larger spheres hide nothing. */
 enum { NODES_MAX = 64 };
 
 struct ball {

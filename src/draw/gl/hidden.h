@@ -6,12 +6,12 @@
 #include "draw/gl/camera.h"
 #include "draw/scene.h"
 
-/* Which spheres and rods of a scene stand wholly behind others: most of a dense packing.
- * Leaving them out changes no sample of the picture.
+/* Occlusion culling: spheres and rods of a scene that lie wholly behind others, which are
+ * most of a dense packing.  Without them every sample of the picture stays the same.
  *
  * width, height   of the target, samples
- * hidden          scene->count + scene->rods, spheres first; 1: need not be drawn.  What
- *                 reaches beyond the target counts as seen. */
+ * hidden          scene->count + scene->rods, spheres first; 1: need not be drawn; 0
+ *                 also for what extends beyond the target. */
 bool gb_hidden_find(const struct gb_scene *scene, const struct gb_camera *camera,
                     int width, int height, uint8_t *hidden, struct gb_error *err);
 

@@ -1,89 +1,27 @@
-#define GL_GLEXT_PROTOTYPES
 #include "draw/gl/osmesa.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
+#include "draw/gl/gl_pass.h" /* GL with prototypes, before OSMesa */
+
 #include <GL/osmesa.h>
 #include <glib.h>
 #include <math.h>
-#include <string.h>
 
 #include "base/alloc.h"
-#include "draw/gl/camera.h"
 #include "draw/gl/hidden.h"
 #include "draw/gl/shaders.h"
 
 enum {
-    SAMPLES = 2,         /* a side, of one pixel */
     TILE_WIDTH = 2048,   /* widest tile, pixels */
-    TILE_AREA = 1 << 20, /* largest one: bounds the memory */
-    SHADOW = 1024,       /* side of the shadow map */
-    REACH_LIMIT = 192, /* samples; farthest look of the occlusion, and margin of a tile */
-    CANVAS = 16,       /* OSMesa's own buffer, not drawn to */
-    RIBBON = 6,        /* vertices of a box edge */
-    TEXTURES = 8,
-    PROGRAMS = 6,
-    BUFFERS = 7,
-    ARRAYS = 4
+    TILE_AREA = 1 << 20, /* largest tile, pixels: bounds the memory */
+    REACH_LIMIT = 192, /* longest range of the occlusion, and margin of a tile, samples */
+    CANVAS = 16        /* side of OSMesa's own buffer, which is not drawn to */
 };
-
-/* Diameters within which neighbours take light from a particle. */
-static const float occlusion_reach = 3.0F;
-/* Width of box edges as a share of the shorter side of the image. */
-static const float edge_width = 0.0014F;
-
-enum program {
-    PROGRAM_SPHERE,
-    PROGRAM_ROD,
-    PROGRAM_FACET,
-    PROGRAM_EDGE,
-    PROGRAM_SHADE,
-    PROGRAM_RESOLVE
-};
-enum texture {
-    TEXTURE_SEEN,
-    TEXTURE_DEPTH,
-    TEXTURE_SHADOW,
-    TEXTURE_SPHERES,
-    TEXTURE_COLOURS,
-    TEXTURE_SAMPLES,
-    TEXTURE_RODS,
-    TEXTURE_FACETS
-};
-enum buffer {
-    BUFFER_SPHERES,
-    BUFFER_COLOURS,
-    BUFFER_INDICES,
-    BUFFER_RIBBONS,
-    BUFFER_RODS,
-    BUFFER_ROD_INDICES,
-    BUFFER_FACETS
-};
-enum array { ARRAY_SPHERES, ARRAY_RIBBONS, ARRAY_RODS, ARRAY_FACETS };
 
 struct gb_osmesa {
     OSMesaContext context;
     uint8_t canvas[CANVAS * CANVAS * 4];
-    GLuint program[PROGRAMS];
+    GLuint program[GB_GL_PROGRAMS];
     GLint most_spheres;
-};
-
-/* One painting: names of GL objects, and the tile under way. */
-struct pass {
-    const struct gb_osmesa *renderer;
-    const struct gb_scene *scene;
-    const struct gb_image *image;
-    GLuint texture[TEXTURES];
-    GLuint buffer[BUFFERS];
-    GLuint frame[4]; /* seen, shadow, samples, pixels */
-    GLuint pixels, array[ARRAYS];
-    uint32_t *index;
-    uint8_t *hidden; /* from the eye: spheres, then rods */
-    uint8_t *unlit;  /* from the light */
-    struct gb_camera eye, light;
-    int margin;              /* of a tile, samples */
-    int x, y, width, height; /* tile, pixels */
-    int most_width, most_height;
 };
 
 static bool compile(GLuint program, GLenum stage, const char *text, const char *more,
@@ -137,7 +75,7 @@ bool gb_osmesa_open(struct gb_osmesa **out, struct gb_error *err)
                                  OSMESA_CONTEXT_MINOR_VERSION,
                                  3,
                                  0};
-    static const struct gb_shaders_text *const text[PROGRAMS] = {
+    static const struct gb_shaders_text *const text[GB_GL_PROGRAMS] = {
         &gb_shaders_sphere, &gb_shaders_rod,   &gb_shaders_facet,
         &gb_shaders_edge,   &gb_shaders_shade, &gb_shaders_resolve};
     *out = NULL;
@@ -153,7 +91,7 @@ bool gb_osmesa_open(struct gb_osmesa **out, struct gb_error *err)
     if (!make_current(renderer, err)) {
         goto fail;
     }
-    for (int k = 0; k < PROGRAMS; k++) {
+    for (int k = 0; k < GB_GL_PROGRAMS; k++) {
         if (!build(&renderer->program[k], text[k], err)) {
             goto fail;
         }
@@ -177,517 +115,22 @@ void gb_osmesa_close(struct gb_osmesa *renderer)
     gb_alloc_free(renderer);
 }
 
-static void set_float(GLuint program, const char *name, float x)
+static void paint_tile(struct gb_gl_pass *pass)
 {
-    glUniform1f(glGetUniformLocation(program, name), x);
+    const int width = GB_GL_SAMPLES * pass->width + 2 * pass->margin;
+    const int height = GB_GL_SAMPLES * pass->height + 2 * pass->margin;
+    gb_gl_cameras_set_eye(pass);
+    gb_gl_parts_draw_visible(pass, width, height);
+    gb_gl_shading_draw(pass, width, height);
+    gb_gl_shading_read_pixels(pass);
 }
 
-static void set_vector(GLuint program, const char *name, const float *x)
-{
-    glUniform3fv(glGetUniformLocation(program, name), 1, x);
-}
-
-static void set_sampler(GLuint program, const char *name, enum texture unit)
-{
-    glUniform1i(glGetUniformLocation(program, name), (GLint)unit);
-}
-
-static void set_camera(GLuint program, const struct gb_camera *camera, int width,
-                       int height)
-{
-    glUniform4fv(glGetUniformLocation(program, "projection"), 1, camera->projection);
-    glUniform2fv(glGetUniformLocation(program, "depth_range"), 1, camera->depth_range);
-    glUniformMatrix3fv(glGetUniformLocation(program, "rotation"), 1, GL_FALSE,
-                       camera->rotation);
-    set_vector(program, "translation", camera->translation);
-    glUniform2f(glGetUniformLocation(program, "size"), (float)width, (float)height);
-}
-
-/* sRGB byte to linear light. */
-static float linear(uint8_t byte)
-{
-    const float x = (float)byte / 255.0F;
-    return x <= 0.04045F ? x / 12.92F : powf((x + 0.055F) / 1.055F, 2.4F);
-}
-
-static void linear_colour(const uint8_t rgb[3], float out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = linear(rgb[k]);
-    }
-}
-
-static void set_eye_camera(struct pass *pass)
-{
-    const struct gb_view *view = &pass->scene->view;
-    struct gb_camera *camera = &pass->eye;
-    *camera = (struct gb_camera){.rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
-    for (int k = 0; k < 2; k++) {
-        const int origin = k == 0 ? pass->x : pass->y;
-        camera->projection[k] =
-            (float)(SAMPLES * (view->centre[k] - origin) + pass->margin);
-    }
-    camera->projection[2] = (float)(SAMPLES * view->focal);
-    camera->projection[3] = view->orthographic ? 1.0F : 0.0F;
-    camera->depth_range[0] = (float)view->near;
-    camera->depth_range[1] = (float)view->far;
-}
-
-static float dot(const float a[3], const float b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* Axes of the view from the light: rows of turn. */
-static void light_axes(const float light[3], float axis[3][3])
-{
-    const float size = sqrtf(dot(light, light));
-    for (int k = 0; k < 3; k++) {
-        axis[2][k] = -light[k] / size;
-    }
-    const float flat = hypotf(axis[2][0], axis[2][2]);
-    axis[0][0] = axis[2][2] / flat;
-    axis[0][1] = 0.0F;
-    axis[0][2] = -axis[2][0] / flat;
-    for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3;
-        const int j = (k + 2) % 3;
-        axis[1][k] = axis[2][i] * axis[0][j] - axis[2][j] * axis[0][i];
-    }
-}
-
-/* Room in light coordinates that is to be lit. */
-struct room {
-    float axis[3][3], low[3], high[3];
-};
-
-static void widen(struct room *room, const float *point, float radius)
-{
-    for (int k = 0; k < 3; k++) {
-        const float x = dot(point, room->axis[k]);
-        room->low[k] = fminf(room->low[k], x - radius);
-        room->high[k] = fmaxf(room->high[k], x + radius);
-    }
-}
-
-/* Parallel light that sees all there is. */
-static void set_light_camera(struct pass *pass)
-{
-    const struct gb_scene *scene = pass->scene;
-    struct gb_camera *camera = &pass->light;
-    struct room room = {.low = {INFINITY, INFINITY, INFINITY},
-                        .high = {-INFINITY, -INFINITY, -INFINITY}};
-    light_axes(scene->light, room.axis);
-    for (size_t i = 0; i < scene->count; i++) {
-        widen(&room, &scene->sphere[4 * i], scene->sphere[4 * i + 3]);
-    }
-    for (size_t i = 0; i < 2 * scene->rods; i++) {
-        widen(&room, &scene->rod[4 * i], scene->rod[8 * (i / 2) + 3]);
-    }
-    for (size_t i = 0; i < 3 * scene->facets; i++) {
-        widen(&room, &scene->facet[3 * i], 0.0F);
-    }
-    if (!(room.low[0] <= room.high[0])) {
-        for (int k = 0; k < 3; k++) {
-            room.low[k] = -1.0F;
-            room.high[k] = 1.0F;
-        }
-    }
-    const float(*axis)[3] = (const float(*)[3])room.axis;
-    const float *low = room.low;
-    const float *high = room.high;
-    for (int k = 0; k < 3; k++) {
-        for (int j = 0; j < 3; j++) {
-            camera->rotation[3 * j + k] = axis[k][j];
-        }
-        camera->translation[k] = k < 2 ? -0.5F * (low[k] + high[k]) : -low[k];
-    }
-    camera->projection[0] = camera->projection[1] = 0.5F * SHADOW;
-    camera->projection[2] = 0.96F * SHADOW / fmaxf(high[0] - low[0], high[1] - low[1]);
-    camera->projection[3] = 1.0F;
-    camera->depth_range[0] = 0.0F;
-    camera->depth_range[1] = high[2] - low[2];
-}
-
-static void new_texture(struct pass *pass, enum texture unit, GLint internal,
-                        GLenum format, GLenum type, int width, int height)
-{
-    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
-    glBindTexture(GL_TEXTURE_2D, pass->texture[unit]);
-    glTexImage2D(GL_TEXTURE_2D, 0, internal, width, height, 0, format, type, NULL);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-}
-
-static void attach(GLuint frame, GLenum attachment, GLuint texture)
-{
-    glBindFramebuffer(GL_FRAMEBUFFER, frame);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture, 0);
-}
-
-static void make_targets(struct pass *pass)
-{
-    const int width = SAMPLES * pass->most_width + 2 * pass->margin;
-    const int height = SAMPLES * pass->most_height + 2 * pass->margin;
-    glGenTextures(TEXTURES, pass->texture);
-    glGenFramebuffers(4, pass->frame);
-    new_texture(pass, TEXTURE_SEEN, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, width,
-                height);
-    new_texture(pass, TEXTURE_DEPTH, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT,
-                width, height);
-    new_texture(pass, TEXTURE_SHADOW, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT,
-                SHADOW, SHADOW);
-    new_texture(pass, TEXTURE_SAMPLES, GL_RGBA16F, GL_RGBA, GL_FLOAT, width, height);
-    attach(pass->frame[0], GL_COLOR_ATTACHMENT0, pass->texture[TEXTURE_SEEN]);
-    attach(pass->frame[0], GL_DEPTH_ATTACHMENT, pass->texture[TEXTURE_DEPTH]);
-    attach(pass->frame[1], GL_DEPTH_ATTACHMENT, pass->texture[TEXTURE_SHADOW]);
-    glDrawBuffer(GL_NONE);
-    glReadBuffer(GL_NONE);
-    attach(pass->frame[2], GL_COLOR_ATTACHMENT0, pass->texture[TEXTURE_SAMPLES]);
-    glGenRenderbuffers(1, &pass->pixels);
-    glBindRenderbuffer(GL_RENDERBUFFER, pass->pixels);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, pass->most_width, pass->most_height);
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[3]);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                              pass->pixels);
-}
-
-static void make_table(struct pass *pass, int which, enum texture unit, GLenum format,
-                       const void *data, size_t size)
-{
-    glBindBuffer(GL_TEXTURE_BUFFER, pass->buffer[which]);
-    glBufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)size, data, GL_STATIC_DRAW);
-    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
-    glBindTexture(GL_TEXTURE_BUFFER, pass->texture[unit]);
-    glTexBuffer(GL_TEXTURE_BUFFER, format, pass->buffer[which]);
-}
-
-/* One number per instance. */
-static void bind_indices(const struct pass *pass, enum array array, enum buffer buffer)
-{
-    glBindVertexArray(pass->array[array]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[buffer]);
-    glVertexAttribIPointer(0, 1, GL_UNSIGNED_INT, 0, NULL);
-    glVertexAttribDivisor(0, 1);
-    glEnableVertexAttribArray(0);
-}
-
-/* One position per vertex. */
-static void bind_positions(const struct pass *pass, enum array array, enum buffer buffer)
-{
-    glBindVertexArray(pass->array[array]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[buffer]);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
-    glEnableVertexAttribArray(0);
-}
-
-static void make_inputs(struct pass *pass)
-{
-    const struct gb_scene *scene = pass->scene;
-    const size_t parts = scene->count + scene->rods + scene->facets;
-    glGenBuffers(BUFFERS, pass->buffer);
-    glGenVertexArrays(ARRAYS, pass->array);
-    make_table(pass, BUFFER_SPHERES, TEXTURE_SPHERES, GL_RGBA32F, scene->sphere,
-               16 * (scene->count + 1));
-    make_table(pass, BUFFER_COLOURS, TEXTURE_COLOURS, GL_RGBA8, scene->colour,
-               4 * (parts + 1));
-    make_table(pass, BUFFER_RODS, TEXTURE_RODS, GL_RGBA32F, scene->rod,
-               32 * (scene->rods + 1));
-    make_table(pass, BUFFER_FACETS, TEXTURE_FACETS, GL_RGB32F, scene->facet,
-               36 * (scene->facets + 1));
-    bind_indices(pass, ARRAY_SPHERES, BUFFER_INDICES);
-    bind_indices(pass, ARRAY_RODS, BUFFER_ROD_INDICES);
-    bind_positions(pass, ARRAY_RIBBONS, BUFFER_RIBBONS);
-    bind_positions(pass, ARRAY_FACETS, BUFFER_FACETS);
-}
-
-static void free_lists(struct pass *pass)
-{
-    gb_alloc_free(pass->index);
-    gb_alloc_free(pass->hidden);
-    gb_alloc_free(pass->unlit);
-}
-
-static void free_pass(struct pass *pass)
-{
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glDeleteVertexArrays(ARRAYS, pass->array);
-    glDeleteBuffers(BUFFERS, pass->buffer);
-    glDeleteRenderbuffers(1, &pass->pixels);
-    glDeleteFramebuffers(4, pass->frame);
-    glDeleteTextures(TEXTURES, pass->texture);
-    free_lists(pass);
-}
-
-/* Whether a sphere may show in the target; generous by the slant of perspective. */
-static bool in_target(const struct gb_camera *camera, const float *ball, int width,
-                      int height)
-{
-    const float scale = camera->projection[3] != 0.0F ? camera->projection[2]
-                                                      : camera->projection[2] / ball[2];
-    const float x = camera->projection[0] + scale * ball[0];
-    const float y = camera->projection[1] - scale * ball[1];
-    const float r = 1.5F * scale * ball[3] + 2.0F;
-    return x + r >= 0.0F && y + r >= 0.0F && x - r <= (float)width &&
-           y - r <= (float)height;
-}
-
-/* Whether a part within a ball needs to be drawn: spheres come first, then rods.  The
- * light sees all of the scene, the eye a tile. */
-static bool shows(const struct pass *pass, const struct gb_camera *camera, size_t part,
-                  const float *ball, int width, int height)
-{
-    return camera == &pass->light
-               ? pass->unlit[part] == 0
-               : pass->hidden[part] == 0 && in_target(camera, ball, width, height);
-}
-
-static void draw_spheres(struct pass *pass, const struct gb_camera *camera, int width,
-                         int height)
-{
-    const GLuint program = pass->renderer->program[PROGRAM_SPHERE];
-    GLsizei count = 0;
-    for (size_t i = 0; i < pass->scene->count; i++) {
-        if (shows(pass, camera, i, &pass->scene->sphere[4 * i], width, height)) {
-            pass->index[count++] = (uint32_t)i;
-        }
-    }
-    glUseProgram(program);
-    set_camera(program, camera, width, height);
-    set_sampler(program, "spheres", TEXTURE_SPHERES);
-    glBindVertexArray(pass->array[ARRAY_SPHERES]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[BUFFER_INDICES]);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)count * 4, pass->index, GL_STREAM_DRAW);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
-}
-
-static void set_first(GLuint program, size_t first)
-{
-    glUniform1ui(glGetUniformLocation(program, "first"), (GLuint)first);
-}
-
-/* A rod may show where one of its ends, grown by its length, does. */
-static void rod_ball(const float *rod, float ball[4])
-{
-    memcpy(ball, rod, 3 * sizeof *ball);
-    ball[3] = rod[3] + hypotf(hypotf(rod[4] - rod[0], rod[5] - rod[1]), rod[6] - rod[2]);
-}
-
-static void draw_rods(struct pass *pass, const struct gb_camera *camera, int width,
-                      int height)
-{
-    const GLuint program = pass->renderer->program[PROGRAM_ROD];
-    const struct gb_scene *scene = pass->scene;
-    GLsizei count = 0;
-    for (size_t i = 0; i < scene->rods; i++) {
-        float ball[4];
-        rod_ball(&scene->rod[8 * i], ball);
-        if (shows(pass, camera, scene->count + i, ball, width, height)) {
-            pass->index[count++] = (uint32_t)i;
-        }
-    }
-    glUseProgram(program);
-    set_camera(program, camera, width, height);
-    set_sampler(program, "rods", TEXTURE_RODS);
-    set_first(program, scene->count);
-    glBindVertexArray(pass->array[ARRAY_RODS]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[BUFFER_ROD_INDICES]);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)count * 4, pass->index, GL_STREAM_DRAW);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
-}
-
-static void draw_facets(const struct pass *pass, const struct gb_camera *camera,
-                        int width, int height)
-{
-    const GLuint program = pass->renderer->program[PROGRAM_FACET];
-    glUseProgram(program);
-    set_camera(program, camera, width, height);
-    set_first(program, pass->scene->count + pass->scene->rods);
-    glBindVertexArray(pass->array[ARRAY_FACETS]);
-    glDrawArrays(GL_TRIANGLES, 0, 3 * (GLsizei)pass->scene->facets);
-}
-
-/* All but the edges of the box. */
-static void draw_parts(struct pass *pass, const struct gb_camera *camera, int width,
-                       int height)
-{
-    if (pass->scene->count > 0) {
-        draw_spheres(pass, camera, width, height);
-    }
-    if (pass->scene->rods > 0) {
-        draw_rods(pass, camera, width, height);
-    }
-    if (pass->scene->facets > 0) {
-        draw_facets(pass, camera, width, height);
-    }
-}
-
-/* Two triangles along an edge, in samples of the tile. */
-static void ribbon(const struct gb_camera *camera, const float edge[6], float width,
-                   float *out)
-{
-    static const int corner[RIBBON] = {0, 1, 2, 2, 1, 3};
-    float end[2][3];
-    for (int k = 0; k < 2; k++) {
-        const float *p = &edge[3 * k];
-        const bool flat = camera->projection[3] != 0.0F;
-        const float scale = flat ? camera->projection[2] : camera->projection[2] / p[2];
-        end[k][0] = camera->projection[0] + scale * p[0];
-        end[k][1] = camera->projection[1] - scale * p[1];
-        end[k][2] = flat ? p[2] : 1.0F / p[2];
-    }
-    const float dx = end[1][0] - end[0][0];
-    const float dy = end[1][1] - end[0][1];
-    const float half = 0.5F * width / fmaxf(hypotf(dx, dy), 1e-3F);
-    for (int k = 0; k < RIBBON; k++) {
-        const float *from = end[corner[k] >> 1];
-        const float side = (corner[k] & 1) != 0 ? half : -half;
-        const float past = corner[k] >> 1 != 0 ? half : -half; /* corners meet */
-        out[3 * k] = from[0] - side * dy + past * dx;
-        out[3 * k + 1] = from[1] + side * dx + past * dy;
-        out[3 * k + 2] = from[2];
-    }
-}
-
-static void draw_edges(struct pass *pass, int width, int height)
-{
-    const GLuint program = pass->renderer->program[PROGRAM_EDGE];
-    const int side = pass->image->width < pass->image->height ? pass->image->width
-                                                              : pass->image->height;
-    const float thick = SAMPLES * fmaxf(edge_width * (float)side, 0.8F);
-    float vertices[GB_SCENE_EDGES][3 * RIBBON];
-    for (int k = 0; k < pass->scene->edge_count; k++) {
-        ribbon(&pass->eye, pass->scene->edge[k], thick, vertices[k]);
-    }
-    glUseProgram(program);
-    set_camera(program, &pass->eye, width, height);
-    glBindVertexArray(pass->array[ARRAY_RIBBONS]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[BUFFER_RIBBONS]);
-    glBufferData(GL_ARRAY_BUFFER, sizeof vertices, vertices, GL_STREAM_DRAW);
-    glDrawArrays(GL_TRIANGLES, 0, RIBBON * pass->scene->edge_count);
-}
-
-static void draw_shadow(struct pass *pass)
-{
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[1]);
-    glViewport(0, 0, SHADOW, SHADOW);
-    glEnable(GL_DEPTH_TEST);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    draw_parts(pass, &pass->light, SHADOW, SHADOW);
-}
-
-static void draw_seen(struct pass *pass, int width, int height)
-{
-    static const GLuint no_particle[4] = {0xffffffffU, 0, 0, 0};
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[0]);
-    glViewport(0, 0, width, height);
-    glEnable(GL_DEPTH_TEST);
-    glClearBufferuiv(GL_COLOR, 0, no_particle);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    draw_parts(pass, &pass->eye, width, height);
-    draw_edges(pass, width, height);
-}
-
-static void set_shade(const struct pass *pass, GLuint program, const float background[3])
-{
-    const struct gb_scene *scene = pass->scene;
-    uint8_t rgb[3];
-    float ink[3];
-    float light[3];
-    gb_scene_foreground(scene->background, rgb);
-    linear_colour(rgb, ink);
-    const float size = sqrtf(dot(scene->light, scene->light));
-    for (int k = 0; k < 3; k++) {
-        light[k] = scene->light[k] / size;
-    }
-    const float sky[3] = {(float)scene->view.right[2], (float)scene->view.up[2],
-                          (float)scene->view.away[2]};
-    set_vector(program, "background", background);
-    set_vector(program, "foreground", ink);
-    set_vector(program, "light", light);
-    set_vector(program, "sky", sky);
-    set_float(program, "reach", occlusion_reach * scene->diameter);
-    set_float(program, "reach_limit", (float)pass->margin);
-    set_float(program, "cue", scene->depth_cue);
-    set_float(program, "shadow_share", scene->shadow_share);
-    set_float(program, "detail", scene->diameter);
-    glUniformMatrix3fv(glGetUniformLocation(program, "light_rotation"), 1, GL_FALSE,
-                       pass->light.rotation);
-    set_vector(program, "light_translation", pass->light.translation);
-    glUniform4fv(glGetUniformLocation(program, "light_projection"), 1,
-                 pass->light.projection);
-    glUniform2fv(glGetUniformLocation(program, "light_depth_range"), 1,
-                 pass->light.depth_range);
-}
-
-static void draw_shade(struct pass *pass, int width, int height)
-{
-    const GLuint program = pass->renderer->program[PROGRAM_SHADE];
-    uint8_t rgb[3];
-    float background[4];
-    gb_scene_background(pass->scene->background, rgb);
-    linear_colour(rgb, background);
-    background[3] = 1.0F;
-    static const float nothing[4] = {0.0F, 0.0F, 0.0F, 0.0F};
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[2]);
-    glDisable(GL_DEPTH_TEST);
-    glClearBufferfv(GL_COLOR, 0,
-                    pass->scene->background == GB_BACKGROUND_TRANSPARENT ? nothing
-                                                                         : background);
-    glUseProgram(program);
-    set_camera(program, &pass->eye, width, height);
-    set_sampler(program, "seen", TEXTURE_SEEN);
-    set_sampler(program, "depths", TEXTURE_DEPTH);
-    set_sampler(program, "shadows", TEXTURE_SHADOW);
-    set_sampler(program, "spheres", TEXTURE_SPHERES);
-    set_sampler(program, "rods", TEXTURE_RODS);
-    set_sampler(program, "facets", TEXTURE_FACETS);
-    set_sampler(program, "colours", TEXTURE_COLOURS);
-    const size_t first_facet = pass->scene->count + pass->scene->rods;
-    glUniform1ui(glGetUniformLocation(program, "first_rod"), (GLuint)pass->scene->count);
-    glUniform1ui(glGetUniformLocation(program, "first_facet"), (GLuint)first_facet);
-    set_shade(pass, program, background);
-    /* the margin is there to be looked at by the occlusion, not to be shaded */
-    const int inset = pass->margin - SAMPLES;
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(MAX(inset, 0), MAX(inset, 0), width - 2 * MAX(inset, 0),
-              height - 2 * MAX(inset, 0));
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDisable(GL_SCISSOR_TEST);
-}
-
-static void draw_pixels(struct pass *pass)
-{
-    const GLuint program = pass->renderer->program[PROGRAM_RESOLVE];
-    const struct gb_image *image = pass->image;
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[3]);
-    glViewport(0, 0, pass->width, pass->height);
-    glUseProgram(program);
-    set_sampler(program, "samples", TEXTURE_SAMPLES);
-    glUniform2i(glGetUniformLocation(program, "inset"), pass->margin, pass->margin);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glPixelStorei(GL_PACK_ROW_LENGTH, image->width);
-    glReadPixels(
-        0, 0, pass->width, pass->height, GL_RGBA, GL_UNSIGNED_BYTE,
-        &image->rgba[4 * ((size_t)pass->y * (size_t)image->width + (size_t)pass->x)]);
-}
-
-static void paint_tile(struct pass *pass)
-{
-    const int width = SAMPLES * pass->width + 2 * pass->margin;
-    const int height = SAMPLES * pass->height + 2 * pass->margin;
-    set_eye_camera(pass);
-    draw_seen(pass, width, height);
-    draw_shade(pass, width, height);
-    draw_pixels(pass);
-}
-
-/* Samples around a tile that its own occlusion looks at; even, as pixels are 2 x 2. */
+/* Samples around a tile that its occlusion reads; even, as pixels are 2 x 2. */
 static int tile_margin(const struct gb_scene *scene)
 {
     const double near = scene->view.orthographic ? 1.0 : scene->view.near;
-    const double reach = SAMPLES * scene->view.focal / near * (double)occlusion_reach;
+    const double reach =
+        GB_GL_SAMPLES * scene->view.focal / near * (double)GB_GL_OCCLUSION_REACH;
     return 2 * (int)ceil(0.5 * fmin(reach, REACH_LIMIT));
 }
 
@@ -702,20 +145,27 @@ static bool gl_failed(struct gb_error *err)
     return true;
 }
 
-/* Pieces of at most this size that cover a side evenly. */
+/* Length of equal pieces of at most `most` that cover a side. */
 static int tile_size(int side, int most)
 {
     const int tiles = (side + most - 1) / most;
     return (side + tiles - 1) / tiles;
 }
 
-/* The list to draw from, and what need not be on it. */
-static bool make_lists(struct pass *pass, struct gb_error *err)
+static void free_lists(struct gb_gl_pass *pass)
+{
+    gb_alloc_free(pass->index);
+    gb_alloc_free(pass->hidden);
+    gb_alloc_free(pass->unlit);
+}
+
+/* Scratch of draw lists, and the particles that no draw list needs. */
+static bool make_lists(struct gb_gl_pass *pass, struct gb_error *err)
 {
     const struct gb_scene *scene = pass->scene;
     const size_t parts = scene->count + scene->rods;
-    const int width = SAMPLES * pass->image->width;
-    const int height = SAMPLES * pass->image->height;
+    const int width = GB_GL_SAMPLES * pass->image->width;
+    const int height = GB_GL_SAMPLES * pass->image->height;
     pass->index =
         gb_alloc_array(MAX(scene->count, scene->rods) + 1, sizeof *pass->index, err);
     pass->hidden = gb_alloc_array(parts + 1, 1, err);
@@ -723,16 +173,18 @@ static bool make_lists(struct pass *pass, struct gb_error *err)
     if (pass->index == NULL || pass->hidden == NULL || pass->unlit == NULL) {
         return false;
     }
-    set_eye_camera(pass); /* of the whole image: no tile and no margin yet */
-    set_light_camera(pass);
+    gb_gl_cameras_set_eye(pass); /* of the whole image: no tile and no margin yet */
+    gb_gl_cameras_set_light(pass);
     return gb_hidden_find(scene, &pass->eye, width, height, pass->hidden, err) &&
-           gb_hidden_find(scene, &pass->light, SHADOW, SHADOW, pass->unlit, err);
+           gb_hidden_find(scene, &pass->light, GB_GL_SHADOW, GB_GL_SHADOW, pass->unlit,
+                          err);
 }
 
 bool gb_osmesa_render(struct gb_osmesa *renderer, const struct gb_scene *scene,
                       struct gb_image *image, struct gb_error *err)
 {
-    struct pass pass = {.renderer = renderer, .scene = scene, .image = image};
+    struct gb_gl_pass pass = {
+        .program = renderer->program, .scene = scene, .image = image};
     const size_t parts = scene->count + 2 * scene->rods + 3 * scene->facets;
     if (parts > (size_t)renderer->most_spheres) {
         return gb_error_set(err, GB_ERR_INPUT,
@@ -750,11 +202,11 @@ bool gb_osmesa_render(struct gb_osmesa *renderer, const struct gb_scene *scene,
     pass.margin = tile_margin(scene);
     pass.most_width = tile_size(image->width, TILE_WIDTH);
     pass.most_height = tile_size(image->height, TILE_AREA / pass.most_width);
-    make_targets(&pass);
-    make_inputs(&pass);
+    gb_gl_buffers_make_targets(&pass);
+    gb_gl_buffers_make_inputs(&pass);
     bool failed = gl_failed(err);
     if (!failed) {
-        draw_shadow(&pass);
+        gb_gl_parts_draw_shadow(&pass);
     }
     for (pass.y = 0; pass.y < image->height && !failed; pass.y += pass.most_height) {
         pass.height = MIN(pass.most_height, image->height - pass.y);
@@ -764,6 +216,7 @@ bool gb_osmesa_render(struct gb_osmesa *renderer, const struct gb_scene *scene,
             failed = gl_failed(err);
         }
     }
-    free_pass(&pass);
+    gb_gl_buffers_free(&pass);
+    free_lists(&pass);
     return !failed;
 }

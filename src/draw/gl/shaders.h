@@ -1,9 +1,9 @@
 #ifndef GB_DRAW_GL_SHADERS_H
 #define GB_DRAW_GL_SHADERS_H
 
-/* GLSL of the pictures.  A packing is drawn in two passes: who is seen where (index and
- * depth of spheres, rods, facets and box edges, once from the eye and once from the
- * light), then shading of every sample from that, then the samples become pixels. */
+/* GLSL of the pictures, in three passes: visibility (index and depth of spheres, rods,
+ * facets and box edges, once from the eye and once from the light), shading of every
+ * sample from these, mean of the samples of each pixel. */
 struct gb_shaders_text {
     const char *vertex, *fragment;
     const char *more; /* of the fragment, which may be long */
