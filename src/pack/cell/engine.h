@@ -8,7 +8,7 @@
 #include "pack/cell/particles.h"
 #include "pack/f32/f32_state.h"
 #include "pack/f32/fixed_position.h"
-#include "pack/kernel/batch.h"
+#include "pack/kernel/batch/batch.h"
 #include "pack/kernel/tally.h"
 #include "pack/list/missing_pairs.h"
 #include "pack/list/neighbour_list.h"

@@ -7,7 +7,7 @@
 #include "greenbody/status.h"
 #include "pack/cell/cell.h"
 #include "pack/cell/contacts.h"
-#include "pack/kernel/batch.h"
+#include "pack/kernel/batch/batch.h"
 #include "pack/kernel/tally.h"
 #include "pack/list/neighbour_list.h"
 #include "scene/model.h"

@@ -6,7 +6,7 @@
 
 #include "greenbody/status.h"
 #include "pack/f32/cross_rows.h"
-#include "pack/kernel/batch.h"
+#include "pack/kernel/batch/batch.h"
 #include "pack/list/neighbour_list.h"
 
 /* A particle as a sweep in single precision reads it: half the memory traffic of doubles. */

@@ -5,8 +5,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "pack/kernel/batch_f64.h"
-#include "pack/kernel/batch_laws.h"
+#include "pack/kernel/batch/batch_f64.h"
+#include "pack/kernel/batch/batch_laws.h"
 #include "pack/kernel/bed_batch.h"
 
 /* The laws of P3 without branches, in the style of batch_laws.h. */

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "pack/kernel/batch.h"
+#include "pack/kernel/batch/batch.h"
 
 struct gb_pair_list;
 struct gb_world;

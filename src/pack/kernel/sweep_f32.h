@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-#include "pack/kernel/batch.h"
+#include "pack/kernel/batch/batch.h"
 
 struct gb_engine;
 struct gb_force_sums;

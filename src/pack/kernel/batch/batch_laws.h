@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "pack/kernel/batch.h"
+#include "pack/kernel/batch/batch.h"
 
 /* These loops have no branches: conditions select between computed values, and masks (1 or
  * 0) multiply.  A hidden branch (&&, or an expensive side of ?:) would stop the compiler

@@ -1,7 +1,7 @@
 #ifndef GB_PACK_KERNEL_BATCH_3D_H
 #define GB_PACK_KERNEL_BATCH_3D_H
 
-#include "pack/kernel/batch_laws.h"
+#include "pack/kernel/batch/batch_laws.h"
 
 /* First half, 3D: geometry, springs advanced by the relative motion, state of the bridge. */
 INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,

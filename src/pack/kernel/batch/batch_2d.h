@@ -1,8 +1,8 @@
 #ifndef GB_PACK_KERNEL_BATCH_2D_H
 #define GB_PACK_KERNEL_BATCH_2D_H
 
-#include "pack/kernel/batch_f64.h"
-#include "pack/kernel/batch_laws.h"
+#include "pack/kernel/batch/batch_f64.h"
+#include "pack/kernel/batch/batch_laws.h"
 
 /* In the plane a spring is one number: the shear spring along (n_z, -n_x), which rotates
  * with the contact, and the rolling spring about y; there is no pivoting.  So no root is

@@ -1,9 +1,9 @@
 /* The laws in single precision, for quasi-static scenes in 3D. */
-#include "pack/kernel/batch_f32.h"
+#include "pack/kernel/batch/batch_f32.h"
 
-#include "pack/kernel/batch_3d.h"
-#include "pack/kernel/batch_far.h"
-#include "pack/kernel/batch_tally.h"
+#include "pack/kernel/batch/batch_3d.h"
+#include "pack/kernel/batch/batch_far.h"
+#include "pack/kernel/batch/batch_tally.h"
 #include "pack/kernel/simd.h"
 
 /* One variant; the terms that it computes are the arguments behind the attribute. */

@@ -1,7 +1,7 @@
 #ifndef GB_PACK_KERNEL_BATCH_FAR_H
 #define GB_PACK_KERNEL_BATCH_FAR_H
 
-#include "pack/kernel/batch_laws.h"
+#include "pack/kernel/batch/batch_laws.h"
 
 /* Attraction across gaps, in 2D and 3D: force on the first particle of each pair, 0 from
  * the cutoff on.  last_*: distances and attractions at the last evaluation, in viscous

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "pack/kernel/batch.h"
+#include "pack/kernel/batch/batch.h"
 
 #define INLINE    static inline __attribute__((always_inline))
 #define BATCH     struct gb_batch

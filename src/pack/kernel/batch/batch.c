@@ -1,9 +1,9 @@
-#include "pack/kernel/batch_f64.h"
+#include "pack/kernel/batch/batch_f64.h"
 
-#include "pack/kernel/batch_2d.h"
-#include "pack/kernel/batch_3d.h"
-#include "pack/kernel/batch_far.h"
-#include "pack/kernel/batch_tally.h"
+#include "pack/kernel/batch/batch_2d.h"
+#include "pack/kernel/batch/batch_3d.h"
+#include "pack/kernel/batch/batch_far.h"
+#include "pack/kernel/batch/batch_tally.h"
 #include "pack/kernel/simd.h"
 #include "scene/loading_kind.h"
 

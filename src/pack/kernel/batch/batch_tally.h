@@ -1,7 +1,7 @@
 #ifndef GB_PACK_KERNEL_BATCH_TALLY_H
 #define GB_PACK_KERNEL_BATCH_TALLY_H
 
-#include "pack/kernel/batch_laws.h"
+#include "pack/kernel/batch/batch_laws.h"
 
 INLINE real lane_sum(const real *lane)
 {
