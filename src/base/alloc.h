@@ -14,7 +14,7 @@ void *gb_alloc_array(size_t count, size_t size, struct gb_error *err);
 void gb_alloc_free(void *memory);
 
 /* Test hook: the k-th allocation from now on fails (k = 1 is the next one); 0 switches
- * the hook off.  Returns how many were left before: 0 when it has struck.  Thread-safe.
+ * the hook off.  Returns how many were left before: 0 after the failure.  Thread-safe.
  */
 long gb_alloc_fail_after(long k);
 

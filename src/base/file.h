@@ -23,12 +23,12 @@ const char *gb_file_reason(const GError *error);
  * regular file, and its folder exists and can be written. */
 bool gb_file_check_target(const char *path, struct gb_error *err);
 
-/* Every write of the program asks this first: false with errno ENOSPC when the hook below
+/* Called before every write: false with errno ENOSPC when the hook below
  * says so. */
 bool gb_file_may_write(void);
 
 /* Test hook: the k-th write from now on fails as on a full disk (k = 1 is the next one);
- * 0 switches the hook off.  Returns how many were left before: 0 when it has struck.
+ * 0 switches the hook off.  Returns how many were left before: 0 after the failure.
  * Thread-safe. */
 long gb_file_fail_after(long k);
 

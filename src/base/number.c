@@ -7,7 +7,8 @@
 #include <stdint.h>
 #include <string.h>
 
-/* The fast way needs numbers of 64 bits between double and decimal: 17 digits have 57. */
+/* The fast method needs numbers of 64 bits between double and decimal: 17 digits have
+ * 57. */
 #if LDBL_MANT_DIG >= 64
 enum { FAST = 1 };
 #else
@@ -33,9 +34,9 @@ static long double scale(long double value, int power)
 
 enum answer { NO, YES, UNSURE };
 
-/* Does digits x 10^power read as value?  One correctly rounded operation of 64 bits says
- * so, unless it lies so near to the middle of two doubles that rounding twice could
- * differ. */
+/* Does digits x 10^power read as value?  One correctly rounded operation of 64 bits
+ * decides it, unless the result lies so close to the middle of two doubles that double
+ * rounding could differ. */
 static enum answer reads_as(uint64_t digits, int power, double value)
 {
     const long double near = scale((long double)digits, power);
@@ -53,7 +54,7 @@ static enum answer reads_as(uint64_t digits, int power, double value)
 }
 
 /* Digits of a positive number with the power of the last one; how many there are, or 0
- * when the slow way has to be gone. */
+ * when printf has to do it. */
 static int find_digits(double value, uint64_t *digits, int *power)
 {
     int exponent = (int)floor(log10(value));
@@ -62,7 +63,7 @@ static int find_digits(double value, uint64_t *digits, int *power)
     }
     *power = exponent - (DIGITS - 1);
     const long double whole = scale((long double)value, -*power);
-    if (!(whole >= 1e16L && whole < 1e17L)) { /* log10 was off by a hair */
+    if (!(whole >= 1e16L && whole < 1e17L)) { /* rounding of log10 */
         return 0;
     }
     for (int more = 2; more >= 0; more--) {

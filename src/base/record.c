@@ -59,7 +59,7 @@ struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
         return NULL;
     }
     struct gb_record_item *item = &record->item[record->count];
-    memcpy(item->name, name, length + 1); /* a hundred of them at every point */
+    memcpy(item->name, name, length + 1); /* about 100 items at every recorded point */
     memcpy(item->unit, unit, unit_length + 1);
     item->type = type;
     item->rows = rows;
@@ -67,7 +67,7 @@ struct gb_record_item *gb_record_add(struct gb_record *record, const char *name,
     const size_t bytes = gb_record_bytes(item);
     if (!item->data || bytes > item->room) {
         gb_alloc_free(item->data);
-        item->room = bytes + bytes / 16; /* contacts become more and more */
+        item->room = bytes + bytes / 16; /* the number of contacts grows during a run */
         item->data = gb_alloc_array(item->room + 1, 1, err);
         if (!item->data) {
             item->room = 0;
@@ -164,8 +164,8 @@ bool gb_record_array(struct gb_record *record, const char *name, enum gb_record_
     return true;
 }
 
-bool gb_record_f32(struct gb_record *record, const char *name, int64_t rows,
-                       int columns, const char *unit, float *data, struct gb_error *err)
+bool gb_record_f32(struct gb_record *record, const char *name, int64_t rows, int columns,
+                   const char *unit, float *data, struct gb_error *err)
 {
     const int64_t count = rows * columns;
     const bool loading = record->loading;
@@ -246,7 +246,8 @@ const char *gb_record_difference(const struct gb_record *a, const struct gb_reco
     return NULL;
 }
 
-/* FNV-1a by words of eight bytes: byte by byte it would take as long as writing. */
+/* FNV-1a by words of eight bytes: byte by byte it would take as long as writing the
+ * file. */
 static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
 {
     const uint64_t prime = 1099511628211u;

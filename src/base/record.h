@@ -10,8 +10,8 @@
 /* Named arrays of plain numbers: what a checkpoint is made of.
  *
  * Every part of the engine lists what it needs to go on in one function, which saves or
- * loads, whichever way the record goes; so the two can't fall apart.  A record is memory
- * only: files are another matter, and filling it costs no more than the copying. */
+ * loads, whichever way the record goes; so the two cannot differ.  A record is memory
+ * only; src/io/store.h writes it to files.  Filling it costs no more than the copying. */
 enum gb_record_type {
     GB_RECORD_DOUBLE,
     GB_RECORD_INT32, /* int and enum too */
@@ -32,7 +32,7 @@ struct gb_record_item {
 };
 
 struct gb_record {
-    bool loading; /* which way gb_record_array and gb_record_members go */
+    bool loading; /* direction of gb_record_array and gb_record_members */
     int count;
     struct gb_record_item item[GB_RECORD_ITEMS];
 };
@@ -62,8 +62,8 @@ bool gb_record_array(struct gb_record *record, const char *name, enum gb_record_
                      struct gb_error *err);
 
 /* The same for floats in memory, which are doubles in the record. */
-bool gb_record_f32(struct gb_record *record, const char *name, int64_t rows,
-                       int columns, const char *unit, float *data, struct gb_error *err);
+bool gb_record_f32(struct gb_record *record, const char *name, int64_t rows, int columns,
+                   const char *unit, float *data, struct gb_error *err);
 
 /* Rows of an array that is about to be loaded; its type and columns are checked. */
 bool gb_record_rows(const struct gb_record *record, const char *name,
@@ -79,11 +79,11 @@ struct gb_record_member {
     const char *unit;
 };
 
-/* All members of the table, out of object or into it. */
+/* Copies all members of the table from the object or into it. */
 bool gb_record_members(struct gb_record *record, const struct gb_record_member *table,
                        size_t count, void *object, struct gb_error *err);
 
-/* Takes out all items whose names begin so. */
+/* Removes all items whose names begin with prefix. */
 void gb_record_remove(struct gb_record *record, const char *prefix);
 
 /* Name of the first item in which the two differ, and its first row that does; NULL when

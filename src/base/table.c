@@ -65,8 +65,8 @@ static bool load(struct gb_table *table, struct gb_error *err)
     if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode)) {
         gb_error_set(err, GB_ERR_INPUT, "%s: is not a regular file", table->path);
     } else if (info.st_size > GB_TABLE_BYTES_MAX) {
-        gb_error_set(err, GB_ERR_INPUT, "%s: must be at most %d bytes",
-                     table->path, GB_TABLE_BYTES_MAX);
+        gb_error_set(err, GB_ERR_INPUT, "%s: must be at most %d bytes", table->path,
+                     GB_TABLE_BYTES_MAX);
     } else {
         const size_t size = (size_t)info.st_size;
         table->text = gb_alloc_array(size + 1, 1, err);
@@ -88,7 +88,7 @@ static char *next_line(struct cursor *at)
         char *line = at->next;
         char *stop = memchr(line, '\n', (size_t)(at->end - line));
         stop = stop ? stop : at->end;
-        *stop = '\0'; /* there is a byte behind the end */
+        *stop = '\0'; /* one byte of room after the end of the file */
         at->next = stop + 1;
         at->line++;
         if (line[0] != '#' && line[strspn(line, blanks)] != '\0') {
@@ -147,7 +147,7 @@ static bool read_header(struct gb_table *table, struct cursor *at, struct gb_err
     return true;
 }
 
-/* Rows at most, for the arrays. */
+/* Upper bound of the rows, for the arrays. */
 static size_t count_lines(const struct cursor *at)
 {
     size_t lines = 0;
@@ -171,8 +171,8 @@ static bool read_cell(const struct gb_table *table, const struct cursor *at,
         return true;
     }
     return gb_error_set(err, GB_ERR_INPUT,
-                        "%s:%d: %.40s = '%.40s': must be a number or empty",
-                        table->path, at->line, table->name[column], cell);
+                        "%s:%d: %.40s = '%.40s': must be a number or empty", table->path,
+                        at->line, table->name[column], cell);
 }
 
 static bool read_row(struct gb_table *table, const struct cursor *at, char *rest,
@@ -192,14 +192,15 @@ static bool read_row(struct gb_table *table, const struct cursor *at, char *rest
         column++;
     }
     if (column != table->columns) {
-        return gb_error_set(err, GB_ERR_INPUT, "%s:%d: %zu cells: must be %zu, one per column",
-                            table->path, at->line, column, table->columns);
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s:%d: %zu cells: must be %zu, one per column", table->path,
+                            at->line, column, table->columns);
     }
     table->line[table->rows++] = at->line;
     return true;
 }
 
-/* Columns were apart by room; now by the number of rows. */
+/* Moves the columns together: stride `room` becomes the number of rows. */
 static void close_gaps(struct gb_table *table, size_t room)
 {
     for (size_t k = 1; k < table->columns && room > table->rows; k++) {

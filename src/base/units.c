@@ -230,7 +230,7 @@ bool gb_units_parse(const char *text, enum gb_dimension dimension, double *value
         *value_si = value * unit->factor;
         return true;
     }
-    /* with its unit a number may fit that alone does not: "1e309 %" */
+    /* a number can overflow alone and not with its unit: "1e309 %" */
     if (!read || !evaluate(&literal, 0, &value)) {
         return gb_error_set(err, GB_ERR_INPUT, "'%.60s' is not a number", text);
     }

@@ -282,7 +282,7 @@ bool gb_series_mean(const struct gb_series_sample *sample, const struct gb_runse
             filled++;
         }
     }
-    gb_average_rows(rows, members, sample->size, true, mean, error);
+    gb_average_rows(rows, members, sample->size, GB_AVERAGE_ALL, mean, error);
     gb_alloc_free(rows);
     return true;
 }

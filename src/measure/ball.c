@@ -7,11 +7,12 @@ double gb_ball_volume(double radius)
     return 4.0 * M_PI / 3.0 * radius * radius * radius;
 }
 
-/* With the depth of the lens s = a + b - d and t = d - (a - b), a >= b, the usual formula
+/* With the depth of the intersection s = a + b - d and t = d - (a - b), a >= b, the usual
+ * formula
  *   pi s^2 (d^2 + 2 d (a + b) - 3 (a - b)^2)/(12 d)
  * is pi/12 s^2 ((t/d)(d + 3 (a - b)) + 4 b): every term positive.  d - a is exact where
  * the sizes differ much, so that s and t keep all digits of b. */
-double gb_ball_lens(double a, double b, double distance)
+double gb_ball_shared_volume(double a, double b, double distance)
 {
     const double big = a < b ? b : a, small = a < b ? a : b;
     const double s = (big - distance) + small;
@@ -51,11 +52,12 @@ static double distance(const double *a, const double *b)
 }
 
 double gb_ball_solid_volume(int64_t count, const double *position, const double *radius,
-                      const double centre[3], double ball_radius)
+                            const double centre[3], double ball_radius)
 {
     double sum = 0.0;
     for (int64_t i = 0; i < count; i++) {
-        sum += gb_ball_lens(ball_radius, radius[i], distance(position + 3 * i, centre));
+        sum += gb_ball_shared_volume(ball_radius, radius[i],
+                                     distance(position + 3 * i, centre));
     }
     return sum;
 }
@@ -79,14 +81,15 @@ double gb_ball_density_central(int64_t count, const double *position,
 }
 
 double gb_ball_overlap_volume(int64_t count, const double *position, const double *radius,
-                      const int64_t *start, const int32_t *other)
+                              const int64_t *start, const int32_t *other)
 {
     double sum = 0.0;
     for (int64_t i = 0; i < count; i++) {
         for (int64_t k = start[i]; k < start[i + 1]; k++) {
             const int32_t j = other[k];
-            sum += gb_ball_lens(radius[i], radius[j],
-                                distance(position + 3 * i, position + 3 * (int64_t)j));
+            sum += gb_ball_shared_volume(
+                radius[i], radius[j],
+                distance(position + 3 * i, position + 3 * (int64_t)j));
         }
     }
     return sum;

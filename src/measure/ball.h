@@ -5,31 +5,32 @@
 
 /* Exact volumes of spheres cut by spheres and planes, and the densities that P3 takes
  * from them.  Any unit of length.  Sums of positive terms throughout: the relative error
- * is a few units in the last place for any ratio of sizes and for the thinnest lens, as
- * far as the given lengths determine it.  NaN goes through. */
+ * is a few units in the last place for any ratio of sizes and for the smallest overlap,
+ * as far as the given lengths determine it.  NaN gives NaN. */
 
 double gb_ball_volume(double radius);
 
-/* Volume that two spheres share: 0 when apart, that of the smaller one when it lies
- * inside the other.
+/* Volume of the intersection of two spheres: 0 when apart, that of the smaller one when
+ * it lies inside the other.
  *
  * a, b       radii, 0 or more
  * distance   of the centres, 0 or more */
-double gb_ball_lens(double a, double b, double distance);
+double gb_ball_shared_volume(double a, double b, double distance);
 
 /* Part of a sphere between two planes at heights low <= high above its centre, which may
  * be infinite: gb_ball_slab(r, -INFINITY, h) lies below a punch at h. */
 double gb_ball_slab(double radius, double low, double high);
 
-/* Solid of spheres within a ball, the sum of gb_ball_lens.  Where spheres are pressed
- * into each other the shared volume counts twice, as in P3: of z contacts of overlap h in
- * units of the diameter, a part 3/4 z h^2 of the solid, 4.5e-6 for 6 contacts of 0.1 %
- * (50 MPa) and 4.5e-4 for 1 %.  gb_ball_overlap_volume gives it exactly.
+/* Solid of spheres within a ball, the sum of gb_ball_shared_volume.  Where spheres are
+ * pressed into each other the shared volume counts twice, as in P3: of z contacts of
+ * overlap h in units of the diameter, a part 3/4 z h^2 of the solid, 4.5e-6 for 6
+ * contacts of 0.1 % (50 MPa) and 4.5e-4 for 1 %.  gb_ball_overlap_volume gives it
+ * exactly.
  *
  * position   count x 3
  * radius     count */
 double gb_ball_solid_volume(int64_t count, const double *position, const double *radius,
-                      const double centre[3], double ball_radius);
+                            const double centre[3], double ball_radius);
 
 /* Density of a whole specimen in a die: solid of all spheres over the cylinder from floor
  * to punch (P3 5).  The loose wall layer makes it lower than that of a ball in the
@@ -37,17 +38,17 @@ double gb_ball_solid_volume(int64_t count, const double *position, const double 
 double gb_ball_density_whole(int64_t count, const double *radius, double die_radius,
                              double height);
 
-/* Density within a ball (P3 5: 54 um wide, in the middle of the specimen).  Whether the
- * ball stays clear of walls, floor and punch is for the caller to know. */
+/* Density within a ball (P3 5: 54 um wide, in the middle of the specimen).  The
+ * caller makes sure that the ball lies clear of walls, floor and punch. */
 double gb_ball_density_central(int64_t count, const double *position,
                                const double *radius, const double centre[3],
                                double ball_radius);
 
-/* Volume shared by pairs i < other[k], k in [start[i], start[i + 1]); places that three
- * spheres share count once per pair.
+/* Volume shared by pairs i < other[k], k in [start[i], start[i + 1]); a volume common to
+ * three spheres counts once per pair.
  *
  * start   count + 1 */
 double gb_ball_overlap_volume(int64_t count, const double *position, const double *radius,
-                      const int64_t *start, const int32_t *other);
+                              const int64_t *start, const int32_t *other);
 
 #endif

@@ -62,7 +62,8 @@ double gb_hardening_shear(int geometry, double from, double to)
     if (from == to) {
         return 0.0; /* where a relative error has no meaning */
     }
-    /* smooth between 0 and 1; what Gauss-Kronrod of 87 points misses is told by NaN */
+    /* smooth between 0 and 1; NaN where Gauss-Kronrod of 87 points misses the
+     * tolerance */
     return gsl_integration_qng(&function, from, to, 0.0, integral_error, &shear, &error,
                                &evaluations) == 0
                ? shear
@@ -111,9 +112,10 @@ bool gb_hardening_init(struct gb_hardening *law, int geometry, const double *den
     }
     if (law->count < 2) {
         gb_hardening_finish(law);
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "hardening law: must have at least two points with a pressure "
-                            "above 0");
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "hardening law: must have at least two points with a pressure "
+            "above 0");
     }
     return true;
 }
@@ -125,12 +127,12 @@ void gb_hardening_finish(struct gb_hardening *law)
     *law = (struct gb_hardening){0};
 }
 
-/* tau_0(gamma_0), NaN outside of what is known. */
+/* tau_0(gamma_0), NaN outside the range of the law. */
 static double yield_at(const struct gb_hardening *law, double shear)
 {
     size_t low = 0;
     size_t high = law->count - 1;
-    /* the ends belong to it, however their shear was summed */
+    /* margin for the rounding of the summed shear at both ends */
     const double margin = shear_error * law->shear[high];
     if (!(shear >= law->shear[low] - margin && shear <= law->shear[high] + margin)) {
         return (double)NAN;

@@ -39,12 +39,12 @@ bool gb_hardening_init(struct gb_hardening *law, int geometry, const double *den
                        const double *pressure_pa, size_t count, struct gb_error *err);
 void gb_hardening_finish(struct gb_hardening *law); /* zeroed is fine */
 
-/* Pressure (Pa) at a density in a geometry; NaN where the law is not known. */
+/* Pressure (Pa) at a density in a geometry; NaN outside the range of the law. */
 double gb_hardening_pressure(const struct gb_hardening *law, int geometry,
                              double density);
 
-/* The density up to which a geometry can be foretold: where its shear is the greatest the
- * law knows. */
+/* The density up to which a geometry can be predicted: there its shear equals the largest
+ * shear of the law. */
 double gb_hardening_density_max(const struct gb_hardening *law, int geometry);
 
 #endif

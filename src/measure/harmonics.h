@@ -6,9 +6,9 @@
 
 #include "greenbody/status.h"
 
-/* A function of direction that is the same both ways, as the mean force of contacts over
- * their axes is: the even spherical harmonics of orders 0, 2 and 4, written as a form of
- * degree 4 in the components of the direction. */
+/* A function of direction that is even (equal along u and -u), as the mean force over the
+ * direction of the contact: the even spherical harmonics of orders 0, 2 and 4, written as
+ * a form of degree 4 in the components of the direction. */
 enum { GB_HARMONICS_TERMS = 15 };
 
 struct gb_harmonics {
@@ -19,7 +19,7 @@ struct gb_harmonics {
 
 /* Least squares over count values; axis: count x 3, of any length above 0.  In 2D
  * (dimension 2) terms with y are left out.  Errors: GB_ERR_INPUT with fewer values than
- * terms or axes that do not tell the terms apart, GB_ERR_MEMORY. */
+ * terms or axes that do not determine all terms, GB_ERR_MEMORY. */
 bool gb_harmonics_fit(struct gb_harmonics *rose, int dimension, const double *axis,
                       const double *value, size_t count, struct gb_error *err);
 

@@ -14,7 +14,7 @@ double gb_observe_density(const struct gb_world *world);
  * the second to it: minus the stress tensor of P1 (16).  E. */
 void gb_observe_pressure(const struct gb_world *world, double pressure[3][3]);
 
-/* Energy that contacts and attraction would give back along their present branches: rod
+/* Recoverable energy of contacts and attraction along their present branches: rod
  * law or line of the bridge, springs, dispersion (0 beyond the cutoff).  E d^3. */
 double gb_observe_elastic(const struct gb_world *world);
 

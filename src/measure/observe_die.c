@@ -22,7 +22,7 @@ double gb_observe_die_central(const struct gb_bed *bed, double height, double ra
         double r[3] = {0.0, 0.0, 0.0};
         gb_vec_add(r, 1.0, bed->position[i]);
         gb_vec_add(r, -1.0, centre);
-        solid += gb_ball_lens(bed->position[i][3], radius, gb_vec_length(r));
+        solid += gb_ball_shared_volume(bed->position[i][3], radius, gb_vec_length(r));
     }
     return solid / gb_ball_volume(radius);
 }

@@ -114,8 +114,8 @@ double gb_structure_rdf_end(int dimension, double r_max, int bins, const double 
     return mean_between(dimension, width, bins, g, r_max - 1.0, r_max);
 }
 
-/* Union-find over particles.  Each node knows in which image of the cell, seen from
- * itself, its parent lies; a loop of contacts that comes back to another image of its
+/* Union-find over particles.  Each node stores the image of the cell, relative to its
+ * own, in which its parent lies; a loop of contacts that closes at another image of its
  * start shows that the cluster joins its own image. */
 struct node {
     int32_t parent;
@@ -148,7 +148,7 @@ static int32_t find_root(struct node *nodes, int32_t i, int image[3])
     return root;
 }
 
-/* Particle i touches the given image of particle j. */
+/* Joins particle i to the given image of particle j. */
 static void join(struct node *nodes, int32_t i, int32_t j, const int image[3])
 {
     int from_i[3], from_j[3], apart[3];
@@ -180,7 +180,7 @@ static void join(struct node *nodes, int32_t i, int32_t j, const int image[3])
     }
 }
 
-/* Are they nearer than the reach, of two sizes: than its share of their diameters? */
+/* Distance below the reach; with two sizes, below the reach times the sum of radii. */
 static bool is_neighbour(const struct gb_grid_hit *hit, int32_t i, double reach,
                          const double *radius)
 {

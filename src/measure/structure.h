@@ -19,8 +19,8 @@ bool gb_structure_rdf(const struct gb_cell *cell, int64_t count, const double *p
                       double r_max, int bins, double *g, struct gb_error *err);
 
 /* Mean of such a g over the last diameter before r_max, each bin by its volume.  ripple
- * (NULL is fine): how far the means over the quarters of that diameter are from 1, root
- * mean square; 0 where the cell is wide enough for its density. */
+ * (NULL is fine): rms deviation from 1 of the means over the quarters of that diameter; 0
+ * where the cell is wide enough for its density. */
 double gb_structure_rdf_end(int dimension, double r_max, int bins, const double *g,
                             double *ripple);
 

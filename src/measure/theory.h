@@ -5,8 +5,8 @@
 
 #include "scene/model.h"
 
-/* Asymptote of planar pressing at high pressure, P2 (5)-(8): friction holds the particles
- * where they are, all pairs are pressed alike. */
+/* Asymptote of planar pressing at high pressure, P2 (5)-(8): friction prevents
+ * rearrangement, all pairs have the same overlap. */
 
 /* Density of a regular packing of discs with k contacts each, P2 (5); k > 2. */
 double gb_theory_regular_density(double k);

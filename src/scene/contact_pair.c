@@ -29,8 +29,8 @@ static struct body first_body(const struct gb_params *params)
     };
 }
 
-/* The first body, but for what is given: a sigma_0 that was typed belongs to the first
- * one's yield point, and another material has its own. */
+/* The first body, except for given keys: a sigma_0 that was typed belongs to the first
+ * one's yield point, and another material has a different one. */
 static struct body second_body(const struct gb_params *params)
 {
     struct body body = first_body(params);

@@ -5,7 +5,7 @@
 #include "greenbody/status.h"
 #include "law/law_storakers.h"
 
-/* Two bodies that press on each other by Hertz or Storakers: sizes, materials and
+/* Two bodies in contact by the law of Hertz or Storakers: sizes, materials and
  * constants frozen from the keys, in SI units.  Source: P3 section 4. */
 struct gb_contact_pair {
     struct gb_law_storakers law; /* law.hertz is the elastic one */

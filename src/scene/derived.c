@@ -6,10 +6,10 @@
 #include "scene/field/field.h"
 #include "scene/size/sizes.h"
 
-/* sigma_b when the preset leaves it open, in E.  With bridges: P1's set II.  Without: P1
+/* sigma_b at auto, in E.  With bridges: P1's set II.  Without: P1
  * calls mu the only free parameter of such scenes, and with 0.018 E the strength, not mu,
  * would limit the friction of the finest powders (density differences at 100 MPa come out
- * a fifth too small). No shear spring ever carries E. */
+ * a fifth too small). No shear spring carries a stress of E. */
 static const double strength_bridged = 0.018, strength_unlimited = 1.0;
 
 double gb_derived_bridge_length_m(const struct gb_params *params)

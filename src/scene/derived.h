@@ -3,8 +3,8 @@
 
 #include "greenbody/params.h"
 
-/* Quantities that follow from the parameters: relative values in SI, and what "auto" comes
- * to.  Exception: gb_derived_cell is in particle diameters. */
+/* Quantities that follow from the parameters: relative values in SI, and the values of
+ * "auto".  Exception: gb_derived_cell is in particle diameters. */
 
 /* Resolved lengths and pressures, SI. */
 double gb_derived_bridge_length_m(const struct gb_params *params);

@@ -64,7 +64,7 @@ static double by_fidelity(int fidelity, double fast, double balanced, double ref
     }
 }
 
-/* What is best for one relaxer is not for another. */
+/* predict has tolerances and strain parts that differ from those of other relaxers. */
 static void pick_for_predict(struct gb_numerics *numerics, const struct gb_params *params,
                              bool bridges, double *part)
 {
@@ -100,7 +100,7 @@ static void pick_relaxation(struct gb_model *model, const struct gb_params *para
     numerics->parts = (int)fmax(1.0, ceil(params->strain_step / most - 1e-9));
 }
 
-/* predict costs a third; the reference is what it is measured against. */
+/* predict takes a third of the time of fire; fire is the reference. */
 static const char *automatic_relaxer(const struct gb_params *params)
 {
     return params->fidelity == GB_FIDELITY_REFERENCE ? "fire" : "predict";
@@ -153,7 +153,7 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
 
 /* Hertz, Mindlin and Coulomb: the first term of (1), and (5) with its friction only;
  * springs of half the relative motion with (5)'s stiffness are Mindlin's. */
-static void leave_dry_grains(struct gb_model *model)
+static void freeze_cohesionless(struct gb_model *model)
 {
     model->cohesionless = true;
     model->rod.rod = model->rod.pivot = 0.0;
@@ -186,7 +186,7 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
                      model->bridge.strength,
                      params->relative_motion == GB_MOTION_FULL ? 1.0 : 0.5);
     if (gb_loading_kind_of(params)->periodic_cell && params->normal == GB_NORMAL_HERTZ) {
-        leave_dry_grains(model);
+        freeze_cohesionless(model);
     }
     model->terms.attraction = model->adhesion > 0.0;
     model->terms.bridges = model->bridge.length < 1.0;
@@ -209,7 +209,8 @@ static void freeze_loading(struct gb_model *model, const struct gb_params *param
     }
 }
 
-/* The sizes of the powder; one of them in every scene but those of gb_sizes_polydisperse. */
+/* The sizes of the powder; one of them in every scene but those of
+ * gb_sizes_polydisperse. */
 static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
                          struct gb_error *err)
 {
@@ -230,8 +231,8 @@ static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
     return true;
 }
 
-/* Equilibrium of the pair that adhesion presses deepest: of the smallest particles. */
-static double deepest_rest(const struct gb_model *model)
+/* Largest equilibrium overlap by adhesion: that of two of the smallest particles. */
+static double largest_equilibrium(const struct gb_model *model)
 {
     struct gb_law_unequal law;
     if (!model->polydisperse) {
@@ -268,8 +269,8 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
             "quasi-static, in 3D and of one particle size");
     }
     freeze_laws(model, params);
-    if (!gb_loading_kind_of(params)
-             ->periodic_cell) { /* no cell, and laws of its own beside these */
+    if (!gb_loading_kind_of(params)->periodic_cell) {
+        /* the die has no cell; its laws are frozen by its own row */
         return true;
     }
     gb_derived_cell(params, model->edges);
@@ -277,7 +278,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
     model->start_density = (double)params->count * model->mean_cube * shape /
                            (model->edges[0] * model->edges[1] * model->edges[2]);
     freeze_loading(model, params);
-    model->h_eq = deepest_rest(model);
+    model->h_eq = largest_equilibrium(model);
     if (!isfinite(model->h_eq)) {
         return gb_error_set(
             err, GB_ERR_INPUT,

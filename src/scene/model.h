@@ -11,8 +11,8 @@
 #include "law/law_slip.h"
 #include "scene/size/sizes.h"
 
-/* Which terms the force sweep of this scene carries.  A scene pays only for what it uses.
- */
+/* Which terms the force sweep of this scene carries.  The sweep contains
+ * no others. */
 struct gb_terms {
     bool attraction;
     bool bridges;
@@ -39,14 +39,14 @@ struct gb_dynamics {
     double rate;            /* (1/rho) d rho/dt per reduced time */
     double relax, hold;     /* reduced times */
     double time_step;       /* reduced; 0: auto */
-    double step_error;      /* what auto may err by, as a fraction */
+    double step_error;      /* error that auto allows, as a fraction */
     double record_density;  /* relative growth of density between recorded points */
     double record_time;     /* reduced time between recorded points of relax and hold */
     double second_per_time; /* T in s */
     double inertia;         /* J, m d^2 */
 };
 
-/* A die and what is done in it, reduced units (the time is that of dynamic scenes,
+/* A die and the stages of its run, reduced units (the time is that of dynamic scenes,
  * lengths in d). Source: P3 section 5. */
 struct gb_die_scene {
     double radius;         /* of the cylinder */

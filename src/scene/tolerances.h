@@ -15,9 +15,10 @@
 #define GB_CUTOFF_MIN 1.05
 
 /* Margin of the neighbour list beyond the cutoff (d).  Larger: rarer rebuilds, more pairs
- * to look at in every sweep.  No result depends on it. */
+ * to test in every sweep.  No result depends on it. */
 #define GB_SKIN 0.08
-/* Where particles fly the lists wear out faster: P2's scene takes 3 % less with this. */
+/* The same in dynamic scenes, where particles move faster: P2's scene takes 3 % less
+ * time. */
 #define GB_SKIN_DYNAMIC 0.15
 
 /* rms residual over force scale at which a strain step counts as relaxed, by fidelity. */
@@ -25,9 +26,10 @@
 #define GB_TOLERANCE_BALANCED  1e-2
 #define GB_TOLERANCE_REFERENCE 2e-3
 
-/* The same for predict at fast and balanced; starting near the answer it is as good at a
- * looser tolerance.  Without bridges contacts that hardly touch come and go: at 3e-2 an
- * unloaded packing of set I has 0.08 contacts per particle too few. */
+/* The same for predict at fast and balanced; it starts near the equilibrium and reaches
+ * the same accuracy at a looser tolerance.  Without bridges contacts of small overlap
+ * open and close: at 3e-2 an unloaded packing of set I has 0.08 contacts per particle too
+ * few. */
 #define GB_PREDICT_TOLERANCE_FAST       5e-2
 #define GB_PREDICT_TOLERANCE_BALANCED   3e-2
 #define GB_UNBRIDGED_TOLERANCE_FAST     3e-2
@@ -39,35 +41,36 @@
 #define GB_PREDICT_STRAIN_PART_FAST     1e-3
 #define GB_PREDICT_STRAIN_PART_BALANCED 5e-4
 
-/* predict foretells no particle to go or turn farther than this many times the strain (d,
- * rad): those that just fell into a hole will not do it again.  At 2 the density of set
- * II at 100 MPa comes out 0.007 too low.  Without a bound a cell takes a fifth more
- * evaluations, pressures below 20 MPa come out too low, and packings without bridges are
- * shaken looser. */
+/* Largest predicted displacement (d) and rotation (rad) of a particle over the strain
+ * step: the rearrangement of a particle that moved into a void is not extrapolated.  At 2
+ * the density of set II at 100 MPa comes out 0.007 too low.  Without a bound a cell takes
+ * a fifth more evaluations, pressures below 20 MPa come out too low, and packings without
+ * bridges end too loose. */
 #define GB_PREDICT_RATIO_MAX 8.0
 
-/* Where contacts carry less than they stick with, the tolerance of predict falls with the
- * mean contact force over f_a(d) times RISE, down to this share of it.  A larger share
- * saves evaluations below 10 MPa and makes the pressure there come out too high: at 1 the
- * first step of set II has 5 MPa instead of 0.6. */
+/* Where the mean contact force is below the adhesion f_a(d), the tolerance of predict
+ * falls with the mean contact force over f_a(d) times
+ * GB_PREDICT_TOLERANCE_SLOPE, down to this share of it.  A
+ * larger share saves evaluations below 10 MPa and makes the pressure there come out too
+ * high: at 1 the first step of set II has 5 MPa instead of 0.6. */
 #define GB_PREDICT_TOLERANCE_FRACTION_MIN 0.2
 #define GB_PREDICT_TOLERANCE_SLOPE        3.0
 
 /* Tightest tolerance at which numerics.precision = auto is single.  Rounding leaves a
- * residual of 1e-5; tighter relaxations of a share of it would go round. */
+ * residual of 1e-5; tighter relaxations would not converge. */
 #define GB_F32_TOLERANCE_MIN 5e-3
 
 /* Largest strain relaxed at once at fidelity = reference, by any relaxer.  The error in
  * density at 100 MPa grows by 0.0015 for each 1e-3. */
 #define GB_STRAIN_PART_REFERENCE 2e-4
 
-/* Shear strength of contacts without cement (E): none, but finite, so that it times nothing
- * is nothing. */
+/* Shear strength of contacts without cement (E): no limit, but finite, so that it times 0
+ * is 0. */
 #define GB_STRENGTH_COHESIONLESS 1e6
 
 /* The force scale of the stopping rule never falls below f_e at this overlap (d): without
- * adhesion a loose packing carries no force at all, and a share of nothing cannot be
- * reached. At 1e-4 the floor is worth about 0.1 MPa in alumina. */
+ * adhesion a loose packing carries no force at all, and a fraction of 0 cannot be
+ * reached.  At 1e-4 the floor is worth about 0.1 MPa in alumina. */
 #define GB_FORCE_FLOOR_OVERLAP 1e-4
 
 /* Force evaluations after which a strain step is recorded unrelaxed.  Too few cut the
@@ -77,20 +80,20 @@
 /* A step recorded unrelaxed with a residual above this many tolerances stops the run. */
 #define GB_RESIDUAL_STOP 30.0
 
-/* Evaluations without the residual falling by this share after which a relaxation goes
- * round, mostly between two states of a breaking bridge or of a pair at the cutoff: it is
- * restarted once and then given up.  Fewer cut the reference relaxer short. */
+/* Evaluations without the residual falling by this share after which a relaxation counts
+ * as cycling, mostly between two states of a breaking bridge or of a pair at the cutoff:
+ * it is restarted once and then given up.  Fewer cut the reference relaxer short. */
 #define GB_STALL_EVALUATIONS 5000
 #define GB_STALL_FRACTION    0.01
 
-/* Way (d) beside the affine motion in one strain step beyond which a particle may have
- * passed contacts by: the step is halved, twice at most; what is left then is a jump of
- * the packing itself.  At 0.1 % none of 928 steps of a cell of 1000 has one beyond 0.2,
- * at 1 % two of 94.  Smaller values halve steps that are as they should be. */
+/* Nonaffine displacement (d) in one strain step beyond which a particle may have missed
+ * contacts: the step is halved, twice at most; a larger one after that is a sudden
+ * rearrangement of the packing.  At 0.1 % none of 928 steps of a cell of 1000 has one
+ * beyond 0.2, at 1 % two of 94.  Smaller values halve steps without need. */
 #define GB_NONAFFINE_MAX          0.2
 #define GB_NONAFFINE_HALVINGS_MAX 2
 
-/* Overlap (d) beyond which the contact laws have lost their meaning: h -> 1 is singular,
+/* Overlap (d) beyond which the contact laws do not hold: h -> 1 is singular,
  * and two centres about to cross mean that a strain step was too large. */
 #define GB_OVERLAP_MAX 0.5
 
@@ -107,10 +110,10 @@
  * hide instabilities closer to 1. */
 #define GB_STEP_CRITICAL_FRACTION 0.5
 
-/* Share of sliding contacts above which the time step is doubted and halved.  P2's scene
- * at v1 has 0.03 in the loose state and up to 0.24 near density 0.9 (0.35 with
- * relative_motion = full), the same at 0.04 T and at 0.5 T; unstable steps reach 0.7 to 1
- * within 200 steps while the kinetic energy looks innocent. */
+/* Share of sliding contacts above which the time step is checked against half of it.
+ * P2's scene at v1 has 0.03 in the loose state and up to 0.24 near density 0.9 (0.35
+ * with relative_motion = full), the same at 0.04 T and at 0.5 T; unstable steps reach 0.7
+ * to 1 within 200 steps while the kinetic energy stays normal. */
 #define GB_SLIDING_FRACTION_MAX 0.4
 /* If half the step keeps this much of the share, friction is the cause (small mu without
  * bridges: 0.41 at any step), not the step. */
@@ -125,7 +128,7 @@
 #define GB_SIZE_FRACTIONS_TOLERANCE 2e-3
 
 /* Pairs per sphere, on average, beyond which a search for neighbours is given up.  Dense
- * packings have 5 to 10 with a usual skin; spheres that all lie on one spot would fill
+ * packings have 5 to 10 with a usual skin; spheres that all lie at one point would fill
  * the memory. */
 #define GB_HGRID_PAIRS_PER_SPHERE_MAX 100
 
@@ -139,38 +142,38 @@
 #define GB_REST_FALL 1e-4
 /* ... the rms resultant force is below this share of the mean contact force ... */
 #define GB_REST_UNBALANCED 0.02
-/* ... at so many looks in a row.  Looser: particles still fall while the height is taken.
- */
+/* ... in this many consecutive checks.  Fewer: particles still fall while the height is
+ * taken. */
 #define GB_REST_CHECKS 4
 
-/* The same two while pouring, when all that matters is that nothing falls any more. */
+/* The same two while pouring, to detect that no particle falls any more. */
 #define GB_POURED_FALL       0.1
 #define GB_POURED_UNBALANCED 0.2
 
-/* And the highest particle lies on others: its contacts bear this share of its weight at
- * least.  The means above do not see one small particle that still falls, and it would be
- * taken for the top of the powder: punch and height go by it.  One that falls bears 0,
- * one at rest 1.  Smaller: one that slides down the wall passes.  Near 1: rest is not
- * seen while the highest particle trembles. */
+/* And the highest particle rests on others: its contacts carry at least this share of its
+ * weight.  The means above do not see one small particle that still falls, and it would
+ * be taken for the top of the powder: punch and height are set by it.  One that falls has
+ * 0, one at rest 1.  Smaller: one that slides down the wall passes.  Near 1: rest is not
+ * detected while the highest particle vibrates. */
 #define GB_REST_SUPPORT_MIN 0.5
 
 /* Force on the floor over force on the punch: further from 1 than this, inertia carries
  * a part of the pressure and the point is not quasi-static. */
 #define GB_FLOOR_OVER_PUNCH_TOLERANCE 0.05
 
-/* While gravity is eased a gas slows the powder down in the first share of the time of
- * easing, and from then on in the second one.  Without it a bed of smooth spheres turns
- * about the die's axis for ever: those at the wall roll, and nothing holds the others.
+/* Time constants of a drag on the powder while gravity is reduced and after it, as shares
+ * of the time of the reduction.  Without drag a bed of smooth spheres rotates about the axis
+ * of the die without end: spheres at the wall roll, and no friction stops the others.
  * Stronger: loose particles take long to fall. */
 #define GB_GRAVITY_RAMP_DRAG 0.1
 #define GB_REST_DRAG         1.0
 
-/* A particle pushed by the flattening punch could rise by a quarter of this (d).  Larger:
- * faster, and particles are thrown up. */
+/* A particle pushed by the flattening punch rises by up to a quarter of this (d).
+ * Larger: faster, and particles are thrown up. */
 #define GB_FLATTEN_RISE 0.2
 
-/* Length of a cell edge over the reach of the neighbour list: below 2 a pair would meet
- * two images of the same particle. */
+/* Length of a cell edge over the reach of the neighbour list: below 2 a particle would
+ * interact with two images of the same neighbour. */
 #define GB_EDGE_OVER_RANGE_MIN 2.0
 
 #endif

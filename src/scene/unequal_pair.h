@@ -4,7 +4,8 @@
 #include "law/law_unequal.h"
 #include "scene/model.h"
 
-/* The laws of a model for two particles of the given diameters (in the model's lengths). */
+/* The laws of a model for two particles of the given diameters (in the model's
+ * lengths). */
 void gb_unequal_pair_init(struct gb_law_unequal *law, const struct gb_model *model,
                           double first, double second);
 

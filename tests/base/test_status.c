@@ -13,7 +13,7 @@ static void test_one_line(void)
     g_assert_cmpstr(err.text, ==, "x??y");
     gb_error_set(&err, GB_ERR_INPUT, "%s", "5 \xc2\xb5m");
     g_assert_cmpstr(err.text, ==, "5 \xc2\xb5m");
-    g_assert_false(gb_error_set(NULL, GB_ERR_INPUT, "nobody listens"));
+    g_assert_false(gb_error_set(NULL, GB_ERR_INPUT, "no caller"));
 }
 
 /* A cut in the middle of a character leaves valid UTF-8. */

@@ -71,10 +71,10 @@ static void test_mean(void)
 
     const double rows[] = {1.0, 2.0, (double)NAN, 3.0, 6.0, 7.0};
     double means[3], errors[3];
-    gb_average_rows(rows, 2, 3, false, means, errors);
+    gb_average_rows(rows, 2, 3, GB_AVERAGE_PRESENT, means, errors);
     g_assert_true(means[0] == 2.0 && means[1] == 4.0 && means[2] == 7.0);
     g_assert_true(errors[0] == 1.0 && errors[1] == 2.0 && isnan(errors[2]));
-    gb_average_rows(rows, 2, 3, true, means, NULL);
+    gb_average_rows(rows, 2, 3, GB_AVERAGE_ALL, means, NULL);
     g_assert_true(means[1] == 4.0 && isnan(means[2]));
 }
 

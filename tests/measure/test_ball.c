@@ -16,7 +16,7 @@ static void close_to(double value, double expected, double relative)
 }
 
 /* Area of the shell of radius x about the second centre that lies in the first sphere:
- * another way to cut the lens than the planes of the formula. */
+ * another way to cut the common volume than the planes of the formula. */
 struct shells {
     double a, distance;
 };
@@ -43,7 +43,7 @@ static double quadrature(double (*f)(double x, void *data), void *data, double f
 }
 
 /* a >= b > 0, distance > 0. */
-static double lens_by_shells(double a, double b, double distance)
+static double shared_by_shells(double a, double b, double distance)
 {
     struct shells data = {a, distance};
     const double whole = distance < a ? fmin(a - distance, b) : 0.0;
@@ -61,16 +61,17 @@ static void test_random(void)
     for (int i = 0; i < 20000; i++) {
         const double a = log_uniform(1e-8, 1e8), b = a * log_uniform(1e-9, 1.0);
         const double distance = a + b * g_test_rand_double_range(-1.0, 1.0);
-        const double expected = lens_by_shells(a, b, distance);
-        /* a distance near a - b or a + b determines the lens to its own rounding only */
+        const double expected = shared_by_shells(a, b, distance);
+        /* a distance near a - b or a + b determines the volume to its own rounding only */
         const double s = (a - distance) + b;
         const double known = 4e-16 * fmax(1.0, b / s);
-        close_to(gb_ball_lens(a, b, distance), expected, 1e-10 + known);
-        g_assert_cmpfloat(gb_ball_lens(a, b, distance), ==, gb_ball_lens(b, a, distance));
+        close_to(gb_ball_shared_volume(a, b, distance), expected, 1e-10 + known);
+        g_assert_cmpfloat(gb_ball_shared_volume(a, b, distance), ==,
+                          gb_ball_shared_volume(b, a, distance));
     }
 }
 
-/* Thin lenses, thin remainders, equal spheres, all ratios; lengths are powers of two
+/* Thin intersections, thin remainders, equal spheres, all ratios; lengths are powers of two
  * where that keeps them exact. */
 static void test_degenerate(void)
 {
@@ -84,11 +85,13 @@ static void test_degenerate(void)
                 const long double waist = k / d * (d + 3.0L * (1.0L - b));
                 const long double v =
                     M_PI / 12.0L * s * s * (waist + 4.0L * (long double)b);
-                close_to(gb_ball_lens(1.0, b, out), (double)v, 1e-14);
-                close_to(gb_ball_lens(1.0, b, out), lens_by_shells(1.0, b, out), 1e-10);
+                close_to(gb_ball_shared_volume(1.0, b, out), (double)v, 1e-14);
+                close_to(gb_ball_shared_volume(1.0, b, out),
+                         shared_by_shells(1.0, b, out), 1e-10);
             }
             if (in > 0.0 && in < 1.0 + b) {
-                close_to(gb_ball_lens(1.0, b, in), lens_by_shells(1.0, b, in), 1e-10);
+                close_to(gb_ball_shared_volume(1.0, b, in), shared_by_shells(1.0, b, in),
+                         1e-10);
             }
         }
     }
@@ -98,19 +101,21 @@ static void test_cases(void)
 {
     const double full = gb_ball_volume(1.5);
     close_to(full, 4.5 * G_PI, 1e-15);
-    g_assert_cmpfloat(gb_ball_lens(1.0, 2.0, 3.0), ==, 0.0); /* touching */
-    g_assert_cmpfloat(gb_ball_lens(1.0, 2.0, 1e300), ==, 0.0);
-    g_assert_cmpfloat(gb_ball_lens(1.5, 4.0, 2.5), ==, full); /* touching from inside */
-    g_assert_cmpfloat(gb_ball_lens(1.5, 4.0, 0.0), ==, full);
-    g_assert_cmpfloat(gb_ball_lens(1.5, 1.5, 0.0), ==, full);
-    close_to(gb_ball_lens(1.5, 1.5, 1e-300), full, 1e-15);
-    g_assert_cmpfloat(gb_ball_lens(1.0, 0.0, 0.5), ==, 0.0);
-    g_assert_cmpfloat(gb_ball_lens(0.0, 0.0, 0.0), ==, 0.0);
-    close_to(gb_ball_lens(1.0, 1.0, 1.0), 5.0 * G_PI / 12.0, 1e-15);
+    g_assert_cmpfloat(gb_ball_shared_volume(1.0, 2.0, 3.0), ==, 0.0); /* touching */
+    g_assert_cmpfloat(gb_ball_shared_volume(1.0, 2.0, 1e300), ==, 0.0);
+    g_assert_cmpfloat(gb_ball_shared_volume(1.5, 4.0, 2.5), ==,
+                      full); /* touching from inside */
+    g_assert_cmpfloat(gb_ball_shared_volume(1.5, 4.0, 0.0), ==, full);
+    g_assert_cmpfloat(gb_ball_shared_volume(1.5, 1.5, 0.0), ==, full);
+    close_to(gb_ball_shared_volume(1.5, 1.5, 1e-300), full, 1e-15);
+    g_assert_cmpfloat(gb_ball_shared_volume(1.0, 0.0, 0.5), ==, 0.0);
+    g_assert_cmpfloat(gb_ball_shared_volume(0.0, 0.0, 0.0), ==, 0.0);
+    close_to(gb_ball_shared_volume(1.0, 1.0, 1.0), 5.0 * G_PI / 12.0, 1e-15);
     /* next to a huge sphere a small one is cut by a plane */
-    close_to(gb_ball_lens(1e9, 1.0, 1e9 + 0.5), gb_ball_slab(1.0, 0.5, INFINITY), 1e-8);
-    g_assert_true(isnan(gb_ball_lens(1.0, 1.0, NAN)) &&
-                  isnan(gb_ball_lens(NAN, 1.0, 1.0)));
+    close_to(gb_ball_shared_volume(1e9, 1.0, 1e9 + 0.5), gb_ball_slab(1.0, 0.5, INFINITY),
+             1e-8);
+    g_assert_true(isnan(gb_ball_shared_volume(1.0, 1.0, NAN)) &&
+                  isnan(gb_ball_shared_volume(NAN, 1.0, 1.0)));
 }
 
 static double disc(double z, void *data)
@@ -133,12 +138,12 @@ static void test_slab(void)
         double r = log_uniform(1e-8, 1e8);
         const double low = r * g_test_rand_double_range(-1.0, 1.0);
         const double high = low + (r - low) * log_uniform(1e-12, 1.0);
-        /* next to the pole the quadrature's places are rounded to a part of r */
+        /* next to the pole the quadrature's points are rounded to a part of r */
         const double known = 4e-16 * r / (r - low);
         close_to(gb_ball_slab(r, low, high), quadrature(disc, &r, low, high),
                  1e-10 + known);
         close_to(gb_ball_slab(r, -high, -low), gb_ball_slab(r, low, high), 1e-13);
-        /* the parts make the whole */
+        /* the parts add up to the whole */
         close_to(gb_ball_slab(r, -INFINITY, low) + gb_ball_slab(r, low, high) +
                      gb_ball_slab(r, high, INFINITY),
                  gb_ball_volume(r), 1e-14);
@@ -157,7 +162,7 @@ static void test_monotone(void)
     const double distance = 1.0, b = 0.4;
     double last = -1.0;
     for (int i = 0; i <= 2000; i++) {
-        const double v = gb_ball_lens(i * 1e-3, b, distance);
+        const double v = gb_ball_shared_volume(i * 1e-3, b, distance);
         g_assert_cmpfloat(v, >=, last);
         last = v;
     }
@@ -185,7 +190,8 @@ static void test_density(void)
     const double density = gb_ball_density_central(n, x, r, centre, 9.0);
     g_test_message("density in a ball: %.6f, of the lattice %.6f", density, expected);
     close_to(density, expected, 3e-3);
-    close_to(gb_ball_solid_volume(n, x, r, centre, 100.0), n * gb_ball_volume(r[0]), 1e-12);
+    close_to(gb_ball_solid_volume(n, x, r, centre, 100.0), n * gb_ball_volume(r[0]),
+             1e-12);
     close_to(gb_ball_density_whole(n, r, 4.0, 50.0),
              n * gb_ball_volume(r[0]) / (800.0 * G_PI), 1e-12);
     /* a ball inside one particle is full */
@@ -203,7 +209,7 @@ static void test_shared(void)
     const int64_t start[] = {0, 2, 2, 2};
     const int32_t other[] = {1, 2};
     const double shared = gb_ball_overlap_volume(3, x, r, start, other);
-    close_to(shared, 2.0 * gb_ball_lens(0.5, 0.5, 1 - h), 1e-15);
+    close_to(shared, 2.0 * gb_ball_shared_volume(0.5, 0.5, 1 - h), 1e-15);
     /* two contacts among three spheres: z = 4/3 */
     close_to(shared / (3.0 * gb_ball_volume(0.5)), 0.75 * 4.0 / 3.0 * h * h, h);
 }

@@ -9,7 +9,7 @@
 #include "measure/fit/fit.h"
 #include "measure/fit/power.h"
 
-enum { POINTS = 600, TRIALS = 200 };
+enum { POINTS = 600, SAMPLES = 200 };
 
 /* P2, Table 1, v1: MPa and ns over the 30 ns of the hold. */
 static const double table[5] = {2603.9, 441.1, 0.0719, 35.3, 4.9304};
@@ -70,13 +70,13 @@ static int covers(const struct gb_fit_value *value, double truth)
     return value->low <= truth && truth <= value->high;
 }
 
-/* The intervals hold the truth as often as they say. */
+/* The intervals contain the true value with their nominal probability. */
 static void test_coverage(void)
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     int covered[5] = {0};
-    for (int trial = 0; trial < TRIALS; trial++) {
-        gsl_rng_set(random, (unsigned long)trial + 1);
+    for (int sample = 0; sample < SAMPLES; sample++) {
+        gsl_rng_set(random, (unsigned long)sample + 1);
         const struct gb_fit_decay fit = fit_of(table, 3.0, random);
         g_assert_cmpint(fit.terms, ==, 2);
         g_assert_cmpfloat(fit.tau[0].value, <, fit.tau[1].value);
@@ -89,25 +89,25 @@ static void test_coverage(void)
         }
     }
     for (int k = 0; k < 5; k++) {
-        const double share = (double)covered[k] / TRIALS;
+        const double share = (double)covered[k] / SAMPLES;
         g_test_message("parameter %d: %.3f", k, share);
         g_assert_cmpfloat(share, >=, 0.88);
     }
     gsl_rng_free(random);
 }
 
-/* Points that remember the ones before, as in a simulation.  Taken as independent they
+/* Correlated points, as in a simulation.  Taken as independent they
  * would make intervals a third as wide as they are. */
 static void test_correlated(void)
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     int covered[5] = {0};
-    for (int trial = 0; trial < TRIALS; trial++) {
+    for (int sample = 0; sample < SAMPLES; sample++) {
         double t[POINTS], p[POINTS];
         double noise = 0.0;
         struct gb_fit_decay fit;
         struct gb_error err = {0};
-        gsl_rng_set(random, (unsigned long)trial + 1);
+        gsl_rng_set(random, (unsigned long)sample + 1);
         for (int i = 0; i < POINTS; i++) {
             noise = 0.8 * noise + gsl_ran_gaussian(random, 0.6);
             t[i] = time_at(i);
@@ -123,8 +123,8 @@ static void test_correlated(void)
         }
     }
     for (int k = 0; k < 5; k++) {
-        g_test_message("parameter %d: %.3f", k, (double)covered[k] / TRIALS);
-        g_assert_cmpfloat((double)covered[k] / TRIALS, >=, 0.85);
+        g_test_message("parameter %d: %.3f", k, (double)covered[k] / SAMPLES);
+        g_assert_cmpfloat((double)covered[k] / SAMPLES, >=, 0.85);
     }
     gsl_rng_free(random);
 }
@@ -134,8 +134,8 @@ static double share_with(const double q[5], double noise, int terms)
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     int found = 0;
-    for (int trial = 0; trial < TRIALS; trial++) {
-        gsl_rng_set(random, (unsigned long)trial + 1000);
+    for (int sample = 0; sample < SAMPLES; sample++) {
+        gsl_rng_set(random, (unsigned long)sample + 1000);
         const struct gb_fit_decay fit = fit_of(q, noise, random);
         found += fit.terms == terms;
         if (fit.terms < 2) {
@@ -144,8 +144,8 @@ static double share_with(const double q[5], double noise, int terms)
         }
     }
     gsl_rng_free(random);
-    g_test_message("%d terms: %.3f", terms, (double)found / TRIALS);
-    return (double)found / TRIALS;
+    g_test_message("%d terms: %.3f", terms, (double)found / SAMPLES);
+    return (double)found / SAMPLES;
 }
 
 /* P2, Table 1: at v5 nothing is left of the fast stage, nor of the slow one. */
@@ -258,11 +258,11 @@ static void test_power_coverage(void)
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     int covered[4] = {0};
-    for (int trial = 0; trial < TRIALS; trial++) {
+    for (int sample = 0; sample < SAMPLES; sample++) {
         double p[5], error[5];
         struct gb_power_point points[15];
         struct gb_error err = {0};
-        gsl_rng_set(random, (unsigned long)trial + 1);
+        gsl_rng_set(random, (unsigned long)sample + 1);
         for (int i = 0; i < 5; i++) {
             error[i] = 4.0;
             p[i] = 2800.0 + k_true * pow(rates[i], 0.25) +
@@ -290,7 +290,7 @@ static void test_power_coverage(void)
         covered[3] += covers(&exponent, 0.25);
     }
     for (int k = 0; k < 4; k++) {
-        const double share = (double)covered[k] / TRIALS;
+        const double share = (double)covered[k] / SAMPLES;
         g_test_message("value %d: %.3f", k, share);
         g_assert_cmpfloat(share, >=, 0.88);
     }

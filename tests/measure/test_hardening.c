@@ -38,7 +38,7 @@ static void known_curve(int geometry, double *density, double *pressure)
     }
 }
 
-/* The law comes back from the curve of any geometry, and foretells the others. */
+/* The curve of any geometry gives the law back, and the law predicts the other curves. */
 static void test_law(void)
 {
     static const double want[] = {105.15275826068579, 75.5804791811202,
@@ -58,20 +58,20 @@ static void test_law(void)
                 gb_hardening_pressure(&law, geometries[from], density[i]), pressure[i],
                 1e-7);
         }
-        g_assert_cmpfloat_with_epsilon(gb_hardening_density_max(&law, geometries[from]), 0.7,
-                                       1e-9);
+        g_assert_cmpfloat_with_epsilon(gb_hardening_density_max(&law, geometries[from]),
+                                       0.7, 1e-9);
         gb_hardening_finish(&law);
     }
 }
 
-/* The law is known as far as the uniaxial curve reached: to a higher density where less
+/* The law ends where the uniaxial curve ends: to a higher density where less
  * shear belongs to it. */
 static void test_ends(void)
 {
     double density[POINTS], pressure[POINTS];
     struct gb_hardening law;
     known_curve(GB_GEOMETRY_UNIAXIAL, density, pressure);
-    pressure[0] = pressure[1] = -1.0; /* a loose packing pulls */
+    pressure[0] = pressure[1] = -1.0; /* tensile: a loose packing */
     g_assert_true(
         gb_hardening_init(&law, GB_GEOMETRY_UNIAXIAL, density, pressure, POINTS, NULL));
     g_assert_cmpuint(law.count, ==, POINTS - 2);

@@ -80,7 +80,7 @@ static void test_refused(void)
     g_assert_false(gb_harmonics_fit(&rose, 3, axis, value, GB_HARMONICS_TERMS - 1, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     for (int i = 0; i < 3 * COUNT; i++) {
-        axis[i] = 1.0; /* one direction tells nothing of the others */
+        axis[i] = 1.0; /* one direction does not determine the others */
     }
     g_assert_false(gb_harmonics_fit(&rose, 3, axis, value, COUNT, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);

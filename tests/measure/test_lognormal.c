@@ -20,7 +20,7 @@ static void set_middles(double *middle)
     }
 }
 
-/* The law's own shares give the law back, and P1's words on it hold. */
+/* The law's own shares give the law back, and P1's statements about it hold. */
 static void test_exact(void)
 {
     const struct gb_lognormal truth = {.m = p1_m, .sigma = p1_sigma};
@@ -36,7 +36,8 @@ static void test_exact(void)
     /* erf by another route: share below the median is a half */
     g_assert_cmpfloat_with_epsilon(gb_lognormal_share(&truth, 0.0, exp(p1_m)), 0.5,
                                    1e-14);
-    g_assert_true(gb_lognormal_fit(&law, middle, weight, CLASSES, false, NULL));
+    g_assert_true(
+        gb_lognormal_fit(&law, middle, weight, CLASSES, GB_LOGNORMAL_SHARES, NULL));
     /* 0.001 of the particles lie beyond the last class, where the fit expects none */
     g_assert_cmpfloat_with_epsilon(law.m, p1_m, 2e-3);
     g_assert_cmpfloat_with_epsilon(law.sigma, p1_sigma, 3e-3);
@@ -44,7 +45,7 @@ static void test_exact(void)
     g_assert_true(isnan(law.m_error) && isnan(law.chi_squared));
 }
 
-/* Samples: the law lies within its errors as often as it should. */
+/* Samples: the law lies within its errors with the expected probability. */
 static void test_samples(void)
 {
     enum { TRIALS = 200, PARTICLES = 1000 };
@@ -60,7 +61,8 @@ static void test_samples(void)
             const int i = (int)(gsl_ran_lognormal(rng, p1_m, p1_sigma) / WIDTH);
             weight[i < CLASSES ? i : CLASSES - 1] += 1.0;
         }
-        g_assert_true(gb_lognormal_fit(&law, middle, weight, CLASSES, true, NULL));
+        g_assert_true(gb_lognormal_fit(&law, middle, weight, CLASSES,
+                                       GB_LOGNORMAL_PARTICLES, NULL));
         hits[0] += fabs(law.m - p1_m) < 1.96 * law.m_error;
         hits[1] += fabs(law.sigma - p1_sigma) < 1.96 * law.sigma_error;
         g_assert_cmpfloat_with_epsilon(law.m_error, p1_sigma / sqrt(PARTICLES), 2e-3);
@@ -85,12 +87,16 @@ static void test_refuse(void)
     static const double below[] = {1.0, -5.0, 2.0, 1.0};
     struct gb_lognormal law;
     struct gb_error err = {0};
-    g_assert_false(gb_lognormal_fit(&law, falls, weight, 4, true, &err));
+    g_assert_false(
+        gb_lognormal_fit(&law, falls, weight, 4, GB_LOGNORMAL_PARTICLES, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
-    g_assert_false(gb_lognormal_fit(&law, middle, two, 4, true, &err));
-    g_assert_false(gb_lognormal_fit(&law, middle, below, 4, true, &err));
-    g_assert_false(gb_lognormal_fit(&law, middle, weight, 0, true, &err));
-    g_assert_true(gb_lognormal_fit(&law, middle, weight, 4, true, &err));
+    g_assert_false(gb_lognormal_fit(&law, middle, two, 4, GB_LOGNORMAL_PARTICLES, &err));
+    g_assert_false(
+        gb_lognormal_fit(&law, middle, below, 4, GB_LOGNORMAL_PARTICLES, &err));
+    g_assert_false(
+        gb_lognormal_fit(&law, middle, weight, 0, GB_LOGNORMAL_PARTICLES, &err));
+    g_assert_true(
+        gb_lognormal_fit(&law, middle, weight, 4, GB_LOGNORMAL_PARTICLES, &err));
 }
 
 int main(int argc, char **argv)

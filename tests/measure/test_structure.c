@@ -213,8 +213,8 @@ static void test_random_clusters(void)
     GRand *random = g_rand_new_with_seed(3);
     double position[3 * COUNT];
     const struct gb_cell cell = make_cell(3, 7.0, 8.0, 9.0);
-    for (int trial = 0; trial < 20; trial++) {
-        const double reach = 0.5 + 0.05 * trial;
+    for (int round = 0; round < 20; round++) {
+        const double reach = 0.5 + 0.05 * round;
         for (int i = 0; i < 3 * COUNT; i++) {
             position[i] = g_rand_double_range(random, 0.0, cell.edge[i % 3]);
         }

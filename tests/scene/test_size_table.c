@@ -154,14 +154,14 @@ static void test_too_many(void)
 /* Any bytes: an answer or an error, nothing else. */
 static void test_noise(void)
 {
-    static const char letters[] = "numberve: ;,.\n#0123456789eE+-umdiatrsh_\"\xff\x01";
+    static const char alphabet[] = "numberve: ;,.\n#0123456789eE+-umdiatrsh_\"\xff\x01";
     const int rounds = 5000;
     for (int round = 0; round < rounds; round++) {
         struct gb_sizetable table;
         char text[120] = "number: ";
         const int start = round % 2 ? 0 : 8, length = g_test_rand_int_range(0, 100);
         for (int i = 0; i < length; i++) {
-            text[start + i] = letters[g_test_rand_int_range(0, sizeof letters - 1)];
+            text[start + i] = alphabet[g_test_rand_int_range(0, sizeof alphabet - 1)];
         }
         text[start + length] = '\0';
         if (gb_size_table_read(&table, text, NULL)) {

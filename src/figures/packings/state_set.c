@@ -48,7 +48,7 @@ void gb_state_set_means(struct gb_series *series, const struct gb_runset *set,
         double *mean = gb_series_column(series, "%s_%zu", name, g + 1);
         double *error = gb_series_column(series, "se_%zu", g + 1);
         char *label = gb_figures_label(set, g, NULL);
-        gb_average_rows(members, filled, series->rows, false, mean, error);
+        gb_average_rows(members, filled, series->rows, GB_AVERAGE_PRESENT, mean, error);
         gb_series_draw(series, x, mean, error, GB_FIGURE_LINE, (int)g, label);
         g_free(label);
     }

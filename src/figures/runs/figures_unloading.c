@@ -88,7 +88,7 @@ static bool branch_mean(const struct gb_runset *set, size_t group, const char *b
         }
     }
     if (good && filled > 0) {
-        gb_average_rows(rows, filled, LEVELS, true, mean, error);
+        gb_average_rows(rows, filled, LEVELS, GB_AVERAGE_ALL, mean, error);
     }
     g_free(rows);
     return good;

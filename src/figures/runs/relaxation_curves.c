@@ -82,7 +82,7 @@ bool gb_relaxation_curves_mean(const struct gb_average_curve *curves, size_t mem
         good = gb_average_resample(&curves[i], *t, size, rows + i * size, err);
     }
     if (good) {
-        gb_average_rows(rows, members, size, true, *p, NULL);
+        gb_average_rows(rows, members, size, GB_AVERAGE_ALL, *p, NULL);
     }
     *count = 0;
     for (size_t i = 0; i < size && good; i++) {

@@ -5,17 +5,18 @@
 
 #include "base/alloc.h"
 
-/* Places closer than this share of the span are one place. */
-static const double same_place = 1e-9;
+/* Abscissae closer than this share of the span count as one. */
+static const double equal_share = 1e-9;
 
 static bool check_rising(const struct gb_average_curve *curve, struct gb_error *err)
 {
     for (size_t i = 0; i < curve->count; i++) {
         if (!isfinite(curve->x[i]) || (i > 0 && curve->x[i] < curve->x[i - 1])) {
-            return gb_error_set(err, GB_ERR_INPUT,
-                                "point %zu of a curve: x = %g after %g: must be finite and "
-                                "not descending",
-                                i + 1, curve->x[i], i > 0 ? curve->x[i - 1] : 0.0);
+            return gb_error_set(
+                err, GB_ERR_INPUT,
+                "point %zu of a curve: x = %g after %g: must be finite and "
+                "not descending",
+                i + 1, curve->x[i], i > 0 ? curve->x[i - 1] : 0.0);
         }
     }
     return true;
@@ -26,7 +27,7 @@ static double between(const struct gb_average_curve *curve, size_t i, double x)
 {
     const double low = curve->x[i - 1];
     const double share = (x - low) / (curve->x[i] - low);
-    /* the ends as they are: a missing neighbour must not reach them */
+    /* the ends exactly: a missing neighbour is NaN and would spread to them */
     if (share <= 0.0) {
         return curve->y[i - 1];
     }
@@ -80,9 +81,9 @@ static int compare_doubles(const void *a, const void *b)
 
 /* Keeps one of each cluster; the ends stay exact, so that no curve ends before the grid
  * by rounding. */
-static size_t merge_places(double *grid, size_t size)
+static size_t merge_equal(double *grid, size_t size)
 {
-    const double margin = same_place * (grid[size - 1] - grid[0]);
+    const double margin = equal_share * (grid[size - 1] - grid[0]);
     const double last = grid[size - 1];
     size_t kept = 1;
     for (size_t i = 1; i < size; i++) {
@@ -121,19 +122,19 @@ bool gb_average_grid(const struct gb_average_curve *curves, size_t count, size_t
     if (total == 0) {
         return gb_error_set(err, GB_ERR_INPUT, "no points to average");
     }
-    double *places = gb_alloc_array(total, sizeof *places, err);
-    if (places == NULL) {
+    double *abscissae = gb_alloc_array(total, sizeof *abscissae, err);
+    if (abscissae == NULL) {
         return false;
     }
     size_t filled = 0;
     for (size_t c = 0; c < count; c++) {
         for (size_t i = 0; i < curves[c].count; i++) {
-            places[filled++] = curves[c].x[i];
+            abscissae[filled++] = curves[c].x[i];
         }
     }
-    qsort(places, total, sizeof *places, compare_doubles);
-    *size = thin(places, merge_places(places, total), most);
-    *grid = places;
+    qsort(abscissae, total, sizeof *abscissae, compare_doubles);
+    *size = thin(abscissae, merge_equal(abscissae, total), most);
+    *grid = abscissae;
     return true;
 }
 
@@ -174,13 +175,13 @@ double gb_average_jackknife(const double *without, size_t count)
     return used > 1 ? error * ((double)used - 1.0) : (double)NAN;
 }
 
-void gb_average_rows(const double *rows, size_t count, size_t size, bool all,
-                     double *mean, double *error)
+void gb_average_rows(const double *rows, size_t count, size_t size,
+                     enum gb_average_gaps gaps, double *mean, double *error)
 {
     for (size_t k = 0; k < size; k++) {
         double spread = NAN;
         const size_t used = strided(rows + k, count, size, &mean[k], &spread);
-        if (all && used < count) {
+        if (gaps == GB_AVERAGE_ALL && used < count) {
             mean[k] = NAN;
             spread = NAN;
         }

@@ -32,11 +32,16 @@ size_t gb_average_values(const double *values, size_t count, double *mean, doubl
  * those that are NaN are left out.  NaN with fewer than two. */
 double gb_average_jackknife(const double *without, size_t count);
 
-/* Mean and standard error at every place of a grid: row r of `rows` (count x size) is one
- * curve.  At a place where some curves have no value, only those that have one count,
- * unless `all`: then there is none.  NULL for error is fine. */
-void gb_average_rows(const double *rows, size_t count, size_t size, bool all,
-                     double *mean, double *error);
+/* Points of a grid at which some curves have no value (NaN). */
+enum gb_average_gaps {
+    GB_AVERAGE_PRESENT, /* mean of the curves that have one */
+    GB_AVERAGE_ALL      /* no mean unless all curves have one */
+};
+
+/* Mean and standard error at every point of a grid: row r of `rows` (count x size) is one
+ * curve.  NULL for error is fine. */
+void gb_average_rows(const double *rows, size_t count, size_t size,
+                     enum gb_average_gaps gaps, double *mean, double *error);
 
 /* y where x first reaches level, going along the curve, by linear interpolation; NaN when
  * it never does.  x may rise and fall.  *at: index of the point at or behind the

@@ -13,7 +13,7 @@
  * iteration. */
 static const double rounding = 1e-9;
 
-/* Time constants below this multiple of the least spacing leave no trace in the data. */
+/* Time constants below this multiple of the least spacing cannot be determined. */
 static const double tau_shortest = 0.01;
 
 /* Autocorrelation that counts as none. */
@@ -146,8 +146,8 @@ static int jacobian(const gsl_vector *x, void *data, gsl_matrix *j)
     return GSL_SUCCESS;
 }
 
-/* Integral of the autocorrelation of n residuals less their mean: how many of them count
- * as one.  Summed until it has died away; white noise gives 1. */
+/* Integral of the autocorrelation of n residuals less their mean: points per
+ * independent point.  Summed up to the first value near 0; white noise gives 1. */
 static double correlation(const double *f, size_t n, double mean)
 {
     double square = 0.0;
@@ -186,7 +186,7 @@ static void take_result(struct gb_decay *found, gsl_multifit_nlinear_workspace *
     }
 }
 
-/* A time constant that the data can tell. */
+/* A time constant within the range that the data determine. */
 static bool tau_in_range(const struct gb_decay *found,
                          const struct gb_decay_points *points)
 {
@@ -222,9 +222,9 @@ static bool iterate(struct gb_decay *found, const struct gb_decay_points *points
         const int status = gsl_multifit_nlinear_driver(GB_DECAY_ITERATIONS, 1e-9, 1e-9,
                                                        0.0, NULL, NULL, &info, work);
         take_result(found, work, covariance);
-        /* no progress at the bottom, where only rounding is left, is an end as well */
+        /* no progress at the minimum: only rounding is left */
         found->converged = (status == GSL_SUCCESS || status == GSL_ENOPROG) &&
-                         isfinite(found->squares) && tau_in_range(found, points);
+                           isfinite(found->squares) && tau_in_range(found, points);
     } else {
         gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit of %zu points",
                      points->count);

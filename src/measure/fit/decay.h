@@ -6,11 +6,11 @@
 
 #include "measure/fit/fit.h"
 
-/* One fit of a given number of exponentials; fit.h decides which number is right. */
+/* One fit of a given number of exponentials; fit.h selects the number. */
 
 enum { GB_DECAY_PARAMETERS = 1 + 2 * GB_FIT_TERMS, GB_DECAY_ITERATIONS = 100 };
 
-/* Time constants beyond this multiple of the span leave no trace in the data. */
+/* Time constants beyond this multiple of the span cannot be determined. */
 #define GB_DECAY_TAU_LONGEST 100.0
 
 /* Points in units in which time span and range of pressures are 1. */
@@ -19,7 +19,7 @@ struct gb_decay_points {
     size_t count;
     double t_unit, p_unit, p_shift;
     double spacing; /* least difference of two times */
-    double floor;   /* sum of squares that is rounding alone */
+    double floor;   /* sum of squares of rounding alone */
 };
 
 /* Copies and checks.  Errors: GB_ERR_INPUT, GB_ERR_MEMORY; nothing is left to finish. */
@@ -30,7 +30,7 @@ void gb_decay_points_finish(struct gb_decay_points *points);
 /* Parameters p0, then (amplitude, ln tau) per term with tau ascending. */
 struct gb_decay {
     int terms;
-    bool converged; /* converged, to time constants that the points can tell */
+    bool converged; /* converged, to time constants within the range of the data */
     double x[GB_DECAY_PARAMETERS];
     double covariance[GB_DECAY_PARAMETERS][GB_DECAY_PARAMETERS]; /* of unit variance */
     double squares;
@@ -38,7 +38,7 @@ struct gb_decay {
 };
 
 void gb_decay_constant(struct gb_decay *found, const struct gb_decay_points *points);
-/* terms 1 or 2.  Errors: GB_ERR_MEMORY; not settled is no error. */
+/* terms 1 or 2.  Errors: GB_ERR_MEMORY; a fit that does not settle is no error. */
 bool gb_decay_terms(struct gb_decay *found, int terms,
                     const struct gb_decay_points *points, struct gb_error *err);
 

@@ -5,7 +5,7 @@
 #include "base/alloc.h"
 
 /* Time constants of the grid: from the span / 3000 to the span * 3, a factor of 1.5
- * apart. Between neighbours the sum of squares has no second valley. */
+ * apart. Between neighbours the sum of squares has no second minimum. */
 enum { GRID = 26, SIZE = GRID + 1 };
 static const double shortest = 1.0 / 3000.0;
 static const double longest = 3.0;
@@ -48,7 +48,7 @@ static void collect(struct sums *sums, const double *t, const double *p, size_t 
     }
 }
 
-/* Squares that one exponential takes away from the sum. */
+/* Reduction of the sum of squares by one exponential. */
 static double gain_of_one(const struct sums *sums, int a, double *amplitude)
 {
     const double square = sums->product[a][a];
@@ -56,7 +56,7 @@ static double gain_of_one(const struct sums *sums, int a, double *amplitude)
     return *amplitude * sums->product[GRID][a];
 }
 
-/* The same for two, a < b; 0 where they cannot be told apart. */
+/* The same for two, a < b; 0 where they are linearly dependent. */
 static double gain_of_two(const struct sums *sums, int a, int b, double amplitude[2])
 {
     const double aa = sums->product[a][a];

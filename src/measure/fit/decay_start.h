@@ -8,7 +8,7 @@
 
 enum { GB_DECAY_START_TERMS = 2 };
 
-/* Where the iteration of a fit of exponentials begins. */
+/* Initial values for the fit of exponentials. */
 struct gb_decay_start {
     double p0;
     double amplitude[GB_DECAY_START_TERMS];
@@ -16,9 +16,9 @@ struct gb_decay_start {
 };
 
 /* Best of a grid of time constants for terms exponentials (1 or 2).  The linear
- * parameters are solved for at each place of the grid (variable projection), so no first
- * guess is needed.  t is not negative, has two different values at least, and ends at
- * t_end > 0. */
+ * parameters are solved for at each point of the grid (variable projection), so no
+ * initial value is needed.  t is not negative, has two different values at least, and
+ * ends at t_end > 0. */
 bool gb_decay_start(struct gb_decay_start *start, int terms, const double *t,
                     const double *p, size_t count, struct gb_error *err);
 

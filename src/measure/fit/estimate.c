@@ -22,12 +22,12 @@ static const double ridge = 1e-8;
 struct fit {
     const struct gb_estimate_problem *problem;
     double *mean, *weight; /* data */
-    double *seen;          /* seeds x data: what each seed says */
+    double *seen;          /* seeds x data: outputs of each seed */
     double *slope;         /* data x variables */
     double *gain;          /* variables x data: change of the fit with the data */
 };
 
-/* What every seed says at a point, and the mean. */
+/* The outputs of every seed at a point, and their mean. */
 static void look(const struct fit *fit, const double *at)
 {
     const struct gb_estimate_problem *problem = fit->problem;
@@ -91,7 +91,7 @@ static double clip(const struct gb_estimate_problem *problem, const double *from
     return distance;
 }
 
-/* Outside of the box it is that of the nearest point, and grows. */
+/* Outside of the box: the misfit at the nearest point, increased with the distance. */
 static double bounded_misfit(const gsl_vector *x, void *data)
 {
     const struct fit *fit = data;
@@ -103,16 +103,17 @@ static double bounded_misfit(const gsl_vector *x, void *data)
     return misfit(fit, at) * (1.0 + distance) + distance;
 }
 
-/* Best of a coarse grid over the box: the simplex shall not begin in the wrong valley. */
+/* Best of a coarse grid over the box, so that the simplex does not start near a local
+ * minimum. */
 static void find_start(const struct fit *fit, double *best)
 {
     const struct gb_estimate_problem *problem = fit->problem;
     double least = INFINITY;
-    size_t places = 1;
+    size_t points = 1;
     for (size_t k = 0; k < problem->variables; k++) {
-        places *= 5;
+        points *= 5;
     }
-    for (size_t p = 0; p < places; p++) {
+    for (size_t p = 0; p < points; p++) {
         double at[VARIABLES];
         size_t rest = p;
         for (size_t k = 0; k < problem->variables; k++, rest /= 5) {
@@ -249,7 +250,7 @@ static double from_data(const struct fit *fit, double scatter, size_t k, size_t 
     return sum;
 }
 
-/* The same by the noise of the model: each seed, were it alone, would move the fit. */
+/* Covariance by the noise of the model: the scatter of the fits to single seeds. */
 static double from_seeds(const struct fit *fit, size_t k, size_t l)
 {
     const struct gb_estimate_problem *problem = fit->problem;
@@ -341,7 +342,7 @@ bool gb_estimate_fit(const struct gb_estimate_problem *problem,
     const bool good = minimise(&fit, estimate->at, err) &&
                       set_slope(&fit, estimate->at, err) && set_gain(&fit, effect, err);
     if (good) {
-        const double weighted = misfit(&fit, estimate->at); /* sets the mean, too */
+        const double weighted = misfit(&fit, estimate->at); /* also sets fit.mean */
         double squares = 0.0;
         for (size_t i = 0; i < problem->data; i++) {
             const double off = fit.mean[i] - problem->value[i];

@@ -4,8 +4,8 @@
 #include <gsl/gsl_min.h>
 #include <math.h>
 
-/* Places of the grid that finds the deepest valley. */
-enum { PLACES = 120, ITERATIONS = 200 };
+/* Points of the grid in which the lowest minimum is bracketed. */
+enum { GRID_POINTS = 120, ITERATIONS = 200 };
 
 static double squares_at(double exponent, void *data)
 {
@@ -13,13 +13,14 @@ static double squares_at(double exponent, void *data)
     return profile->squares(exponent, profile->data);
 }
 
-static double place(int k)
+static double grid_exponent(int k)
 {
     return GB_EXPONENT_PROFILE_MIN *
-           pow(GB_EXPONENT_PROFILE_MAX / GB_EXPONENT_PROFILE_MIN, (double)k / (PLACES - 1));
+           pow(GB_EXPONENT_PROFILE_MAX / GB_EXPONENT_PROFILE_MIN,
+               (double)k / (GRID_POINTS - 1));
 }
 
-/* Between two places around the deepest one. */
+/* Brent minimisation between the neighbours of the lowest grid point. */
 static bool refine(const struct gb_exponent_profile *profile, int best, double *exponent)
 {
     gsl_function function = {squares_at, (void *)profile};
@@ -27,8 +28,8 @@ static bool refine(const struct gb_exponent_profile *profile, int best, double *
     if (work == NULL) {
         return false;
     }
-    int status = gsl_min_fminimizer_set(work, &function, place(best), place(best - 1),
-                                        place(best + 1));
+    int status = gsl_min_fminimizer_set(work, &function, grid_exponent(best),
+                                        grid_exponent(best - 1), grid_exponent(best + 1));
     for (int i = 0; i < ITERATIONS && status == GSL_SUCCESS; i++) {
         status = gsl_min_fminimizer_iterate(work);
         if (status == GSL_SUCCESS &&
@@ -43,19 +44,19 @@ static bool refine(const struct gb_exponent_profile *profile, int best, double *
     return true;
 }
 
-bool gb_exponent_profile_minimum(const struct gb_exponent_profile *profile, double *exponent,
-                    struct gb_error *err)
+bool gb_exponent_profile_minimum(const struct gb_exponent_profile *profile,
+                                 double *exponent, struct gb_error *err)
 {
     int best = 0;
     double least = INFINITY;
-    for (int k = 0; k < PLACES; k++) {
-        const double squares = profile->squares(place(k), profile->data);
+    for (int k = 0; k < GRID_POINTS; k++) {
+        const double squares = profile->squares(grid_exponent(k), profile->data);
         if (squares < least) {
             least = squares;
             best = k;
         }
     }
-    if (best == 0 || best == PLACES - 1) {
+    if (best == 0 || best == GRID_POINTS - 1) {
         return gb_error_set(err, GB_ERR_NOT_CONVERGED,
                             "the pressures show no power law of the rate: the best "
                             "exponent is %s",
@@ -65,8 +66,8 @@ bool gb_exponent_profile_minimum(const struct gb_exponent_profile *profile, doub
            gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit");
 }
 
-double gb_exponent_profile_crossing(const struct gb_exponent_profile *profile, double level, double inside,
-                       double outside)
+double gb_exponent_profile_crossing(const struct gb_exponent_profile *profile,
+                                    double level, double inside, double outside)
 {
     if (profile->squares(outside, profile->data) <= level) {
         return outside;

@@ -5,7 +5,7 @@
 
 #include "measure/fit/decay.h"
 
-/* The time constant of an exponential that is not there is free, so the F test finds one
+/* The time constant of an absent exponential is undetermined, so the F test finds one
  * more often than its level says (the parameter exists under one hypothesis only); hence
  * 99 % where the intervals are at 95 %. */
 static const double f_level = 0.99;
@@ -24,7 +24,7 @@ static double scatter_of(const struct gb_decay *found,
     return sqrt(found->squares / degrees_of(found, points));
 }
 
-/* Points of a simulation follow one another: only one in `stretch` tells something new.
+/* Points of a simulation are correlated: one in `stretch` is independent.
  */
 static double independent_degrees(const struct gb_decay *found,
                                   const struct gb_decay_points *points)
@@ -66,7 +66,8 @@ static double f_ratio(const struct gb_decay *poor, const struct gb_decay *rich,
                       const struct gb_decay_points *points)
 {
     return 0.5 * (poor->squares - rich->squares) /
-           ((rich->squares + points->floor) / degrees_of(rich, points)) / rich->correlation;
+           ((rich->squares + points->floor) / degrees_of(rich, points)) /
+           rich->correlation;
 }
 
 static struct gb_fit_value value_of(const struct gb_decay *found,
@@ -110,7 +111,7 @@ static void report(struct gb_fit_decay *fit, const struct gb_decay *found,
     }
 }
 
-/* What speaks against the last exponential of rich; GB_FIT_FULL when nothing does. */
+/* Reason to reject the last exponential of rich; GB_FIT_FULL when there is none. */
 static enum gb_fit_reason objection(const struct gb_decay *poor,
                                     const struct gb_decay *rich,
                                     const struct gb_decay_points *points, double *f,
@@ -127,8 +128,8 @@ static enum gb_fit_reason objection(const struct gb_decay *poor,
     return is_certain(rich, points) ? GB_FIT_FULL : GB_FIT_UNCERTAIN;
 }
 
-/* The fits with 0, 1 and 2 exponentials.  What a poor one misses looks like correlation
- * of the points, so the least correlation found is that of all. */
+/* The fits with 0, 1 and 2 exponentials.  A fit with too few terms leaves residuals that
+ * look correlated, so the least correlation of the three is taken for all. */
 static bool fit_all(struct gb_decay found[GB_FIT_TERMS + 1],
                     const struct gb_decay_points *points, struct gb_error *err)
 {
@@ -138,7 +139,8 @@ static bool fit_all(struct gb_decay found[GB_FIT_TERMS + 1],
         if (!gb_decay_terms(&found[terms], terms, points, err)) {
             return false;
         }
-        correlation = fmin(correlation, found[terms].converged ? found[terms].correlation : correlation);
+        correlation = fmin(correlation, found[terms].converged ? found[terms].correlation
+                                                               : correlation);
     }
     for (int terms = 0; terms <= GB_FIT_TERMS; terms++) {
         found[terms].correlation = correlation;
@@ -146,7 +148,7 @@ static bool fit_all(struct gb_decay found[GB_FIT_TERMS + 1],
     return true;
 }
 
-/* Takes exponentials away as long as the data do not ask for them. */
+/* Removes exponentials that the data do not support. */
 static bool choose(struct gb_fit_decay *fit, const struct gb_decay_points *points,
                    struct gb_error *err)
 {
@@ -220,7 +222,7 @@ double gb_fit_decay_efold(const struct gb_fit_decay *fit)
     }
     double low = 0.0;
     double high = fit->tau[fit->terms - 1].value;
-    while (gb_fit_decay_at(fit, high) > level) { /* a rising term may hold p up */
+    while (gb_fit_decay_at(fit, high) > level) { /* p may rise at first */
         high *= 2.0;
     }
     for (int i = 0; i < 60; i++) {

@@ -14,25 +14,25 @@ struct gb_fit_value {
 
 /* Why a relaxation is described by fewer than two exponentials. */
 enum gb_fit_reason {
-    GB_FIT_FULL,          /* it is not: both are there */
-    GB_FIT_INSIGNIFICANT, /* the F test does not want the next one */
-    GB_FIT_UNCERTAIN,     /* an interval of the richer fit contains zero or has no end */
-    GB_FIT_NOT_CONVERGED      /* the iteration of the richer fit did not converge */
+    GB_FIT_FULL,          /* two exponentials */
+    GB_FIT_INSIGNIFICANT, /* the F test rejects the next one */
+    GB_FIT_UNCERTAIN,     /* an interval of the richer fit contains 0 or is unbounded */
+    GB_FIT_NOT_CONVERGED  /* the iteration of the richer fit did not converge */
 };
 
 enum { GB_FIT_TERMS = 2, GB_FIT_DECAY_POINTS = 8 };
 
 /* p(t) = p0 + sum of amplitude[i] exp(-t / tau[i]), P2 (4), with tau[0] < tau[1]. */
 struct gb_fit_decay {
-    int terms;  /* 2, 1 or 0: exponentials that the data show */
+    int terms;  /* 2, 1 or 0: significant exponentials */
     int reason; /* enum gb_fit_reason: why no more */
     struct gb_fit_value p0;
     struct gb_fit_value amplitude[GB_FIT_TERMS];
     struct gb_fit_value tau[GB_FIT_TERMS];
-    double scatter;   /* standard deviation of the points about the fit */
-    int degrees;      /* of freedom */
-    double correlation;   /* points per independent point, from the residuals */
-    double f, f_most; /* F of the next exponential and its bound; of the last one when
+    double scatter;     /* standard deviation of the points about the fit */
+    int degrees;        /* of freedom */
+    double correlation; /* points per independent point, from the residuals */
+    double f, f_most;   /* F of the next exponential and its bound; of the last one when
                        * terms is 2 */
 };
 
@@ -41,7 +41,8 @@ struct gb_fit_decay {
  * from the covariance with the residual variance and Student's t, those of tau in its
  * logarithm, for as many points as the autocorrelation of the residuals leaves
  * independent. Errors: GB_ERR_INPUT (too few points, not finite), GB_ERR_MEMORY,
- * GB_ERR_NOT_CONVERGED (not even one exponential settles, though a constant does not do).
+ * GB_ERR_NOT_CONVERGED (the fit of one exponential does not settle and a constant
+ * does not describe the data).
  */
 bool gb_fit_decay(struct gb_fit_decay *fit, const double *t, const double *p,
                   size_t count, struct gb_error *err);
@@ -49,8 +50,8 @@ bool gb_fit_decay(struct gb_fit_decay *fit, const double *t, const double *p,
 /* The fitted p at time t. */
 double gb_fit_decay_at(const struct gb_fit_decay *fit, double t);
 
-/* How far p falls in all, and the time after which 1/e of that is left: what a relaxation
- * of two stages and one of a single stage can be compared by.  NaN without exponentials
+/* Total fall of p, and the time after which 1/e of it is left: measures that compare
+ * relaxations of one and of two stages.  NaN without exponentials
  * or when p does not fall. */
 double gb_fit_decay_fall(const struct gb_fit_decay *fit);
 double gb_fit_decay_efold(const struct gb_fit_decay *fit);

@@ -10,7 +10,7 @@ enum { ITERATIONS = 2000, CLASSES_LEAST = 3 };
 static const double simplex_end = 1e-6;
 /* Step of second differences: large enough for the sum of logarithms to change. */
 static const double hessian_step = 1e-3;
-/* A class that the law gives less than this would make the likelihood nothing. */
+/* Least share of a class: the logarithm of 0 would make the likelihood infinite. */
 static const double share_least = 1e-300;
 
 struct histogram {
@@ -78,8 +78,8 @@ static bool check(struct histogram *histogram, struct gb_error *err)
                         CLASSES_LEAST);
 }
 
-/* Mean and spread of ln x as if all sat in the middles. */
-static void guess(const struct histogram *histogram, gsl_vector *x)
+/* Mean and deviation of ln x with every particle at the middle of its class. */
+static void first_estimate(const struct histogram *histogram, gsl_vector *x)
 {
     double mean = 0.0;
     double square = 0.0;
@@ -104,7 +104,7 @@ static bool minimise(struct histogram *histogram, struct gb_lognormal *law,
     gsl_vector *size = gsl_vector_alloc(2);
     int status = GSL_ENOMEM;
     if (solver != NULL && start != NULL && size != NULL) {
-        guess(histogram, start);
+        first_estimate(histogram, start);
         gsl_vector_set_all(size, 0.1);
         gsl_multimin_fminimizer_set(solver, &function, start, size);
         status = GSL_CONTINUE;
@@ -126,7 +126,7 @@ static bool minimise(struct histogram *histogram, struct gb_lognormal *law,
     if (status == GSL_ENOMEM) {
         return gb_error_set(err, GB_ERR_MEMORY, "out of memory for a fit");
     }
-    /* no progress is what the last digits look like */
+    /* no progress: only rounding is left */
     return status == GSL_SUCCESS || status == GSL_ENOPROG ||
            gb_error_set(err, GB_ERR_NOT_CONVERGED,
                         "the fit of the log-normal law did not converge");
@@ -171,7 +171,7 @@ static void set_chi_squared(const struct histogram *histogram, struct gb_lognorm
 }
 
 bool gb_lognormal_fit(struct gb_lognormal *law, const double *middle,
-                      const double *weight, size_t count, bool particles,
+                      const double *weight, size_t count, enum gb_lognormal_weight kind,
                       struct gb_error *err)
 {
     struct histogram histogram = {middle, weight, count, 0.0};
@@ -183,7 +183,7 @@ bool gb_lognormal_fit(struct gb_lognormal *law, const double *middle,
     if (!check(&histogram, err) || !minimise(&histogram, law, err)) {
         return false;
     }
-    if (particles) {
+    if (kind == GB_LOGNORMAL_PARTICLES) {
         set_errors(&histogram, law);
         set_chi_squared(&histogram, law);
     }

@@ -19,16 +19,22 @@ struct gb_lognormal {
 /* Share of the particles between two sizes, 0 <= from < to. */
 double gb_lognormal_share(const struct gb_lognormal *law, double from, double to);
 
+/* Meaning of the weights of a histogram. */
+enum gb_lognormal_weight {
+    GB_LOGNORMAL_SHARES,   /* proportional to a number: no errors of the fit */
+    GB_LOGNORMAL_PARTICLES /* numbers of particles: standard errors and chi^2 */
+};
+
 /* Maximum likelihood for classes whose borders lie halfway between the middles (the outer
  * ones as far out as in), no particle beyond.
  *
- * middle     count values above 0 that rise
+ * middle     count values above 0, ascending
  * weight     particles in the class, or any number proportional to it
- * particles  is weight a number of particles?  Else there are no errors.
+ * kind       which of the two
  * Errors: GB_ERR_INPUT (middles, weights, fewer than 3 classes with particles),
  * GB_ERR_NOT_CONVERGED, GB_ERR_MEMORY. */
 bool gb_lognormal_fit(struct gb_lognormal *law, const double *middle,
-                      const double *weight, size_t count, bool particles,
+                      const double *weight, size_t count, enum gb_lognormal_weight kind,
                       struct gb_error *err);
 
 #endif

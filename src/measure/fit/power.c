@@ -84,8 +84,8 @@ static struct gb_fit_value value_with(double value, double error, double quantil
                                  value + quantile * error};
 }
 
-/* Factor of the variance and quantile of the intervals: errors that are given count at
- * least in full, errors that are not come from the residuals. */
+/* Factor of the variance and quantile of the intervals: given errors are a lower
+ * bound, missing ones follow from the residuals. */
 static double spread(double chi2, int degrees, bool given, double *quantile)
 {
     const double ratio = degrees > 0 ? chi2 / degrees : 0.0;

@@ -102,7 +102,7 @@ bool gb_surrogate_fit(struct gb_surrogate *surrogate, size_t variables, size_t o
     for (size_t o = 0; o < outputs && good; o++) {
         good = fit_output(surrogate, &bench, o, value, points) ||
                gb_error_set(err, GB_ERR_INPUT,
-                            "the points do not tell the %zu terms of a polynomial apart",
+                            "the points do not determine the %zu terms of a polynomial",
                             terms);
     }
     finish_bench(&bench);
@@ -143,7 +143,7 @@ void gb_surrogate_slope(const struct gb_surrogate *surrogate, const double *at,
             slope[o * n + i] = c[1 + i];
         }
         for (size_t i = 0; i < n && next < surrogate->terms; i++) {
-            for (size_t j = i; j < n; j++, next++) { /* both once more where i = j */
+            for (size_t j = i; j < n; j++, next++) { /* i = j: both contributions */
                 slope[o * n + i] += c[next] * at[j];
                 slope[o * n + j] += c[next] * at[i];
             }

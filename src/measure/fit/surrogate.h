@@ -6,8 +6,8 @@
 
 #include "greenbody/status.h"
 
-/* A polynomial of first or second order in a few variables for each of many outputs: what
- * stands for the simulation near a point. */
+/* A polynomial of first or second order in a few variables for each of many outputs: an
+ * approximation of the simulation near a point. */
 enum { GB_SURROGATE_VARIABLES = 4, GB_SURROGATE_TERMS = 15 };
 
 struct gb_surrogate {
@@ -23,7 +23,7 @@ size_t gb_surrogate_terms(size_t variables, bool quadratic);
  * at      points x variables; values of about -1 to 1 keep it well conditioned
  * value   points x outputs, finite
  * gb_surrogate_finish is due.  Errors: GB_ERR_INPUT (fewer points than terms, or points
- * that do not tell the terms apart), GB_ERR_MEMORY. */
+ * that do not determine all terms), GB_ERR_MEMORY. */
 bool gb_surrogate_fit(struct gb_surrogate *surrogate, size_t variables, size_t outputs,
                       bool quadratic, const double *at, const double *value,
                       size_t points, struct gb_error *err);

@@ -18,7 +18,7 @@ static const char *const allowed[] = {
     NULL,
 };
 
-/* One entry: behind which step, and "group.key=value". */
+/* One entry: the step that it follows, and "group.key=value". */
 struct entry {
     int64_t step;
     char *assignment;
@@ -35,7 +35,7 @@ static bool is_allowed(const char *assignment)
     return false;
 }
 
-/* text: an entry; its assignment alone is told when that is what is wrong. */
+/* text: an entry; the message quotes the assignment alone when that is wrong. */
 static bool refuse(const char *text, const struct entry *entry, struct gb_error *err)
 {
     if (entry->assignment == NULL) {

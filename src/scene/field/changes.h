@@ -3,23 +3,23 @@
 
 #include "greenbody/params.h"
 
-/* What changes while a run is under way (loading.changes): "120 contact.mu=0.3; 200
- * loading.geometry=isotropic", in the order of the recorded steps behind which each one
+/* Parameter changes during a run (loading.changes): "120 contact.mu=0.3; 200
+ * loading.geometry=isotropic", in the order of the recorded steps after which each one
  * applies.  Part of the preset, so that preset and seed repeat the run to the same bits.
  *
- * Only what leaves the packing and the history of its contacts meaningful can change:
- * friction, attraction, bridges, and what the loading does next. */
+ * Keys that can change leave the packing and its contact histories valid: friction,
+ * attraction, bridges, and the further loading. */
 
 /* Scenes whose runs can change: quasi-static ones.  Errors (GB_ERR_INPUT) name the entry
  * and what is accepted; also for values that do not fit the rest. */
 bool gb_changes_check(const struct gb_params *params, struct gb_error *err);
 
-/* The parameters that hold behind a recorded step: those of the preset with all changes
+/* The parameters that hold after a recorded step: those of the preset with all changes
  * up to and including it.  params has been checked. */
 void gb_changes_effective(const struct gb_params *params, int64_t step,
                           struct gb_params *out);
 
-/* Whether something changes behind exactly this step. */
+/* Whether a change follows exactly this step. */
 bool gb_changes_due(const struct gb_params *params, int64_t step);
 
 /* Adds entries "step key=value" for assignments "mu=0.3; loading.geometry=isotropic" (the

@@ -15,8 +15,8 @@ char *gb_field_accepted(const struct gb_field *field, char *buffer, size_t size)
 /* The same after the words "must be": "between 0 and 2".  Returns buffer. */
 char *gb_field_accepted_sentence(const struct gb_field *field, char *buffer, size_t size);
 
-/* Is the value in memory within its range?  Relative fields given as a length, pressure or
- * time are compared after division by their reference. */
+/* Is the value in memory within its range?  Relative fields given as a length, pressure
+ * or time are compared after division by their reference. */
 bool gb_field_valid(const struct gb_field *field, const struct gb_params *params);
 
 /* Bounds of loading.until = density: the row of the table holds those of the pressure. */

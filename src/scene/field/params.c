@@ -32,7 +32,7 @@ void gb_params_init(struct gb_params *params)
     for (size_t i = 0; i < count; i++) {
         struct gb_error err;
         if (!gb_field_read(&fields[i], params, fields[i].fallback, &err)) {
-            g_assert_not_reached(); /* error in a row of the table; test_params reads all */
+            g_assert_not_reached(); /* wrong row of the table; see test_params */
         }
     }
 }

@@ -18,7 +18,8 @@ static char *choice(const struct gb_params *params, const char *group, const cha
     return gb_field_write(gb_params_find(group, key), params, buffer, size);
 }
 
-/* Each value against its row: the caller may have filled the struct without gb_params_set. */
+/* Each value against its row: the caller may have filled the struct without
+ * gb_params_set. */
 bool gb_params_check_fields(const struct gb_params *params, struct gb_error *err)
 {
     size_t count = 0;
@@ -117,7 +118,7 @@ static bool check_normal(const struct gb_params *params, struct gb_error *err)
     return gb_loading_kind_check_normal(params, err);
 }
 
-/* What only scenes in a periodic cell require. */
+/* Requirements of scenes in a periodic cell. */
 static bool check_periodic(const struct gb_params *params, struct gb_error *err)
 {
     return check_normal(params, err) && check_cell(params, err) &&

@@ -81,7 +81,7 @@ static bool read_line(struct gb_sizetable *table, const char *text, struct gb_er
     bool good = true;
     for (int i = 0; part[i] && good; i++) {
         if (*g_strstrip(part[i]) == '\0') {
-            continue; /* behind the last ';' */
+            continue; /* after the last ';' */
         }
         char *given = g_strdup(part[i]);
         if (table->count == GB_SIZES_MAX) {
@@ -233,7 +233,7 @@ char *gb_size_table_write(const struct gb_sizetable *table, char *buffer, size_t
     return buffer;
 }
 
-/* The planes of 2D and the equations of motion know one diameter. */
+/* 2D scenes and dynamic scenes have one diameter. */
 static bool check_scene(const struct gb_params *params, struct gb_error *err)
 {
     const struct gb_loading_kind *kind = gb_loading_kind_of(params);
@@ -246,7 +246,7 @@ static bool check_scene(const struct gb_params *params, struct gb_error *err)
                                                                       : "lognormal");
 }
 
-/* A cut on the wrong side of the median would leave next to nothing of the law. */
+/* A cut on the wrong side of the median would leave almost no particles. */
 static bool check_lognormal(const struct gb_params *params, struct gb_error *err)
 {
     const double median = gb_derived_median_m(params);

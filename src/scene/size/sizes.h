@@ -21,8 +21,9 @@ struct gb_sizes {
     double below[GB_SIZES_MAX]; /* share by number up to and with this row; last: 1 */
 };
 
-/* Is it a scene of nanoparticles of more than one size?  (Beds in a die draw their own.)
- */
+/* Is it a scene of nanoparticles of more than one size?  (Beds in a die draw their sizes
+ * themselves.)
+ * */
 bool gb_sizes_polydisperse(const struct gb_params *params);
 
 /* Errors: those of gb_params_check about sizes (GB_ERR_INPUT). */
