@@ -162,8 +162,8 @@
 #define GB_FLOOR_OVER_PUNCH_TOLERANCE 0.05
 
 /* Time constants of a drag on the powder while gravity is reduced and after it, as shares
- * of the time of the reduction.  Without drag a bed of smooth spheres rotates about the axis
- * of the die without end: spheres at the wall roll, and no friction stops the others.
+ * of the time of the reduction.  Without drag a bed of smooth spheres rotates about the
+ * axis of the die without end: spheres at the wall roll, and no friction stops the others.
  * Stronger: loose particles take long to fall. */
 #define GB_GRAVITY_RAMP_DRAG 0.1
 #define GB_REST_DRAG         1.0
