@@ -5,6 +5,7 @@
 #include "tui/app/dialogs.h"
 #include "tui/app/key_commands.h"
 #include "tui/session/run_lifecycle.h"
+#include "tui/session/session_quick.h"
 #include "tui/session/whatif.h"
 
 /* The current run, its quick cell, and what-ifs. */
@@ -66,7 +67,7 @@ void gb_run_commands_decline_cost(struct gb_app *app)
 void gb_run_commands_start_scene(struct gb_app *app)
 {
     const struct gb_params *params = gb_session_params(&app->screen.session);
-    if (gb_quick_enough(params) || !gb_session_start_quick(&app->screen.session)) {
+    if (gb_quick_enough(params) || !gb_session_quick_start(&app->screen.session)) {
         start_or_ask(app);
     }
 }
@@ -75,7 +76,7 @@ void gb_run_commands_follow_quick(struct gb_app *app)
 {
     char question[QUESTION];
     struct gb_session *session = &app->screen.session;
-    if (!gb_session_take_start_due(session)) {
+    if (!gb_session_quick_take_due(session)) {
         return;
     }
     if (gb_session_cost_question(session, question, sizeof question)) {

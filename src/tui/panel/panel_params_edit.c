@@ -3,6 +3,7 @@
 
 #include "tui/app/keys.h"
 #include "tui/panel/panels.h"
+#include "tui/session/session_quick.h"
 #include "tui/session/value_step.h"
 
 /* Editing of the focused parameter: typed, chosen, stepped, reverted. */
@@ -35,7 +36,7 @@ void gb_panel_params_edit_revert(struct gb_panel_params *panel,
     snprintf(message->text, sizeof message->text, "%s.%s is %.256s again, as in the run",
              field->group, field->key, value[0] != '\0' ? value : "empty");
     message->style = GB_STYLE_PLAIN;
-    gb_session_start_quick(session);
+    gb_session_quick_start(session);
 }
 
 /* Sets a valid value.  One that conflicts with others is set with a warning, because the
@@ -55,7 +56,7 @@ static bool set_value(struct gb_session *session, const struct gb_field *field,
         message->style = GB_STYLE_WARN;
         return true;
     }
-    gb_session_start_quick(session);
+    gb_session_quick_start(session);
     return true;
 }
 

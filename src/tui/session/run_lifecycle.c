@@ -1,4 +1,5 @@
 #include "tui/session/run_lifecycle.h"
+#include "tui/session/session_quick.h"
 
 #include <glib.h>
 #include <signal.h>
@@ -125,7 +126,7 @@ static void follow(struct gb_session *session)
     char question[400];
     struct gb_error err;
     gb_session_refresh(session);
-    if (gb_session_take_start_due(session) &&
+    if (gb_session_quick_take_due(session) &&
         !gb_session_cost_question(session, question, sizeof question)) {
         gb_session_start(session, &err);
     }

@@ -5,15 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "run/cost.h"
-#include "scene/loading_kind.h"
 #include "tui/session/cost_confirm.h"
 #include "tui/session/run_lifecycle.h"
-#include "tui/session/whatif.h"
+#include "tui/session/session_quick.h"
+#include "tui/session/session_refresh.h"
 #include "tui/term/crash.h"
-
-/* A live run is not replaced automatically after this computing time, s. */
-static const double replaced_max_s = 60.0;
 
 void gb_session_init(struct gb_session *session, struct gb_preset *preset)
 {
@@ -64,10 +60,8 @@ const char *gb_session_event_line(const struct gb_session *session, int index)
     return session->log[at % GB_SESSION_LOG];
 }
 
-/* Keeps the curve of a run that is replaced, unless it has fewer than two points or
- * memory is short. */
-static void keep(struct gb_session *session, const struct gb_params *params,
-                 const struct gb_runner *runner, bool quick)
+void gb_session_keep_curve(struct gb_session *session, const struct gb_params *params,
+                           const struct gb_runner *runner, enum gb_session_cell cell)
 {
     const struct gb_curve *curve = gb_runner_curve(runner);
     const size_t count = gb_curve_count(curve);
@@ -82,34 +76,12 @@ static void keep(struct gb_session *session, const struct gb_params *params,
         session->previous_count--;
     }
     previous.marker = (char)('a' + session->previous_total++ % 26);
-    previous.quick = quick;
+    previous.quick = cell == GB_SESSION_QUICK_CELL;
     session->previous[session->previous_count++] = previous;
 }
 
-static bool quick_cell_matches(const struct gb_session *session,
-                               const struct gb_params *params)
-{
-    return session->quick_cell.runner != NULL &&
-           gb_params_diff_count(&session->quick_cell.full_params, params) == 0;
-}
-
-/* Whether the full run of the quick cell has been started. */
-static bool full_run_started(const struct gb_session *session)
-{
-    return session->runner != NULL &&
-           quick_cell_matches(session, gb_runner_params(session->runner));
-}
-
-/* Keeps the curve of the quick cell unless the full run of its scene has been started. */
-static void keep_quick_curve(struct gb_session *session)
-{
-    if (session->quick_cell.runner != NULL && !full_run_started(session)) {
-        keep(session, &session->quick_cell.full_params, session->quick_cell.runner, true);
-    }
-}
-
-/* Updates the differences of the previous curves to these parameters. */
-static void describe_all(struct gb_session *session, const struct gb_params *params)
+void gb_session_describe_previous(struct gb_session *session,
+                                  const struct gb_params *params)
 {
     for (int i = 0; i < session->previous_count; i++) {
         struct gb_previous_curve *previous = &session->previous[i];
@@ -120,26 +92,10 @@ static void describe_all(struct gb_session *session, const struct gb_params *par
     }
 }
 
-/* Cost of the full run, estimated from the quick cell; NaN: no estimate.  True: it needs
- * a confirmation, whose text is in text. */
-static bool estimate_cost(const struct gb_session *session, double *seconds, char *text,
-                          size_t size)
-{
-    const struct gb_quick_cell *quick_cell = &session->quick_cell;
-    const struct gb_params *params = gb_preset_params(session->preset);
-    *seconds = NAN;
-    return quick_cell->runner != NULL && quick_cell->state == GB_RUN_DONE &&
-           quick_cell_matches(session, params) &&
-           gb_cost_confirm_after_quick(
-               params, gb_runner_params(quick_cell->runner),
-               gb_runner_snapshot(quick_cell->runner, NULL)->seconds, seconds, text,
-               size);
-}
-
 bool gb_session_cost_question(struct gb_session *session, char *text, size_t size)
 {
     double seconds = NAN;
-    if (estimate_cost(session, &seconds, text, size)) {
+    if (gb_session_quick_cost(session, &seconds, text, size)) {
         return true;
     }
     return gb_cost_confirm_question(gb_session_params(session),
@@ -149,7 +105,8 @@ bool gb_session_cost_question(struct gb_session *session, char *text, size_t siz
 void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
 {
     if (session->runner != NULL) {
-        keep(session, gb_runner_params(session->runner), session->runner, false);
+        gb_session_keep_curve(session, gb_runner_params(session->runner), session->runner,
+                              GB_SESSION_FULL_CELL);
         gb_runner_destroy(session->runner);
     }
     session->runner = runner;
@@ -167,7 +124,7 @@ void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
     session->events_seen = 0;
     memset(&session->now, 0, sizeof session->now);
     session->now.seconds_left = -1.0;
-    describe_all(session, gb_runner_params(runner));
+    gb_session_describe_previous(session, gb_runner_params(runner));
 }
 
 bool gb_session_start(struct gb_session *session, struct gb_error *err)
@@ -177,7 +134,8 @@ bool gb_session_start(struct gb_session *session, struct gb_error *err)
     if (!gb_run_lifecycle_start(&runner, session, params, err)) {
         return false;
     }
-    if (session->quick_cell.runner != NULL && !quick_cell_matches(session, params)) {
+    if (session->quick_cell.runner != NULL &&
+        !gb_session_quick_matches(session, params)) {
         gb_quick_cell_drop(&session->quick_cell);
     }
     session->whatifs = 0;
@@ -189,87 +147,6 @@ bool gb_session_start(struct gb_session *session, struct gb_error *err)
 bool gb_session_run_is_live(const struct gb_session *session)
 {
     return session->runner != NULL && session->run_state <= GB_RUN_PAUSED;
-}
-
-static void yield_engine(struct gb_session *session, bool yielded)
-{
-    if (session->yielded != yielded && session->runner != NULL &&
-        gb_runner_send(session->runner,
-                       yielded ? GB_COMMAND_YIELD : GB_COMMAND_CONTINUE)) {
-        session->yielded = yielded;
-    }
-}
-
-bool gb_session_start_quick(struct gb_session *session)
-{
-    const struct gb_params *params = gb_session_params(session);
-    struct gb_error err = {0};
-    session->start_due = false;
-    if (session->runner != NULL && gb_session_changes(session) == 0) {
-        gb_quick_cell_drop(&session->quick_cell);
-        yield_engine(session, false);
-        return false;
-    }
-    if (!gb_params_check(params, NULL)) {
-        return false;
-    }
-    keep_quick_curve(session);
-    yield_engine(session, gb_session_run_is_live(session));
-    session->pause_wanted = false;
-    if (!gb_quick_cell_start(&session->quick_cell, params, &err)) {
-        gb_quick_cell_drop(&session->quick_cell);
-        yield_engine(session, false);
-        return false;
-    }
-    session->frozen = false;
-    describe_all(session, params);
-    return true;
-}
-
-bool gb_session_take_start_due(struct gb_session *session)
-{
-    const bool start_due = session->start_due;
-    session->start_due = false;
-    return start_due;
-}
-
-static void note_estimate(struct gb_session *session)
-{
-    char question[400];
-    char duration[48];
-    double seconds = NAN;
-    estimate_cost(session, &seconds, question, sizeof question);
-    if (isfinite(seconds)) {
-        gb_session_note(session, "full cell of %lld: about %s (estimated)",
-                        (long long)gb_session_params(session)->count,
-                        gb_cost_duration(seconds, duration, sizeof duration));
-    }
-}
-
-/* The full run follows unless it would replace a run with much computing time. */
-static void finish_quick_cell(struct gb_session *session)
-{
-    const struct gb_quick_cell *quick_cell = &session->quick_cell;
-    const struct gb_snapshot *now = gb_runner_snapshot(quick_cell->runner, NULL);
-    yield_engine(session, false);
-    if (quick_cell->state != GB_RUN_DONE) {
-        gb_session_note(session, "quick cell: %s", now->error.text);
-        return;
-    }
-    gb_session_note(session, "quick cell of %lld particles: curve in %.1f s",
-                    (long long)gb_runner_params(quick_cell->runner)->count, now->seconds);
-    if (full_run_started(session)) {
-        return;
-    }
-    const bool works =
-        gb_session_run_is_live(session) && session->now.seconds > replaced_max_s;
-    note_estimate(session);
-    /* a pause requested during the quick cell also applies to the full run */
-    session->start_due = session->auto_start && !works && !session->pause_wanted;
-    if (!session->start_due) {
-        gb_session_note(session, "%sr starts the full cell",
-                        works ? "the current run continues; " : "");
-    }
 }
 
 struct gb_session_shown gb_session_shown(const struct gb_session *session)
@@ -337,91 +214,6 @@ void gb_session_misfit(const struct gb_session *session, struct gb_measured_misf
     }
 }
 
-static void take_events(struct gb_session *session)
-{
-    char text[GB_EVENT_TEXT];
-    while (session->events_seen < session->now.events) {
-        if (gb_runner_event(session->runner, session->events_seen, text, sizeof text)) {
-            gb_session_note(session, "%s", text);
-        }
-        session->events_seen++;
-    }
-}
-
-/* Takes over a snapshot for display. */
-static void show(struct gb_session *session, const struct gb_snapshot *snapshot)
-{
-    session->now = *snapshot;
-    session->points = gb_curve_count(gb_runner_curve(session->runner));
-    session->sample = gb_runner_view_sample(session->runner, NULL);
-    take_events(session);
-}
-
-/* Measured speed, for the cost estimate of the next run. */
-static void take_rate(struct gb_session *session, const struct gb_snapshot *snapshot)
-{
-    if (gb_loading_kind_of(gb_runner_params(session->runner))->given_rate &&
-        snapshot->particle_evaluations_per_s > 0.0) {
-        session->particle_steps_per_s = snapshot->particle_evaluations_per_s;
-    }
-}
-
-/* Updates of the run; true if the screen changes. */
-static bool refresh_run(struct gb_session *session)
-{
-    if (session->runner == NULL) {
-        return false;
-    }
-    bool changed = false;
-    const struct gb_snapshot *snapshot = gb_runner_snapshot(session->runner, &changed);
-    take_rate(session, snapshot);
-    const bool other_state = snapshot->state != session->run_state;
-    if (other_state) {
-        session->run_state = snapshot->state;
-        session->waiting = false;
-    }
-    if (changed && !session->frozen) {
-        show(session, snapshot);
-        return true;
-    }
-    return other_state;
-}
-
-/* Updates of the child command and of the replicas that it computes. */
-static bool refresh_child(struct gb_session *session)
-{
-    char text[GB_EVENT_TEXT];
-    bool some = false;
-    bool ended = false;
-    const bool live = session->child.pid != 0;
-    enum gb_child_command_event news = GB_CHILD_COMMAND_NONE;
-    while ((news = gb_child_command_poll(&session->child, text, sizeof text)) !=
-           GB_CHILD_COMMAND_NONE) {
-        if (news != GB_CHILD_COMMAND_PROGRESS) {
-            gb_session_note(session, "%s", text);
-        }
-        some = true;
-        ended = news == GB_CHILD_COMMAND_ENDED;
-    }
-    return (live && gb_replica_band_refresh(&session->replica_band, ended)) || some;
-}
-
-bool gb_session_refresh(struct gb_session *session)
-{
-    bool ended = false;
-    const int before = session->quick_cell.state;
-    const bool tried =
-        gb_quick_cell_refresh(&session->quick_cell, session->frozen, &ended);
-    session->waiting = session->waiting && session->quick_cell.state == before;
-    const bool ran = refresh_run(session);
-    gb_whatif_refresh(session);
-    const bool made = refresh_child(session);
-    if (ended) {
-        finish_quick_cell(session);
-    }
-    return tried || ran || ended || made;
-}
-
 void gb_session_toggle_pause(struct gb_session *session)
 {
     const bool quick = gb_quick_cell_live(&session->quick_cell);
@@ -440,7 +232,7 @@ void gb_session_toggle_freeze(struct gb_session *session)
 {
     session->frozen = !session->frozen;
     if (!session->frozen && session->runner != NULL) {
-        show(session, gb_runner_snapshot(session->runner, NULL));
+        gb_session_refresh_show(session, gb_runner_snapshot(session->runner, NULL));
     }
 }
 

@@ -15,6 +15,9 @@
 
 enum { GB_SESSION_PREVIOUS = 6, GB_SESSION_LOG = 200, GB_SESSION_WHATIFS = 16 };
 
+/* The cell that a curve comes from. */
+enum gb_session_cell { GB_SESSION_FULL_CELL, GB_SESSION_QUICK_CELL };
+
 struct gb_session {
     struct gb_preset *preset; /* the preset being edited */
     struct gb_preset *opened; /* preset opened in the workbench; owned */
@@ -57,14 +60,6 @@ struct gb_params *gb_session_params(struct gb_session *session);
  * the question. */
 bool gb_session_cost_question(struct gb_session *session, char *text, size_t size);
 
-/* Starts the quick cell of the edited parameters; the engine of the current run waits for
- * it.  Nothing is computed for scenes without a quick cell and for the parameters of the
- * current run.  False: no quick cell was started. */
-bool gb_session_start_quick(struct gb_session *session);
-
-/* Whether the full run is due after its quick cell; clears the flag. */
-bool gb_session_take_start_due(struct gb_session *session);
-
 /* What the views show: the quick cell while it computes, otherwise the run. */
 struct gb_session_shown {
     const struct gb_snapshot *now;
@@ -84,6 +79,14 @@ bool gb_session_start(struct gb_session *session, struct gb_error *err);
 
 /* Replaces the current run, whose curve becomes a previous curve. */
 void gb_session_replace(struct gb_session *session, struct gb_runner *runner);
+
+/* Adds the curve of a run or quick cell to the previous curves, unless it has fewer than two
+ * points or memory is short. */
+void gb_session_keep_curve(struct gb_session *session, const struct gb_params *params,
+                           const struct gb_runner *runner, enum gb_session_cell cell);
+/* Updates the differences of the previous curves to these parameters. */
+void gb_session_describe_previous(struct gb_session *session,
+                                  const struct gb_params *params);
 
 /* Opens a preset for editing; does not start it. */
 bool gb_session_open(struct gb_session *session, const char *name, struct gb_error *err);
