@@ -14,13 +14,13 @@ void gb_law_mindlin_rotate(double force[3], const double normal[3])
 
 void gb_law_mindlin_slip(const double normal[3], const double velocity_i[3],
                          const double velocity_j[3], const double spin_i[3],
-                         const double spin_j[3], double arm_i, double arm_j,
+                         const double spin_j[3], double lever_i, double lever_j,
                          double slip[3])
 {
-    /* contact point at -arm_i n from i, at +arm_j n from j */
+    /* contact point at -lever_i n from i, at +lever_j n from j */
     double turning[3], swept[3];
     for (int k = 0; k < 3; k++) {
-        turning[k] = -(arm_i * spin_i[k] + arm_j * spin_j[k]);
+        turning[k] = -(lever_i * spin_i[k] + lever_j * spin_j[k]);
     }
     gb_vec_cross(turning, normal, swept);
     for (int k = 0; k < 3; k++) {

@@ -21,7 +21,7 @@ void gb_law_mindlin_rotate(double force[3], const double normal[3]);
  * centres to the contact point.  A wall has its own velocity and no spin. */
 void gb_law_mindlin_slip(const double normal[3], const double velocity_i[3],
                          const double velocity_j[3], const double spin_i[3],
-                         const double spin_j[3], double arm_i, double arm_j,
+                         const double spin_j[3], double lever_i, double lever_j,
                          double slip[3]);
 
 /* One step: the force, already in the tangent plane, is moved by -stiffness slip dt,

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "run/experiment.h"
 #include "scene/derived.h"
+#include "scene/loading_kind.h"
 
 /* What auto is taken to choose, in T: ten times P2's own step.  An assumption, since only
  * the run itself finds its step. */
@@ -29,12 +30,21 @@ static const double row_bytes = 250.0;
 /* Runs estimated to take longer need a confirmation, s. */
 static const double limit_s = 3600.0;
 
+static bool has_given_rate(const struct gb_loading_kind *kind)
+{
+    return kind->given_rate;
+}
+
 static bool check(const struct gb_params *params, double rate, struct gb_error *err)
 {
-    if (params->kind != GB_KIND_DYNAMIC) {
+    const struct gb_loading_kind *kind = gb_loading_kind_of(params);
+    if (!kind->given_rate) {
+        char names[80];
         return gb_error_set(err, GB_ERR_INPUT,
-                            "scene.kind = quasistatic: the cost can be estimated with "
-                            "scene.kind = dynamic only");
+                            "scene.kind = %s: the cost can be estimated with "
+                            "scene.kind = %s only",
+                            kind->name,
+                            gb_loading_kind_names(has_given_rate, names, sizeof names));
     }
     if (!(rate > 0.0 && isfinite(rate))) {
         return gb_error_set(err, GB_ERR_INPUT,
@@ -113,7 +123,7 @@ static double sweeps_over_quick(const struct gb_params *full)
 double gb_cost_from_quick(const struct gb_params *full, const struct gb_params *quick,
                           double quick_s)
 {
-    if (full->kind != GB_KIND_QUASISTATIC) {
+    if (gb_loading_kind_of(full)->follows_time) {
         return NAN;
     }
     const double particles = (double)full->count / (double)quick->count;
@@ -144,9 +154,9 @@ double gb_cost_assumed_s(const struct gb_params *params)
 {
     struct gb_cost cost;
     double seconds = NAN;
-    if (params->kind == GB_KIND_QUASISTATIC) {
+    if (!gb_loading_kind_of(params)->follows_time) {
         seconds = quasistatic_s(params);
-    } else if (params->kind == GB_KIND_DYNAMIC &&
+    } else if (gb_loading_kind_of(params)->given_rate &&
                gb_cost_estimate(params, gb_cost_rate_assumed(params), &cost, NULL)) {
         seconds = cost.seconds;
     }

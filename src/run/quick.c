@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "run/cost.h"
+#include "scene/loading_kind.h"
 
 /* Strain of a quick step: three times the default.  Smaller steps would take longer than
  * two seconds; the error of larger ones would exceed the scatter between cells. */
@@ -45,15 +46,8 @@ bool gb_quick_params(const struct gb_params *full, struct gb_params *quick)
     quick->tolerance = NAN;
     quick->strain_part = NAN;
     snprintf(quick->relaxer, sizeof quick->relaxer, "auto");
-    switch (full->kind) {
-    case GB_KIND_QUASISTATIC:
-        break;
-    case GB_KIND_DYNAMIC:
-        if (!shrink_dynamic(quick)) {
-            return false;
-        }
-        break;
-    default:
+    const struct gb_loading_kind *kind = gb_loading_kind_of(full);
+    if (kind->follows_time && !(kind->given_rate && shrink_dynamic(quick))) {
         return false;
     }
     return gb_params_check(quick, NULL);

@@ -13,9 +13,9 @@ static const double step_growth = 1.05;
  * else bounds it while all is at rest without contacts. */
 static const double step_most = 1.0;
 
-void gb_leapfrog_init(struct gb_leapfrog *leap, double safety, double given)
+void gb_leapfrog_init(struct gb_leapfrog *leapfrog, double safety, double given)
 {
-    *leap = (struct gb_leapfrog){.safety = safety, .given = given, .limit = INFINITY};
+    *leapfrog = (struct gb_leapfrog){.safety = safety, .given = given, .limit = INFINITY};
 }
 
 double gb_leapfrog_critical(const struct gb_bed *bed)
@@ -23,10 +23,10 @@ double gb_leapfrog_critical(const struct gb_bed *bed)
     const double stiffest = bed->tally.stiffest;
     const bool friction = bed->law.mu > 0.0 || bed->law.mu_wall > 0.0;
     /* k_t (1/m + R^2/I) */
-    const double turning =
+    const double rotational =
         friction ? bed->law.shear * (1.0 + 2.5 / bed->inertia_scale) : 0.0;
     return fmin(gb_critical_step(sqrt(stiffest), bed->law.damping),
-                gb_critical_step(sqrt(turning * stiffest), 0.0));
+                gb_critical_step(sqrt(rotational * stiffest), 0.0));
 }
 
 /* T = 2.868 (m^2/(R E*^2 v))^(1/5); a spring of that half period has the critical step 2
@@ -43,17 +43,18 @@ double gb_leapfrog_impact(const struct gb_bed *bed, double speed)
     return M_2_PI * duration * gb_critical_step_share(xi);
 }
 
-static double next_step(const struct gb_leapfrog *leap, const struct gb_bed *bed)
+static double next_step(const struct gb_leapfrog *leapfrog, const struct gb_bed *bed)
 {
-    if (leap->given > 0.0) {
-        return fmin(leap->given, leap->limit);
+    if (leapfrog->given > 0.0) {
+        return fmin(leapfrog->given, leapfrog->limit);
     }
     /* a particle at rest may fall by its size before it meets another */
-    const double fast = fmax(leap->fastest, sqrt(2.0 * leap->gravity * bed->smallest));
+    const double fast =
+        fmax(leapfrog->fastest, sqrt(2.0 * leapfrog->gravity * bed->smallest));
     const double allowed =
-        leap->safety * fmin(gb_leapfrog_critical(bed), gb_leapfrog_impact(bed, fast));
-    const double most = leap->step > 0.0 ? step_growth * leap->step : step_most;
-    return fmin(fmin(allowed, most), leap->limit);
+        leapfrog->safety * fmin(gb_leapfrog_critical(bed), gb_leapfrog_impact(bed, fast));
+    const double most = leapfrog->step > 0.0 ? step_growth * leapfrog->step : step_most;
+    return fmin(fmin(allowed, most), leapfrog->limit);
 }
 
 /* Largest components of the displacements since the lists were made, squared and added: a
@@ -82,11 +83,11 @@ static double kick(struct gb_bed *bed, double step, double gravity, double drag)
     for (int64_t i = 0; i < bed->count; i++) {
         double *v = bed->velocity[i], *w = bed->spin[i];
         const double *f = bed->force[i], *m = bed->torque[i];
-        const double push = step * bed->inverse_mass[i],
-                     turn = step * bed->inverse_inertia[i];
+        const double speed_factor = step * bed->inverse_mass[i],
+                     spin_factor = step * bed->inverse_inertia[i];
         for (int c = 0; c < 4; c++) {
-            v[c] = slow * v[c] + (push * f[c] + fall[c]);
-            w[c] = slow * w[c] + turn * m[c];
+            v[c] = slow * v[c] + (speed_factor * f[c] + fall[c]);
+            w[c] = slow * w[c] + spin_factor * m[c];
             const double fast = fabs(v[c]);
             most[c] = fast > most[c] ? fast : most[c];
         }
@@ -94,25 +95,26 @@ static double kick(struct gb_bed *bed, double step, double gravity, double drag)
     return sqrt(most[0] * most[0] + most[1] * most[1] + most[2] * most[2]);
 }
 
-bool gb_leapfrog_step(struct gb_leapfrog *leap, struct gb_bed *bed, struct gb_error *err)
+bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
+                      struct gb_error *err)
 {
-    if (!(leap->step > 0.0)) { /* the first: forces are not known yet */
+    if (!(leapfrog->step > 0.0)) { /* the first: forces are not known yet */
         if (!gb_bed_evaluate(bed, 0.0, 0.0, err)) {
             return false;
         }
-        leap->step = next_step(leap, bed);
+        leapfrog->step = next_step(leapfrog, bed);
     }
-    leap->moved2 = drift(bed, leap->step);
-    bed->die.punch_position += leap->step * bed->die.punch_velocity;
-    if (!gb_bed_evaluate(bed, leap->step, leap->moved2, err)) {
+    leapfrog->moved2 = drift(bed, leapfrog->step);
+    bed->die.punch_position += leapfrog->step * bed->die.punch_velocity;
+    if (!gb_bed_evaluate(bed, leapfrog->step, leapfrog->moved2, err)) {
         return false;
     }
-    const double next = next_step(leap, bed), half = 0.5 * (leap->step + next);
-    leap->fastest = kick(bed, half, leap->gravity, leap->drag);
-    if (leap->punch_mass > 0.0) {
+    const double next = next_step(leapfrog, bed), half = 0.5 * (leapfrog->step + next);
+    leapfrog->fastest = kick(bed, half, leapfrog->gravity, leapfrog->drag);
+    if (leapfrog->punch_mass > 0.0) {
         bed->die.punch_velocity +=
-            half * (bed->tally.punch - leap->load) / leap->punch_mass;
+            half * (bed->tally.punch - leapfrog->load) / leapfrog->punch_mass;
     }
-    leap->step = next;
+    leapfrog->step = next;
     return true;
 }

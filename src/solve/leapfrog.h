@@ -5,8 +5,8 @@
 
 #include "pack/die/bed.h"
 
-/* Newton's equations of a bed by central differences: speeds live half a step before the
- * places, the dashpots see them there.  Source: P3 3.1, 3.4. */
+/* Newton's equations of a bed by central differences (leapfrog): velocities are half a step
+ * before the positions, and the dashpots take them there.  Source: P3 3.1, 3.4. */
 struct gb_leapfrog {
     double safety;  /* of the automatic step, (26); 0.1 in P3 */
     double given;   /* step that the preset fixes; 0: automatic */
@@ -21,11 +21,13 @@ struct gb_leapfrog {
     double fastest; /* bound of the speed of a particle */
 };
 
-void gb_leapfrog_init(struct gb_leapfrog *leap, double safety, double given);
+void gb_leapfrog_init(struct gb_leapfrog *leapfrog, double safety, double given);
 
-/* Places on by one step of the automatic length, forces there, speeds half a step beyond.
+/* Positions after one step of the automatic length, forces there, velocities half a step
+ * beyond.
  * Errors: as of gb_bed_evaluate. */
-bool gb_leapfrog_step(struct gb_leapfrog *leap, struct gb_bed *bed, struct gb_error *err);
+bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
+                      struct gb_error *err);
 
 /* Critical time step, (23)-(29): the stiffest contact on the lighter particle, with
  * damping; with friction also the mode in which shear and rotation go together, which is

@@ -42,19 +42,20 @@ GB_SIMD_WIDTHS(kick, (double *speed, const double *load, double by, int64_t n),
                (speed, load, by, n))
 
 /* Half a kick and the drift, in one run through memory. */
-GB_SIMD_LOOP void launch_loop(double *restrict speed, const double *restrict load,
-                              double by, double *restrict place, double step, int64_t n)
+GB_SIMD_LOOP void kick_drift_loop(double *restrict speed, const double *restrict load,
+                                  double by, double *restrict position, double step,
+                                  int64_t n)
 {
 #pragma omp simd
     for (int64_t i = 0; i < n; i++) {
         speed[i] += by * load[i];
-        place[i] += step * speed[i];
+        position[i] += step * speed[i];
     }
 }
-GB_SIMD_WIDTHS(launch,
-               (double *speed, const double *load, double by, double *place, double step,
-                int64_t n),
-               (speed, load, by, place, step, n))
+GB_SIMD_WIDTHS(kick_drift,
+               (double *speed, const double *load, double by, double *position,
+                double step, int64_t n),
+               (speed, load, by, position, step, n))
 
 bool gb_verlet_step(struct gb_verlet *verlet, struct gb_world *world, double time_step,
                     const double factor[3], struct gb_error *err)
@@ -62,10 +63,10 @@ bool gb_verlet_step(struct gb_verlet *verlet, struct gb_world *world, double tim
     const struct gb_bodies b = gb_world_bodies(world);
     const struct gb_tally before = *gb_world_tally(world);
     const int64_t n = 3 * b.count;
-    const double half = 0.5 * time_step, turn = half / verlet->inertia;
-    launch(verlet->velocity, b.force, half, b.position, time_step, n);
-    /* turns are counted from the last evaluation, which has set them to zero */
-    launch(verlet->spin, b.torque, turn, b.rotation, time_step, n);
+    const double half = 0.5 * time_step, spin_factor = half / verlet->inertia;
+    kick_drift(verlet->velocity, b.force, half, b.position, time_step, n);
+    /* rotations are increments since the last evaluation, which has set them to 0 */
+    kick_drift(verlet->spin, b.torque, spin_factor, b.rotation, time_step, n);
     const bool straining = factor[0] != 1.0 || factor[1] != 1.0 || factor[2] != 1.0;
     if (straining) {
         gb_world_strain(world, factor);
@@ -75,7 +76,7 @@ bool gb_verlet_step(struct gb_verlet *verlet, struct gb_world *world, double tim
         return false;
     }
     kick(verlet->velocity, b.force, half, n);
-    kick(verlet->spin, b.torque, turn, n);
+    kick(verlet->spin, b.torque, spin_factor, n);
     const struct gb_tally *after = gb_world_tally(world);
     for (int k = 0; k < 3 && straining; k++) {
         /* the affine increment of r over r, between the two ends of the step */

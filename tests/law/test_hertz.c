@@ -22,13 +22,13 @@ static struct gb_law_hertz nial_pair(void)
 static void test_effective_values(void)
 {
     const struct gb_elastic other = {382e9, 0.25};
-    struct gb_law_hertz law, turned;
+    struct gb_law_hertz law, swapped;
     gb_law_hertz_init(&law, &nial, &other);
-    gb_law_hertz_init(&turned, &other, &nial);
+    gb_law_hertz_init(&swapped, &other, &nial);
     assert_close(1.0 / law.modulus, 0.91 / 180e9 + 0.9375 / 382e9, 1e-14);
     assert_close(1.0 / law.shear, 1.7 * 2.6 / 180e9 + 1.75 * 2.5 / 382e9, 1e-14);
-    assert_close(turned.modulus, law.modulus, 1e-15);
-    assert_close(turned.shear, law.shear, 1e-15);
+    assert_close(swapped.modulus, law.modulus, 1e-15);
+    assert_close(swapped.shear, law.shear, 1e-15);
     const struct gb_elastic rigid = {1e30, 0.0};
     gb_law_hertz_init(&law, &nial, &rigid);
     assert_close(law.modulus, 180e9 / 0.91, 1e-12);
@@ -166,7 +166,7 @@ static void test_critical_step(void)
     g_assert_true(isinf(gb_law_hertz_critical_step(0.0, 0.7, 0.9)));
 }
 
-static void test_turn(void)
+static void test_rotate(void)
 {
     GRand *random = g_rand_new_with_seed(4);
     for (int i = 0; i < 100; i++) {
@@ -195,9 +195,9 @@ static void test_slip(void)
 {
     const double normal[3] = {0.6, 0.0, 0.8}, still[3] = {0.0, 0.0, 0.0};
     const double spin[3] = {0.3, -0.7, 0.2}, ri = 10e-6, rj = 2e-6;
-    double slip[3], arm[3] = {0.0, 0.0, 0.0}, orbit[3];
-    gb_vec_add(arm, ri + rj, normal);
-    gb_vec_cross(spin, arm, orbit); /* velocity of i around j */
+    double slip[3], lever[3] = {0.0, 0.0, 0.0}, orbit[3];
+    gb_vec_add(lever, ri + rj, normal);
+    gb_vec_cross(spin, lever, orbit); /* velocity of i around j */
     gb_law_mindlin_slip(normal, orbit, still, spin, spin, ri, rj, slip);
     g_assert_cmpfloat(gb_vec_length(slip), <, 1e-20);
     double counter[3] = {0.0, 0.0, 0.0};
@@ -265,11 +265,13 @@ static double shear_gain(double deep, double shallow, double mu)
     const struct gb_law_hertz law = nial_pair();
     const double overlaps[] = {deep, shallow}, radius = 5e-6;
     const double most = mu * gb_law_hertz_force(&law, radius, shallow);
-    const double reach = 0.999999 * most / gb_law_hertz_shear_stiffness(&law, radius, deep);
+    const double reach =
+        0.999999 * most / gb_law_hertz_shear_stiffness(&law, radius, deep);
     double shear[3] = {0.0, 0.0, 0.0}, taken = 0.0;
     for (int leg = 0; leg < 2; leg++) {
         const double normal = gb_law_hertz_force(&law, radius, overlaps[leg]);
-        const double stiffness = gb_law_hertz_shear_stiffness(&law, radius, overlaps[leg]);
+        const double stiffness =
+            gb_law_hertz_shear_stiffness(&law, radius, overlaps[leg]);
         const double slip[3] = {leg == 0 ? reach : -reach, 0.0, 0.0};
         for (int i = 0; i < STEPS; i++) {
             const double before = shear[0];
@@ -303,7 +305,7 @@ int main(int argc, char **argv)
     g_test_add_func("/hertz/no-contact", test_no_contact);
     g_test_add_func("/hertz/damping", test_damping);
     g_test_add_func("/hertz/critical-step", test_critical_step);
-    g_test_add_func("/mindlin/turn", test_turn);
+    g_test_add_func("/mindlin/rotate", test_rotate);
     g_test_add_func("/mindlin/slip", test_slip);
     g_test_add_func("/mindlin/stick-and-slide", test_stick_and_slide);
     g_test_add_func("/mindlin/shear-energy", test_shear_energy);

@@ -6,8 +6,8 @@
 
 #include "common/scene.h"
 #include "scene/tolerances.h"
-#include "solve/relax/guard.h"
 #include "solve/loading/quasistatic.h"
+#include "solve/relax/guard.h"
 #include "solve/relax/relax.h"
 
 /* Two particles `gap` apart in a wide cell. */
@@ -45,14 +45,14 @@ static void test_jump(void)
         gb_relax_start(relax, world);
         g_assert_cmpint(gb_relax_advance(relax, world, 100000, &err), ==, GB_RELAX_DONE);
         g_assert_cmpint(gb_world_tally(world)->contacts, ==, 1);
-        const struct gb_nonaffine departure = gb_nonaffine_since(world, before);
-        g_assert_cmpfloat_with_epsilon(departure.farthest, 0.5 * (0.55 + model.h_eq),
+        const struct gb_nonaffine nonaffine = gb_nonaffine_since(world, before);
+        g_assert_cmpfloat_with_epsilon(nonaffine.farthest, 0.5 * (0.55 + model.h_eq),
                                        0.01);
         const enum gb_guard_action action =
-            gb_guard_departure(&guard, &departure, text, sizeof text);
+            gb_guard_nonaffine(&guard, &nonaffine, text, sizeof text);
         g_assert_cmpint(action, ==,
                         attempt < GB_NONAFFINE_HALVINGS_MAX ? GB_GUARD_RETRY
-                                                        : GB_GUARD_ACCEPT);
+                                                            : GB_GUARD_ACCEPT);
         g_assert_nonnull(
             strstr(text, attempt < GB_NONAFFINE_HALVINGS_MAX ? "halved" : "jumps by"));
     }
@@ -61,8 +61,8 @@ static void test_jump(void)
     gb_world_destroy(world);
 }
 
-/* Affine motion alone is no departure, nor is being put back into the cell. */
-static void test_departure(void)
+/* Neither affine motion nor wrapping into the cell is nonaffine displacement. */
+static void test_nonaffine(void)
 {
     const struct gb_params params = scene_params(NULL);
     const struct gb_model model = scene_model(&params);
@@ -73,13 +73,13 @@ static void test_departure(void)
     scene_evaluate(world);
     g_assert_true(gb_world_copy_save(world, &before, &err));
     gb_world_strain(world, factor);
-    struct gb_nonaffine departure = gb_nonaffine_since(world, before);
-    g_assert_cmpfloat(departure.farthest, <, 1e-12);
+    struct gb_nonaffine nonaffine = gb_nonaffine_since(world, before);
+    g_assert_cmpfloat(nonaffine.farthest, <, 1e-12);
     gb_world_bodies(world).position[3 * 17 + 2] += 0.3 + gb_world_cell(world)->edge[2];
-    departure = gb_nonaffine_since(world, before);
-    g_assert_cmpfloat_with_epsilon(departure.farthest, 0.3, 1e-12);
-    g_assert_cmpint(departure.particle, ==, 17);
-    g_assert_cmpfloat_with_epsilon(departure.rms, 0.3 / sqrt(200.0), 1e-12);
+    nonaffine = gb_nonaffine_since(world, before);
+    g_assert_cmpfloat_with_epsilon(nonaffine.farthest, 0.3, 1e-12);
+    g_assert_cmpint(nonaffine.particle, ==, 17);
+    g_assert_cmpfloat_with_epsilon(nonaffine.rms, 0.3 / sqrt(200.0), 1e-12);
     gb_world_copy_destroy(before);
     gb_world_destroy(world);
 }
@@ -250,7 +250,7 @@ int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/guards/jump", test_jump);
-    g_test_add_func("/guards/departure", test_departure);
+    g_test_add_func("/guards/nonaffine", test_nonaffine);
     g_test_add_func("/guards/cycle", test_cycle);
     g_test_add_func("/guards/rounding", test_rounding);
     g_test_add_func("/guards/restarted", test_restarted);

@@ -5,10 +5,10 @@
 #include "common/bed.h"
 #include "solve/leapfrog.h"
 
-static void leap(struct gb_leapfrog *leap, struct gb_bed *bed)
+static void advance_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed)
 {
     struct gb_error err = {0};
-    if (!gb_leapfrog_step(leap, bed, &err)) {
+    if (!gb_leapfrog_step(leapfrog, bed, &err)) {
         g_error("%s", err.text);
     }
 }
@@ -59,7 +59,7 @@ static double speed_after(const struct duo *duo, double speed, double safety,
     bed->velocity[0][0] = 0.5 * speed;
     bed->velocity[1][0] = -0.5 * speed;
     for (double time = 0.0; time < length; time += motion.step) {
-        leap(&motion, bed);
+        advance_step(&motion, bed);
     }
     const double after = bed->velocity[1][0] - bed->velocity[0][0];
     g_assert_cmpfloat(fabs(bed->velocity[1][0] + bed->velocity[0][0]), <, 1e-15);
@@ -134,7 +134,7 @@ static void test_closed(void)
     const double before = kinetic(bed);
     double worst = 0.0, stored = 0.0, half = before;
     for (int step = 0; step < 200000; step++) {
-        leap(&motion, bed);
+        advance_step(&motion, bed);
         const double next = kinetic(bed);
         const double energy =
             0.5 * (half + next) + (potential(&bed->pairs) + potential(&bed->walls));
@@ -163,8 +163,8 @@ static void test_critical(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/leap/collision", test_collision);
-    g_test_add_func("/leap/closed", test_closed);
-    g_test_add_func("/leap/critical", test_critical);
+    g_test_add_func("/leapfrog/collision", test_collision);
+    g_test_add_func("/leapfrog/closed", test_closed);
+    g_test_add_func("/leapfrog/critical", test_critical);
     return g_test_run();
 }

@@ -90,16 +90,16 @@ static int64_t pressed(const char *relaxer, double factor_z, double *contacts)
     return spent;
 }
 
-/* What the last step has done is foretold: fewer evaluations, the same packing. */
+/* The prediction from the last step: fewer evaluations, the same packing. */
 static void test_predict(void)
 {
-    double plain = 0.0, foretold = 0.0;
+    double plain = 0.0, predicted = 0.0;
     const int64_t many = pressed("fire", 0.998, &plain);
-    const int64_t few = pressed("predict", 0.998, &foretold);
+    const int64_t few = pressed("predict", 0.998, &predicted);
     g_test_message("fire %" G_GINT64_FORMAT ", predict %" G_GINT64_FORMAT " evaluations",
                    many, few);
     g_assert_cmpint(4 * few, <, 3 * many);
-    g_assert_cmpfloat_with_epsilon(foretold, plain, 0.05);
+    g_assert_cmpfloat_with_epsilon(predicted, plain, 0.05);
 }
 
 /* Under light loads predict answers to a share of its tolerance, later to all of it. */
@@ -128,8 +128,8 @@ static void test_light(void)
     gb_world_destroy(world);
 }
 
-/* What is foretold of one particle keeps to the strain. */
-static void test_foretold(void)
+/* The predicted displacement of a particle is bounded by the strain. */
+static void test_predicted(void)
 {
     static const double factor[3] = {0.999, 1.0, 0.999};
     const struct gb_params params = scene_params("numerics.relaxer=predict", NULL);
@@ -152,22 +152,22 @@ static void test_foretold(void)
         farthest = fmax(farthest, gb_vec_length(before + 3 * i));
     }
     const double most = GB_PREDICT_RATIO_MAX * sqrt(2.0) * -log(0.999);
-    g_assert_cmpfloat_with_epsilon(farthest, most, 1e-9); /* somebody would go farther */
+    g_assert_cmpfloat_with_epsilon(farthest, most, 1e-9); /* the limit is reached */
     g_free(before);
     gb_relax_destroy(relax);
     gb_world_destroy(world);
 }
 
-/* Turn of particle i that the next evaluation will see. */
-static double turn_of(const struct gb_world *world, int64_t i, int c)
+/* Rotation increment of particle i for the next evaluation. */
+static double rotation_of(const struct gb_world *world, int64_t i, int c)
 {
     return gb_engine_is_f32(&world->engine)
                ? (double)world->engine.f32.particle[i].rotation[c]
                : world->engine.particles.rotation[3 * i + c];
 }
 
-/* Whoever would go farther than 0.01 d in a step is slowed, with its turn; all others
- * move as they would without it. */
+/* A particle that would move farther than 0.01 d in a step is slowed, its rotation
+ * likewise; all others move as they would without the limit. */
 static void check_slowed(const char *precision)
 {
     const struct gb_params params =
@@ -189,14 +189,15 @@ static void check_slowed(const char *precision)
     relax->method->move(relax, world);
     gb_world_synchronise(world);
     for (int64_t i = 0; i < b.count; i++) {
-        const double way = step * step * gb_vec_length(b.force + 3 * i);
-        const double factor = step * step * (way > most ? most / way : 1.0);
-        slowed += way > most;
+        const double displacement = step * step * gb_vec_length(b.force + 3 * i);
+        const double factor =
+            step * step * (displacement > most ? most / displacement : 1.0);
+        slowed += displacement > most;
         for (int c = 0; c < 3; c++) {
             g_assert_cmpfloat_with_epsilon(b.position[3 * i + c] - before[3 * i + c],
                                            factor * b.force[3 * i + c], 1e-8);
             g_assert_cmpfloat_with_epsilon(
-                turn_of(world, i, c), factor / GB_RELAX_INERTIA * b.torque[3 * i + c],
+                rotation_of(world, i, c), factor / GB_RELAX_INERTIA * b.torque[3 * i + c],
                 1e-8);
         }
     }
@@ -333,7 +334,7 @@ int main(int argc, char **argv)
     g_test_add_func("/relax/all", test_all);
     g_test_add_func("/relax/predict", test_predict);
     g_test_add_func("/relax/light", test_light);
-    g_test_add_func("/relax/foretold", test_foretold);
+    g_test_add_func("/relax/predicted", test_predicted);
     g_test_add_func("/relax/slowed", test_slowed);
     g_test_add_func("/relax/picked", test_picked);
     g_test_add_func("/relax/slices", test_slices);

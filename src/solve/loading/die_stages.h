@@ -6,14 +6,14 @@
 #include <stdint.h>
 
 #include "base/record.h"
-#include "scene/model.h"
 #include "pack/die/bed.h"
+#include "scene/model.h"
 #include "solve/step_outcome.h"
 
 /* P3's experiment: powder falls through a funnel into the die, settles, is flattened by a
- * punch that is lifted again, and pressed.  Gravity is raised while it falls and eased
- * afterwards: a fall of a tenth of a millimetre would take a hundred times the pressing.
- * Steps of gb_leapfrog between recorded points, guards on the way.  It owns no bed. */
+ * punch that is lifted again, and pressed.  Gravity is raised while it falls and reduced
+ * afterwards: a fall by 0.1 mm would take a hundred times the time of pressing.  Steps of
+ * gb_leapfrog between recorded points, with guards.  The bed belongs to the caller. */
 struct gb_die_stages;
 
 enum gb_die_stages_stage {
@@ -27,24 +27,24 @@ enum gb_die_stages_stage {
     GB_DIE_STAGES_OVER
 };
 
-/* The bed lies loose in its funnel and obeys the law of filling; `law` is that of
- * pressing. */
+/* The bed is loose in its funnel and has the law of filling; `law`: that of pressing.
+ * Errors: GB_ERR_MEMORY. */
 bool gb_die_stages_create(struct gb_die_stages **out, const struct gb_die_scene *scene,
                           const struct gb_bed_law *law, struct gb_error *err);
-void gb_die_stages_destroy(struct gb_die_stages *programme); /* NULL is fine */
+void gb_die_stages_destroy(struct gb_die_stages *stages); /* NULL is fine */
 
-/* Begins with the ramp, on a bed that lies filled, flattened and at rest: every law can
- * press the same one.  Errors: as of gb_bed_evaluate. */
-bool gb_die_stages_begin(struct gb_die_stages *programme, struct gb_bed *bed,
+/* Begins with the ramp, on a filled and flattened bed at rest, so that several laws can
+ * press the same bed.  Errors: as of gb_bed_evaluate. */
+bool gb_die_stages_begin(struct gb_die_stages *stages, struct gb_bed *bed,
                          struct gb_error *err);
 
 /* At most max_steps time steps.  text (size bytes) receives one line when a stage ended
  * or a guard acted. */
-enum gb_step_outcome gb_die_stages_advance(struct gb_die_stages *programme,
+enum gb_step_outcome gb_die_stages_advance(struct gb_die_stages *stages,
                                            struct gb_bed *bed, int64_t max_steps,
                                            char *text, size_t size, struct gb_error *err);
 
-/* What goes into a recorded point, reduced units. */
+/* Quantities of a recorded point, reduced units. */
 struct gb_die_stages_report {
     enum gb_die_stages_stage stage;
     double time;    /* since the start */
@@ -60,12 +60,12 @@ struct gb_die_stages_report {
     double time_step;        /* last used */
     double progress;         /* 0..1 */
 };
-struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *programme,
+struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *stages,
                                                  const struct gb_bed *bed);
 
-/* The programme into a record at a recorded point, or back; then the bed is of the law of
+/* The stages into a record at a recorded point, or back; then the bed is of the law of
  * pressing.  Errors: GB_ERR_INPUT naming what does not fit. */
-bool gb_die_stages_record(struct gb_die_stages *programme, struct gb_record *record,
+bool gb_die_stages_record(struct gb_die_stages *stages, struct gb_record *record,
                           struct gb_error *err);
 
 #endif

@@ -19,8 +19,8 @@ struct gb_dynamic {
     double time, stage_end;
     double limit; /* longest step the guard allows, halved when it trips */
     int halvings;
-    bool told; /* that damping bounds the step */
-    /* the way to the next point */
+    bool told; /* the event that damping bounds the step was written */
+    /* steps to the next point */
     int64_t left, planned;
     double step;
     double factor[3];
@@ -28,13 +28,13 @@ struct gb_dynamic {
     double sliding_most;       /* share of them above which the step is doubted */
     double slid;               /* share that made the guard halve the step; 0: none */
     double limit_before;       /* that halving */
-    /* the last recorded point, to go back to */
+    /* the last recorded point, restored by a guard */
     struct gb_world_copy *good;
     double *good_velocity, *good_spin;
     double good_time, good_work, good_absorbed;
     enum gb_dynamic_stage good_stage;
     double *scratch;
-    double density; /* of the world, by the programme */
+    double density; /* of the world, by the schedule */
     double good_density;
 };
 
@@ -84,7 +84,7 @@ static double critical_step(const struct gb_dynamic *motion, double frequency)
     return gb_critical_step(frequency, 0.5 * motion->model->dynamics.viscous * frequency);
 }
 
-/* A given step that has become too long, and what is taken from now on instead. */
+/* The given step, or a fraction of the critical one as soon as the given one exceeds it. */
 static double bound_given(struct gb_dynamic *motion, double critical, char *text,
                           size_t size)
 {
@@ -99,8 +99,7 @@ static double bound_given(struct gb_dynamic *motion, double critical, char *text
     return motion->limit;
 }
 
-/* auto: the error of velocity Verlet goes with (omega step)^2, GB_STEP_ERROR_UNIT says
- * how much.  Strong damping bounds the step more. */
+/* auto: the error of velocity Verlet is GB_STEP_ERROR_UNIT (omega step)^2.  Strong damping bounds the step more. */
 static double pick_step(struct gb_dynamic *motion, double frequency, double critical,
                         char *text, size_t size)
 {
@@ -175,8 +174,8 @@ static void plan(struct gb_dynamic *motion, double allowed)
     motion->sliding = motion->contacts = 0;
 }
 
-static bool keep(struct gb_dynamic *motion, const struct gb_world *world,
-                 struct gb_error *err)
+static bool save_good(struct gb_dynamic *motion, const struct gb_world *world,
+                      struct gb_error *err)
 {
     const size_t bytes = 3 * (size_t)motion->model->count * sizeof(double);
     memcpy(motion->good_velocity, motion->verlet.velocity, bytes);
@@ -190,8 +189,8 @@ static bool keep(struct gb_dynamic *motion, const struct gb_world *world,
 }
 
 /* Back to the last recorded point. */
-static bool go_back(struct gb_dynamic *motion, struct gb_world *world,
-                    struct gb_error *err)
+static bool restore_good(struct gb_dynamic *motion, struct gb_world *world,
+                         struct gb_error *err)
 {
     const size_t bytes = 3 * (size_t)motion->model->count * sizeof(double);
     memcpy(motion->verlet.velocity, motion->good_velocity, bytes);
@@ -207,12 +206,12 @@ static bool go_back(struct gb_dynamic *motion, struct gb_world *world,
 }
 
 /* Half the step from the last recorded point on, or the end. */
-static enum gb_step_outcome trip(struct gb_dynamic *motion, struct gb_world *world,
-                                 const char *why, char *text, size_t size,
-                                 struct gb_error *err)
+static enum gb_step_outcome halve_time_step(struct gb_dynamic *motion,
+                                            struct gb_world *world, const char *why,
+                                            char *text, size_t size, struct gb_error *err)
 {
     motion->limit = 0.5 * motion->step;
-    if (!go_back(motion, world, err)) {
+    if (!restore_good(motion, world, err)) {
         return GB_STEP_STOPPED;
     }
     if (++motion->halvings > GB_STEP_HALVINGS_MAX) {
@@ -231,9 +230,8 @@ static double sliding_share(const struct gb_dynamic *motion)
                                 : 0.0;
 }
 
-/* Half the step changed nothing: it is friction that slides, and the step is given back.
- */
-static void acquit(struct gb_dynamic *motion, double share, char *text, size_t size)
+/* Half the step changed nothing: friction is the cause, and the step is restored. */
+static void restore_step(struct gb_dynamic *motion, double share, char *text, size_t size)
 {
     motion->sliding_most = 0.5 * (1.0 + share);
     motion->limit = motion->limit_before;
@@ -246,14 +244,14 @@ static void acquit(struct gb_dynamic *motion, double share, char *text, size_t s
 }
 
 /* Friction caps hide an unstable step from the kinetic energy; the sliding contacts show
- * it.  Many contacts may also slide for a good reason, which half the step tells. */
+ * it.  Many contacts may also slide at any step: half the step decides. */
 static enum gb_step_outcome judge_sliding(struct gb_dynamic *motion,
                                           struct gb_world *world, char *text, size_t size,
                                           struct gb_error *err)
 {
     const double share = sliding_share(motion);
     if (motion->slid > 0.0 && share > GB_SLIDING_RATIO_UNCHANGED * motion->slid) {
-        acquit(motion, share, text, size);
+        restore_step(motion, share, text, size);
         return GB_STEP_POINT;
     }
     if (share > motion->sliding_most) {
@@ -263,7 +261,7 @@ static enum gb_step_outcome judge_sliding(struct gb_dynamic *motion,
             motion->limit_before = motion->limit;
         }
         motion->slid = share;
-        return trip(motion, world, why, text, size, err);
+        return halve_time_step(motion, world, why, text, size, err);
     }
     motion->slid = 0.0;
     return GB_STEP_POINT;
@@ -276,7 +274,7 @@ static enum gb_step_outcome begin(struct gb_dynamic *motion, struct gb_world *wo
     if (motion->stage == GB_DYNAMIC_OVER) {
         return GB_STEP_DONE;
     }
-    if (!keep(motion, world, err)) {
+    if (!save_good(motion, world, err)) {
         return GB_STEP_STOPPED;
     }
     plan(motion, allowed_step(motion, world, text, size));
@@ -298,8 +296,9 @@ enum gb_step_outcome gb_dynamic_advance(struct gb_dynamic *motion, struct gb_wor
         if (!gb_verlet_step(&motion->verlet, world, motion->step, motion->factor, err)) {
             char why[sizeof err->text];
             snprintf(why, sizeof why, "%s", err->text);
-            return err->code == GB_ERR_GUARD ? trip(motion, world, why, text, size, err)
-                                             : GB_STEP_STOPPED;
+            return err->code == GB_ERR_GUARD
+                       ? halve_time_step(motion, world, why, text, size, err)
+                       : GB_STEP_STOPPED;
         }
         motion->time += motion->step;
         motion->left--;
@@ -334,7 +333,7 @@ struct gb_dynamic_report gb_dynamic_report(const struct gb_dynamic *motion)
     };
 }
 
-/* At a recorded point the way to the next one and what to go back to are yet to be set.
+/* At a recorded point the steps to the next one and the state to restore are not set yet.
  */
 bool gb_dynamic_record(struct gb_dynamic *motion, struct gb_record *record,
                        struct gb_error *err)

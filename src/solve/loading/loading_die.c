@@ -10,7 +10,7 @@
 struct die_loading {
     struct gb_loading base;
     struct gb_die_stages *stages;
-    bool unsteady; /* forces on floor and punch differed at the last point */
+    bool not_quasistatic; /* forces on floor and punch differed at the last point */
 };
 
 static struct die_loading *own(struct gb_loading *loading)
@@ -38,7 +38,7 @@ static bool build(struct gb_loading *loading, bool (*cancelled)(void *data), voi
                              data, err);
 }
 
-/* Points are recorded while pressing: the bed has the law of pressing. */
+/* Points are recorded from the start of pressing on: the bed has the law of pressing. */
 static bool build_from(struct gb_loading *loading, struct gb_record *record,
                        struct gb_error *err)
 {
@@ -67,7 +67,7 @@ static enum gb_step_outcome advance(struct gb_loading *loading, int64_t max_eval
     return outcome;
 }
 
-static bool is_unsteady(double floor_over_punch)
+static bool is_not_quasistatic(double floor_over_punch)
 {
     return isfinite(floor_over_punch) &&
            fabs(floor_over_punch - 1.0) > GB_FLOOR_OVER_PUNCH_TOLERANCE;
@@ -81,19 +81,20 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
 {
     char text[GB_EVENT_QUEUE_TEXT];
     const struct gb_die_stages_report now = stages_report(loading);
-    const bool unsteady = is_unsteady(now.floor_over_punch);
+    const bool not_quasistatic = is_not_quasistatic(now.floor_over_punch);
     (void)err;
-    if (unsteady != own(loading)->unsteady) {
+    if (not_quasistatic != own(loading)->not_quasistatic) {
         snprintf(text, sizeof text,
-                 unsteady ? "not quasi-static at %.4g MPa: the floor bears %.3g of the "
-                            "punch's force"
-                          : "quasi-static again from %.4g MPa: the floor bears %.3g of "
-                            "the punch's force",
+                 not_quasistatic
+                     ? "not quasi-static at %.4g MPa: the floor bears %.3g of the "
+                       "punch's force"
+                     : "quasi-static again from %.4g MPa: the floor bears %.3g of "
+                       "the punch's force",
                  1e-6 * (now.carried * loading->model->pascal_per_stress),
                  now.floor_over_punch);
         gb_event_queue_add(events, text);
     }
-    own(loading)->unsteady = unsteady;
+    own(loading)->not_quasistatic = not_quasistatic;
     return GB_STEP_MORE;
 }
 
@@ -101,7 +102,8 @@ static bool record_stages(struct gb_loading *loading, struct gb_record *record,
                           struct gb_error *err)
 {
     static const struct gb_record_member members[] = {
-        {"die/unsteady", GB_RECORD_BOOL, 1, offsetof(struct die_loading, unsteady), "1"},
+        {"die/unsteady", GB_RECORD_BOOL, 1, offsetof(struct die_loading, not_quasistatic),
+         "1"},
     };
     return gb_record_members(record, members, 1, loading, err) &&
            gb_die_stages_record(own(loading)->stages, record, err);
@@ -110,9 +112,9 @@ static bool record_stages(struct gb_loading *loading, struct gb_record *record,
 static struct gb_loading_report report(const struct gb_loading *loading)
 {
     const struct gb_die_stages_report now = stages_report(loading);
-    const bool pressing = now.stage >= GB_DIE_STAGES_PRESS && now.pressed > 0.0;
+    const bool loaded = now.stage >= GB_DIE_STAGES_PRESS && now.pressed > 0.0;
     struct gb_loading_report report = gb_loading_empty_report();
-    report.stage = pressing ? GB_LOADING_LOAD : GB_LOADING_RELAX;
+    report.stage = loaded ? GB_LOADING_LOAD : GB_LOADING_RELAX;
     report.iterations = report.evaluations = now.steps;
     report.residual = now.residual;
     report.time_step = now.time_step;

@@ -6,10 +6,10 @@
 #include "pack/cell/nonaffine.h"
 #include "pack/cell/world_measure.h"
 #include "pack/cell/world_record.h"
-#include "solve/relax/guard.h"
 #include "solve/loading/loading.h"
 #include "solve/loading/loading_cell.h"
 #include "solve/loading/quasistatic.h"
+#include "solve/relax/guard.h"
 #include "solve/relax/relax.h"
 
 struct quasistatic_loading {
@@ -130,7 +130,7 @@ static enum gb_guard_action check_nonaffine(struct quasistatic_loading *run, cha
         return GB_GUARD_ACCEPT;
     }
     const struct gb_nonaffine motion = gb_nonaffine_since(run->base.world, run->good);
-    return gb_guard_departure(&run->guard, &motion, text, size);
+    return gb_guard_nonaffine(&run->guard, &motion, text, size);
 }
 
 /* Half the strain step from the last good state on. */

@@ -2,14 +2,14 @@
 
 #include <math.h>
 
-void gb_punch_begin(struct gb_punch *punch, struct gb_leapfrog *leap, struct gb_bed *bed,
-                    double height, double mass)
+void gb_punch_begin(struct gb_punch *punch, struct gb_leapfrog *leapfrog,
+                    struct gb_bed *bed, double height, double mass)
 {
     bed->die.punch = true;
     bed->die.punch_position = height;
     bed->die.punch_velocity = 0.0;
-    leap->punch_mass = mass * gb_bed_solid_volume(bed) / (M_PI / 6.0);
-    leap->load = 0.0;
+    leapfrog->punch_mass = mass * gb_bed_solid_volume(bed) / (M_PI / 6.0);
+    leapfrog->load = 0.0;
     gb_bed_invalidate_lists(bed);
     punch->area = M_PI * bed->die.radius * bed->die.radius;
     punch->time = 0.0;
@@ -22,20 +22,20 @@ double gb_punch_wanted(const struct gb_punch *punch, double time)
     return punch->pressure * (punch->quadratic ? share * share : share);
 }
 
-void gb_punch_follow(struct gb_punch *punch, struct gb_leapfrog *leap,
+void gb_punch_follow(struct gb_punch *punch, struct gb_leapfrog *leapfrog,
                      const struct gb_bed *bed)
 {
     const struct gb_bed_tally *tally = &bed->tally;
-    const double volume = punch->area * bed->die.punch_position, step = leap->step;
+    const double volume = punch->area * bed->die.punch_position, step = leapfrog->step;
     punch->weight += step;
     punch->carried += step * tally->punch / punch->area;
-    punch->wanted += step * leap->load / punch->area;
+    punch->wanted += step * leapfrog->load / punch->area;
     punch->floor += step * tally->floor / punch->area;
     for (int k = 0; k < 2; k++) {
         punch->side[k] += step * tally->side[k] / volume;
     }
     punch->time += step;
-    leap->load = gb_punch_wanted(punch, punch->time) * punch->area;
+    leapfrog->load = gb_punch_wanted(punch, punch->time) * punch->area;
 }
 
 void gb_punch_clear(struct gb_punch *punch)

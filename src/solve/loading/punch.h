@@ -7,10 +7,9 @@
 #include "pack/die/bed.h"
 #include "solve/leapfrog.h"
 
-/* A punch that carries a pressure: a body that the powder pushes up and the programme
- * pushes down, M a = F - p(t) A.  Nothing is tuned: its mass only has to be small enough
- * to follow the powder.  Between 0.1 and 1 mass of the bed gives the same curve; ten lag
- * below 5 MPa. */
+/* A punch under a given pressure p(t): a body with the force F of the powder,
+ * M a = F - p(t) A.  No controller: masses between 0.1 and 1 of the bed's give the same
+ * curve; ten lag behind below 5 MPa. */
 struct gb_punch {
     double area, length; /* of the die's section; time of the ramp */
     double pressure;     /* at its end */
@@ -21,14 +20,14 @@ struct gb_punch {
 };
 
 /* Puts the punch at rest on a height; mass in masses of the bed. */
-void gb_punch_begin(struct gb_punch *punch, struct gb_leapfrog *leap, struct gb_bed *bed,
-                    double height, double mass);
+void gb_punch_begin(struct gb_punch *punch, struct gb_leapfrog *leapfrog,
+                    struct gb_bed *bed, double height, double mass);
 
 /* Pressure of the ramp after a time. */
 double gb_punch_wanted(const struct gb_punch *punch, double time);
 
-/* Books the step just taken and sets the load of the next one. */
-void gb_punch_follow(struct gb_punch *punch, struct gb_leapfrog *leap,
+/* Adds the last step to the means and sets the load of the next one. */
+void gb_punch_follow(struct gb_punch *punch, struct gb_leapfrog *leapfrog,
                      const struct gb_bed *bed);
 
 /* Means begin anew. */

@@ -64,16 +64,16 @@ static enum gb_quasistatic_order compress(const struct gb_quasistatic *load,
     return GB_QUASISTATIC_STRAIN;
 }
 
-/* The way back: the inverse of a compression step; the last one only as far as the
- * pressure of the step before foretells zero. */
+/* An unloading step: the inverse of a compression step; the last one is shortened to the
+ * strain at which the pressure extrapolates to zero. */
 static double expansion(struct gb_quasistatic *load, double pressure)
 {
     const double full = 1.0 / (1.0 - load->step);
     double share = 1.0;
     const double drop = load->last_pressure - pressure;
     if (load->expansions > 0 && drop > 0.0) {
-        const double foretold = pressure / drop * (load->last_expansion / (full - 1.0));
-        share = fmin(1.0, fmax(foretold, 0.02));
+        const double predicted = pressure / drop * (load->last_expansion / (full - 1.0));
+        share = fmin(1.0, fmax(predicted, 0.02));
     }
     load->last_expansion = share * (full - 1.0);
     load->last_pressure = pressure;

@@ -8,9 +8,8 @@
 #include "scene/model.h"
 #include "solve/loading/compressed_axes.h"
 
-/* The loading programme of P1 section IV as a state machine: told the pressure and
- * density of each relaxed state, it says what comes next.  It owns no world and saves
- * nothing itself. */
+/* The loading schedule of P1 section IV as a state machine: from pressure and density of
+ * each relaxed state to the next order.  The caller owns the world and saves its states. */
 enum gb_quasistatic_order {
     GB_QUASISTATIC_STRAIN, /* scale the cell by factor */
     GB_QUASISTATIC_UNLOAD, /* save the state, then scale: an unloading branch begins */
@@ -35,8 +34,8 @@ struct gb_quasistatic {
 
 void gb_quasistatic_init(struct gb_quasistatic *load, const struct gb_model *model);
 
-/* What the programme remembers, out of a record or into it; loading, the programme was
- * just begun with the same model.  Errors: GB_ERR_INPUT naming the member. */
+/* The state of the schedule out of a record or into it; before loading, gb_quasistatic_init
+ * with the same model.  Errors: GB_ERR_INPUT naming the member. */
 bool gb_quasistatic_record(struct gb_quasistatic *load, struct gb_record *record,
                            struct gb_error *err);
 
@@ -56,7 +55,7 @@ void gb_quasistatic_recover(struct gb_quasistatic *load);
 double gb_quasistatic_pressure(const struct gb_quasistatic *load,
                                const double pressure[3]);
 
-/* Share of the loading programme that is done, 0..1, by the logarithm of density towards
+/* Share of the schedule that is done, 0..1, by the logarithm of density towards
  * until_density, or of the pressure (loading branch only). */
 double gb_quasistatic_progress(const struct gb_quasistatic *load, double pressure,
                                double density, double start_density);

@@ -4,12 +4,11 @@
 
 #include "scene/tolerances.h"
 
-/* Halvings in a row after which the step is hopeless. */
+/* Halvings in a row after which the run stops. */
 enum { HALVINGS_MOST = 6 };
 
-/* The relaxer ran out of evaluations: mostly two states of a breaking bridge that take
- * turns, with a small residual left.  A large one means that there is no equilibrium to
- * be found. */
+/* The relaxer ran out of evaluations: mostly a cycle between two states of a breaking
+ * bridge, with a small residual.  A large one means that no equilibrium was near. */
 static enum gb_guard_action judge_exhausted(const struct gb_relax *relax, char *text,
                                             size_t size, struct gb_error *err)
 {
@@ -63,11 +62,11 @@ enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcom
     return GB_GUARD_RETRY;
 }
 
-enum gb_guard_action gb_guard_departure(struct gb_guard *guard,
-                                        const struct gb_nonaffine *departure, char *text,
+enum gb_guard_action gb_guard_nonaffine(struct gb_guard *guard,
+                                        const struct gb_nonaffine *nonaffine, char *text,
                                         size_t size)
 {
-    if (departure->farthest <= GB_NONAFFINE_MAX) {
+    if (nonaffine->farthest <= GB_NONAFFINE_MAX) {
         guard->jumps = 0;
         return GB_GUARD_ACCEPT;
     }
@@ -77,7 +76,7 @@ enum gb_guard_action gb_guard_departure(struct gb_guard *guard,
             text, size,
             "particle %lld jumps by %.2g d, also in a quarter of the strain step: the "
             "packing, not the step; accepted",
-            (long long)departure->particle, departure->farthest);
+            (long long)nonaffine->particle, nonaffine->farthest);
         return GB_GUARD_ACCEPT;
     }
     guard->jumps++;
@@ -85,6 +84,6 @@ enum gb_guard_action gb_guard_departure(struct gb_guard *guard,
         text, size,
         "guard: particle %lld goes %.2g d in one strain step and may pass contacts by; "
         "strain step halved (%d in a row)",
-        (long long)departure->particle, departure->farthest, guard->jumps);
+        (long long)nonaffine->particle, nonaffine->farthest, guard->jumps);
     return GB_GUARD_RETRY;
 }

@@ -26,11 +26,12 @@ enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcom
                                     const struct gb_relax *relax, char *text, size_t size,
                                     struct gb_error *err);
 
-/* Looks at a relaxed strain step: did a particle go so far that it may have passed
- * contacts by?  RETRY while half the step may help; ACCEPT with a line when it does not:
- * the packing itself jumps, across a gap or off a bridge. */
-enum gb_guard_action gb_guard_departure(struct gb_guard *guard,
-                                        const struct gb_nonaffine *departure, char *text,
+/* Judges the nonaffine displacements of a relaxed strain step: beyond GB_NONAFFINE_MAX a
+ * particle may have passed contacts by.  RETRY while half the step may help; ACCEPT with a
+ * line in text when it does not: an instability of the packing, across a gap or by the
+ * failure of a bridge. */
+enum gb_guard_action gb_guard_nonaffine(struct gb_guard *guard,
+                                        const struct gb_nonaffine *nonaffine, char *text,
                                         size_t size);
 
 #endif

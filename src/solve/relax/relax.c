@@ -36,19 +36,20 @@ static bool unknown_relaxer(const char *name, struct gb_error *err)
                         name, names);
 }
 
-/* What the method keeps of every particle.  Worlds that drive have velocities of their
- * own, and turns as narrow as those. */
+/* The vectors of the method.  An f32 state has its own velocities; rotations are then
+ * added up in single precision, too. */
 static bool take_vectors(struct gb_relax *relax, const struct gb_model *model,
                          struct gb_error *err)
 {
     const struct gb_relaxer *method = relax->method;
     const size_t numbers = 3 * (size_t)model->count;
-    const bool driven = method->moving && gb_integrate_f32_applies(model);
+    const bool in_f32 = method->moving && gb_integrate_f32_applies(model);
     bool whole = true;
-    for (int v = driven ? 2 : 0; v < method->vectors && whole; v++) {
-        if (driven && v == method->turned) {
-            relax->turned = gb_alloc_array(numbers, sizeof *relax->turned, err);
-            whole = relax->turned != NULL;
+    for (int v = in_f32 ? 2 : 0; v < method->vectors && whole; v++) {
+        if (in_f32 && v == method->rotation_sum) {
+            relax->rotation_sum =
+                gb_alloc_array(numbers, sizeof *relax->rotation_sum, err);
+            whole = relax->rotation_sum != NULL;
         } else {
             relax->vector[v] = gb_alloc_array(numbers, sizeof(double), err);
             whole = relax->vector[v] != NULL;
@@ -86,7 +87,7 @@ void gb_relax_destroy(struct gb_relax *relax)
         return;
     }
     gb_alloc_free(relax->state);
-    gb_alloc_free(relax->turned);
+    gb_alloc_free(relax->rotation_sum);
     for (int v = 0; v < 4; v++) {
         gb_alloc_free(relax->vector[v]);
     }
@@ -104,8 +105,8 @@ void gb_relax_start(struct gb_relax *relax, struct gb_world *world)
     relax->method->start(relax, world);
 }
 
-/* Has the residual stopped to fall?  The first time the particles are brought to rest and
- * the method begins again. */
+/* True when the residual has stopped falling after a restart, too.  The restart: particles
+ * at rest, the method from its start. */
 static bool stalls(struct gb_relax *relax, struct gb_world *world)
 {
     if (relax->residual < (1.0 - GB_STALL_FRACTION) * relax->best) {
@@ -124,8 +125,8 @@ static bool stalls(struct gb_relax *relax, struct gb_world *world)
     return relax->stalled;
 }
 
-/* Residual at which a relaxation is done.  Under light loads the residual is measured
- * against the attraction, which says nothing of the pressure. */
+/* Residual at which a relaxation is done.  Under light loads the residual is relative
+ * to the attraction, which does not bound the error of the pressure. */
 static double allowed(const struct gb_relax *relax, const struct gb_world *world)
 {
     const struct gb_tally *tally = gb_world_tally(world);

@@ -11,8 +11,8 @@
 /* Relaxation of a world to equilibrium: one table of methods, one stopping rule.
  *
  * The rule: gb_world_residual (rms force and torque over the mean contact force or
- * f_a(d)) at or below the tolerance, and below less of it where contacts carry less than
- * they stick with (struct gb_relaxer, light).  A method only moves the particles after
+ * f_a(d)) at or below the tolerance, or below a fraction of it where contacts carry less
+ * than their attraction (struct gb_relaxer, light).  A method only moves the particles after
  * each evaluation. */
 struct gb_relax;
 struct gb_record;
@@ -26,15 +26,15 @@ struct gb_relaxer {
     const char *doc;
     size_t state_size; /* bytes of its state ... */
     int vectors;       /* ... and how many arrays of count x 3 doubles it needs */
-    bool moving; /* the first two are velocities, of the particles and of their turns */
-    int turned;  /* to this one the turns are added; 0: to none */
+    bool moving;       /* the first two are velocities and angular velocities */
+    int rotation_sum;  /* vector that adds up the rotation increments; 0: none */
     /* Least share of the tolerance under light loads, where it falls with the mean
      * contact force over f_a(d); 1: the tolerance holds everywhere. */
     double light;
     void (*start)(struct gb_relax *relax, struct gb_world *world);
     void (*move)(struct gb_relax *relax, struct gb_world *world);
-    /* What it remembers from one relaxation to the next, into a checkpoint or out of it;
-     * NULL: nothing that start does not set. */
+    /* State kept from one relaxation to the next, into a checkpoint or out of it; NULL:
+     * start sets all of it. */
     bool (*record)(struct gb_relax *relax, int64_t count, struct gb_record *record,
                    struct gb_error *err);
 };
@@ -46,16 +46,18 @@ const struct gb_relaxer *gb_relax_find(const char *name);
 struct gb_relax {
     const struct gb_relaxer *method;
     void *state;
-    double *vector[4]; /* count x 3 each; without those that a driven world keeps */
-    float *turned;     /* instead of vector[method->turned] in worlds that drive */
+    double *vector[4]; /* count x 3 each; less in worlds with an f32 state, which has the
+                          * velocities */
+    float *rotation_sum; /* with an f32 state, instead of vector[method->rotation_sum] */
     double tolerance;
     int64_t max_evaluations;         /* per relaxation */
     int64_t iterations, evaluations; /* of the relaxation under way */
     double residual;
-    double best; /* least residual since the last restart that was worth the name ... */
-    int64_t best_at; /* ... and the evaluation that brought it */
+    double best; /* least residual since the last restart, lowered by GB_STALL_FRACTION
+                      * or more at a time ... */
+    int64_t best_at; /* ... and its evaluation */
     int restarts;
-    bool stalled; /* given up because the residual went round */
+    bool stalled; /* given up: the residual stopped falling after a restart, too */
 };
 
 enum gb_relax_outcome {

@@ -1,9 +1,9 @@
-/* FIRE: inertia that is stopped whenever it runs uphill.  Bitzek et al., PRL 97, 170201
+/* FIRE: damped dynamics, stopped whenever the power is negative.  Bitzek et al., PRL 97, 170201
  * (2006), with the half step back and the semi-implicit Euler of Guenole et al., Comput.
  * Mater. Sci. 175, 109584 (2020).
  *
- * Rotations ride along as lengths: angle * sqrt(inertia), so that all six motions of a
- * particle have unit mass. */
+ * Rotations count as lengths, angle * sqrt(inertia), so that all six degrees of freedom
+ * of a particle have unit mass. */
 #include <math.h>
 #include <string.h>
 
@@ -51,10 +51,10 @@ enum { SPANS = 64, LANES = 8 };
 struct pass {
     struct gb_bodies b;
     double *v, *w;           /* velocities */
-    double *turned;          /* turns are added up here; NULL: nowhere */
+    double *rotation_sum;    /* sum of the rotation increments; NULL: not kept */
     double keep, kick, back; /* x -= back v, v = keep v + kick F ... */
     double step;             /* ... x += step v */
-    double most2;            /* squared speed of who goes as far as anybody may */
+    double most2;            /* squared speed of the largest allowed displacement */
     double speed2[SPANS];    /* of v and, with their inertia, of w */
 };
 
@@ -79,13 +79,13 @@ static void over_spans(struct pass *pass, int threads,
     if (threads > 1) {
 #pragma omp parallel num_threads(threads)
         work_spans(pass, work);
-    } else { /* a team of one would wait for itself */
+    } else { /* no team: its barriers cost time */
         work_spans(pass, work);
     }
 }
 
-/* Lengthens or shortens the step, as the motion goes downhill or not; returns how far, in
- * units of the velocities, the motion has to go back.  Uphill right from a standstill the
+/* Lengthens the step while the power is positive, else shortens it; returns the step
+ * back, a time that multiplies the velocities.  Uphill right from a standstill the
  * step shrinks, too: one beyond sqrt(2)/omega would otherwise stay as it is and blow the
  * packing up. */
 static double adapt(struct gb_relax_fire_state *fire,
@@ -108,12 +108,12 @@ static double adapt(struct gb_relax_fire_state *fire,
 }
 
 /* The four factors of a pass. */
-struct drive {
+struct update_factors {
     double keep, kick, back, step;
 };
 
-GB_SIMD_LOOP double drive_one(double *restrict x, double *restrict v, double force,
-                              struct drive by)
+GB_SIMD_LOOP double update_one(double *restrict x, double *restrict v, double force,
+                               struct update_factors by)
 {
     const double before = *v, speed = by.keep * before + by.kick * force;
     *v = speed;
@@ -122,26 +122,26 @@ GB_SIMD_LOOP double drive_one(double *restrict x, double *restrict v, double for
 }
 
 /* Returns in speed2 the sum of the squares of v afterwards. */
-GB_SIMD_LOOP void drive_loop(double *restrict x, double *restrict v,
-                             const double *restrict force, int64_t count, struct drive by,
-                             double *restrict speed2)
+GB_SIMD_LOOP void update_loop(double *restrict x, double *restrict v,
+                              const double *restrict force, int64_t count,
+                              struct update_factors by, double *restrict speed2)
 {
     double lane[LANES] = {0};
     int64_t i = 0;
     for (; i + LANES <= count; i += LANES) {
         for (int l = 0; l < LANES; l++) {
-            lane[l] += drive_one(x + i + l, v + i + l, force[i + l], by);
+            lane[l] += update_one(x + i + l, v + i + l, force[i + l], by);
         }
     }
     for (; i < count; i++) {
-        lane[0] += drive_one(x + i, v + i, force[i], by);
+        lane[0] += update_one(x + i, v + i, force[i], by);
     }
     *speed2 = ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
               ((lane[4] + lane[5]) + (lane[6] + lane[7]));
 }
-GB_SIMD_WIDTHS(drive,
-               (double *x, double *v, const double *force, int64_t count, struct drive by,
-                double *speed2),
+GB_SIMD_WIDTHS(update,
+               (double *x, double *v, const double *force, int64_t count,
+                struct update_factors by, double *speed2),
                (x, v, force, count, by, speed2))
 
 /* Largest squared speed of `count` particles. */
@@ -170,9 +170,9 @@ GB_SIMD_LOOP void add_up_loop(double *restrict sum, const double *restrict more,
 GB_SIMD_WIDTHS(add_up, (double *sum, const double *more, int64_t count),
                (sum, more, count))
 
-/* Slows those of a span who would go too far, and how they turn: seldom any.  Returns
- * what the squared speed of all falls by. */
-static double slow_down(const struct pass *pass, int64_t begin, int64_t end)
+/* Scales velocity, angular velocity and displacement of the particles that moved farther
+ * than allowed (few).  Returns the decrease of the sum of squared speeds. */
+static double limit_displacement(const struct pass *pass, int64_t begin, int64_t end)
 {
     double fall = 0.0;
     for (int64_t i = begin; i < end; i += 3) {
@@ -194,43 +194,46 @@ static double slow_down(const struct pass *pass, int64_t begin, int64_t end)
     return fall;
 }
 
-static void drive_span(struct pass *pass, int span)
+static void update_span(struct pass *pass, int span)
 {
     const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
-    const struct drive way = {pass->keep, pass->kick, pass->back, pass->step};
-    const struct drive turn = {pass->keep, pass->kick / inertia, pass->back, pass->step};
-    double moving, turning, most2;
-    drive(pass->b.position + begin, pass->v + begin, pass->b.force + begin, end - begin,
-          way, &moving);
+    const struct update_factors translation = {pass->keep, pass->kick, pass->back,
+                                               pass->step};
+    const struct update_factors rotation = {pass->keep, pass->kick / inertia, pass->back,
+                                            pass->step};
+    double moving, rotating, most2;
+    update(pass->b.position + begin, pass->v + begin, pass->b.force + begin, end - begin,
+           translation, &moving);
     fastest(pass->v + begin, (end - begin) / 3, &most2);
-    drive(pass->b.rotation + begin, pass->w + begin, pass->b.torque + begin, end - begin,
-          turn, &turning);
-    pass->speed2[span] = moving + inertia * turning;
+    update(pass->b.rotation + begin, pass->w + begin, pass->b.torque + begin, end - begin,
+           rotation, &rotating);
+    pass->speed2[span] = moving + inertia * rotating;
     if (most2 > pass->most2) {
-        pass->speed2[span] -= slow_down(pass, begin, end);
+        pass->speed2[span] -= limit_displacement(pass, begin, end);
     }
-    if (pass->turned) {
-        add_up(pass->turned + begin, pass->b.rotation + begin, end - begin);
+    if (pass->rotation_sum) {
+        add_up(pass->rotation_sum + begin, pass->b.rotation + begin, end - begin);
     }
 }
 
-/* The motion of a world that does not drive itself; returns the squared speed. */
-static double drive_world(struct gb_relax *relax, struct gb_world *world,
-                          const struct gb_integrate_f32 *by)
+/* The motion of a world in double precision; returns the sum of squared speeds. */
+static double update_world(struct gb_relax *relax, struct gb_world *world,
+                           const struct gb_integrate_f32 *by)
 {
     const int threads = gb_world_threads(world);
     const double bound = by->displacement_max / by->step;
-    struct pass pass = {
-        .b = gb_world_bodies(world),
-        .v = relax->vector[0],
-        .w = relax->vector[1],
-        .turned = relax->method->turned ? relax->vector[relax->method->turned] : NULL,
-        .keep = by->keep,
-        .kick = by->kick,
-        .back = by->back,
-        .step = by->step,
-        .most2 = bound * bound};
-    over_spans(&pass, threads, drive_span);
+    struct pass pass = {.b = gb_world_bodies(world),
+                        .v = relax->vector[0],
+                        .w = relax->vector[1],
+                        .rotation_sum = relax->method->rotation_sum
+                                            ? relax->vector[relax->method->rotation_sum]
+                                            : NULL,
+                        .keep = by->keep,
+                        .kick = by->kick,
+                        .back = by->back,
+                        .step = by->step,
+                        .most2 = bound * bound};
+    over_spans(&pass, threads, update_span);
     double speed2 = 0.0;
     for (int s = 0; s < SPANS; s++) {
         speed2 += pass.speed2[s];
@@ -243,19 +246,19 @@ void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire
 {
     const struct gb_force_sums *sums = gb_world_sums(world);
     const double force2 = sums->force2 + sums->torque2 / inertia;
-    struct gb_integrate_f32 drive = {.inertia = inertia, .displacement_max = move_most};
-    drive.back = adapt(fire, tuning, sums->power);
+    struct gb_integrate_f32 by = {.inertia = inertia, .displacement_max = move_most};
+    by.back = adapt(fire, tuning, sums->power);
     /* mixing needs the speed after the kick; the speed before differs by one step only
      * and saves a pass over the arrays */
     const bool rolling = fire->downhill > 0;
     const double steer =
         rolling && force2 > 0.0 ? fire->mixing * sqrt(fire->speed2 / force2) : 0.0;
-    drive.keep = rolling ? 1.0 - fire->mixing : 0.0;
-    drive.step = fire->step;
-    drive.kick = fire->step + steer;
+    by.keep = rolling ? 1.0 - fire->mixing : 0.0;
+    by.step = fire->step;
+    by.kick = fire->step + steer;
     fire->speed2 = gb_integrate_f32_in_use(world)
-                       ? gb_integrate_f32_step(world, &drive, relax->turned)
-                       : drive_world(relax, world, &drive);
+                       ? gb_integrate_f32_step(world, &by, relax->rotation_sum)
+                       : update_world(relax, world, &by);
 }
 
 static void start(struct gb_relax *relax, struct gb_world *world)

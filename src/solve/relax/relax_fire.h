@@ -7,8 +7,7 @@
  * relaxation, everything else here. */
 struct gb_relax_fire_state {
     double step, mixing;
-    double
-        speed2; /* sum of squares of the velocities, those of turns with their inertia */
+    double speed2; /* sum of v^2 and, times the inertia, of the angular velocities^2 */
     int downhill;
 };
 

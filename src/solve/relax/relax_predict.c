@@ -1,10 +1,10 @@
-/* FIRE from a prediction: after a strain step the particles are moved on as they moved
- * beside the affine motion in the last one, in proportion to the strain.  Most of a
- * compression is that repetition; what relaxation has to find is the rest.
+/* FIRE from a prediction: after a strain step each particle is moved by its nonaffine
+ * displacement of the last step, in proportion to the strain.  In a compression most of
+ * the nonaffine motion repeats; the relaxation finds the rest.
  *
  * The prediction is made before the first evaluation, so that it reaches the contacts
- * together with the strain, as one increment.  Starting near the answer, larger steps and
- * a stronger pull of the velocity towards the force pay than for plain FIRE. */
+ * together with the strain, as one increment.  The start is near equilibrium, so larger
+ * steps and stronger mixing of the velocity with the force are faster than in plain FIRE. */
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -23,24 +23,24 @@ const struct gb_relax_fire_tuning gb_relax_predict_tuning = {
     .delay = 2,
 };
 
-/* A strain step this much longer than the last one is another story, and so is one the
- * other way: nothing is foretold. */
-static const double share_most = 2.0;
+/* No prediction when the strain step is longer than the last one by more than this factor,
+ * or reversed: the nonaffine motion does not scale that far. */
+static const double ratio_max = 2.0;
 
-enum { PLACE = 2, TURNED = 3 }; /* vectors beside the velocities */
+enum { POSITION = 2, ROTATION = 3 }; /* vectors beside the velocities */
 
 struct predict {
     struct gb_relax_fire_state fire;
-    double edge[3];   /* of the cell when the relaxation under way or done began */
-    double strain[3]; /* logarithmic, that it answers */
+    double edge[3];   /* of the cell at the start of the last relaxation */
+    double strain[3]; /* logarithmic, of the strain step before it */
 };
 
-/* Strain since the relaxation before, and how much of the last answer it asks for. */
-struct asked {
-    double share, size;
+/* The requested strain: its ratio to the last one, and its norm. */
+struct request {
+    double ratio, size;
 };
 
-static struct asked ask(struct predict *state, const double edge[3])
+static struct request request_since(struct predict *state, const double edge[3])
 {
     double along = 0.0, square = 0.0, size2 = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -51,66 +51,68 @@ static struct asked ask(struct predict *state, const double edge[3])
         state->strain[k] = now;
         state->edge[k] = edge[k];
     }
-    const double share = square > 0.0 ? along / square : 0.0;
-    return (struct asked){share > 0.0 && share <= share_most ? share : 0.0, sqrt(size2)};
+    const double ratio = square > 0.0 ? along / square : 0.0;
+    return (struct request){ratio > 0.0 && ratio <= ratio_max ? ratio : 0.0, sqrt(size2)};
 }
 
-/* What is foretold of a way or a turn. */
-static void foretold(double way[3], struct asked asked)
+/* Scales a nonaffine displacement or a rotation by the ratio of the strains, at most to
+ * GB_PREDICT_RATIO_MAX times the strain. */
+static void predict_vector(double displacement[3], struct request request)
 {
-    const double length = asked.share * gb_vec_length(way);
-    const double most = GB_PREDICT_RATIO_MAX * asked.size;
-    const double factor = length > most ? most / length * asked.share : asked.share;
+    const double length = request.ratio * gb_vec_length(displacement);
+    const double most = GB_PREDICT_RATIO_MAX * request.size;
+    const double factor = length > most ? most / length * request.ratio : request.ratio;
     for (int c = 0; c < 3; c++) {
-        way[c] *= factor;
+        displacement[c] *= factor;
     }
 }
 
-/* The turn of particle i in the last relaxation, and what the next one begins with. */
-static void recall_turn(const struct gb_relax *relax, int64_t i, double turned[3])
+/* Rotation of particle i in the last relaxation; then the initial value for the next. */
+static void load_rotation(const struct gb_relax *relax, int64_t i, double rotation[3])
 {
     for (int c = 0; c < 3; c++) {
-        turned[c] = relax->turned ? (double)relax->turned[3 * i + c]
-                                  : relax->vector[TURNED][3 * i + c];
+        rotation[c] = relax->rotation_sum ? (double)relax->rotation_sum[3 * i + c]
+                                          : relax->vector[ROTATION][3 * i + c];
     }
 }
 
-static void keep_turn(struct gb_relax *relax, int64_t i, const double turned[3])
+static void save_rotation(struct gb_relax *relax, int64_t i, const double rotation[3])
 {
     for (int c = 0; c < 3; c++) {
-        if (relax->turned) {
-            relax->turned[3 * i + c] = (float)turned[c];
+        if (relax->rotation_sum) {
+            relax->rotation_sum[3 * i + c] = (float)rotation[c];
         } else {
-            relax->vector[TURNED][3 * i + c] = turned[c];
+            relax->vector[ROTATION][3 * i + c] = rotation[c];
         }
     }
 }
 
-/* Places are remembered as shares of the edges: free of the affine motion, and of whole
- * edges where a particle was put back into the cell. */
-static void foretell(struct gb_relax *relax, struct gb_world *world, struct asked asked)
+/* Positions are kept relative to the edges: their difference has neither the affine motion
+ * nor, less whole edges, the wrapping into the cell. */
+static void predict_motion(struct gb_relax *relax, struct gb_world *world,
+                           struct request request)
 {
     const struct gb_bodies b = gb_world_movable(world);
     const double *edge = gb_world_cell(world)->edge;
 #pragma omp parallel for num_threads(gb_world_threads(world))                            \
     schedule(static) if (gb_world_threads(world) > 1)
     for (int64_t i = 0; i < b.count; i++) {
-        double *place = relax->vector[PLACE] + 3 * i;
-        double turned[3];
+        double *scaled_position = relax->vector[POSITION] + 3 * i;
+        double rotation[3];
         double *position = b.position + 3 * i;
-        double way[3];
+        double displacement[3];
         for (int c = 0; c < 3; c++) {
             const double now = position[c] / edge[c];
-            const double went = now - place[c];
-            way[c] = edge[c] * (went - gb_cell_whole(went));
-            place[c] = now;
+            const double went = now - scaled_position[c];
+            displacement[c] = edge[c] * (went - gb_cell_whole(went));
+            scaled_position[c] = now;
         }
-        recall_turn(relax, i, turned);
-        foretold(way, asked);
-        foretold(turned, asked);
-        keep_turn(relax, i, turned);
-        gb_vec_add(position, 1.0, way);
-        gb_vec_add(b.rotation + 3 * i, 1.0, turned);
+        load_rotation(relax, i, rotation);
+        predict_vector(displacement, request);
+        predict_vector(rotation, request);
+        save_rotation(relax, i, rotation);
+        gb_vec_add(position, 1.0, displacement);
+        gb_vec_add(b.rotation + 3 * i, 1.0, rotation);
     }
 }
 
@@ -118,7 +120,7 @@ static void start(struct gb_relax *relax, struct gb_world *world)
 {
     struct predict *state = relax->state;
     gb_relax_fire_rest(relax, &state->fire, &gb_relax_predict_tuning, world);
-    foretell(relax, world, ask(state, gb_world_cell(world)->edge));
+    predict_motion(relax, world, request_since(state, gb_world_cell(world)->edge));
 }
 
 static void move(struct gb_relax *relax, struct gb_world *world)
@@ -137,11 +139,12 @@ static bool record(struct gb_relax *relax, int64_t count, struct gb_record *reco
     return gb_record_members(record, members, sizeof members / sizeof members[0],
                              relax->state, err) &&
            gb_record_array(record, "relax/place", GB_RECORD_DOUBLE, count, 3, "1",
-                           relax->vector[PLACE], err) &&
-           (relax->turned ? gb_record_f32(record, "relax/turned", count, 3, "rad",
-                                              relax->turned, err)
-                          : gb_record_array(record, "relax/turned", GB_RECORD_DOUBLE,
-                                            count, 3, "rad", relax->vector[TURNED], err));
+                           relax->vector[POSITION], err) &&
+           (relax->rotation_sum
+                ? gb_record_f32(record, "relax/turned", count, 3, "rad",
+                                relax->rotation_sum, err)
+                : gb_record_array(record, "relax/turned", GB_RECORD_DOUBLE, count, 3,
+                                  "rad", relax->vector[ROTATION], err));
 }
 
 const struct gb_relaxer gb_relax_predict = {
@@ -150,7 +153,7 @@ const struct gb_relaxer gb_relax_predict = {
     .state_size = sizeof(struct predict),
     .vectors = 4,
     .moving = true,
-    .turned = TURNED,
+    .rotation_sum = ROTATION,
     .light = GB_PREDICT_TOLERANCE_FRACTION_MIN,
     .start = start,
     .move = move,

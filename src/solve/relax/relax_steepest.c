@@ -14,13 +14,13 @@
 static const double inertia = GB_RELAX_INERTIA;
 /* Displacement under the largest force when there is no adhesion and h_eq = 0 (d). */
 static const double move_least = 0.0025;
-/* Moves between two looks at the stiffness of the packing. */
-enum { LOOK = 50 };
+/* Moves between two computations of the stiffness of the packing. */
+enum { STIFFNESS_CHECK_MOVES = 50 };
 
 struct steepest {
     double k_most; /* 1 / stiffness of the most strongly held particle */
-    double last;   /* residual at the last look */
-    double safety; /* halved when the residual grows, which a stable k never lets it do */
+    double last;   /* residual at the last check */
+    double safety; /* halved when the residual grows, a sign of an unstable k */
 };
 
 static void start(struct gb_relax *relax, struct gb_world *world)
@@ -72,7 +72,7 @@ double gb_relax_steepest_stiffest(const struct gb_world *world, double *sum)
     return most;
 }
 
-static void look(struct gb_relax *relax, struct gb_world *world)
+static void check_stiffness(struct gb_relax *relax, struct gb_world *world)
 {
     struct steepest *state = relax->state;
     const double stiffness = gb_relax_steepest_stiffest(world, relax->vector[0]);
@@ -86,18 +86,18 @@ static void look(struct gb_relax *relax, struct gb_world *world)
 void gb_relax_steepest_step(struct gb_world *world, double k)
 {
     const struct gb_bodies b = gb_world_bodies(world);
-    const double k_turn = k / inertia;
+    const double k_rotation = k / inertia;
     for (int64_t i = 0; i < 3 * b.count; i++) {
         b.position[i] += k * b.force[i];
-        b.rotation[i] += k_turn * b.torque[i];
+        b.rotation[i] += k_rotation * b.torque[i];
     }
 }
 
 static void move(struct gb_relax *relax, struct gb_world *world)
 {
     struct steepest *state = relax->state;
-    if (relax->iterations % LOOK == 0) {
-        look(relax, world);
+    if (relax->iterations % STIFFNESS_CHECK_MOVES == 0) {
+        check_stiffness(relax, world);
     }
     const struct gb_bodies b = gb_world_bodies(world);
     double most = 0.0;
