@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/screen_options.h"
+#include "io/preset_folders.h"
 #include "pack/kernel/simd.h"
 
 static void print_help(void)
@@ -25,7 +26,7 @@ static void print_help(void)
          "\n"
          "Commands:");
     gb_commands_print(stdout);
-    char **presets = gb_preset_list();
+    char **presets = gb_preset_folders_list();
     puts("\nPresets:");
     for (int i = 0; presets[i]; i++) {
         printf("  %s\n", presets[i]);
@@ -80,7 +81,7 @@ static bool may_open(const char *word)
     if (strchr(word, '=') || strchr(word, '/') || g_file_test(word, G_FILE_TEST_EXISTS)) {
         return true;
     }
-    char *path = gb_preset_find(word);
+    char *path = gb_preset_folders_find(word);
     g_free(path);
     return path != NULL;
 }

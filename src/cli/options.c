@@ -7,6 +7,7 @@
 #include <glib/gstdio.h>
 
 #include "draw/image/png.h"
+#include "io/preset_folders.h"
 
 static GOptionContext *make_context(const struct gb_options_page *page,
                                     const GOptionEntry *entries, const char *command)
@@ -198,7 +199,7 @@ bool gb_options_preset(struct gb_preset **out, char **words, char **sets,
         return false;
     }
     if (need == GB_OPTIONS_PRESET_NEEDED && name == NULL) {
-        char **known = gb_preset_list();
+        char **known = gb_preset_folders_list();
         char *list = g_strjoinv(", ", known);
         gb_error_set(err, GB_ERR_INPUT, "a preset is needed: a file, or one of %s", list);
         g_free(list);

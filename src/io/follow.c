@@ -11,7 +11,7 @@
 
 #include "base/table.h"
 #include "io/preset.h"
-#include "io/store.h"
+#include "io/status_json.h"
 
 bool gb_follow_params(const char *directory, struct gb_params *params,
                       struct gb_error *err)
@@ -145,7 +145,7 @@ static void fill_array(JsonObject *json, const char *name, double *values, guint
 static void fill_status(JsonObject *json, struct gb_snapshot *shot,
                         struct gb_follow_engine *engine)
 {
-    shot->state = gb_store_state_of(word(json, "state"));
+    shot->state = gb_status_json_state(word(json, "state"));
     shot->progress = number(json, "progress", 0.0);
     shot->now.step = (int64_t)number(json, "step", 0.0);
     shot->evaluations = (int64_t)number(json, "evaluations", 0.0);

@@ -97,3 +97,11 @@ bool gb_line_file_sync(const struct gb_line_file *rows, struct gb_error *err)
 {
     return fsync(rows->fd) == 0 || write_error(rows, errno, err);
 }
+
+void gb_line_file_add_text(GString *line, const char *text)
+{
+    for (const char *c = text; *c != '\0'; c++) {
+        g_string_append_c(line, g_ascii_iscntrl(*c) ? '?' : *c);
+    }
+    g_string_append_c(line, '\n');
+}

@@ -4,6 +4,8 @@
 #include <stdbool.h>
 #include <sys/types.h>
 
+#include <glib.h>
+
 #include "greenbody/status.h"
 
 /* A text file that grows by whole lines: curve.csv and events.log. */
@@ -26,6 +28,9 @@ void gb_line_file_close(struct gb_line_file *rows);
 /* Appends text, or leaves the file as it was: a full disk must not leave half a row. */
 bool gb_line_file_append(struct gb_line_file *rows, const char *text,
                          struct gb_error *err);
+
+/* Adds text and a newline to line; control characters become '?'. */
+void gb_line_file_add_text(GString *line, const char *text);
 
 /* Waits until all of it is on the disk. */
 bool gb_line_file_sync(const struct gb_line_file *rows, struct gb_error *err);

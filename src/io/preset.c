@@ -11,6 +11,7 @@
 
 #include "base/file.h"
 #include "io/key_lines.h"
+#include "io/preset_folders.h"
 #include "scene/size/size_table.h"
 
 /* A preset is a page of text; more is a mistake or an attack. */
@@ -193,12 +194,12 @@ static char *resolve(const char *name, struct gb_error *err)
     if (g_file_test(name, G_FILE_TEST_EXISTS) && !g_file_test(name, G_FILE_TEST_IS_DIR)) {
         return g_strdup(name);
     }
-    char *path = gb_preset_find(name);
+    char *path = gb_preset_folders_find(name);
     if (!path && (strchr(name, '/') || g_file_test(name, G_FILE_TEST_EXISTS))) {
         path = g_strdup(name); /* opening it tells what is wrong */
     }
     if (!path) {
-        char **known = gb_preset_list();
+        char **known = gb_preset_folders_list();
         char *list = g_strjoinv(", ", known);
         gb_error_set(err, GB_ERR_INPUT, "%.80s: no such file or preset; presets: %s",
                      name, list);
@@ -289,14 +290,15 @@ static void insert_key(struct gb_preset *preset, const struct gb_field *field,
 }
 
 static bool update_field(struct gb_preset *preset, const struct gb_field *field,
-                         const char *path, bool complete, struct gb_error *err)
+                         const char *path, enum gb_preset_extent extent,
+                         struct gb_error *err)
 {
     char now[GB_PARAMS_VALUE_MAX];
     gb_params_format(&preset->params, field, now, sizeof now);
     const struct gb_key_line *line =
         gb_key_lines_find(&preset->lines, field->group, field->key);
     if (line ? says_same(preset, line, field, path, now)
-             : !complete && is_fallback(field, now)) {
+             : extent == GB_PRESET_CHANGED_KEYS && is_fallback(field, now)) {
         return true;
     }
     if (line) {
@@ -309,8 +311,8 @@ static bool update_field(struct gb_preset *preset, const struct gb_field *field,
     return index_again(preset, err);
 }
 
-static bool update_text(struct gb_preset *preset, const char *path, bool complete,
-                        struct gb_error *err)
+static bool update_text(struct gb_preset *preset, const char *path,
+                        enum gb_preset_extent extent, struct gb_error *err)
 {
     if (preset->text->len == 0 && *preset->path == '\0') {
         g_string_append(preset->text, "# greenbody " GB_VERSION "\n");
@@ -318,7 +320,7 @@ static bool update_text(struct gb_preset *preset, const char *path, bool complet
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
-        if (!update_field(preset, &fields[i], path, complete, err)) {
+        if (!update_field(preset, &fields[i], path, extent, err)) {
             return false;
         }
     }
@@ -347,13 +349,12 @@ static bool write_text(const GString *text, const char *path, struct gb_error *e
     return false;
 }
 
-bool gb_preset_save(struct gb_preset *preset, const char *path, bool complete,
-                    struct gb_error *err)
+bool gb_preset_save(struct gb_preset *preset, const char *path,
+                    enum gb_preset_extent extent, struct gb_error *err)
 {
     /* The text kept in memory changes only when it stands on disk. */
     GString *before = g_string_new_len(preset->text->str, (gssize)preset->text->len);
-    if (!update_text(preset, path, complete, err) ||
-        !write_text(preset->text, path, err)) {
+    if (!update_text(preset, path, extent, err) || !write_text(preset->text, path, err)) {
         g_string_free(preset->text, TRUE);
         preset->text = before;
         index_again(preset, NULL);
@@ -364,94 +365,4 @@ bool gb_preset_save(struct gb_preset *preset, const char *path, bool complete,
     g_free(preset->path);
     preset->path = saved;
     return true;
-}
-
-/* Folders that hold presets, first match wins; NULL-terminated, g_strfreev. */
-static char **folders(void)
-{
-    GPtrArray *list = g_ptr_array_new();
-    g_ptr_array_add(
-        list, g_build_filename(g_get_user_config_dir(), "greenbody", "presets", NULL));
-    const char *given = g_getenv("GB_PRESET_DIR");
-    if (given && *given) {
-        g_ptr_array_add(list, g_strdup(given));
-    }
-    g_ptr_array_add(list, g_strdup(GB_PRESET_INSTALL_DIR));
-    /* A program run from its build folder finds the presets of its source tree. */
-    char *program = g_file_read_link("/proc/self/exe", NULL);
-    char *folder = program ? g_path_get_dirname(program) : NULL;
-    for (int up = 0; folder && up < 3; up++) {
-        char *parent = g_path_get_dirname(folder);
-        g_ptr_array_add(list, g_build_filename(parent, "presets", NULL));
-        g_free(folder);
-        folder = parent;
-    }
-    g_free(folder);
-    g_free(program);
-    g_ptr_array_add(list, NULL);
-    return (char **)g_ptr_array_free(list, FALSE);
-}
-
-static char *find_in(const char *folder, const char *name)
-{
-    static const char *const endings[] = {"", ".ini"};
-    for (size_t i = 0; i < G_N_ELEMENTS(endings); i++) {
-        char *file = g_strconcat(name, endings[i], NULL);
-        char *path = g_build_filename(folder, file, NULL);
-        g_free(file);
-        if (g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
-            return path;
-        }
-        g_free(path);
-    }
-    return NULL;
-}
-
-char *gb_preset_find(const char *name)
-{
-    if (*name == '\0' || strchr(name, '/')) {
-        return NULL;
-    }
-    char **list = folders();
-    char *path = NULL;
-    for (int i = 0; list[i] && !path; i++) {
-        path = find_in(list[i], name);
-    }
-    g_strfreev(list);
-    return path;
-}
-
-static int compare_names(const void *a, const void *b)
-{
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-static void list_folder(const char *folder, GHashTable *names)
-{
-    GDir *dir = g_dir_open(folder, 0, NULL);
-    if (!dir) {
-        return;
-    }
-    for (const char *file = g_dir_read_name(dir); file; file = g_dir_read_name(dir)) {
-        if (g_str_has_suffix(file, ".ini")) {
-            g_hash_table_add(names, g_strndup(file, strlen(file) - strlen(".ini")));
-        }
-    }
-    g_dir_close(dir);
-}
-
-char **gb_preset_list(void)
-{
-    GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
-    char **list = folders();
-    for (int i = 0; list[i]; i++) {
-        list_folder(list[i], names);
-    }
-    g_strfreev(list);
-    guint count = 0;
-    char **found = (char **)g_hash_table_get_keys_as_array(names, &count);
-    g_hash_table_steal_all(names); /* they are the caller's now */
-    g_hash_table_destroy(names);
-    qsort(found, count, sizeof *found, compare_names);
-    return found;
 }

@@ -13,7 +13,7 @@ struct gb_preset;
  * without
  * ".ini") in $XDG_CONFIG_HOME/greenbody/presets, then in the shipped presets
  * (GB_PRESET_DIR of the installation, then presets/ beside the source tree, see
- * gb_preset_find). Errors are one line: file, line, key, value, what is accepted. Unknown
+ * gb_preset_folders_find). Errors are one line: file, line, key, value, what is accepted. Unknown
  * keys in known groups are errors (a typo must not be silent) unless they start with
  * "x-"; unknown groups are kept and ignored. */
 bool gb_preset_load(struct gb_preset **out, const char *name_or_path,
@@ -25,15 +25,14 @@ void gb_preset_destroy(struct gb_preset *preset); /* NULL is fine */
 struct gb_params *gb_preset_params(struct gb_preset *preset);
 const char *gb_preset_path(const struct gb_preset *preset); /* "" without a file */
 
+enum gb_preset_extent {
+    GB_PRESET_CHANGED_KEYS, /* missing keys are added where they differ from the default */
+    GB_PRESET_ALL_KEYS      /* every missing key is added */
+};
+
 /* Writes the preset atomically and durably: the original text with changed values
- * replaced, comments and unknown keys kept; complete adds every missing key. */
-bool gb_preset_save(struct gb_preset *preset, const char *path, bool complete,
-                    struct gb_error *err);
-
-/* Path of a preset by name in newly allocated memory (g_free), or NULL. */
-char *gb_preset_find(const char *name);
-
-/* Names of all presets that can be found, sorted, NULL-terminated (g_strfreev). */
-char **gb_preset_list(void);
+ * replaced, comments and unknown keys kept. */
+bool gb_preset_save(struct gb_preset *preset, const char *path,
+                    enum gb_preset_extent extent, struct gb_error *err);
 
 #endif

@@ -10,81 +10,7 @@
 #include <glib.h>
 #include <glib/gstdio.h>
 
-/* Files of a run by name; other files in a directory are never removed. */
-static const char *const known_files[] = {
-    "preset.ini",  "curve.csv", "events.log",     "status.json",    "state.h5",
-    "packing.csv", "g.csv",     "structure.json", "state-before.h5"};
-static const char snapshot_folder[] = "snapshots";
-
-/* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed.
- */
-static bool is_leftover(const char *tail)
-{
-    if (strcmp(tail, ".tmp") == 0) {
-        return true;
-    }
-    if (strlen(tail) != 7 || tail[0] != '.') {
-        return false;
-    }
-    for (const char *c = tail + 1; *c != '\0'; c++) {
-        if (!g_ascii_isalnum(*c)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static bool is_known_name(const char *name)
-{
-    for (size_t k = 0; k < G_N_ELEMENTS(known_files); k++) {
-        const size_t length = strlen(known_files[k]);
-        if (strncmp(name, known_files[k], length) == 0 &&
-            (name[length] == '\0' || is_leftover(name + length))) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool is_snapshot_name(const char *name)
-{
-    return g_str_has_suffix(name, ".h5") || g_str_has_suffix(name, ".png");
-}
-
-static bool has_type(const char *path, mode_t type)
-{
-    struct stat info;
-    return lstat(path, &info) == 0 && (info.st_mode & S_IFMT) == type;
-}
-
-/* Name of the first entry that no run writes (g_free), NULL when there is none.  *entries
- * counts what was seen. */
-static char *first_foreign(const char *path, bool (*known)(const char *name),
-                           int *entries, GError **failure)
-{
-    GDir *dir = g_dir_open(path, 0, failure);
-    if (dir == NULL) {
-        return NULL;
-    }
-    char *foreign = NULL;
-    const char *name;
-    while (foreign == NULL && (name = g_dir_read_name(dir)) != NULL) {
-        char *full = g_build_filename(path, name, NULL);
-        (*entries)++;
-        if (known == is_known_name && strcmp(name, snapshot_folder) == 0 &&
-            has_type(full, S_IFDIR)) {
-            int inside = 0;
-            char *deeper = first_foreign(full, is_snapshot_name, &inside, failure);
-            foreign = deeper != NULL ? g_build_filename(name, deeper, NULL) : NULL;
-            g_free(deeper);
-        } else if (!known(name) || !has_type(full, S_IFREG)) {
-            foreign = g_strdup(name);
-        }
-        g_free(full);
-    }
-    g_dir_close(dir);
-    return foreign;
-}
+#include "io/rundir_files.h"
 
 /* Opens path and locks it; -1 with errno when either fails.  File systems without such
  * locks (some network ones) lose only the protection against two writers. */
@@ -130,7 +56,7 @@ static bool check_content(const char *path, enum gb_rundir_mode mode,
 {
     int entries = 0;
     GError *failure = NULL;
-    char *foreign = first_foreign(path, is_known_name, &entries, &failure);
+    char *foreign = gb_rundir_files_foreign(path, &entries, &failure);
     bool ok = true;
     if (failure != NULL) {
         ok = gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be read: %s", path,
@@ -209,43 +135,6 @@ bool gb_rundir_check(const char *path, enum gb_rundir_mode mode, struct gb_error
                                    : check_parent(path, err);
 }
 
-/* Removes the files of a run; entries of other names stay. */
-static bool clear_files(const char *path, bool (*known)(const char *name),
-                        struct gb_error *err)
-{
-    GDir *dir = g_dir_open(path, 0, NULL);
-    bool ok =
-        dir != NULL || gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be read", path);
-    const char *name;
-    while (ok && (name = g_dir_read_name(dir)) != NULL) {
-        char *full = g_build_filename(path, name, NULL);
-        if (known(name) && has_type(full, S_IFREG) && g_unlink(full) != 0) {
-            ok = gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be removed: %s", full,
-                              g_strerror(errno));
-        }
-        g_free(full);
-    }
-    if (dir != NULL) {
-        g_dir_close(dir);
-    }
-    return ok;
-}
-
-static bool clear_run(const char *path, struct gb_error *err)
-{
-    char *snapshots = g_build_filename(path, snapshot_folder, NULL);
-    bool ok = true;
-    if (has_type(snapshots, S_IFDIR)) {
-        ok = clear_files(snapshots, is_snapshot_name, err);
-        if (ok && g_rmdir(snapshots) != 0) {
-            ok = gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be removed: %s", snapshots,
-                              g_strerror(errno));
-        }
-    }
-    g_free(snapshots);
-    return ok && clear_files(path, is_known_name, err);
-}
-
 /* Removes the directories from path up to made, as long as they are empty. */
 static void remove_made(const char *path, const char *made)
 {
@@ -302,7 +191,7 @@ bool gb_rundir_make(struct gb_rundir *dir, const char *path, enum gb_rundir_mode
         goto fail;
     }
     /* again: it may have changed before it was locked */
-    if (!check_content(path, mode, err) || !clear_run(path, err)) {
+    if (!check_content(path, mode, err) || !gb_rundir_files_remove(path, err)) {
         goto fail;
     }
     return true;
@@ -324,8 +213,9 @@ bool gb_rundir_busy(const char *path)
 
 bool gb_rundir_open(struct gb_rundir *dir, const char *path, struct gb_error *err)
 {
+    struct stat info;
     char *preset = g_build_filename(path, "preset.ini", NULL);
-    const bool is_run = has_type(preset, S_IFREG);
+    const bool is_run = lstat(preset, &info) == 0 && S_ISREG(info.st_mode);
     g_free(preset);
     if (!is_run) {
         return gb_error_set(err, GB_ERR_INPUT,
@@ -377,7 +267,7 @@ void gb_rundir_finish(struct gb_rundir *dir)
 
 void gb_rundir_remove(struct gb_rundir *dir)
 {
-    (void)clear_run(dir->held, NULL);
+    (void)gb_rundir_files_remove(dir->held, NULL);
     if (dir->made != NULL) {
         remove_made(dir->path, dir->made);
     }

@@ -2,8 +2,8 @@
 #define GB_IO_STATE_RECORD_H
 
 #include "base/record.h"
-#include "scene/model.h"
 #include "io/state.h"
+#include "scene/model.h"
 
 /* The packing that a record was taken of, for pictures and other programs.  Touches no
  * experiment: it can be made in another thread. */

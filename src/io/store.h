@@ -64,9 +64,6 @@ bool gb_store_state(const struct gb_store *store, const struct gb_state *state,
 /* Flushes and syncs; call before the last status. */
 bool gb_store_sync(struct gb_store *store, struct gb_error *err);
 
-/* enum gb_run_state of a word in status.json; stopped for others. */
-int gb_store_state_of(const char *word);
-
 /* A name in folder that is free, made of the preset's. Caller g_frees. */
 char *gb_store_new_directory(const char *folder, const char *preset_path);
 /* A free directory name for a run without --out: "runs/<preset>-<k>". Caller g_frees. */

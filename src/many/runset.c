@@ -263,10 +263,13 @@ static bool differs_somewhere(const struct gb_runset *set, const struct gb_field
     return false;
 }
 
-static char *label_among(const struct gb_runset *set, size_t group, bool same_title)
+enum compared { WITH_ALL_GROUPS, WITH_SAME_TITLE };
+
+static char *label_among(const struct gb_runset *set, size_t group,
+                         enum compared compared)
 {
     const struct gb_params *params = &gb_runset_first(set, group)->params;
-    const char *title = same_title ? params->title : NULL;
+    const char *title = compared == WITH_SAME_TITLE ? params->title : NULL;
     GString *label = g_string_new(NULL);
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
@@ -284,12 +287,12 @@ static char *label_among(const struct gb_runset *set, size_t group, bool same_ti
 
 char *gb_runset_label(const struct gb_runset *set, size_t group)
 {
-    return label_among(set, group, false);
+    return label_among(set, group, WITH_ALL_GROUPS);
 }
 
 char *gb_runset_label_of_title(const struct gb_runset *set, size_t group)
 {
-    return label_among(set, group, true);
+    return label_among(set, group, WITH_SAME_TITLE);
 }
 
 const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,

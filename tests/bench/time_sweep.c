@@ -16,6 +16,7 @@
 
 #include "base/clock.h"
 #include "io/preset.h"
+#include "io/preset_folders.h"
 #include "many/single_run.h"
 #include "run/experiment.h"
 
@@ -44,7 +45,7 @@ static struct gb_params cell(const char *particles)
     struct gb_preset *preset = NULL;
     struct gb_error err = {0};
     char *count = g_strconcat("particles.count=", particles, NULL);
-    char *path = gb_preset_find("default");
+    char *path = gb_preset_folders_find("default");
     if (path == NULL || !gb_preset_load(&preset, path, &err)) {
         fail(path ? err.text : "no preset of the name default");
     }

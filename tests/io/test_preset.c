@@ -1,4 +1,5 @@
 #include "io/preset.h"
+#include "io/preset_folders.h"
 
 #include <math.h>
 #include <string.h>
@@ -71,7 +72,7 @@ static void test_untouched(void)
     struct gb_preset *preset = load(path);
     g_assert_cmpfloat(gb_preset_params(preset)->mu, ==, 0.2);
     g_assert_cmpstr(gb_preset_path(preset), ==, path);
-    g_assert_true(gb_preset_save(preset, copy, false, NULL));
+    g_assert_true(gb_preset_save(preset, copy, GB_PRESET_CHANGED_KEYS, NULL));
     char *saved = read_text(copy);
     g_assert_cmpstr(saved, ==, sample);
     g_assert_cmpstr(gb_preset_path(preset), ==, copy);
@@ -89,7 +90,7 @@ static void test_changed(void)
     set(preset, "contact.alpha=0.37");
     set(preset, "particles.count=600");
     set(preset, "loading.until=density = 0.6");
-    g_assert_true(gb_preset_save(preset, path, false, NULL));
+    g_assert_true(gb_preset_save(preset, path, GB_PRESET_CHANGED_KEYS, NULL));
     char *saved = read_text(path);
     g_assert_cmpstr(saved, ==,
                     "# a comment\n"
@@ -110,7 +111,7 @@ static void test_changed(void)
                     "until = density = 0.6\n");
     g_free(saved);
     set(preset, "contact.mu=0.4"); /* a second save starts from the first */
-    g_assert_true(gb_preset_save(preset, path, false, NULL));
+    g_assert_true(gb_preset_save(preset, path, GB_PRESET_CHANGED_KEYS, NULL));
     gb_preset_destroy(preset);
     preset = load(path);
     g_assert_cmpfloat(gb_preset_params(preset)->mu, ==, 0.4);
@@ -130,7 +131,7 @@ static void test_complete(void)
     set(preset, "loading.unload_from=100 MPa; 1 GPa");
     set(preset, "scene.title=a = b; [c] \xc2\xb5");
     const struct gb_params params = *gb_preset_params(preset);
-    g_assert_true(gb_preset_save(preset, path, true, NULL));
+    g_assert_true(gb_preset_save(preset, path, GB_PRESET_ALL_KEYS, NULL));
     gb_preset_destroy(preset);
     preset = load(path);
     g_assert_true(memcmp(gb_preset_params(preset), &params, sizeof params) == 0);
@@ -214,7 +215,7 @@ static void test_odd(void)
         struct gb_preset *preset = load(path);
         const double mu = gb_preset_params(preset)->mu;
         g_assert_cmpfloat(mu, ==, strstr(texts[i], "0.3") ? 0.3 : 0.1);
-        g_assert_true(gb_preset_save(preset, path, false, NULL));
+        g_assert_true(gb_preset_save(preset, path, GB_PRESET_CHANGED_KEYS, NULL));
         gb_preset_destroy(preset);
         g_free(path);
     }
@@ -256,10 +257,10 @@ static void test_failed_save(void)
     struct gb_preset *preset = load(path);
     struct gb_error err = {0};
     set(preset, "contact.mu=0.2");
-    g_assert_false(gb_preset_save(preset, bad, false, &err));
+    g_assert_false(gb_preset_save(preset, bad, GB_PRESET_CHANGED_KEYS, &err));
     g_assert_cmpint(err.code, !=, GB_OK);
     g_assert_cmpstr(gb_preset_path(preset), ==, path);
-    g_assert_true(gb_preset_save(preset, path, false, NULL));
+    g_assert_true(gb_preset_save(preset, path, GB_PRESET_CHANGED_KEYS, NULL));
     char *saved = read_text(path);
     g_assert_cmpstr(saved, ==, "[contact]\nmu = 0.2\n");
     g_free(saved);
@@ -288,7 +289,8 @@ static void test_random(void)
         struct gb_error err = {0};
         if (gb_preset_load(&preset, path, &err)) {
             gb_params_check(gb_preset_params(preset), &err);
-            g_assert_true(gb_preset_save(preset, path, i % 2, &err));
+            g_assert_true(gb_preset_save(
+                preset, path, i % 2 ? GB_PRESET_ALL_KEYS : GB_PRESET_CHANGED_KEYS, &err));
             gb_preset_destroy(preset);
             gb_preset_destroy(load(path));
         } else {
@@ -304,7 +306,7 @@ static void test_random(void)
 
 static void test_list(void)
 {
-    char **names = gb_preset_list();
+    char **names = gb_preset_folders_list();
     g_assert_true(g_strv_contains((const char *const *)names, "default"));
     g_assert_true(g_strv_contains((const char *const *)names, "p1-set2-9.7nm"));
     for (int i = 1; names[i]; i++) {
@@ -318,19 +320,19 @@ static void test_lookup(void)
 {
     char *own = g_build_filename(g_get_user_config_dir(), "greenbody", "presets", NULL);
     char *file = g_build_filename(own, "default.ini", NULL);
-    char *path = gb_preset_find("default");
+    char *path = gb_preset_folders_find("default");
     g_assert_nonnull(path);
     g_assert_cmpstr(path, !=, file);
     g_free(path);
     g_assert_cmpint(g_mkdir_with_parents(own, 0700), ==, 0);
     g_assert_true(g_file_set_contents(file, "[contact]\nmu = 0.7\n", -1, NULL));
     for (int i = 0; i < 2; i++) {
-        path = gb_preset_find(i ? "default.ini" : "default");
+        path = gb_preset_folders_find(i ? "default.ini" : "default");
         g_assert_cmpstr(path, ==, file);
         g_free(path);
     }
-    g_assert_null(gb_preset_find("../default"));
-    g_assert_null(gb_preset_find("nothing"));
+    g_assert_null(gb_preset_folders_find("../default"));
+    g_assert_null(gb_preset_folders_find("nothing"));
     g_unlink(file);
     g_free(file);
     g_free(own);
@@ -349,11 +351,11 @@ static void test_sizes(void)
     g_assert_cmpint(g_mkdir(inner, 0777), ==, 0);
     struct gb_preset *preset = load(path);
     g_assert_cmpint(gb_preset_params(preset)->sizes.count, ==, 2);
-    g_assert_true(gb_preset_save(preset, beside, false, NULL));
+    g_assert_true(gb_preset_save(preset, beside, GB_PRESET_CHANGED_KEYS, NULL));
     char *saved = read_text(beside);
     g_assert_cmpstr(saved, ==, text);
     g_free(saved);
-    g_assert_true(gb_preset_save(preset, elsewhere, false, NULL));
+    g_assert_true(gb_preset_save(preset, elsewhere, GB_PRESET_CHANGED_KEYS, NULL));
     saved = read_text(elsewhere);
     g_assert_cmpstr(saved, ==, "[particles]\ntable = number: 1 um 0.25; 2 um 0.75\n");
     g_free(saved);

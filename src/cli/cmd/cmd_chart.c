@@ -196,7 +196,7 @@ static bool write_preset(const struct chart *chart, const struct gb_chart_row *c
     setting.count = gb_preset_params(preset)->count;
     gb_chart_apply(gb_preset_params(preset), &setting);
     const bool good = gb_params_check(gb_preset_params(preset), err) &&
-                      gb_preset_save(preset, chart->write, false, err);
+                      gb_preset_save(preset, chart->write, GB_PRESET_CHANGED_KEYS, err);
     gb_preset_destroy(preset);
     if (good) {
         printf("written to %s\n", chart->write);

@@ -145,7 +145,7 @@ static bool write_preset(const struct gb_packing *packing, const char *directory
     }
     *gb_preset_params(preset) = packing->params;
     char *path = g_build_filename(directory, "preset.ini", NULL);
-    const bool written = gb_preset_save(preset, path, true, err);
+    const bool written = gb_preset_save(preset, path, GB_PRESET_ALL_KEYS, err);
     g_free(path);
     gb_preset_destroy(preset);
     return written;

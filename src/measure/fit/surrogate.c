@@ -8,9 +8,10 @@
 /* Singular values below this share of the greatest mean that points lie in a plane. */
 static const double least_share = 1e-7;
 
-size_t gb_surrogate_terms(size_t variables, bool quadratic)
+size_t gb_surrogate_terms(size_t variables, enum gb_surrogate_order order)
 {
-    return 1 + variables + (quadratic ? variables * (variables + 1) / 2 : 0);
+    return 1 + variables +
+           (order == GB_SURROGATE_QUADRATIC ? variables * (variables + 1) / 2 : 0);
 }
 
 /* 1, x_i, x_i x_j with i <= j. */
@@ -75,10 +76,10 @@ static bool fit_output(struct gb_surrogate *surrogate, struct bench *bench, size
 }
 
 bool gb_surrogate_fit(struct gb_surrogate *surrogate, size_t variables, size_t outputs,
-                      bool quadratic, const double *at, const double *value,
-                      size_t points, struct gb_error *err)
+                      enum gb_surrogate_order order, const double *at,
+                      const double *value, size_t points, struct gb_error *err)
 {
-    const size_t terms = gb_surrogate_terms(variables, quadratic);
+    const size_t terms = gb_surrogate_terms(variables, order);
     *surrogate = (struct gb_surrogate){variables, outputs, terms, NULL};
     if (points < terms) {
         return gb_error_set(err, GB_ERR_INPUT,

@@ -10,13 +10,15 @@
  * approximation of the simulation near a point. */
 enum { GB_SURROGATE_VARIABLES = 4, GB_SURROGATE_TERMS = 15 };
 
+enum gb_surrogate_order { GB_SURROGATE_LINEAR, GB_SURROGATE_QUADRATIC };
+
 struct gb_surrogate {
     size_t variables, outputs, terms;
     double *coefficient; /* outputs x terms */
 };
 
 /* Terms of a polynomial: 1 + n, or with all squares and products. */
-size_t gb_surrogate_terms(size_t variables, bool quadratic);
+size_t gb_surrogate_terms(size_t variables, enum gb_surrogate_order order);
 
 /* Least squares through points.
  *
@@ -25,8 +27,8 @@ size_t gb_surrogate_terms(size_t variables, bool quadratic);
  * gb_surrogate_finish is due.  Errors: GB_ERR_INPUT (fewer points than terms, or points
  * that do not determine all terms), GB_ERR_MEMORY. */
 bool gb_surrogate_fit(struct gb_surrogate *surrogate, size_t variables, size_t outputs,
-                      bool quadratic, const double *at, const double *value,
-                      size_t points, struct gb_error *err);
+                      enum gb_surrogate_order order, const double *at,
+                      const double *value, size_t points, struct gb_error *err);
 void gb_surrogate_finish(struct gb_surrogate *surrogate); /* zeroed is fine */
 
 /* value[outputs] at a point. */

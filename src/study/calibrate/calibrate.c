@@ -43,10 +43,10 @@ static bool fit_seed(const struct fit *fit, size_t seed, double *at, double *val
     const struct gb_calibrate_problem *problem = fit->problem;
     const size_t points = gb_calibrate_samples_near(&fit->samples, &fit->region,
                                                     fit->stage, seed, at, value);
-    return gb_surrogate_fit(surrogate, problem->free, problem->data, true, at, value,
-                            points, NULL) ||
-           gb_surrogate_fit(surrogate, problem->free, problem->data, false, at, value,
-                            points, NULL);
+    return gb_surrogate_fit(surrogate, problem->free, problem->data,
+                            GB_SURROGATE_QUADRATIC, at, value, points, NULL) ||
+           gb_surrogate_fit(surrogate, problem->free, problem->data, GB_SURROGATE_LINEAR,
+                            at, value, points, NULL);
 }
 
 /* Surrogates of all seeds that have one, and their number.  The caller finishes them. */

@@ -78,7 +78,7 @@ bool gb_calibration_table_write(const struct gb_calibration *calibration,
         return false;
     }
     char *path = g_build_filename(calibration->directory, "calibrated.ini", NULL);
-    const bool saved = gb_preset_save(preset, path, false, err);
+    const bool saved = gb_preset_save(preset, path, GB_PRESET_CHANGED_KEYS, err);
     g_free(path);
     return saved && write_table(calibration, "fit.csv", fit_table(calibration), err) &&
            write_table(calibration, "calibration.csv", parameter_table(calibration), err);

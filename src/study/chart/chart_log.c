@@ -86,7 +86,7 @@ static bool write_scene(const struct gb_chart_log *log, struct gb_error *err)
     }
     *gb_preset_params(preset) = log->plan->params;
     char *path = path_of(log, "preset.ini");
-    const bool good = gb_preset_save(preset, path, true, err);
+    const bool good = gb_preset_save(preset, path, GB_PRESET_ALL_KEYS, err);
     g_free(path);
     gb_preset_destroy(preset);
     return good;

@@ -30,7 +30,7 @@ void gb_file_commands_accept_save(struct gb_app *app)
     } else if (!warned && g_file_test(path, G_FILE_TEST_EXISTS)) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_WARNING,
                            "%s exists: Enter again replaces it", path);
-    } else if (!gb_preset_save(preset, path, true, &err)) {
+    } else if (!gb_preset_save(preset, path, GB_PRESET_ALL_KEYS, &err)) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
     } else {
         char *text = g_strdup_printf("saved as %s", path);

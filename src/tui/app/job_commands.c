@@ -47,7 +47,7 @@ static char *write_scene(struct gb_session *session, const char *directory,
         gb_error_set(err, GB_ERR_MACHINE, "%.300s: cannot be created", directory);
     } else {
         path = g_build_filename(directory, "scene.ini", NULL);
-        if (!gb_preset_save(preset, path, true, err)) {
+        if (!gb_preset_save(preset, path, GB_PRESET_ALL_KEYS, err)) {
             g_clear_pointer(&path, g_free);
         }
     }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "io/preset_folders.h"
 #include "tui/session/previous_curve.h"
 
 enum { LIST_COLS = 26, PREVIEW_FROM = LIST_COLS + 24, HEAD_LINES = 4, DIFFERENCE = 400 };
@@ -23,7 +24,7 @@ const char *gb_preset_browser_selected(const struct gb_preset_browser *browser)
 /* Comment lines at the beginning of the file: source and purpose. */
 static char *read_head(const char *name)
 {
-    char *path = gb_preset_find(name);
+    char *path = gb_preset_folders_find(name);
     char *content = NULL;
     GString *head = g_string_new(NULL);
     if (path != NULL && g_file_get_contents(path, &content, NULL, NULL)) {
@@ -90,7 +91,7 @@ void gb_preset_browser_init(struct gb_preset_browser *browser,
                             const struct gb_params *current)
 {
     memset(browser, 0, sizeof *browser);
-    browser->names = gb_preset_list();
+    browser->names = gb_preset_folders_list();
     browser->shown = g_new0(int, (gsize)length_of(browser->names) + 1);
     browser->base = *current;
     g_strlcpy(browser->base_name, "the current parameters", sizeof browser->base_name);

@@ -3,6 +3,7 @@
 #include <glib.h>
 #include <string.h>
 
+#include "io/preset_folders.h"
 #include "tui/session/previous_curve.h"
 
 /* "p1-set2-38nm" if the preset is found by that name, otherwise its path. */
@@ -12,7 +13,7 @@ static char *name_of(const char *path)
     if (g_str_has_suffix(base, ".ini")) {
         base[strlen(base) - strlen(".ini")] = '\0';
     }
-    char *found = gb_preset_find(base);
+    char *found = gb_preset_folders_find(base);
     char *name =
         found != NULL && strcmp(found, path) == 0 ? g_strdup(base) : g_strdup(path);
     g_free(found);

@@ -1,0 +1,122 @@
+#include "io/curve_csv.h"
+
+#include <inttypes.h>
+#include <math.h>
+
+#include "base/number.h"
+#include "io/line_file.h"
+
+/* ",value" with the fewest digits that read back the same; only "," where there is none.
+ */
+static void append_number(GString *row, double value)
+{
+    char text[GB_NUMBER_MAX];
+    g_string_append_c(row, ',');
+    if (isfinite(value)) {
+        g_string_append(row, gb_number_write(value, text));
+    }
+}
+
+static const char *compressed_axes(const struct gb_params *params)
+{
+    switch (params->geometry) {
+    case GB_GEOMETRY_UNIAXIAL:
+    case GB_GEOMETRY_DIE:
+        return "z";
+    case GB_GEOMETRY_BIAXIAL:
+        return "y and z";
+    default:
+        return params->dimension == 2 ? "x and z" : "x, y and z";
+    }
+}
+
+static void append_nothing(GString *row, const struct gb_point *point)
+{
+    (void)row;
+    (void)point;
+}
+
+static void append_energies(GString *row, const struct gb_point *point)
+{
+    const double values[] = {1e9 * point->time_s, point->kinetic,
+                             point->work,         point->elastic,
+                             point->dissipated,   point->energy_residual};
+    for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
+        append_number(row, values[k]);
+    }
+}
+
+static void append_die(GString *row, const struct gb_point *point)
+{
+    const double values[] = {1e9 * point->time_s,     point->central,
+                             1e6 * point->height_m,   point->height_change,
+                             1e-6 * point->target_pa, point->floor_over_punch};
+    for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
+        append_number(row, values[k]);
+    }
+}
+
+/* By enum gb_curve_columns: a comment of the head of curve.csv, names of the columns, and
+ * their values. */
+static const struct column_set {
+    const char *note, *names;
+    void (*append)(GString *row, const struct gb_point *point);
+} column_sets[] = {
+    [GB_COLUMNS_COMMON] = {"", "", append_nothing},
+    [GB_COLUMNS_ENERGY] =
+        {"# dynamic: time_ns is simulated time; kinetic, work (done by the moving cell), "
+         "elastic and dissipated energy in J; energy_residual is relative to the work\n",
+         ",time_ns,kinetic,work,elastic,dissipated,energy_residual", append_energies},
+    [GB_COLUMNS_DIE] =
+        {"# die: p and pz are what the powder carries under the punch, px and py the "
+         "mean "
+         "on the side wall; density is that of the whole specimen, central_density that "
+         "of a ball in its middle; height_change is relative to the height before "
+         "pressing; time_ns is simulated time, wanted_MPa the pressure of the programme, "
+         "floor_over_punch a ratio of forces: not quasi-static outside 0.95 to 1.05\n",
+         ",time_ns,central_density,height_um,height_change,wanted_MPa,floor_over_punch",
+         append_die},
+};
+
+GString *gb_curve_csv_head(const struct gb_params *params)
+{
+    GString *head = g_string_new("# greenbody " GB_VERSION "\n# preset: ");
+    gb_line_file_add_text(head, params->title);
+    g_string_append_printf(head, "# seed: %" PRIu64 "\n", params->seed);
+    g_string_append(head,
+                    "# units: pressures in MPa; density is the share of the volume "
+                    "that is solid; bridged is a share of the contacts, rattlers of "
+                    "the particles; residual is relative to the force scale; seconds "
+                    "of wall time since the start\n");
+    g_string_append_printf(
+        head,
+        "# p_MPa: mean pressure over the compressed axes (%s), positive "
+        "in compression\n",
+        compressed_axes(params));
+    const struct column_set *set = &column_sets[gb_loading_kind_of(params)->columns];
+    g_string_append(head, set->note);
+    g_string_append(head, "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,"
+                          "bridged,rattlers,residual,iterations,evaluations,seconds");
+    g_string_append_printf(head, "%s\n", set->names);
+    return head;
+}
+
+GString *gb_curve_csv_row(const struct gb_point *point, enum gb_curve_columns columns)
+{
+    char branch[GB_NUMBER_MAX];
+    char seconds[GB_NUMBER_MAX];
+    GString *row = g_string_new(gb_curve_branch_name(point, branch, sizeof branch));
+    g_string_append_printf(row, ",%" PRId64, point->step);
+    const double before[] = {point->density,     point->px_pa / 1e6, point->py_pa / 1e6,
+                             point->pz_pa / 1e6, point->p_pa / 1e6,  point->coordination,
+                             point->bridged,     point->rattlers,    point->residual};
+    for (size_t k = 0; k < G_N_ELEMENTS(before); k++) {
+        append_number(row, before[k]);
+    }
+    g_string_append_printf(
+        row, ",%" PRId64 ",%" PRId64 ",%s", point->iterations, point->evaluations,
+        g_ascii_formatd(seconds, sizeof seconds, "%.3f", point->seconds));
+    column_sets[columns].append(row, point);
+    g_string_append_c(row, '\n');
+    return row;
+}

@@ -1,0 +1,124 @@
+#include "io/status_json.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <glib.h>
+#include <json-glib/json-glib.h>
+
+static const char *const state_words[] = {
+    [GB_RUN_PACKING] = "packing", [GB_RUN_RUNNING] = "running",
+    [GB_RUN_PAUSED] = "paused",   [GB_RUN_DONE] = "done",
+    [GB_RUN_STOPPED] = "stopped", [GB_RUN_FAILED] = "failed"};
+
+static const char *state_word(int state)
+{
+    return state >= 0 && state < (int)G_N_ELEMENTS(state_words) ? state_words[state]
+                                                                : "unknown";
+}
+
+int gb_status_json_state(const char *word)
+{
+    for (size_t k = 0; k < G_N_ELEMENTS(state_words); k++) {
+        if (strcmp(state_words[k], word) == 0) {
+            return (int)k;
+        }
+    }
+    return GB_RUN_STOPPED;
+}
+
+/* json-glib writes 1e-08 as "1e-08.0", which no reader accepts.  The next double has more
+ * digits and a point, and goes through. */
+static double writable(double value)
+{
+    char text[G_ASCII_DTOSTR_BUF_SIZE];
+    g_ascii_dtostr(text, sizeof text, value);
+    return strchr(text, 'e') && !strchr(text, '.') ? nextafter(value, INFINITY) : value;
+}
+
+/* A number, or null where it is not finite. */
+static void add_double(JsonBuilder *json, const char *name, double value)
+{
+    json_builder_set_member_name(json, name);
+    if (isfinite(value)) {
+        json_builder_add_double_value(json, writable(value));
+    } else {
+        json_builder_add_null_value(json);
+    }
+}
+
+static void add_integer(JsonBuilder *json, const char *name, int64_t value)
+{
+    json_builder_set_member_name(json, name);
+    json_builder_add_int_value(json, value);
+}
+
+/* JSON is UTF-8; paths in an error may be anything. */
+static void add_text(JsonBuilder *json, const char *name, const char *text)
+{
+    char *valid = g_utf8_make_valid(text, -1);
+    json_builder_set_member_name(json, name);
+    json_builder_add_string_value(json, valid);
+    g_free(valid);
+}
+
+static void add_array(JsonBuilder *json, const char *name, const double *values,
+                      int count)
+{
+    json_builder_set_member_name(json, name);
+    json_builder_begin_array(json);
+    for (int k = 0; k < count; k++) {
+        if (isfinite(values[k])) {
+            json_builder_add_double_value(json, writable(values[k]));
+        } else {
+            json_builder_add_null_value(json);
+        }
+    }
+    json_builder_end_array(json);
+}
+
+static void add_progress(JsonBuilder *json, const struct gb_snapshot *shot,
+                         int64_t points)
+{
+    const struct gb_point *now = &shot->now;
+    const bool known = shot->now_valid;
+    add_double(json, "progress", shot->progress);
+    add_integer(json, "points", points);
+    add_integer(json, "step", known ? now->step : 0);
+    add_double(json, "density", known ? now->density : (double)NAN);
+    add_double(json, "pressure_MPa", known ? now->p_pa / 1e6 : (double)NAN);
+    add_double(json, "coordination", known ? now->coordination : (double)NAN);
+    add_integer(json, "evaluations", shot->evaluations);
+    add_double(json, "evaluations_per_s", shot->evaluations_per_s);
+    add_double(json, "particle_evaluations_per_s", shot->particle_evaluations_per_s);
+    add_double(json, "seconds", shot->seconds);
+    add_double(json, "seconds_left",
+               shot->seconds_left >= 0.0 ? shot->seconds_left : (double)NAN);
+    add_integer(json, "events", shot->events);
+    add_double(json, "residual", shot->live_residual);
+    add_double(json, "time_step_s", shot->time_step_s);
+    add_array(json, "histogram", shot->histogram, GB_SNAPSHOT_HISTOGRAM);
+    add_array(json, "rose", shot->rose, GB_SNAPSHOT_ROSE);
+}
+
+char *gb_status_json_text(const struct gb_snapshot *snapshot, int64_t points)
+{
+    JsonBuilder *json = json_builder_new();
+    json_builder_begin_object(json);
+    add_text(json, "program", "greenbody " GB_VERSION);
+    add_text(json, "state", state_word(snapshot->state));
+    add_integer(json, "pid", (int64_t)getpid());
+    add_text(json, "host", g_get_host_name());
+    add_progress(json, snapshot, points);
+    add_text(json, "event", snapshot->event);
+    add_text(json, "error", snapshot->error.code == GB_OK ? "" : snapshot->error.text);
+    json_builder_end_object(json);
+    JsonNode *root = json_builder_get_root(json);
+    char *text = json_to_string(root, TRUE);
+    char *whole = g_strconcat(text, "\n", NULL);
+    g_free(text);
+    json_node_unref(root);
+    g_object_unref(json);
+    return whole;
+}
