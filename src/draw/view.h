@@ -5,7 +5,7 @@
 
 #include "greenbody/status.h"
 
-/* From where a picture looks at the box. */
+/* Direction of view of a picture. */
 struct gb_viewpoint {
     double azimuth_deg;   /* of the viewer around z; 0 is on the x axis, -90 on -y */
     double elevation_deg; /* of the viewer above the x-y plane */
@@ -37,8 +37,8 @@ struct gb_view {
     double near, far; /* depths of the box and the spheres that stick out of it */
 };
 
-/* Camera that sees the whole box, with `margin` around it, as large as the frame allows.
- */
+/* Camera with the whole box in its frame, with `margin` around it, as large as the frame
+ * allows. */
 void gb_view_init(struct gb_view *view, const struct gb_viewpoint *viewpoint,
                   const double cell[3], double margin, const struct gb_frame *frame);
 

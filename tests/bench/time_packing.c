@@ -80,7 +80,7 @@ static bool time_steps(struct gb_world *world, struct gb_relax *relax, int batch
 {
     static const double factor[3] = {1.0, 1.0, 1.0 - strain};
     struct gb_contact_counts counts;
-    double *batch = g_new(double, batches);
+    double *batch = g_new(double, (gsize)batches);
     gb_relax_start(relax, world);
     bool good = gb_relax_evaluate(relax, world, err);
     if (good) {

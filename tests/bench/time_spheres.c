@@ -24,7 +24,7 @@ static bool settle(struct gb_bed **bed, const GArray *spheres, struct gb_error *
     const int64_t count = spheres->len;
     const struct gb_elastic elastic = {1.0, 0.25};
     struct gb_bed_law law = {.mu = 0.2, .damping = 0.1};
-    double *radius = g_new(double, count), far = 0.0, low = 0.0;
+    double *radius = g_new(double, (gsize)count), far = 0.0, low = 0.0;
     gb_law_hertz_init(&law.normal.hertz, &elastic, &elastic);
     law.shear = 4.0 * law.normal.hertz.shear / law.normal.hertz.modulus;
     for (int64_t i = 0; i < count; i++) {
@@ -66,7 +66,7 @@ static bool time_steps(struct gb_bed *bed, int batches, struct gb_error *err)
 {
     struct gb_leapfrog leapfrog;
     struct gb_contact_counts counts;
-    double *batch = g_new(double, batches);
+    double *batch = g_new(double, (gsize)batches);
     gb_leapfrog_init(&leapfrog, 0.5, 1e-3);
     bool good = gb_bed_evaluate(bed, 0.0, 0.0, err);
     if (good) {

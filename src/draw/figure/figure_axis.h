@@ -6,11 +6,11 @@
 
 enum { GB_FIGURE_AXIS_TICKS = 16, GB_FIGURE_AXIS_MINOR = 96 };
 
-/* From values to places along one axis, with its ticks. */
+/* Map from values to coordinates (points) along one axis, with its ticks. */
 struct gb_figure_axis_scale {
     bool log;
     double low, high; /* values at the two ends */
-    double from, to;  /* their places */
+    double from, to;  /* their coordinates */
     int power;        /* ticks are labelled in units of 10^power */
     int ticks, minors;
     double tick[GB_FIGURE_AXIS_TICKS];
@@ -26,7 +26,7 @@ void gb_figure_axis_fit(struct gb_figure_axis_scale *scale, bool log, double low
 
 double gb_figure_axis_position(const struct gb_figure_axis_scale *scale, double value);
 
-/* A number as print wants it: "−0.25", "10<sup>−3</sup>"; decimals behind the point. */
+/* A number in typographic form: "−0.25", "10<sup>−3</sup>"; decimals behind the point. */
 void gb_figure_axis_number(double value, int decimals, char *text, size_t size);
 
 #endif

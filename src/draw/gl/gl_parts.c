@@ -25,7 +25,7 @@ static bool in_target(const struct gb_camera *camera, const float *ball, int wid
 }
 
 /* Whether a part within a ball needs to be drawn: spheres come first, then rods.  The
- * light sees all of the scene, the eye a tile. */
+ * target of the light is the whole scene, that of the eye a tile. */
 static bool shows(const struct gb_gl_pass *pass, const struct gb_camera *camera,
                   size_t part, const float *ball, int width, int height)
 {

@@ -17,7 +17,8 @@
  * bits for any number of them.  Reduced units.  How it works: docs/engine.md. */
 struct gb_world;
 
-/* The arrays that relaxers and integrators move: count x 3, valid as long as the world. */
+/* The arrays that relaxers and integrators move: count x 3, valid as long as the
+ * world. */
 struct gb_bodies {
     int64_t count;
     double *position;    /* d */
@@ -80,8 +81,8 @@ double gb_world_residual(const struct gb_world *world);
  * Forces of pairs: pack/kernel/pair_forces.h. */
 const struct gb_neighbour_list *gb_world_pairs(const struct gb_world *world);
 const struct gb_contacts *gb_world_contacts(const struct gb_world *world);
-/* Coordination number of every particle, counted anew; valid until the next call, by one
- * thread at a time. */
+/* Coordination number of every particle, counted at the call; valid until the next call,
+ * by one thread at a time. */
 const int32_t *gb_world_coordination(const struct gb_world *world);
 /* x_i - x_other of pair k of a list (d), as of the last evaluation. */
 void gb_world_branch_vector(const struct gb_world *world, const struct gb_pair_list *list,
@@ -90,7 +91,7 @@ void gb_world_branch_vector(const struct gb_world *world, const struct gb_pair_l
 int64_t gb_world_evaluations(const struct gb_world *world);
 int64_t gb_world_rebuilds(const struct gb_world *world);
 
-/* A copy of cell, positions and contact histories, to go back to. */
+/* A copy of cell, positions and contact histories, for a restore. */
 struct gb_world_copy;
 /* Reuses *copy when it is not NULL. */
 bool gb_world_copy_save(const struct gb_world *world, struct gb_world_copy **copy,

@@ -7,15 +7,16 @@
 #include "pack/die/bed_list.h"
 #include "scene/tolerances.h"
 
-/* Evaluations that a list should last: making one costs as much as a few tens. */
+/* Evaluations between two list builds to aim at; a build costs a few tens of
+ * evaluations. */
 static const double list_lasts = 250.0;
 /* Skin over the smallest radius, at least and at most. */
 static const double skin_least = 0.01, skin_most = 1.0;
 
 static bool allocate(struct gb_bed *bed, struct gb_error *err)
 {
-    gb_bed_row **const rows[] = {&bed->position, &bed->velocity,  &bed->spin,
-                                 &bed->force, &bed->torque, &bed->listed_position};
+    gb_bed_row **const rows[] = {&bed->position, &bed->velocity, &bed->spin,
+                                 &bed->force,    &bed->torque,   &bed->listed_position};
     struct gb_bed_list *const lists[] = {&bed->pairs, &bed->previous_pairs, &bed->walls,
                                          &bed->previous_walls};
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
@@ -119,7 +120,7 @@ void gb_bed_invalidate_lists(struct gb_bed *bed)
     bed->listed = false;
 }
 
-/* The skin follows the pace of the motion.  No force depends on it: pairs that do not
+/* Adapts the skin to the speed of the motion.  No force depends on it: pairs that do not
  * touch add exact zeros in an order that is the same for any list. */
 static void adapt_skin(struct gb_bed *bed)
 {
@@ -143,7 +144,8 @@ static bool refresh_lists(struct gb_bed *bed, double moved2, struct gb_error *er
     if (!gb_bed_list_rebuild(bed, err)) {
         return false;
     }
-    memcpy(bed->listed_position, bed->position, (size_t)bed->count * sizeof *bed->position);
+    memcpy(bed->listed_position, bed->position,
+           (size_t)bed->count * sizeof *bed->position);
     bed->punch_listed_position = bed->die.punch_position;
     bed->listed_evaluation = bed->evaluations;
     bed->listed = true;
@@ -171,7 +173,7 @@ static void sweep_pairs(struct gb_bed *bed, struct gb_bed_batch *b)
     }
 }
 
-static void fill_walls(const struct gb_bed *bed, struct gb_bed_batch *b, int64_t slot)
+static void gather_walls(const struct gb_bed *bed, struct gb_bed_batch *b, int64_t slot)
 {
     for (int k = 0; k < b->n; k++) {
         const int64_t i = bed->walls.first[slot + k];
@@ -189,8 +191,8 @@ static void fill_walls(const struct gb_bed *bed, struct gb_bed_batch *b, int64_t
     }
 }
 
-static void bear(struct gb_bed_tally *tally, enum gb_die_wall wall, const double x[3],
-                 const double force[3])
+static void add_wall_force(struct gb_bed_tally *tally, enum gb_die_wall wall,
+                           const double x[3], const double force[3])
 {
     switch (wall) {
     case GB_DIE_FLOOR:
@@ -209,14 +211,14 @@ static void bear(struct gb_bed_tally *tally, enum gb_die_wall wall, const double
     }
 }
 
-static void spill_walls(struct gb_bed *bed, const struct gb_bed_batch *b, int64_t slot,
-                        bool friction)
+static void scatter_walls(struct gb_bed *bed, const struct gb_bed_batch *b, int64_t slot,
+                          bool friction)
 {
     for (int k = 0; k < b->n; k++) {
         const int64_t i = bed->walls.first[slot + k];
         const double force[3] = {b->force[0][k], b->force[1][k], b->force[2][k]};
-        bear(&bed->tally, (enum gb_die_wall)bed->walls.other[slot + k], bed->position[i],
-             force);
+        add_wall_force(&bed->tally, (enum gb_die_wall)bed->walls.other[slot + k],
+                       bed->position[i], force);
         for (int c = 0; c < 3; c++) {
             bed->force[i][c] += force[c];
             bed->torque[i][c] += friction ? bed->position[i][3] * b->moment[c][k] : 0.0;
@@ -231,9 +233,9 @@ static void sweep_walls(struct gb_bed *bed, struct gb_bed_batch *b)
     for (int64_t slot = 0; slot < bed->walls.count; slot += b->n) {
         const int64_t left = bed->walls.count - slot;
         b->n = left < GB_BED_BATCH ? (int)left : GB_BED_BATCH;
-        fill_walls(bed, b, slot);
+        gather_walls(bed, b, slot);
         bed->wall_kernel(&bed->law, b, &bed->walls.contacts, slot);
-        spill_walls(bed, b, slot, friction);
+        scatter_walls(bed, b, slot, friction);
     }
 }
 

@@ -11,7 +11,7 @@
 
 /* Spheres of many sizes in a die.  Reduced units: length d (the reference diameter),
  * stress E, mass that of a sphere of diameter d, so that time is sqrt(m/(E d)).  The
- * fourth of a row is the radius in place and 0 elsewhere. */
+ * fourth of a row is the radius in `position` and 0 elsewhere. */
 
 /* Near contacts, sorted by their first particle and then by `other`: the second particle,
  * or enum gb_die_wall. */
@@ -23,7 +23,8 @@ struct gb_bed_list {
     struct gb_bed_contacts contacts;
 };
 
-/* What the walls bear, and what decides the time step; of the last evaluation. */
+/* Forces on the walls, and the stiffness that limits the time step; of the last
+ * evaluation. */
 struct gb_bed_tally {
     double stiffest;     /* largest omega^2 = k/m of (29) */
     double floor, punch; /* force on them, positive in compression */
@@ -33,15 +34,16 @@ struct gb_bed_tally {
 struct gb_bed {
     int64_t count;
     gb_bed_row *position, *velocity, *spin, *force, *torque;
-    double *mass, *inverse_mass, *inverse_inertia; /* and one over mass and 2/5 m R^2 x scale */
-    double inertia_scale;                  /* of 2/5 m R^2; P3 takes 10 */
+    double *mass, *inverse_mass,
+        *inverse_inertia; /* and one over mass and 2/5 m R^2 x scale */
+    double inertia_scale; /* of 2/5 m R^2; P3 takes 10 */
     struct gb_die die;
     struct gb_bed_law law;
     gb_bed_kernel *pair_kernel, *wall_kernel;
     struct gb_bed_transfer transfer; /* of pairs */
     struct gb_bed_list pairs, walls;
     struct gb_bed_tally tally;
-    double smallest;  /* radius */
+    double smallest; /* radius */
     int32_t *counts; /* one per particle, for measures to count in */
     int64_t evaluations, rebuilds;
     /* the lists hold while nothing has moved further than half the skin */
@@ -61,16 +63,16 @@ bool gb_bed_create(struct gb_bed **out, int64_t count, const double *radius,
                    double inertia_scale, struct gb_error *err);
 void gb_bed_destroy(struct gb_bed *bed); /* NULL is fine */
 
-/* Another law from now on; all contacts begin anew. */
+/* Replaces the law; all contacts lose their history. */
 void gb_bed_set_law(struct gb_bed *bed, const struct gb_bed_law *law);
 
-/* Forces and torques at the present places and speeds; carries the history of every
- * contact over the step since the last evaluation.  moved2: largest squared displacement
- * of a particle since the lists were made.  Errors: GB_ERR_MEMORY. */
+/* Forces and torques at the present positions and velocities; advances the history of
+ * every contact over the step since the last evaluation.  moved2: largest squared
+ * displacement of a particle since the lists were built.  Errors: GB_ERR_MEMORY. */
 bool gb_bed_evaluate(struct gb_bed *bed, double step, double moved2,
                      struct gb_error *err);
 
-/* The lists are made anew at the next evaluation: places were changed by hand. */
+/* Positions were replaced: the next evaluation rebuilds the lists. */
 void gb_bed_invalidate_lists(struct gb_bed *bed);
 
 /* First particle that is not a number or beyond a wall; -1: none. */

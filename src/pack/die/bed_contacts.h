@@ -7,7 +7,7 @@
 #include "greenbody/status.h"
 #include "law/law_storakers.h"
 
-/* What the contacts of a bed obey: Hertz-Mindlin-Deresiewicz or Storakers, P3 (1)-(22),
+/* Contact law of a bed: Hertz-Mindlin-Deresiewicz or Storakers, P3 (1)-(22),
  * the same law between particles and against walls, with its own friction there. */
 struct gb_bed_law {
     bool storakers;
@@ -22,13 +22,13 @@ struct gb_bed_law {
 struct gb_bed_contacts {
     int64_t room;
     double *slab;
-    double *hertz;          /* (4/3) E* sqrt R*: force over h^1.5 */
-    double *damping;           /* 2 xi sqrt m*: dashpot over the root of the stiffness */
-    double *inverse_mass;          /* one over the lesser mass */
-    double *transition;          /* overlap at which Storakers' law becomes plastic */
+    double *hertz;        /* (4/3) E* sqrt R*: force over h^1.5 */
+    double *damping;      /* 2 xi sqrt m*: dashpot over the root of the stiffness */
+    double *inverse_mass; /* one over the lesser mass */
+    double *transition;   /* overlap at which Storakers' law becomes plastic */
     double *deepest, *permanent; /* h_max, and h0 where unloading ends; Storakers only */
-    double *shear[3];       /* force on the first; across the normal of last time */
-    double *normal;         /* f_n of the last evaluation; -1: not touching */
+    double *shear[3];            /* force on the first; across the normal of last time */
+    double *normal;              /* f_n of the last evaluation; -1: not touching */
 };
 
 enum { GB_BED_HISTORY = 5 }; /* arrays that are history, deepest to shear */

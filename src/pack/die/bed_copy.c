@@ -7,7 +7,7 @@
 
 struct gb_bed_copy {
     int64_t count;
-    gb_bed_row *rows; /* places, speeds, spins */
+    gb_bed_row *rows; /* positions, velocities, spins */
     struct gb_die die;
     struct gb_bed_list pairs, walls; /* what touches */
     double skin;
@@ -69,7 +69,7 @@ bool gb_bed_copy_restore(struct gb_bed *bed, const struct gb_bed_copy *copy,
     }
     bed->die = copy->die;
     bed->skin = copy->skin;
-    bed->listed = false; /* made anew at the next evaluation, from these: */
+    bed->listed = false; /* rebuilt at the next evaluation, from these: */
     return gb_bed_list_copy_touching(&bed->pairs, &copy->pairs, bed->count, err) &&
            gb_bed_list_copy_touching(&bed->walls, &copy->walls, bed->count, err);
 }

@@ -3,7 +3,7 @@
 
 #include "pack/die/bed.h"
 
-/* Places, speeds, histories and die, to go back to. */
+/* Positions, velocities, histories and die, for a restore. */
 struct gb_bed_copy;
 bool gb_bed_copy_take(const struct gb_bed *bed, struct gb_bed_copy **copy,
                       struct gb_error *err); /* reuses *copy when not NULL */
@@ -11,7 +11,8 @@ bool gb_bed_copy_restore(struct gb_bed *bed, const struct gb_bed_copy *copy,
                          struct gb_error *err);
 void gb_bed_copy_destroy(struct gb_bed_copy *copy); /* NULL is fine */
 
-/* 64-bit hash over places, speeds, histories and punch: equal states, equal hashes. */
+/* 64-bit hash over positions, velocities, histories and punch: equal states, equal
+ * hashes. */
 uint64_t gb_bed_copy_hash(const struct gb_bed *bed);
 
 #endif

@@ -7,15 +7,15 @@ bool gb_bed_list_init(struct gb_bed_list *list, int64_t particles, int64_t room,
                       struct gb_error *err);
 void gb_bed_list_finish(struct gb_bed_list *list);
 
-/* Makes both lists of a bed anew; touching contacts keep their histories. */
+/* Rebuilds both lists of a bed; touching contacts keep their histories. */
 bool gb_bed_list_rebuild(struct gb_bed *bed, struct gb_error *err);
 
 /* Gives the contacts of `to` the histories that `from` holds for the same pairs. */
 void gb_bed_list_transfer(struct gb_bed_list *to, const struct gb_bed_list *from,
-                         int64_t particles);
+                          int64_t particles);
 
 /* The touching contacts of a list, with their histories. */
 bool gb_bed_list_copy_touching(struct gb_bed_list *to, const struct gb_bed_list *from,
-                      int64_t particles, struct gb_error *err);
+                               int64_t particles, struct gb_error *err);
 
 #endif

@@ -113,9 +113,10 @@ static bool exchange_list(struct gb_bed *bed, bool walls, struct gb_bed_list *li
     return true;
 }
 
-static bool exchange_contacts(struct gb_bed *bed, bool walls, struct gb_record *record,
-                              struct gb_error *err)
+static bool exchange_contacts(struct gb_bed *bed, enum gb_bed_partner partner,
+                              struct gb_record *record, struct gb_error *err)
 {
+    const bool walls = partner == GB_BED_PARTNER_WALL;
     struct gb_bed_list *own = walls ? &bed->walls : &bed->pairs;
     struct gb_bed_list kept = {0};
     bool done = record->loading || gb_bed_list_copy_touching(&kept, own, bed->count, err);
@@ -138,6 +139,6 @@ bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error
            rows(bed, record, "bed/force", "E d^2", bed->force, err) &&
            rows(bed, record, "bed/torque", "E d^3", bed->torque, err) &&
            check_positions(bed, bed->mass, err) &&
-           exchange_contacts(bed, false, record, err) &&
-           exchange_contacts(bed, true, record, err);
+           exchange_contacts(bed, GB_BED_PARTNER_PARTICLE, record, err) &&
+           exchange_contacts(bed, GB_BED_PARTNER_WALL, record, err);
 }

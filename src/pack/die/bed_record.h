@@ -6,7 +6,7 @@
 
 /* A bed into a record, or back into one of the same sizes and law, right after an
  * evaluation: it then goes on to the same bits.  The lists are not part of it, since no
- * force depends on them: they are made anew.  Errors: GB_ERR_INPUT naming what is missing
+ * force depends on them: they are rebuilt.  Errors: GB_ERR_INPUT naming what is missing
  * or out of range, GB_ERR_MEMORY. */
 bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error *err);
 

@@ -6,9 +6,8 @@
 #include "pack/die/bed.h"
 #include "scene/model.h"
 
-/* The powder of a scene with kind = die, loose in the funnel above its die and obeying
- * the law of filling.  Same sizes, seed and die: same bits, whatever law it is pressed
- * with.
+/* The powder of a scene with kind = die, loose in the funnel above its die, with
+ * the law of filling.  Same sizes, seed and die: same bits, for any law of pressing.
  *
  * cancelled   may be NULL; polled with data, true fails with GB_ERR_CANCELLED
  * Errors: GB_ERR_INPUT naming the keys when particles or powder do not fit the die. */
@@ -16,7 +15,7 @@ bool gb_filling_create(struct gb_bed **out, const struct gb_params *params,
                        const struct gb_model *model, bool (*cancelled)(void *data),
                        void *data, struct gb_error *err);
 
-/* The same bed before its spheres have a place: they are to be loaded. */
+/* The same bed without initial positions, for a load. */
 bool gb_filling_allocate(struct gb_bed **out, const struct gb_params *params,
                          const struct gb_model *model, struct gb_error *err);
 

@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "pack/structure/random.h"
 
-/* Random places tried for one sphere before the funnel counts as full. */
+/* Random positions tried for one sphere before the funnel counts as full. */
 enum { TRIES_MOST = 20000 };
 
 /* The box around the powder in cubes at least as wide as the largest sphere, so that

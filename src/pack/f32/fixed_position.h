@@ -58,7 +58,8 @@ static inline double gb_fixed_position_follow(double last, int32_t fixed,
     return (whole + (double)moved) * d_per_unit;
 }
 
-/* Branch vector x_i - x_j (d), nearest image, as a sweep in single precision sees it. */
+/* Branch vector x_i - x_j (d), nearest image, as computed by a sweep in single
+ * precision. */
 static inline void gb_fixed_position_branch(const struct gb_cell *cell,
                                             const double xi[3], const double xj[3],
                                             double r[3])

@@ -54,8 +54,8 @@ static void prepare_block(struct gb_engine *engine, int64_t b)
     }
 }
 
-/* Blocks of one thread of a team, or all of them: those that a loop with a static schedule
- * gives it, so that they stay in its caches. */
+/* Blocks of one thread of a team, or all of them: those that a loop with a static
+ * schedule gives it, so that they stay in its caches. */
 struct part {
     int64_t begin, end;
 };
@@ -82,7 +82,7 @@ static bool collects_at_once(const struct gb_engine *engine, const struct part *
 }
 
 /* All blocks, by the threads of the calling OpenMP team; without a team, by the caller.
- * Sets *valid where the lists are: every thread sees the same. */
+ * Sets *valid where the lists are: the same for every thread. */
 static void run_blocks(struct gb_engine *engine, int64_t blocks,
                        struct gb_sweep_along along, bool *valid)
 {

@@ -9,8 +9,8 @@ struct gb_engine;
  *
  * Rotation increments are arcs, d_i times the angle (so that the numbers are those of
  * equal spheres where all d are 1), and torques are moments over d_i, which does the same
- * work: small particles rotate as easily as large ones, and a relaxer needs to know
- * nothing of sizes.  The surfaces of two particles meet where their centre distance is
+ * work: small particles rotate as easily as large ones, and a relaxer needs no
+ * sizes.  The surfaces of two particles meet where their centre distance is
  * divided as their diameters are, so the forces of a pair balance, and its moments about
  * any point do too. */
 void gb_sweep_sized_run(struct gb_engine *engine);

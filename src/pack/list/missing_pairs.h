@@ -19,7 +19,7 @@ struct gb_missing_pairs {
     struct gb_missing_pair pair[GB_MISSING_PAIRS_MAX];
 };
 
-/* What the list check knows of one block. */
+/* State of the list check for one block. */
 struct gb_list_check_block {
     double displacement; /* largest since the list was built, d; may be overestimated
                           * below the margin; NaN: a coordinate is not finite */

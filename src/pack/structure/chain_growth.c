@@ -25,14 +25,14 @@ static const double ray_longest_2d = 40.0;
 enum { CANDIDATES_MOST = 824 };
 
 /* Of unequal sizes the small ones are more; those beyond so many times that number, the
- * last ones found, are not looked at. */
+ * last ones found, are ignored. */
 enum { CANDIDATES_SIZED = 8 };
 
 /* Rays that find no position: after the first number another particle becomes the origin;
  * after the second, in a row, the structure counts as full. */
 enum { FAILURES_PER_ORIGIN = 64, FAILURES_MOST = 64 * 64 };
 
-/* The cancel flag is looked at once in this many rays. */
+/* The cancel flag is polled once in this many rays. */
 enum { RAYS_PER_POLL = 64 };
 
 /* A position on the ray that touches particle j. */
@@ -103,8 +103,8 @@ static int compare_candidates(const void *left, const void *right)
     return (a->j > b->j) - (a->j < b->j);
 }
 
-/* All places on the far side of the particles that the ray passes within r_eq; overlaps
- * are not looked at yet.  Returns how many. */
+/* All positions on the far side of the particles that the ray passes within r_eq;
+ * overlaps are not checked yet.  Returns their number. */
 static int collect_candidates(struct growth *growth, const struct gb_roll *roll,
                               const double origin[3], const double direction[3])
 {
@@ -117,7 +117,7 @@ static int collect_candidates(struct growth *growth, const struct gb_roll *roll,
         const double across = fmax(0.0, hit.square - hit.along * hit.along);
         const double touch = gb_roll_contact_distance(roll, hit.index);
         if (growth->diameter && across >= touch * touch) {
-            continue; /* the ray passes it by */
+            continue; /* the ray does not meet it */
         }
         struct candidate *candidate = &growth->candidates[count++];
         candidate->j = hit.index;
@@ -154,9 +154,9 @@ static int count_neighbours(const struct growth *growth, const double position[3
     return count;
 }
 
-/* The free position with the fewest neighbours, the farthest of several; NULL when the ray
- * has none.  The candidates come farthest first, so only fewer neighbours win, and one
- * neighbour (the particle touched) cannot be beaten. */
+/* The free position with the fewest neighbours, the farthest of several; NULL when the
+ * ray has none.  The candidates come farthest first, so only fewer neighbours win, and
+ * one neighbour (the particle touched) cannot be beaten. */
 static const struct candidate *choose_candidate(const struct growth *growth,
                                                 const struct gb_roll *roll, int count)
 {
@@ -177,8 +177,8 @@ static const struct candidate *choose_candidate(const struct growth *growth,
     return best;
 }
 
-/* One ray from particle `origin`; places a particle when it finds room. */
-static bool shoot(struct growth *growth, int64_t origin)
+/* One ray from particle `origin`; inserts a particle where a candidate is free. */
+static bool try_ray(struct growth *growth, int64_t origin)
 {
     const struct gb_roll roll = next_one(growth);
     double start[3], direction[3], position[3];
@@ -221,7 +221,7 @@ static bool fill(struct growth *growth, struct gb_error *err)
             grow->cancelled(grow->data)) {
             return gb_error_set(err, GB_ERR_CANCELLED, "packing cancelled");
         }
-        if (shoot(growth, origin)) {
+        if (try_ray(growth, origin)) {
             origin = grid->count - 1;
             failures = 0;
             continue;

@@ -28,9 +28,9 @@ struct gb_chain_growth gb_chain_growth_from_model(const struct gb_model *model);
 
 /* Places the particles.
  *
- * position   count x 3, filled with places inside the cell (y = 0 in 2D)
+ * position   count x 3, filled with positions inside the cell (y = 0 in 2D)
  * Errors: GB_ERR_INPUT "structure.density = 0.7: not reached, stopped at 0.44 (...)" when
- * no place is left, GB_ERR_MEMORY, GB_ERR_CANCELLED.
+ * no free position is left, GB_ERR_MEMORY, GB_ERR_CANCELLED.
  * Deterministic: same struct, same bits.  Cost about linear in count. */
 bool gb_chain_growth_run(const struct gb_chain_growth *grow, double *position,
                          struct gb_error *err);

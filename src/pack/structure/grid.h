@@ -31,7 +31,7 @@ void gb_grid_destroy(struct gb_grid *grid); /* NULL is fine */
 /* Appends a point (finite; wrapped here).  The caller keeps to the capacity. */
 void gb_grid_insert(struct gb_grid *grid, const double x[3]);
 
-/* A block of grid cells under way; only grid.c looks inside. */
+/* Iteration over a block of grid cells; private to grid.c. */
 struct gb_grid_window {
     int low[3], high[3], at[3]; /* unwrapped grid indices */
     int low_cell[3], cell[3];   /* the same wrapped */

@@ -39,7 +39,8 @@ static double square_of_difference(const double a[3], const double b[3])
     return x * x + y * y + z * z;
 }
 
-/* A particle to be touched beside j: its place seen from j, and how far it is then. */
+/* The second particle to be touched: its position relative to j, and the distance of
+ * contact. */
 struct partner {
     double r[3];
     double touch;
@@ -98,9 +99,9 @@ static bool touch_two(double reach, const double offset[3], const struct partner
 }
 
 /* P1 leaves open which k is meant by "another, already placed one".  Taking the k whose
- * circle comes first on the way from the start (then nothing can be in the way) gives a
- * coordination number of 4.0037 at d = 9.7 nm, against P1's 4.0062 +- 0.0007; the nearest
- * particle gives 4.0062 +- 0.0002.  g(r) is the same within its scatter. */
+ * circle comes first on the way from the start (no other particle can overlap then) gives
+ * a coordination number of 4.0037 at d = 9.7 nm, against P1's 4.0062 +- 0.0007; the
+ * nearest particle gives 4.0062 +- 0.0002.  g(r) is the same within its scatter. */
 bool gb_roll_onto(const struct gb_roll *roll, int64_t j, const double offset[3],
                   double position[3])
 {

@@ -7,11 +7,12 @@
 #include "pack/structure/grid.h"
 #include "scene/model.h"
 
-/* Centres closer than (1 - GB_ROLL_TOLERANCE) r_eq overlap.  Above the rounding of a place on
- * two spheres, so that the hexagons of 2D can close; below any distance that matters. */
+/* Centres closer than (1 - GB_ROLL_TOLERANCE) r_eq overlap.  Above the rounding of a
+ * position on two spheres, so that the hexagons of 2D can close; below any distance that
+ * matters. */
 #define GB_ROLL_TOLERANCE 1e-9
 
-/* A new particle among those that are there, and where it touches them. */
+/* A new particle and the existing ones, with its distances of contact. */
 struct gb_roll {
     const struct gb_grid *grid;
     double r_eq; /* the distance; of unequal sizes: the longest */
@@ -21,19 +22,19 @@ struct gb_roll {
     double own;             /* of the new one */
 };
 
-/* The distance at which the new particle rests on particle j. */
+/* Distance of the new particle to particle j in contact. */
 double gb_roll_contact_distance(const struct gb_roll *roll, int64_t j);
 
-/* Does a particle at place overlap one that is there already? */
+/* True if a particle at this position overlaps an existing one. */
 bool gb_roll_overlaps(const struct gb_roll *roll, const double position[3]);
 
 /* Rolls a new particle around particle j until it touches one more, k, as well.
  * k is the particle nearest to the start among those that can be touched together with j;
- * the place is the nearest to the start that touches both.
+ * the position is the nearest to the start that touches both.
  *
- * offset   from j to the start; as long as they touch
- * place    result
- * False when there is no such k, or when a third particle is in the way. */
+ * offset    from j to the start; as long as they touch
+ * position  result
+ * False when there is no such k, or when it would overlap a third particle. */
 bool gb_roll_onto(const struct gb_roll *roll, int64_t j, const double offset[3],
                   double position[3]);
 
