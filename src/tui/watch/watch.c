@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "tui/app/keys.h"
+#include "tui/watch/watch_views.h"
 
 /* Seconds between two readings of the files, or `share` times the duration of one,
  * whichever is longer. */
@@ -35,17 +36,30 @@ static void draw_header(const struct gb_watch *watch, const struct gb_paint *pai
     g_free(name);
 }
 
+/* Common keys, and those of the view. */
+static void write_hint(const struct gb_watch *watch, char *text, size_t size)
+{
+    const char *hint = gb_watch_views_at(watch->view)->hint;
+    snprintf(text, size, "1-%d views  v next  %s%sq quit", gb_watch_views_count(watch),
+             hint, *hint != '\0' ? "  " : "");
+}
+
 static void draw_footer(const struct gb_watch *watch, const struct gb_paint *paint)
 {
-    static const char *const hints[GB_WATCH_VIEWS] = {
-        "1 curves  2 map  3 runs  v next  L log or linear  b glyphs  q quit",
-        "1 curves  2 map  3 runs  v next  Left and Right pressure  q quit",
-        "1 curves  2 map  3 runs  v next  Up and Down scroll  q quit",
-        "1 curves  2 map  3 runs  4 fit  v next  q quit"};
+    char hint[120];
     const bool whole = watch->error.code == GB_OK;
+    write_hint(watch, hint, sizeof hint);
     gb_paint_cell(paint, paint->rect.rows - 1, 1, paint->rect.cols - 2,
-                  whole ? GB_STYLE_DIM : GB_STYLE_WARN,
-                  whole ? hints[watch->view] : watch->error.text);
+                  whole ? GB_STYLE_DIM : GB_STYLE_WARN, whole ? hint : watch->error.text);
+}
+
+static void draw_view(struct gb_watch *watch, const struct gb_paint *paint)
+{
+    char title[120];
+    const struct gb_watch_view *view = gb_watch_views_at(watch->view);
+    snprintf(title, sizeof title, "%d %s", watch->view + 1, view->title);
+    gb_paint_title(paint, title, true);
+    view->draw(watch, paint);
 }
 
 static void draw(struct gb_watch *watch, struct gb_term *term)
@@ -64,7 +78,7 @@ static void draw(struct gb_watch *watch, struct gb_term *term)
         gb_paint_wrap(&whole, 0, rows, GB_STYLE_PLAIN, text);
     } else {
         draw_header(watch, &whole);
-        gb_watch_draw(watch, &body);
+        draw_view(watch, &body);
         draw_footer(watch, &whole);
     }
     gb_term_flush(term);
@@ -76,16 +90,10 @@ static void move_level(struct gb_watch *watch, int by)
     watch->level = (size_t)CLAMP(to, 0, GB_RUNSET_VIEW_LEVELS - 1);
 }
 
-/* Number of views: only a calibration has a fit. */
-static int views(const struct gb_watch *watch)
-{
-    return watch->runset.fit != NULL ? GB_WATCH_VIEWS : GB_WATCH_FIT;
-}
-
 static void show_view(struct gb_watch *watch, int view)
 {
-    if (view < views(watch)) {
-        watch->view = (enum gb_watch_view)view;
+    if (view < gb_watch_views_count(watch)) {
+        watch->view = view;
     }
 }
 
@@ -94,13 +102,14 @@ enum { CTRL_L = 'L' & 31 };
 static void next_view(struct gb_watch *watch, struct gb_term *term)
 {
     (void)term;
-    show_view(watch, ((int)watch->view + 1) % views(watch));
+    show_view(watch, (watch->view + 1) % gb_watch_views_count(watch));
 }
 
 static void previous_view(struct gb_watch *watch, struct gb_term *term)
 {
     (void)term;
-    show_view(watch, ((int)watch->view + views(watch) - 1) % views(watch));
+    show_view(watch, (watch->view + gb_watch_views_count(watch) - 1) %
+                         gb_watch_views_count(watch));
 }
 
 static void toggle_log(struct gb_watch *watch, struct gb_term *term)
@@ -261,7 +270,7 @@ static int first_glyphs(const struct gb_term *term, const struct gb_settings *se
 int gb_watch_run(const char *directory, const struct gb_settings *settings,
                  struct gb_error *err)
 {
-    struct gb_watch watch = {.view = GB_WATCH_CURVES};
+    struct gb_watch watch = {.view = 0};
     struct gb_term *term = NULL;
     bool hangup = false;
     if (!gb_runset_view_read(&watch.runset, directory, err) ||
@@ -272,7 +281,7 @@ int gb_watch_run(const char *directory, const struct gb_settings *settings,
     gb_plot_init(&watch.plot);
     watch.glyphs = first_glyphs(term, settings);
     watch.level = gb_runset_view_level(&watch.runset, default_pa);
-    watch.view = watch.runset.fit != NULL ? GB_WATCH_FIT : GB_WATCH_CURVES;
+    watch.view = gb_watch_views_first(&watch);
     const int status = loop(&watch, term, &hangup);
     if (hangup) {
         gb_term_abandon(term);

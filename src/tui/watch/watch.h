@@ -8,19 +8,11 @@
 
 /* The screen of many runs, read-only: curves as means with bands, a map over two varied
  * keys at a pressure, the runs, the fit of a calibration. */
-enum gb_watch_view {
-    GB_WATCH_CURVES,
-    GB_WATCH_MAP,
-    GB_WATCH_RUNS,
-    GB_WATCH_FIT, /* of a calibration */
-    GB_WATCH_VIEWS
-};
-
 struct gb_watch {
     struct gb_runset_view runset;
     struct gb_error error; /* error of the last reading */
     bool leave;
-    enum gb_watch_view view;
+    int view;     /* row of watch_views.c */
     size_t level; /* pressure of the map */
     bool linear;  /* linear pressure axis */
     int top;      /* first run listed */
@@ -31,8 +23,5 @@ struct gb_watch {
 /* Shows a directory until the user quits; returns the exit status. */
 int gb_watch_run(const char *directory, const struct gb_settings *settings,
                  struct gb_error *err);
-
-/* Draws the view into a rectangle (watch_draw.c). */
-void gb_watch_draw(struct gb_watch *watch, const struct gb_paint *paint);
 
 #endif
