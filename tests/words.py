@@ -1,10 +1,7 @@
 #!/usr/bin/env python3
 """Refuses words that docs/glossary.md replaced by terms of the field.
 
-Usage: words.py SOURCE_DIR [MOST]
-
-MOST: how many are left today (0 without it).  The number only falls: a change that removes words lowers
-it in tests/meson.build.
+Usage: words.py SOURCE_DIR
 
 Names: a part of an identifier between underscores, in C sources outside strings.
 Texts: whole words in comments, strings and pages.  Names in files are a contract and stand in
@@ -34,8 +31,11 @@ TEXTS = """
 FILE_NAMES = re.compile(r'^(world|relax|bed|die|motion|load|programme|run)?/?'
                         r'(amended|place|places|turned|arm|turn)$')
 
-# Identifiers of other libraries.
-FOREIGN = re.compile(r'^(gsl_|GSL_|H5|g_|G_|cairo_|pango_|PANGO_|png_|GL_|gl[A-Z]|MPI_|A_)')
+# The same names where pages describe the contents of a checkpoint.
+ITEMS_IN_PAGES = re.compile(r'`world/amended`|^\.RI \( ?amended :')
+
+# Identifiers of other libraries, and of the system: flock(2) locks a file.
+FOREIGN = re.compile(r'^(flock$|gsl_|GSL_|H5|g_|G_|cairo_|pango_|PANGO_|png_|GL_|gl[A-Z]|MPI_|A_)')
 
 TOKEN = re.compile(r'''(?P<comment>/\*.*?\*/|//[^\n]*)
                       |(?P<string>"(?:\\.|[^"\\\n])*")
@@ -75,7 +75,7 @@ def check_c(path, text):
 
 def check_page(path, text):
     for number, line in enumerate(text.split('\n'), 1):
-        word = in_text(line)
+        word = in_text(ITEMS_IN_PAGES.sub('', line))
         if word:
             yield number, word, line.strip()[:60]
 
@@ -104,9 +104,8 @@ def main():
         for number, word, where in check(path, path.read_text(encoding='utf-8')):
             found += 1
             print(f'{path.relative_to(root)}:{number}: "{word}" in: {where}')
-    most = int(sys.argv[2]) if len(sys.argv) > 2 else 0
-    print(f'words: {found} old words, {most} accepted')
-    return found > most
+    print(f'words: {found} old words')
+    return found > 0
 
 
 if __name__ == '__main__':
