@@ -29,7 +29,7 @@ below() {
 # Layer of a header in include/greenbody.
 layer_of_public() {
     case $1 in
-    status.h) echo base ;;
+    dimension.h | status.h) echo base ;;
     params.h) echo scene ;;
     curve.h | snapshot.h) echo io ;;
     *) echo unknown ;;

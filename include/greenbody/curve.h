@@ -7,13 +7,17 @@
 
 #include "greenbody/status.h"
 
-/* Branches that are not unloading: before loading, loading, and held at the end density
- * of a dynamic run. */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Branches of a run besides unloading: relaxation before loading, loading, and holding at
+ * the end density of a dynamic run. */
 enum { GB_BRANCH_RELAX = -1, GB_BRANCH_LOAD = 0, GB_BRANCH_HOLD = -2 };
 
 /* One recorded point of a run: one row of curve.csv.  Pressures in Pa; NaN where a value
  * does not exist (py in 2D).  p is the mean pressure over the compressed axes: the one
- * the loading programme obeys. */
+ * that the loading prescribes. */
 struct gb_point {
     int branch;            /* GB_BRANCH_...; k >= 1: the k-th unloading branch */
     double branch_from_pa; /* pressure from which branch k unloads */
@@ -31,12 +35,13 @@ struct gb_point {
      * moving cell since the start; elastic: in the contacts and their attraction. */
     double time_s;                             /* simulated */
     double kinetic, work, elastic, dissipated; /* J */
-    double energy_residual; /* what the energies fail to add up by, over the work */
-    /* Dies only, else NaN (with time_s); pz and p are what the punch carries. */
-    double central;          /* density of a ball in the middle */
+    double energy_residual; /* error of the energy balance, over the work */
+    /* Dies only, else NaN (with time_s); pz and p are the force on the punch over its
+     * area. */
+    double central;          /* relative density of the central region, P3 5 */
     double height_m;         /* of the powder */
     double height_change;    /* over the height before pressing; negative */
-    double target_pa;        /* pressure of the programme */
+    double target_pa;        /* prescribed pressure of the punch */
     double floor_over_punch; /* forces; far from 1: not quasi-static */
 };
 
@@ -44,15 +49,23 @@ struct gb_point {
  * below gb_curve_count at any time without a lock: points never move and never change. */
 struct gb_curve;
 
+/* An empty curve.  Errors: GB_ERR_MEMORY. */
 bool gb_curve_create(struct gb_curve **out, struct gb_error *err);
 void gb_curve_destroy(struct gb_curve *curve); /* NULL is fine */
+/* Adds a copy of a point.  Errors: GB_ERR_MEMORY. */
 bool gb_curve_append(struct gb_curve *curve, const struct gb_point *point,
                      struct gb_error *err);
+/* Number of points; it only grows. */
 size_t gb_curve_count(const struct gb_curve *curve);
-/* Point index < gb_curve_count; valid as long as the curve. */
+/* Point 0 <= index < gb_curve_count; valid as long as the curve exists. */
 const struct gb_point *gb_curve_at(const struct gb_curve *curve, size_t index);
 
-/* "load", "relax", "hold", "unload:100MPa": the branch column.  Returns buffer. */
+/* "load", "relax", "hold", "unload:100MPa": the branch column of curve.csv.  Writes at
+ * most size bytes with the end; returns buffer. */
 char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

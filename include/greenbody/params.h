@@ -5,12 +5,19 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "greenbody/dimension.h"
 #include "greenbody/status.h"
 
-/* What the user typed: SI, unit in the field's name.  Const after gb_params_check.  The
- * reduced twin is struct gb_model; the two never meet.
- * One row per field in the field table (scene/field/params_table.c): preset files, --set,
- * the editor, `greenbody params` and the run directory follow from it. */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Parameters of a scene as given by the user: SI, the unit in the name of the member.
+ * Constant after gb_params_check.
+ *
+ * The field table has one row per preset key: preset files, --set, the editor, `greenbody
+ * params` and the run directory follow from it.  Sources P1, P2, P3: the papers named in
+ * the presets. */
 
 enum gb_kind { GB_KIND_QUASISTATIC, GB_KIND_DYNAMIC, GB_KIND_DIE };
 enum gb_distribution {
@@ -35,8 +42,9 @@ enum gb_on_hangup { GB_ON_HANGUP_DETACH, GB_ON_HANGUP_STOP };
 
 enum { GB_UNLOAD_MAX = 16, GB_SIZES_MAX = 128 };
 
-/* Room for any value as gb_params_format writes it: a full table of sizes is the longest.
- */
+/* Bytes for any value as gb_params_format writes it: a full table of sizes is the
+ * longest.
+ * */
 enum { GB_PARAMS_VALUE_MAX = 8192 };
 
 /* A quantity given either in SI or as a multiple of the particle diameter ("0.008 d"), of
@@ -47,16 +55,20 @@ struct gb_relative {
     bool relative;
 };
 
+/* One size of a powder. */
+struct gb_sizetable_row {
+    double diameter_m;
+    double fraction; /* the fractions of a table sum to 1 within 0.002 */
+};
+
 /* Sizes of a powder and the share of each, diameters ascending. */
 struct gb_sizetable {
     int count;      /* 0: no table */
     bool by_volume; /* shares are of the volume, not of the number */
-    struct gb_sizetable_row {
-        double diameter_m;
-        double fraction; /* the fractions sum to 1 within GB_SIZE_FRACTIONS_TOLERANCE */
-    } row[GB_SIZES_MAX];
+    struct gb_sizetable_row row[GB_SIZES_MAX];
 };
 
+/* Members in the order of the groups of a preset.  An int is the enum in its comment. */
 struct gb_params {
     /* [scene] */
     char title[128];
@@ -72,7 +84,7 @@ struct gb_params {
     double epsilon_j;
     double yield_pa;
     double hardening;   /* exponent m */
-    double hollomon_pa; /* NaN: auto, gb_derived_hollomon_pa */
+    double hollomon_pa; /* NaN: auto, through the yield point */
     double young_j_pa;  /* this and the next three: the second body of a pair; */
     double poisson_j;   /* NaN: as the first */
     double density_j_kg_m3;
@@ -101,7 +113,7 @@ struct gb_params {
     int storakers;                     /* enum gb_storakers */
     double radius_i_m, radius_j_m;     /* of a pair; NaN: d/2, infinite: a wall */
     /* [structure] */
-    double structure_density; /* NaN: auto, gb_derived_structure_density */
+    double structure_density; /* NaN: auto, 0.24 in 3D, 0.5 in 2D */
     struct gb_relative base;  /* relative with value 0: auto, P1's aspect ratio */
     struct gb_relative r_meso;
     uint64_t seed;
@@ -123,7 +135,7 @@ struct gb_params {
     double until_density;     /* NaN when the run stops at a pressure */
     double unload_from_pa[GB_UNLOAD_MAX];
     int unload_count;
-    char changes[256]; /* of a run under way: scene/field/changes.h */
+    char changes[256]; /* "120 contact.mu=0.3; ...": changes after a recorded step */
     double rate_per_s; /* (1/rho) d rho/dt; this and the next four: dynamic scenes */
     double relax_s, hold_s;
     double record_density;     /* relative growth of density between recorded points */
@@ -131,7 +143,7 @@ struct gb_params {
     int ramp;                  /* enum gb_ramp; this and the next two: dies */
     double ramp_s;             /* NaN: auto */
     double record_pressure_pa; /* between recorded points */
-    /* [numerics]: NaN or negative means "auto", picked by fidelity when the model is made
+    /* [numerics]: NaN or negative means "auto", set by fidelity when the model is frozen
      */
     int fidelity;     /* enum gb_fidelity */
     char relaxer[24]; /* name in the relaxer table, or "auto" */
@@ -142,11 +154,11 @@ struct gb_params {
     int64_t threads;
     int64_t max_evaluations;      /* per strain step */
     struct gb_relative time_step; /* dynamic scenes; NaN: auto */
-    double step_error;            /* what auto may err by */
+    double step_error;            /* error that auto allows */
     double safety;                /* of the automatic step of a die; NaN: auto */
     double inertia_scale;         /* of the rotation of particles in a die */
     /* [output] */
-    char snapshots_at[192]; /* scene/field/keep_points.h */
+    char snapshots_at[192]; /* "100 MPa; density = 0.5; every 20" */
     double checkpoint_every_s;
     int on_hangup; /* enum gb_on_hangup */
 };
@@ -164,13 +176,14 @@ enum gb_field_type {
     GB_FIELD_SIZES      /* struct gb_sizetable: a CSV file, or the table in one line */
 };
 
+/* A row of the field table. */
 struct gb_field {
     const char *group; /* "contact" */
     const char *key;   /* "mu" */
     enum gb_field_type type;
     size_t offset;
     size_t size;          /* of the member, for text */
-    int dimension;        /* enum gb_dimension of base/units.h */
+    int dimension;        /* enum gb_dimension */
     const char *relative; /* "d", "E" or "T" for GB_FIELD_RELATIVE */
     double min, max;      /* inclusive, in SI (for relative fields: of the multiple) */
     const char *infinite; /* word that stands for an infinite number, or NULL */
@@ -204,16 +217,21 @@ char *gb_params_format(const struct gb_params *params, const struct gb_field *fi
 /* What the field accepts: "0 to 2", "auto, or 1 nm to 1 mm".  Returns buffer. */
 char *gb_params_accepted(const struct gb_field *field, char *buffer, size_t size);
 
-/* "group.key=value" as on the command line. */
+/* Sets a field from "group.key=value", as on the command line.  Errors: GB_ERR_INPUT;
+ * params is untouched then. */
 bool gb_params_assign(struct gb_params *params, const char *assignment,
                       struct gb_error *err);
 
-/* Checks what no single field can know: cell against cutoff, unload against until,
- * dimension against geometry, finite numbers.  Errors name the keys. */
+/* Checks relations between fields: cell against cutoff, unload against until,
+ * dimension against geometry, finite numbers.  Errors: GB_ERR_INPUT naming the keys. */
 bool gb_params_check(const struct gb_params *params, struct gb_error *err);
 
-/* The part of it that looks at each field alone, for what is no scene: values of a law.
- */
+/* The part of gb_params_check for each field alone, for parameters of a law without a
+ * scene. */
 bool gb_params_check_fields(const struct gb_params *params, struct gb_error *err);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

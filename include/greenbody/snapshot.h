@@ -7,22 +7,28 @@
 #include "greenbody/curve.h"
 #include "greenbody/status.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* State of a run. */
 enum gb_run_state {
     GB_RUN_PACKING, /* building the initial structure */
     GB_RUN_RUNNING,
     GB_RUN_PAUSED,
     GB_RUN_DONE,
-    GB_RUN_STOPPED, /* asked to stop, or a guard tripped: results kept */
+    GB_RUN_STOPPED, /* on request or by a guard: results kept */
     GB_RUN_FAILED
 };
 
+/* Bins of the histogram of contacts and of the force rose. */
 enum { GB_SNAPSHOT_HISTOGRAM = 16, GB_SNAPSHOT_ROSE = 18 };
 
 /* Size of an event: one line, with the text of an error in it. */
 enum { GB_EVENT_TEXT = 640 };
 
-/* Plain data for the screen, copied whole through a triple buffer: no pointer, no lock.
- */
+/* State of a run for the screen: plain data without pointers, copied whole from the
+ * engine thread through a triple buffer without a lock. */
 struct gb_snapshot {
     int state;           /* enum gb_run_state */
     struct gb_point now; /* the last relaxed state (also between recorded points) */
@@ -34,7 +40,7 @@ struct gb_snapshot {
     int64_t evaluations;           /* of the whole run */
     double evaluations_per_s;
     double particle_evaluations_per_s;
-    double progress;              /* 0..1, of the loading programme */
+    double progress;              /* 0..1, of the loading */
     double seconds, seconds_left; /* seconds_left < 0: unknown */
     double live_residual;         /* of the relaxation under way */
     double time_step_s;           /* of a dynamic run, last used; else 0 */
@@ -45,8 +51,8 @@ struct gb_snapshot {
 
 enum { GB_VIEW_SAMPLE_POINTS = 4096, GB_VIEW_SAMPLE_RDF = 160 };
 
-/* The packing as the screen can draw it: plain data through a triple buffer of its own,
- * taken less often than the snapshot.  Reduced lengths. */
+/* Particles near the front of the cell and g(r), for the screen: plain data, taken less
+ * often than the snapshot.  Lengths in mean particle diameters. */
 struct gb_view_sample {
     bool valid;
     int dimension;
@@ -59,5 +65,9 @@ struct gb_view_sample {
     double rdf_reach;               /* g(r) ends there; 0: it is missing */
     double rdf[GB_VIEW_SAMPLE_RDF]; /* bin k: [k, k+1) rdf_reach / GB_VIEW_SAMPLE_RDF */
 };
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -3,8 +3,13 @@
 
 #include <stdbool.h>
 
-/* What became of a call.  The engine never prints, exits or aborts: it returns false and
- * fills a gb_error.  "Not converged", "cancelled" and "failed" are different codes. */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Outcome of a call.  The engine never prints, exits or aborts: a function that fails
+ * returns false (or NULL) and fills a struct gb_error.  "Not converged", "cancelled" and
+ * "failed" are different codes. */
 enum gb_status {
     GB_OK = 0,
     GB_ERR_INPUT,   /* bad usage, preset, file content: exit status 2 */
@@ -12,9 +17,11 @@ enum gb_status {
     GB_ERR_MEMORY,  /* out of memory: exit status 3 */
     GB_ERR_GUARD,   /* a physical or numerical guard stopped the run: exit status 1 */
     GB_ERR_NOT_CONVERGED, /* relaxation ran out of evaluations: exit status 1 */
-    GB_ERR_CANCELLED,     /* asked to stop: exit status 130 or 143 */
+    GB_ERR_CANCELLED      /* asked to stop: exit status 130 or 143 */
 };
 
+/* Code and message of a failure; unchanged by calls that succeed.  Callers pass a zeroed
+ * one, or NULL when they need neither. */
 struct gb_error {
     enum gb_status code;
     char text[480]; /* one line, no newline: what, where, what is accepted */
@@ -28,5 +35,9 @@ bool gb_error_set(struct gb_error *err, enum gb_status code, const char *format,
 /* Process exit status that belongs to a code: 0, 1, 2, 3 (see enum), 130 for cancelled.
  */
 int gb_status_exit_code(enum gb_status code);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -4,21 +4,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "greenbody/dimension.h"
 #include "greenbody/status.h"
-
-/* What a number measures.  A unit of another dimension is refused. */
-enum gb_dimension {
-    GB_DIM_NONE,         /* pure number; "%" is accepted for GB_DIM_FRACTION only */
-    GB_DIM_FRACTION,     /* "0.1 %" or "0.001" */
-    GB_DIM_LENGTH,       /* m, mm, um, nm, A(ngstrom), pm */
-    GB_DIM_PRESSURE,     /* Pa, kPa, MPa, GPa */
-    GB_DIM_TIME,         /* s, ms, us, ns, ps, fs, min, h */
-    GB_DIM_RATE,         /* 1/s, 1/ms, 1/us, 1/ns, 1/ps */
-    GB_DIM_MASS_DENSITY, /* kg/m3, g/cm3 */
-    GB_DIM_ENERGY,       /* J, eV, kB (times one kelvin: "1224 kB") */
-    GB_DIM_VISCOSITY,    /* Pa s, mPa s */
-    GB_DIM_FORCE,        /* N, mN, uN, nN */
-};
 
 /* Reads "10.4 nm", "10.4nm", "1e-8 m", "100 MPa", "0.1 %", "1224 kB" into SI.
  *
