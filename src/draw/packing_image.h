@@ -11,7 +11,7 @@
 #include "greenbody/status.h"
 #include "io/state.h"
 
-/* Image of a packing: its settings, and the way to a PNG (layout, scene, rendering,
+/* Image of a packing: its settings, and the steps to a PNG (layout, scene, rendering,
  * caption, file). */
 struct gb_packing_image {
     int width, height;
@@ -23,7 +23,7 @@ struct gb_packing_image {
     const char *preset;         /* text of preset.ini, a chunk of the file; NULL: none */
 };
 
-/* 1600 x 1200 pixels, white, seen from a corner, annotated. */
+/* 1600 x 1200 pixels, white, view from a corner, annotated. */
 void gb_packing_image_init(struct gb_packing_image *packing_image);
 
 /* Mesa and fontconfig print to stderr; it is redirected meanwhile (not thread-safe). */

@@ -12,7 +12,7 @@
 #include "draw/particle_stress.h"
 #include "pack/cell/cell.h"
 
-/* The scale spans these quantiles: a few extreme values would use up its colours. */
+/* Quantiles at the ends of the scale: outliers would extend it. */
 static const double low_quantile = 0.02;
 static const double high_quantile = 0.98;
 

@@ -7,7 +7,7 @@
 #include "draw/image/palette.h"
 #include "pack/cell/cell.h"
 
-/* Meridians and parallels of the body, pieces of a ring. */
+/* Meridians and parallels of the surface, segments of a ring. */
 enum { AROUND = 160, DOWN = 80, RING = 72 };
 
 static const double ring_radius = 0.008;
@@ -64,7 +64,7 @@ double gb_rose_reach(const struct gb_harmonics *rose)
     return ceil(5.0 * most + 0.25) / 5.0;
 }
 
-/* Corner of the surface in the eye's coordinates; its radius is added to *sum. */
+/* Vertex of the surface in eye coordinates; its radius is added to *sum. */
 static void corner(const struct gb_scene *scene, const struct gb_harmonics *rose,
                    double reach, int around, int down, float *out, double *sum)
 {
@@ -128,7 +128,7 @@ static void set_rod(struct gb_scene *scene, size_t index, const double from[3],
     colour[3] = 255;
 }
 
-/* Three axes through the middle, and three rings of radius 1. */
+/* Three axes through the centre, and three rings of radius 1. */
 static void set_frame(struct gb_scene *scene, double reach)
 {
     size_t index = 0;
@@ -163,7 +163,7 @@ bool gb_rose_scene(struct gb_scene **out, const struct gb_harmonics *rose, doubl
     }
     set_frame(*out, reach);
     set_surface(*out, rose, reach);
-    (*out)->diameter = 0.15F; /* occlusion and shadows at the scale of the body's forms */
+    (*out)->diameter = 0.15F; /* length of occlusion and shadows */
     (*out)->depth_cue = 0.0F;
     return true;
 }

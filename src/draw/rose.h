@@ -6,16 +6,15 @@
 #include "draw/scene.h"
 #include "measure/harmonics.h"
 
-/* The rose of forces as a body: its radius in each direction is the mean normal force of
- * the contacts along it, over the mean of all.  Without anisotropy it is a ball of radius
- * 1; the rings have that radius. */
+/* The rose of forces as a closed surface: its radius in each direction is the mean
+ * normal force of the contacts along it, over the mean of all.  Without anisotropy it is
+ * a sphere of radius 1; the rings have that radius. */
 
 /* Fits the contacts of a packing.  Errors: those of gb_harmonics_fit. */
 bool gb_rose_of_state(struct gb_harmonics *rose, const struct gb_state *state,
                       struct gb_error *err);
 
-/* Half the edge of the box that a scene of the rose is seen in; colours run from 0 to it.
- */
+/* Half the edge of the box around a rose; the colour scale runs from 0 to it. */
 double gb_rose_reach(const struct gb_harmonics *rose);
 
 bool gb_rose_scene(struct gb_scene **out, const struct gb_harmonics *rose, double reach,

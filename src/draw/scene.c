@@ -5,10 +5,10 @@
 
 #include "base/alloc.h"
 
-/* Share of the ground mixed into the farthest particles: enough to tell near from far,
- * too little to be read as another coordination number. */
+/* Share of the background colour in the farthest particles: it shows depth and is too
+ * small to be read as another coordination number. */
 static const float depth_cue = 0.14F;
-/* Light that a shadow takes; the sky keeps it readable. */
+/* Share of the key light that a shadow removes; the ambient light stays. */
 static const float shadow_share = 0.75F;
 
 static double largest_radius(const struct gb_state *state)
@@ -29,7 +29,7 @@ static void set_point(const struct gb_view *view, const double point[3], float o
     }
 }
 
-/* Those that are not hidden move up; count becomes their number. */
+/* Compacts the visible particles; count becomes their number. */
 static void set_spheres(struct gb_scene *scene, const struct gb_state *state,
                         const struct gb_picture_style *style)
 {
@@ -73,7 +73,7 @@ static void add_edge(struct gb_scene *scene, const double from[3], const double 
     }
 }
 
-/* The edges of the box: corner pairs that differ in one axis; in 2D the four of y = 0. */
+/* Edges of the box: corner pairs that differ along one axis; in 2D the four at y = 0. */
 static void set_edges(struct gb_scene *scene, const struct gb_state *state)
 {
     for (int corner = 0; corner < 8; corner++) {
@@ -93,7 +93,7 @@ static void set_edges(struct gb_scene *scene, const struct gb_state *state)
     }
 }
 
-/* The rims of the die on its floor and under its punch, and four lines up its wall. */
+/* Outline of the die: a circle at the floor, one at the punch, four lines on the wall. */
 static void set_die(struct gb_scene *scene, const struct gb_state *state)
 {
     double ring[2][GB_SCENE_RING][3];
@@ -187,11 +187,11 @@ bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
     if (style == NULL && !gb_picture_style_create(&usual, state, &request, err)) {
         return false;
     }
-    const struct gb_picture_style *worn = style != NULL ? style : usual;
-    const bool good = begin(out, state, worn->rods, viewpoint, frame, background, err);
+    const struct gb_picture_style *used = style != NULL ? style : usual;
+    const bool good = begin(out, state, used->rods, viewpoint, frame, background, err);
     if (good) {
-        set_spheres(*out, state, worn);
-        set_rods(*out, worn);
+        set_spheres(*out, state, used);
+        set_rods(*out, used);
         if (state->die_radius > 0.0) {
             set_die(*out, state);
         } else {

@@ -15,7 +15,7 @@ enum gb_background { GB_BACKGROUND_WHITE, GB_BACKGROUND_DARK, GB_BACKGROUND_TRAN
 /* A box has 12 edges; the outline of a die is two rings of chords and some lines. */
 enum { GB_SCENE_RING = 48, GB_SCENE_EDGES = 2 * GB_SCENE_RING + 4 };
 
-/* What there is to see, in eye coordinates; no GL, no files. */
+/* Geometry and colours of a picture, in eye coordinates; no GL, no files. */
 struct gb_scene {
     struct gb_view view;
     size_t count;
@@ -27,15 +27,15 @@ struct gb_scene {
     uint8_t *colour; /* of spheres, rods, facets x 4: sRGB and 255 */
     int edge_count;
     float edge[GB_SCENE_EDGES][6]; /* both ends of the edges of box or die */
-    float diameter;                /* 1 d, the length of the shading */
+    float diameter;                /* 1 d: length of occlusion and shadows */
     float light[3];                /* towards the key light, eye coordinates */
     enum gb_background background;
-    float depth_cue;    /* share of the ground's colour at the far end */
+    float depth_cue;    /* share of the background colour at the far end */
     float shadow_share; /* 0: no shadows */
 };
 
-/* What a style shows of a packing in its periodic box or in its die, seen so that the box
- * fills the frame.  2D packings are always seen along y without perspective.  style NULL:
+/* Scene of a packing in its periodic box or in its die, in a style.  The box fills the
+ * frame.  2D packings are always seen along y without perspective.  style NULL:
  * all particles by coordination number. */
 bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
                      const struct gb_picture_style *style,
@@ -50,7 +50,7 @@ bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
                     struct gb_error *err);
 void gb_scene_destroy(struct gb_scene *scene); /* NULL is fine */
 
-/* sRGB of the ground, and of text and lines upon it. */
+/* sRGB of the background, and of text and lines on it. */
 void gb_scene_background(enum gb_background background, uint8_t rgb[3]);
 void gb_scene_foreground(enum gb_background background, uint8_t rgb[3]);
 

@@ -6,8 +6,8 @@
 
 #include "base/units.h"
 
-/* Distance of the viewer in half diagonals of the box: a long lens, so that near and far
- * particles keep comparable sizes. */
+/* Distance of the viewer in half diagonals of the box: a long focal length, so that near
+ * and far particles have comparable sizes. */
 static const double viewer_distance = 6.5;
 
 static const struct {

@@ -10,13 +10,12 @@ struct gb_viewpoint {
     double azimuth_deg;   /* of the viewer around z; 0 is on the x axis, -90 on -y */
     double elevation_deg; /* of the viewer above the x-y plane */
     bool orthographic;
-    double extent[3]; /* edges of the box that is to be in the frame; 0: the packing's */
+    double extent[3]; /* edges of the box that fits the frame; 0: the packing's */
 };
 
 /* "corner", "front" (along y), "side" (along x), "top", or "AZIMUTH,ELEVATION" in
- * degrees;
- * ",flat" behind any of them makes it orthographic.  Errors: GB_ERR_INPUT saying what is
- * accepted. */
+ * degrees; ",flat" behind any of them makes it orthographic.  Errors: GB_ERR_INPUT
+ * saying what is accepted. */
 bool gb_view_parse(const char *text, struct gb_viewpoint *viewpoint,
                    struct gb_error *err);
 
@@ -25,16 +24,16 @@ struct gb_frame {
     double left, top, width, height;
 };
 
-/* A frozen camera.  Eye coordinates: x right, y up, w depth away from the viewer; a point
- * is seen at pixel (centre + focal (x, -y) / w), without the division when orthographic.
- */
+/* Camera of one picture.  Eye coordinates: x right, y up, w depth away from the viewer;
+ * a point is seen at pixel (centre + focal (x, -y) / w), without the division when
+ * orthographic. */
 struct gb_view {
     double right[3], up[3], away[3]; /* orthonormal, in cell axes */
     double target[3];                /* middle of the box */
     double distance;                 /* depth of target; 0 when orthographic */
     double focal, centre[2];
     bool orthographic;
-    double near, far; /* depths of the box and the spheres that stick out of it */
+    double near, far; /* depths of the box and the spheres that extend beyond it */
 };
 
 /* Camera with the whole box in its frame, with `margin` around it, as large as the frame

@@ -39,7 +39,7 @@ static void put_minor(struct gb_figure_axis_scale *scale, double value)
     }
 }
 
-/* 1, 2 or 5 times a power of ten; *parts: into how many a step is cut by minor ticks. */
+/* Tick step, 1, 2 or 5 times a power of ten; *parts: number of minor steps in it. */
 static double round_step(double rough, int *parts)
 {
     const double decade = pow(10.0, floor(log10(rough)));
@@ -49,7 +49,7 @@ static double round_step(double rough, int *parts)
     return step * decade;
 }
 
-/* Thousands that the labels leave to the name of the axis. */
+/* Power of 1000 that is shown in the label of the axis. */
 static int common_power(double largest)
 {
     if (largest >= 99999.0 || largest < 0.01) {
@@ -99,7 +99,7 @@ static void decade_label(int decade, bool plain, int digit, char *text, size_t s
     }
 }
 
-/* Which of 1, 2, ..., 9 are labelled, by how many decades are seen. */
+/* Which of 1, 2, ..., 9 are labelled, by the number of decades. */
 static bool is_labelled(int digit, double decades)
 {
     return digit == 1 || (decades < 2.0 && (digit == 2 || digit == 5)) ||
@@ -145,7 +145,7 @@ static void fit_log(struct gb_figure_axis_scale *scale, int wanted, const bool e
     }
 }
 
-/* Something that can be drawn, whatever came. */
+/* Replaces ends that are not finite, equal or reversed by valid ones. */
 static void mend(struct gb_figure_axis_scale *scale)
 {
     if (!isfinite(scale->low) || !isfinite(scale->high)) {

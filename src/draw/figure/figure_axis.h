@@ -19,8 +19,8 @@ struct gb_figure_axis_scale {
 };
 
 /* Ends and ticks for values from low to high (low > 0 when log), about `wanted` of them.
- * exact keeps the ends as they are.  Ends that are not finite, equal or reversed become
- * something that can be drawn. */
+ * exact keeps the ends as they are.  Ends that are not finite, equal or reversed are
+ * replaced by valid ones. */
 void gb_figure_axis_fit(struct gb_figure_axis_scale *scale, bool log, double low,
                         double high, int wanted, const bool exact[2]);
 

@@ -141,7 +141,7 @@ static void draw_steps(cairo_t *cairo, const struct gb_figure_layout *layout,
     cairo_stroke(cairo);
 }
 
-/* Lines of later rounds have markers at even distances. */
+/* Curves that repeat a colour have markers at equal distances. */
 static void draw_line_markers(cairo_t *cairo, const struct gb_figure_layout *layout,
                               const struct gb_figure_curve *curve)
 {

@@ -70,7 +70,7 @@ static double distance(const double box[4], const struct gb_figure_layout *layou
     return nearest;
 }
 
-/* A label must be clearly nearer to its own curve than to any other. */
+/* The distance of a label to its own curve must be well below that to any other. */
 static bool is_clear(const struct gb_figure *figure,
                      const struct gb_figure_layout *layout, size_t own,
                      const double box[4])
@@ -95,7 +95,7 @@ static bool anchor(const struct gb_figure_layout *layout,
     return gb_figure_curve_position(layout, curve, k, at);
 }
 
-/* Inside the frame and clear of the ticks. */
+/* Inside the frame, without overlap with the ticks. */
 static bool is_inside(const struct gb_figure_layout *layout, const double box[4])
 {
     const double *f = layout->frame;
@@ -239,7 +239,7 @@ void gb_figure_labels_draw(const struct gb_figure_labels *labels,
             continue;
         }
         gb_figure_marker_colour(figure->curve[i].style, rgb);
-        /* darker than the line: thin letters look paler */
+        /* darker than the line: thin glyphs appear paler */
         cairo_set_source_rgb(text->cairo, 0.72 * rgb[0], 0.72 * rgb[1], 0.72 * rgb[2]);
         gb_text_write(text, figure->curve[i].label, size, 0.0, labels->at[i], align, 0);
     }

@@ -2,12 +2,12 @@
 
 #include <math.h>
 
-/* Radius of a disc and of the core of later rounds, points. */
+/* Radius of a disc, and of the core of markers that repeat a colour, points. */
 const double gb_figure_marker_radius = 2.6;
 static const double core_radius = 1.1;
 
-/* Colours of Okabe and Ito without yellow, which has no contrast on white; neighbours also
- * differ in lightness. */
+/* Colours of Okabe and Ito without yellow, which has no contrast on white; neighbours
+ * also differ in lightness. */
 static const double colours[GB_FIGURE_STYLES][3] = {
     {0.000, 0.447, 0.698}, /* blue */
     {0.835, 0.369, 0.000}, /* vermilion */

@@ -13,8 +13,8 @@ extern const double gb_figure_marker_radius;
 void gb_figure_marker_colour(int style, double rgb[3]);
 void gb_figure_marker_set_colour(cairo_t *cairo, int style, double alpha);
 
-/* How often the colours were used up: later rounds have other dashes, markers with a core,
- * and markers along lines. */
+/* Number of earlier styles of the same colour.  Repeated colours have other dashes,
+ * markers with a core, and markers along lines. */
 int gb_figure_marker_round(int style);
 
 void gb_figure_marker_draw(cairo_t *cairo, const struct gb_figure_curve *curve,

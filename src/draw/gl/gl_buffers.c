@@ -1,4 +1,4 @@
-/* Framebuffers, textures and vertex arrays of a painting. */
+/* Framebuffers, textures and vertex arrays of a rendering. */
 #include "draw/gl/gl_pass.h"
 
 static void new_texture(struct gb_gl_pass *pass, enum gb_gl_texture unit, GLint internal,

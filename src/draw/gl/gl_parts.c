@@ -99,7 +99,7 @@ static void draw_facets(const struct gb_gl_pass *pass, const struct gb_camera *c
     glDrawArrays(GL_TRIANGLES, 0, 3 * (GLsizei)pass->scene->facets);
 }
 
-/* All but the edges of the box. */
+/* Spheres, rods and facets. */
 static void draw_parts(struct gb_gl_pass *pass, const struct gb_camera *camera, int width,
                        int height)
 {

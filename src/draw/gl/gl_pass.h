@@ -1,8 +1,8 @@
 #ifndef GB_DRAW_GL_GL_PASS_H
 #define GB_DRAW_GL_GL_PASS_H
 
-/* One painting of a scene with OpenGL; private to osmesa.c and gl_*.c, the only files that
- * call GL. */
+/* One rendering of a scene with OpenGL; private to osmesa.c and gl_*.c, the only files
+ * that call GL. */
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
@@ -59,7 +59,7 @@ enum gb_gl_array {
     GB_GL_ARRAY_FACETS
 };
 
-/* Names of the GL objects, and the tile being painted. */
+/* Names of the GL objects, and the tile being rendered. */
 struct gb_gl_pass {
     const GLuint *program; /* GB_GL_PROGRAMS */
     const struct gb_scene *scene;
@@ -91,8 +91,8 @@ void gb_gl_buffers_make_targets(struct gb_gl_pass *pass);
 void gb_gl_buffers_make_inputs(struct gb_gl_pass *pass);
 void gb_gl_buffers_free(struct gb_gl_pass *pass);
 
-/* Depths seen from the light; indices and depths seen by the viewer.  width, height: of the
- * target, samples */
+/* Depths seen from the light; indices and depths seen by the viewer.  width, height: of
+ * the target, samples */
 void gb_gl_parts_draw_shadow(struct gb_gl_pass *pass);
 void gb_gl_parts_draw_visible(struct gb_gl_pass *pass, int width, int height);
 

@@ -5,10 +5,10 @@
 
 #include "base/alloc.h"
 
-/* A coarse buffer of depths.  A cell that a sphere covers whole gets the largest depth of
- * the sphere's front in it, which is that of a corner: in x/z, y/z and 1/z a sphere in
- * front of the viewer is an ellipsoid, so the front bulges towards the viewer.  What is
- * farther away than all cells it touches is hidden. */
+/* A coarse buffer of depths.  A cell that a sphere covers entirely gets the largest
+ * depth of the sphere's front in it, which is that of a corner: in x/z, y/z and 1/z a
+ * sphere in front of the viewer is an ellipsoid, so the front bulges towards the
+ * viewer.  What is farther away than all cells it touches is hidden. */
 struct screen {
     const struct gb_camera *camera;
     int cell;          /* side of a cell, samples */
@@ -16,10 +16,11 @@ struct screen {
     float *depth;
 };
 
-/* Cells across the radius of most spheres, and at most as many in all. */
+/* Cells across the radius of a mean sphere; maximum number of cells. */
 static const float cells_per_radius = 4.0F;
 static const double cells_most = 3e6;
-/* Share of the radius that counts: samples at the very rim may be missed by rounding. */
+/* Factor on the radius of a sphere that hides others: rounding may miss samples at its
+ * outline. */
 static const float firm = 0.995F;
 
 /* Most cell corners across a sphere; larger spheres hide nothing. */
@@ -91,7 +92,7 @@ static float larger(const float a[2])
     return a[0] > a[1] ? a[0] : a[1];
 }
 
-/* One row of cells: the nodes of its upper and lower side are known. */
+/* One row of cells.  node: depths at the corners of its upper and lower side. */
 static void lower_row(struct screen *screen, int row, int first, int count,
                       const float (*node)[2])
 {
@@ -180,7 +181,7 @@ static bool rod_is_behind(const struct screen *screen, const float *rod)
     return is_behind(screen, span[0], span[1], fminf(ends[0].z, ends[1].z) - rod[3]);
 }
 
-/* Side of the cells: some across the radius of an average sphere in the middle. */
+/* Side of a cell: cells_per_radius across the radius of a mean sphere in the centre. */
 static int choose_cell(const struct gb_scene *scene, const struct gb_camera *camera,
                        int width, int height)
 {

@@ -7,7 +7,7 @@
 #include "draw/scene.h"
 
 /* Occlusion culling: spheres and rods of a scene that lie wholly behind others, which are
- * most of a dense packing.  Without them every sample of the picture stays the same.
+ * most of a dense packing.  A picture without them has the same samples.
  *
  * width, height   of the target, samples
  * hidden          scene->count + scene->rods, spheres first; 1: need not be drawn; 0

@@ -7,7 +7,7 @@
 #include "draw/scene.h"
 #include "greenbody/status.h"
 
-/* Off-screen painter of scenes: OSMesa's software OpenGL 3.3. */
+/* Off-screen renderer of scenes: OSMesa's software OpenGL 3.3. */
 struct gb_osmesa;
 
 /* Errors: GB_ERR_MACHINE when there is no OpenGL 3.3 or its compiler fails. */

@@ -4,8 +4,9 @@
  * depth_range: depth of 0 and of 1 in the depth buffer, which is linear. */
 #define CAMERA "uniform vec4 projection;\nuniform vec2 depth_range;\n"
 
-/* A ray meets a sphere.  Measured from the point of the ray nearest to the centre: the
- * plain quadratic loses all digits when the viewer is many diameters away. */
+/* Intersection of a ray and a sphere.  Distances are measured from the point of the ray
+ * nearest to the centre: the plain quadratic loses all digits when the viewer is many
+ * diameters away. */
 static const char sphere_vertex[] =
     "#version 330 core\n" CAMERA "uniform samplerBuffer spheres;\n"
     "uniform vec2 size;\n"
@@ -44,8 +45,8 @@ static const char sphere_fragment[] =
     "    vec3 to = projection.w == 0.0 ? ball.xyz : ball.xyz - vec3(s, 0.0);\n"
     "    float a = dot(ray, ray);\n"
     "    float t = dot(to, ray) / a;\n"
-    "    vec3 miss = to - t * ray;\n"
-    "    float h = ball.w * ball.w - dot(miss, miss);\n"
+    "    vec3 offset = to - t * ray;\n"
+    "    float h = ball.w * ball.w - dot(offset, offset);\n"
     "    if (h < 0.0) {\n"
     "        discard;\n"
     "    }\n"
@@ -54,8 +55,8 @@ static const char sphere_fragment[] =
     "    seen = id;\n"
     "}\n";
 
-/* A rod is what a sphere leaves that moves from one end to the other.  As with spheres
- * all is measured from the point of the ray nearest to the first end. */
+/* A rod is a cylinder with a hemisphere at either end.  Distances are measured from the
+ * point of the ray nearest to the first end, as for spheres. */
 static const char rod_vertex[] =
     "#version 330 core\n" CAMERA "uniform samplerBuffer rods;\n"
     "uniform vec2 size;\n"
@@ -66,7 +67,7 @@ static const char rod_vertex[] =
     "flat out vec4 near_end;\n"
     "flat out vec3 far_end;\n"
     "flat out uint id;\n"
-    "vec3 spot(vec3 ball, float r)\n" /* place and radius in samples */
+    "vec3 projected_disc(vec3 ball, float r)\n" /* centre and radius, samples */
     "{\n"
     "    if (projection.w != 0.0) {\n"
     "        return projection.z * vec3(ball.xy, r);\n"
@@ -85,15 +86,16 @@ static const char rod_vertex[] =
     "    near_end = vec4(rotation * a.xyz + translation, a.w);\n"
     "    far_end = rotation * b.xyz + translation;\n"
     "    id = first + index;\n"
-    "    vec3 from = spot(near_end.xyz, a.w);\n"
-    "    vec3 to = spot(far_end, a.w);\n"
+    "    vec3 from = projected_disc(near_end.xyz, a.w);\n"
+    "    vec3 to = projected_disc(far_end, a.w);\n"
     "    vec2 along = to.xy - from.xy;\n"
     "    float size_along = length(along);\n"
     "    along = size_along > 1e-3 ? along / size_along : vec2(1.0, 0.0);\n"
-    "    float wide = 0.5 + max(from.z, to.z);\n"
-    "    vec2 at = (gl_VertexID >> 1) == 0 ? from.xy - wide * along : to.xy + wide * "
-    "along;\n"
-    "    at += ((gl_VertexID & 1) == 0 ? -wide : wide) * vec2(-along.y, along.x);\n"
+    "    float half_width = 0.5 + max(from.z, to.z);\n"
+    "    vec2 at = (gl_VertexID >> 1) == 0 ? from.xy - half_width * along\n"
+    "                                      : to.xy + half_width * along;\n"
+    "    at += ((gl_VertexID & 1) == 0 ? -half_width : half_width) *\n"
+    "          vec2(-along.y, along.x);\n"
     "    vec2 pixel = projection.xy + vec2(at.x, -at.y);\n"
     "    gl_Position = vec4(2.0 * pixel / size - 1.0, 0.0, 1.0);\n"
     "}\n";
@@ -107,8 +109,8 @@ static const char rod_fragment[] =
     "{\n"
     "    float a = dot(ray, ray);\n"
     "    float t = dot(from, ray) / a;\n"
-    "    vec3 miss = from - t * ray;\n"
-    "    float h = r * r - dot(miss, miss);\n"
+    "    vec3 offset = from - t * ray;\n"
+    "    float h = r * r - dot(offset, offset);\n"
     "    return h < 0.0 ? 1e30 : t - sqrt(h / a);\n"
     "}\n"
     "void main()\n"
@@ -131,8 +133,8 @@ static const char rod_fragment[] =
     "    float t = 1e30;\n"
     "    if (h >= 0.0 && a > 1e-12) {\n"
     "        float side = (-b - sqrt(h)) / a;\n"
-    "        float place = dot(m + side * ray, u);\n"
-    "        if (place >= 0.0 && place <= size) {\n"
+    "        float axial = dot(m + side * ray, u);\n"
+    "        if (axial >= 0.0 && axial <= size) {\n"
     "            t = side;\n"
     "        }\n"
     "    }\n"
@@ -151,12 +153,12 @@ static const char facet_vertex[] =
     "uniform mat3 rotation;\n"
     "uniform vec3 translation;\n"
     "uniform uint first;\n"
-    "layout(location = 0) in vec3 place;\n"
+    "layout(location = 0) in vec3 position;\n"
     "out float depth;\n"
     "flat out uint id;\n"
     "void main()\n"
     "{\n"
-    "    vec3 at = rotation * place + translation;\n"
+    "    vec3 at = rotation * position + translation;\n"
     "    float w = projection.w == 0.0 ? at.z : 1.0;\n"
     "    vec2 pixel = projection.xy + projection.z * vec2(at.x, -at.y) / w;\n"
     "    depth = at.z;\n"
@@ -174,17 +176,17 @@ static const char facet_fragment[] = "#version 330 core\n" CAMERA "in float dept
                                      "    seen = id;\n"
                                      "}\n";
 
-/* Ribbons made on the processor: place in samples, and depth (its inverse in perspective,
- * which is what changes evenly along a straight line of the picture). */
+/* Ribbons made on the processor: position in samples, and depth.  In perspective it is
+ * the inverse of the depth, which is linear along a straight line of the picture. */
 static const char edge_vertex[] =
     "#version 330 core\n"
     "uniform vec2 size;\n"
-    "layout(location = 0) in vec3 place;\n"
+    "layout(location = 0) in vec3 position;\n"
     "out float along;\n"
     "void main()\n"
     "{\n"
-    "    along = place.z;\n"
-    "    gl_Position = vec4(2.0 * place.xy / size - 1.0, 0.0, 1.0);\n"
+    "    along = position.z;\n"
+    "    gl_Position = vec4(2.0 * position.xy / size - 1.0, 0.0, 1.0);\n"
     "}\n";
 
 static const char edge_fragment[] =
@@ -207,10 +209,11 @@ static const char edge_fragment[] =
     "    gl_Position = vec4(at, 0.0, 1.0);\n"                                            \
     "}\n"
 
-/* Light: an even sky that the neighbours block (occlusion: share of a spiral of samples
- * that stands above the tangent plane and near), a key light with soft shadows, a weak
- * highlight.  Colours are linear here.  The four samples of a pixel rotation the spiral by
- * quarters of its step, so that a pixel sees four times as many directions. */
+/* Light: ambient light reduced by occlusion, a key light with soft shadows, a weak
+ * highlight.  The occlusion is the share of a spiral of samples that lie above the
+ * tangent plane and near the point.  Colours are linear.  The four samples of a pixel
+ * rotate the spiral by quarters of its step: the pixel has four times as many
+ * directions. */
 static const char shade_fragment[] =
     "#version 330 core\n" CAMERA "uniform usampler2D seen;\n"
     "uniform sampler2D depths;\n"
@@ -238,13 +241,13 @@ static const char shade_fragment[] =
     "out vec4 colour;\n"
     "const int taps = 8;\n"
     "const int shadow_taps = 4;\n"
-    "vec3 place(vec2 pixel, float depth)\n"
+    "vec3 position_at(vec2 pixel, float depth)\n"
     "{\n"
     "    vec2 s = (pixel - projection.xy) / vec2(projection.z, -projection.z);\n"
     "    float w = depth_range.x + depth * (depth_range.y - depth_range.x);\n"
     "    return projection.w == 0.0 ? vec3(s * w, w) : vec3(s, w);\n"
     "}\n"
-    "vec3 outwards(vec3 p, uint id)\n"
+    "vec3 normal_at(vec3 p, uint id)\n"
     "{\n"
     "    if (id < first_rod) {\n"
     "        return normalize(p - texelFetch(spheres, int(id)).xyz);\n"
@@ -263,7 +266,7 @@ static const char shade_fragment[] =
     "    vec3 view = projection.w == 0.0 ? p : vec3(0.0, 0.0, 1.0);\n"
     "    return normalize(dot(n, view) > 0.0 ? -n : n);\n"
     "}\n"
-    "float open_sky(vec3 p, vec3 n, float rotation, mat2 spin)\n"
+    "float ambient(vec3 p, vec3 n, float rotation, mat2 spin)\n"
     "{\n"
     "    float scale = projection.w == 0.0 ? projection.z / p.z : projection.z;\n"
     "    float radius = min(reach * scale, reach_limit);\n"
@@ -276,29 +279,30 @@ static const char shade_fragment[] =
     "                  (1.0 + radius * u * sqrt(u)) * (spin * vec2(cos(angle), "
     "sin(angle)));\n"
     "        at = clamp(at, vec2(0.5), size - 0.5);\n"
-    "        vec3 v = place(floor(at) + 0.5, texelFetch(depths, ivec2(at), 0).r) - p;\n"
+    "        vec3 v = position_at(floor(at) + 0.5, texelFetch(depths, ivec2(at), 0).r) - "
+    "p;\n"
     "        float closer = inversesqrt(dot(v, v) + 1e-12);\n"
     "        float near = clamp(1.5 - 1.5 / (bound * closer), 0.0, 1.0);\n"
     "        blocked += near * max(dot(v, n) * closer - 0.06, 0.0);\n"
     "    }\n"
     "    return clamp(1.0 - 2.6 * blocked / float(taps), 0.0, 1.0);\n"
     "}\n"
-    "float lit(vec3 p, vec3 n, float rotation, mat2 spin)\n"
+    "float unshadowed(vec3 p, vec3 n, float rotation, mat2 spin)\n"
     "{\n"
     "    vec3 q = light_rotation * (p + 0.04 * detail * n) + light_translation;\n"
     "    vec2 centre = light_projection.xy + light_projection.z * vec2(q.x, -q.y);\n"
     "    float depth = (q.z - light_depth_range.x) / (light_depth_range.y - "
     "light_depth_range.x);\n"
     "    float bias = 0.02 * detail / (light_depth_range.y - light_depth_range.x);\n"
-    "    float wide = 0.11 * detail * light_projection.z;\n"
-    "    float open = 0.0;\n"
+    "    float half_width = 0.11 * detail * light_projection.z;\n"
+    "    float unblocked = 0.0;\n"
     "    for (int k = 0; k < shadow_taps; k++) {\n"
     "        float angle = 2.39996 * float(k);\n"
-    "        float r = wide * sqrt((float(k) + rotation) / float(shadow_taps));\n"
+    "        float r = half_width * sqrt((float(k) + rotation) / float(shadow_taps));\n"
     "        ivec2 at = ivec2(centre + r * (spin * vec2(cos(angle), sin(angle))));\n"
-    "        open += texelFetch(shadows, at, 0).r + bias >= depth ? 1.0 : 0.0;\n"
+    "        unblocked += texelFetch(shadows, at, 0).r + bias >= depth ? 1.0 : 0.0;\n"
     "    }\n"
-    "    return open / float(shadow_taps);\n"
+    "    return unblocked / float(shadow_taps);\n"
     "}\n";
 
 static const char shade_main[] =
@@ -314,28 +318,29 @@ static const char shade_main[] =
     "        colour = vec4(mix(foreground, background, 1.3 * fade), 1.0);\n"
     "        return;\n"
     "    }\n"
-    "    vec3 p = place(gl_FragCoord.xy, depth);\n"
-    "    vec3 n = outwards(p, id);\n"
+    "    vec3 p = position_at(gl_FragCoord.xy, depth);\n"
+    "    vec3 n = normal_at(p, id);\n"
     "    vec3 albedo = pow(texelFetch(colours, int(id)).rgb, vec3(2.2));\n"
     "    vec2 sub = mod(floor(gl_FragCoord.xy), 2.0);\n"
     "    float rotation = 0.25 * (sub.x + 2.0 * sub.y) + 0.125;\n"
     "    float c = cos(2.39996 * rotation);\n"
     "    float d = sin(2.39996 * rotation);\n"
     "    mat2 spin = mat2(c, d, -d, c);\n"
-    "    float open = open_sky(p, n, rotation, spin);\n"
+    "    float unblocked = ambient(p, n, rotation, spin);\n"
     "    float key = max(dot(n, light), 0.0);\n"
-    "    float shine = mix(1.0, lit(p, n, rotation, spin), shadow_share);\n"
+    "    float direct = mix(1.0, unshadowed(p, n, rotation, spin), shadow_share);\n"
     "    vec3 view = projection.w == 0.0 ? normalize(-p) : vec3(0.0, 0.0, -1.0);\n"
     "    float gloss = pow(max(dot(n, normalize(light + view)), 0.0), 28.0);\n"
     "    float dome = mix(0.55, 1.0, 0.5 + 0.5 * dot(n, sky));\n"
     "    vec3 warm = vec3(1.04, 1.0, 0.95);\n"
     "    vec3 cool = vec3(0.95, 0.99, 1.06);\n"
-    "    vec3 sum = albedo * (0.66 * dome * open * cool + 0.86 * key * shine * warm);\n"
-    "    sum += 0.09 * gloss * shine * open;\n"
+    "    vec3 sum = albedo * (0.66 * dome * unblocked * cool + 0.86 * key * direct * "
+    "warm);\n"
+    "    sum += 0.09 * gloss * direct * unblocked;\n"
     "    colour = vec4(mix(sum, background, fade), 1.0);\n"
     "}\n";
 
-/* Samples to pixels by a tent two pixels wide: box edges without steps. */
+/* Mean of the samples with a tent filter two pixels wide: anti-aliased box edges. */
 static const char resolve_fragment[] =
     "#version 330 core\n"
     "uniform sampler2D samples;\n"

@@ -6,7 +6,7 @@
  * sample from these, mean of the samples of each pixel. */
 struct gb_shaders_text {
     const char *vertex, *fragment;
-    const char *more; /* of the fragment, which may be long */
+    const char *more; /* second part of the fragment shader; "": none */
 };
 
 extern const struct gb_shaders_text gb_shaders_sphere;

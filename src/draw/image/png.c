@@ -158,7 +158,7 @@ static bool no_chunk(const char *path, const char *key, struct gb_error *err)
                         path, key);
 }
 
-/* A preset takes some kilobytes; libpng allocates the claimed size of a chunk before it
+/* A preset has some kilobytes; libpng allocates the claimed size of a chunk before it
  * reads it. */
 static const png_alloc_size_t max_text_size = 4 << 20;
 

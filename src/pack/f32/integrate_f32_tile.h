@@ -25,7 +25,7 @@ struct pass {
     float margin; /* d; a bound from here on is replaced by the displacement itself */
     bool bounds_known; /* from the updates before */
     float speed2_max;  /* squared velocity of the largest displacement */
-    float rounding;    /* d; rounding to fixed point adds less than this */
+    float rounding;    /* d; upper bound of the rounding to fixed point */
     float *rotation_total;
     /* for every number of a tile, by its axis: fixed-point units per d, and d per unit */
     float units[NUMBERS], unit[NUMBERS];
@@ -42,7 +42,7 @@ struct tile {
 
 struct sum {
     float lane[LANES];
-    double rest; /* of numbers that fill no more lanes */
+    double rest; /* of the last numbers, fewer than a vector has lanes */
 };
 
 /* Sums over some tiles. */
@@ -127,7 +127,7 @@ GB_SIMD_LOOP float largest_of(const float *restrict number, int particles)
     return most;
 }
 
-/* The root of it for every group. */
+/* Square root of the largest squared displacement of every group. */
 GB_SIMD_LOOP void largest_of_groups(const float *restrict square, int particles,
                                     float *restrict largest)
 {
@@ -145,8 +145,9 @@ GB_SIMD_LOOP void square_all(const float *restrict number, int n, float *restric
     }
 }
 
-/* Moves fixed-point positions, rounding to the nearest unit.  A displacement that is not
- * finite moves anywhere: the sum of squared velocities reports it. */
+/* Moves fixed-point positions, rounding to the nearest unit.  The result for a
+ * displacement that is not finite is undefined; the sum of squared velocities reports
+ * it. */
 GB_SIMD_LOOP void move_positions(const struct pass *pass, int n,
                                  const float *restrict displacement,
                                  int32_t *restrict position)
@@ -175,7 +176,7 @@ GB_SIMD_LOOP void displacements_since_build(const struct pass *pass, int n,
 }
 
 /* Bounds of the groups of a tile; returns the largest.  A bound grows by the largest
- * displacement of its group, and a little more against rounding.  Only when one reaches
+ * displacement of its group and an allowance for rounding.  Only when one reaches
  * the margin of the list check are the true displacements computed. */
 GB_SIMD_LOOP float update_bounds(const struct pass *pass, int particles,
                                  const uint32_t *built, struct tile *tile, float *bound)
@@ -210,7 +211,7 @@ GB_SIMD_LOOP void add_all(float *restrict sum, const float *restrict number, int
     }
 }
 
-/* Factors for velocities above the limit; seldom any, and then true. */
+/* Factors for velocities above the limit; returns true if there are any. */
 GB_SIMD_LOOP bool find_too_fast(const struct pass *pass, int particles, struct tile *tile)
 {
     if (!(largest_of(tile->square, particles) > pass->speed2_max)) {

@@ -8,7 +8,7 @@
 
 enum { GB_BED_BATCH = 64 };
 
-/* A batch of contacts while the laws are applied to it. */
+/* Inputs and outputs of the laws for a batch of contacts. */
 struct gb_bed_batch {
     int n;
     double step; /* time since the last evaluation, for the shear increments */
@@ -31,8 +31,9 @@ typedef void gb_bed_kernel(const struct gb_bed_law *law, struct gb_bed_batch *ba
 
 enum gb_bed_partner { GB_BED_PARTNER_PARTICLE, GB_BED_PARTNER_WALL };
 
-/* The variant for a law, a kind of contact and this processor; it computes only its own
- * terms.  widest: 0 picks by processor; 128, 256 or 512 limits the vectors (tests). */
+/* The variant for a law, a kind of contact and this processor; it computes only the
+ * terms of that law.  widest: 0 picks by processor; 128, 256 or 512 limits the vectors
+ * (tests). */
 gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
                                  enum gb_bed_partner partner, int widest);
 
@@ -40,8 +41,8 @@ gb_bed_kernel *gb_bed_batch_pick(const struct gb_bed_law *law,
 typedef double gb_bed_row[4];
 
 /* The particles of a batch of pairs: first[k] and other[k] of pair k.  Without friction
- * neither spin nor torque is used.  Gather: branch vectors, relative velocities and sums of
- * radii into the batch; scatter: forces and torques back. */
+ * neither spin nor torque is used.  Gather: branch vectors, relative velocities and sums
+ * of radii into the batch; scatter: forces and torques back. */
 struct gb_bed_rows {
     const gb_bed_row *position, *velocity, *spin;
     gb_bed_row *force, *torque;

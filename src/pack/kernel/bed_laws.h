@@ -30,7 +30,7 @@ INLINE double of_bits(uint64_t bits)
 
 /* log2 of a normal positive number: u = 2^n m with m in [sqrt(1/2), sqrt 2), and ln m = 2
  * atanh s, s = (m - 1)/(m + 1), |s| < 0.1716.  The series ends with s^21; the rest is
- * below 2 s^23/(23 (1 - s^2)) = 2.2e-19, nothing beside the rounding. */
+ * below 2 s^23/(23 (1 - s^2)) = 2.2e-19, below the rounding error. */
 INLINE double log2_of(double u)
 {
     const uint64_t least = 0x3fe6a09e667f3bcdU; /* sqrt(1/2) */
@@ -78,8 +78,8 @@ INLINE double exp2_of(double t)
 
 /* Elastic part y of overlap h on the loading curve, so that the force is Hertz' at y.
  * With h_x the overlap where (2) and (16) meet, F = (16) means y = h_x (h/h_x)^((2+m)/3):
- * one power of a ratio near 1 instead of two of h.  Below h_x the lesser force is Hertz'
- * own and y = h; the printed law follows (16) there too. */
+ * one power of a ratio near 1 instead of two of h.  Below h_x the lesser force is that
+ * of Hertz and y = h; the printed law uses (16) there too. */
 INLINE double loaded_part(struct bed_terms t, double power, double h, double transition)
 {
     const double ratio = h / transition;

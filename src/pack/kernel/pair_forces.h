@@ -12,8 +12,8 @@ struct gb_world;
 enum gb_pair_forces_list { GB_PAIR_FORCES_NEAR, GB_PAIR_FORCES_FAR };
 
 /* Forces of the pairs of a list on their first particles (E d^2), as of the last
- * evaluation.  A world in single precision keeps none: they are computed again from the
- * contact records, many pairs at a time, which is fast for ascending slots. */
+ * evaluation.  A world in single precision does not store them: they are computed again
+ * from the contact records, many pairs at a time, which is fast for ascending slots. */
 struct gb_pair_forces {
     const struct gb_world *world;
     const struct gb_pair_list *list;
@@ -22,7 +22,7 @@ struct gb_pair_forces {
     double force[3][GB_BATCH];
 };
 
-/* The world must neither move nor be strained while the forces are read. */
+/* Positions and cell must not change while the forces are read. */
 void gb_pair_forces_init(struct gb_pair_forces *forces, const struct gb_world *world,
                          enum gb_pair_forces_list list);
 

@@ -17,7 +17,7 @@
 #endif
 #endif
 
-/* The widest vectors that the environment allows: GB_SIMD = sse2, avx2 or avx512 holds
+/* The widest vectors that the environment allows: GB_SIMD = sse2, avx2 or avx512 limits
  * the program to those of an older processor.  Read once, before main. */
 extern int gb_simd_most;
 
@@ -75,8 +75,8 @@ static inline int gb_simd_width(int widest)
 
 #define GB_SIMD_LOOP static inline __attribute__((always_inline))
 
-/* Prefetches a cache line into the second cache: the first one can wait for few lines at a
- * time, and other reads would queue behind them. */
+/* Prefetches a cache line into the L2 cache: the line fill buffers of L1 are few, and
+ * other reads would wait for them. */
 GB_SIMD_LOOP void gb_simd_fetch(const void *line)
 {
     enum { TO_READ = 0, SECOND_CACHE = 2 };

@@ -13,10 +13,10 @@ enum gb_sweep_outcome {
     GB_SWEEP_NOT_FINITE,   /* nothing was computed: a coordinate is not finite */
 };
 
-/* Forces and torques from lists that are still valid; contact histories advance, rotation
- * increments are used up.  Pairs are computed in blocks of particles, then every particle
- * collects what pairs of other blocks left for it, in the order of the list: the same bits
- * for any number of threads. */
+/* Forces and torques from lists that are still valid; contact histories advance,
+ * rotation increments are set to 0.  Pairs are computed in blocks of particles, then
+ * every particle adds the forces of pairs of other blocks, in the order of the list: the
+ * same bits for any number of threads. */
 enum gb_sweep_outcome gb_sweep_run(struct gb_engine *engine, struct gb_sweep_along along);
 
 #endif

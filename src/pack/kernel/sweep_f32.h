@@ -11,7 +11,8 @@ struct gb_pair_list;
 struct gb_tally;
 
 /* The parts of gb_sweep_run in single precision.  All particles are converted before a
- * block is swept; a block collects after it and all blocks with rows for it were swept. */
+ * block is swept.  The rows for a block are added after it and all blocks with rows for
+ * it were swept. */
 
 /* Forces of the pairs of block b. */
 void gb_sweep_f32_block(struct gb_engine *engine, int64_t b, double cutoff2,

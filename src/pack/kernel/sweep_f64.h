@@ -8,8 +8,8 @@
 struct gb_engine;
 struct gb_particles;
 
-/* The parts of gb_sweep_run in double precision, for particles of one size.  A particle
- * collects after all blocks have been swept. */
+/* The parts of gb_sweep_run in double precision, for particles of one size.  The rows
+ * for a particle are added after all blocks have been swept. */
 
 /* Forces of the pairs of block b on their first particles; rows for the second ones. */
 void gb_sweep_f64_block(struct gb_engine *engine, int64_t b, double cutoff2,

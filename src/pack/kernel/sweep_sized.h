@@ -7,12 +7,11 @@ struct gb_engine;
  * scalar laws (law/law_unequal.h), sums in the order of the lists, so bits do not depend
  * on the number of threads.
  *
- * Rotation increments are arcs, d_i times the angle (so that the numbers are those of
- * equal spheres where all d are 1), and torques are moments over d_i, which does the same
- * work: small particles rotate as easily as large ones, and a relaxer needs no
- * sizes.  The surfaces of two particles meet where their centre distance is
- * divided as their diameters are, so the forces of a pair balance, and its moments about
- * any point do too. */
+ * Rotation increments are arcs, d_i times the angle (equal to the values of
+ * equal spheres where all d are 1), and torques are moments over d_i, the conjugate
+ * quantity: small particles rotate as easily as large ones, and a relaxer needs no
+ * sizes.  The contact point divides the centre distance in the ratio of the diameters, so
+ * the forces of a pair and its moments about any point balance. */
 void gb_sweep_sized_run(struct gb_engine *engine);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-/* What a sweep sums beside the forces, in a fixed order. */
+/* Sums of a sweep over its pairs, in a fixed order. */
 struct gb_tally {
     int64_t contacts;  /* pairs with r < d */
     int64_t sliding;   /* contacts with the shear spring at its cap */

@@ -12,7 +12,7 @@
 
 enum { GB_BATCH = 128, GB_LANES = 8 };
 
-/* A batch of pairs while the laws are applied to it, in double or single precision. */
+/* Inputs and outputs of the laws for a batch of pairs, in double or single precision. */
 #define GB_BATCH_OF(name, real)                                                            \
     struct name {                                                                          \
         int n;                                                                             \
@@ -39,9 +39,10 @@ GB_BATCH_OF(gb_batch_f32, float)
 
 /* Advances contacts [slot, slot + batch->n) and fills the outputs.
  *
- * The increment of relative motion is r minus the stored branch vector, so it includes the
- * affine motion of the cell.  Stored vectors are rotated into the current tangent plane
- * keeping their length before the increment is added.  Source: P1 (1)-(12); viscous partners P2 (3). */
+ * The increment of relative motion is r minus the stored branch vector, so it includes
+ * the affine motion of the cell.  Stored vectors are rotated into the current tangent
+ * plane keeping their length before the increment is added.  Source: P1 (1)-(12);
+ * viscous forces P2 (3). */
 struct gb_batch_kernel {
     void (*advance)(const struct gb_model *model, struct gb_batch *batch,
                     struct gb_contacts *contacts, int64_t slot);
@@ -69,7 +70,7 @@ struct gb_batch_f32_kernel {
                       const struct gb_contacts *contacts, int64_t slot);
 };
 
-/* The variant for this scene and this processor; a variant computes only its own terms.
+/* The variant for this scene and this processor; it computes only the terms of the scene.
  * widest: 0 picks by processor, 128, 256 or 512 limits the vectors (tests). */
 struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest);
 struct gb_batch_f32_kernel gb_batch_f32_pick(const struct gb_model *model, int widest);

@@ -6,7 +6,7 @@
 
 /* In the plane a spring is one number: the shear spring along (n_z, -n_x), which rotates
  * with the contact, and the rolling spring about y; there is no pivoting.  So no root is
- * needed to cut a spring, and a failing bridge is a choice between two numbers. */
+ * needed to cut a spring, and a failing bridge is a selection between two numbers. */
 
 INLINE double clamp_2d(double value, double most)
 {
@@ -40,8 +40,8 @@ INLINE double radius_2d(struct terms t, double length, double deepest, double h,
     return t.printed ? 0.5 * sqrt(where(deepest >= 0.0, square)) : 0.5 * root;
 }
 
-/* All laws in one pass over a batch: geometry, state of the bridge, springs, normal force,
- * caps, viscous parts. */
+/* All laws in one pass over a batch: geometry, state of the bridge, springs, normal
+ * force, caps, viscous parts. */
 INLINE void advance_2d(const struct gb_model *model, struct terms t,
                        struct gb_batch *restrict b, struct gb_contacts *restrict c,
                        int64_t slot)
@@ -80,7 +80,7 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
             v = where(lasts, spring) + u;
             if (t.bridges) {
                 /* a bridge at its shear cap shrinks to the present overlap, or is gone;
-                 * P1 below (5).  All times r: the division by it takes long. */
+                 * P1 below (5).  All times r: it saves a division. */
                 const double pulled = spring * r + (across - rolled * squared);
                 const double tear = caps.tear * squared;
                 const bool fails =

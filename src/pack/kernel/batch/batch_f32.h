@@ -1,9 +1,9 @@
 #ifndef GB_PACK_KERNEL_BATCH_F32_H
 #define GB_PACK_KERNEL_BATCH_F32_H
 
-/* The loops of batch_*.h in single precision: include this first.  Twice the lanes and half
- * the memory; relative error of forces 1e-6, far below the tolerance of a relaxation in
- * single precision (gb_model chooses). */
+/* The loops of batch_*.h in single precision: include this first.  Twice the lanes and
+ * half the memory; relative error of forces 1e-6, far below the tolerance of a
+ * relaxation in single precision (gb_model chooses). */
 
 #include <math.h>
 #include <stdint.h>
@@ -41,7 +41,7 @@ INLINE real inverse_root_below(real x)
     return root_newton(root_newton(root_estimate(x), half), half);
 }
 
-/* 1/sqrt(x) to the last digit but one. */
+/* 1/sqrt(x) to nearly full precision. */
 INLINE real inverse_root(real x)
 {
     return root_newton(inverse_root_below(x), 0.5F * x);

@@ -5,9 +5,9 @@
 
 #include "pack/kernel/batch/batch.h"
 
-/* These loops have no branches: conditions select between computed values, and masks (1 or
- * 0) multiply.  A hidden branch (&&, or an expensive side of ?:) would stop the compiler
- * from vectorising the loop.
+/* These loops have no branches: conditions select between computed values, and masks (1
+ * or 0) multiply.  A hidden branch (&&, or an expensive side of ?:) would stop the
+ * compiler from vectorising the loop.
  *
  * One source, compiled once per useful combination of terms and per vector width: every
  * `const bool` below is a constant where the function is inlined.  Nothing but the order
@@ -20,7 +20,7 @@
 struct terms {
     bool planar, friction, bridges, viscous;
     bool printed; /* a_ch follows the printed form at the current r */
-    bool plain;   /* Hertz and Mindlin: no rod, no attraction, nothing against pivoting */
+    bool plain; /* Hertz and Mindlin: no rod, no attraction, no resistance to pivoting */
 };
 
 INLINE real larger(real a, real b)
@@ -78,7 +78,7 @@ INLINE real where(bool condition, real x)
  */
 struct normal {
     real elastic, slope, total;
-    real root; /* of the overlap that the elastic force comes from */
+    real root; /* overlap of the elastic force */
 };
 
 /* Constants of the normal force. */
