@@ -5,9 +5,8 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "draw/figure/figure_axis.h"
-#include "draw/image/palette.h"
-#include "draw/image/text.h"
+#include "draw/caption_pen.h"
+#include "draw/colour_bar.h"
 
 /* Minimum length of the shorter side for readable text, pixels. */
 static const int min_annotated_px = 240;
@@ -25,13 +24,6 @@ static void format_short(double value, enum gb_dimension dimension, int digits,
         snprintf(text, size, "%s", plain);
     }
 }
-
-struct pen {
-    struct gb_text text;
-    cairo_t *cairo;
-    double unit;
-    uint8_t foreground[3];
-};
 
 void gb_caption_arrange(int width, int height, bool annotated,
                         struct gb_caption_layout *layout)
@@ -70,154 +62,9 @@ double gb_caption_bar_length(double max_m, char *label, size_t size)
     return length;
 }
 
-static void set_foreground(const struct pen *pen)
-{
-    cairo_set_source_rgb(pen->cairo, pen->foreground[0] / 255.0,
-                         pen->foreground[1] / 255.0, pen->foreground[2] / 255.0);
-}
-
-/* One line of plain text at (x, y); align 0, 0.5, 1: x is its left end, middle, right end;
- * y is its middle.  Reduced to fit max_width (> 0). */
-static void write_line(const struct pen *pen, const char *line, double x, double y,
-                       double align, double scale, double max_width)
-{
-    char *markup = g_markup_escape_text(line, -1);
-    double size = scale * pen->unit;
-    double wide = 0.0;
-    double high = 0.0;
-    gb_text_measure(&pen->text, markup, size, 0.0, &wide, &high);
-    if (max_width > 0.0 && wide > max_width) {
-        size *= max_width / wide;
-    }
-    set_foreground(pen);
-    gb_text_write(&pen->text, markup, size, 0.0, (double[2]){x, y},
-                  (double[2]){align, 0.5}, 0);
-    g_free(markup);
-}
-
-static void write_upwards(const struct pen *pen, const char *line, double x, double y)
-{
-    set_foreground(pen);
-    gb_text_write(&pen->text, line, 0.95 * pen->unit, 0.0, (double[2]){x, y},
-                  (double[2]){0.5, 0.5}, 1);
-}
-
-static void frame_bar(const struct pen *pen, const struct gb_frame *bar,
-                      const char *title)
-{
-    set_foreground(pen);
-    cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
-    cairo_rectangle(pen->cairo, bar->left, bar->top, bar->width, bar->height);
-    cairo_stroke(pen->cairo);
-    write_upwards(pen, title, bar->left - 0.95 * pen->unit, bar->top + 0.5 * bar->height);
-}
-
-/* Whole numbers: one cell each, 0 at the bottom. */
-static void draw_cells(const struct pen *pen, const struct gb_frame *bar,
-                       const struct gb_picture_style_scale *scale)
-{
-    const int last = (int)scale->high;
-    const double step = bar->height / (last + 1);
-    for (int k = 0; k <= last; k++) {
-        uint8_t rgb[3];
-        char label[16];
-        const double top = bar->top + bar->height - (k + 1) * step;
-        gb_palette_contacts(k, rgb);
-        cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
-        cairo_rectangle(pen->cairo, bar->left, top, bar->width, step + 0.5);
-        cairo_fill(pen->cairo);
-        snprintf(label, sizeof label, "%s%d",
-                 k == last && scale->above ? "\xe2\x89\xa5" : "", k);
-        write_line(pen, label, bar->left + bar->width + 0.5 * pen->unit, top + 0.5 * step,
-                   0.0, 0.85, 0.0);
-    }
-}
-
-enum bar_end { AT_LOW_END, AT_HIGH_END };
-
-/* Triangle at an end of the bar: values exist beyond it. */
-static void draw_arrow(const struct pen *pen, const struct gb_frame *bar,
-                       enum bar_end end)
-{
-    const bool above = end == AT_HIGH_END;
-    const double base = above ? bar->top : bar->top + bar->height;
-    const double tip = base + (above ? -1.0 : 1.0) * 0.8 * pen->unit;
-    uint8_t rgb[3];
-    gb_palette_field(above ? 1.0 : 0.0, rgb);
-    cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
-    cairo_move_to(pen->cairo, bar->left, base);
-    cairo_line_to(pen->cairo, bar->left + 0.5 * bar->width, tip);
-    cairo_line_to(pen->cairo, bar->left + bar->width, base);
-    cairo_close_path(pen->cairo);
-    cairo_fill_preserve(pen->cairo);
-    set_foreground(pen);
-    cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
-    cairo_stroke(pen->cairo);
-}
-
-static void draw_ticks(const struct pen *pen, const struct gb_frame *bar,
-                       const struct gb_picture_style_scale *scale)
-{
-    static const bool exact[2] = {true, true};
-    struct gb_figure_axis_scale axis;
-    gb_figure_axis_fit(&axis, false, scale->low, scale->high, 6, exact);
-    axis.from = bar->top + bar->height;
-    axis.to = bar->top;
-    set_foreground(pen);
-    cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
-    for (int k = 0; k < axis.ticks; k++) {
-        const double y = gb_figure_axis_position(&axis, axis.tick[k]);
-        cairo_move_to(pen->cairo, bar->left + bar->width, y);
-        cairo_line_to(pen->cairo, bar->left + bar->width + 0.3 * pen->unit, y);
-        cairo_stroke(pen->cairo);
-        char plain[48]; /* no space for a power of ten */
-        snprintf(plain, sizeof plain, "%.4g", axis.tick[k]);
-        gb_text_write(&pen->text, axis.power == 0 ? axis.label[k] : plain,
-                      0.85 * pen->unit, 0.0,
-                      (double[2]){bar->left + bar->width + 0.5 * pen->unit, y},
-                      (double[2]){0.0, 0.5}, 0);
-    }
-}
-
-static void draw_gradient(const struct pen *pen, const struct gb_frame *bar,
-                          const struct gb_picture_style_scale *scale)
-{
-    const int steps = 256;
-    for (int k = 0; k < steps; k++) {
-        uint8_t rgb[3];
-        gb_palette_field((k + 0.5) / steps, rgb);
-        const double top = bar->top + bar->height * (1.0 - (k + 1.0) / steps);
-        cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
-        cairo_rectangle(pen->cairo, bar->left, top, bar->width,
-                        bar->height / steps + 0.6);
-        cairo_fill(pen->cairo);
-    }
-    if (scale->below) {
-        draw_arrow(pen, bar, AT_LOW_END);
-    }
-    if (scale->above) {
-        draw_arrow(pen, bar, AT_HIGH_END);
-    }
-    draw_ticks(pen, bar, scale);
-}
-
-static void draw_colour_bar(const struct pen *pen, const struct gb_frame *bar,
-                            const struct gb_picture_style_scale *scale)
-{
-    if (scale->title == NULL) {
-        return;
-    }
-    if (scale->whole) {
-        draw_cells(pen, bar, scale);
-    } else {
-        draw_gradient(pen, bar, scale);
-    }
-    frame_bar(pen, bar, scale->title);
-}
-
 /* Classes of forces and the force of the thickest rod, in the upper right corner. */
-static void draw_legend(const struct pen *pen, const struct gb_picture_style *style,
-                        double right)
+static void draw_legend(const struct gb_caption_pen *pen,
+                        const struct gb_picture_style *style, double right)
 {
     const double unit = pen->unit;
     double y = 1.5 * unit;
@@ -227,7 +74,7 @@ static void draw_legend(const struct pen *pen, const struct gb_picture_style *st
         double high = 0.0;
         gb_text_measure(&pen->text, style->legend[k].name, 0.95 * unit, 0.0, &wide,
                         &high);
-        write_line(pen, style->legend[k].name, right, y, 1.0, 0.95, 0.0);
+        gb_caption_pen_line(pen, style->legend[k].name, right, y, 1.0, 0.95, 0.0);
         cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
         cairo_set_line_width(pen->cairo, 0.45 * unit);
         cairo_set_line_cap(pen->cairo, CAIRO_LINE_CAP_ROUND);
@@ -242,12 +89,12 @@ static void draw_legend(const struct pen *pen, const struct gb_picture_style *st
         char line[80];
         format_short(style->max_force_n, GB_DIM_FORCE, 2, force, sizeof force);
         snprintf(line, sizeof line, "thickest rod: %s", force);
-        write_line(pen, line, right, y, 1.0, 0.85, 0.0);
+        gb_caption_pen_line(pen, line, right, y, 1.0, 0.85, 0.0);
     }
 }
 
 /* In perspective the bar is valid in one plane only: the middle of the box. */
-static void draw_scale_bar(const struct pen *pen, const struct gb_scene *scene,
+static void draw_scale_bar(const struct gb_caption_pen *pen, const struct gb_scene *scene,
                            const struct gb_state *state, double x, double y, double most)
 {
     char label[64];
@@ -258,10 +105,10 @@ static void draw_scale_bar(const struct pen *pen, const struct gb_scene *scene,
         pixel_per_metre;
     snprintf(text, sizeof text, "%s%s", label,
              scene->view.orthographic ? "" : " at mid-depth");
-    set_foreground(pen);
+    gb_caption_pen_set_foreground(pen);
     cairo_rectangle(pen->cairo, x, y - 0.14 * pen->unit, length, 0.28 * pen->unit);
     cairo_fill(pen->cairo);
-    write_line(pen, text, x + length + 0.6 * pen->unit, y, 0.0, 0.85, 0.0);
+    gb_caption_pen_line(pen, text, x + length + 0.6 * pen->unit, y, 0.0, 0.85, 0.0);
 }
 
 static void point_text(const struct gb_state *state, char *text, size_t size)
@@ -274,7 +121,7 @@ static void point_text(const struct gb_state *state, char *text, size_t size)
     }
 }
 
-static void draw_all(const struct pen *pen, const struct gb_image *image,
+static void draw_all(const struct gb_caption_pen *pen, const struct gb_image *image,
                      const struct gb_caption_layout *layout, const struct gb_scene *scene,
                      const struct gb_picture_style *style, const struct gb_state *state)
 {
@@ -283,58 +130,34 @@ static void draw_all(const struct pen *pen, const struct gb_image *image,
     const double left = 1.4 * unit;
     const double max_width =
         image->width - 2.0 * left - (style->legend_count > 0 ? 12.0 * unit : 0.0);
-    draw_colour_bar(pen, &layout->bar, &style->scale);
+    gb_colour_bar_draw(pen, &layout->bar, &style->scale);
     draw_legend(pen, style, image->width - left);
-    write_line(pen, state->preset, left, 1.5 * unit, 0.0, 1.05, max_width);
+    gb_caption_pen_line(pen, state->preset, left, 1.5 * unit, 0.0, 1.05, max_width);
     point_text(state, text, sizeof text);
-    write_line(pen, text, left, image->height - 2.9 * unit, 0.0, 1.0, max_width);
+    gb_caption_pen_line(pen, text, left, image->height - 2.9 * unit, 0.0, 1.0, max_width);
     draw_scale_bar(pen, scene, state, left, image->height - 1.4 * unit,
                    fmin(9.0 * unit, 0.3 * image->width));
-}
-
-/* Starts text on an image, until end_text. */
-static bool begin_text(struct pen *pen, struct gb_image *image, double unit,
-                       enum gb_background background, struct gb_error *err)
-{
-    gb_image_swap_red_blue(image);
-    cairo_surface_t *surface = cairo_image_surface_create_for_data(
-        image->rgba, CAIRO_FORMAT_ARGB32, image->width, image->height, 4 * image->width);
-    *pen = (struct pen){.cairo = cairo_create(surface), .unit = unit};
-    cairo_surface_destroy(surface);
-    gb_scene_foreground(background, pen->foreground);
-    return gb_text_init(&pen->text, pen->cairo, err);
-}
-
-static bool end_text(struct pen *pen, struct gb_image *image, bool good,
-                     struct gb_error *err)
-{
-    const cairo_status_t status = cairo_status(pen->cairo);
-    cairo_surface_flush(cairo_get_target(pen->cairo));
-    gb_text_finish(&pen->text);
-    cairo_destroy(pen->cairo);
-    gb_image_swap_red_blue(image);
-    return good && (status == CAIRO_STATUS_SUCCESS ||
-                    gb_error_set(err, GB_ERR_MACHINE, "the caption cannot be drawn: %s",
-                                 cairo_status_to_string(status)));
 }
 
 bool gb_caption_draw(struct gb_image *image, const struct gb_caption_layout *layout,
                      const struct gb_scene *scene, const struct gb_picture_style *style,
                      const struct gb_state *state, struct gb_error *err)
 {
-    struct pen pen;
+    struct gb_caption_pen pen;
     if (layout->bar.width <= 0.0) {
         return true;
     }
-    const bool good = begin_text(&pen, image, layout->unit, scene->background, err);
+    const bool good =
+        gb_caption_pen_begin(&pen, image, layout->unit, scene->background, err);
     if (good) {
         draw_all(&pen, image, layout, scene, style, state);
     }
-    return end_text(&pen, image, good, err);
+    return gb_caption_pen_end(&pen, image, good, err);
 }
 
 /* x, y, z at the ends of the axes of the rose that face the viewer. */
-static void label_axes(const struct pen *pen, const struct gb_scene *scene, double reach)
+static void label_axes(const struct gb_caption_pen *pen, const struct gb_scene *scene,
+                       double reach)
 {
     static const char *const names[3] = {"<i>x</i>", "<i>y</i>", "<i>z</i>"};
     for (int k = 0; k < 3; k++) {
@@ -345,7 +168,7 @@ static void label_axes(const struct pen *pen, const struct gb_scene *scene, doub
         point[k] += 1.08 * side * reach;
         gb_view_eye(&scene->view, point, eye);
         gb_view_pixel(&scene->view, eye, pixel);
-        set_foreground(pen);
+        gb_caption_pen_set_foreground(pen);
         gb_text_write(&pen->text, names[k], 1.05 * pen->unit, 0.0, pixel,
                       (double[2]){0.5, 0.5}, 0);
     }
@@ -355,7 +178,7 @@ bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout
                           const struct gb_scene *scene, double reach, double mean_n,
                           struct gb_error *err)
 {
-    struct pen pen;
+    struct gb_caption_pen pen;
     char force[48];
     char line[96];
     if (layout->bar.width <= 0.0) {
@@ -363,22 +186,23 @@ bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout
     }
     const struct gb_picture_style_scale scale = {
         .title = "<i>f</i> / \xe2\x9f\xa8<i>f</i>\xe2\x9f\xa9", .high = reach};
-    const bool good = begin_text(&pen, image, layout->unit, scene->background, err);
+    const bool good =
+        gb_caption_pen_begin(&pen, image, layout->unit, scene->background, err);
     if (good) {
         const double unit = layout->unit;
         const double max_width = image->width - 2.8 * unit;
-        draw_colour_bar(&pen, &layout->bar, &scale);
+        gb_colour_bar_draw(&pen, &layout->bar, &scale);
         label_axes(&pen, scene, reach);
-        write_line(&pen, "mean normal force by direction", 1.4 * unit, 1.5 * unit, 0.0,
-                   1.05, max_width);
+        gb_caption_pen_line(&pen, "mean normal force by direction", 1.4 * unit,
+                            1.5 * unit, 0.0, 1.05, max_width);
         format_short(mean_n, GB_DIM_FORCE, 3, force, sizeof force);
         snprintf(line, sizeof line,
                  "\xe2\x9f\xa8"
                  "f\xe2\x9f\xa9 = %s; reference ring: f / \xe2\x9f\xa8"
                  "f\xe2\x9f\xa9 = 1",
                  force);
-        write_line(&pen, line, 1.4 * unit, image->height - 2.9 * unit, 0.0, 1.0,
-                   max_width);
+        gb_caption_pen_line(&pen, line, 1.4 * unit, image->height - 2.9 * unit, 0.0, 1.0,
+                            max_width);
     }
-    return end_text(&pen, image, good, err);
+    return gb_caption_pen_end(&pen, image, good, err);
 }

@@ -16,7 +16,7 @@ static const bool loose[2] = {false, false};
 static void test_linear_axis(void)
 {
     struct gb_figure_axis_scale scale;
-    gb_figure_axis_fit(&scale, false, -0.013, 0.0498, 6, loose);
+    gb_figure_axis_fit(&scale, GB_FIGURE_AXIS_LINEAR, -0.013, 0.0498, 6, loose);
     g_assert_cmpfloat(scale.low, <=, -0.013);
     g_assert_cmpfloat(scale.high, >=, 0.0498);
     g_assert_cmpint(scale.ticks, >=, 4);
@@ -34,10 +34,10 @@ static void test_linear_axis(void)
 static void test_powers(void)
 {
     struct gb_figure_axis_scale scale;
-    gb_figure_axis_fit(&scale, false, 0.0, 3.2e7, 6, loose);
+    gb_figure_axis_fit(&scale, GB_FIGURE_AXIS_LINEAR, 0.0, 3.2e7, 6, loose);
     g_assert_cmpint(scale.power, ==, 6);
     g_assert_cmpstr(scale.label[1], ==, "5");
-    gb_figure_axis_fit(&scale, false, 0.0, 4e-8, 6, loose);
+    gb_figure_axis_fit(&scale, GB_FIGURE_AXIS_LINEAR, 0.0, 4e-8, 6, loose);
     g_assert_cmpint(scale.power, ==, -9);
     g_assert_cmpstr(scale.label[scale.ticks - 1], ==, "40");
 }
@@ -45,20 +45,20 @@ static void test_powers(void)
 static void test_log_axis(void)
 {
     struct gb_figure_axis_scale scale;
-    gb_figure_axis_fit(&scale, true, 1.3e-9, 2e4, 8, loose);
+    gb_figure_axis_fit(&scale, GB_FIGURE_AXIS_LOG, 1.3e-9, 2e4, 8, loose);
     bool superscript = false;
     for (int k = 0; k < scale.ticks; k++) {
         superscript = superscript || strcmp(scale.label[k], "10<sup>\xe2\x88\x92"
                                                             "6</sup>") == 0;
     }
     g_assert_true(superscript);
-    gb_figure_axis_fit(&scale, true, 1.0, 1000.0, 8, loose);
+    gb_figure_axis_fit(&scale, GB_FIGURE_AXIS_LOG, 1.0, 1000.0, 8, loose);
     scale.from = 0.0;
     scale.to = 300.0;
     g_assert_cmpfloat_with_epsilon(gb_figure_axis_position(&scale, 10.0), 100.0, 1e-9);
 }
 
-/* Whatever comes, an axis has finite ends in order and few enough ticks. */
+/* For any values an axis has finite ends in order and few enough ticks. */
 static void test_odd_axes(void)
 {
     static const double odd[][2] = {{NAN, NAN},
@@ -72,7 +72,9 @@ static void test_odd_axes(void)
     for (size_t k = 0; k < G_N_ELEMENTS(odd); k++) {
         for (int log = 0; log < 2; log++) {
             struct gb_figure_axis_scale scale;
-            gb_figure_axis_fit(&scale, log != 0, odd[k][0], odd[k][1], 6, loose);
+            gb_figure_axis_fit(&scale,
+                               log != 0 ? GB_FIGURE_AXIS_LOG : GB_FIGURE_AXIS_LINEAR,
+                               odd[k][0], odd[k][1], 6, loose);
             g_assert_true(isfinite(scale.low) && isfinite(scale.high));
             g_assert_cmpfloat(scale.low, <, scale.high);
             g_assert_cmpint(scale.ticks, <=, GB_FIGURE_AXIS_TICKS);

@@ -146,7 +146,7 @@ static void fit_log(struct gb_figure_axis_scale *scale, int wanted, const bool e
 }
 
 /* Replaces ends that are not finite, equal or reversed by valid ones. */
-static void mend(struct gb_figure_axis_scale *scale)
+static void make_valid(struct gb_figure_axis_scale *scale)
 {
     if (!isfinite(scale->low) || !isfinite(scale->high)) {
         scale->low = scale->log ? 0.1 : 0.0;
@@ -170,12 +170,13 @@ static void mend(struct gb_figure_axis_scale *scale)
     }
 }
 
-void gb_figure_axis_fit(struct gb_figure_axis_scale *scale, bool log, double low,
-                        double high, int wanted, const bool exact[2])
+void gb_figure_axis_fit(struct gb_figure_axis_scale *scale, enum gb_figure_axis_kind kind,
+                        double low, double high, int wanted, const bool exact[2])
 {
-    *scale = (struct gb_figure_axis_scale){.log = log, .low = low, .high = high};
-    mend(scale);
-    if (log) {
+    *scale = (struct gb_figure_axis_scale){
+        .log = kind == GB_FIGURE_AXIS_LOG, .low = low, .high = high};
+    make_valid(scale);
+    if (scale->log) {
         fit_log(scale, wanted, exact);
     } else {
         fit_linear(scale, wanted, exact);

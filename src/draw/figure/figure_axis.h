@@ -18,11 +18,13 @@ struct gb_figure_axis_scale {
     double minor[GB_FIGURE_AXIS_MINOR];
 };
 
-/* Ends and ticks for values from low to high (low > 0 when log), about `wanted` of them.
+enum gb_figure_axis_kind { GB_FIGURE_AXIS_LINEAR, GB_FIGURE_AXIS_LOG };
+
+/* Ends and ticks for values from low to high (low > 0 when logarithmic), about `wanted` of them.
  * exact keeps the ends as they are.  Ends that are not finite, equal or reversed are
  * replaced by valid ones. */
-void gb_figure_axis_fit(struct gb_figure_axis_scale *scale, bool log, double low,
-                        double high, int wanted, const bool exact[2]);
+void gb_figure_axis_fit(struct gb_figure_axis_scale *scale, enum gb_figure_axis_kind kind,
+                        double low, double high, int wanted, const bool exact[2]);
 
 double gb_figure_axis_position(const struct gb_figure_axis_scale *scale, double value);
 

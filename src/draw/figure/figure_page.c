@@ -35,8 +35,9 @@ static void fit_axes(struct gb_figure_page *page)
         double high = 1.0;
         gb_figure_range_find(figure, k == 0 ? GB_FIGURE_RANGE_X : GB_FIGURE_RANGE_Y, &low,
                              &high);
-        gb_figure_axis_fit(k == 0 ? &layout->x : &layout->y, axis->log, low, high, wanted,
-                           exact);
+        gb_figure_axis_fit(k == 0 ? &layout->x : &layout->y,
+                           axis->log ? GB_FIGURE_AXIS_LOG : GB_FIGURE_AXIS_LINEAR, low,
+                           high, wanted, exact);
     }
 }
 

@@ -21,7 +21,9 @@ static bool reserve(struct gb_engine *engine, struct gb_error *err)
         }
     }
     if (far > engine->pair.far_capacity &&
-        !gb_pair_results_resize_far(&engine->pair, far, real, viscous, err)) {
+        !gb_pair_results_resize_far(
+            &engine->pair, far, real,
+            viscous ? GB_PAIR_RESULTS_FAR_WORK : GB_PAIR_RESULTS_FAR_FORCE, err)) {
         return false;
     }
     return real == GB_REAL_F64 ||

@@ -30,7 +30,8 @@ bool gb_pair_results_resize_near(struct gb_pair_results *results, int64_t capaci
 }
 
 bool gb_pair_results_resize_far(struct gb_pair_results *results, int64_t capacity,
-                                enum gb_real real, bool viscous, struct gb_error *err)
+                                enum gb_real real, enum gb_pair_results_far content,
+                                struct gb_error *err)
 {
     gb_alloc_free(results->far_distance);
     gb_alloc_free(results->far_pull);
@@ -43,7 +44,7 @@ bool gb_pair_results_resize_far(struct gb_pair_results *results, int64_t capacit
             return false;
         }
     }
-    if (viscous) {
+    if (content == GB_PAIR_RESULTS_FAR_WORK) {
         results->far_distance = gb_alloc_array((size_t)capacity, sizeof(double), err);
         results->far_pull = gb_alloc_array((size_t)capacity, sizeof(double), err);
         if (!results->far_distance || !results->far_pull) {

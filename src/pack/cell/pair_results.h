@@ -28,9 +28,16 @@ void gb_pair_results_finish(struct gb_pair_results *results);
 /* Room for so many pairs; what was there is lost. */
 bool gb_pair_results_resize_near(struct gb_pair_results *results, int64_t capacity,
                                  struct gb_error *err);
-/* viscous: keeps distances and attractions for the next evaluation, in dynamic scenes */
+/* What is stored of a far pair. */
+enum gb_pair_results_far {
+    GB_PAIR_RESULTS_FAR_FORCE,
+    GB_PAIR_RESULTS_FAR_WORK, /* also distance and attraction, for the work absorbed until
+                               * the next evaluation (dynamic scenes) */
+};
+
 bool gb_pair_results_resize_far(struct gb_pair_results *results, int64_t capacity,
-                                enum gb_real real, bool viscous, struct gb_error *err);
+                                enum gb_real real, enum gb_pair_results_far content,
+                                struct gb_error *err);
 
 /* The far pairs of a new list have no last evaluation. */
 void gb_pair_results_reset_far(struct gb_pair_results *results, int64_t pairs);

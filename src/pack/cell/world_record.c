@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "pack/cell/engine_lists.h"
+#include "pack/cell/record_checks.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_convert.h"
 #include "pack/kernel/pair_forces.h"
@@ -43,11 +44,6 @@ static const struct gb_record_member result_members[] = {
 };
 
 #define LENGTH(table) (sizeof(table) / sizeof((table)[0]))
-
-static bool out_of_range(const char *name, struct gb_error *err)
-{
-    return gb_error_set(err, GB_ERR_INPUT, "%s: is out of range", name);
-}
 
 /* A vector of every particle. */
 static bool record_vectors(struct gb_world *world, struct gb_record *record,
@@ -88,48 +84,6 @@ static bool record_history(struct gb_contact_history *history,
                                   "d", history->value, err));
 }
 
-/* Sorted pairs of existing particles. */
-static bool check_history(const struct gb_contact_history *history, int64_t count,
-                          const char *name, struct gb_error *err)
-{
-    for (int64_t k = 0; k < history->count; k++) {
-        const int32_t i = history->pair[k][0], j = history->pair[k][1];
-        const bool ascends =
-            k == 0 || history->pair[k - 1][0] < i ||
-            (history->pair[k - 1][0] == i && history->pair[k - 1][1] < j);
-        if (i < 0 || j <= i || j >= count || !ascends) {
-            return out_of_range(name, err);
-        }
-    }
-    return true;
-}
-
-static bool check_edges(const struct gb_cell *cell, const char *name,
-                        struct gb_error *err)
-{
-    for (int k = 0; k < 3; k++) {
-        if (!(cell->edge[k] > 0.0 && cell->edge[k] < 1e9)) {
-            return out_of_range(name, err);
-        }
-    }
-    return true;
-}
-
-/* margin: allowed outside of the cell, over the edge */
-static bool check_inside(const struct gb_cell *cell, const double *position,
-                         int64_t count, double margin, const char *name,
-                         struct gb_error *err)
-{
-    for (int64_t i = 0; i < 3 * count; i++) {
-        const double x = position[i] / cell->edge[i % 3];
-        const double allowed = cell->periodic[i % 3] ? margin : 1e6;
-        if (!(x >= -allowed && x <= 1.0 + allowed)) {
-            return out_of_range(name, err);
-        }
-    }
-    return true;
-}
-
 /* Pairs inserted into the lists since their build. */
 static const char inserted_name[] = "world/amended";
 
@@ -154,9 +108,9 @@ static bool load_lists(struct gb_world *world, struct gb_record *record,
         return false;
     }
     memcpy(built.edge, engine->list.built_edge, sizeof built.edge);
-    if (!check_edges(&built, "world/built_edge", err) ||
-        !check_inside(&built, particles->position, particles->count, 0.0,
-                      "world/built_at", err) ||
+    if (!gb_record_checks_edges(&built, "world/built_edge", err) ||
+        !gb_record_checks_inside(&built, particles->position, particles->count, 0.0,
+                                 "world/built_at", err) ||
         !gb_engine_lists_build(engine, &built, err)) {
         gb_neighbour_list_clear(&engine->list);
         gb_engine_state_drop_lists(&engine->state);
@@ -207,7 +161,8 @@ static bool load_contacts(struct gb_world *world, struct gb_record *record,
     struct gb_contact_history *history = &world->checkpoint_history;
     struct gb_engine *engine = &world->engine;
     if (!record_history(history, engine, record, &world_names, err) ||
-        !check_history(history, engine->particles.count, world_names.pair, err)) {
+        !gb_record_checks_history(history, engine->particles.count, world_names.pair,
+                                  err)) {
         return false;
     }
     if (!fits(history, engine)) {
@@ -225,10 +180,10 @@ static bool load_positions(struct gb_world *world, struct gb_record *record,
     const size_t bytes = 3 * (size_t)particles->count * sizeof *particles->rotation;
     const int64_t rebuilds = world->rebuilds;
     if (!gb_record_members(record, cell_members, LENGTH(cell_members), world, err) ||
-        !check_edges(&particles->cell, "world/edge", err) ||
+        !gb_record_checks_edges(&particles->cell, "world/edge", err) ||
         !record_vectors(world, record, "world/position", "d", particles->position, err) ||
-        !check_inside(&particles->cell, particles->position, particles->count, 1.0,
-                      "world/position", err)) {
+        !gb_record_checks_inside(&particles->cell, particles->position, particles->count,
+                                 1.0, "world/position", err)) {
         return false;
     }
     memset(particles->rotation, 0, bytes);
@@ -320,13 +275,13 @@ bool gb_world_record_copy(const struct gb_world *world, struct gb_world_copy **c
     }
     return gb_record_array(record, "branch/edge", GB_RECORD_DOUBLE, 1, 3, "d",
                            at->cell.edge, err) &&
-           check_edges(&at->cell, "branch/edge", err) &&
+           gb_record_checks_edges(&at->cell, "branch/edge", err) &&
            gb_record_array(record, "branch/position", GB_RECORD_DOUBLE, at->count, 3, "d",
                            at->position, err) &&
-           check_inside(&at->cell, at->position, at->count, 1.0, "branch/position",
-                        err) &&
+           gb_record_checks_inside(&at->cell, at->position, at->count, 1.0,
+                                   "branch/position", err) &&
            record_history(&at->history, &world->engine, record, &branch_names, err) &&
-           check_history(&at->history, at->count, branch_names.pair, err);
+           gb_record_checks_history(&at->history, at->count, branch_names.pair, err);
 }
 
 #undef AT

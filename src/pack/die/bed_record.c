@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "base/alloc.h"
+#include "pack/cell/record_checks.h"
 #include "pack/die/bed_list.h"
 
 #define AT(member) offsetof(struct gb_bed, member)
@@ -22,11 +23,6 @@ static const struct gb_record_member members[] = {
 
 #undef AT
 
-static bool wrong(const char *name, struct gb_error *err)
-{
-    return gb_error_set(err, GB_ERR_INPUT, "%s: is out of range", name);
-}
-
 static bool rows(struct gb_bed *bed, struct gb_record *record, const char *name,
                  const char *unit, gb_bed_row *data, struct gb_error *err)
 {
@@ -34,7 +30,7 @@ static bool rows(struct gb_bed *bed, struct gb_record *record, const char *name,
                            err);
 }
 
-/* The radii belong to the parameters; what the record says must be the same. */
+/* Radii are given by the parameters; those of the record must be equal. */
 static bool check_positions(const struct gb_bed *bed, const double *mass,
                             struct gb_error *err)
 {
@@ -43,23 +39,25 @@ static bool check_positions(const struct gb_bed *bed, const double *mass,
         const double d = 2.0 * x[3];
         const double far = fabs(x[0]) + fabs(x[1]) + fabs(x[2]);
         if (!(far < 1e9) || fabs(d * d * d - mass[i]) > 1e-9 * mass[i]) {
-            return wrong("bed/place", err);
+            return gb_record_checks_out_of_range("bed/place", err);
         }
     }
     return true;
 }
 
-/* Sorted, of particles that there are. */
-static bool check_list(const struct gb_bed_list *list, int64_t count, bool walls,
-                       const char *name, struct gb_error *err)
+/* Sorted contacts of existing particles. */
+static bool check_list(const struct gb_bed_list *list, int64_t count,
+                       enum gb_bed_partner partner, const char *name,
+                       struct gb_error *err)
 {
     for (int64_t k = 0; k < list->count; k++) {
         const int32_t i = list->first[k], j = list->other[k];
-        const bool known = walls ? j >= 0 && j < GB_DIE_WALLS : j > i && j < count;
+        const bool known = partner == GB_BED_PARTNER_WALL ? j >= 0 && j < GB_DIE_WALLS
+                                                          : j > i && j < count;
         const bool follows = k == 0 || list->first[k - 1] < i ||
                              (list->first[k - 1] == i && list->other[k - 1] < j);
         if (i < 0 || i >= count || !known || !follows) {
-            return wrong(name, err);
+            return gb_record_checks_out_of_range(name, err);
         }
     }
     return true;
@@ -76,9 +74,10 @@ static void start_list(struct gb_bed_list *list, int64_t count)
     }
 }
 
-/* The touching contacts, in a list of nothing else. */
-static bool exchange_list(struct gb_bed *bed, bool walls, struct gb_bed_list *list,
-                          struct gb_record *record, struct gb_error *err)
+/* A list of touching contacts only. */
+static bool exchange_list(struct gb_bed *bed, enum gb_bed_partner partner,
+                          struct gb_bed_list *list, struct gb_record *record,
+                          struct gb_error *err)
 {
     static const char *const names[2][8] = {
         {"bed/first", "bed/second", "bed/deepest", "bed/rest", "bed/shear_x",
@@ -87,7 +86,7 @@ static bool exchange_list(struct gb_bed *bed, bool walls, struct gb_bed_list *li
          "walls/shear_y", "walls/shear_z", "walls/normal"}};
     static const char *const units[8] = {"1",     "1",     "d",     "d",
                                          "E d^2", "E d^2", "E d^2", "E d^2"};
-    const char *const *name = names[walls];
+    const char *const *name = names[partner == GB_BED_PARTNER_WALL];
     int64_t count = list->count;
     if (record->loading &&
         (!gb_record_rows(record, name[0], GB_RECORD_INT32, 1, &count, err) ||
@@ -106,7 +105,7 @@ static bool exchange_list(struct gb_bed *bed, bool walls, struct gb_bed_list *li
             return false;
         }
     }
-    if (!check_list(list, bed->count, walls, name[0], err)) {
+    if (!check_list(list, bed->count, partner, name[0], err)) {
         return false;
     }
     start_list(list, bed->count);
@@ -116,11 +115,10 @@ static bool exchange_list(struct gb_bed *bed, bool walls, struct gb_bed_list *li
 static bool exchange_contacts(struct gb_bed *bed, enum gb_bed_partner partner,
                               struct gb_record *record, struct gb_error *err)
 {
-    const bool walls = partner == GB_BED_PARTNER_WALL;
-    struct gb_bed_list *own = walls ? &bed->walls : &bed->pairs;
+    struct gb_bed_list *own = partner == GB_BED_PARTNER_WALL ? &bed->walls : &bed->pairs;
     struct gb_bed_list kept = {0};
     bool done = record->loading || gb_bed_list_copy_touching(&kept, own, bed->count, err);
-    done = done && exchange_list(bed, walls, &kept, record, err);
+    done = done && exchange_list(bed, partner, &kept, record, err);
     if (done && record->loading) {
         done = gb_bed_list_copy_touching(own, &kept, bed->count, err);
         bed->listed = false;

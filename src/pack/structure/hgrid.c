@@ -10,7 +10,7 @@
 /* Spheres at most, so that cells can be counted in 32 bits. */
 static const int64_t spheres_most = (int64_t)1 << 28;
 
-/* Pairs that may be found however few the spheres are. */
+/* Number of pairs that is accepted for any number of spheres. */
 static const int64_t pairs_least = 1 << 16;
 
 static void drop_pairs(struct gb_hgrid *hgrid)
@@ -102,7 +102,7 @@ static bool reserve(struct gb_hgrid_search *search, int64_t need, struct gb_erro
     return true;
 }
 
-/* Finite, not negative; and the largest reach. */
+/* Checks that the spheres are finite and not negative; finds the largest reach. */
 static bool check_spheres(struct gb_hgrid_search *search, const double (*sphere)[4],
                           const double *margin, double skin, struct gb_error *err)
 {
@@ -145,7 +145,7 @@ static struct span span_of(const struct gb_hgrid_search *search,
     return span.high - span.low + 1 < cells ? span : (struct span){0, cells - 1};
 }
 
-static int into(int index, int cells)
+static int wrapped(int index, int cells)
 {
     return index < 0 ? index + cells : index >= cells ? index - cells : index;
 }
@@ -180,9 +180,13 @@ static bool scan(struct gb_hgrid_search *search, int64_t p, int64_t from, int64_
     return true;
 }
 
-/* One row of cells along x, which may go round the period once. */
+/* Which spheres of a level are neighbours of sorted sphere p: in its own level those behind
+ * it in the order, so that every pair is found once. */
+enum hgrid_partners { ALL_OF_LEVEL, BEHIND_IN_LEVEL };
+
+/* One row of cells along x, which may extend beyond the period once. */
 static bool scan_row(struct gb_hgrid_search *search, const struct gb_hgrid_level *level,
-                     int64_t p, int32_t row, struct span x, bool own,
+                     int64_t p, int32_t row, struct span x, enum hgrid_partners partners,
                      struct gb_error *err)
 {
     const int32_t *start = search->hgrid->cell_start + level->first_cell + row;
@@ -201,7 +205,7 @@ static bool scan_row(struct gb_hgrid_search *search, const struct gb_hgrid_level
         }
         int64_t from = start[part[k].low];
         const int64_t to = start[part[k].high + 1];
-        from = own && from <= p ? p + 1 : from;
+        from = partners == BEHIND_IN_LEVEL && from <= p ? p + 1 : from;
         if (from < to && !scan(search, p, from, to, err)) {
             return false;
         }
@@ -209,10 +213,9 @@ static bool scan_row(struct gb_hgrid_search *search, const struct gb_hgrid_level
     return true;
 }
 
-/* Neighbours of sorted sphere p in a level: its own, where those behind p are taken, or
- * one of larger spheres. */
+/* Neighbours of sorted sphere p in a level: its own, or one of larger spheres. */
 static bool scan_level(struct gb_hgrid_search *search, const struct gb_hgrid_level *level,
-                       int64_t p, bool own, struct gb_error *err)
+                       int64_t p, enum hgrid_partners partners, struct gb_error *err)
 {
     const struct gb_hgrid_sphere *s = &search->hgrid->sphere[p];
     const double range = s->reach + level->widest;
@@ -224,8 +227,8 @@ static bool scan_level(struct gb_hgrid_search *search, const struct gb_hgrid_lev
     for (int z = span[2].low; z <= span[2].high; z++) {
         for (int y = span[1].low; y <= span[1].high; y++) {
             const int32_t row =
-                (into(z, cells[2]) * cells[1] + into(y, cells[1])) * cells[0];
-            if (!scan_row(search, level, p, row, span[0], own, err)) {
+                (wrapped(z, cells[2]) * cells[1] + wrapped(y, cells[1])) * cells[0];
+            if (!scan_row(search, level, p, row, span[0], partners, err)) {
                 return false;
             }
         }
@@ -240,7 +243,9 @@ static bool find_pairs(struct gb_hgrid_search *search, struct gb_error *err)
         for (const int64_t end = p + search->level[l].count; p < end; p++) {
             for (int m = 0; m <= l; m++) {
                 const struct gb_hgrid_level *level = &search->level[m];
-                if (level->count > 0 && !scan_level(search, level, p, m == l, err)) {
+                const enum hgrid_partners partners =
+                    m == l ? BEHIND_IN_LEVEL : ALL_OF_LEVEL;
+                if (level->count > 0 && !scan_level(search, level, p, partners, err)) {
                     return false;
                 }
             }

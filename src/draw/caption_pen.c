@@ -1,0 +1,57 @@
+#include "draw/caption_pen.h"
+
+bool gb_caption_pen_begin(struct gb_caption_pen *pen, struct gb_image *image, double unit,
+                          enum gb_background background, struct gb_error *err)
+{
+    gb_image_swap_red_blue(image);
+    cairo_surface_t *surface = cairo_image_surface_create_for_data(
+        image->rgba, CAIRO_FORMAT_ARGB32, image->width, image->height, 4 * image->width);
+    *pen = (struct gb_caption_pen){.cairo = cairo_create(surface), .unit = unit};
+    cairo_surface_destroy(surface);
+    gb_scene_foreground(background, pen->foreground);
+    return gb_text_init(&pen->text, pen->cairo, err);
+}
+
+bool gb_caption_pen_end(struct gb_caption_pen *pen, struct gb_image *image, bool good,
+                        struct gb_error *err)
+{
+    const cairo_status_t status = cairo_status(pen->cairo);
+    cairo_surface_flush(cairo_get_target(pen->cairo));
+    gb_text_finish(&pen->text);
+    cairo_destroy(pen->cairo);
+    gb_image_swap_red_blue(image);
+    return good && (status == CAIRO_STATUS_SUCCESS ||
+                    gb_error_set(err, GB_ERR_MACHINE, "the caption cannot be drawn: %s",
+                                 cairo_status_to_string(status)));
+}
+
+void gb_caption_pen_set_foreground(const struct gb_caption_pen *pen)
+{
+    cairo_set_source_rgb(pen->cairo, pen->foreground[0] / 255.0,
+                         pen->foreground[1] / 255.0, pen->foreground[2] / 255.0);
+}
+
+void gb_caption_pen_line(const struct gb_caption_pen *pen, const char *line, double x,
+                         double y, double align, double scale, double max_width)
+{
+    char *markup = g_markup_escape_text(line, -1);
+    double size = scale * pen->unit;
+    double wide = 0.0;
+    double high = 0.0;
+    gb_text_measure(&pen->text, markup, size, 0.0, &wide, &high);
+    if (max_width > 0.0 && wide > max_width) {
+        size *= max_width / wide;
+    }
+    gb_caption_pen_set_foreground(pen);
+    gb_text_write(&pen->text, markup, size, 0.0, (double[2]){x, y},
+                  (double[2]){align, 0.5}, 0);
+    g_free(markup);
+}
+
+void gb_caption_pen_line_upwards(const struct gb_caption_pen *pen, const char *line,
+                                 double x, double y)
+{
+    gb_caption_pen_set_foreground(pen);
+    gb_text_write(&pen->text, line, 0.95 * pen->unit, 0.0, (double[2]){x, y},
+                  (double[2]){0.5, 0.5}, 1);
+}
