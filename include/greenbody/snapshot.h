@@ -30,7 +30,7 @@ enum { GB_EVENT_TEXT = 640 };
 /* State of a run for the screen: plain data without pointers, copied whole from the
  * engine thread through a triple buffer without a lock. */
 struct gb_snapshot {
-    int state;           /* enum gb_run_state */
+    enum gb_run_state state;
     struct gb_point now; /* the last relaxed state (also between recorded points) */
     bool now_valid;
     double

@@ -116,11 +116,19 @@ static bool reserve(struct gb_measured *measured, const char *path, size_t count
     return true;
 }
 
+/* The column of words is a series or a branch. */
+static bool read_table(struct gb_table **table, const char *path, struct gb_error *err)
+{
+    struct gb_error why = {0};
+    return gb_table_read(table, path, "series", &why) ||
+           (why.code == GB_ERR_INPUT && gb_table_read(table, path, "branch", NULL)) ||
+           gb_error_set(err, why.code, "%s", why.text);
+}
+
 bool gb_measured_read(struct gb_measured **out, const char *path, struct gb_error *err)
 {
     struct gb_table *table = NULL;
-    if (!gb_table_read(&table, path, "series", err) &&
-        !gb_table_read(&table, path, "branch", NULL)) {
+    if (!read_table(&table, path, err)) {
         return false;
     }
     const size_t count = gb_table_rows(table);

@@ -12,17 +12,16 @@ static const char *const state_words[] = {
     [GB_RUN_PAUSED] = "paused",   [GB_RUN_DONE] = "done",
     [GB_RUN_STOPPED] = "stopped", [GB_RUN_FAILED] = "failed"};
 
-static const char *state_word(int state)
+static const char *state_word(enum gb_run_state state)
 {
-    return state >= 0 && state < (int)G_N_ELEMENTS(state_words) ? state_words[state]
-                                                                : "unknown";
+    return (size_t)state < G_N_ELEMENTS(state_words) ? state_words[state] : "unknown";
 }
 
-int gb_status_json_state(const char *word)
+enum gb_run_state gb_status_json_state(const char *word)
 {
     for (size_t k = 0; k < G_N_ELEMENTS(state_words); k++) {
         if (strcmp(state_words[k], word) == 0) {
-            return (int)k;
+            return (enum gb_run_state)k;
         }
     }
     return GB_RUN_STOPPED;

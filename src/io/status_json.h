@@ -8,7 +8,7 @@
  * points   recorded so far */
 char *gb_status_json_text(const struct gb_snapshot *snapshot, int64_t points);
 
-/* enum gb_run_state of a word in status.json; stopped for others. */
-int gb_status_json_state(const char *word);
+/* State of a run by its word in status.json; stopped for other words. */
+enum gb_run_state gb_status_json_state(const char *word);
 
 #endif

@@ -54,10 +54,10 @@ bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err)
         if (!g_file_test(run->directory, G_FILE_TEST_EXISTS)) {
             continue;
         }
-        bool same = true;
-        run->before = run->ended =
-            gb_single_run_done(&run->params, run->directory, &same);
-        if (!same) {
+        const enum gb_single_run_found found =
+            gb_single_run_find(&run->params, run->directory);
+        run->before = run->ended = found == GB_SINGLE_RUN_DONE;
+        if (found == GB_SINGLE_RUN_OTHER) {
             return gb_error_set(err, GB_ERR_INPUT,
                                 "%.300s: holds a run of other parameters; choose another "
                                 "directory",

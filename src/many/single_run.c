@@ -79,20 +79,23 @@ bool gb_single_run_status_is_done(const char *path)
     return done;
 }
 
-bool gb_single_run_done(const struct gb_params *params, const char *directory, bool *same)
+enum gb_single_run_found gb_single_run_find(const struct gb_params *params,
+                                            const char *directory)
 {
     char *status = g_build_filename(directory, "status.json", NULL);
     char *path = g_build_filename(directory, "preset.ini", NULL);
     struct gb_preset *preset = NULL;
-    *same = true;
-    bool done = false;
+    enum gb_single_run_found found = GB_SINGLE_RUN_NOT_DONE;
     if (gb_preset_load(&preset, path, NULL)) {
-        *same = gb_preset_params(preset)->seed == params->seed &&
-                gb_runset_same(gb_preset_params(preset), params);
-        done = *same && gb_single_run_status_is_done(status);
+        if (gb_preset_params(preset)->seed != params->seed ||
+            !gb_runset_same(gb_preset_params(preset), params)) {
+            found = GB_SINGLE_RUN_OTHER;
+        } else if (gb_single_run_status_is_done(status)) {
+            found = GB_SINGLE_RUN_DONE;
+        }
         gb_preset_destroy(preset);
     }
     g_free(path);
     g_free(status);
-    return done;
+    return found;
 }

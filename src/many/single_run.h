@@ -17,13 +17,16 @@
 bool gb_single_run(const struct gb_params *params, const char *directory,
                    const struct gb_pool_callbacks *callbacks, struct gb_error *err);
 
-/* Is there a finished run of these parameters?  Title, threads and [output] may differ:
- * they change no result.
- *
- * same   false when directory holds the preset of another experiment; true when it holds
- *        this one's or none that can be read */
-bool gb_single_run_done(const struct gb_params *params, const char *directory,
-                        bool *same);
+enum gb_single_run_found {
+    GB_SINGLE_RUN_DONE,
+    GB_SINGLE_RUN_NOT_DONE, /* a run that was not finished, or no preset to be read */
+    GB_SINGLE_RUN_OTHER     /* a run of another experiment */
+};
+
+/* What a directory holds of the run of these parameters.  Title, threads and [output] may
+ * differ: they change no result. */
+enum gb_single_run_found gb_single_run_find(const struct gb_params *params,
+                                            const char *directory);
 
 /* Does this status.json say that its run was done? */
 bool gb_single_run_status_is_done(const char *path);

@@ -50,7 +50,7 @@ static bool refresh(struct gb_runner *runner, double *changed_s)
 {
     struct gb_snapshot *shown = &runner->loop.snapshot;
     const double seconds = shown->seconds;
-    const int state = shown->state;
+    const enum gb_run_state state = shown->state;
     if (!g_file_test(runner->directory, G_FILE_TEST_IS_DIR)) {
         lose_directory(runner);
         return false;

@@ -35,18 +35,35 @@ struct fit {
     enum gb_calibrate_stage stage;
 };
 
+enum seed_outcome {
+    SEED_FITTED,
+    SEED_TOO_FEW, /* failed runs leave too few points for a linear surrogate */
+    SEED_FAILED   /* err */
+};
+
 /* The surrogate of one seed over the points where it did not fail: quadratic, or linear
- * where failures leave too few points; false where they leave too few for that. */
-static bool fit_seed(const struct fit *fit, size_t seed, double *at, double *value,
-                     struct gb_surrogate *surrogate)
+ * where failures leave too few points. */
+static enum seed_outcome fit_seed(const struct fit *fit, size_t seed, double *at,
+                                  double *value, struct gb_surrogate *surrogate,
+                                  struct gb_error *err)
 {
+    static const enum gb_surrogate_order order[] = {GB_SURROGATE_QUADRATIC,
+                                                    GB_SURROGATE_LINEAR};
     const struct gb_calibrate_problem *problem = fit->problem;
     const size_t points = gb_calibrate_samples_near(&fit->samples, &fit->region,
                                                     fit->stage, seed, at, value);
-    return gb_surrogate_fit(surrogate, problem->free, problem->data,
-                            GB_SURROGATE_QUADRATIC, at, value, points, NULL) ||
-           gb_surrogate_fit(surrogate, problem->free, problem->data, GB_SURROGATE_LINEAR,
-                            at, value, points, NULL);
+    for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
+        struct gb_error why = {0};
+        if (gb_surrogate_fit(surrogate, problem->free, problem->data, order[i], at, value,
+                             points, &why)) {
+            return SEED_FITTED;
+        }
+        if (why.code != GB_ERR_INPUT) {
+            (void)gb_error_set(err, why.code, "%s", why.text);
+            return SEED_FAILED;
+        }
+    }
+    return SEED_TOO_FEW;
 }
 
 /* Surrogates of all seeds that have one, and their number.  The caller finishes them. */
@@ -58,10 +75,13 @@ static bool fit_seeds(const struct fit *fit, struct gb_surrogate *surrogate,
     double *at = gb_alloc_array(count * problem->free, sizeof *at, err);
     double *value = at ? gb_alloc_array(count * problem->data, sizeof *value, err) : NULL;
     *seeds = 0;
-    for (size_t s = 0; value != NULL && s < problem->replicas; s++) {
-        *seeds += fit_seed(fit, s, at, value, &surrogate[*seeds]);
+    bool made = value != NULL;
+    for (size_t s = 0; made && s < problem->replicas; s++) {
+        const enum seed_outcome outcome =
+            fit_seed(fit, s, at, value, &surrogate[*seeds], err);
+        *seeds += outcome == SEED_FITTED;
+        made = outcome != SEED_FAILED;
     }
-    const bool made = value != NULL;
     gb_alloc_free(at);
     gb_alloc_free(value);
     return made &&

@@ -14,16 +14,18 @@ const char *gb_calibration_name(const struct gb_free_key *key, char *buffer, siz
     return buffer;
 }
 
-/* A smaller cell of the same shape; false where it would have too few particles. */
-static bool make_coarse(struct gb_params *params)
+/* A smaller cell of the same shape.  Errors: GB_ERR_INPUT for too few particles. */
+static bool make_coarse(struct gb_params *params, struct gb_error *err)
 {
     const int64_t count = params->count / COARSE_FRACTION;
     if (count < COARSE_MIN) {
-        return false;
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "a coarse cell of %lld particles: accepted %d at least",
+                            (long long)count, (int)COARSE_MIN);
     }
     params->base.value *= cbrt((double)count / (double)params->count);
     params->count = count;
-    return gb_params_check(params, NULL);
+    return gb_params_check(params, err);
 }
 
 /* "coarse_1_mu-0.13_alpha-0.37_seed-2": depends on the parameters of the run only. */
@@ -56,7 +58,7 @@ static bool fill(const struct gb_calibration *calibration, const double *paramet
         run->params.seed += run->replica;
         run->params.threads = run->params.threads > 0 ? run->params.threads : 1;
         if (!gb_free_keys_apply(&calibration->keys, at, &run->params, err) ||
-            (stage == GB_CALIBRATE_COARSE && !make_coarse(&run->params)) ||
+            (stage == GB_CALIBRATE_COARSE && !make_coarse(&run->params, err)) ||
             !gb_params_check(&run->params, err)) {
             return false;
         }
@@ -166,7 +168,7 @@ static struct gb_calibrate_problem problem_of(struct gb_calibration *calibration
     }
     for (size_t s = 0; s < calibration->lab.scenes; s++) {
         struct gb_params smaller = calibration->lab.scene[s];
-        problem.coarse_stage = problem.coarse_stage && make_coarse(&smaller);
+        problem.coarse_stage = problem.coarse_stage && make_coarse(&smaller, NULL);
     }
     return problem;
 }

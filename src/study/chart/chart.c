@@ -144,9 +144,10 @@ static bool advance(struct gb_chart_run *run, struct gb_experiment *experiment,
                     void *data, struct gb_error *err)
 {
     const double start = gb_chart_cpu_s();
+    struct gb_error why = {0};
     enum gb_step_outcome how = GB_STEP_MORE;
     while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
-        how = gb_experiment_advance(experiment, SLICE, err);
+        how = gb_experiment_advance(experiment, SLICE, &why);
         run->cpu_s = gb_chart_cpu_s() - start;
         if (how == GB_STEP_POINT) {
             run->evaluations += (double)gb_experiment_point(experiment)->evaluations;
@@ -157,9 +158,8 @@ static bool advance(struct gb_chart_run *run, struct gb_experiment *experiment,
         }
     }
     run->failed = how == GB_STEP_STOPPED;
-    const bool guarded =
-        run->failed && (err->code == GB_ERR_GUARD || err->code == GB_ERR_NOT_CONVERGED);
-    return !run->failed || guarded;
+    const bool guarded = why.code == GB_ERR_GUARD || why.code == GB_ERR_NOT_CONVERGED;
+    return !run->failed || guarded || gb_error_set(err, why.code, "%s", why.text);
 }
 
 static struct gb_params scene_of(const struct gb_chart_run *run,

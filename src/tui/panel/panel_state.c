@@ -8,7 +8,7 @@
 /* Width of a column from which on names are not abbreviated; least width of the bar. */
 enum { FULL_NAME_COLS = 30, BAR_MIN = 4 };
 
-const char *gb_panel_state_word(int state, enum gb_style *style)
+const char *gb_panel_state_word(enum gb_run_state state, enum gb_style *style)
 {
     static const struct {
         const char *word;

@@ -133,7 +133,7 @@ void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
                          bool focus);
 /* "running" with a symbol; *style repeats the meaning as colour. */
-const char *gb_panel_state_word(int state, enum gb_style *style);
+const char *gb_panel_state_word(enum gb_run_state state, enum gb_style *style);
 
 /* --- events ------------------------------------------------------------------------- */
 

@@ -4,14 +4,17 @@
 
 #include "run/quick.h"
 
-bool gb_quick_cell_start(struct gb_quick_cell *quick_cell,
-                         const struct gb_params *full_params, struct gb_error *err)
+enum gb_quick_cell_start gb_quick_cell_start(struct gb_quick_cell *quick_cell,
+                                             const struct gb_params *full_params,
+                                             struct gb_error *err)
 {
     struct gb_params quick;
     struct gb_runner *runner = NULL;
-    if (!gb_quick_params(full_params, &quick) ||
-        !gb_runner_create(&runner, &quick, err)) {
-        return false;
+    if (!gb_quick_params(full_params, &quick)) {
+        return GB_QUICK_CELL_NONE;
+    }
+    if (!gb_runner_create(&runner, &quick, err)) {
+        return GB_QUICK_CELL_FAILED;
     }
     gb_quick_cell_drop(quick_cell);
     quick_cell->full_params = *full_params;
@@ -19,7 +22,7 @@ bool gb_quick_cell_start(struct gb_quick_cell *quick_cell,
     gb_runner_send(runner, GB_COMMAND_WATCH);
     quick_cell->state = GB_RUN_PACKING;
     quick_cell->now.seconds_left = -1.0;
-    return true;
+    return GB_QUICK_CELL_STARTED;
 }
 
 void gb_quick_cell_drop(struct gb_quick_cell *quick_cell)
@@ -28,26 +31,28 @@ void gb_quick_cell_drop(struct gb_quick_cell *quick_cell)
     memset(quick_cell, 0, sizeof *quick_cell);
 }
 
-bool gb_quick_cell_refresh(struct gb_quick_cell *quick_cell, bool frozen, bool *ended)
+enum gb_quick_cell_news gb_quick_cell_refresh(struct gb_quick_cell *quick_cell,
+                                              bool frozen)
 {
     bool changed = false;
-    *ended = false;
     if (quick_cell->runner == NULL) {
-        return false;
+        return GB_QUICK_CELL_SAME;
     }
     const bool was_live = gb_quick_cell_live(quick_cell);
     const struct gb_snapshot *snapshot = gb_runner_snapshot(quick_cell->runner, &changed);
     quick_cell->state = snapshot->state;
-    *ended = was_live && !gb_quick_cell_live(quick_cell);
     quick_cell->missed = quick_cell->missed || changed;
-    if (!quick_cell->missed || frozen) {
-        return false;
+    const bool shown = quick_cell->missed && !frozen;
+    if (shown) {
+        quick_cell->missed = false;
+        quick_cell->now = *snapshot;
+        quick_cell->points = gb_curve_count(gb_runner_curve(quick_cell->runner));
+        quick_cell->sample = gb_runner_view_sample(quick_cell->runner, NULL);
     }
-    quick_cell->missed = false;
-    quick_cell->now = *snapshot;
-    quick_cell->points = gb_curve_count(gb_runner_curve(quick_cell->runner));
-    quick_cell->sample = gb_runner_view_sample(quick_cell->runner, NULL);
-    return true;
+    if (was_live && !gb_quick_cell_live(quick_cell)) {
+        return GB_QUICK_CELL_ENDED;
+    }
+    return shown ? GB_QUICK_CELL_CHANGED : GB_QUICK_CELL_SAME;
 }
 
 bool gb_quick_cell_live(const struct gb_quick_cell *quick_cell)

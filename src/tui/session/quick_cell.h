@@ -11,19 +11,32 @@ struct gb_quick_cell {
     struct gb_snapshot now;
     size_t points;
     const struct gb_view_sample *sample;
-    int state;   /* enum gb_run_state */
+    enum gb_run_state state;
     bool missed; /* updates withheld while the view is frozen */
 };
 
-/* Starts the quick cell of a scene and destroys the previous one.  False: no quick cell
- * for the scene (err is set after an error only). */
-bool gb_quick_cell_start(struct gb_quick_cell *quick_cell,
-                         const struct gb_params *full_params, struct gb_error *err);
+enum gb_quick_cell_start {
+    GB_QUICK_CELL_STARTED,
+    GB_QUICK_CELL_NONE,  /* scenes of this kind have no quick cell */
+    GB_QUICK_CELL_FAILED /* the engine cannot be started: err */
+};
+
+/* Starts the quick cell of a scene and destroys the previous one, which stays unless the
+ * outcome is GB_QUICK_CELL_STARTED.  Errors: those of gb_runner_create. */
+enum gb_quick_cell_start gb_quick_cell_start(struct gb_quick_cell *quick_cell,
+                                             const struct gb_params *full_params,
+                                             struct gb_error *err);
 void gb_quick_cell_drop(struct gb_quick_cell *quick_cell);
 
-/* Takes the published snapshot; true if the view changes: never while it is frozen.
- * *ended: the quick cell has just finished. */
-bool gb_quick_cell_refresh(struct gb_quick_cell *quick_cell, bool frozen, bool *ended);
+enum gb_quick_cell_news {
+    GB_QUICK_CELL_SAME,    /* nothing new, or the view is frozen */
+    GB_QUICK_CELL_CHANGED, /* the view changes */
+    GB_QUICK_CELL_ENDED    /* the quick cell has just finished; frozen views too */
+};
+
+/* Takes the published snapshot; the view stays as it is while it is frozen. */
+enum gb_quick_cell_news gb_quick_cell_refresh(struct gb_quick_cell *quick_cell,
+                                              bool frozen);
 
 bool gb_quick_cell_live(const struct gb_quick_cell *quick_cell);
 

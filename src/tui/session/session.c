@@ -243,7 +243,7 @@ bool gb_session_live(const struct gb_session *session)
 
 bool gb_session_busy(const struct gb_session *session)
 {
-    const int state = gb_session_shown(session).state;
+    const enum gb_run_state state = gb_session_shown(session).state;
     return session->child.pid != 0 ||
            ((session->runner != NULL || session->quick_cell.runner != NULL) &&
             (state <= GB_RUN_RUNNING || session->waiting));

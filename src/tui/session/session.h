@@ -28,7 +28,7 @@ struct gb_session {
     struct gb_snapshot now;          /* snapshot on display; unchanged while frozen */
     size_t points;                   /* points of the curve on display */
     const struct gb_view_sample *sample;
-    int run_state; /* enum gb_run_state, current even while frozen */
+    enum gb_run_state run_state; /* current even while frozen */
     bool frozen;
     bool pause_wanted;
     bool waiting;    /* a command was sent, its effect is not yet visible */
@@ -67,8 +67,8 @@ struct gb_session_shown {
     const struct gb_curve *curve;   /* NULL: no curve yet */
     size_t points;
     const struct gb_view_sample *sample; /* NULL: none */
-    int state;  /* enum gb_run_state, even while the view is frozen */
-    bool quick; /* of the quick cell */
+    enum gb_run_state state;             /* current even while frozen */
+    bool quick;                          /* of the quick cell */
 };
 
 struct gb_session_shown gb_session_shown(const struct gb_session *session);

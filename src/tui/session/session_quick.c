@@ -75,7 +75,12 @@ bool gb_session_quick_start(struct gb_session *session)
     set_engine(session,
                gb_session_run_is_live(session) ? ENGINE_WAITS : ENGINE_CONTINUES);
     session->pause_wanted = false;
-    if (!gb_quick_cell_start(&session->quick_cell, params, &err)) {
+    const enum gb_quick_cell_start outcome =
+        gb_quick_cell_start(&session->quick_cell, params, &err);
+    if (outcome == GB_QUICK_CELL_FAILED) {
+        gb_session_note(session, "quick cell: %s", err.text);
+    }
+    if (outcome != GB_QUICK_CELL_STARTED) {
         gb_quick_cell_drop(&session->quick_cell);
         set_engine(session, ENGINE_CONTINUES);
         return false;

@@ -75,16 +75,15 @@ static bool refresh_child(struct gb_session *session)
 
 bool gb_session_refresh(struct gb_session *session)
 {
-    bool ended = false;
-    const int before = session->quick_cell.state;
-    const bool tried =
-        gb_quick_cell_refresh(&session->quick_cell, session->frozen, &ended);
+    const enum gb_run_state before = session->quick_cell.state;
+    const enum gb_quick_cell_news news =
+        gb_quick_cell_refresh(&session->quick_cell, session->frozen);
     session->waiting = session->waiting && session->quick_cell.state == before;
     const bool ran = refresh_run(session);
     gb_whatif_refresh(session);
     const bool made = refresh_child(session);
-    if (ended) {
+    if (news == GB_QUICK_CELL_ENDED) {
         gb_session_quick_finish(session);
     }
-    return tried || ran || ended || made;
+    return news != GB_QUICK_CELL_SAME || ran || made;
 }

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "greenbody/snapshot.h"
 #include "greenbody/status.h"
 #include "many/runset.h"
 
@@ -13,8 +14,8 @@
 enum { GB_RUNSET_VIEW_LEVELS = 48, GB_RUNSET_VIEW_VARIED = 2 };
 
 struct gb_runset_view_run {
-    char *name;      /* of its directory */
-    int state;       /* enum gb_run_state */
+    char *name; /* of its directory */
+    enum gb_run_state state;
     double progress; /* 0..1 */
     char error[120];
 };
