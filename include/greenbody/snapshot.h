@@ -24,9 +24,6 @@ enum gb_run_state {
 /* Bins of the histogram of contacts and of the force rose. */
 enum { GB_SNAPSHOT_HISTOGRAM = 16, GB_SNAPSHOT_ROSE = 18 };
 
-/* Size of an event: one line, with the text of an error in it. */
-enum { GB_EVENT_TEXT = 640 };
-
 /* State of a run for the screen: plain data without pointers, copied whole from the
  * engine thread through a triple buffer without a lock. */
 struct gb_snapshot {

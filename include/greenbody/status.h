@@ -20,6 +20,9 @@ enum gb_status {
     GB_ERR_CANCELLED      /* asked to stop: exit status 130 or 143 */
 };
 
+/* Size of an event: one line, with the text of an error in it. */
+enum { GB_EVENT_TEXT = 640 };
+
 /* Code and message of a failure; unchanged by calls that succeed.  Callers pass a zeroed
  * one, or NULL when they need neither. */
 struct gb_error {

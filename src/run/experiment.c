@@ -13,8 +13,6 @@
 #include "run/point_measure.h"
 #include "scene/field/changes.h"
 
-_Static_assert((int)GB_EVENT_QUEUE_TEXT <= (int)GB_EVENT_TEXT, "events fit a snapshot");
-
 bool gb_experiment_event(struct gb_experiment *experiment, char *text, size_t size)
 {
     return gb_event_queue_take(&experiment->events, text, size);
@@ -94,7 +92,7 @@ void gb_experiment_destroy(struct gb_experiment *experiment)
 /* What the parameters change after this point, as an event. */
 static bool change(struct gb_experiment *experiment, struct gb_error *err)
 {
-    char text[GB_EVENT_QUEUE_TEXT];
+    char text[GB_EVENT_TEXT];
     if (experiment->over || !gb_changes_due(&experiment->params, experiment->step - 1)) {
         return true;
     }

@@ -17,7 +17,7 @@ void gb_event_queue_add(struct gb_event_queue *queue, const char *text)
         drop_oldest(queue);
     }
     const int at = (queue->first + queue->count++) % GB_EVENT_QUEUE_LENGTH;
-    snprintf(queue->text[at], GB_EVENT_QUEUE_TEXT, "%s", text);
+    snprintf(queue->text[at], GB_EVENT_TEXT, "%s", text);
 }
 
 bool gb_event_queue_take(struct gb_event_queue *queue, char *text, size_t size)

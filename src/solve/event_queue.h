@@ -4,12 +4,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "greenbody/status.h"
+
 /* Events of a run (guards, stages, branches), one line each, oldest first.  A full queue
  * drops its oldest event. */
-enum { GB_EVENT_QUEUE_LENGTH = 32, GB_EVENT_QUEUE_TEXT = 640 };
+enum { GB_EVENT_QUEUE_LENGTH = 32 };
 
 struct gb_event_queue {
-    char text[GB_EVENT_QUEUE_LENGTH][GB_EVENT_QUEUE_TEXT];
+    char text[GB_EVENT_QUEUE_LENGTH][GB_EVENT_TEXT];
     int first, count;
 };
 

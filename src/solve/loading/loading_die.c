@@ -60,7 +60,7 @@ static void finish(struct gb_loading *loading)
 static enum gb_step_outcome advance(struct gb_loading *loading, int64_t max_evaluations,
                                     struct gb_event_queue *events, struct gb_error *err)
 {
-    char text[GB_EVENT_QUEUE_TEXT];
+    char text[GB_EVENT_TEXT];
     const enum gb_step_outcome outcome = gb_die_stages_advance(
         own(loading)->stages, loading->bed, max_evaluations, text, sizeof text, err);
     gb_event_queue_add(events, text);
@@ -79,7 +79,7 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
                                         struct gb_event_queue *events,
                                         struct gb_error *err)
 {
-    char text[GB_EVENT_QUEUE_TEXT];
+    char text[GB_EVENT_TEXT];
     const struct gb_die_stages_report now = stages_report(loading);
     const bool not_quasistatic = is_not_quasistatic(now.floor_over_punch);
     (void)err;

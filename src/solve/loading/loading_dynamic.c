@@ -40,7 +40,7 @@ static void finish(struct gb_loading *loading)
 static enum gb_step_outcome advance(struct gb_loading *loading, int64_t max_evaluations,
                                     struct gb_event_queue *events, struct gb_error *err)
 {
-    char text[GB_EVENT_QUEUE_TEXT];
+    char text[GB_EVENT_TEXT];
     const enum gb_step_outcome outcome = gb_dynamic_advance(
         own(loading)->motion, loading->world, max_evaluations, text, sizeof text, err);
     gb_event_queue_add(events, text);

@@ -150,7 +150,7 @@ static enum gb_step_outcome advance(struct gb_loading *loading, int64_t max_eval
                                     struct gb_event_queue *events, struct gb_error *err)
 {
     struct quasistatic_loading *run = own(loading);
-    char text[GB_EVENT_QUEUE_TEXT];
+    char text[GB_EVENT_TEXT];
     if (run->base.strain_due) {
         strain(run);
     }
@@ -190,7 +190,7 @@ static double pressure_mpa(const struct quasistatic_loading *run,
 static void add_unload_event(const struct quasistatic_loading *run,
                              const double pressure[3], struct gb_event_queue *events)
 {
-    char text[GB_EVENT_QUEUE_TEXT];
+    char text[GB_EVENT_TEXT];
     snprintf(text, sizeof text, "unloading from %.6g MPa (asked for %.6g MPa)",
              pressure_mpa(run, pressure),
              1e-6 * run->base.params->unload_from_pa[run->schedule.branch - 1]);
@@ -200,7 +200,7 @@ static void add_unload_event(const struct quasistatic_loading *run,
 static void add_restore_event(const struct quasistatic_loading *run,
                               const double pressure[3], struct gb_event_queue *events)
 {
-    char text[GB_EVENT_QUEUE_TEXT];
+    char text[GB_EVENT_TEXT];
     if (!run->schedule.endless) {
         gb_event_queue_add(events, "unloaded; loading goes on from the saved state");
         return;
