@@ -42,9 +42,8 @@ enum gb_on_hangup { GB_ON_HANGUP_DETACH, GB_ON_HANGUP_STOP };
 
 enum { GB_UNLOAD_MAX = 16, GB_SIZES_MAX = 128 };
 
-/* Bytes for any value as gb_params_format writes it: a full table of sizes is the
- * longest.
- * */
+/* Bytes for any value as gb_params_format writes it; a full table of sizes is the
+ * longest. */
 enum { GB_PARAMS_VALUE_MAX = 8192 };
 
 /* A quantity given either in SI or as a multiple of the particle diameter ("0.008 d"), of

@@ -1,5 +1,5 @@
-/* Scenes in which a method fails: the failure is recognised as it happens, acted on and
- * told (physics.md 6 lists them; steps beyond their bounds are in test_stability). */
+/* Scenes in which a method fails: the failure is detected, handled and reported.
+ * Steps beyond their bounds are in test_stability. */
 #include <glib.h>
 #include <math.h>
 #include <string.h>

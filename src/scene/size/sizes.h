@@ -21,9 +21,8 @@ struct gb_sizes {
     double below[GB_SIZES_MAX]; /* share by number up to and with this row; last: 1 */
 };
 
-/* Is it a scene of nanoparticles of more than one size?  (Beds in a die draw their sizes
- * themselves.)
- * */
+/* A scene with particles of more than one size in a periodic cell?  (Beds in a die draw
+ * their sizes themselves.) */
 bool gb_sizes_polydisperse(const struct gb_params *params);
 
 /* Errors: those of gb_params_check about sizes (GB_ERR_INPUT). */

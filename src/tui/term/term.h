@@ -25,7 +25,7 @@ enum gb_style {
     GB_STYLE_GOOD,
     GB_STYLE_WARN,
     GB_STYLE_BAD,
-    GB_STYLE_SERIES, /* + colour, GB_TERM_SERIES of them */
+    GB_STYLE_SERIES, /* + colour, 0 to 5 */
     GB_STYLE_COUNT = GB_STYLE_SERIES + 6
 };
 
