@@ -161,55 +161,74 @@ static void test_escaped_velocity_update(void)
     g_assert_cmpint(inserted, >, 0);
 }
 
+enum { MEETING_COUNT = 90 };
+
+/* Two isolated particles in a cell of random size.  unit: direction from particle 0 to 1. */
+static struct gb_world *meeting_world(struct gb_model *model, GRand *random,
+                                      const double edge_range[2], double unit[3])
+{
+    double x[MEETING_COUNT][3];
+    struct gb_error err = {0};
+    struct gb_world *world = NULL;
+    for (int k = 0; k < 3; k++) {
+        model->edges[k] = g_rand_double_range(random, edge_range[0], edge_range[1]);
+        /* often along an edge, where the bins end soonest */
+        unit[k] = pow(g_rand_double_range(random, -1.0, 1.0), 9.0);
+        x[0][k] = g_rand_double_range(random, 0.0, model->edges[k]);
+    }
+    const double length = gb_vec_length(unit);
+    const double far = g_rand_double_range(random, 1.4, 3.6);
+    for (int k = 0; k < 3; k++) {
+        unit[k] /= length;
+        x[1][k] = x[0][k] + far * unit[k];
+        for (int i = 2; i < MEETING_COUNT; i++) { /* all in one point, far from both */
+            x[i][k] = x[0][k] + 0.5 * model->edges[k];
+        }
+    }
+    const struct gb_cell cell = {{model->edges[0], model->edges[1], model->edges[2]},
+                                 {true, true, true}};
+    for (int i = 0; i < MEETING_COUNT; i++) {
+        gb_cell_wrap(&cell, x[i]);
+    }
+    g_assert_true(gb_world_create(&world, model, x[0], &err));
+    return world;
+}
+
+/* True when the particles touch; until then a list holds the pair within the cutoff. */
+static bool check_meeting(struct gb_world *world, const struct gb_model *model)
+{
+    struct gb_error err = {0};
+    (void)gb_world_evaluate(world, &err); /* the other particles overlap */
+    const struct gb_neighbour_list *pairs = gb_world_pairs(world);
+    const double distance = world_distance(world, 0, 1);
+    const bool near = world_holds_pair(world, &pairs->near, 0, 1, distance);
+    g_assert_true(near || distance >= 1.0);
+    g_assert_true(near || distance >= model->numerics.cutoff ||
+                  world_holds_pair(world, &pairs->far, 0, 1, distance));
+    return distance < 1.0;
+}
+
 /* Two isolated particles approach each other from a distance while the cell is strained:
  * the lists, which do not hold the pair, last until it comes within the cutoff. */
 static void test_meeting(void)
 {
+    /* in small cells nearest images change during the approach */
+    static const double edge_range[2][2] = {{6.0, 12.0}, {2.9, 3.5}};
+    static const double strain[3] = {0.001, -0.002, 0.0};
     const struct gb_params params = scene_params("particles.count=90", NULL);
     struct gb_model model = scene_model(&params);
     GRand *random = g_rand_new_with_seed(7);
     int outlived = 0, met = 0;
     for (int round = 0; round < 800; round++) {
-        double x[90][3], unit[3];
-        struct gb_error err = {0};
-        struct gb_world *world = NULL;
-        const bool small_cell =
-            round >= 400; /* nearest images change during the approach */
-        for (int k = 0; k < 3; k++) {
-            model.edges[k] = g_rand_double_range(random, small_cell ? 2.9 : 6.0,
-                                                 small_cell ? 3.5 : 12.0);
-            /* often along an edge, where the bins end soonest */
-            unit[k] = pow(g_rand_double_range(random, -1.0, 1.0), 9.0);
-            x[0][k] = g_rand_double_range(random, 0.0, model.edges[k]);
-        }
-        const double length = gb_vec_length(unit);
-        const double far = g_rand_double_range(random, 1.4, 3.6);
-        for (int k = 0; k < 3; k++) {
-            unit[k] /= length;
-            x[1][k] = x[0][k] + far * unit[k];
-            for (int i = 2; i < 90; i++) { /* all in one point, far from both */
-                x[i][k] = x[0][k] + 0.5 * model.edges[k];
-            }
-        }
-        for (int i = 0; i < 90; i++) {
-            gb_cell_wrap(
-                &(struct gb_cell){{model.edges[0], model.edges[1], model.edges[2]},
-                                  {true, true, true}},
-                x[i]);
-        }
-        g_assert_true(gb_world_create(&world, &model, x[0], &err));
+        const bool small_cell = round >= 400;
+        double unit[3];
+        struct gb_world *world =
+            meeting_world(&model, random, edge_range[small_cell], unit);
         const double step_max = round % 2 ? 0.03 : g_rand_double_range(random, 0.0, 0.06);
         const struct gb_bodies b = gb_world_bodies(world);
         for (int step = 0; step < 100; step++) {
             const int64_t before = gb_world_rebuilds(world);
-            (void)gb_world_evaluate(world, &err); /* the others overlap */
-            const struct gb_neighbour_list *pairs = gb_world_pairs(world);
-            const double distance = world_distance(world, 0, 1);
-            const bool near = world_holds_pair(world, &pairs->near, 0, 1, distance);
-            g_assert_true(near || distance >= 1.0);
-            g_assert_true(near || distance >= model.numerics.cutoff ||
-                          world_holds_pair(world, &pairs->far, 0, 1, distance));
-            if (distance < 1.0) {
+            if (check_meeting(world, &model)) {
                 met += !small_cell;
                 break;
             }
@@ -218,7 +237,7 @@ static void test_meeting(void)
                 b.position[k] += step_max * unit[k];
                 b.position[3 + k] -= (0.06 - step_max) * unit[k];
             }
-            scene_squeeze(world, round % 3 == 0 ? 0.001 : round % 3 == 1 ? -0.002 : 0.0);
+            scene_squeeze(world, strain[round % 3]);
         }
         gb_world_destroy(world);
     }
