@@ -24,7 +24,7 @@ static const char *const refused[][2] = {
     {"sizes", "sizes takes one file"},
     {"sizes a.csv b.csv", "sizes takes one file"},
     {"params --bogus", "Unknown option --bogus"},
-    {"law", "accepted rod, bridge, dispersion"},
+    {"law", "law without name: accepted rod, "},
     {"law storm --at h=0.1", "law storm: accepted rod"},
     {"law rod", "law rod needs --at h=VALUE or --range"},
     {"law rod --bogus", "Unknown option --bogus"},

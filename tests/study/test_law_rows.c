@@ -71,6 +71,38 @@ static void test_path(void)
     g_assert_cmpfloat(out, <, in);
 }
 
+/* Every row of the table has a text for the help and gives finite values. */
+static void test_table(void)
+{
+    size_t count = 0;
+    const struct gb_law_table_law *laws = gb_law_table_laws(&count);
+    for (size_t i = 0; i < count; i++) {
+        const char *variable = laws[i].pair ? "h" : laws[i].variable;
+        char *range =
+            laws[i].variable != NULL ? g_strdup_printf("%s=0.01:0.02:3", variable) : NULL;
+        const struct gb_law_rows_request request = {
+            .law = &laws[i],
+            .lattice = gb_law_table_find_lattice("sc"),
+            .range = range,
+        };
+        struct rows rows = {0};
+        struct gb_error err = {0};
+        const bool done = compute(&rows, &request, &err);
+        g_test_message("%s: %s", laws[i].name, err.text);
+        g_assert_true(done);
+        g_assert_cmpuint(strlen(laws[i].doc), >, 0);
+        g_assert_true(gb_law_table_find(laws[i].name) == &laws[i]);
+        g_assert_cmpint(rows.columns, <=, GB_LAW_TABLE_COLUMNS);
+        g_assert_cmpint(rows.count, ==, range != NULL ? 3 : 1);
+        for (int k = 0; k < rows.count * GB_LAW_TABLE_COLUMNS; k++) {
+            const int column = k % GB_LAW_TABLE_COLUMNS;
+            g_assert_true(column >= rows.columns ||
+                          isfinite(rows.value[k / GB_LAW_TABLE_COLUMNS][column]));
+        }
+        g_free(range);
+    }
+}
+
 /* The error of the receiver ends the rows; wrong requests give none. */
 static void test_errors(void)
 {
@@ -96,5 +128,6 @@ int main(int argc, char **argv)
     g_test_add_func("/law-rows/range", test_range);
     g_test_add_func("/law-rows/path", test_path);
     g_test_add_func("/law-rows/errors", test_errors);
+    g_test_add_func("/law-rows/table", test_table);
     return g_test_run();
 }

@@ -152,68 +152,69 @@ static bool run(struct request *request, const char *lattice, char **words, char
     return good;
 }
 
-static const struct gb_options_page page = {
-    .usage = "NAME [PRESET] [group.key=value]...",
-    .summary =
-        "Values of a contact law as CSV, with 17 digits.\n"
-        "Laws of P1, for particles of one size: rod, bridge, dispersion, normal, shear,\n"
-        "pivot, roll, equilibrium, bridge-strength, lattice.  Reduced units: overlap h\n"
-        "and distance r in particle diameters d, force in E d^2, stiffness in E d (E "
-        "d^3\n"
-        "for pivot and roll), moments in E d^3.\n"
-        "Laws of P3, for two bodies of any size and material: hertz, storakers, "
-        "mindlin,\n"
-        "models, critical-step, yield.  SI units.",
-    .description =
-        "rod          elastic force f_e of two spheres, P1 (1)\n"
-        "dispersion   attraction f_a at distance r, P1 (3)\n"
-        "normal       f_e - f_a without a bridge; h below 0 is a gap\n"
-        "bridge       f_e - f_a of a bridged contact; h_min is its deepest overlap\n"
-        "             (--at h_min=0.02,h=0.012), by default h + bridge_length\n"
-        "shear, pivot stiffness per half of the relative motion, and cap, no bridge\n"
-        "roll         the same for a bridge whose deepest overlap is h\n"
-        "equilibrium  overlap where f_e = f_a, and the greatest attraction\n"
-        "bridge-strength  normal stress that breaks a bridge at overlap h\n"
-        "lattice      density and pressure of a perfect lattice, nearest neighbours\n"
-        "\n"
-        "hertz        elastic force and stiffness, P3 (2), (9)\n"
-        "storakers    plastic loading, the lesser of Hertz and P3 (16); as printed, "
-        "(16)\n"
-        "             alone, with contact.storakers=printed\n"
-        "mindlin      k_t of Hertz' contact, P3 (12), and its cap mu F\n"
-        "models       the force by hertz, storakers and as printed, side by side\n"
-        "critical-step  the critical time step of the two by each, P3 (27)-(29)\n"
-        "yield        overlap and force at which the weaker body starts to flow, P3 "
-        "(30)\n"
-        "\n"
-        "The two bodies are contact.radius_i and radius_j ('wall': flat and fixed) of\n"
-        "material.young, poisson, yield, hardening, with young_j ... where the second\n"
-        "differs.  Their overlap is given as h_m=2e-8 in metres, as a length (h=20nm), "
-        "or\n"
-        "over the diameter of the smaller body (h/2R=0.001, or h=0.001).\n"
-        "\n"
-        "--path visits overlaps in fine steps with the history of one contact: bridges\n"
-        "form and break (normal and bridge); storakers unloads elastically below the\n"
-        "deepest overlap, which is reset where the contact opens:\n"
-        "  greenbody law storakers p3-pair --path 0,200nm,150nm,250nm,0\n"
-        "\n"
-        "Figure 1 of P1 (contact of 16 nm particles: A-B-C-D, then to C' and open):\n"
-        "  greenbody law normal p1-set2-16nm --path=-0.02,0.0081,-0.01,0.02,-0.01\n"
-        "Figure 2 of P1 (strength of bridges of three lengths):\n"
-        "  greenbody law bridge-strength --range h=0:0.05:101 \\\n"
-        "    --vary \"contact.bridge_length=0.005 d,0.01 d,0.015 d\"\n"
-        "Figure 10 of P3 (two spheres of 10 um; the hertz column is the same in all):\n"
-        "  greenbody law models p3-pair --range h_m=0:200nm:101 \\\n"
-        "    --vary material.hardening=0,0.05,0.1,0.2\n"
-        "Figure 11 of P3 (a sphere of 2 um between two of 10 um; both contacts are "
-        "equal,\n"
-        "and h is the overlap of one: the outer two have come closer by 2 h):\n"
-        "  greenbody law models p3-line --range h_m=0:600nm:101 \\\n"
-        "    --vary material.hardening=0,0.05,0.1,0.2\n"
-        "Figure 12 of P3 (critical time step, no damping):\n"
-        "  greenbody law critical-step p3-pair --range h_m=0:200nm:101 \\\n"
-        "    --vary material.hardening=0,0.05,0.1,0.2",
-};
+static const char summary[] =
+    "Values of a contact law as CSV, with 17 digits.\n"
+    "Laws of P1, for particles of one size, are in reduced units: overlap h and\n"
+    "distance r in particle diameters d, force in E d^2, stiffness in E d (E d^3 for\n"
+    "pivot and roll), moments in E d^3.  Laws of P3, for two bodies of any size and\n"
+    "material, are in SI units.";
+
+static const char examples[] =
+    "The two bodies are contact.radius_i and radius_j ('wall': flat and fixed) of\n"
+    "material.young, poisson, yield, hardening, with young_j ... where the second\n"
+    "differs.  Their overlap is given as h_m=2e-8 in metres, as a length (h=20nm), "
+    "or\n"
+    "over the diameter of the smaller body (h/2R=0.001, or h=0.001).\n"
+    "\n"
+    "--path visits overlaps in fine steps with the history of one contact: bridges\n"
+    "form and break (normal and bridge); storakers unloads elastically below the\n"
+    "deepest overlap, which is reset where the contact opens:\n"
+    "  greenbody law storakers p3-pair --path 0,200nm,150nm,250nm,0\n"
+    "\n"
+    "Figure 1 of P1 (contact of 16 nm particles: A-B-C-D, then to C' and open):\n"
+    "  greenbody law normal p1-set2-16nm --path=-0.02,0.0081,-0.01,0.02,-0.01\n"
+    "Figure 2 of P1 (strength of bridges of three lengths):\n"
+    "  greenbody law bridge-strength --range h=0:0.05:101 \\\n"
+    "    --vary \"contact.bridge_length=0.005 d,0.01 d,0.015 d\"\n"
+    "Figure 10 of P3 (two spheres of 10 um; the hertz column is the same in all):\n"
+    "  greenbody law models p3-pair --range h_m=0:200nm:101 \\\n"
+    "    --vary material.hardening=0,0.05,0.1,0.2\n"
+    "Figure 11 of P3 (a sphere of 2 um between two of 10 um; both contacts are "
+    "equal,\n"
+    "and h is the overlap of one: the outer two have come closer by 2 h):\n"
+    "  greenbody law models p3-line --range h_m=0:600nm:101 \\\n"
+    "    --vary material.hardening=0,0.05,0.1,0.2\n"
+    "Figure 12 of P3 (critical time step, no damping):\n"
+    "  greenbody law critical-step p3-pair --range h_m=0:200nm:101 \\\n"
+    "    --vary material.hardening=0,0.05,0.1,0.2";
+
+/* The laws in reduced units, or those of a pair. */
+static void append_laws(GString *text, bool pair)
+{
+    size_t count = 0;
+    const struct gb_law_table_law *laws = gb_law_table_laws(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (laws[i].pair != pair) {
+            continue;
+        }
+        char **lines = g_strsplit(laws[i].doc, "\n", -1);
+        for (int k = 0; lines[k] != NULL; k++) {
+            g_string_append_printf(text, "%-17s%s\n", k == 0 ? laws[i].name : "",
+                                   lines[k]);
+        }
+        g_strfreev(lines);
+    }
+    g_string_append_c(text, '\n');
+}
+
+static char *describe_laws(void)
+{
+    GString *text = g_string_new(NULL);
+    append_laws(text, false);
+    append_laws(text, true);
+    g_string_append(text, examples);
+    return g_string_free(text, FALSE);
+}
 
 int gb_cmd_law(int argc, char **argv)
 {
@@ -234,6 +235,12 @@ int gb_cmd_law(int argc, char **argv)
         gb_options_set(&sets),
         {0},
     };
+    char *description = describe_laws();
+    const struct gb_options_page page = {
+        .usage = "NAME [PRESET] [group.key=value]...",
+        .summary = summary,
+        .description = description,
+    };
     int status = 0;
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         struct gb_error err = {0};
@@ -246,6 +253,7 @@ int gb_cmd_law(int argc, char **argv)
     g_free(request.rows.path);
     g_free(request.vary);
     g_free(lattice);
+    g_free(description);
     g_strfreev(sets);
     g_strfreev(words);
     return status;

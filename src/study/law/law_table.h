@@ -27,6 +27,7 @@ enum { GB_LAW_TABLE_COLUMNS = 4 };
 
 struct gb_law_table_law {
     const char *name;
+    const char *doc;      /* in the help; lines end with '\n' */
     const char *header;   /* of its columns, with commas between */
     const char *variable; /* "h", "r", "h_m", or NULL: one row without a variable */
     bool pair;            /* two bodies of any size and material, SI; else reduced */
