@@ -31,6 +31,7 @@ struct gb_relaxer {
     /* Least share of the tolerance under light loads, where it falls with the mean
      * contact force over f_a(d); 1: the tolerance holds everywhere. */
     double light;
+    bool slow; /* hundreds of evaluations a strain step: a chart has two settings of it */
     void (*start)(struct gb_relax *relax, struct gb_world *world);
     void (*move)(struct gb_relax *relax, struct gb_world *world);
     /* State kept from one relaxation to the next, into a checkpoint or out of it; NULL:

@@ -117,6 +117,7 @@ const struct gb_relaxer gb_relax_steepest = {
     .state_size = sizeof(struct steepest),
     .vectors = 1,
     .light = 1.0,
+    .slow = true,
     .start = start,
     .move = move,
 };

@@ -128,7 +128,7 @@ static bool add_grid(GArray *settings, const struct gb_params *params,
         const char *name = gb_relax_table()[m]->name;
         struct gb_params changed = *params;
         g_strlcpy(changed.relaxer, name, sizeof changed.relaxer);
-        if (strcmp(name, "steepest") == 0) {
+        if (gb_relax_table()[m]->slow) {
             /* hundreds of evaluations per step: one loose setting, and P1's own step */
             if (!add_assigned(settings, &changed, step[4], tolerance[0], err) ||
                 !add_assigned(settings, &changed, step[2], tolerance[3], err)) {
@@ -292,7 +292,8 @@ double gb_chart_plan_effort(const struct gb_chart_setting *setting)
                                                       : setting->time_step;
         return reach * (double)setting->count / step;
     }
-    const double slow = strcmp(setting->relaxer, "steepest") == 0 ? 100.0 : 1.0;
+    const struct gb_relaxer *relaxer = gb_relax_find(setting->relaxer);
+    const double slow = relaxer != NULL && relaxer->slow ? 100.0 : 1.0;
     return reach * slow * (double)setting->count /
            sqrt(setting->strain_step * setting->tolerance);
 }

@@ -147,7 +147,7 @@ static const struct gb_key before_views[] = {
      GB_ACTION_NONE},
 };
 
-/* The digits of the views come between the two tables: see row_of_view. */
+/* The keys of the views come between the two tables: see row_of_view. */
 static const struct gb_key after_views[] = {
     {{'v'},
      "v",

@@ -20,10 +20,10 @@ enum gb_view_option {
     GB_VIEW_INSET = 2          /* also drawn below the curve, if there is room */
 };
 
-/* One row per view: digit, help, title, footer hint, cursor, insets and `v` follow from
+/* One row per view: key, help, title, footer hint, cursor, insets and `v` follow from
  * it.  A new view is a file, a row in views.c and a line in meson.build. */
 struct gb_plot_view {
-    const char *key;               /* digit */
+    const char *key;               /* digit or letter */
     const char *help;              /* in the list of keys, at most 49 characters */
     const char *title;             /* of the pane */
     const char *title_quasistatic; /* title for other scenes; NULL: the same */
@@ -38,7 +38,7 @@ struct gb_plot_view {
 
 size_t gb_views_count(void);
 const struct gb_plot_view *gb_views_at(size_t index);
-/* The view of a digit; NULL: none. */
+/* The view of a key; NULL: none. */
 const struct gb_plot_view *gb_views_find(const char *key);
 /* The first view with this need. */
 const struct gb_plot_view *gb_views_with(enum gb_view_need need);
