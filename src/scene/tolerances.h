@@ -145,6 +145,14 @@
 /* ... in this many consecutive checks.  Fewer: particles still fall while the height is
  * taken. */
 #define GB_REST_CHECKS 4
+/* Time steps between two checks.  Fewer: the checks cost time, and GB_REST_CHECKS of them
+ * lie within one vibration.  More: a stage ends later. */
+#define GB_REST_CHECK_STEPS 256
+
+/* Time steps, at most, between checks for particles outside the die; the check also runs
+ * after each rebuild of the lists.  A slow escape takes many steps, and a fast one causes
+ * a rebuild.  More: an escaped particle moves the bed before a guard acts. */
+#define GB_ESCAPE_CHECK_STEPS 16
 
 /* The same two while pouring, to detect that no particle falls any more. */
 #define GB_POURED_FALL       0.1

@@ -1,0 +1,16 @@
+#ifndef GB_SOLVE_LOADING_DIE_REST_H
+#define GB_SOLVE_LOADING_DIE_REST_H
+
+#include "solve/loading/die_state.h"
+
+/* Whether the powder in a die is at rest.  Limits: GB_REST_... and GB_POURED_... of
+ * scene/tolerances.h. */
+
+/* Checks every GB_REST_CHECK_STEPS steps; true when the last GB_REST_CHECKS checks have
+ * found the powder at rest. */
+bool gb_die_rest_lasts(struct gb_die_stages *stages, const struct gb_bed *bed);
+
+/* True, with GB_ERR_GUARD in err, when particles at rest are left in the funnel. */
+bool gb_die_rest_in_funnel(const struct gb_bed *bed, struct gb_error *err);
+
+#endif
