@@ -9,9 +9,9 @@
 
 #include <glib.h>
 
-#include "base/file.h"
 #include "io/key_lines.h"
 #include "io/preset_folders.h"
+#include "io/text_file.h"
 #include "scene/size/size_table.h"
 
 /* A preset is a page of text; more is a mistake or an attack. */
@@ -327,34 +327,14 @@ static bool update_text(struct gb_preset *preset, const char *path,
     return true;
 }
 
-static bool write_text(const GString *text, const char *path, struct gb_error *err)
-{
-    GError *trouble = NULL;
-    if (!gb_file_may_write()) {
-        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
-                            g_strerror(errno));
-    }
-    if (g_file_set_contents_full(path, text->str, (gssize)text->len,
-                                 G_FILE_SET_CONTENTS_DURABLE |
-                                     G_FILE_SET_CONTENTS_CONSISTENT,
-                                 0666, &trouble)) {
-        return true;
-    }
-    const bool input = trouble->code == G_FILE_ERROR_NOENT ||
-                       trouble->code == G_FILE_ERROR_NOTDIR ||
-                       trouble->code == G_FILE_ERROR_ISDIR;
-    gb_error_set(err, input ? GB_ERR_INPUT : GB_ERR_MACHINE, "%s: cannot be written: %s",
-                 path, gb_file_reason(trouble));
-    g_error_free(trouble);
-    return false;
-}
-
 bool gb_preset_save(struct gb_preset *preset, const char *path,
                     enum gb_preset_extent extent, struct gb_error *err)
 {
     /* The text kept in memory changes only when it stands on disk. */
     GString *before = g_string_new_len(preset->text->str, (gssize)preset->text->len);
-    if (!update_text(preset, path, extent, err) || !write_text(preset->text, path, err)) {
+    if (!update_text(preset, path, extent, err) ||
+        !gb_text_file_replace(path, preset->text->str, preset->text->len,
+                              GB_TEXT_FILE_TYPED, err)) {
         g_string_free(preset->text, TRUE);
         preset->text = before;
         index_again(preset, NULL);

@@ -16,26 +16,29 @@ static const int32_t layout_number = 3, layout_oldest = 1;
 /* Beyond this a file is nonsense rather than large. */
 static const int64_t count_max = 200000000;
 
+/* What a row of an array belongs to. */
+enum row_of { PARTICLE, PAIR, ROW_KINDS };
+
 /* An array of the file and its place in the struct. */
 struct array_row {
     const char *name;
     enum gb_hdf_type type;
     int columns;
-    bool per_pair;
+    enum row_of row_of;
     size_t offset;
     const char *unit;
 };
 
 static const struct array_row arrays[] = {
-    {"/position", GB_HDF_DOUBLE, 3, false, offsetof(struct gb_state, position), "d"},
-    {"/radius", GB_HDF_DOUBLE, 1, false, offsetof(struct gb_state, radius), "d"},
-    {"/contacts", GB_HDF_INT32, 1, false, offsetof(struct gb_state, contacts), "1"},
-    {"/pair", GB_HDF_INT32, 2, true, offsetof(struct gb_state, pair), "1"},
-    {"/pair_force", GB_HDF_DOUBLE, 3, true, offsetof(struct gb_state, pair_force),
+    {"/position", GB_HDF_DOUBLE, 3, PARTICLE, offsetof(struct gb_state, position), "d"},
+    {"/radius", GB_HDF_DOUBLE, 1, PARTICLE, offsetof(struct gb_state, radius), "d"},
+    {"/contacts", GB_HDF_INT32, 1, PARTICLE, offsetof(struct gb_state, contacts), "1"},
+    {"/pair", GB_HDF_INT32, 2, PAIR, offsetof(struct gb_state, pair), "1"},
+    {"/pair_force", GB_HDF_DOUBLE, 3, PAIR, offsetof(struct gb_state, pair_force),
      "E d^2"},
-    {"/pair_normal", GB_HDF_DOUBLE, 1, true, offsetof(struct gb_state, pair_normal),
+    {"/pair_normal", GB_HDF_DOUBLE, 1, PAIR, offsetof(struct gb_state, pair_normal),
      "E d^2"},
-    {"/pair_bridged", GB_HDF_UINT8, 1, true, offsetof(struct gb_state, pair_bridged),
+    {"/pair_bridged", GB_HDF_UINT8, 1, PAIR, offsetof(struct gb_state, pair_bridged),
      "1"},
 };
 
@@ -104,7 +107,7 @@ static struct gb_hdf_array shape_of(const struct array_row *row,
     return (struct gb_hdf_array){
         .name = row->name,
         .type = row->type,
-        .rows = row->per_pair ? state->pair_count : state->count,
+        .rows = row->row_of == PAIR ? state->pair_count : state->count,
         .columns = row->columns,
         .unit = row->unit,
     };
@@ -287,24 +290,25 @@ static bool check(const struct gb_state *state, const char *path, struct gb_erro
 static bool read_sizes(struct gb_hdf *file, const char *path, int64_t *count,
                        int64_t *pair_count, struct gb_error *err)
 {
-    int64_t size[2] = {-1, -1};
+    int64_t size[ROW_KINDS] = {-1, -1};
     for (int k = 0; k < ARRAY_COUNT; k++) {
         const struct gb_hdf_array shape = {
             .name = arrays[k].name, .type = arrays[k].type, .columns = arrays[k].columns};
-        int64_t *known = &size[arrays[k].per_pair];
+        int64_t *known = &size[arrays[k].row_of];
         int64_t rows = 0;
         if (!gb_hdf_rows(file, &shape, &rows, err)) {
             return false;
         }
         *known = *known < 0 ? rows : *known;
-        if (rows != *known || (!arrays[k].per_pair && (rows < 1 || rows > count_max))) {
+        if (rows != *known ||
+            (arrays[k].row_of == PARTICLE && (rows < 1 || rows > count_max))) {
             return gb_error_set(err, GB_ERR_INPUT,
                                 "%s: %s: %lld rows do not fit a packing of %lld", path,
                                 arrays[k].name, (long long)rows, (long long)*known);
         }
     }
-    *count = size[0];
-    *pair_count = size[1];
+    *count = size[PARTICLE];
+    *pair_count = size[PAIR];
     return true;
 }
 

@@ -1,18 +1,17 @@
 #include "io/store.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <string.h>
 #include <unistd.h>
 
 #include <glib.h>
 
-#include "base/file.h"
 #include "io/curve_csv.h"
 #include "io/line_file.h"
 #include "io/preset.h"
 #include "io/rundir.h"
 #include "io/status_json.h"
+#include "io/text_file.h"
 #include "scene/loading_kind.h"
 
 struct gb_store {
@@ -30,28 +29,6 @@ static bool write_curve_head(struct gb_line_file *curve, const struct gb_params 
     const bool ok = gb_line_file_append(curve, head->str, err);
     g_string_free(head, TRUE);
     return ok;
-}
-
-/* Replaces a file whole: after a crash the old or the new one is there, or none, if there
- * was none. */
-static bool replace_file(const char *path, const char *text, size_t length,
-                         struct gb_error *err)
-{
-    if (!gb_file_may_write()) {
-        return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
-                            g_strerror(errno));
-    }
-    GError *failure = NULL;
-    if (g_file_set_contents_full(path, text, (gssize)length,
-                                 G_FILE_SET_CONTENTS_CONSISTENT |
-                                     G_FILE_SET_CONTENTS_ONLY_EXISTING,
-                                 0666, &failure)) {
-        return true;
-    }
-    gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
-                 gb_file_reason(failure));
-    g_error_free(failure);
-    return false;
 }
 
 /* A complete preset written without a file before it names the program's version. */
@@ -213,7 +190,8 @@ bool gb_store_put_status(const struct gb_store *store, const char *text,
 {
     return gb_rundir_check_identity(&store->dir, err) &&
            gb_rundir_result(&store->dir,
-                            replace_file(store->status_path, text, strlen(text), err),
+                            gb_text_file_replace(store->status_path, text, strlen(text),
+                                                 GB_TEXT_FILE_OF_RUN, err),
                             err);
 }
 

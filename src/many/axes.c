@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "many/key_difference.h"
 #include "many/runset.h"
 
 static bool refuse(const char *text, struct gb_error *err)
@@ -151,7 +152,7 @@ static const struct gb_field *find_field(const struct gb_axes *axes, const char 
                      "%.120s: no such key; see greenbody params for all", text);
         return NULL;
     }
-    if (gb_runset_bookkeeping(field) || field->type == GB_FIELD_PRESSURES ||
+    if (gb_key_difference_bookkeeping(field) || field->type == GB_FIELD_PRESSURES ||
         field->type == GB_FIELD_SEED || field->type == GB_FIELD_SIZES) {
         gb_error_set(err, GB_ERR_INPUT,
                      "%s: cannot be varied; accepted keys of one value that make another "

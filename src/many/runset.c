@@ -6,87 +6,36 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "io/preset.h"
+#include "io/follow.h"
+#include "many/key_difference.h"
 #include "many/single_run.h"
-
-/* Keys that make no other experiment: what is drawn by lot, and what changes no result.
- */
-static const char *const bookkeeping[] = {"structure.seed", "scene.title",
-                                          "numerics.threads", "output.", NULL};
-
-static bool is_listed(const struct gb_field *field, const char *const *list)
-{
-    for (size_t i = 0; list[i] != NULL; i++) {
-        const size_t length = strlen(field->group);
-        if (strncmp(list[i], field->group, length) == 0 && list[i][length] == '.' &&
-            (list[i][length + 1] == '\0' ||
-             strcmp(list[i] + length + 1, field->key) == 0)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool gb_runset_bookkeeping(const struct gb_field *field)
-{
-    return is_listed(field, bookkeeping);
-}
-
-/* As a preset would write them: equal texts are equal values. */
-static bool is_equal(const struct gb_field *field, const struct gb_params *a,
-                     const struct gb_params *b)
-{
-    char first[GB_PARAMS_VALUE_MAX], second[GB_PARAMS_VALUE_MAX];
-    return strcmp(gb_params_format(a, field, first, sizeof first),
-                  gb_params_format(b, field, second, sizeof second)) == 0;
-}
-
-static const struct gb_field *difference(const struct gb_params *a,
-                                         const struct gb_params *b,
-                                         const char *const *accepted)
-{
-    size_t count = 0;
-    const struct gb_field *fields = gb_params_fields(&count);
-    for (size_t i = 0; i < count; i++) {
-        if (!gb_runset_bookkeeping(&fields[i]) && !is_listed(&fields[i], accepted) &&
-            !is_equal(&fields[i], a, b)) {
-            return &fields[i];
-        }
-    }
-    return NULL;
-}
 
 bool gb_runset_same(const struct gb_params *a, const struct gb_params *b)
 {
     static const char *const none[] = {NULL};
-    return difference(a, b, none) == NULL;
+    return gb_key_difference_find(a, b, none) == NULL;
+}
+
+static bool has_file(const char *directory, const char *name)
+{
+    char *path = g_build_filename(directory, name, NULL);
+    const bool there = g_file_test(path, G_FILE_TEST_IS_REGULAR);
+    g_free(path);
+    return there;
 }
 
 static bool read_run(struct gb_runset_run *run, const char *directory,
                      struct gb_error *err)
 {
-    struct gb_preset *preset = NULL;
-    char *preset_path = g_build_filename(directory, "preset.ini", NULL);
-    char *curve_path = g_build_filename(directory, "curve.csv", NULL);
-    struct gb_error why = {0};
-    bool good = false;
     run->directory = g_strdup(directory);
-    if (!g_file_test(preset_path, G_FILE_TEST_IS_REGULAR)) {
-        gb_error_set(err, GB_ERR_INPUT, "%.300s: no run directory, it has no preset.ini",
-                     directory);
-    } else if (gb_preset_load(&preset, preset_path, err)) {
-        run->params = *gb_preset_params(preset);
-        good = gb_params_check(&run->params, &why) ||
-               gb_error_set(err, why.code, "%s: %s", preset_path, why.text);
+    if (!gb_follow_params(directory, &run->params, err)) {
+        return false;
     }
-    char *packing = g_build_filename(directory, "packing.csv", NULL);
-    const bool is_packing = g_file_test(packing, G_FILE_TEST_EXISTS) &&
-                            !g_file_test(curve_path, G_FILE_TEST_EXISTS);
-    g_free(packing);
-    good = good && (is_packing || gb_table_read(&run->table, curve_path, "branch", err));
-    gb_preset_destroy(preset);
-    g_free(curve_path);
-    g_free(preset_path);
+    char *path = g_build_filename(directory, "curve.csv", NULL);
+    const bool is_packing =
+        has_file(directory, "packing.csv") && !g_file_test(path, G_FILE_TEST_EXISTS);
+    const bool good = is_packing || gb_table_read(&run->table, path, "branch", err);
+    g_free(path);
     return good;
 }
 
@@ -118,7 +67,8 @@ static size_t group_of(const struct gb_runset *set, size_t index, const char *co
 {
     const struct gb_runset_run *run = &set->run[index];
     for (size_t i = 0; i < index; i++) {
-        bool taken = difference(&run->params, &set->run[i].params, keys) != NULL;
+        bool taken =
+            gb_key_difference_find(&run->params, &set->run[i].params, keys) != NULL;
         for (size_t k = 0; k < index && !taken; k++) {
             taken = set->run[k].group == set->run[i].group &&
                     set->run[k].params.seed == run->params.seed;
@@ -137,14 +87,6 @@ void gb_runset_merge(struct gb_runset *set, const char *const *keys)
         set->run[i].group = group_of(set, i, keys);
         set->groups += set->run[i].group == set->groups;
     }
-}
-
-static bool has_file(const char *directory, const char *name)
-{
-    char *path = g_build_filename(directory, name, NULL);
-    const bool there = g_file_test(path, G_FILE_TEST_IS_REGULAR);
-    g_free(path);
-    return there;
 }
 
 int gb_runset_compare(const char *a, const char *b)
@@ -256,7 +198,7 @@ static bool differs_somewhere(const struct gb_runset *set, const struct gb_field
     for (size_t g = 0; g < set->groups; g++) {
         const struct gb_params *other = &gb_runset_first(set, g)->params;
         if ((title == NULL || strcmp(title, other->title) == 0) &&
-            !is_equal(field, params, other)) {
+            !gb_key_difference_equal(field, params, other)) {
             return true;
         }
     }
@@ -274,7 +216,7 @@ static char *label_among(const struct gb_runset *set, size_t group,
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
-        if (!gb_runset_bookkeeping(&fields[i]) &&
+        if (!gb_key_difference_bookkeeping(&fields[i]) &&
             differs_somewhere(set, &fields[i], params, title)) {
             char value[GB_PARAMS_VALUE_MAX];
             g_string_append_printf(
@@ -298,8 +240,8 @@ char *gb_runset_label_of_title(const struct gb_runset *set, size_t group)
 const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,
                                             size_t b, const char *const *accepted)
 {
-    return difference(&gb_runset_first(set, a)->params, &gb_runset_first(set, b)->params,
-                      accepted);
+    return gb_key_difference_find(&gb_runset_first(set, a)->params,
+                                  &gb_runset_first(set, b)->params, accepted);
 }
 
 bool gb_runset_points(const struct gb_runset_run *run, const char *branch, const char *x,

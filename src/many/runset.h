@@ -48,9 +48,6 @@ void gb_runset_merge(struct gb_runset *set, const char *const *keys);
 /* Are these one experiment: equal but for seed, title, threads and [output]? */
 bool gb_runset_same(const struct gb_params *a, const struct gb_params *b);
 
-/* Does the key make no other experiment? */
-bool gb_runset_bookkeeping(const struct gb_field *field);
-
 /* First run of a group, and how many it has. */
 const struct gb_runset_run *gb_runset_first(const struct gb_runset *set, size_t group);
 size_t gb_runset_members(const struct gb_runset *set, size_t group);

@@ -8,6 +8,7 @@
 #include "figures/figures_compute.h"
 #include "figures/figures_label.h"
 #include "figures/runs/density_at_pressure.h"
+#include "many/key_difference.h"
 
 /* Densities are compared there in P1. */
 static const double default_mpa = 100.0;
@@ -64,7 +65,7 @@ static const struct gb_field *find_key(const struct gb_runset *set, struct gb_er
     const struct gb_field *found = NULL;
     for (size_t i = 0; i < rows; i++) {
         const size_t values =
-            gb_runset_bookkeeping(&fields[i]) ? 0 : count_values(set, &fields[i]);
+            gb_key_difference_bookkeeping(&fields[i]) ? 0 : count_values(set, &fields[i]);
         if (values > max) {
             max = values;
             found = &fields[i];

@@ -5,8 +5,8 @@
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "io/follow.h"
 #include "io/hdf/hdf_record.h"
-#include "io/preset.h"
 #include "run/checkpoint.h"
 #include "run/record/kept_states.h"
 #include "run/record/run_journal.h"
@@ -68,30 +68,13 @@ bool gb_run_recorder_create(struct gb_run_recorder **out, const char *directory,
     return true;
 }
 
-static bool read_preset(const char *directory, struct gb_params *params,
-                        struct gb_error *err)
-{
-    struct gb_preset *preset = NULL;
-    struct gb_error why = {0};
-    char *path = g_build_filename(directory, "preset.ini", NULL);
-    bool done = gb_preset_load(&preset, path, err);
-    if (done) {
-        *params = *gb_preset_params(preset);
-        done = gb_params_check(params, &why) ||
-               gb_error_set(err, why.code, "%s: %s", path, why.text);
-    }
-    gb_preset_destroy(preset);
-    g_free(path);
-    return done;
-}
-
 bool gb_run_recorder_read(const char *directory, const char *name,
                           struct gb_params *params, struct gb_record *record,
                           struct gb_error *err)
 {
     char *path = g_build_filename(directory, name, NULL);
     const bool done =
-        read_preset(directory, params, err) && gb_hdf_record_read(record, path, err);
+        gb_follow_params(directory, params, err) && gb_hdf_record_read(record, path, err);
     g_free(path);
     return done;
 }
@@ -137,7 +120,7 @@ bool gb_run_recorder_resume(struct gb_run_recorder **out,
         return false;
     }
     const bool begun = has_checkpoint(directory);
-    if (!read_preset(directory, &params, err) || !create(&recorder, &params, err) ||
+    if (!gb_follow_params(directory, &params, err) || !create(&recorder, &params, err) ||
         (begun && !load_experiment(recorder, experiment, directory, err)) ||
         !gb_store_reopen(&recorder->store, &dir, &params,
                          begun ? &recorder->journal.extent : NULL, err) ||

@@ -33,9 +33,11 @@ enum { PRESS_MOST = 200 };
 
 /* On one core it is processor time that counts, which other work on the machine does not
  * lengthen; on several it is the wall clock. */
-static double now(bool one_core)
+enum clock { PROCESSOR_TIME, WALL_CLOCK };
+
+static double now(enum clock clock)
 {
-    return one_core ? gb_clock_process_s() : gb_clock_s();
+    return clock == PROCESSOR_TIME ? gb_clock_process_s() : gb_clock_s();
 }
 
 static bool grow(struct gb_world **world, const struct gb_model *model, double *seconds,
@@ -86,15 +88,16 @@ static bool time_batches(struct gb_world *world, struct gb_relax *relax, int bat
                          double *median, struct gb_error *err)
 {
     double seconds[BATCHES];
-    const bool one_core = gb_world_model(world)->numerics.threads == 1;
+    const enum clock clock =
+        gb_world_model(world)->numerics.threads == 1 ? PROCESSOR_TIME : WALL_CLOCK;
     relax->tolerance = 0.0;
     for (int batch = 0; batch < batches; batch++) {
         squeeze(world, relax, bench_step);
-        const double start = now(one_core);
+        const double start = now(clock);
         if (gb_relax_advance(relax, world, BATCH, err) == GB_RELAX_FAILED) {
             return false;
         }
-        seconds[batch] = (now(one_core) - start) / BATCH;
+        seconds[batch] = (now(clock) - start) / BATCH;
     }
     *median = gsl_stats_median(seconds, 1, (size_t)batches);
     return true;
@@ -279,32 +282,45 @@ double gb_bench_exponent(const double *count, const double *cost, size_t n)
     return power;
 }
 
-/* What a packing is timed without; a friction law without friction has no bridges. */
+/* Changes of the contact law, as bits. */
+enum change {
+    NO_BRIDGES = 1,
+    NO_FRICTION = 2, /* a friction law without friction has no bridges */
+    NO_ATTRACTION = 4,
+    NO_COHESION = 8 /* Hertz, Mindlin and Coulomb only */
+};
+
+/* What a packing is timed without. */
 struct variant {
     const char *name;
-    bool bridges, friction, attraction;
-    bool cohesionless; /* Hertz, Mindlin and Coulomb only */
+    unsigned changes; /* enum change */
 };
 
 static const struct variant variants[GB_BENCH_TERMS] = {
-    {"all terms", true, true, true, false},
-    {"without bridges", false, true, true, false},
-    {"without friction and bridges", false, false, true, false},
-    {"without attraction", true, true, false, false},
-    {"grains without cohesion", false, true, false, true},
-    {"elastic spheres only", false, false, false, false},
+    {"all terms", 0},
+    {"without bridges", NO_BRIDGES},
+    {"without friction and bridges", NO_BRIDGES | NO_FRICTION},
+    {"without attraction", NO_ATTRACTION},
+    {"grains without cohesion", NO_BRIDGES | NO_ATTRACTION | NO_COHESION},
+    {"elastic spheres only", NO_BRIDGES | NO_FRICTION | NO_ATTRACTION},
 };
+
+static bool keeps(const struct variant *variant, enum change change)
+{
+    return (variant->changes & change) == 0;
+}
 
 static bool leave_out(struct gb_params *params, const struct variant *variant,
                       struct gb_error *err)
 {
-    return (!variant->cohesionless ||
+    return (keeps(variant, NO_COHESION) ||
             gb_params_assign(params, "contact.normal=hertz", err)) &&
-           (variant->bridges ||
+           (keeps(variant, NO_BRIDGES) ||
             gb_params_assign(params, "contact.bridge_length=1 d", err)) &&
-           (variant->friction || (gb_params_assign(params, "contact.mu=0", err) &&
-                                  gb_params_assign(params, "contact.mu_pivot=0", err))) &&
-           (variant->attraction ||
+           (keeps(variant, NO_FRICTION) ||
+            (gb_params_assign(params, "contact.mu=0", err) &&
+             gb_params_assign(params, "contact.mu_pivot=0", err))) &&
+           (keeps(variant, NO_ATTRACTION) ||
             gb_params_assign(params, "material.epsilon=0 kB", err));
 }
 
@@ -322,9 +338,9 @@ static bool time_variant(const struct gb_world *pressed, const struct gb_params 
         return false;
     }
     const struct gb_terms *carried = &gb_world_model(pressed)->terms;
-    if ((!variant->bridges && !carried->bridges) ||
-        (!variant->friction && !carried->friction) ||
-        (!variant->attraction && !carried->attraction)) {
+    if ((!keeps(variant, NO_BRIDGES) && !carried->bridges) ||
+        (!keeps(variant, NO_FRICTION) && !carried->friction) ||
+        (!keeps(variant, NO_ATTRACTION) && !carried->attraction)) {
         *median = NAN;
         return true;
     }
@@ -386,10 +402,10 @@ bool gb_bench_planar(double *particle_steps_per_s, struct gb_error *err)
     while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         const struct gb_point *point = gb_experiment_point(experiment);
         const bool timed = point->branch == GB_BRANCH_LOAD && point->density >= from;
-        const double start = now(true);
+        const double start = now(PROCESSOR_TIME);
         how = gb_experiment_advance(experiment, 1000, err);
         if (timed && how == GB_STEP_POINT) {
-            seconds += now(true) - start;
+            seconds += now(PROCESSOR_TIME) - start;
             steps += point->evaluations;
         }
     }

@@ -6,6 +6,7 @@
 #include <glib.h>
 
 #include "base/units.h"
+#include "many/key_difference.h"
 #include "many/runset.h"
 
 enum { DIGITS = 10 };
@@ -94,7 +95,7 @@ static bool find_field(const struct gb_free_keys *keys, struct gb_free_key *key,
     key->field = words[0] && words[1] ? gb_params_find(words[0], words[1]) : NULL;
     g_strfreev(words);
     const bool fit =
-        key->field != NULL && !gb_runset_bookkeeping(key->field) &&
+        key->field != NULL && !gb_key_difference_bookkeeping(key->field) &&
         (key->field->type == GB_FIELD_NUMBER || key->field->type == GB_FIELD_RELATIVE);
     bool twice = false;
     for (size_t i = 0; i < keys->count; i++) {

@@ -11,37 +11,22 @@
 #include "base/file.h"
 #include "base/table.h"
 #include "io/preset.h"
+#include "many/key_difference.h"
 
-enum { TEXT_MAX = 1024 };
-
-/* Keys that belong to the settings, or have no effect on the results. */
+/* Keys of the settings, and those without effect on the results. */
 static const char *const free_keys[] = {
-    "scene.title",          "structure.seed",
-    "loading.step",         "loading.unload_from",
-    "numerics.fidelity",    "numerics.relaxer",
-    "numerics.tolerance",   "numerics.cutoff",
-    "numerics.precision",   "numerics.threads",
-    "numerics.time_step",   "numerics.step_error",
-    "numerics.strain_part", NULL,
+    "loading.step",
+    "loading.unload_from",
+    "numerics.fidelity",
+    "numerics.relaxer",
+    "numerics.tolerance",
+    "numerics.cutoff",
+    "numerics.precision",
+    "numerics.time_step",
+    "numerics.step_error",
+    "numerics.strain_part",
+    NULL,
 };
-
-/* The first key in which two scenes differ, or NULL. */
-static const struct gb_field *difference(const struct gb_params *a,
-                                         const struct gb_params *b)
-{
-    size_t count = 0;
-    const struct gb_field *fields = gb_params_fields(&count);
-    for (size_t i = 0; i < count; i++) {
-        char name[96], one[TEXT_MAX], other[TEXT_MAX];
-        g_snprintf(name, sizeof name, "%s.%s", fields[i].group, fields[i].key);
-        if (strcmp(fields[i].group, "output") != 0 && !g_strv_contains(free_keys, name) &&
-            strcmp(gb_params_format(a, &fields[i], one, sizeof one),
-                   gb_params_format(b, &fields[i], other, sizeof other)) != 0) {
-            return &fields[i];
-        }
-    }
-    return NULL;
-}
 
 static char *path_of(const struct gb_chart_log *log, const char *name)
 {
@@ -98,8 +83,8 @@ static bool check_scene(const struct gb_chart_log *log, struct gb_error *err)
     struct gb_preset *preset = NULL;
     bool good = gb_preset_load(&preset, path, err);
     if (good) {
-        const struct gb_field *field =
-            difference(gb_preset_params(preset), &log->plan->params);
+        const struct gb_field *field = gb_key_difference_find(
+            gb_preset_params(preset), &log->plan->params, free_keys);
         good = field == NULL ||
                gb_error_set(err, GB_ERR_INPUT,
                             "%.300s: the chart of a scene with another %s.%s; accepted: "

@@ -1,4 +1,5 @@
 #include "tui/watch/runset_view.h"
+#include "many/key_difference.h"
 
 #include <glib.h>
 #include <math.h>
@@ -137,7 +138,8 @@ static void find_keys(struct gb_runset_view *runset, const struct gb_runset *set
     for (size_t i = 0; i < count; i++) {
         struct gb_runset_view_key key = {&field[i], NULL, 0};
         size_t *value_index = g_new0(size_t, set->groups + 1);
-        for (size_t g = 0; g < set->groups && !gb_runset_bookkeeping(&field[i]); g++) {
+        for (size_t g = 0; g < set->groups && !gb_key_difference_bookkeeping(&field[i]);
+             g++) {
             char value[GB_PARAMS_VALUE_MAX];
             gb_params_format(&gb_runset_first(set, g)->params, &field[i], value,
                              sizeof value);

@@ -1,0 +1,20 @@
+#ifndef GB_IO_TEXT_FILE_H
+#define GB_IO_TEXT_FILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "greenbody/status.h"
+
+enum gb_text_file_path {
+    GB_TEXT_FILE_OF_RUN, /* a file of a run directory: not synced where there was none */
+    GB_TEXT_FILE_TYPED   /* a path of the user: always synced */
+};
+
+/* Replaces a text file as a whole: after a crash the old or the new one is there, or
+ * none, if there was none.  Errors: GB_ERR_MACHINE naming path and reason; GB_ERR_INPUT
+ * where a path of the user is a folder or lies in none. */
+bool gb_text_file_replace(const char *path, const char *text, size_t length,
+                          enum gb_text_file_path kind, struct gb_error *err);
+
+#endif
