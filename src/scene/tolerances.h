@@ -48,6 +48,26 @@
  * bridges end too loose. */
 #define GB_PREDICT_RATIO_MAX 8.0
 
+/* Strain step over the last one above which predict makes no prediction: the nonaffine
+ * motion does not scale that far.  Smaller than 2: a step doubled again after a guard
+ * starts without a prediction. */
+#define GB_PREDICT_STRAIN_RATIO_MAX 2.0
+
+/* Largest displacement (d) of a particle in one step of fire and predict.  Overlaps are a
+ * few per cent: larger displacements pass contacts by, smaller ones slow the start of a
+ * relaxation. */
+#define GB_FIRE_DISPLACEMENT_MAX 0.01
+
+/* steepest: displacement (d) under the largest force where h_eq = 0, without adhesion;
+ * P1 (15) gives h_eq/2 otherwise.  Larger: contacts are passed by.  Smaller: slower. */
+#define GB_STEEPEST_DISPLACEMENT_MIN 0.0025
+/* steepest: moves between two computations of the stiffness of the packing.  More: k is
+ * too large for contacts that have closed since. */
+#define GB_STEEPEST_STIFFNESS_MOVES 50
+/* steepest: growth of the residual between two of these computations beyond which k is
+ * halved as unstable.  Near 1: harmless fluctuations halve it as well. */
+#define GB_STEEPEST_RESIDUAL_GROWTH_MAX 1.5
+
 /* Where the mean contact force is below the adhesion f_a(d), the tolerance of predict
  * falls with the mean contact force over f_a(d) times
  * GB_PREDICT_TOLERANCE_SLOPE, down to this share of it.  A
@@ -97,8 +117,32 @@
  * and two centres about to cross mean that a strain step was too large. */
 #define GB_OVERLAP_MAX 0.5
 
+/* Halvings of the strain step in a row after which a quasi-static run stops.  More: a run
+ * that cannot go on takes longer to stop. */
+#define GB_STRAIN_HALVINGS_MAX 6
+
 /* Unloading ends when the pressure is below this share of where it began. */
 #define GB_UNLOADED_FRACTION 1e-3
+
+/* Growth of the edges after which an unloading branch is given up with pressure left.
+ * Smaller: packings that spring back far are cut short. */
+#define GB_UNLOADING_GROWTH_MAX 1.5
+
+/* Smallest share of an unloading step that is taken when the pressure extrapolates to
+ * zero within the step.  Smaller: many tiny steps near zero.  Larger: the branch ends
+ * further below zero. */
+#define GB_UNLOADING_SHARE_MIN 0.02
+
+/* Bounds of the factor of an edge in one strain step, for checkpoints: a value outside is
+ * damage.  Narrower: checkpoints of long strain steps are refused. */
+#define GB_STRAIN_FACTOR_MIN 0.1
+#define GB_STRAIN_FACTOR_MAX 10.0
+
+/* Largest progress of a quasi-static run by density before it has ended, and the density
+ * at which curves reach 1 GPa, whatever the powder: the end that progress assumes when
+ * no density is given.  Only the display depends on them. */
+#define GB_PROGRESS_MAX         0.99
+#define GB_PROGRESS_END_DENSITY 0.62
 
 /* Dynamic scenes.  Error of the end pressure when omega * step = 1; the square of omega *
  * step scales it.  From the known 2 % at 0.5 T in P2's scene, where omega is near 2 / T
@@ -122,6 +166,25 @@
 /* Halvings of the time step after which a dynamic run stops. */
 #define GB_STEP_HALVINGS_MAX 6
 
+/* A stage of a dynamic run has ended when less than this reduced time is left.  0: the
+ * rounding of the sum of the steps leaves a last step of 1e-12.  Above a time step: the
+ * stage ends early. */
+#define GB_STAGE_END_TOLERANCE 1e-9
+
+/* Excess over a whole number of time steps, as a share of a step, that is taken as
+ * rounding.  0: intervals that are a multiple of the step get one step more, all of them
+ * shorter.  Larger: steps exceed the allowed one by this share over their number. */
+#define GB_STEP_COUNT_TOLERANCE 1e-9
+
+/* Relative distance to the final density at which a loading has ended.  0: the rounding
+ * of the products of strains leaves one more step of no length. */
+#define GB_DENSITY_END_TOLERANCE 1e-12
+
+/* The automatic time step assumes at least this circular frequency (1/T): packings without
+ * contacts have none.  Larger than the frequencies of loose packings: their steps are
+ * shorter than needed. */
+#define GB_FREQUENCY_MIN 1e-3
+
 /* How far the shares of a table of sizes may be from summing to 1; they are then scaled.
  * Smaller: tables written with three or four digits are refused.  Larger: a forgotten
  * row passes. */
@@ -136,6 +199,15 @@
  * within 0.001, 1.8 blows up. */
 #define GB_SAFETY_BALANCED  0.5
 #define GB_SAFETY_REFERENCE 0.1
+
+/* A step of a die scene is at most this many times the last one: contacts that close
+ * stiffen over many steps, and none is met at full stiffness.  Larger: the first steps
+ * of an impact are above the critical one. */
+#define GB_STEP_GROWTH_MAX 1.05
+
+/* Longest automatic step of a die scene (T): nothing else bounds it while all is at rest
+ * without contacts.  In 1 T sound crosses a particle. */
+#define GB_FREE_STEP_MAX 1.0
 
 /* Powder is at rest when its mean kinetic energy is below a fall by this (d)
  * and ... */

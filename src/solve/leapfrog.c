@@ -4,14 +4,7 @@
 #include <string.h>
 
 #include "law/critical_step.h"
-
-/* A step may be longer than the last one by this factor at most: contacts that close
- * stiffen over many steps, none is met at full stiffness. */
-static const double step_growth = 1.05;
-
-/* And never longer than this reduced time, in which sound crosses a particle: nothing
- * else bounds it while all is at rest without contacts. */
-static const double step_most = 1.0;
+#include "scene/tolerances.h"
 
 void gb_leapfrog_init(struct gb_leapfrog *leapfrog, double safety, double given)
 {
@@ -53,7 +46,8 @@ static double next_step(const struct gb_leapfrog *leapfrog, const struct gb_bed 
         fmax(leapfrog->fastest, sqrt(2.0 * leapfrog->gravity * bed->smallest));
     const double allowed =
         leapfrog->safety * fmin(gb_leapfrog_critical(bed), gb_leapfrog_impact(bed, fast));
-    const double most = leapfrog->step > 0.0 ? step_growth * leapfrog->step : step_most;
+    const double most =
+        leapfrog->step > 0.0 ? GB_STEP_GROWTH_MAX * leapfrog->step : GB_FREE_STEP_MAX;
     return fmin(fmin(allowed, most), leapfrog->limit);
 }
 

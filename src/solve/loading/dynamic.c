@@ -3,40 +3,13 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/alloc.h"
-#include "law/critical_step.h"
 #include "pack/cell/world_measure.h"
 #include "scene/tolerances.h"
 #include "solve/loading/compressed_axes.h"
-#include "solve/verlet.h"
-
-struct gb_dynamic {
-    const struct gb_model *model;
-    struct gb_verlet verlet;
-    enum gb_dynamic_stage stage, recorded;
-    double time, stage_end;
-    double limit; /* longest step the guard allows, halved when it trips */
-    int halvings;
-    bool told; /* the event that damping bounds the step was written */
-    /* steps to the next point */
-    int64_t left, planned;
-    double step;
-    double factor[3];
-    int64_t sliding, contacts; /* summed over the steps since the last point */
-    double sliding_most;       /* share of them above which the step is doubted */
-    double slid;               /* share that made the guard halve the step; 0: none */
-    double limit_before;       /* that halving */
-    /* the last recorded point, restored by a guard */
-    struct gb_world_copy *good;
-    double *good_velocity, *good_spin;
-    double good_time, good_work, good_absorbed;
-    enum gb_dynamic_stage good_stage;
-    double *scratch;
-    double density; /* of the world, by the schedule */
-    double good_density;
-};
+#include "solve/loading/dynamic_guard.h"
+#include "solve/loading/dynamic_step.h"
 
 bool gb_dynamic_create(struct gb_dynamic **out, struct gb_world *world,
                        struct gb_error *err)
@@ -78,56 +51,6 @@ void gb_dynamic_destroy(struct gb_dynamic *motion)
     gb_alloc_free(motion);
 }
 
-/* The viscous force of a mode is xi = A omega / 2 of the critical damping. */
-static double critical_step(const struct gb_dynamic *motion, double frequency)
-{
-    return gb_critical_step(frequency, 0.5 * motion->model->dynamics.viscous * frequency);
-}
-
-/* The given step, or a fraction of the critical one as soon as the given one exceeds it. */
-static double bound_given(struct gb_dynamic *motion, double critical, char *text,
-                          size_t size)
-{
-    const double step = fmin(motion->model->dynamics.time_step, motion->limit);
-    if (step <= critical) {
-        return step;
-    }
-    motion->limit = GB_STEP_CRITICAL_FRACTION * critical;
-    snprintf(text, size,
-             "guard: time step %.3g T above the critical %.3g T: %.3g T is taken", step,
-             critical, motion->limit);
-    return motion->limit;
-}
-
-/* auto: the error of velocity Verlet is GB_STEP_ERROR_UNIT (omega step)^2.  Strong damping bounds the step more. */
-static double pick_step(struct gb_dynamic *motion, double frequency, double critical,
-                        char *text, size_t size)
-{
-    const double share = sqrt(motion->model->dynamics.step_error / GB_STEP_ERROR_UNIT);
-    const double accurate = share / fmax(frequency, 1e-3);
-    const double stable = GB_STEP_CRITICAL_FRACTION * critical;
-    if (stable < 0.5 * accurate && !motion->told) {
-        motion->told = true;
-        snprintf(
-            text, size,
-            "guard: contact.viscosity bounds the time step to %.3g T (accuracy alone: "
-            "%.3g T)",
-            stable, accurate);
-    }
-    return fmin(fmin(accurate, stable), motion->limit);
-}
-
-/* Longest step allowed now. */
-static double allowed_step(struct gb_dynamic *motion, const struct gb_world *world,
-                           char *text, size_t size)
-{
-    const double frequency = gb_verlet_frequency(world, motion->scratch);
-    const double critical = critical_step(motion, frequency);
-    return motion->model->dynamics.time_step > 0.0
-               ? bound_given(motion, critical, text, size)
-               : pick_step(motion, frequency, critical, text, size);
-}
-
 static void enter(struct gb_dynamic *motion, enum gb_dynamic_stage stage)
 {
     motion->stage = stage;
@@ -139,15 +62,17 @@ static void enter(struct gb_dynamic *motion, enum gb_dynamic_stage stage)
 /* Moves on to the stage that has something left to do. */
 static void settle_stage(struct gb_dynamic *motion)
 {
-    const double tiny = 1e-9;
-    if (motion->stage == GB_DYNAMIC_RELAX && motion->time >= motion->stage_end - tiny) {
+    if (motion->stage == GB_DYNAMIC_RELAX &&
+        motion->time >= motion->stage_end - GB_STAGE_END_TOLERANCE) {
         enter(motion, GB_DYNAMIC_LOAD);
     }
     if (motion->stage == GB_DYNAMIC_LOAD &&
-        motion->density >= motion->model->until_density * (1.0 - 1e-12)) {
+        motion->density >=
+            motion->model->until_density * (1.0 - GB_DENSITY_END_TOLERANCE)) {
         enter(motion, GB_DYNAMIC_HOLD);
     }
-    if (motion->stage == GB_DYNAMIC_HOLD && motion->time >= motion->stage_end - tiny) {
+    if (motion->stage == GB_DYNAMIC_HOLD &&
+        motion->time >= motion->stage_end - GB_STAGE_END_TOLERANCE) {
         enter(motion, GB_DYNAMIC_OVER);
     }
 }
@@ -164,7 +89,8 @@ static void plan(struct gb_dynamic *motion, double allowed)
         growth = next / motion->density;
         interval = log(growth) / dynamics->rate;
     }
-    motion->planned = motion->left = (int64_t)fmax(1.0, ceil(interval / allowed - 1e-9));
+    motion->planned = motion->left =
+        (int64_t)fmax(1.0, ceil(interval / allowed - GB_STEP_COUNT_TOLERANCE));
     motion->step = interval / (double)motion->planned;
     const struct gb_compressed_axes axes = gb_compressed_axes_of(motion->model);
     gb_compressed_axes_scale(&axes,
@@ -174,99 +100,6 @@ static void plan(struct gb_dynamic *motion, double allowed)
     motion->sliding = motion->contacts = 0;
 }
 
-static bool save_good(struct gb_dynamic *motion, const struct gb_world *world,
-                      struct gb_error *err)
-{
-    const size_t bytes = 3 * (size_t)motion->model->count * sizeof(double);
-    memcpy(motion->good_velocity, motion->verlet.velocity, bytes);
-    memcpy(motion->good_spin, motion->verlet.spin, bytes);
-    motion->good_time = motion->time;
-    motion->good_density = motion->density;
-    motion->good_work = motion->verlet.work;
-    motion->good_absorbed = motion->verlet.absorbed;
-    motion->good_stage = motion->stage;
-    return gb_world_copy_save(world, &motion->good, err);
-}
-
-/* Back to the last recorded point. */
-static bool restore_good(struct gb_dynamic *motion, struct gb_world *world,
-                         struct gb_error *err)
-{
-    const size_t bytes = 3 * (size_t)motion->model->count * sizeof(double);
-    memcpy(motion->verlet.velocity, motion->good_velocity, bytes);
-    memcpy(motion->verlet.spin, motion->good_spin, bytes);
-    motion->time = motion->good_time;
-    motion->density = motion->good_density;
-    motion->verlet.work = motion->good_work;
-    motion->verlet.absorbed = motion->good_absorbed;
-    motion->stage = motion->good_stage;
-    motion->left = 0;
-    return gb_world_copy_restore(world, motion->good, err) &&
-           gb_world_evaluate(world, err);
-}
-
-/* Half the step from the last recorded point on, or the end. */
-static enum gb_step_outcome halve_time_step(struct gb_dynamic *motion,
-                                            struct gb_world *world, const char *why,
-                                            char *text, size_t size, struct gb_error *err)
-{
-    motion->limit = 0.5 * motion->step;
-    if (!restore_good(motion, world, err)) {
-        return GB_STEP_STOPPED;
-    }
-    if (++motion->halvings > GB_STEP_HALVINGS_MAX) {
-        gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %.3g T", why,
-                     motion->step);
-        return GB_STEP_STOPPED;
-    }
-    snprintf(text, size, "guard: %s; time step halved to %.3g T", why, motion->limit);
-    return GB_STEP_MORE;
-}
-
-/* Share of the contacts that slid since the last point. */
-static double sliding_share(const struct gb_dynamic *motion)
-{
-    return motion->contacts > 0 ? (double)motion->sliding / (double)motion->contacts
-                                : 0.0;
-}
-
-/* Half the step changed nothing: friction is the cause, and the step is restored. */
-static void restore_step(struct gb_dynamic *motion, double share, char *text, size_t size)
-{
-    motion->sliding_most = 0.5 * (1.0 + share);
-    motion->limit = motion->limit_before;
-    motion->slid = 0.0;
-    motion->halvings--;
-    snprintf(text, size,
-             "guard: %.0f %% of the contacts slide with half the time step as well; the "
-             "step is not the cause and is taken as before",
-             100.0 * share);
-}
-
-/* Friction caps hide an unstable step from the kinetic energy; the sliding contacts show
- * it.  Many contacts may also slide at any step: half the step decides. */
-static enum gb_step_outcome judge_sliding(struct gb_dynamic *motion,
-                                          struct gb_world *world, char *text, size_t size,
-                                          struct gb_error *err)
-{
-    const double share = sliding_share(motion);
-    if (motion->slid > 0.0 && share > GB_SLIDING_RATIO_UNCHANGED * motion->slid) {
-        restore_step(motion, share, text, size);
-        return GB_STEP_POINT;
-    }
-    if (share > motion->sliding_most) {
-        char why[96];
-        snprintf(why, sizeof why, "%.0f %% of the contacts slide", 100.0 * share);
-        if (motion->slid == 0.0) {
-            motion->limit_before = motion->limit;
-        }
-        motion->slid = share;
-        return halve_time_step(motion, world, why, text, size, err);
-    }
-    motion->slid = 0.0;
-    return GB_STEP_POINT;
-}
-
 static enum gb_step_outcome begin(struct gb_dynamic *motion, struct gb_world *world,
                                   char *text, size_t size, struct gb_error *err)
 {
@@ -274,10 +107,10 @@ static enum gb_step_outcome begin(struct gb_dynamic *motion, struct gb_world *wo
     if (motion->stage == GB_DYNAMIC_OVER) {
         return GB_STEP_DONE;
     }
-    if (!save_good(motion, world, err)) {
+    if (!gb_dynamic_guard_save(motion, world, err)) {
         return GB_STEP_STOPPED;
     }
-    plan(motion, allowed_step(motion, world, text, size));
+    plan(motion, gb_dynamic_step_allowed(motion, world, text, size));
     return GB_STEP_MORE;
 }
 
@@ -297,7 +130,7 @@ enum gb_step_outcome gb_dynamic_advance(struct gb_dynamic *motion, struct gb_wor
             char why[sizeof err->text];
             snprintf(why, sizeof why, "%s", err->text);
             return err->code == GB_ERR_GUARD
-                       ? halve_time_step(motion, world, why, text, size, err)
+                       ? gb_dynamic_guard_halve(motion, world, why, text, size, err)
                        : GB_STEP_STOPPED;
         }
         motion->time += motion->step;
@@ -309,7 +142,7 @@ enum gb_step_outcome gb_dynamic_advance(struct gb_dynamic *motion, struct gb_wor
         return GB_STEP_MORE;
     }
     motion->recorded = motion->stage;
-    return judge_sliding(motion, world, text, size, err);
+    return gb_dynamic_guard_judge(motion, world, text, size, err);
 }
 
 static double whole_time(const struct gb_dynamic *motion)

@@ -6,6 +6,7 @@
 #include "pack/cell/nonaffine.h"
 #include "pack/cell/world_measure.h"
 #include "pack/cell/world_record.h"
+#include "scene/tolerances.h"
 #include "solve/loading/loading.h"
 #include "solve/loading/loading_cell.h"
 #include "solve/loading/quasistatic.h"
@@ -300,8 +301,8 @@ static enum gb_step_outcome decide_again(struct gb_loading *loading, struct gb_e
 static bool check_loaded(struct quasistatic_loading *run, struct gb_error *err)
 {
     for (int k = 0; k < 3; k++) {
-        if (run->base.strain_due &&
-            !(run->base.factor[k] > 0.1 && run->base.factor[k] < 10.0)) {
+        if (run->base.strain_due && !(run->base.factor[k] > GB_STRAIN_FACTOR_MIN &&
+                                      run->base.factor[k] < GB_STRAIN_FACTOR_MAX)) {
             return gb_error_set(err, GB_ERR_INPUT, "run/factor: is out of range");
         }
     }

@@ -4,9 +4,6 @@
 
 #include "scene/tolerances.h"
 
-/* An unloading branch that has grown its edges by this factor has no pressure to lose. */
-static const double expansion_most = 1.5;
-
 void gb_quasistatic_init(struct gb_quasistatic *load, const struct gb_model *model)
 {
     *load = (struct gb_quasistatic){
@@ -73,7 +70,7 @@ static double expansion(struct gb_quasistatic *load, double pressure)
     const double drop = load->last_pressure - pressure;
     if (load->expansions > 0 && drop > 0.0) {
         const double predicted = pressure / drop * (load->last_expansion / (full - 1.0));
-        share = fmin(1.0, fmax(predicted, 0.02));
+        share = fmin(1.0, fmax(predicted, GB_UNLOADING_SHARE_MIN));
     }
     load->last_expansion = share * (full - 1.0);
     load->last_pressure = pressure;
@@ -85,7 +82,7 @@ static bool unloaded(struct gb_quasistatic *load, double pressure)
 {
     const double grown = pow(1.0 / (1.0 - load->step), load->expansions);
     const bool done = pressure <= GB_UNLOADED_FRACTION * load->top_pressure;
-    load->endless = !done && grown > expansion_most;
+    load->endless = !done && grown > GB_UNLOADING_GROWTH_MAX;
     return done || load->endless;
 }
 
@@ -111,7 +108,8 @@ enum gb_quasistatic_order gb_quasistatic_next(struct gb_quasistatic *load,
         gb_compressed_axes_scale(&load->axes, expansion(load, p), factor);
         return GB_QUASISTATIC_UNLOAD;
     }
-    if (p >= load->until_pressure || density >= load->until_density * (1.0 - 1e-12)) {
+    if (p >= load->until_pressure ||
+        density >= load->until_density * (1.0 - GB_DENSITY_END_TOLERANCE)) {
         return GB_QUASISTATIC_END;
     }
     return compress(load, density, factor);
@@ -133,11 +131,12 @@ void gb_quasistatic_recover(struct gb_quasistatic *load)
 double gb_quasistatic_progress(const struct gb_quasistatic *load, double pressure,
                                double density, double start_density)
 {
-    /* Curves reach 1 GPa near a density of 0.62, whatever the powder; time goes with the
-     * number of strain steps, that is with the logarithm of density. */
-    const double end = load->until_density < 1.0 ? load->until_density : 0.62;
+    /* time goes with the number of strain steps, that is with the logarithm of density */
+    const double end =
+        load->until_density < 1.0 ? load->until_density : GB_PROGRESS_END_DENSITY;
     const double by_density = log(density / start_density) / log(end / start_density);
     const double by_pressure =
         isfinite(load->until_pressure) ? pressure / load->until_pressure : 0.0;
-    return fmin(1.0, fmax(0.0, fmax(fmin(by_density, 0.99), by_pressure * by_pressure)));
+    return fmin(1.0, fmax(0.0, fmax(fmin(by_density, GB_PROGRESS_MAX),
+                                    by_pressure * by_pressure)));
 }

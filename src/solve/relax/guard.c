@@ -4,9 +4,6 @@
 
 #include "scene/tolerances.h"
 
-/* Halvings in a row after which the run stops. */
-enum { HALVINGS_MOST = 6 };
-
 /* The relaxer ran out of evaluations: mostly a cycle between two states of a breaking
  * bridge, with a small residual.  A large one means that no equilibrium was near. */
 static enum gb_guard_action judge_exhausted(const struct gb_relax *relax, char *text,
@@ -53,7 +50,7 @@ enum gb_guard_action gb_guard_judge(struct gb_guard *guard, enum gb_relax_outcom
         }
         return GB_GUARD_ACCEPT;
     }
-    if (err->code != GB_ERR_GUARD || guard->halvings >= HALVINGS_MOST) {
+    if (err->code != GB_ERR_GUARD || guard->halvings >= GB_STRAIN_HALVINGS_MAX) {
         return GB_GUARD_STOP;
     }
     guard->halvings++;

@@ -10,8 +10,10 @@
 #include "base/vec.h"
 #include "pack/f32/integrate_f32.h"
 #include "pack/kernel/simd.h"
+#include "scene/tolerances.h"
 #include "solve/relax/relax_fire.h"
 
+/* Growth of the step while the power is positive, f_inc of Bitzek et al. */
 static const double grow = 1.1;
 
 /* Longest step, in sqrt(m / (E d)).  The stiffest contacts of a dense packing (stiffness
@@ -26,8 +28,6 @@ const struct gb_relax_fire_tuning gb_relax_fire_plain = {
     .delay = 8,
 };
 static const double inertia = GB_RELAX_INERTIA;
-/* No particle moves farther than this in one step (d): overlaps are a few per cent. */
-static const double move_most = 0.01;
 
 void gb_relax_fire_rest(struct gb_relax *relax, struct gb_relax_fire_state *fire,
                         const struct gb_relax_fire_tuning *tuning, struct gb_world *world)
@@ -246,7 +246,8 @@ void gb_relax_fire_move(struct gb_relax *relax, struct gb_relax_fire_state *fire
 {
     const struct gb_force_sums *sums = gb_world_sums(world);
     const double force2 = sums->force2 + sums->torque2 / inertia;
-    struct gb_integrate_f32 by = {.inertia = inertia, .displacement_max = move_most};
+    struct gb_integrate_f32 by = {.inertia = inertia,
+                                  .displacement_max = GB_FIRE_DISPLACEMENT_MAX};
     by.back = adapt(fire, tuning, sums->power);
     /* mixing needs the speed after the kick; the speed before differs by one step only
      * and saves a pass over the arrays */

@@ -23,10 +23,6 @@ const struct gb_relax_fire_tuning gb_relax_predict_tuning = {
     .delay = 2,
 };
 
-/* No prediction when the strain step is longer than the last one by more than this factor,
- * or reversed: the nonaffine motion does not scale that far. */
-static const double ratio_max = 2.0;
-
 enum { POSITION = 2, ROTATION = 3 }; /* vectors beside the velocities */
 
 struct predict {
@@ -52,7 +48,8 @@ static struct request request_since(struct predict *state, const double edge[3])
         state->edge[k] = edge[k];
     }
     const double ratio = square > 0.0 ? along / square : 0.0;
-    return (struct request){ratio > 0.0 && ratio <= ratio_max ? ratio : 0.0, sqrt(size2)};
+    return (struct request){
+        ratio > 0.0 && ratio <= GB_PREDICT_STRAIN_RATIO_MAX ? ratio : 0.0, sqrt(size2)};
 }
 
 /* Scales a nonaffine displacement or a rotation by the ratio of the strains, at most to

@@ -9,13 +9,10 @@
 #include <math.h>
 
 #include "base/vec.h"
+#include "scene/tolerances.h"
 #include "solve/relax/relax.h"
 
 static const double inertia = GB_RELAX_INERTIA;
-/* Displacement under the largest force when there is no adhesion and h_eq = 0 (d). */
-static const double move_least = 0.0025;
-/* Moves between two computations of the stiffness of the packing. */
-enum { STIFFNESS_CHECK_MOVES = 50 };
 
 struct steepest {
     double k_most; /* 1 / stiffness of the most strongly held particle */
@@ -76,7 +73,7 @@ static void check_stiffness(struct gb_relax *relax, struct gb_world *world)
 {
     struct steepest *state = relax->state;
     const double stiffness = gb_relax_steepest_stiffest(world, relax->vector[0]);
-    if (relax->residual > 1.5 * state->last) {
+    if (relax->residual > GB_STEEPEST_RESIDUAL_GROWTH_MAX * state->last) {
         state->safety *= 0.5;
     }
     state->last = relax->residual;
@@ -96,7 +93,7 @@ void gb_relax_steepest_step(struct gb_world *world, double k)
 static void move(struct gb_relax *relax, struct gb_world *world)
 {
     struct steepest *state = relax->state;
-    if (relax->iterations % STIFFNESS_CHECK_MOVES == 0) {
+    if (relax->iterations % GB_STEEPEST_STIFFNESS_MOVES == 0) {
         check_stiffness(relax, world);
     }
     const struct gb_bodies b = gb_world_bodies(world);
@@ -104,7 +101,8 @@ static void move(struct gb_relax *relax, struct gb_world *world)
     for (int64_t i = 0; i < b.count; i++) {
         most = fmax(most, gb_vec_dot(b.force + 3 * i, b.force + 3 * i));
     }
-    const double reach = fmax(0.5 * gb_world_model(world)->h_eq, move_least);
+    const double reach =
+        fmax(0.5 * gb_world_model(world)->h_eq, GB_STEEPEST_DISPLACEMENT_MIN);
     const double k = most > 0.0 ? fmin(reach / sqrt(most), state->k_most) : state->k_most;
     if (isfinite(k)) {
         gb_relax_steepest_step(world, k);
