@@ -7,6 +7,7 @@
 #include <hdf5.h>
 #include <math.h>
 #include <signal.h>
+#include <stddef.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -296,77 +297,70 @@ static void test_links(void)
     g_free(path);
 }
 
-/* Writes one changed value of a made-up packing and expects its dataset to be named. */
+#define AT(member) offsetof(struct gb_state, member)
+
+/* A wrong value: of a member, or of an element of the array that a member points to. */
+static const struct wrong_value {
+    const char *says;
+    size_t offset;
+    enum { MEMBER, ELEMENT } where;
+    size_t index; /* of the element, or of the member where it is an array */
+    enum { REAL, INTEGER, MEMBER_INT, BYTE } type;
+    double value;
+} wrong_values[] = {
+    {"/position", AT(position), ELEMENT, 5, REAL, (double)NAN},
+    {"/position", AT(position), ELEMENT, 5, REAL, 1e9},
+    {"/radius", AT(radius), ELEMENT, 7, REAL, 0.0},
+    {"/radius", AT(radius), ELEMENT, 7, REAL, (double)INFINITY},
+    {"/contacts", AT(contacts), ELEMENT, 7, INTEGER, -1.0},
+    {"/pair", AT(pair), ELEMENT, 3, INTEGER, -1.0},
+    {"/pair", AT(pair), ELEMENT, 3, INTEGER, 50.0},
+    {"/pair", AT(pair), ELEMENT, 3, INTEGER, 1.0}, /* the first of the pair as well */
+    {"/pair_force", AT(pair_force), ELEMENT, 3, REAL, (double)NAN},
+    {"/pair_normal", AT(pair_normal), ELEMENT, 3, REAL, (double)INFINITY},
+    {"dimension", AT(dimension), MEMBER, 0, MEMBER_INT, 4.0},
+    {"cell_d", AT(cell), MEMBER, 1, REAL, 0.0},
+    {"cell_d", AT(cell), MEMBER, 2, REAL, (double)NAN},
+    {"metre_per", AT(metre_per_length), MEMBER, 0, REAL, -1.0},
+    {"pascal_per", AT(pascal_per_stress), MEMBER, 0, REAL, 0.0},
+    {"p_pa", AT(point.p_pa), MEMBER, 0, REAL, (double)INFINITY},
+    {"branch", AT(point.branch), MEMBER, 0, MEMBER_INT, GB_BRANCH_HOLD - 1},
+    {"/pair_bri", AT(pair_bridged), ELEMENT, 3, BYTE, 2.0},
+};
+
+#undef AT
+
+static void put_wrong_value(struct gb_state *state, const struct wrong_value *wrong)
+{
+    char *member = (char *)state + wrong->offset;
+    void *at = wrong->where == ELEMENT ? *(void **)(void *)member : member;
+    switch (wrong->type) {
+    case REAL:
+        ((double *)at)[wrong->index] = wrong->value;
+        break;
+    case INTEGER:
+        ((int32_t *)at)[wrong->index] = (int32_t)wrong->value;
+        break;
+    case MEMBER_INT:
+        ((int *)at)[wrong->index] = (int)wrong->value;
+        break;
+    case BYTE:
+        ((uint8_t *)at)[wrong->index] = (uint8_t)wrong->value;
+        break;
+    }
+}
+
+/* A wrong value in a made-up packing: the message names its dataset. */
 static void test_wrong_values(void)
 {
     char *path = in_scratch("value.h5");
-    const char *says[] = {"/position",   "/position",    "/radius",    "/radius",
-                          "/contacts",   "/pair",        "/pair",      "/pair",
-                          "/pair_force", "/pair_normal", "dimension",  "cell_d",
-                          "cell_d",      "metre_per",    "pascal_per", "p_pa",
-                          "branch",      "/pair_bri"};
-    for (size_t k = 0; k < G_N_ELEMENTS(says); k++) {
+    for (size_t k = 0; k < G_N_ELEMENTS(wrong_values); k++) {
         struct gb_error err = {0};
-        struct gb_state *s = made_up(50, 60);
-        switch (k) {
-        case 0:
-            s->position[5] = NAN;
-            break;
-        case 1:
-            s->position[5] = 1e9;
-            break;
-        case 2:
-            s->radius[7] = 0.0;
-            break;
-        case 3:
-            s->radius[7] = INFINITY;
-            break;
-        case 4:
-            s->contacts[7] = -1;
-            break;
-        case 5:
-            s->pair[3] = -1;
-            break;
-        case 6:
-            s->pair[3] = 50;
-            break;
-        case 7:
-            s->pair[3] = s->pair[2];
-            break;
-        case 8:
-            s->pair_force[3] = NAN;
-            break;
-        case 9:
-            s->pair_normal[3] = INFINITY;
-            break;
-        case 10:
-            s->dimension = 4;
-            break;
-        case 11:
-            s->cell[1] = 0.0;
-            break;
-        case 12:
-            s->cell[2] = NAN;
-            break;
-        case 13:
-            s->metre_per_length = -1.0;
-            break;
-        case 14:
-            s->pascal_per_stress = 0.0;
-            break;
-        case 15:
-            s->point.p_pa = INFINITY;
-            break;
-        case 16:
-            s->point.branch = GB_BRANCH_HOLD - 1;
-            break;
-        default:
-            s->pair_bridged[3] = 2;
-            break;
-        }
-        g_assert_true(gb_state_write(s, NULL, path, &err));
-        assert_refused(path, GB_ERR_INPUT, says[k]);
-        gb_state_destroy(s);
+        struct gb_state *state = made_up(50, 60);
+        put_wrong_value(state, &wrong_values[k]);
+        g_assert_true(gb_state_write(state, NULL, path, &err));
+        assert_refused(path, GB_ERR_INPUT, wrong_values[k].says);
+        gb_state_destroy(state);
     }
     g_free(path);
 }
