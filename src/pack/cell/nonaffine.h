@@ -5,7 +5,7 @@
 
 #include "pack/cell/world.h"
 
-/* Non-affine displacements since a copy of the world was taken: those beside the affine
+/* Non-affine displacements since a copy of the world was taken: without the affine
  * motion of the cell. */
 struct gb_nonaffine {
     double farthest;  /* largest one, d */

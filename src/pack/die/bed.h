@@ -36,7 +36,7 @@ struct gb_bed {
     gb_bed_row *position, *velocity, *spin, *force, *torque;
     double *mass, *inverse_mass,
         *inverse_inertia; /* and one over mass and 2/5 m R^2 x scale */
-    double inertia_scale; /* of 2/5 m R^2; P3 takes 10 */
+    double inertia_scale; /* of 2/5 m R^2; 10 in P3 */
     struct gb_die die;
     struct gb_bed_law law;
     gb_bed_kernel *pair_kernel, *wall_kernel;

@@ -9,7 +9,7 @@
 struct gb_die {
     double radius; /* of the cylinder */
     /* The funnel: a flat ring at `height` from the cylinder's wall in to the outlet, and
-     * a cone that opens upward from there.  Without it the wall goes on for ever. */
+     * a cone that opens upward from there.  Without it the wall has no upper end. */
     bool funnel;
     double height, outlet;
     double sine, cosine; /* of the angle between the cone's wall and the axis */

@@ -44,7 +44,7 @@ double gb_list_check_largest(const struct gb_engine *engine);
 
 /* True if the lists are valid, by the displacements of the blocks; leaves the missing pairs
  * in engine->check.  Called by all threads of an OpenMP team, or by one thread outside of
- * a team; every thread gets the same answer. */
+ * a team; every thread returns the same value. */
 bool gb_list_check_run(struct gb_engine *engine);
 
 #endif

@@ -15,7 +15,7 @@
 static const double ray_longest_3d = 60.0;
 static const double ray_longest_2d = 40.0;
 
-/* The particle that is to be placed next. */
+/* The next particle to be placed. */
 static struct gb_roll next_one(const struct gb_chain_ray *growth)
 {
     struct gb_roll roll = {.grid = growth->grid, .r_eq = growth->grow->r_eq};
@@ -38,7 +38,7 @@ static void random_direction(struct gb_chain_ray *growth, double direction[3])
     }
 }
 
-/* Where the ray leaves the block of the nearest images, or is cut. */
+/* Length of the ray to the boundary of the block of nearest images, or to the cut. */
 static double ray_length(const struct gb_chain_ray *growth, const double origin[3],
                          const double direction[3])
 {
@@ -119,8 +119,8 @@ static int count_neighbours(const struct gb_chain_ray *growth, const double posi
 }
 
 /* The free position with the fewest neighbours, the farthest of several; NULL when the
- * ray has none.  The candidates come farthest first, so only fewer neighbours win, and
- * one neighbour (the particle touched) cannot be beaten. */
+ * ray has none.  The candidates are sorted, the farthest first, so a later one is better
+ * only with fewer neighbours; one neighbour (the particle touched) is the minimum. */
 static const struct gb_chain_ray_candidate *
 choose_candidate(const struct gb_chain_ray *growth, const struct gb_roll *roll, int count)
 {

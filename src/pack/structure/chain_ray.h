@@ -13,8 +13,8 @@
  * fill at most the strip, 3.9 (n + 1). */
 enum { GB_CHAIN_RAY_CANDIDATES = 824 };
 
-/* Of unequal sizes the small ones are more; those beyond so many times that number, the
- * last ones found, are ignored. */
+/* Small particles of unequal sizes have more candidates.  Their number is limited to this
+ * factor times the number above; the last ones found are ignored. */
 enum { GB_CHAIN_RAY_SIZED = 8 };
 
 /* A position on the ray that touches particle j. */

@@ -71,7 +71,7 @@ static bool ready(struct gb_hgrid *hgrid, int64_t count, struct gb_error *err)
     return good;
 }
 
-/* Room for `need` pairs; keeps those found so far. */
+/* Room for `need` pairs; the pairs found so far are kept. */
 static bool reserve(struct gb_hgrid_search *search, int64_t need, struct gb_error *err)
 {
     struct gb_hgrid *hgrid = search->hgrid;
@@ -180,8 +180,8 @@ static bool scan(struct gb_hgrid_search *search, int64_t p, int64_t from, int64_
     return true;
 }
 
-/* Which spheres of a level are neighbours of sorted sphere p: in its own level those behind
- * it in the order, so that every pair is found once. */
+/* Which spheres of a level are neighbours of sorted sphere p: in its own level only the
+ * spheres behind it in the order, so that every pair is found once. */
 enum hgrid_partners { ALL_OF_LEVEL, BEHIND_IN_LEVEL };
 
 /* One row of cells along x, which may extend beyond the period once. */

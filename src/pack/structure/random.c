@@ -9,7 +9,7 @@ bool gb_random_open(gsl_rng *random, uint64_t seed, struct gb_error *err)
     if (!random->state) {
         return false;
     }
-    /* mt19937 takes 32 bits only; the others are folded in. */
+    /* The seed of mt19937 has 32 bits; the upper ones are combined with the lower. */
     gsl_rng_set(random, (unsigned long)((seed ^ (seed >> 32)) & 0xffffffffu));
     return true;
 }
