@@ -18,8 +18,8 @@ struct gb_law_bridge {
     bool radius_current; /* a_ch from the printed form at the current r, not from r_min */
 };
 
-/* h_min after a contact with deepest overlap h_min (0: no bridge) is moved to overlap h.
- */
+/* h_min (d) after a contact with deepest overlap h_min (0: no bridge) is moved to overlap
+ * h (d): 0 for h <= 0.  Source: P1 section II.A. */
 static inline double gb_law_bridge_deepest(const struct gb_law_bridge *law, double h_min,
                                            double h)
 {
@@ -35,9 +35,13 @@ static inline double gb_law_bridge_deepest(const struct gb_law_bridge *law, doub
     return h_min - h > law->length ? h + law->length : h_min;
 }
 
-/* Elastic force f_e at overlap h <= h_min of a bridged contact. */
+/* Elastic force f_e (E d^2) at overlap h <= h_min of a bridged contact (d): the tangent of
+ * (1) at h_min; negative where it pulls.  Source: P1 (2), its slope the derivative of (1).
+ */
 double gb_law_bridge_force(const struct gb_law_rod *rod, double h_min, double h);
-/* Contact radius a_ch = sqrt(h_min)/2, or the printed form at the current r. */
+
+/* Contact radius a_ch = sqrt(h_min)/2 (d), or the printed form at the current r; h_min
+ * must be above 0.  Source: P1 section II.A. */
 static inline double gb_law_bridge_radius(const struct gb_law_bridge *law, double h_min,
                                           double h)
 {

@@ -9,17 +9,19 @@ struct gb_law_dispersion {
     double contact;  /* f_a(1) */
 };
 
-/* epsilon in E d^3, d0 in d. */
+/* n d0^3 and alpha have no unit; epsilon in E d^3, d0 in d.  alpha d0 must be above 0: (3)
+ * is infinite at r = d without it.  Source: P1 (3). */
 void gb_law_dispersion_init(struct gb_law_dispersion *law, double n_d0_cubed,
                             double epsilon, double alpha, double d0);
 
-/* f_a(r) >= 0, pulling. */
+/* f_a(r) >= 0 (E d^2), pulling; r in d.  The constant f_a(1) for r < 1.  Source:
+ * P1 (3). */
 double gb_law_dispersion_force(const struct gb_law_dispersion *law, double r);
-/* df_a/dr <= 0; 0 for r < 1. */
+/* df_a/dr <= 0 (E d); 0 for r < 1.  The derivative of (3). */
 double gb_law_dispersion_slope(const struct gb_law_dispersion *law, double r);
-/* Potential energy, 0 at infinity; -dU/dr = -f_a. */
+/* Potential energy (E d^3), 0 at infinity; -dU/dr = -f_a.  The integral of (3). */
 double gb_law_dispersion_energy(const struct gb_law_dispersion *law, double r);
-/* Distance r >= 1 at which f_a has fallen to share of f_a(1). */
+/* Distance r >= 1 (d) at which f_a has fallen to share of f_a(1); share in (0, 1]. */
 double gb_law_dispersion_range(const struct gb_law_dispersion *law, double share);
 
 #endif

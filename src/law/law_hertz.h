@@ -16,7 +16,8 @@ struct gb_law_hertz {
     double shear;   /* G*, (13) */
 };
 
-/* i and j may be the same.  A wall is as stiff as the particle: it takes its material. */
+/* E* and G* of two materials, which may be the same; moduli above 0.  Source: P3 (3),
+ * (13).  A wall is as stiff as the particle: it takes its material. */
 void gb_law_hertz_init(struct gb_law_hertz *law, const struct gb_elastic *i,
                        const struct gb_elastic *j);
 
@@ -24,21 +25,23 @@ void gb_law_hertz_init(struct gb_law_hertz *law, const struct gb_elastic *i,
  * radius, to the bit. */
 double gb_law_hertz_radius(double ri, double rj);
 
-/* F(h), (2), at effective radius R*; 0 for h <= 0. */
+/* F(h) at effective radius R*; 0 for h <= 0.  Source: P3 (2). */
 double gb_law_hertz_force(const struct gb_law_hertz *law, double radius, double h);
-/* k_n = dF/dh, (9). */
+/* k_n = dF/dh, stress times length; 0 for h <= 0.  Source: P3 (9). */
 double gb_law_hertz_stiffness(const struct gb_law_hertz *law, double radius, double h);
-/* Integral of the force from 0 to h. */
+/* Integral of the force from 0 to h; 0 for h <= 0. */
 double gb_law_hertz_energy(const struct gb_law_hertz *law, double radius, double h);
 /* h at which the force is `force`; 0 for force <= 0.  Inverse of (2). */
 double gb_law_hertz_overlap(const struct gb_law_hertz *law, double radius, double force);
-/* k_t(h), (12). */
-double gb_law_hertz_shear_stiffness(const struct gb_law_hertz *law, double radius, double h);
+/* k_t(h), stress times length; 0 for h <= 0.  Source: P3 (12). */
+double gb_law_hertz_shear_stiffness(const struct gb_law_hertz *law, double radius,
+                                    double h);
 
 /* F_Y at which the weaker of the two materials, of yield stress `yield`, starts to flow
  * below the contact: greatest pressure 1.61 yield, by von Mises at nu = 0.3.  For two
  * equal spheres this is (30); gb_law_hertz_overlap gives the overlap. */
-double gb_law_hertz_yield_force(const struct gb_law_hertz *law, double radius, double yield);
+double gb_law_hertz_yield_force(const struct gb_law_hertz *law, double radius,
+                                double yield);
 
 /* c_n = xi C_cr, (7), (8): fraction xi of the critical damping of reduced mass m_i m_j /
  * (m_i + m_j) (against a wall: the particle's mass) on the tangent stiffness of the

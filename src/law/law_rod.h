@@ -10,15 +10,19 @@ struct gb_law_rod {
     double pivot; /* (pi/3) M, factor of the second term of (9) */
 };
 
+/* Factors of P1 (1) and (9); Poisson's ratio below 1/2, where M is infinite. */
 void gb_law_rod_init(struct gb_law_rod *law, double poisson);
 
-/* f_e(h); 0 for h <= 0, grows without bound as h -> 1; infinite at h >= 1. */
+/* f_e(h) (E d^2); 0 for h <= 0, grows without bound as h -> 1, INFINITY at h >= 1.  Limit
+ * h -> 0: Hertz.  Source: P1 (1). */
 double gb_law_rod_force(const struct gb_law_rod *law, double h);
-/* df_e/dh. */
+/* df_e/dh (E d); 0 for h <= 0, INFINITY at h >= 1.  The derivative of P1 (1): the printed
+ * (2) lacks the factor (1 - nu)/(1 + nu) of M. */
 double gb_law_rod_stiffness(const struct gb_law_rod *law, double h);
-/* Integral of the force from 0 to h. */
+/* Integral of the force from 0 to h (E d^3); 0 for h <= 0, INFINITY at h >= 1. */
 double gb_law_rod_energy(const struct gb_law_rod *law, double h);
-/* M(a) of (9) at a = sqrt(h)/2: first moment of the contact pressure, E d^3. */
+/* M(a) at a = sqrt(h)/2: first moment of the contact pressure (E d^3); 0 for h <= 0,
+ * INFINITY at h >= 1.  Source: P1 (9). */
 double gb_law_rod_moment(const struct gb_law_rod *law, double h);
 
 #endif

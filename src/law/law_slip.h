@@ -19,10 +19,12 @@ struct gb_law_slip {
     double motion;   /* share of the relative motion a spring sees: 1/2, or 1 ("full") */
 };
 
+/* mu, mu_pivot and motion have no unit; strength in E.  Source: P1 (4), (6), (12). */
 void gb_law_slip_init(struct gb_law_slip *law, double poisson, double mu, double mu_pivot,
                       double strength, double motion);
 
-/* Stiffnesses at contact radius a (a_ch for a bridge). */
+/* Stiffnesses at contact radius a (d; a_ch for a bridge): shear in E d, pivoting and
+ * rolling in E d^3 per radian.  Source: P1 (4), (6), (12). */
 static inline double gb_law_slip_shear_stiffness(const struct gb_law_slip *law, double a)
 {
     return law->shear * a;
@@ -50,13 +52,15 @@ static inline double gb_law_slip_bridge_pivot_cap(const struct gb_law_slip *law,
     return 0.5 * M_PI * a * a * a * law->strength;
 }
 
-/* a_ch max(f_e, 0) / 3. */
+/* Cap of the rolling moment of a bridge (E d^3), a_ch max(f_e, 0) / 3.  Source: P1
+ * (12). */
 static inline double gb_law_slip_roll_cap(double a, double force)
 {
     return force > 0.0 ? a * force / 3.0 : 0.0;
 }
 
-/* Caps of a contact without a bridge at overlap h. */
+/* Caps of a contact without a bridge at overlap h (d): shear force in E d^2, pivoting
+ * moment in E d^3; 0 for h <= 0.  Source: P1 (5), (8)-(11). */
 double gb_law_slip_shear_cap(const struct gb_law_slip *law, const struct gb_law_rod *rod,
                              double h);
 double gb_law_slip_pivot_cap(const struct gb_law_slip *law, const struct gb_law_rod *rod,

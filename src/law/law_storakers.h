@@ -37,13 +37,15 @@ void gb_law_storakers_init(struct gb_law_storakers *law, const struct gb_elastic
                            const struct gb_elastic *j, double strength_i,
                            double strength_j, double exponent, bool printed);
 
-/* (16) alone, and its slope (22); 0 for h <= 0. */
+/* The plastic force alone and its slope, at effective radius R*; 0 for h <= 0.  Source: P3
+ * (16), (22). */
 double gb_law_storakers_plastic(const struct gb_law_storakers *law, double radius,
                                 double h);
 double gb_law_storakers_plastic_stiffness(const struct gb_law_storakers *law,
                                           double radius, double h);
 
-/* Overlap at which (2) and (16) meet: elastic below, plastic above. */
+/* Overlap at which Hertz' and the plastic force are equal: elastic below, plastic above.
+ * Source: P3 (2), (16). */
 double gb_law_storakers_transition(const struct gb_law_storakers *law, double radius);
 
 /* Force and tangent stiffness dF/dh of the active branch. */
@@ -58,7 +60,7 @@ struct gb_law_branch gb_law_storakers_loading(const struct gb_law_storakers *law
 
 /* Elastic part of the deepest overlap, h_max - h0: what springs back. */
 double gb_law_storakers_recovery(const struct gb_law_storakers *law, double radius,
-                                double deepest);
+                                 double deepest);
 
 /* Force and tangent at overlap h of a contact whose deepest overlap was *deepest, which
  * follows: loading at *deepest and beyond, unloading and reloading below it, no force
@@ -69,11 +71,12 @@ struct gb_law_branch gb_law_storakers_update(const struct gb_law_storakers *law,
                                              double radius, double h, double *deepest);
 
 /* Work that loads a fresh contact to overlap h. */
-double gb_law_storakers_loading_work(const struct gb_law_storakers *law, double radius, double h);
+double gb_law_storakers_loading_work(const struct gb_law_storakers *law, double radius,
+                                     double h);
 
 /* Energy that a contact at overlap h <= deepest gives back until it opens.  The loop of
  * a contact loaded to h costs work(h) - returned(h, h). */
-double gb_law_storakers_unloading_energy(const struct gb_law_storakers *law, double radius,
-                                 double deepest, double h);
+double gb_law_storakers_unloading_energy(const struct gb_law_storakers *law,
+                                         double radius, double deepest, double h);
 
 #endif

@@ -21,16 +21,18 @@
  *
  * In units of D these are the laws of equal spheres with factors of c = d'/D. */
 struct gb_law_unequal {
-    double mean_diameter;           /* D, in the model's lengths, as everything without a note */
-    double diameter_ratio;          /* c */
-    double inverse_diameter[2];     /* 1/d_i, 1/d_j */
-    struct gb_law_rod rod; /* in D, with the factors of c */
+    double mean_diameter;  /* D, in the model's lengths, as everything without a note */
+    double diameter_ratio; /* c */
+    double inverse_diameter[2]; /* 1/d_i, 1/d_j */
+    struct gb_law_rod rod;      /* in D, with the factors of c */
     double bridge_length;
     double strength, shift, offset; /* of (3), in D; offset: (d_i - d_j)/2 squared */
     double adhesion;                /* f_a where they touch */
 };
 
-/* From the laws of two spheres of the reference diameter; diameters in its lengths. */
+/* From the laws of two spheres of the reference diameter; diameters in its lengths, above
+ * 0.  Below, lengths are in the reference diameter d, forces in E d^2, energies and
+ * moments in E d^3. */
 void gb_law_unequal_init(struct gb_law_unequal *law, const struct gb_law_rod *rod,
                          const struct gb_law_bridge *bridge,
                          const struct gb_law_dispersion *dispersion, double first,
@@ -40,8 +42,9 @@ void gb_law_unequal_init(struct gb_law_unequal *law, const struct gb_law_rod *ro
  * is its slope and may be NULL. */
 double gb_law_unequal_elastic(const struct gb_law_unequal *law, double deepest, double h,
                               double *stiffness);
-/* What f_e gives back. */
-double gb_law_unequal_elastic_energy(const struct gb_law_unequal *law, double deepest, double h);
+/* Energy stored by f_e: its integral over h up to this overlap. */
+double gb_law_unequal_elastic_energy(const struct gb_law_unequal *law, double deepest,
+                                     double h);
 /* Contact radius where twice its square over d'/2 is an overlap: sqrt(h d')/2. */
 double gb_law_unequal_radius(const struct gb_law_unequal *law, double h);
 /* M(a) of (9) at overlap h. */
