@@ -143,6 +143,12 @@ INLINE struct slip_law slip_law(const struct gb_law_slip *slip,
     };
 }
 
+/* Integral of pressure times radius over the area of contact, by the fit of its tail. */
+INLINE real fitted_moment(const struct slip_law *slip, real from, real root)
+{
+    return from * from * (slip->plate + slip->rod * root * moment_tail(from));
+}
+
 /* Second half, 3D: springs cut at their caps; forces and torques. */
 INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
                              BATCH *restrict b, struct gb_contacts *restrict c,
@@ -188,11 +194,9 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
             const real strength = a2 * slip.bond;
             const real twisting = half * a2 * a * slip.bond;
             const real cap = held ? strength : smaller(slip.mu * f.elastic, strength);
-            const real moment =
-                t.plain ? 0
-                : MOMENT_FITTED
-                    ? from * from * (slip.plate + slip.rod * f.root * moment_tail(from))
-                    : b->moment[k];
+            const real moment = t.plain         ? 0
+                                : MOMENT_FITTED ? fitted_moment(&slip, from, f.root)
+                                                : b->moment[k];
             const real pivot_cap =
                 held ? twisting : smaller(slip.mu_pivot * moment, twisting);
             real vx = sx[k], vy = sy[k], vz = sz[k], p = t.plain ? 0 : pivot[k];
