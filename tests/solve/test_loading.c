@@ -3,6 +3,7 @@
 #include <glib.h>
 #include <string.h>
 
+#include "common/die.h"
 #include "common/scene.h"
 #include "scene/loading_kind.h"
 #include "solve/loading/loading.h"
@@ -125,6 +126,15 @@ static void test_outcomes(void)
     check_done(&dynamic);
 }
 
+/* A small bed, pressed to a tenth of the pressure of the other die tests. */
+static void test_die(void)
+{
+    const struct gb_params die = die_params("particles.count=40", "loading.until=5 MPa",
+                                            "loading.record_pressure=1 MPa", NULL);
+    check_cancelled(&die);
+    check_done(&die);
+}
+
 /* Too few evaluations leave a residual far above the tolerance: STOPPED, with the error. */
 static void test_stopped(void)
 {
@@ -149,6 +159,7 @@ int main(int argc, char **argv)
     g_test_add_func("/loading/properties", test_properties);
     g_test_add_func("/loading/lookup", test_lookup);
     g_test_add_func("/loading/outcomes", test_outcomes);
+    g_test_add_func("/loading/die", test_die);
     g_test_add_func("/loading/stopped", test_stopped);
     return g_test_run();
 }

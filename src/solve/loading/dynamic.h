@@ -10,8 +10,8 @@
 #include "solve/step_outcome.h"
 
 /* High-speed pressing of P2: relax in a fixed cell, compress at a rate to a density,
- * hold.  Steps of gb_verlet between recorded points; a guard that watches the share of
- * sliding contacts and the critical step.  It owns no world. */
+ * hold.  Steps of gb_verlet between recorded points; a guard on the share of
+ * sliding contacts and on the critical step.  The world belongs to the caller. */
 struct gb_dynamic;
 
 enum gb_dynamic_stage {
@@ -32,7 +32,7 @@ enum gb_step_outcome gb_dynamic_advance(struct gb_dynamic *motion, struct gb_wor
                                         int64_t max_steps, char *text, size_t size,
                                         struct gb_error *err);
 
-/* What goes into a recorded point, reduced units. */
+/* Quantities of a recorded point, reduced units. */
 struct gb_dynamic_report {
     enum gb_dynamic_stage stage; /* the one that has just been recorded */
     double time;                 /* since the start */
@@ -43,8 +43,8 @@ struct gb_dynamic_report {
 };
 struct gb_dynamic_report gb_dynamic_report(const struct gb_dynamic *motion);
 
-/* The motion at a recorded point, out of a record or into it; loading, it was just
- * created with the same world.  Errors: GB_ERR_INPUT naming the member. */
+/* The motion at a recorded point into a record, or out of it after gb_dynamic_create
+ * with the same world.  Errors: GB_ERR_INPUT naming the member. */
 bool gb_dynamic_record(struct gb_dynamic *motion, struct gb_record *record,
                        struct gb_error *err);
 

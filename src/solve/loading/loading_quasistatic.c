@@ -43,7 +43,7 @@ static void begin(struct quasistatic_loading *run)
     gb_relax_start(run->relax, run->base.world);
 }
 
-/* The relaxer first: its name is checked before the packing is grown. */
+/* The relaxer comes first: an unknown name is an error before the packing is grown. */
 static bool build(struct gb_loading *loading, bool (*cancelled)(void *data), void *data,
                   struct gb_error *err)
 {
@@ -89,7 +89,7 @@ static void strain(struct quasistatic_loading *run)
     run->base.strain_due = false;
 }
 
-/* What the relaxation under way took counts for the strain step. */
+/* Adds the iterations and evaluations of this relaxation to those of the strain step. */
 static void count_relaxation(struct quasistatic_loading *run)
 {
     run->spent_iterations += run->relax->iterations;
@@ -122,7 +122,7 @@ static enum gb_step_outcome stop(struct quasistatic_loading *run)
     return GB_STEP_STOPPED;
 }
 
-/* The first relaxation has no state before it. */
+/* The first relaxation has no earlier state to compare with: it is accepted. */
 static enum gb_guard_action check_nonaffine(struct quasistatic_loading *run, char *text,
                                             size_t size)
 {
@@ -230,7 +230,7 @@ static enum gb_step_outcome save_good(struct quasistatic_loading *run,
     return run->have_good ? GB_STEP_MORE : GB_STEP_STOPPED;
 }
 
-/* What the schedule orders after a recorded state. */
+/* The next step of the schedule after a recorded state. */
 static enum gb_step_outcome decide_next(struct quasistatic_loading *run,
                                         struct gb_event_queue *events,
                                         struct gb_error *err)
@@ -273,7 +273,7 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
     return decide_next(run, events, err);
 }
 
-/* On an unloading branch the order of before holds until the branch ends. */
+/* An unloading branch under way is completed as planned. */
 static enum gb_step_outcome decide_again(struct gb_loading *loading, struct gb_error *err)
 {
     struct quasistatic_loading *run = own(loading);
