@@ -102,7 +102,7 @@ GString *gb_chart_plot(const struct gb_chart_table *table,
     if (count > 1 && isfinite(level) &&
         gb_plot_resize(&plot, ROWS, COLUMNS, unicode ? GB_PLOT_BRAILLE : GB_PLOT_ASCII,
                        NULL)) {
-        gb_plot_axes(&plot, x_ends, y_ends, true, "log10 of CPU seconds",
+        gb_plot_axes(&plot, x_ends, y_ends, GB_PLOT_LOG, "log10 of CPU seconds",
                      "|error| + standard error");
         draw(&plot, table, level, x, y);
         char *dump = gb_plot_dump(&plot);

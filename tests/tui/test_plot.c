@@ -116,7 +116,8 @@ static void draw(struct gb_plot *plot, bool log_y)
 {
     const double x_ends[2] = {xs[0], xs[POINTS - 1]};
     const double y_ends[2] = {log_y ? 1.0 : 0.0, 1000.0};
-    gb_plot_axes(plot, x_ends, y_ends, log_y, "density", "p, MPa");
+    gb_plot_axes(plot, x_ends, y_ends, log_y ? GB_PLOT_LOG : GB_PLOT_LINEAR, "density",
+                 "p, MPa");
     const struct gb_plot_series series = {
         .x = xs, .y = ys, .count = POINTS, .ink = GB_PLOT_INK_SERIES, .marker = 1};
     gb_plot_line(plot, &series);
@@ -176,7 +177,7 @@ static void draw_fan(struct gb_plot *plot, struct gb_plot_entry *entry, int coun
     plot->foot = foot;
     const double x_ends[2] = {0.25, 0.65}, y_ends[2] = {1.0, 1000.0};
     double x[POINTS], y[POINTS];
-    gb_plot_axes(plot, x_ends, y_ends, true, "density", "p, MPa");
+    gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LOG, "density", "p, MPa");
     for (int g = 0; g < count; g++) {
         for (int i = 0; i < POINTS; i++) {
             y[i] = pow(10.0, 3.0 * i / (POINTS - 1));
@@ -243,7 +244,7 @@ static void test_bars(void)
     const double x_ends[2] = {0.0, 6.0};
     const double y_ends[2] = {0.0, 40.0};
     static const double share[6] = {0.0, 2.5, 10.0, 40.0, 32.5, 15.0};
-    gb_plot_axes(&plot, x_ends, y_ends, false, "", "%");
+    gb_plot_axes(&plot, x_ends, y_ends, GB_PLOT_LINEAR, "", "%");
     for (int i = 0; i < 6; i++) {
         gb_plot_bar(&plot, i, i + 1.0, share[i], GB_PLOT_INK_SERIES);
     }
@@ -260,7 +261,8 @@ static void test_clipping(void)
     for (int glyphs = 0; glyphs < GB_PLOT_GLYPHS; glyphs++) {
         for (int log_y = 0; log_y < 2; log_y++) {
             struct gb_plot plot = plot_of(12, 30, (enum gb_plot_glyphs)glyphs);
-            gb_plot_axes(&plot, ends, ends, log_y == 1, "", "");
+            gb_plot_axes(&plot, ends, ends, log_y == 1 ? GB_PLOT_LOG : GB_PLOT_LINEAR, "",
+                         "");
             const struct gb_plot_series series = {.x = x,
                                                   .y = y,
                                                   .count = G_N_ELEMENTS(x),

@@ -203,12 +203,12 @@ static void add_restore_event(const struct quasistatic_loading *run,
 {
     char text[GB_EVENT_TEXT];
     if (!run->schedule.endless) {
-        gb_event_queue_add(events, "unloaded; loading goes on from the saved state");
+        gb_event_queue_add(events, "unloaded; loading continues from the saved state");
         return;
     }
     snprintf(text, sizeof text,
              "guard: the cell has grown by half and still carries %.3g MPa; unloading is "
-             "given up, loading goes on from the saved state",
+             "given up, loading continues from the saved state",
              pressure_mpa(run, pressure));
     gb_event_queue_add(events, text);
 }

@@ -194,10 +194,10 @@ static void draw_command(struct gb_dialog *dialog, const struct gb_paint *screen
         gb_paint_cell(&paint, row, 0, rect.cols, GB_STYLE_PLAIN,
                       row <= count ? lines[row - 1] : "");
     }
-    gb_paint_title(&paint, dialog->type->title, true);
+    gb_paint_title(&paint, dialog->type->title, GB_PAINT_FOCUSED);
     const struct gb_rect end = {rect.row + rows - 1, 0, 1, rect.cols};
     const struct gb_paint last = gb_paint_at(screen->term, end);
-    gb_paint_title(&last, dialog->type->label, false);
+    gb_paint_title(&last, dialog->type->label, GB_PAINT_UNFOCUSED);
     g_strfreev(lines);
 }
 

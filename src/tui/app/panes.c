@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 static void draw_params(struct gb_screen *screen, const struct gb_paint *paint,
-                        bool focus)
+                        enum gb_paint_focus focus)
 {
     gb_panel_params_draw(&screen->params, paint, &screen->session, focus);
 }
@@ -23,7 +23,8 @@ static void describe_params(struct gb_screen *screen, struct gb_message *message
     gb_panel_params_describe(&screen->params, &screen->session, message);
 }
 
-static void draw_plot(struct gb_screen *screen, const struct gb_paint *paint, bool focus)
+static void draw_plot(struct gb_screen *screen, const struct gb_paint *paint,
+                      enum gb_paint_focus focus)
 {
     screen->plot.edited = gb_panel_params_edit_params(&screen->params, &screen->session);
     gb_panel_plot_draw(&screen->plot, paint, &screen->session, focus);
@@ -49,7 +50,8 @@ static void describe_plot(struct gb_screen *screen, struct gb_message *message)
     gb_panel_plot_cursor_describe(&screen->plot, &screen->session, message);
 }
 
-static void draw_state(struct gb_screen *screen, const struct gb_paint *paint, bool focus)
+static void draw_state(struct gb_screen *screen, const struct gb_paint *paint,
+                       enum gb_paint_focus focus)
 {
     gb_panel_state_draw(paint, &screen->session, focus);
 }
@@ -65,7 +67,7 @@ static void describe_run(struct gb_screen *screen, struct gb_message *message)
 }
 
 static void draw_events(struct gb_screen *screen, const struct gb_paint *paint,
-                        bool focus)
+                        enum gb_paint_focus focus)
 {
     gb_panel_events_draw(&screen->events, paint, &screen->session, focus);
 }

@@ -5,7 +5,8 @@
 
 /* One row per pane; NULL: not supported. */
 struct gb_pane_type {
-    void (*draw)(struct gb_screen *screen, const struct gb_paint *paint, bool focus);
+    void (*draw)(struct gb_screen *screen, const struct gb_paint *paint,
+                 enum gb_paint_focus focus);
     void (*navigate)(struct gb_screen *screen, enum gb_action action);
     void (*click)(struct gb_screen *screen, int row, int col);
     void (*describe)(struct gb_screen *screen, struct gb_message *message);

@@ -138,8 +138,9 @@ static void draw_message(struct gb_screen *screen)
 static void draw_pane(struct gb_screen *screen, enum gb_pane pane)
 {
     const struct gb_paint paint = gb_paint_at(screen->term, screen->layout.pane[pane]);
-    const bool focus = screen->focus == pane && screen->dialog.type == NULL;
-    gb_panes_type(pane)->draw(screen, &paint, focus);
+    const bool keys = screen->focus == pane && screen->dialog.type == NULL;
+    gb_panes_type(pane)->draw(screen, &paint,
+                              keys ? GB_PAINT_FOCUSED : GB_PAINT_UNFOCUSED);
 }
 
 static void join(const struct gb_paint *paint, int row, int col, const char *sign)

@@ -32,7 +32,7 @@ static int total_rows(const struct gb_panel_events *panel, const struct gb_paint
 
 /* The newest line at the bottom; a long one is wrapped, into half of the pane at most. */
 void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *paint,
-                          const struct gb_session *session, bool focus)
+                          const struct gb_session *session, enum gb_paint_focus focus)
 {
     char title[GB_CHILD_COMMAND_LINE + 32] = "Events";
     if (session->child.progress[0] != '\0') {

@@ -62,7 +62,8 @@ static void draw_value(const struct gb_panel_params *panel, const struct gb_pain
 }
 
 static void draw_field(const struct gb_panel_params *panel, const struct gb_paint *paint,
-                       struct gb_session *session, int index, int row, bool focus)
+                       struct gb_session *session, int index, int row,
+                       enum gb_paint_focus focus)
 {
     size_t count = 0;
     const struct gb_field *field = &gb_params_fields(&count)[index];
@@ -72,7 +73,7 @@ static void draw_field(const struct gb_panel_params *panel, const struct gb_pain
     enum gb_style style = differs  ? GB_STYLE_CHANGED
                           : unused ? GB_STYLE_DIM
                                    : GB_STYLE_PLAIN;
-    if (focused_row && focus) {
+    if (focused_row && focus == GB_PAINT_FOCUSED) {
         style = GB_STYLE_SELECTED;
         gb_paint_cell(paint, row, 0, paint->rect.cols - 1, style, "");
     } else if (focused_row) {
@@ -91,7 +92,7 @@ static void draw_heading(const struct gb_paint *paint, int row, const char *grou
 }
 
 void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *paint,
-                          struct gb_session *session, bool focus)
+                          struct gb_session *session, enum gb_paint_focus focus)
 {
     char title[64];
     const int changes = gb_session_changes(session);

@@ -146,13 +146,13 @@ static void draw_insets(struct gb_panel_plot *panel, const struct gb_paint *pain
         const struct gb_paint part = gb_paint_at(paint->term, rect);
         char title[96];
         snprintf(title, sizeof title, "%s %s", view->key, view->title);
-        gb_paint_title(&part, title, false);
+        gb_paint_title(&part, title, GB_PAINT_UNFOCUSED);
         draw_view(panel, &panel->inset[drawn++], &part, session, view);
     }
 }
 
 void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *paint,
-                        const struct gb_session *session, bool focus)
+                        const struct gb_session *session, enum gb_paint_focus focus)
 {
     char title[96];
     struct gb_paint upper = *paint;

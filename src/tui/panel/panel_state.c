@@ -116,7 +116,7 @@ static void draw_items(const struct gb_paint *paint, int first, int rows,
 }
 
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
-                         bool focus)
+                         enum gb_paint_focus focus)
 {
     const struct gb_session_shown shown = gb_session_shown(session);
     const struct gb_snapshot *now = shown.now;

@@ -30,7 +30,7 @@ struct gb_panel_params {
 };
 
 void gb_panel_params_draw(struct gb_panel_params *panel, const struct gb_paint *paint,
-                          struct gb_session *session, bool focus);
+                          struct gb_session *session, enum gb_paint_focus focus);
 void gb_panel_params_navigate(struct gb_panel_params *panel, struct gb_session *session,
                               enum gb_action action);
 /* Switches the list between all parameters and those of the scene. */
@@ -104,7 +104,7 @@ void gb_panel_plot_init(struct gb_panel_plot *panel, const struct gb_term *term,
                         int graph);
 void gb_panel_plot_finish(struct gb_panel_plot *panel);
 void gb_panel_plot_draw(struct gb_panel_plot *panel, const struct gb_paint *paint,
-                        const struct gb_session *session, bool focus);
+                        const struct gb_session *session, enum gb_paint_focus focus);
 /* The next (1) or previous (-1) view of the scene. */
 void gb_panel_plot_step_view(struct gb_panel_plot *panel, int step);
 /* Allocates x and y for count points; false: out of memory. */
@@ -131,7 +131,7 @@ void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
 /* --- state: panel_state.c, panel_state_items.c -------------------------------------- */
 
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
-                         bool focus);
+                         enum gb_paint_focus focus);
 /* "running" with a symbol; *style repeats the meaning as colour. */
 const char *gb_panel_state_word(enum gb_run_state state, enum gb_style *style);
 
@@ -143,7 +143,7 @@ struct gb_panel_events {
 };
 
 void gb_panel_events_draw(struct gb_panel_events *panel, const struct gb_paint *paint,
-                          const struct gb_session *session, bool focus);
+                          const struct gb_session *session, enum gb_paint_focus focus);
 void gb_panel_events_navigate(struct gb_panel_events *panel,
                               const struct gb_session *session, enum gb_action action);
 

@@ -163,10 +163,11 @@ static int limit(int value, int min, int max)
 }
 
 void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_ends[2],
-                  bool log_y, const char *x_label, const char *y_label)
+                  enum gb_plot_scale y_scale, const char *x_label, const char *y_label)
 {
     const int rows = plot->rows - 2 - plot->foot;
-    gb_plot_axis_fit(&plot->y, y_ends[0], y_ends[1], log_y, limit(rows / 2 + 1, 2, 10));
+    gb_plot_axis_fit(&plot->y, y_ends[0], y_ends[1], y_scale == GB_PLOT_LOG,
+                     limit(rows / 2 + 1, 2, 10));
     const int left = widest_tick(&plot->y) + 1;
     const int cols = plot->cols - left;
     if (rows < 2 || cols < 8) {

@@ -25,6 +25,8 @@ enum gb_plot_ink {
     GB_PLOT_INK_SHADE = GB_PLOT_INK_SERIES + 6 /* + 0 (dark) .. GB_PLOT_SHADES - 1 */
 };
 
+enum gb_plot_scale { GB_PLOT_LINEAR, GB_PLOT_LOG };
+
 enum { GB_PLOT_COLOURS = 6, GB_PLOT_SHADES = 8 };
 
 struct gb_plot_cell {
@@ -73,7 +75,7 @@ bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyph
 
 /* Axes, ticks and labels around the field; the ranges contain the given ends. */
 void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_ends[2],
-                  bool log_y, const char *x_label, const char *y_label);
+                  enum gb_plot_scale y_scale, const char *x_label, const char *y_label);
 /* No axes: the whole picture is the field (polar pictures). */
 void gb_plot_bare(struct gb_plot *plot, const double x_ends[2], const double y_ends[2]);
 

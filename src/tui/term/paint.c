@@ -136,7 +136,8 @@ static void line_row(const struct gb_paint *paint, int row)
     attrset(A_NORMAL);
 }
 
-void gb_paint_title(const struct gb_paint *paint, const char *title, bool focus)
+void gb_paint_title(const struct gb_paint *paint, const char *title,
+                    enum gb_paint_focus focus)
 {
     char text[256];
     snprintf(text, sizeof text, " %s ", title);
@@ -144,7 +145,7 @@ void gb_paint_title(const struct gb_paint *paint, const char *title, bool focus)
     const int max = paint->rect.cols - 3;
     const int width = gb_paint_width(text);
     gb_paint_cell(paint, 0, 2, width < max ? width : max,
-                  focus ? GB_STYLE_FOCUS : GB_STYLE_TITLE, text);
+                  focus == GB_PAINT_FOCUSED ? GB_STYLE_FOCUS : GB_STYLE_TITLE, text);
 }
 
 void gb_paint_bar(const struct gb_paint *paint, int row, int col, int cols, double share)
@@ -179,7 +180,7 @@ void gb_paint_box(const struct gb_paint *paint, const char *title)
         gb_paint_cell(paint, row, 0, cols, GB_STYLE_PLAIN, "");
     }
     line_row(paint, rows - 1);
-    gb_paint_title(paint, title, true);
+    gb_paint_title(paint, title, GB_PAINT_FOCUSED);
     gb_paint_column(paint, 0, 1, rows - 2);
     gb_paint_column(paint, cols - 1, 1, rows - 2);
     pen(paint, GB_STYLE_DIM);

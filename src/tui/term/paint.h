@@ -32,8 +32,12 @@ int gb_paint_wrap(const struct gb_paint *paint, int row, int rows, enum gb_style
 /* Number of rows that gb_paint_wrap would use. */
 int gb_paint_wrap_rows(const struct gb_paint *paint, int rows, const char *text);
 
-/* First row of a pane: a rule with the name of the pane. */
-void gb_paint_title(const struct gb_paint *paint, const char *title, bool focus);
+enum gb_paint_focus { GB_PAINT_UNFOCUSED, GB_PAINT_FOCUSED };
+
+/* First row of a pane: a rule with the name of the pane, brighter where
+ * the pane takes the keys. */
+void gb_paint_title(const struct gb_paint *paint, const char *title,
+                    enum gb_paint_focus focus);
 
 /* A fraction 0..1 as a bar of `cols` cells. */
 void gb_paint_bar(const struct gb_paint *paint, int row, int col, int cols, double share);

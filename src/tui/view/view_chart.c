@@ -62,7 +62,7 @@ void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *se
         return;
     }
     plot->log_x = true;
-    gb_plot_axes(plot, x_ends, y_ends, true, "CPU time per cell, s",
+    gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LOG, "CPU time per cell, s",
                  "density error bound");
     draw_settings(plot, chart);
     struct gb_plot_entry entry[3] = {{INK_ALL, MARK_ALL, "setting"},

@@ -149,7 +149,8 @@ static void draw_axes(struct gb_view_curve *view)
     view->unit_pa = giga ? 1e9 : 1e6;
     view->panel->unit_pa = view->unit_pa;
     const double y_ends[2] = {ends.y[0] / view->unit_pa, ends.y[1] / view->unit_pa};
-    gb_plot_axes(&view->panel->plot, ends.x, y_ends, view->panel->log, x_label,
+    gb_plot_axes(&view->panel->plot, ends.x, y_ends,
+                 view->panel->log ? GB_PLOT_LOG : GB_PLOT_LINEAR, x_label,
                  giga ? "p, GPa" : "p, MPa");
 }
 

@@ -27,7 +27,7 @@ void gb_view_distances_draw(struct gb_panel_plot *panel, const struct gb_session
     const double y_ends[2] = {0.0, max};
     const double one[2] = {1.0, 1.0};
     char text[64];
-    gb_plot_axes(plot, x_ends, y_ends, false, "r / d", "g(r)");
+    gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LINEAR, "r / d", "g(r)");
     gb_plot_line(plot, &(struct gb_plot_series){
                            .x = x_ends, .y = one, .count = 2, .ink = GB_PLOT_INK_AXIS});
     gb_plot_line(plot, &(struct gb_plot_series){.x = panel->x,

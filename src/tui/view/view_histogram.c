@@ -12,7 +12,7 @@ void gb_view_histogram_draw(struct gb_panel_plot *panel, const struct gb_session
         max = fmax(max, 100.0 * share[i]);
     }
     y_ends[1] = max > 0.0 ? max : 1.0;
-    gb_plot_axes(&panel->plot, x_ends, y_ends, false, "coordination number",
+    gb_plot_axes(&panel->plot, x_ends, y_ends, GB_PLOT_LINEAR, "coordination number",
                  "share of particles, %");
     for (int i = 0; i < GB_SNAPSHOT_HISTOGRAM; i++) {
         gb_plot_bar(&panel->plot, i, i + 1.0, 100.0 * share[i], GB_PLOT_INK_SERIES);

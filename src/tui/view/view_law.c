@@ -151,7 +151,7 @@ void gb_view_law_force(struct gb_panel_plot *panel, const struct gb_session *ses
         extend(y_ends, bridge_y[k], 2);
     }
     const double x_ends[2] = {line.x[0], line.x[POINTS - 1]};
-    gb_plot_axes(plot, x_ends, y_ends, false, "overlap h = d - r, nm",
+    gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LINEAR, "overlap h = d - r, nm",
                  "normal force, nN");
     draw_zero(plot, x_ends);
     struct gb_plot_entry entry[3] = {{INK_LAW, 1, "unbridged contact"},
@@ -212,7 +212,7 @@ void gb_view_law_strength(struct gb_panel_plot *panel, const struct gb_session *
         extend(y_ends, old.y, POINTS);
     }
     const double x_ends[2] = {0.0, line.x[POINTS - 1]};
-    gb_plot_axes(plot, x_ends, y_ends, false, "overlap h = d - r, nm",
+    gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LINEAR, "overlap h = d - r, nm",
                  "bridge strength, GPa");
     if (compare) {
         draw(plot, old.x, old.y, POINTS, GB_PLOT_INK_DIM, 3);

@@ -47,16 +47,18 @@ static void put_mean(struct gb_plot_cell *cell, float above, float below, bool a
     cell->ch = ascii ? ascii_ramp[level(mean, ASCII)] : wide_ramp[level(mean, WIDE)];
 }
 
+enum caption { CAPTION_CORNER, CAPTION_BELOW };
+
 /* The caption: two short lines in the corner, or one below an image. */
 static void write_caption(struct gb_plot *plot, const struct gb_view_sample *sample,
-                          const struct gb_params *params, bool below)
+                          const struct gb_params *params, enum caption caption)
 {
     char share[48];
     char size[48];
     char text[128];
     snprintf(share, sizeof share, "%d of %lld", sample->count, (long long)params->count);
     snprintf(size, sizeof size, "%.3g x %.3g d", sample->window[0], sample->window[2]);
-    if (below) {
+    if (caption == CAPTION_BELOW) {
         snprintf(text, sizeof text, "%s, %s, z upwards", share, size);
         gb_plot_text(plot, plot->rows - 1, 0, GB_PLOT_INK_TEXT, text);
         return;
@@ -75,7 +77,7 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
         return;
     }
     if (panel->pixels) { /* the image covers these cells */
-        write_caption(plot, shown.sample, shown.params, true);
+        write_caption(plot, shown.sample, shown.params, CAPTION_BELOW);
         return;
     }
     const size_t dots = (size_t)plot->rows * (size_t)plot->cols * 2;
@@ -98,5 +100,5 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
         }
     }
     gb_alloc_free(shade);
-    write_caption(plot, shown.sample, shown.params, false);
+    write_caption(plot, shown.sample, shown.params, CAPTION_CORNER);
 }

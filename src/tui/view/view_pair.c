@@ -82,7 +82,7 @@ void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *ses
     follow(&pair, plastic(params), max, &line);
     const double x_ends[2] = {0.0, 1e6 * max};
     const double y_ends[2] = {0.0, line.y[POINTS - 1]};
-    gb_plot_axes(plot, x_ends, y_ends, false, "overlap, um", "normal force, N");
+    gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LINEAR, "overlap, um", "normal force, N");
     struct gb_plot_entry entry[3];
     int entries = 0;
     if (draw_before(plot, params, session, max)) {

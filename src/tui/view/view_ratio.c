@@ -38,7 +38,8 @@ void gb_view_ratio_draw(struct gb_panel_plot *panel, const struct gb_session *se
             x_ends[1] = fmax(x_ends[1], point->density);
         }
     }
-    gb_plot_axes(plot, x_ends, y_ends, false, "relative density", "px/pz, loading");
+    gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LINEAR, "relative density",
+                 "px/pz, loading");
     const double one[2] = {1.0, 1.0};
     gb_plot_line(plot, &(struct gb_plot_series){
                            .x = x_ends, .y = one, .count = 2, .ink = GB_PLOT_INK_AXIS});

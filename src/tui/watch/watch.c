@@ -58,7 +58,7 @@ static void draw_view(struct gb_watch *watch, const struct gb_paint *paint)
     char title[120];
     const struct gb_watch_view *view = gb_watch_views_at(watch->view);
     snprintf(title, sizeof title, "%d %s", watch->view + 1, view->title);
-    gb_paint_title(paint, title, true);
+    gb_paint_title(paint, title, GB_PAINT_FOCUSED);
     view->draw(watch, paint);
 }
 

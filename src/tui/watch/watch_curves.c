@@ -55,7 +55,8 @@ static bool draw_groups(struct gb_watch *watch, const struct gb_paint *paint,
         return true;
     }
     watch->plot.foot = foot;
-    gb_plot_axes(&watch->plot, x, y, !watch->linear, "relative density", "p, MPa");
+    gb_plot_axes(&watch->plot, x, y, watch->linear ? GB_PLOT_LINEAR : GB_PLOT_LOG,
+                 "relative density", "p, MPa");
     for (size_t g = 0; g < runset->groups; g++) { /* bands first */
         draw_curve(watch, &runset->group[g], -1.0, GB_PLOT_INK_DIM, 0);
         draw_curve(watch, &runset->group[g], 1.0, GB_PLOT_INK_DIM, 0);
