@@ -50,7 +50,7 @@ tmux -L clock -f /dev/null new-session -d -x 100 -y 30 \
     ${scene[1]} 'loading.until=60 MPa' loading.unload_from= 2>screen.err; sleep 100"
 shown() {
     tmux -L clock capture-pane -p >stdout 2>/dev/null
-    grep -q '100 % in' stdout
+    grep -q 'done in' stdout
 }
 
 kept() { # written beside the screen
