@@ -6,7 +6,7 @@
 #include <glib.h>
 
 #include "many/ensemble.h"
-#include "many/mpi_pool.h"
+#include "many/mpi/mpi_pool.h"
 
 enum gb_batch_progress_output {
     GB_BATCH_PROGRESS_ALL,

@@ -6,7 +6,7 @@
 #include "draw/image/image.h"
 #include "draw/scene.h"
 #include "greenbody/status.h"
-#include "io/state.h"
+#include "io/state/state.h"
 
 /* Text, colour bar and scale bar around the packing. */
 struct gb_caption_layout {

@@ -1,7 +1,7 @@
 #ifndef GB_DRAW_PARTICLE_STRESS_H
 #define GB_DRAW_PARTICLE_STRESS_H
 
-#include "io/state.h"
+#include "io/state/state.h"
 
 /* Mean stress of each particle from its contacts, Pa, positive in compression: the trace of
  * P1 (16) with half of each contact for either particle, over the particle's part of the

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "greenbody/status.h"
-#include "io/state.h"
+#include "io/state/state.h"
 
 /* Style of a picture of a packing: visible particles, their colours, and the forces between
  * them as rods. */

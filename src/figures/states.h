@@ -5,7 +5,7 @@
 
 #include <glib.h>
 
-#include "io/state.h"
+#include "io/state/state.h"
 
 /* Kept states of a run directory: the last, state.h5, and those in its folder snapshots. */
 

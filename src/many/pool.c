@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "many/mpi_pool.h"
+#include "many/mpi/mpi_pool.h"
 #include "many/worker.h"
 
 struct gb_pool {

@@ -1,7 +1,7 @@
 #ifndef GB_RUN_PACKING_STATE_H
 #define GB_RUN_PACKING_STATE_H
 
-#include "io/state.h"
+#include "io/state/state.h"
 #include "solve/loading/loading.h"
 
 /* Copies a packing for pictures and files: positions, contacts, forces, and its measures

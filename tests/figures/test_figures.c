@@ -10,7 +10,7 @@
 #include "figures/plotting.h"
 #include "figures/report/report.h"
 #include "io/preset.h"
-#include "io/state.h"
+#include "io/state/state.h"
 
 static char *folder;
 

@@ -4,7 +4,7 @@
 #include "fuzz/target.h"
 
 #include "io/hdf/hdf_record.h"
-#include "io/state.h"
+#include "io/state/state.h"
 
 static struct gb_record record;
 

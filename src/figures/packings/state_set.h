@@ -2,7 +2,7 @@
 #define GB_FIGURES_PACKINGS_STATE_SET_H
 
 #include "figures/figures.h"
-#include "io/state.h"
+#include "io/state/state.h"
 
 /* One kept state per run of a set. */
 struct gb_state_set {

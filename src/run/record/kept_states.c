@@ -9,8 +9,8 @@
 #include <glib/gstdio.h>
 
 #include "base/units.h"
-#include "io/state.h"
-#include "io/state_record.h"
+#include "io/state/state.h"
+#include "io/state/state_record.h"
 
 void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *params)
 {

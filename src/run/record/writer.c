@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/thread.h"
-#include "io/state_record.h"
+#include "io/state/state_record.h"
 
 struct gb_writer {
     /* const once the thread runs */

@@ -1,8 +1,8 @@
-#ifndef GB_IO_STATE_RECORD_H
-#define GB_IO_STATE_RECORD_H
+#ifndef GB_IO_STATE_STATE_RECORD_H
+#define GB_IO_STATE_STATE_RECORD_H
 
 #include "base/record.h"
-#include "io/state.h"
+#include "io/state/state.h"
 #include "scene/model.h"
 
 /* The packing that a record was taken of, for pictures and other programs.  Touches no

@@ -1,4 +1,4 @@
-#include "io/state_check.h"
+#include "io/state/state_check.h"
 
 #include <math.h>
 #include <stddef.h>

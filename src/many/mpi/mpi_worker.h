@@ -1,5 +1,5 @@
-#ifndef GB_MANY_MPI_WORKER_H
-#define GB_MANY_MPI_WORKER_H
+#ifndef GB_MANY_MPI_MPI_WORKER_H
+#define GB_MANY_MPI_MPI_WORKER_H
 
 #include <stdbool.h>
 #include <stddef.h>

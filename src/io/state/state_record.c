@@ -1,4 +1,4 @@
-#include "io/state_record.h"
+#include "io/state/state_record.h"
 
 #include <math.h>
 #include <stdio.h>

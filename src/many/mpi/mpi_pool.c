@@ -1,13 +1,13 @@
-#include "many/mpi_pool.h"
+#include "many/mpi/mpi_pool.h"
 
 #include <string.h>
 
 #include <glib.h>
 
 #include "base/clock.h"
-#include "many/mpi_message.h"
-#include "many/mpi_protocol.h"
-#include "many/mpi_worker.h"
+#include "many/mpi/mpi_message.h"
+#include "many/mpi/mpi_protocol.h"
+#include "many/mpi/mpi_worker.h"
 #include "many/pool.h"
 
 /* A rank silent for longer is lost; a file system that stalls must not look like that. */

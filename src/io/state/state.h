@@ -1,5 +1,5 @@
-#ifndef GB_IO_STATE_H
-#define GB_IO_STATE_H
+#ifndef GB_IO_STATE_STATE_H
+#define GB_IO_STATE_STATE_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-#include "io/state.h"
+#include "io/state/state.h"
 
 #include <glib.h>
 #include <stddef.h>
@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "io/hdf/hdf.h"
 #include "io/hdf/hdf_record.h"
-#include "io/state_check.h"
+#include "io/state/state_check.h"
 
 /* Raised when a reader of the old layout would misunderstand the new one.  1: without
  * checkpoints; 2: without dies; the packing is as in 3. */

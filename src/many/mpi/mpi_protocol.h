@@ -1,5 +1,5 @@
-#ifndef GB_MANY_MPI_PROTOCOL_H
-#define GB_MANY_MPI_PROTOCOL_H
+#ifndef GB_MANY_MPI_MPI_PROTOCOL_H
+#define GB_MANY_MPI_MPI_PROTOCOL_H
 
 #include <stdint.h>
 

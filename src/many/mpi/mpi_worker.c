@@ -1,10 +1,10 @@
-#include "many/mpi_worker.h"
+#include "many/mpi/mpi_worker.h"
 
 #include <glib.h>
 
 #include "base/clock.h"
-#include "many/mpi_message.h"
-#include "many/mpi_protocol.h"
+#include "many/mpi/mpi_message.h"
+#include "many/mpi/mpi_protocol.h"
 #include "many/pool.h"
 
 /* The first rank may be busy for long, reading the results of a large sweep. */

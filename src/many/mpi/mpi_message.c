@@ -1,4 +1,4 @@
-#include "many/mpi_message.h"
+#include "many/mpi/mpi_message.h"
 
 #include <stdlib.h>
 #include <string.h>
