@@ -8,14 +8,6 @@
 #include "tui/plot/sphere_shading.h"
 #include "tui/term/settings.h"
 
-/* The shades of term_style.c, as red, green, blue. */
-static const uint8_t ramp[][3] = {{0, 0, 95},      {0, 95, 95},    {0, 95, 135},
-                                  {0, 135, 175},   {0, 175, 215},  {95, 175, 215},
-                                  {135, 215, 255}, {215, 255, 255}};
-static const uint8_t background[3] = {12, 12, 16};
-
-enum { RAMP = sizeof ramp / sizeof ramp[0], LEVELS = 28, PIXELS_MAX = 1600 * 1200 };
-
 const char *gb_pixels_wipe(int images)
 {
     return images == GB_IMAGES_KITTY ? "\033_Ga=d\033\\" : "";
@@ -24,6 +16,14 @@ const char *gb_pixels_wipe(int images)
 #if GB_WITH_CHAFA
 
 #include <chafa.h>
+
+/* The shades of term_style.c, as red, green, blue. */
+static const uint8_t ramp[][3] = {{0, 0, 95},      {0, 95, 95},    {0, 95, 135},
+                                  {0, 135, 175},   {0, 175, 215},  {95, 175, 215},
+                                  {135, 215, 255}, {215, 255, 255}};
+static const uint8_t background[3] = {12, 12, 16};
+
+enum { RAMP = sizeof ramp / sizeof ramp[0], LEVELS = 28, PIXELS_MAX = 1600 * 1200 };
 
 bool gb_pixels_available(void)
 {
