@@ -100,7 +100,7 @@ void gb_run_loop_observe(struct gb_run_loop *loop, enum gb_run_state state)
     if (loop->recorder != NULL) {
         snapshot->events = gb_run_recorder_events(loop->recorder);
     }
-    snapshot->state = (int)state;
+    snapshot->state = state;
     snapshot->seconds = gb_run_loop_seconds(loop);
     if (snapshot->now_valid) {
         snapshot->now.seconds = snapshot->seconds;

@@ -63,7 +63,7 @@ static void test_lookup(void)
     char names[80];
     struct gb_params params = scene_params(NULL);
     for (int k = 0; k < GB_LOADING_KINDS; k++) {
-        params.kind = (enum gb_kind)k;
+        params.kind = k;
         g_assert_true(gb_loading_kind_of(&params) == &gb_loading_kind_table[k]);
     }
     g_assert_cmpstr(gb_loading_kind_names(unloads, names, sizeof names), ==,
