@@ -17,7 +17,7 @@ void gb_progress_init(struct gb_progress *progress, bool quiet)
     progress->quiet = quiet;
     progress->terminal = isatty(STDERR_FILENO) == 1;
     progress->shown = 0;
-    progress->told_at = 0.0;
+    progress->line_at = 0.0;
 }
 
 void gb_progress_clear(struct gb_progress *progress)
@@ -45,7 +45,7 @@ void gb_progress_say(struct gb_progress *progress, const char *format, ...)
 bool gb_progress_due(const struct gb_progress *progress, double seconds)
 {
     const double every = progress->terminal ? terminal_every_s : plain_every_s;
-    return !progress->quiet && seconds - progress->told_at >= every;
+    return !progress->quiet && seconds - progress->line_at >= every;
 }
 
 /* "1 h 05 min", "2 min 10 s", "7 s". */
@@ -94,7 +94,7 @@ void gb_progress_show(struct gb_progress *progress, const struct gb_snapshot *sn
     if (progress->quiet) {
         return;
     }
-    progress->told_at = snapshot->seconds;
+    progress->line_at = snapshot->seconds;
     format_line(snapshot, line, sizeof line);
     if (!progress->terminal) {
         fprintf(stderr, "%s\n", line);

@@ -10,7 +10,7 @@
 struct gb_progress {
     bool quiet, terminal;
     int shown;      /* columns now occupied by the rewritten line */
-    double told_at; /* seconds of the run at the last line */
+    double line_at; /* seconds of the run at the last line */
 };
 
 void gb_progress_init(struct gb_progress *progress, bool quiet);

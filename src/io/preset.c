@@ -243,7 +243,7 @@ const char *gb_preset_path(const struct gb_preset *preset)
 /* Does the text of the file, read at path, still say what params hold?  Compared in
  * written form, so that "0.1nm" and "0.10 nm" stay as typed; the name of a table of sizes
  * stays only where the table lies beside the preset. */
-static bool says_same(const struct gb_preset *preset, const struct gb_key_line *line,
+static bool has_value(const struct gb_preset *preset, const struct gb_key_line *line,
                       const struct gb_field *field, const char *path, const char *now)
 {
     char *typed =
@@ -297,7 +297,7 @@ static bool update_field(struct gb_preset *preset, const struct gb_field *field,
     gb_params_format(&preset->params, field, now, sizeof now);
     const struct gb_key_line *line =
         gb_key_lines_find(&preset->lines, field->group, field->key);
-    if (line ? says_same(preset, line, field, path, now)
+    if (line ? has_value(preset, line, field, path, now)
              : extent == GB_PRESET_CHANGED_KEYS && is_fallback(field, now)) {
         return true;
     }

@@ -13,9 +13,10 @@
 #include "run/point_measure.h"
 #include "scene/field/changes.h"
 
-bool gb_experiment_event(struct gb_experiment *experiment, char *text, size_t size)
+bool gb_experiment_event(struct gb_experiment *experiment, int64_t *step, char *text,
+                         size_t size)
 {
-    return gb_event_queue_take(&experiment->events, text, size);
+    return gb_event_queue_take(&experiment->events, step, text, size);
 }
 
 /* Checks the parameters and freezes those that hold after a recorded step. */
@@ -139,8 +140,8 @@ static enum gb_step_outcome record(struct gb_experiment *experiment, struct gb_e
     return GB_STEP_POINT;
 }
 
-enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
-                                           int64_t max_evaluations, struct gb_error *err)
+static enum gb_step_outcome advance(struct gb_experiment *experiment,
+                                    int64_t max_evaluations, struct gb_error *err)
 {
     struct gb_loading *loading = experiment->loading;
     struct gb_error local;
@@ -162,6 +163,15 @@ enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
         gb_event_queue_add(&experiment->events, why->text);
         return stop(experiment);
     }
+    return outcome;
+}
+
+enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
+                                           int64_t max_evaluations, struct gb_error *err)
+{
+    const int64_t step = experiment->step;
+    const enum gb_step_outcome outcome = advance(experiment, max_evaluations, err);
+    gb_event_queue_set_step(&experiment->events, step);
     return outcome;
 }
 

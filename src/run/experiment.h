@@ -34,9 +34,11 @@ enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
 /* The last recorded point; its seconds field is the caller's to fill. */
 const struct gb_point *gb_experiment_point(const struct gb_experiment *experiment);
 
-/* Oldest event not yet taken (guards, unloading begins, ...), one line; false when none.
- */
-bool gb_experiment_event(struct gb_experiment *experiment, char *text, size_t size);
+/* Oldest event not yet taken (guards, unloading begins, ...), one line, and the
+ * step that was computed when it happened (NULL is fine): the same for any slices.  False
+ * when there is none. */
+bool gb_experiment_event(struct gb_experiment *experiment, int64_t *step, char *text,
+                         size_t size);
 
 /* Fills the snapshot except state, seconds and rates. */
 void gb_experiment_observe(const struct gb_experiment *experiment,

@@ -111,10 +111,9 @@ void gb_run_loop_observe(struct gb_run_loop *loop, enum gb_run_state state)
     snapshot->seconds_left = seconds_left(loop, state);
 }
 
-void gb_run_loop_event(struct gb_run_loop *loop, const char *text)
+static void publish_event(struct gb_run_loop *loop, int64_t step, const char *text)
 {
     const struct gb_run_loop_hooks *hooks = &loop->hooks;
-    const int64_t step = gb_experiment_point(loop->experiment)->step;
     struct gb_error err = {0};
     loop->snapshot.events++;
     g_strlcpy(loop->snapshot.event, text, sizeof loop->snapshot.event);
@@ -126,11 +125,17 @@ void gb_run_loop_event(struct gb_run_loop *loop, const char *text)
     }
 }
 
+void gb_run_loop_event(struct gb_run_loop *loop, const char *text)
+{
+    publish_event(loop, gb_experiment_point(loop->experiment)->step, text);
+}
+
 static void take_events(struct gb_run_loop *loop)
 {
+    int64_t step = 0;
     char text[GB_EVENT_TEXT];
-    while (gb_experiment_event(loop->experiment, text, sizeof text)) {
-        gb_run_loop_event(loop, text);
+    while (gb_experiment_event(loop->experiment, &step, text, sizeof text)) {
+        publish_event(loop, step, text);
     }
 }
 

@@ -42,7 +42,7 @@ static bool repeat(struct gb_experiment *experiment, const struct gb_verify *ver
     char text[GB_EVENT_TEXT];
     while (step < verify->to) {
         const enum gb_step_outcome how = gb_experiment_advance(experiment, SLICE, err);
-        while (gb_experiment_event(experiment, text, sizeof text)) {
+        while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
         }
         if (cancelled(data)) {
             return gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");

@@ -18,14 +18,27 @@ void gb_event_queue_add(struct gb_event_queue *queue, const char *text)
     }
     const int at = (queue->first + queue->count++) % GB_EVENT_QUEUE_LENGTH;
     snprintf(queue->text[at], GB_EVENT_TEXT, "%s", text);
+    queue->step[at] = -1;
 }
 
-bool gb_event_queue_take(struct gb_event_queue *queue, char *text, size_t size)
+void gb_event_queue_set_step(struct gb_event_queue *queue, int64_t step)
+{
+    for (int k = 0; k < queue->count; k++) {
+        int64_t *at = &queue->step[(queue->first + k) % GB_EVENT_QUEUE_LENGTH];
+        *at = *at < 0 ? step : *at;
+    }
+}
+
+bool gb_event_queue_take(struct gb_event_queue *queue, int64_t *step, char *text,
+                         size_t size)
 {
     if (queue->count == 0) {
         return false;
     }
     snprintf(text, size, "%s", queue->text[queue->first]);
+    if (step != NULL) {
+        *step = queue->step[queue->first];
+    }
     drop_oldest(queue);
     return true;
 }

@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "greenbody/status.h"
 
@@ -12,13 +13,19 @@ enum { GB_EVENT_QUEUE_LENGTH = 32 };
 
 struct gb_event_queue {
     char text[GB_EVENT_QUEUE_LENGTH][GB_EVENT_TEXT];
+    int64_t step[GB_EVENT_QUEUE_LENGTH]; /* -1: not set yet */
     int first, count;
 };
 
 /* An empty text is no event. */
 void gb_event_queue_add(struct gb_event_queue *queue, const char *text);
 
-/* Moves the oldest event into text (size bytes); false when there is none. */
-bool gb_event_queue_take(struct gb_event_queue *queue, char *text, size_t size);
+/* Sets the step of the events added since the last call. */
+void gb_event_queue_set_step(struct gb_event_queue *queue, int64_t step);
+
+/* Moves the oldest event into text (size bytes) and its step into *step (NULL is fine);
+ * false when there is none. */
+bool gb_event_queue_take(struct gb_event_queue *queue, int64_t *step, char *text,
+                         size_t size);
 
 #endif

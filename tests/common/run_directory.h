@@ -117,7 +117,7 @@ static inline void run_directory_continue(const struct run_directory *dir)
     while (how == GB_STEP_MORE || how == GB_STEP_POINT) {
         char text[GB_EVENT_TEXT];
         how = gb_experiment_advance(experiment, 1000, &err);
-        while (gb_experiment_event(experiment, text, sizeof text)) {
+        while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
             g_assert_true(gb_run_recorder_event(recorder, 0, text, &err));
         }
         if (how == GB_STEP_POINT) {

@@ -34,7 +34,7 @@ static void go_on(struct gb_experiment *experiment, int points)
             g_error("the run ends too early: %s", err.text);
         }
         points -= how == GB_STEP_POINT;
-        while (gb_experiment_event(experiment, text, sizeof text)) {
+        while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
         }
     }
 }

@@ -45,7 +45,7 @@ static bool step(struct gb_experiment *experiment, int64_t slice, GString *event
     while (how == GB_STEP_MORE) {
         char text[GB_EVENT_TEXT];
         how = gb_experiment_advance(experiment, slice, &err);
-        while (gb_experiment_event(experiment, text, sizeof text)) {
+        while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
             g_string_append_printf(events, "%s\n", text);
         }
     }

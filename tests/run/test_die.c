@@ -23,7 +23,7 @@ struct curve {
 static void take_events(struct gb_experiment *experiment, GString *events)
 {
     char text[GB_EVENT_TEXT];
-    while (gb_experiment_event(experiment, text, sizeof text)) {
+    while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
         g_string_append_printf(events, "%s\n", text);
     }
 }

@@ -1,4 +1,5 @@
 #include <glib.h>
+#include <inttypes.h>
 #include <math.h>
 
 #include "common/scene.h"
@@ -25,13 +26,18 @@ struct trace {
 
 static void take_events(struct trace *trace, struct gb_experiment *experiment)
 {
+    int64_t step = 0;
     char text[GB_EVENT_TEXT];
-    while (gb_experiment_event(experiment, text, sizeof text)) {
-        g_string_append_printf(trace->events, "%s\n", text);
+    while (gb_experiment_event(experiment, &step, text, sizeof text)) {
+        g_string_append_printf(trace->events, "step %" PRId64 ": %s\n", step, text);
     }
 }
 
-static struct trace run(const struct gb_params *params, int64_t slice)
+/* When events are taken: the run command does it after each slice, a warm-up at the end. */
+enum taking { AFTER_EACH_SLICE, AT_THE_END };
+
+static struct trace run_taking(const struct gb_params *params, int64_t slice,
+                               enum taking taking)
 {
     struct trace trace = {.points = g_array_new(FALSE, FALSE, sizeof(struct gb_point)),
                           .events = g_string_new(NULL)};
@@ -41,11 +47,19 @@ static struct trace run(const struct gb_params *params, int64_t slice)
         if (trace.end == GB_STEP_POINT) {
             g_array_append_vals(trace.points, gb_experiment_point(experiment), 1);
         }
-        take_events(&trace, experiment);
+        if (taking == AFTER_EACH_SLICE) {
+            take_events(&trace, experiment);
+        }
     } while (trace.end == GB_STEP_MORE || trace.end == GB_STEP_POINT);
+    take_events(&trace, experiment);
     trace.hash = gb_world_hash(gb_experiment_world(experiment));
     gb_experiment_destroy(experiment);
     return trace;
+}
+
+static struct trace run(const struct gb_params *params, int64_t slice)
+{
+    return run_taking(params, slice, AFTER_EACH_SLICE);
 }
 
 static void drop(struct trace *trace)
@@ -113,6 +127,29 @@ static void test_repeat(void)
     }
     for (int i = 1; i < 4; i++) {
         g_assert_cmpuint(hash[i], ==, hash[0]);
+    }
+}
+
+/* The step of an event is the one that was computed when it happened: in any slices, and
+ * whenever the event is taken. */
+static void test_event_steps(void)
+{
+    const int64_t slice[] = {100000, 7, 100000};
+    struct trace trace[3];
+    for (int i = 0; i < 3; i++) {
+        const struct gb_params params =
+            scene_params("loading.until=20 MPa", "loading.unload_from=10 MPa",
+                         "loading.step=1 %", "numerics.strain_part=1 %",
+                         "numerics.tolerance=1e-2", "numerics.max_evaluations=120", NULL);
+        trace[i] = run_taking(&params, slice[i], i == 2 ? AT_THE_END : AFTER_EACH_SLICE);
+        g_assert_cmpint(trace[i].end, ==, GB_STEP_DONE);
+        g_assert_cmpstr(trace[i].events->str, ==, trace[0].events->str);
+    }
+    g_assert_nonnull(strstr(trace[0].events->str, "not fully relaxed"));
+    g_assert_nonnull(strstr(trace[0].events->str, "unloading from"));
+    g_assert_null(strstr(trace[0].events->str, "step -1"));
+    for (int i = 0; i < 3; i++) {
+        drop(&trace[i]);
     }
 }
 
@@ -191,7 +228,7 @@ static void test_parts(void)
 
 /* Strain steps so long that particles pass contacts by: told, halved, and the run goes
  * on. Not every packing has such a step. */
-static void test_departures(void)
+static void test_nonaffine(void)
 {
     int tripped = 0;
     for (int seed = 1; seed <= 4; seed++) {
@@ -293,10 +330,11 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/experiment/branches", test_branches);
     g_test_add_func("/experiment/repeat", test_repeat);
+    g_test_add_func("/experiment/event-steps", test_event_steps);
     g_test_add_func("/experiment/scenes", test_scenes);
     g_test_add_func("/experiment/stop", test_stop);
     g_test_add_func("/experiment/parts", test_parts);
-    g_test_add_func("/experiment/departures", test_departures);
+    g_test_add_func("/experiment/nonaffine", test_nonaffine);
     g_test_add_func("/experiment/cancel", test_cancel);
     g_test_add_func("/experiment/memory", test_memory);
     g_test_add_func("/experiment/state", test_state);

@@ -167,7 +167,7 @@ static void press(struct gb_run_recorder *keep, struct gb_experiment *experiment
     for (int k = 0; k < points;) {
         char text[GB_EVENT_TEXT];
         const enum gb_step_outcome how = gb_experiment_advance(experiment, 100, &err);
-        while (gb_experiment_event(experiment, text, sizeof text)) {
+        while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
         }
         if (how == GB_STEP_DONE) {
             return;

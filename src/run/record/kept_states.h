@@ -8,7 +8,7 @@
 
 /* States kept along a run, DIR/snapshots/<name>.h5: of the first recorded point of
  * loading that reaches a pressure or a density ("p-100MPa", "density-0.5"), and of every
- * n-th point ("point-000020").  They are made of the record that is taken at each point
+ * n-th point ("point-000021").  They are made of the record that is taken at each point
  * in any case. */
 struct gb_kept_states {
     struct gb_keep_points marks;

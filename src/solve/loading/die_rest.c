@@ -51,12 +51,12 @@ bool gb_die_rest_lasts(struct gb_die_stages *stages, const struct gb_bed *bed)
     return now->checks_at_rest >= GB_REST_CHECKS;
 }
 
-bool gb_die_rest_in_funnel(const struct gb_bed *bed, struct gb_error *err)
+bool gb_die_rest_check_funnel(const struct gb_bed *bed, struct gb_error *err)
 {
     const int64_t left = left_in_funnel(bed);
-    return left > 0 &&
-           !gb_error_set(err, GB_ERR_GUARD,
-                         "the funnel is clogged: %lld particles rest in it; accepted: a "
-                         "larger die.outlet or smaller particles",
-                         (long long)left);
+    return left == 0 ||
+           gb_error_set(err, GB_ERR_GUARD,
+                        "the funnel is clogged: %lld particles rest in it; accepted: a "
+                        "larger die.outlet or smaller particles",
+                        (long long)left);
 }

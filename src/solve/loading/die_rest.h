@@ -10,7 +10,8 @@
  * found the powder at rest. */
 bool gb_die_rest_lasts(struct gb_die_stages *stages, const struct gb_bed *bed);
 
-/* True, with GB_ERR_GUARD in err, when particles at rest are left in the funnel. */
-bool gb_die_rest_in_funnel(const struct gb_bed *bed, struct gb_error *err);
+/* Checks that all particles at rest lie in the die.  Errors: GB_ERR_GUARD naming how many are
+ * left in the funnel. */
+bool gb_die_rest_check_funnel(const struct gb_bed *bed, struct gb_error *err);
 
 #endif

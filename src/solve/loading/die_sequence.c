@@ -66,7 +66,7 @@ static enum gb_die_sequence_state check_pour(struct gb_die_stages *stages,
     if (!gb_die_rest_lasts(stages, bed)) {
         return GB_DIE_SEQUENCE_CONTINUES;
     }
-    if (gb_die_rest_in_funnel(bed, err)) {
+    if (!gb_die_rest_check_funnel(bed, err)) {
         return GB_DIE_SEQUENCE_FAILED;
     }
     write_stage_event(stages, "poured", text, size);

@@ -16,7 +16,7 @@ struct gb_dynamic {
     double time, stage_end;
     double limit; /* longest step the guard allows, halved when it trips */
     int halvings;
-    bool told; /* the event that damping bounds the step was written */
+    bool limit_reported; /* the event that damping bounds the step was written */
     /* steps to the next point */
     int64_t left, planned;
     double step;

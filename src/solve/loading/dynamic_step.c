@@ -35,8 +35,8 @@ static double pick_step(struct gb_dynamic *motion, double frequency, double crit
     const double share = sqrt(motion->model->dynamics.step_error / GB_STEP_ERROR_UNIT);
     const double accurate = share / fmax(frequency, GB_FREQUENCY_MIN);
     const double stable = GB_STEP_CRITICAL_FRACTION * critical;
-    if (stable < 0.5 * accurate && !motion->told) {
-        motion->told = true;
+    if (stable < 0.5 * accurate && !motion->limit_reported) {
+        motion->limit_reported = true;
         snprintf(
             text, size,
             "guard: contact.viscosity bounds the time step to %.3g T (accuracy alone: "

@@ -87,8 +87,7 @@ static void write_title(const struct gb_panel_plot *panel,
              session->frozen ? ", view frozen" : "");
 }
 
-/* Text in the middle of an empty plot; lines end with '
- * '. */
+/* Text in the middle of an empty plot; a newline ends a line. */
 static void write_missing(struct gb_plot *plot, const char *missing)
 {
     char **lines = g_strsplit(missing, "\n", -1);
