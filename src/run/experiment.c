@@ -100,7 +100,7 @@ static bool change(struct gb_experiment *experiment, struct gb_error *err)
     if (!gb_change_apply(experiment, err)) {
         return false;
     }
-    snprintf(text, sizeof text, "changes behind step %" PRId64 ", density %.4f: %s",
+    snprintf(text, sizeof text, "changed after step %" PRId64 ", density %.4f: %s",
              experiment->point.step, experiment->point.density,
              experiment->params.changes);
     gb_event_queue_add(&experiment->events, text);

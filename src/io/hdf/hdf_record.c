@@ -79,7 +79,7 @@ static bool read_layout(struct gb_hdf *file, const char *path, struct gb_error *
     if (layout != layout_number) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "%s: checkpoint_layout: %d was written by another version of "
-                            "greenbody, this one goes on from %d only",
+                            "greenbody, this one continues %d only",
                             path, layout, layout_number);
     }
     return true;

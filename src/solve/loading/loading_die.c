@@ -84,14 +84,13 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
     const bool not_quasistatic = is_not_quasistatic(now.floor_over_punch);
     (void)err;
     if (not_quasistatic != own(loading)->not_quasistatic) {
-        snprintf(text, sizeof text,
-                 not_quasistatic
-                     ? "not quasi-static at %.4g MPa: the floor bears %.3g of the "
-                       "punch's force"
-                     : "quasi-static again from %.4g MPa: the floor bears %.3g of "
-                       "the punch's force",
-                 1e-6 * (now.carried * loading->model->pascal_per_stress),
-                 now.floor_over_punch);
+        snprintf(
+            text, sizeof text,
+            not_quasistatic
+                ? "not quasi-static at %.4g MPa: floor-to-punch force ratio %.3g"
+                : "quasi-static again from %.4g MPa: floor-to-punch force ratio %.3g",
+            1e-6 * (now.carried * loading->model->pascal_per_stress),
+            now.floor_over_punch);
         gb_event_queue_add(events, text);
     }
     own(loading)->not_quasistatic = not_quasistatic;

@@ -192,7 +192,7 @@ static void add_unload_event(const struct quasistatic_loading *run,
                              const double pressure[3], struct gb_event_queue *events)
 {
     char text[GB_EVENT_TEXT];
-    snprintf(text, sizeof text, "unloading from %.6g MPa (asked for %.6g MPa)",
+    snprintf(text, sizeof text, "unloading from %.6g MPa (target %.6g MPa)",
              pressure_mpa(run, pressure),
              1e-6 * run->base.params->unload_from_pa[run->schedule.branch - 1]);
     gb_event_queue_add(events, text);
