@@ -106,11 +106,12 @@ static const char *automatic_relaxer(const struct gb_params *params)
     return params->fidelity == GB_FIDELITY_REFERENCE ? "fire" : "predict";
 }
 
-/* Scenes whose sweep there is in single precision: no viscous forces, no plane. */
+/* Scenes whose sweep there is in single precision: no viscous forces, no plane, no tilt of
+ * the cell. */
 static bool has_single_sweep(const struct gb_model *model)
 {
     return gb_loading_kind_at(model->kind)->single_precision && model->dimension == 3 &&
-           !model->polydisperse;
+           !model->polydisperse && !model->sheared;
 }
 
 /* Single precision halves memory and time; P1's own relaxer is kept as printed. */
@@ -266,7 +267,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         return gb_error_set(
             err, GB_ERR_INPUT,
             "numerics.precision = single: must be auto or double unless the scene is "
-            "quasi-static, in 3D and of one particle size");
+            "quasi-static, in 3D, of one particle size and without shear");
     }
     freeze_laws(model, params);
     if (!gb_loading_kind_of(params)->periodic_cell) {

@@ -94,6 +94,7 @@ struct gb_model {
     double adhesion;    /* f_a(d), E d^2 */
     double force_floor; /* least force scale of the stopping rule, E d^2 */
     struct gb_numerics numerics;
+    bool sheared; /* the loading tilts the cell: double precision */
     int geometry; /* enum gb_geometry */
     double strain_step;
     double until_pressure; /* E; infinity when a density ends the run */

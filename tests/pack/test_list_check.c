@@ -64,7 +64,7 @@ static double largest_displacement(const struct gb_world *world)
         gb_engine_position(&world->engine, i, r);
         for (int c = 0; c < 3; c++) {
             r[c] -= world->engine.list.built_position[3 * i + c] *
-                    world->engine.list.scaling[c];
+                    world->engine.list.unit.edge[c];
         }
         longest = fmax(longest, gb_vec_length(r));
     }
@@ -185,8 +185,8 @@ static struct gb_world *meeting_world(struct gb_model *model, GRand *random,
             x[i][k] = x[0][k] + 0.5 * model->edges[k];
         }
     }
-    const struct gb_cell cell = {{model->edges[0], model->edges[1], model->edges[2]},
-                                 {true, true, true}};
+    struct gb_cell cell;
+    gb_cell_init(&cell, 3, model->edges);
     for (int i = 0; i < MEETING_COUNT; i++) {
         gb_cell_wrap(&cell, x[i]);
     }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/mat.h"
 #include "pack/kernel/simd.h"
 #include "pack/structure/assign_sizes.h"
 
@@ -59,12 +60,32 @@ GB_SIMD_LOOP void scale_loop(double *restrict position, const double factor[3],
 GB_SIMD_WIDTHS(scale, (double *position, const double factor[3], int64_t count),
                (position, factor, count))
 
-void gb_particles_strain(struct gb_particles *particles, const double factor[3])
+/* Positions under shear.  The particles turn with the continuum, so that a contact spring
+ * sees the symmetric part of F alone: half of F - F^T is a small rotation w, dx = w x r. */
+static void shear(struct gb_particles *particles, const double f[3][3])
 {
-    for (int k = 0; k < 3; k++) {
-        particles->cell.edge[k] *= factor[k];
+    const double spin[3] = {0.5 * (f[2][1] - f[1][2]), 0.5 * (f[0][2] - f[2][0]),
+                            0.5 * (f[1][0] - f[0][1])};
+    for (int64_t i = 0; i < particles->count; i++) {
+        double *position = particles->position + 3 * i, moved[3];
+        gb_mat_apply(f, position, moved);
+        memcpy(position, moved, sizeof moved);
+        gb_vec_add(particles->rotation + 3 * i,
+                   particles->diameter ? particles->diameter[i] : 1.0, spin);
     }
-    scale(particles->position, factor, particles->count);
+}
+
+void gb_particles_deform(struct gb_particles *particles,
+                         const struct gb_deformation *deformation)
+{
+    const double(*f)[3] = deformation->f;
+    gb_cell_deform(&particles->cell, deformation);
+    if (gb_deformation_is_scaling(deformation)) {
+        scale(particles->position, (const double[3]){f[0][0], f[1][1], f[2][2]},
+              particles->count);
+    } else {
+        shear(particles, f);
+    }
 }
 
 void gb_particles_replace(struct gb_particles *particles, const struct gb_cell *cell,

@@ -22,8 +22,10 @@ bool gb_particles_init(struct gb_particles *particles, const struct gb_model *mo
                        const double *position, struct gb_error *err);
 void gb_particles_finish(struct gb_particles *particles);
 
-/* Scales the cell and all positions affinely, axis by axis. */
-void gb_particles_strain(struct gb_particles *particles, const double factor[3]);
+/* Deforms the cell and all positions affinely; the rotation of F is added to the rotation
+ * increments. */
+void gb_particles_deform(struct gb_particles *particles,
+                         const struct gb_deformation *deformation);
 
 /* Replaces cell and positions; no rotation is left over. */
 void gb_particles_replace(struct gb_particles *particles, const struct gb_cell *cell,

@@ -1,5 +1,7 @@
 #include "pack/cell/record_checks.h"
 
+#include <math.h>
+
 bool gb_record_checks_out_of_range(const char *name, struct gb_error *err)
 {
     return gb_error_set(err, GB_ERR_INPUT, "%s: is out of range", name);
@@ -28,6 +30,13 @@ bool gb_record_checks_edges(const struct gb_cell *cell, const char *name,
             return gb_record_checks_out_of_range(name, err);
         }
     }
+    /* folded at every list build, so that it exceeds half an edge by little */
+    const double most[3] = {cell->edge[0], cell->edge[0], cell->edge[1]};
+    for (int k = 0; k < 3; k++) {
+        if (!(fabs(cell->tilt[k]) <= most[k])) {
+            return gb_record_checks_out_of_range(name, err);
+        }
+    }
     return true;
 }
 
@@ -35,11 +44,15 @@ bool gb_record_checks_inside(const struct gb_cell *cell, const double *position,
                              int64_t count, double margin, const char *name,
                              struct gb_error *err)
 {
-    for (int64_t i = 0; i < 3 * count; i++) {
-        const double x = position[i] / cell->edge[i % 3];
-        const double allowed = cell->periodic[i % 3] ? margin : 1e6;
-        if (!(x >= -allowed && x <= 1.0 + allowed)) {
-            return gb_record_checks_out_of_range(name, err);
+    const double rounding = gb_cell_tilted(cell) ? 1e-9 : 0.0;
+    for (int64_t i = 0; i < count; i++) {
+        double fraction[3];
+        gb_cell_fraction(cell, position + 3 * i, fraction);
+        for (int k = 0; k < 3; k++) {
+            const double allowed = cell->periodic[k] ? margin + rounding : 1e6;
+            if (!(fraction[k] >= -allowed && fraction[k] <= 1.0 + allowed)) {
+                return gb_record_checks_out_of_range(name, err);
+            }
         }
     }
     return true;

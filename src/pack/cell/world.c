@@ -106,13 +106,19 @@ void gb_world_set_step(struct gb_world *world, double time_step)
     world->engine.damp = world->engine.model->dynamics.viscous / time_step;
 }
 
-void gb_world_strain(struct gb_world *world, const double factor[3])
+void gb_world_deform(struct gb_world *world, const struct gb_deformation *deformation)
 {
     struct gb_engine *engine = &world->engine;
     gb_f32_convert_synchronise(engine);
-    gb_particles_strain(&engine->particles, factor);
-    gb_neighbour_list_strain(&engine->list, factor);
+    gb_particles_deform(&engine->particles, deformation);
+    gb_neighbour_list_deform(&engine->list, deformation);
     gb_engine_state_replace(&engine->state);
+}
+
+void gb_world_strain(struct gb_world *world, const double factor[3])
+{
+    const struct gb_deformation scaling = gb_deformation_scaling(factor);
+    gb_world_deform(world, &scaling);
 }
 
 void gb_world_synchronise(struct gb_world *world)
@@ -240,6 +246,9 @@ uint64_t gb_world_hash(const struct gb_world *world)
                               : 0;
     uint64_t hash = 14695981039346656037u;
     hash = hash_bytes(hash, particles->cell.edge, sizeof particles->cell.edge);
+    if (gb_cell_tilted(&particles->cell)) {
+        hash = hash_bytes(hash, particles->cell.tilt, sizeof particles->cell.tilt);
+    }
     hash = hash_bytes(hash, particles->position,
                       3 * (size_t)particles->count * sizeof *particles->position);
     for (int64_t k = 0; k < slots; k++) {

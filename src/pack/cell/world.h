@@ -60,6 +60,11 @@ void gb_world_set_step(struct gb_world *world, double time_step);
 /* Scales the cell and all positions affinely, axis by axis. */
 void gb_world_strain(struct gb_world *world, const double factor[3]);
 
+/* Deforms the cell and all positions affinely.  Particles turn with the rotation of F:
+ * none where F is symmetric.  Shear is for scenes with model->sheared and for copies in
+ * double precision. */
+void gb_world_deform(struct gb_world *world, const struct gb_deformation *deformation);
+
 /* All arrays, for reading and moving the particles. */
 struct gb_bodies gb_world_bodies(struct gb_world *world);
 /* Positions and rotations only, without a conversion of forces; force, torque: NULL. */

@@ -19,14 +19,24 @@
 
 /* Needed for the build of the lists. */
 static const struct gb_record_member build_members[] = {
-    {"world/built_edge", GB_RECORD_DOUBLE, 3, ENGINE(list.built_edge), "d"},
+    {"world/built_edge", GB_RECORD_DOUBLE, 3, ENGINE(list.built.edge), "d"},
 };
 
 /* Needed for the evaluation. */
 static const struct gb_record_member cell_members[] = {
     {"world/edge", GB_RECORD_DOUBLE, 3, ENGINE(particles.cell.edge), "d"},
-    {"world/stretch", GB_RECORD_DOUBLE, 3, ENGINE(list.scaling), "1"},
+    {"world/stretch", GB_RECORD_DOUBLE, 3, ENGINE(list.unit.edge), "1"},
     {"world/strain", GB_RECORD_DOUBLE, 1, ENGINE(list.strain), "1"},
+};
+
+/* The same in scenes that shear. */
+static const struct gb_record_member sheared_build_members[] = {
+    {"world/built_tilt", GB_RECORD_DOUBLE, 3, ENGINE(list.built.tilt), "d"},
+};
+static const struct gb_record_member sheared_cell_members[] = {
+    {"world/tilt", GB_RECORD_DOUBLE, 3, ENGINE(particles.cell.tilt), "d"},
+    {"world/shear", GB_RECORD_DOUBLE, 3, ENGINE(particles.cell.shear), "1"},
+    {"world/stretch_tilt", GB_RECORD_DOUBLE, 3, ENGINE(list.unit.tilt), "1"},
 };
 
 /* After the evaluation, which changes them. */
@@ -44,6 +54,25 @@ static const struct gb_record_member result_members[] = {
 };
 
 #define LENGTH(table) (sizeof(table) / sizeof((table)[0]))
+
+/* Edges, and tilts in scenes that shear, of the lists' build. */
+static bool record_build(struct gb_world *world, struct gb_record *record,
+                         struct gb_error *err)
+{
+    return gb_record_members(record, build_members, LENGTH(build_members), world, err) &&
+           (!world->engine.model->sheared ||
+            gb_record_members(record, sheared_build_members,
+                              LENGTH(sheared_build_members), world, err));
+}
+
+static bool record_cell(struct gb_world *world, struct gb_record *record,
+                        struct gb_error *err)
+{
+    return gb_record_members(record, cell_members, LENGTH(cell_members), world, err) &&
+           (!world->engine.model->sheared ||
+            gb_record_members(record, sheared_cell_members, LENGTH(sheared_cell_members),
+                              world, err));
+}
 
 /* A vector of every particle. */
 static bool record_vectors(struct gb_world *world, struct gb_record *record,
@@ -102,12 +131,12 @@ static bool load_lists(struct gb_world *world, struct gb_record *record,
 {
     struct gb_engine *engine = &world->engine;
     struct gb_particles *particles = &engine->particles;
-    struct gb_cell built = particles->cell;
-    if (!gb_record_members(record, build_members, LENGTH(build_members), world, err) ||
+    engine->list.built = particles->cell;
+    if (!record_build(world, record, err) ||
         !record_vectors(world, record, "world/built_at", "d", particles->position, err)) {
         return false;
     }
-    memcpy(built.edge, engine->list.built_edge, sizeof built.edge);
+    const struct gb_cell built = engine->list.built;
     if (!gb_record_checks_edges(&built, "world/built_edge", err) ||
         !gb_record_checks_inside(&built, particles->position, particles->count, 0.0,
                                  "world/built_at", err) ||
@@ -179,7 +208,7 @@ static bool load_positions(struct gb_world *world, struct gb_record *record,
     struct gb_particles *particles = &world->engine.particles;
     const size_t bytes = 3 * (size_t)particles->count * sizeof *particles->rotation;
     const int64_t rebuilds = world->rebuilds;
-    if (!gb_record_members(record, cell_members, LENGTH(cell_members), world, err) ||
+    if (!record_cell(world, record, err) ||
         !gb_record_checks_edges(&particles->cell, "world/edge", err) ||
         !record_vectors(world, record, "world/position", "d", particles->position, err) ||
         !gb_record_checks_inside(&particles->cell, particles->position, particles->count,
@@ -239,12 +268,12 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
     gb_f32_convert_synchronise(engine);
     gb_f32_convert_forces_to_f64(engine);
     return gb_contact_history_write(history, engine, GB_CONTACT_HISTORY_KEPT, err) &&
-           gb_record_members(record, build_members, LENGTH(build_members), world, err) &&
+           record_build(world, record, err) &&
            record_vectors(world, record, "world/built_at", "d", list->built_position,
                           err) &&
            gb_record_array(record, inserted_name, GB_RECORD_INT32, list->inserted_count,
                            4, "1", list->inserted, err) &&
-           gb_record_members(record, cell_members, LENGTH(cell_members), world, err) &&
+           record_cell(world, record, err) &&
            record_vectors(world, record, "world/position", "d", particles->position,
                           err) &&
            record_history(history, engine, record, &world_names, err) &&
@@ -275,6 +304,11 @@ bool gb_world_record_copy(const struct gb_world *world, struct gb_world_copy **c
     }
     return gb_record_array(record, "branch/edge", GB_RECORD_DOUBLE, 1, 3, "d",
                            at->cell.edge, err) &&
+           (!world->engine.model->sheared ||
+            (gb_record_array(record, "branch/tilt", GB_RECORD_DOUBLE, 1, 3, "d",
+                             at->cell.tilt, err) &&
+             gb_record_array(record, "branch/shear", GB_RECORD_DOUBLE, 1, 3, "1",
+                             at->cell.shear, err))) &&
            gb_record_checks_edges(&at->cell, "branch/edge", err) &&
            gb_record_array(record, "branch/position", GB_RECORD_DOUBLE, at->count, 3, "d",
                            at->position, err) &&

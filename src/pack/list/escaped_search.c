@@ -53,20 +53,15 @@ static double fixed_distance2(const struct gb_engine *engine, const int32_t from
 /* Squared distance of nearest images, d^2. */
 static double distance2(const struct gb_engine *engine, int64_t i, int64_t j)
 {
-    const struct gb_cell *cell = &engine->particles.cell;
     const double *xi = engine->particles.position + 3 * i;
     const double *xj = engine->particles.position + 3 * j;
-    double squared = 0.0;
     if (gb_engine_is_f32(engine)) {
         return fixed_distance2(engine, engine->f32.particle[i].position,
                                engine->f32.particle[j].position);
     }
-    for (int k = 0; k < 3; k++) {
-        const double r = xi[k] - xj[k], edge = cell->edge[k];
-        const double nearest = cell->periodic[k] ? r - edge * gb_cell_whole(r / edge) : r;
-        squared += nearest * nearest;
-    }
-    return squared;
+    double r[3] = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
+    gb_cell_nearest(&engine->particles.cell, r);
+    return gb_vec_dot(r, r);
 }
 
 /* Keeps the candidates that are near enough to be in a list of particle i. */
@@ -132,15 +127,12 @@ static void check_candidates(const struct gb_engine *engine, int64_t i,
 /* Bin that particle i would have had at the build, had the cell only been strained since. */
 static void bin_at_build(const struct gb_engine *engine, int64_t i, int bin[3])
 {
-    struct gb_cell built = engine->particles.cell;
-    double x[3];
-    gb_engine_position(engine, i, x);
-    for (int k = 0; k < 3; k++) {
-        built.edge[k] = engine->list.built_edge[k];
-        x[k] /= engine->list.scaling[k];
-    }
-    gb_cell_wrap(&built, x);
-    gb_neighbour_grid_bin(&engine->list.grid, x, bin);
+    const struct gb_neighbour_list *list = &engine->list;
+    double now[3], x[3];
+    gb_engine_position(engine, i, now);
+    gb_cell_fraction(&list->unit, now, x);
+    gb_cell_wrap(&list->built, x);
+    gb_neighbour_grid_bin(&list->grid, x, bin);
 }
 
 /* Bins beside each other along x: their particles are contiguous in bin_particle. */

@@ -204,8 +204,8 @@ static void record_build(struct gb_neighbour_list *list, const struct gb_cell *c
     list->inserted_count = 0;
     list->grid = *grid;
     memcpy(list->built_position, position, 3 * (size_t)list->count * sizeof *position);
-    memcpy(list->built_edge, cell->edge, sizeof list->built_edge);
-    list->scaling[0] = list->scaling[1] = list->scaling[2] = 1.0;
+    list->built = *cell;
+    gb_cell_init(&list->unit, 3, (const double[3]){1.0, 1.0, 1.0});
     list->strain = 0.0;
 }
 

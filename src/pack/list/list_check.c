@@ -46,7 +46,11 @@ static struct search search_of(const struct gb_engine *engine)
 enum gb_list_check_verdict gb_list_check_judge(const struct gb_engine *engine,
                                                double displacement)
 {
-    if (displacement < gb_list_check_margin(engine)) {
+    const double margin = gb_list_check_margin(engine);
+    if (margin <= 0.0) {
+        return GB_LIST_CHECK_INVALID; /* the strain has used up the skin */
+    }
+    if (displacement < margin) {
         return GB_LIST_CHECK_VALID;
     }
     return displacement < search_of(engine).far ? GB_LIST_CHECK_UNCERTAIN
@@ -56,14 +60,9 @@ enum gb_list_check_verdict gb_list_check_judge(const struct gb_engine *engine,
 /* Squared non-affine displacement of particle i since the build, d^2. */
 static double displacement2(const struct gb_engine *engine, int64_t i)
 {
-    const struct gb_neighbour_list *list = &engine->list;
-    double square = 0.0, x[3];
+    double x[3];
     gb_engine_position(engine, i, x);
-    for (int k = 0; k < 3; k++) {
-        const double moved = x[k] - list->built_position[3 * i + k] * list->scaling[k];
-        square += moved * moved;
-    }
-    return square;
+    return gb_neighbour_list_displacement2(&engine->list, i, x);
 }
 
 /* True if a group begins with particle i whose bound excludes an escaped particle. */

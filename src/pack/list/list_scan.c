@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/vec.h"
 
 /* Neighbours up to which a branch-free sort is used; most particles have no more. */
 enum { FEW = 32 };
@@ -57,12 +58,32 @@ bool gb_list_scan_sort(struct gb_list_scan *scan, struct gb_neighbour_list *list
     return true;
 }
 
+/* The same as nearest_image in a tilted cell. */
+static uint8_t nearest_image_tilted(const struct gb_cell *cell, const double *xi,
+                                    const double *xj, double *squared)
+{
+    double r[3] = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]}, fraction[3];
+    int image = 0, weight = 1;
+    gb_cell_fraction(cell, r, fraction);
+    gb_cell_nearest(cell, r);
+    for (int k = 0; k < 3; k++) {
+        const int whole = cell->periodic[k] ? (int)gb_cell_whole(fraction[k]) : 0;
+        image += (1 - whole) * weight;
+        weight *= 3;
+    }
+    *squared = gb_vec_dot(r, r);
+    return (uint8_t)image;
+}
+
 /* Nearest image of x_i - x_j: returns its index, and the squared distance. */
 static uint8_t nearest_image(const struct gb_cell *cell, const double *xi,
                              const double *xj, double *squared)
 {
     int image = 0, weight = 1;
     double sum = 0.0;
+    if (gb_cell_tilted(cell)) {
+        return nearest_image_tilted(cell, xi, xj, squared);
+    }
     for (int k = 0; k < 3; k++) {
         double r = xi[k] - xj[k];
         int s = 0;

@@ -12,7 +12,9 @@ struct gb_neighbour_grid {
     int n[3];        /* bins along each axis */
     int span_low[3]; /* neighbouring bins to visit: span_low .. span_high */
     int span_high[3];
-    double inverse[3]; /* one over the width of a bin, 1/d */
+    double inverse[3];   /* one over the width of a bin, 1/d */
+    bool tilted;         /* then, instead: */
+    double to_bin[3][3]; /* bins along each edge vector from x, 1/d */
     bool plain;        /* the periodic image of a pair follows from its bins */
 };
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/mat.h"
 #include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"
 
@@ -168,33 +169,89 @@ GB_SIMD_WIDTHS(displacement,
                 int64_t count, double *total, double *most),
                (position, built, scaling, count, total, most))
 
+double gb_neighbour_list_displacement2(const struct gb_neighbour_list *list, int64_t i,
+                                       const double x[3])
+{
+    const double *built = list->built_position + 3 * i;
+    double square = 0.0, affine[3];
+    if (gb_cell_tilted(&list->unit)) {
+        double matrix[3][3];
+        gb_cell_matrix(&list->unit, matrix);
+        gb_mat_apply((const double(*)[3])matrix, built, affine);
+    } else {
+        for (int k = 0; k < 3; k++) {
+            affine[k] = built[k] * list->unit.edge[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        const double moved = x[k] - affine[k];
+        square += moved * moved;
+    }
+    return square;
+}
+
+/* The same as displacement_loop under shear. */
+static void displacement_sheared(const struct gb_neighbour_list *list,
+                                 const double *position, int64_t begin, int64_t end,
+                                 double *total, double *most)
+{
+    for (int64_t i = begin; i < end; i++) {
+        const double square =
+            gb_neighbour_list_displacement2(list, i, position + 3 * i);
+        *most = square > *most ? square : *most;
+        *total += square;
+    }
+}
+
 double gb_neighbour_list_displacement(const struct gb_neighbour_list *list,
                                       const double *position, int64_t begin, int64_t end)
 {
     double total = 0.0, most = 0.0;
-    displacement(position + 3 * begin, list->built_position + 3 * begin, list->scaling,
-                 end - begin, &total, &most);
+    if (gb_cell_tilted(&list->unit)) {
+        displacement_sheared(list, position, begin, end, &total, &most);
+    } else {
+        displacement(position + 3 * begin, list->built_position + 3 * begin,
+                     list->unit.edge, end - begin, &total, &most);
+    }
     /* a maximum alone would ignore NaN: comparisons with it are false */
     return isfinite(total) ? sqrt(most) : (double)NAN;
 }
 
-void gb_neighbour_list_strain(struct gb_neighbour_list *list, const double factor[3])
+/* Bound of |F^-1 r - r| / |r|. */
+static double strain_of(const struct gb_deformation *deformation)
 {
-    double change = 0.0;
-    for (int k = 0; k < 3; k++) {
-        change = fmax(change, fabs(1.0 / factor[k] - 1.0));
-        list->scaling[k] *= factor[k];
+    double inverse[3][3], sum = 0.0, change = 0.0;
+    if (gb_deformation_is_scaling(deformation)) {
+        for (int k = 0; k < 3; k++) {
+            change = fmax(change, fabs(1.0 / deformation->f[k][k] - 1.0));
+        }
+        return change;
     }
-    list->strain = (1.0 + list->strain) * (1.0 + change) - 1.0;
+    gb_mat_inverse(deformation->f, inverse);
+    for (int k = 0; k < 3; k++) {
+        inverse[k][k] -= 1.0;
+        sum += gb_vec_dot(inverse[k], inverse[k]);
+    }
+    return sqrt(sum);
+}
+
+void gb_neighbour_list_deform(struct gb_neighbour_list *list,
+                              const struct gb_deformation *deformation)
+{
+    gb_cell_deform(&list->unit, deformation);
+    list->strain = (1.0 + list->strain) * (1.0 + strain_of(deformation)) - 1.0;
 }
 
 void gb_neighbour_list_update_shifts(struct gb_neighbour_list *list,
                                      const struct gb_cell *cell)
 {
+    double matrix[3][3];
+    gb_cell_matrix(cell, matrix);
     for (int image = 0; image < 27; image++) {
-        const int s[3] = {image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1};
+        double s[3] = {image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1};
         for (int k = 0; k < 3; k++) {
-            list->shift[image][k] = cell->periodic[k] ? s[k] * cell->edge[k] : 0.0;
+            s[k] = cell->periodic[k] ? s[k] : 0.0;
         }
+        gb_mat_apply((const double(*)[3])matrix, s, list->shift[image]);
     }
 }

@@ -59,9 +59,9 @@ struct gb_neighbour_list {
     int64_t bin_capacity;
     /* ... and what the same lists can be built from again. */
     double *built_position; /* count x 3, d */
-    double built_edge[3];   /* d */
-    double scaling[3];      /* affine scaling of the cell since the build */
-    double strain;          /* largest affine strain since the build */
+    struct gb_cell built;
+    struct gb_cell unit; /* the unit cube at the build, deformed with the cell since */
+    double strain;       /* largest affine strain since the build */
     /* Pairs inserted since the build, ascending. */
     struct gb_inserted_pair *inserted;
     int64_t inserted_count, inserted_max;
@@ -96,10 +96,15 @@ void gb_neighbour_list_clear(struct gb_neighbour_list *list);
 double gb_neighbour_list_displacement(const struct gb_neighbour_list *list,
                                       const double *position, int64_t begin, int64_t end);
 
-/* The cell and all positions were scaled by `factor`. */
-void gb_neighbour_list_strain(struct gb_neighbour_list *list, const double factor[3]);
+/* Squared displacement of particle i at x since the build, beside the affine motion, d^2. */
+double gb_neighbour_list_displacement2(const struct gb_neighbour_list *list, int64_t i,
+                                       const double x[3]);
 
-/* Sets `shift` for the edges of a cell. */
+/* The cell and all positions were deformed. */
+void gb_neighbour_list_deform(struct gb_neighbour_list *list,
+                              const struct gb_deformation *deformation);
+
+/* Sets `shift` for the edge vectors of a cell. */
 void gb_neighbour_list_update_shifts(struct gb_neighbour_list *list,
                                      const struct gb_cell *cell);
 

@@ -70,6 +70,7 @@ bool gb_relax_create(struct gb_relax **out, const struct gb_model *model,
         return false;
     }
     relax->method = method;
+    relax->sheared = model->sheared;
     relax->tolerance = model->numerics.tolerance;
     relax->max_evaluations = model->numerics.max_evaluations;
     relax->state = gb_alloc_array(1, method->state_size, err);

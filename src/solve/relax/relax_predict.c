@@ -9,8 +9,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "base/mat.h"
 #include "base/record.h"
-#include "base/vec.h"
 #include "scene/tolerances.h"
 #include "solve/relax/relax_fire.h"
 
@@ -27,8 +27,9 @@ enum { POSITION = 2, ROTATION = 3 }; /* vectors beside the velocities */
 
 struct predict {
     struct gb_relax_fire_state fire;
-    double edge[3];   /* of the cell at the start of the last relaxation */
-    double strain[3]; /* logarithmic, of the strain step before it */
+    struct gb_cell cell; /* at the start of the last relaxation; edges 0: there is none */
+    double strain[3];    /* logarithmic, of the strain step before it */
+    double shear[3];     /* engineering shear of that step, in scenes that shear */
 };
 
 /* The requested strain: its ratio to the last one, and its norm. */
@@ -36,17 +37,25 @@ struct request {
     double ratio, size;
 };
 
-static struct request request_since(struct predict *state, const double edge[3])
+static double strain_along(const struct predict *state, const struct gb_cell *cell, int k)
+{
+    const double edge = state->cell.edge[k];
+    return edge > 0.0 ? log(cell->edge[k] / edge) : 0.0;
+}
+
+static struct request request_since(struct predict *state, const struct gb_cell *cell)
 {
     double along = 0.0, square = 0.0, size2 = 0.0;
-    for (int k = 0; k < 3; k++) {
-        const double now = state->edge[k] > 0.0 ? log(edge[k] / state->edge[k]) : 0.0;
-        along += now * state->strain[k];
-        square += state->strain[k] * state->strain[k];
+    for (int k = 0; k < 6; k++) {
+        double *last = k < 3 ? &state->strain[k] : &state->shear[k - 3];
+        const double now = k < 3 ? strain_along(state, cell, k)
+                                 : cell->shear[k - 3] - state->cell.shear[k - 3];
+        along += now * *last;
+        square += *last * *last;
         size2 += now * now;
-        state->strain[k] = now;
-        state->edge[k] = edge[k];
+        *last = now;
     }
+    state->cell = *cell;
     const double ratio = square > 0.0 ? along / square : 0.0;
     return (struct request){
         ratio > 0.0 && ratio <= GB_PREDICT_STRAIN_RATIO_MAX ? ratio : 0.0, sqrt(size2)};
@@ -84,13 +93,44 @@ static void save_rotation(struct gb_relax *relax, int64_t i, const double rotati
     }
 }
 
-/* Positions are kept relative to the edges: their difference has neither the affine motion
- * nor, less whole edges, the wrapping into the cell. */
+/* Motion of a particle beside that of the cell since the last start; the position is kept
+ * relative to the edges: the difference has neither the affine motion nor, less whole
+ * edges, the wrapping into the cell. */
+static void displacement_of(const double edge[3], const double position[3],
+                            double scaled_position[3], double displacement[3])
+{
+    for (int c = 0; c < 3; c++) {
+        const double now = position[c] / edge[c];
+        const double went = now - scaled_position[c];
+        displacement[c] = edge[c] * (went - gb_cell_whole(went));
+        scaled_position[c] = now;
+    }
+}
+
+/* The same in a cell with tilts: before, its edge vectors at the last start. */
+static void displacement_tilted(const struct gb_cell *cell, const struct gb_cell *before,
+                                const double position[3], double scaled_position[3],
+                                double displacement[3])
+{
+    const struct gb_deformation motion = gb_cell_motion(before, cell);
+    double matrix[3][3], then[3], affine[3];
+    gb_cell_matrix(before, matrix);
+    gb_mat_apply((const double(*)[3])matrix, scaled_position, then);
+    gb_mat_apply(motion.f, then, affine);
+    for (int c = 0; c < 3; c++) {
+        displacement[c] = position[c] - affine[c];
+    }
+    gb_cell_nearest(cell, displacement);
+    gb_cell_fraction(cell, position, scaled_position);
+}
+
+/* before: the cell at the last start. */
 static void predict_motion(struct gb_relax *relax, struct gb_world *world,
-                           struct request request)
+                           const struct gb_cell *before, struct request request)
 {
     const struct gb_bodies b = gb_world_movable(world);
-    const double *edge = gb_world_cell(world)->edge;
+    const struct gb_cell *cell = gb_world_cell(world);
+    const bool tilted = gb_world_model(world)->sheared && before->edge[0] > 0.0;
 #pragma omp parallel for num_threads(gb_world_threads(world))                            \
     schedule(static) if (gb_world_threads(world) > 1)
     for (int64_t i = 0; i < b.count; i++) {
@@ -98,11 +138,10 @@ static void predict_motion(struct gb_relax *relax, struct gb_world *world,
         double rotation[3];
         double *position = b.position + 3 * i;
         double displacement[3];
-        for (int c = 0; c < 3; c++) {
-            const double now = position[c] / edge[c];
-            const double went = now - scaled_position[c];
-            displacement[c] = edge[c] * (went - gb_cell_whole(went));
-            scaled_position[c] = now;
+        if (tilted) {
+            displacement_tilted(cell, before, position, scaled_position, displacement);
+        } else {
+            displacement_of(cell->edge, position, scaled_position, displacement);
         }
         load_rotation(relax, i, rotation);
         predict_vector(displacement, request);
@@ -116,8 +155,9 @@ static void predict_motion(struct gb_relax *relax, struct gb_world *world,
 static void start(struct gb_relax *relax, struct gb_world *world)
 {
     struct predict *state = relax->state;
+    const struct gb_cell before = state->cell;
     gb_relax_fire_rest(relax, &state->fire, &gb_relax_predict_tuning, world);
-    predict_motion(relax, world, request_since(state, gb_world_cell(world)->edge));
+    predict_motion(relax, world, &before, request_since(state, gb_world_cell(world)));
 }
 
 static void move(struct gb_relax *relax, struct gb_world *world)
@@ -130,11 +170,14 @@ static bool record(struct gb_relax *relax, int64_t count, struct gb_record *reco
                    struct gb_error *err)
 {
     static const struct gb_record_member members[] = {
-        {"relax/edge", GB_RECORD_DOUBLE, 3, offsetof(struct predict, edge), "d"},
+        {"relax/edge", GB_RECORD_DOUBLE, 3, offsetof(struct predict, cell.edge), "d"},
         {"relax/strain", GB_RECORD_DOUBLE, 3, offsetof(struct predict, strain), "1"},
+        {"relax/tilt", GB_RECORD_DOUBLE, 3, offsetof(struct predict, cell.tilt), "d"},
+        {"relax/sheared", GB_RECORD_DOUBLE, 3, offsetof(struct predict, cell.shear), "1"},
+        {"relax/shear", GB_RECORD_DOUBLE, 3, offsetof(struct predict, shear), "1"},
     };
-    return gb_record_members(record, members, sizeof members / sizeof members[0],
-                             relax->state, err) &&
+    const size_t used = relax->sheared ? sizeof members / sizeof members[0] : 2;
+    return gb_record_members(record, members, used, relax->state, err) &&
            gb_record_array(record, "relax/place", GB_RECORD_DOUBLE, count, 3, "1",
                            relax->vector[POSITION], err) &&
            (relax->rotation_sum
