@@ -117,12 +117,12 @@ static void test_rotation(void)
         scene_params("numerics.precision=double", "numerics.tolerance=1e-6", NULL);
     const struct gb_model model = sheared_model(&params);
     struct gb_world *world = scene_world(&model);
-    struct gb_deformation turn = simple_shear(0, 2, angle);
+    struct gb_deformation rotation = simple_shear(0, 2, angle);
     double before[3][3], after[3][3];
-    turn.f[2][0] = -angle;
+    rotation.f[2][0] = -angle;
     scene_press(world, 8, 200, 2.0);
     gb_world_measure_pressure(world, before);
-    gb_world_deform(world, &turn);
+    gb_world_deform(world, &rotation);
     scene_evaluate(world);
     gb_world_measure_pressure(world, after);
     const double expected = before[0][2] + angle * (before[2][2] - before[0][0]);

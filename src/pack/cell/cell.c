@@ -195,23 +195,3 @@ bool gb_cell_fold(struct gb_cell *cell)
     const double along_x = fold(&cell->tilt[1], cell->edge[0]);
     return fold(&cell->tilt[0], cell->edge[0]) != 0.0 || along_x != 0.0 || along_y != 0.0;
 }
-
-struct gb_deformation gb_deformation_scaling(const double factor[3])
-{
-    struct gb_deformation deformation = {{{0.0}}};
-    for (int k = 0; k < 3; k++) {
-        deformation.f[k][k] = factor[k];
-    }
-    return deformation;
-}
-
-bool gb_deformation_is_scaling(const struct gb_deformation *deformation)
-{
-    for (int k = 0; k < 3; k++) {
-        if (deformation->f[tilt_row[k]][tilt_column[k]] != 0.0 ||
-            deformation->f[tilt_column[k]][tilt_row[k]] != 0.0) {
-            return false;
-        }
-    }
-    return true;
-}

@@ -3,6 +3,8 @@
 
 #include <stdbool.h>
 
+#include "base/deformation.h"
+
 /* Periodic box in reduced units; its edge vectors are the columns of the matrix H.  In 2D
  * the scene lies in the x-z plane: axis 1 has edge 1 and is not periodic.
  *
@@ -15,11 +17,6 @@ struct gb_cell {
     double below[3]; /* below it: yx, zx, zy */
     double shear[3]; /* engineering shear xy, xz, yz since the start, summed over steps */
     bool periodic[3];
-};
-
-/* Deformation gradient F of a change of the cell: x' = F x, H' = F H. */
-struct gb_deformation {
-    double f[3][3];
 };
 
 /* The whole number nearest to x, |x| < 2^51, the even one of two.  The sum has no digits
@@ -64,10 +61,5 @@ struct gb_deformation gb_cell_motion(const struct gb_cell *before,
 /* The same lattice of images with tilts of at most half an edge.  True if one changed; the
  * images of pairs are others then. */
 bool gb_cell_fold(struct gb_cell *cell);
-
-/* Scaling axis by axis. */
-struct gb_deformation gb_deformation_scaling(const double factor[3]);
-/* True if F is diagonal. */
-bool gb_deformation_is_scaling(const struct gb_deformation *deformation);
 
 #endif

@@ -32,8 +32,7 @@ struct gb_nonaffine gb_nonaffine_since(const struct gb_world *world,
 {
     const struct gb_particles *particles = &world->engine.particles;
     struct gb_nonaffine result = {0};
-    const bool tilted =
-        gb_cell_tilted(&particles->cell) || gb_cell_tilted(&copy->cell);
+    const bool tilted = gb_cell_tilted(&particles->cell) || gb_cell_tilted(&copy->cell);
     const struct gb_deformation motion = gb_cell_motion(&copy->cell, &particles->cell);
     double sum = 0.0, most = 0.0;
     for (int64_t i = 0; i < particles->count; i++) {

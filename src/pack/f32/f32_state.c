@@ -43,8 +43,9 @@ bool gb_f32_state_use_lists(struct gb_f32_state *f32,
 {
     for (int64_t i = 0; i < list->count; i++) {
         for (int c = 0; c < 3; c++) {
-            f32->built[3 * i + c] = (uint32_t)gb_fixed_position_of(
-                list->built_position[3 * i + c], gb_fixed_position_units(&list->built, c));
+            f32->built[3 * i + c] =
+                (uint32_t)gb_fixed_position_of(list->built_position[3 * i + c],
+                                               gb_fixed_position_units(&list->built, c));
         }
     }
     return gb_cross_rows_update(&f32->near, &list->near, list->count, err) &&

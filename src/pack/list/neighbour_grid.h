@@ -15,7 +15,7 @@ struct gb_neighbour_grid {
     double inverse[3];   /* one over the width of a bin, 1/d */
     bool tilted;         /* then, instead: */
     double to_bin[3][3]; /* bins along each edge vector from x, 1/d */
-    bool plain;        /* the periodic image of a pair follows from its bins */
+    bool plain;          /* the periodic image of a pair follows from its bins */
 };
 
 /* The same grid for the same edges, reach and count.  About one particle per bin at most,

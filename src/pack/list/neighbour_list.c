@@ -196,8 +196,7 @@ static void displacement_sheared(const struct gb_neighbour_list *list,
                                  double *total, double *most)
 {
     for (int64_t i = begin; i < end; i++) {
-        const double square =
-            gb_neighbour_list_displacement2(list, i, position + 3 * i);
+        const double square = gb_neighbour_list_displacement2(list, i, position + 3 * i);
         *most = square > *most ? square : *most;
         *total += square;
     }

@@ -50,7 +50,7 @@ struct gb_relax {
     double *vector[4]; /* count x 3 each; less in worlds with an f32 state, which has the
                           * velocities */
     float *rotation_sum; /* with an f32 state, instead of vector[method->rotation_sum] */
-    bool sheared; /* the cell may be tilted */
+    bool sheared;        /* the cell may be tilted */
     double tolerance;
     int64_t max_evaluations;         /* per relaxation */
     int64_t iterations, evaluations; /* of the relaxation under way */
