@@ -86,8 +86,7 @@ bool gb_force_rods_make(struct gb_picture_style *style, const struct gb_state *s
     const struct gb_picture_colours_row *colours = request->forces;
     const size_t max_rods = 2 * (size_t)state->pair_count + 1;
     double reference = 1.0;
-    struct gb_cell cell;
-    gb_cell_init(&cell, state->dimension, state->cell);
+    const struct gb_cell cell = gb_state_cell(state);
     style->rod = gb_alloc_array(max_rods, 7 * sizeof *style->rod, err);
     style->rod_colour = gb_alloc_array(max_rods, 3, err);
     if (style->rod == NULL || style->rod_colour == NULL ||

@@ -26,8 +26,7 @@ static double volume_ratio(const struct gb_state *state)
 void gb_particle_stress_mean(const struct gb_state *state, double *stress)
 {
     const double volume = volume_ratio(state);
-    struct gb_cell cell;
-    gb_cell_init(&cell, state->dimension, state->cell);
+    const struct gb_cell cell = gb_state_cell(state);
     memset(stress, 0, (size_t)state->count * sizeof *stress);
     for (int64_t k = 0; k < state->pair_count; k++) {
         const int32_t *ends = &state->pair[2 * k];

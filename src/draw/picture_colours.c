@@ -196,7 +196,7 @@ static bool colour_displacement(struct gb_picture_style *style,
                                 const struct gb_picture_style_request *request,
                                 struct gb_error *err)
 {
-    struct gb_cell cell;
+    const struct gb_cell cell = gb_state_cell(state);
     if (!check_same_run(state, request->since, err)) {
         return false;
     }
@@ -204,7 +204,6 @@ static bool colour_displacement(struct gb_picture_style *style,
     if (value == NULL) {
         return false;
     }
-    gb_cell_init(&cell, state->dimension, state->cell);
     for (size_t i = 0; i < style->count; i++) {
         value[i] = units_per_metre(state) * displacement(&cell, state, request->since, i);
     }

@@ -17,12 +17,11 @@ bool gb_rose_of_state(struct gb_harmonics *rose, const struct gb_state *state,
                       struct gb_error *err)
 {
     const size_t count = (size_t)state->pair_count;
-    struct gb_cell cell;
+    const struct gb_cell cell = gb_state_cell(state);
     double *axis = gb_alloc_array(count + 1, 3 * sizeof *axis, err);
     if (axis == NULL) {
         return false;
     }
-    gb_cell_init(&cell, state->dimension, state->cell);
     for (size_t k = 0; k < count; k++) {
         const double *a = &state->position[3 * state->pair[2 * k]];
         const double *b = &state->position[3 * state->pair[2 * k + 1]];

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "io/line_file.h"
+#include "io/point_columns.h"
 
 /* ",value" with the fewest digits that read back the same; only "," where there is none.
  */
@@ -30,10 +31,11 @@ static const char *compressed_axes(const struct gb_params *params)
     }
 }
 
-static void append_nothing(GString *row, const struct gb_point *point)
+static void append_tensors(GString *row, const struct gb_point *point)
 {
-    (void)row;
-    (void)point;
+    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
+        append_number(row, gb_point_columns_value(point, k));
+    }
 }
 
 static void append_energies(GString *row, const struct gb_point *point)
@@ -44,6 +46,7 @@ static void append_energies(GString *row, const struct gb_point *point)
     for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
         append_number(row, values[k]);
     }
+    append_tensors(row, point);
 }
 
 static void append_die(GString *row, const struct gb_point *point)
@@ -62,7 +65,7 @@ static const struct column_set {
     const char *note, *names;
     void (*append)(GString *row, const struct gb_point *point);
 } column_sets[] = {
-    [GB_COLUMNS_COMMON] = {"", "", append_nothing},
+    [GB_COLUMNS_COMMON] = {"", "", append_tensors},
     [GB_COLUMNS_ENERGY] =
         {"# dynamic: time_ns is simulated time; kinetic, work (done by the moving cell), "
          "elastic and dissipated energy in J; energy_residual is relative to the work\n",
@@ -77,6 +80,13 @@ static const struct column_set {
          ",time_ns,central_density,height_um,height_change,wanted_MPa,floor_over_punch",
          append_die},
 };
+
+static const char tensor_note[] =
+    "# tensors: pxy, pxz, pyz of the pressure tensor; q its deviatoric part; asymmetry of "
+    "its antisymmetric part over the mean pressure; exx, eyy, ezz logarithmic strains, "
+    "positive in compression, gxy, gxz, gyz engineering shears, all since the start; fxx "
+    "to fyz fabric of the contacts; anisotropies of the fabric of all, bridged, tensile "
+    "contacts and weighted by force; leg of loading.path\n";
 
 GString *gb_curve_csv_head(const struct gb_params *params)
 {
@@ -95,9 +105,16 @@ GString *gb_curve_csv_head(const struct gb_params *params)
         compressed_axes(params));
     const struct column_set *set = &column_sets[gb_loading_kind_of(params)->columns];
     g_string_append(head, set->note);
+    if (set->append != append_die) {
+        g_string_append(head, tensor_note);
+    }
     g_string_append(head, "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,"
                           "bridged,rattlers,residual,iterations,evaluations,seconds");
-    g_string_append_printf(head, "%s\n", set->names);
+    g_string_append(head, set->names);
+    for (size_t k = 0; k < GB_POINT_COLUMNS && set->append != append_die; k++) {
+        g_string_append_printf(head, ",%s", gb_point_columns_name(k));
+    }
+    g_string_append_c(head, '\n');
     return head;
 }
 

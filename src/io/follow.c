@@ -10,6 +10,7 @@
 #include <json-glib/json-glib.h>
 
 #include "base/table.h"
+#include "io/point_columns.h"
 #include "io/preset.h"
 #include "io/status_json.h"
 
@@ -91,6 +92,11 @@ static void fill_point(const struct gb_table *table, size_t row, struct gb_point
         } else {
             memcpy(member, &value, sizeof value);
         }
+    }
+    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
+        const double *values = gb_table_column(table, gb_point_columns_name(k), NULL);
+        *gb_point_columns_member(point, k) =
+            values != NULL ? values[row] * gb_point_columns_factor(k) : NAN;
     }
 }
 

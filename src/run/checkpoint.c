@@ -2,6 +2,7 @@
 
 #include <stddef.h>
 
+#include "io/point_columns.h"
 #include "run/experiment_private.h"
 
 #define AT(member) offsetof(struct gb_experiment, member)
@@ -52,11 +53,19 @@ static const int64_t step_max = INT64_C(1) << 53;
 
 enum { MEMBERS = sizeof members / sizeof members[0] };
 
+static bool record_points(struct gb_experiment *experiment, struct gb_record *record,
+                          struct gb_error *err)
+{
+    return gb_record_members(record, members, MEMBERS, experiment, err) &&
+           gb_point_columns_record(&experiment->point, "point/tensors", record, err) &&
+           gb_point_columns_record(&experiment->shown, "shown/tensors", record, err);
+}
+
 bool gb_checkpoint_take(struct gb_experiment *experiment, struct gb_record *record,
                         struct gb_error *err)
 {
     gb_record_clear(record);
-    return gb_record_members(record, members, MEMBERS, experiment, err) &&
+    return record_points(experiment, record, err) &&
            gb_loading_record(experiment->loading, record, err);
 }
 
@@ -64,7 +73,7 @@ bool gb_checkpoint_load(struct gb_experiment *experiment, struct gb_record *reco
                         struct gb_error *err)
 {
     record->loading = true;
-    if (!gb_record_members(record, members, MEMBERS, experiment, err)) {
+    if (!record_points(experiment, record, err)) {
         return false;
     }
     if (experiment->step < 0 || experiment->step > step_max) {

@@ -48,6 +48,7 @@ static bool copy_world(const struct gb_loading *loading, struct gb_state **out,
     struct gb_state *state = *out;
     state->dimension = model->dimension;
     memcpy(state->cell, gb_world_cell(world)->edge, sizeof state->cell);
+    memcpy(state->tilt, gb_world_cell(world)->tilt, sizeof state->tilt);
     gb_observe_contacts(world, &counts, NULL, 0, state->contacts);
     for (int64_t i = 0; i < model->count; i++) {
         memcpy(state->position + 3 * i, gb_world_position(world) + 3 * i,

@@ -1,9 +1,13 @@
 #include "run/point_measure.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "io/point_columns.h"
+#include "measure/fabric.h"
 #include "measure/observe.h"
 #include "measure/observe_die.h"
+#include "measure/tensor.h"
 #include "solve/loading/compressed_axes.h"
 
 static int branch_of(const struct gb_loading_report *report)
@@ -18,6 +22,42 @@ static double second_per_time(const struct gb_loading *loading)
 {
     return loading->bed ? loading->model->die.second_per_time
                         : loading->model->dynamics.second_per_time;
+}
+
+/* Members of periodic cells. */
+static void leave_tensors_empty(struct gb_point *point)
+{
+    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
+        *gb_point_columns_member(point, k) = NAN;
+    }
+}
+
+/* Pressures beside the normal ones, strain of the cell, fabric of the contacts. */
+static void measure_tensors(const struct gb_loading *loading, const double pressure[3][3],
+                            struct gb_point *point)
+{
+    const struct gb_model *model = loading->model;
+    const struct gb_cell *cell = gb_world_cell(loading->world);
+    const double pascal = model->pascal_per_stress;
+    static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
+    struct gb_fabric fabric;
+    gb_fabric_measure(loading->world, &fabric);
+    for (int k = 0; k < 3; k++) {
+        point->shear_pa[k] = 0.5 * pascal * (pressure[row[k]][column[k]] +
+                                             pressure[column[k]][row[k]]);
+        point->strain[k] = log(model->edges[k] / cell->edge[k]);
+        point->strain[3 + k] = cell->shear[k];
+    }
+    point->q_pa = pascal * gb_tensor_deviatoric(pressure, model->dimension);
+    point->asymmetry = gb_tensor_asymmetry(pressure, model->dimension);
+    memcpy(point->fabric, fabric.all, sizeof point->fabric);
+    memcpy(point->anisotropy, fabric.anisotropy, sizeof point->anisotropy);
+    point->leg = NAN;
+    if (model->dimension == 2) {
+        point->shear_pa[0] = point->shear_pa[2] = NAN;
+        point->strain[1] = point->strain[3] = point->strain[5] = NAN;
+        point->fabric[1] = point->fabric[3] = point->fabric[5] = NAN;
+    }
 }
 
 /* Members of dies and of dynamic scenes. */
@@ -66,6 +106,7 @@ static void measure_cell(const struct gb_loading *loading, struct gb_point *poin
         .residual = report.residual,
     };
     leave_empty(point);
+    measure_tensors(loading, (const double(*)[3])tensor, point);
 }
 
 static void measure_die(const struct gb_loading *loading, struct gb_point *point)
@@ -90,6 +131,7 @@ static void measure_die(const struct gb_loading *loading, struct gb_point *point
         .evaluations = report.evaluations,
     };
     leave_empty(point);
+    leave_tensors_empty(point);
     point->time_s = report.time * model->die.second_per_time;
     point->central =
         gb_observe_die_central(loading->bed, report.height, model->die.central_radius);

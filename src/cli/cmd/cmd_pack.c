@@ -63,8 +63,7 @@ static bool grow(struct gb_packing *packing, struct gb_error *err)
 static bool measure(struct gb_packing *packing, struct gb_error *err)
 {
     const struct gb_state *state = packing->state;
-    struct gb_cell cell;
-    gb_cell_init(&cell, state->dimension, state->cell);
+    const struct gb_cell cell = gb_state_cell(state);
     packing->reach = packing->r_eq < 1.0 ? 1.0 : 1.0 + rounding;
     packing->r_max = fmin(0.5 * gb_cell_shortest(&cell), r_limit);
     packing->bins = (int)ceil(packing->r_max / bin_width);

@@ -28,8 +28,7 @@ static void mean_forces(const struct gb_state *state, double *mean)
     int64_t count[ANGLES] = {0};
     const double newton =
         state->pascal_per_stress * state->metre_per_length * state->metre_per_length;
-    struct gb_cell cell;
-    gb_cell_init(&cell, state->dimension, state->cell);
+    const struct gb_cell cell = gb_state_cell(state);
     for (int64_t k = 0; k < state->pair_count; k++) {
         const int bin =
             (int)fmin(angle_to_z(&cell, state, k) * ANGLES / 90.0, ANGLES - 1);

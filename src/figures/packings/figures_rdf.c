@@ -37,8 +37,7 @@ static bool compute_rows(double *rows, const struct gb_state_set *states, int bi
     bool good = true;
     for (size_t i = 0; i < states->count && good; i++) {
         const struct gb_state *state = states->state[i];
-        struct gb_cell cell;
-        gb_cell_init(&cell, state->dimension, state->cell);
+        const struct gb_cell cell = gb_state_cell(state);
         good = gb_structure_rdf(&cell, state->count, state->position, bins * bin_width,
                                 bins, rows + i * (size_t)bins, err);
     }

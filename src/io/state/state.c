@@ -10,8 +10,8 @@
 #include "io/state/state_check.h"
 
 /* Raised when a reader of the old layout would misunderstand the new one.  1: without
- * checkpoints; 2: without dies; the packing is as in 3. */
-static const int32_t layout_number = 3, layout_oldest = 1;
+ * checkpoints; 2: without dies; 3: without tilts and tensors; the packing is as in 4. */
+static const int32_t layout_number = 4, layout_oldest = 1;
 
 /* Beyond this a file is nonsense rather than large. */
 static const int64_t count_max = 200000000;
@@ -48,28 +48,33 @@ struct number_row {
     enum gb_hdf_type type;
     int count;
     size_t offset;
+    int32_t layout; /* the first with this number; 0: all */
 };
 
 static const struct number_row numbers[] = {
-    {"cell_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, cell)},
-    {"die_radius_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_radius)},
-    {"metre_per_length", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, metre_per_length)},
-    {"pascal_per_stress", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, pascal_per_stress)},
-    {"seed", GB_HDF_UINT64, 1, offsetof(struct gb_state, seed)},
-    {"branch_from_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.branch_from_pa)},
-    {"step", GB_HDF_INT64, 1, offsetof(struct gb_state, point.step)},
-    {"density", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.density)},
-    {"px_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.px_pa)},
-    {"py_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.py_pa)},
-    {"pz_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.pz_pa)},
-    {"p_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.p_pa)},
-    {"coordination", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.coordination)},
-    {"bridged", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.bridged)},
-    {"rattlers", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.rattlers)},
-    {"residual", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.residual)},
-    {"iterations", GB_HDF_INT64, 1, offsetof(struct gb_state, point.iterations)},
-    {"evaluations", GB_HDF_INT64, 1, offsetof(struct gb_state, point.evaluations)},
-    {"seconds", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.seconds)},
+    {"cell_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, cell), 0},
+    {"cell_tilt_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, tilt), 4},
+    {"die_radius_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_radius), 3},
+    {"metre_per_length", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, metre_per_length), 0},
+    {"pascal_per_stress", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, pascal_per_stress), 0},
+    {"seed", GB_HDF_UINT64, 1, offsetof(struct gb_state, seed), 0},
+    {"branch_from_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.branch_from_pa), 0},
+    {"step", GB_HDF_INT64, 1, offsetof(struct gb_state, point.step), 0},
+    {"density", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.density), 0},
+    {"px_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.px_pa), 0},
+    {"py_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.py_pa), 0},
+    {"pz_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.pz_pa), 0},
+    {"p_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.p_pa), 0},
+    {"coordination", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.coordination), 0},
+    {"bridged", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.bridged), 0},
+    {"rattlers", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.rattlers), 0},
+    {"residual", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.residual), 0},
+    {"iterations", GB_HDF_INT64, 1, offsetof(struct gb_state, point.iterations), 0},
+    {"evaluations", GB_HDF_INT64, 1, offsetof(struct gb_state, point.evaluations), 0},
+    {"seconds", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.seconds), 0},
+    {"shear_stress_pa", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, point.shear_pa), 4},
+    {"strain", GB_HDF_DOUBLE, 6, offsetof(struct gb_state, point.strain), 4},
+    {"fabric", GB_HDF_DOUBLE, 6, offsetof(struct gb_state, point.fabric), 4},
 };
 
 enum {
@@ -140,6 +145,14 @@ bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
     }
     *out = state;
     return true;
+}
+
+struct gb_cell gb_state_cell(const struct gb_state *state)
+{
+    struct gb_cell cell;
+    gb_cell_init(&cell, state->dimension, state->cell);
+    memcpy(cell.tilt, state->tilt, sizeof cell.tilt);
+    return cell;
 }
 
 void gb_state_destroy(struct gb_state *state)
@@ -228,11 +241,6 @@ static bool read_layout(struct gb_hdf *file, const char *path, int32_t *number,
     return true;
 }
 
-/* Layout 3 knows dies. */
-static bool exists_in(int32_t layout, const struct number_row *row)
-{
-    return layout >= 3 || row->offset != offsetof(struct gb_state, die_radius);
-}
 
 static bool read_numbers(struct gb_state *state, struct gb_hdf *file, int32_t layout,
                          struct gb_error *err)
@@ -249,7 +257,7 @@ static bool read_numbers(struct gb_state *state, struct gb_hdf *file, int32_t la
     state->point.branch = branch;
     for (int k = 0; k < NUMBER_COUNT; k++) {
         const struct number_row *row = &numbers[k];
-        if (exists_in(layout, row) &&
+        if (layout >= row->layout &&
             !gb_hdf_get_numbers(file, row->name, row->type, row->count,
                                 (char *)state + row->offset, err)) {
             return false;

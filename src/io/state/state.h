@@ -7,6 +7,7 @@
 #include "base/record.h"
 #include "greenbody/curve.h"
 #include "greenbody/status.h"
+#include "pack/cell/cell.h"
 
 /* A packing as pictures, exporters and state.h5 see it: plain arrays owned by the struct,
  * reduced lengths (diameters), forces in E d^2. */
@@ -14,6 +15,7 @@ struct gb_state {
     int dimension;
     int64_t count;
     double cell[3];      /* periodic edges, d; y is 1 in 2D */
+    double tilt[3];      /* of the cell: xy, xz, yz, d */
     double die_radius;   /* d; 0: a periodic cell, else the cell is the box of a die */
     double *position;    /* count x 3, inside the cell */
     double *radius;      /* count */
@@ -34,6 +36,9 @@ struct gb_state {
 bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
                      struct gb_error *err);
 void gb_state_destroy(struct gb_state *state); /* NULL is fine */
+
+/* The periodic cell; in a die the box around it. */
+struct gb_cell gb_state_cell(const struct gb_state *state);
 
 /* HDF5 file, written to a temporary name, synced and renamed.  Units are attributes.
  * record (may be NULL) goes into it as the group /checkpoint: see io/hdf/hdf_record.h. */

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/vec.h"
+#include "io/point_columns.h"
 #include "pack/cell/cell.h"
 #include "pack/structure/assign_sizes.h"
 #include "scene/loading_kind.h"
@@ -57,6 +58,23 @@ static bool take_point(const struct gb_record *record, struct gb_point *point,
             take(record, numbers[k].name, GB_RECORD_DOUBLE, 1, 1, numbers[k].value, err);
     }
     return done;
+}
+
+/* What records of scenes without shear, or of earlier versions, lack. */
+static bool take_tensors(const struct gb_record *record, struct gb_state *state,
+                         struct gb_error *err)
+{
+    double value[GB_POINT_COLUMNS];
+    const bool known = gb_record_find(record, "shown/tensors") != NULL;
+    if (known && !take(record, "shown/tensors", GB_RECORD_DOUBLE, 1, GB_POINT_COLUMNS,
+                       value, err)) {
+        return false;
+    }
+    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
+        *gb_point_columns_member(&state->point, k) = known ? value[k] : (double)NAN;
+    }
+    return !gb_record_find(record, "world/tilt") ||
+           take(record, "world/tilt", GB_RECORD_DOUBLE, 1, 3, state->tilt, err);
 }
 
 /* Normal forces, bridges and coordination from the pairs and their histories. */
@@ -203,12 +221,12 @@ bool gb_state_record(struct gb_state **out, const struct gb_record *record,
         !take(record, "world/pair", GB_RECORD_INT32, pairs, 2, state->pair, err) ||
         !take(record, "world/pair_force", GB_RECORD_DOUBLE, pairs, 3, state->pair_force,
               err) ||
-        !take_point(record, &state->point, err)) {
+        !take_tensors(record, state, err) || !take_point(record, &state->point, err)) {
         gb_state_destroy(state);
         return false;
     }
-    struct gb_cell cell;
-    gb_cell_init(&cell, model->dimension, state->cell);
+    state->dimension = model->dimension;
+    const struct gb_cell cell = gb_state_cell(state);
     for (int64_t i = 0; i < count; i++) {
         gb_cell_wrap(&cell, state->position + 3 * i);
         state->radius[i] *= 0.5;
