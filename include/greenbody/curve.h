@@ -45,11 +45,11 @@ struct gb_point {
     double floor_over_punch; /* forces; far from 1: not quasi-static */
     /* Periodic cells only, else NaN.  Components in the order xx, yy, zz, xy, xz, yz. */
     double shear_pa[3]; /* pressure tensor, xy, xz, yz: minus the stresses */
-    double q_pa;        /* sqrt(3/2 s:s), s the deviator of the pressures; 2D: |p1 - p2| */
-    double asymmetry;   /* antisymmetric part of the pressures over their mean */
-    double strain[6];   /* since the start: logarithmic, compression positive; then the
+    double q_pa;      /* sqrt(3/2 s:s), s the deviator of the pressures; 2D: |p1 - p2| */
+    double asymmetry; /* antisymmetric part of the pressures over their mean */
+    double strain[6]; /* since the start: logarithmic, compression positive; then the
                          * engineering shears, summed over the steps */
-    double fabric[6];   /* mean of n_i n_j over contacts; n: unit vector along a contact */
+    double fabric[6]; /* mean of n_i n_j over contacts; n: unit vector along a contact */
     /* Fabric anisotropies, 3/2 of the largest eigenvalue of the deviator (2D: twice): of all
      * contacts, of bridged ones, of those in tension, and weighted by normal force. */
     double anisotropy[4];

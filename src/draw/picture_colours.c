@@ -7,7 +7,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "base/vec.h"
+#include "base/mat.h"
 #include "draw/image/palette.h"
 #include "draw/particle_stress.h"
 #include "pack/cell/cell.h"
@@ -182,10 +182,12 @@ static bool check_same_run(const struct gb_state *state, const struct gb_state *
 static double displacement(const struct gb_cell *cell, const struct gb_state *state,
                            const struct gb_state *since, size_t i)
 {
+    const struct gb_cell before = gb_state_cell(since);
+    const struct gb_deformation motion = gb_cell_motion(&before, cell);
     double u[3];
+    gb_mat_apply(motion.f, since->position + 3 * i, u);
     for (size_t k = 0; k < 3; k++) {
-        u[k] = state->position[3 * i + k] -
-               since->position[3 * i + k] * state->cell[k] / since->cell[k];
+        u[k] = state->position[3 * i + k] - u[k];
     }
     gb_cell_nearest(cell, u);
     return gb_vec_length(u) * state->metre_per_length;

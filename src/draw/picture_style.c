@@ -26,13 +26,13 @@ static bool is_hidden(const struct gb_state *state,
                       const struct gb_picture_style_request *request,
                       const double *position)
 {
+    const struct gb_cell cell = gb_state_cell(state);
     double fraction[3];
-    for (int k = 0; k < 3; k++) {
-        fraction[k] = position[k] / state->cell[k];
-    }
+    gb_cell_fraction(&cell, position, fraction);
     if (request->slice_axis >= 0) {
         const int k = request->slice_axis;
-        const double distance = fabs(fraction[k] - request->slice_at) * state->cell[k];
+        const double distance =
+            fabs(fraction[k] - request->slice_at) * gb_cell_spacing(&cell, k);
         return distance > 0.5 * request->slice_width;
     }
     if (request->cut_axis >= 0 && fraction[request->cut_axis] > request->cut_at) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/mat.h"
 
 /* Share of the background colour in the farthest particles: it shows depth and is too
  * small to be read as another coordination number. */
@@ -73,6 +74,16 @@ static void add_edge(struct gb_scene *scene, const double from[3], const double 
     }
 }
 
+/* Corner of the box: bit k stands for edge vector k. */
+static void set_corner(const struct gb_state *state, int corner, double point[3])
+{
+    const struct gb_cell cell = gb_state_cell(state);
+    const double fraction[3] = {corner & 1, corner >> 1 & 1, corner >> 2 & 1};
+    double matrix[3][3];
+    gb_cell_matrix(&cell, matrix);
+    gb_mat_apply((const double(*)[3])matrix, fraction, point);
+}
+
 /* Edges of the box: corner pairs that differ along one axis; in 2D the four at y = 0. */
 static void set_edges(struct gb_scene *scene, const struct gb_state *state)
 {
@@ -84,10 +95,8 @@ static void set_edges(struct gb_scene *scene, const struct gb_state *state)
                 continue;
             }
             double end[2][3];
-            for (int k = 0; k < 3; k++) {
-                end[0][k] = (corner >> k & 1) != 0 ? state->cell[k] : 0.0;
-                end[1][k] = (other >> k & 1) != 0 ? state->cell[k] : 0.0;
-            }
+            set_corner(state, corner, end[0]);
+            set_corner(state, other, end[1]);
             add_edge(scene, end[0], end[1]);
         }
     }

@@ -82,7 +82,8 @@ static const struct column_set {
 };
 
 static const char tensor_note[] =
-    "# tensors: pxy, pxz, pyz of the pressure tensor; q its deviatoric part; asymmetry of "
+    "# tensors: pxy, pxz, pyz of the pressure tensor; q its deviatoric part; asymmetry "
+    "of "
     "its antisymmetric part over the mean pressure; exx, eyy, ezz logarithmic strains, "
     "positive in compression, gxy, gxz, gyz engineering shears, all since the start; fxx "
     "to fyz fabric of the contacts; anisotropies of the fabric of all, bridged, tensile "

@@ -34,24 +34,22 @@ static void leave_tensors_empty(struct gb_point *point)
 
 /* Pressures beside the normal ones, strain of the cell, fabric of the contacts. */
 static void measure_tensors(const struct gb_loading *loading, const double pressure[3][3],
-                            struct gb_point *point)
+                            const struct gb_fabric *fabric, struct gb_point *point)
 {
     const struct gb_model *model = loading->model;
     const struct gb_cell *cell = gb_world_cell(loading->world);
     const double pascal = model->pascal_per_stress;
     static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
-    struct gb_fabric fabric;
-    gb_fabric_measure(loading->world, &fabric);
     for (int k = 0; k < 3; k++) {
-        point->shear_pa[k] = 0.5 * pascal * (pressure[row[k]][column[k]] +
-                                             pressure[column[k]][row[k]]);
+        point->shear_pa[k] =
+            0.5 * pascal * (pressure[row[k]][column[k]] + pressure[column[k]][row[k]]);
         point->strain[k] = log(model->edges[k] / cell->edge[k]);
         point->strain[3 + k] = cell->shear[k];
     }
     point->q_pa = pascal * gb_tensor_deviatoric(pressure, model->dimension);
     point->asymmetry = gb_tensor_asymmetry(pressure, model->dimension);
-    memcpy(point->fabric, fabric.all, sizeof point->fabric);
-    memcpy(point->anisotropy, fabric.anisotropy, sizeof point->anisotropy);
+    memcpy(point->fabric, fabric->all, sizeof point->fabric);
+    memcpy(point->anisotropy, fabric->anisotropy, sizeof point->anisotropy);
     point->leg = NAN;
     if (model->dimension == 2) {
         point->shear_pa[0] = point->shear_pa[2] = NAN;
@@ -86,7 +84,8 @@ static void measure_cell(const struct gb_loading *loading, struct gb_point *poin
     const double pascal = model->pascal_per_stress;
     double tensor[3][3];
     struct gb_contact_counts counts;
-    gb_observe_pressure(loading->world, tensor);
+    struct gb_fabric fabric;
+    gb_fabric_measure(loading->world, tensor, &fabric);
     const double pressure[3] = {tensor[0][0], tensor[1][1], tensor[2][2]};
     gb_observe_contacts(loading->world, &counts, NULL, 0, NULL);
     *point = (struct gb_point){
@@ -106,7 +105,7 @@ static void measure_cell(const struct gb_loading *loading, struct gb_point *poin
         .residual = report.residual,
     };
     leave_empty(point);
-    measure_tensors(loading, (const double(*)[3])tensor, point);
+    measure_tensors(loading, (const double(*)[3])tensor, &fabric, point);
 }
 
 static void measure_die(const struct gb_loading *loading, struct gb_point *point)

@@ -66,7 +66,10 @@ static struct gb_point some_point(void)
                              .residual = 1e-3,
                              .iterations = 40,
                              .evaluations = 45,
-                             .seconds = 1.25};
+                             .seconds = 1.25,
+                             .shear_pa = {0.0, -4e6, 0.0},
+                             .strain = {[4] = 0.25},
+                             .leg = 2.0};
 }
 
 static struct gb_store *new_store(const char *directory)
@@ -90,6 +93,10 @@ static void refused(const char *directory, enum gb_rundir_mode mode, enum gb_sta
     g_assert_nonnull(strstr(err.text, word));
     g_assert_null(strchr(err.text, '\n'));
 }
+
+#define TENSORS                                                                          \
+    "pxy_MPa,pxz_MPa,pyz_MPa,q_MPa,asymmetry,exx,eyy,ezz,gxy,gxz,gyz,fxx,fyy,fzz,fxy,"   \
+    "fxz,fyz,anisotropy,anisotropy_bridged,anisotropy_tension,anisotropy_force,leg"
 
 static void test_rows(void)
 {
@@ -115,10 +122,10 @@ static void test_rows(void)
     g_assert_nonnull(strstr(curve, "# preset: a title\n"));
     g_assert_cmpstr(lines[at], ==,
                     "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,bridged,"
-                    "rattlers,residual,iterations,evaluations,seconds");
+                    "rattlers,residual,iterations,evaluations,seconds," TENSORS);
     g_assert_cmpstr(lines[at + 1], ==,
                     "load,3,0.30000000000000004,0.3333333333333333,,2.5,2.5,4,0.25,0,"
-                    "0.001,40,45,1.250");
+                    "0.001,40,45,1.250,0,-4,0,0,0,0,0,0,0,0.25,0,0,0,0,0,0,0,0,0,0,0,2");
     g_assert_true(g_str_has_prefix(lines[at + 2], "unload:100MPa,3,"));
     g_assert_cmpstr(lines[at + 3], ==, "");
     char *events = content(directory, "events.log");
@@ -150,13 +157,13 @@ static void test_dynamic_rows(void)
     gb_store_destroy(store);
 
     char *curve = content(directory, "curve.csv");
-    g_assert_nonnull(strstr(curve,
-                            "rattlers,residual,iterations,evaluations,seconds,time_ns,"
-                            "kinetic,work,elastic,dissipated,energy_residual\n"));
+    g_assert_nonnull(
+        strstr(curve, "rattlers,residual,iterations,evaluations,seconds,time_ns,"
+                      "kinetic,work,elastic,dissipated,energy_residual," TENSORS "\n"));
     g_assert_nonnull(strstr(curve,
                             "\nhold,3,0.30000000000000004,0.3333333333333333,,2.5,2.5,"
                             "4,0.25,0,0.001,40,45,1.250,1.5,1e-18,4e-17,3e-17,,"
-                            "-0.0002\n"));
+                            "-0.0002,0,-4,0,0,0,0,0,0,0,0.25,0,"));
     g_free(curve);
     g_free(directory);
 }

@@ -211,6 +211,9 @@ static void test_foreign(void)
         if (strcmp(record.item[k].name, "world/pair_force") == 0) {
             continue; /* for pictures only */
         }
+        if (g_str_has_suffix(record.item[k].name, "/tensors")) {
+            continue; /* earlier versions have none */
+        }
         g_strlcpy(kept, record.item[k].name, sizeof kept);
         record.item[k].name[0] = 'X';
         g_assert_false(gb_experiment_resume(&loaded, &params, &record, &err));

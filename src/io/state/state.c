@@ -55,10 +55,13 @@ static const struct number_row numbers[] = {
     {"cell_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, cell), 0},
     {"cell_tilt_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, tilt), 4},
     {"die_radius_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_radius), 3},
-    {"metre_per_length", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, metre_per_length), 0},
-    {"pascal_per_stress", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, pascal_per_stress), 0},
+    {"metre_per_length", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, metre_per_length),
+     0},
+    {"pascal_per_stress", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, pascal_per_stress),
+     0},
     {"seed", GB_HDF_UINT64, 1, offsetof(struct gb_state, seed), 0},
-    {"branch_from_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.branch_from_pa), 0},
+    {"branch_from_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.branch_from_pa),
+     0},
     {"step", GB_HDF_INT64, 1, offsetof(struct gb_state, point.step), 0},
     {"density", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.density), 0},
     {"px_pa", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, point.px_pa), 0},
@@ -240,7 +243,6 @@ static bool read_layout(struct gb_hdf *file, const char *path, int32_t *number,
     }
     return true;
 }
-
 
 static bool read_numbers(struct gb_state *state, struct gb_hdf *file, int32_t layout,
                          struct gb_error *err)

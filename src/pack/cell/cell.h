@@ -1,6 +1,7 @@
 #ifndef GB_PACK_CELL_CELL_H
 #define GB_PACK_CELL_CELL_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "base/deformation.h"
@@ -30,8 +31,9 @@ static inline double gb_cell_whole(double x)
 /* An element off the diagonal of H is not 0. */
 static inline bool gb_cell_tilted(const struct gb_cell *cell)
 {
-    return cell->tilt[0] != 0.0 || cell->tilt[1] != 0.0 || cell->tilt[2] != 0.0 ||
-           cell->below[0] != 0.0 || cell->below[1] != 0.0 || cell->below[2] != 0.0;
+    return fabs(cell->tilt[0]) + fabs(cell->tilt[1]) + fabs(cell->tilt[2]) +
+               fabs(cell->below[0]) + fabs(cell->below[1]) + fabs(cell->below[2]) >
+           0.0; /* one comparison: it is asked for every pair */
 }
 
 void gb_cell_init(struct gb_cell *cell, int dimension, const double edge[3]);

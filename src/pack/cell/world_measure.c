@@ -15,8 +15,14 @@ double gb_world_measure_density(const struct gb_world *world)
 
 void gb_world_measure_pressure(const struct gb_world *world, double pressure[3][3])
 {
+    gb_world_measure_tensors(world, pressure, NULL);
+}
+
+void gb_world_measure_tensors(const struct gb_world *world, double pressure[3][3],
+                              struct gb_fabric_sums *fabric)
+{
     const double volume = gb_cell_volume(gb_world_cell(world));
-    gb_virial_sum(world, pressure);
+    gb_virial_sum_fabric(world, pressure, fabric);
     for (int a = 0; a < 3; a++) {
         gb_vec_scale(pressure[a], 1.0 / volume);
     }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "pack/cell/world_private.h"
+#include "pack/kernel/fabric_sums.h"
 #include "pack/kernel/pair_forces.h"
 #include "pack/kernel/share.h"
 #include "pack/kernel/simd.h"
@@ -50,9 +51,29 @@ GB_SIMD_LOOP void add_batch_loop(const struct gb_batch_f32 *batch,
 GB_SIMD_WIDTHS(add_batch, (const struct gb_batch_f32 *batch, double lane[3][3][GB_LANES]),
                (batch, lane))
 
-/* Pairs [begin, end) of a list in single precision. */
+/* Contacts of a batch in single precision that begins at a slot of the near list. */
+static void add_fabric_f32(const struct gb_engine *engine,
+                           const struct gb_batch_f32 *batch, int64_t slot,
+                           struct gb_fabric_sums *fabric)
+{
+    const struct gb_contacts *contacts = &engine->contacts;
+    const float *deepest = (const float *)contacts->plane[contacts->deepest] + slot;
+    struct gb_fabric_sums_batch pairs;
+    pairs.n = batch->n;
+    for (int k = 0; k < batch->n; k++) {
+        for (int c = 0; c < 3; c++) {
+            pairs.r[c][k] = (double)batch->r[c][k];
+            pairs.force[c][k] = (double)batch->force[c][k];
+        }
+        pairs.deepest[k] = (double)deepest[k];
+    }
+    gb_fabric_sums_add(fabric, &pairs);
+}
+
+/* Pairs [begin, end) of a list in single precision; fabric: of the near list, or NULL. */
 static void sum_f32(const struct gb_engine *engine, const struct gb_pair_list *list,
-                    int64_t begin, int64_t end, double sum[3][3])
+                    int64_t begin, int64_t end, double sum[3][3],
+                    struct gb_fabric_sums *fabric)
 {
     double lane[3][3][GB_LANES] = {0};
     struct gb_batch_f32 batch;
@@ -60,6 +81,9 @@ static void sum_f32(const struct gb_engine *engine, const struct gb_pair_list *l
         batch.n = end - slot < GB_BATCH ? (int)(end - slot) : GB_BATCH;
         gb_sweep_f32_recompute(engine, list, slot, &batch);
         add_batch(&batch, lane);
+        if (fabric) {
+            add_fabric_f32(engine, &batch, slot, fabric);
+        }
     }
     for (int a = 0; a < 3; a++) {
         for (int b = 0; b < 3; b++) {
@@ -70,47 +94,100 @@ static void sum_f32(const struct gb_engine *engine, const struct gb_pair_list *l
     }
 }
 
-/* Pairs of particle i in double precision. */
-static void sum_f64(struct gb_pair_forces *forces, int64_t i, double sum[3][3])
+/* Adds pair k to those of the fabric, if it touches; a full batch is added to the sums. */
+static void add_fabric_f64(const struct gb_engine *engine, int64_t k,
+                           const double force[3], const double r[3],
+                           struct gb_fabric_sums_batch *pairs,
+                           struct gb_fabric_sums *fabric)
+{
+    const double deepest = gb_contacts_deepest(&engine->contacts, k);
+    if (deepest < 0.0) {
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        pairs->r[c][pairs->n] = r[c];
+        pairs->force[c][pairs->n] = force[c];
+    }
+    pairs->deepest[pairs->n++] = deepest;
+    if (pairs->n == GB_BATCH) {
+        gb_fabric_sums_add(fabric, pairs);
+        pairs->n = 0;
+    }
+}
+
+/* Pairs of particle i in double precision; fabric: of the near list, or NULL. */
+static void sum_f64(struct gb_pair_forces *forces, int64_t i, double sum[3][3],
+                    struct gb_fabric_sums_batch *pairs, struct gb_fabric_sums *fabric)
 {
     const struct gb_pair_list *list = forces->list;
+    const struct gb_engine *engine = &forces->world->engine;
     for (int64_t k = list->start[i]; k < list->start[i + 1]; k++) {
         double force[3], r[3];
-        gb_engine_branch_vector(&forces->world->engine, list, i, k, r);
+        gb_engine_branch_vector(engine, list, i, k, r);
         gb_pair_forces_at(forces, k, force);
         add(sum, force, r);
+        if (fabric) {
+            add_fabric_f64(engine, k, force, r, pairs, fabric);
+        }
     }
 }
 
 static void sum_part(const struct gb_world *world, int64_t begin, int64_t end,
-                     double sum[3][3])
+                     double sum[3][3], struct gb_fabric_sums *fabric)
 {
     const struct gb_engine *engine = &world->engine;
     const struct gb_pair_list *near = &engine->list.near, *far = &engine->list.far;
     struct gb_pair_forces near_forces, far_forces;
+    struct gb_fabric_sums_batch pairs;
     if (gb_engine_is_f32(engine)) {
-        sum_f32(engine, near, near->start[begin], near->start[end], sum);
-        sum_f32(engine, far, far->start[begin], far->start[end], sum);
+        sum_f32(engine, near, near->start[begin], near->start[end], sum, fabric);
+        sum_f32(engine, far, far->start[begin], far->start[end], sum, NULL);
         return;
     }
     gb_pair_forces_init(&near_forces, world, GB_PAIR_FORCES_NEAR);
     gb_pair_forces_init(&far_forces, world, GB_PAIR_FORCES_FAR);
+    pairs.n = 0;
     for (int64_t i = begin; i < end; i++) {
-        sum_f64(&near_forces, i, sum);
-        sum_f64(&far_forces, i, sum);
+        sum_f64(&near_forces, i, sum, &pairs, fabric);
+        sum_f64(&far_forces, i, sum, NULL, NULL);
+    }
+    if (fabric) {
+        gb_fabric_sums_add(fabric, &pairs);
     }
 }
 
 void gb_virial_sum(const struct gb_world *world, double sum[3][3])
 {
+    gb_virial_sum_fabric(world, sum, NULL);
+}
+
+/* Adds the sums of a part. */
+static void add_part(struct gb_fabric_sums *sums, const struct gb_fabric_sums *part)
+{
+    for (int kind = 0; kind < GB_FABRIC_KINDS; kind++) {
+        sums->weight[kind] += part->weight[kind];
+        for (int s = 0; s < 6; s++) {
+            sums->tensor[kind][s] += part->tensor[kind][s];
+        }
+    }
+}
+
+void gb_virial_sum_fabric(const struct gb_world *world, double sum[3][3],
+                          struct gb_fabric_sums *fabric)
+{
     double part[PARTS][3][3] = {0};
+    struct gb_fabric_sums fabric_part[PARTS];
     const int64_t count = world->engine.particles.count;
     const int threads = world->engine.threads, parts = parts_of(&world->engine);
     (void)threads; /* without OpenMP */
 #pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
     for (int p = 0; p < parts; p++) {
-        sum_part(world, gb_share(count, p, parts), gb_share(count, p + 1, parts),
-                 part[p]);
+        fabric_part[p] = (struct gb_fabric_sums){.weight = {0}};
+        sum_part(world, gb_share(count, p, parts), gb_share(count, p + 1, parts), part[p],
+                 fabric ? &fabric_part[p] : NULL);
+    }
+    for (int p = 0; fabric && p < parts; p++) {
+        add_part(fabric, &fabric_part[p]);
     }
     memset(sum, 0, sizeof part[0]);
     for (int p = 0; p < parts; p++) {

@@ -81,9 +81,6 @@ static uint8_t nearest_image(const struct gb_cell *cell, const double *xi,
 {
     int image = 0, weight = 1;
     double sum = 0.0;
-    if (gb_cell_tilted(cell)) {
-        return nearest_image_tilted(cell, xi, xj, squared);
-    }
     for (int k = 0; k < 3; k++) {
         double r = xi[k] - xj[k];
         int s = 0;
@@ -155,7 +152,8 @@ static int scan_bins(const struct gb_list_scan *scan, int64_t i, int first, int 
         double squared = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
         uint8_t seen = (uint8_t)image;
         if (!scan->grid.plain) {
-            seen = nearest_image(scan->cell, x, y, &squared);
+            seen = (scan->grid.tilted ? nearest_image_tilted
+                                      : nearest_image)(scan->cell, x, y, &squared);
         }
         const int32_t other = scan->particle[k];
         const struct gb_list_scan_bounds own =

@@ -169,25 +169,14 @@ GB_SIMD_WIDTHS(displacement,
                 int64_t count, double *total, double *most),
                (position, built, scaling, count, total, most))
 
-double gb_neighbour_list_displacement2(const struct gb_neighbour_list *list, int64_t i,
-                                       const double x[3])
+double gb_neighbour_list_displacement2_tilted(const struct gb_neighbour_list *list,
+                                              int64_t i, const double x[3])
 {
-    const double *built = list->built_position + 3 * i;
-    double square = 0.0, affine[3];
-    if (gb_cell_tilted(&list->unit)) {
-        double matrix[3][3];
-        gb_cell_matrix(&list->unit, matrix);
-        gb_mat_apply((const double(*)[3])matrix, built, affine);
-    } else {
-        for (int k = 0; k < 3; k++) {
-            affine[k] = built[k] * list->unit.edge[k];
-        }
-    }
-    for (int k = 0; k < 3; k++) {
-        const double moved = x[k] - affine[k];
-        square += moved * moved;
-    }
-    return square;
+    double matrix[3][3], moved[3];
+    gb_cell_matrix(&list->unit, matrix);
+    gb_mat_apply((const double(*)[3])matrix, list->built_position + 3 * i, moved);
+    gb_vec_add(moved, -1.0, x);
+    return gb_vec_dot(moved, moved);
 }
 
 /* The same as displacement_loop under shear. */
@@ -246,11 +235,15 @@ void gb_neighbour_list_update_shifts(struct gb_neighbour_list *list,
 {
     double matrix[3][3];
     gb_cell_matrix(cell, matrix);
+    const bool tilted = gb_cell_tilted(cell);
     for (int image = 0; image < 27; image++) {
         double s[3] = {image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1};
         for (int k = 0; k < 3; k++) {
             s[k] = cell->periodic[k] ? s[k] : 0.0;
+            list->shift[image][k] = s[k] * cell->edge[k];
         }
-        gb_mat_apply((const double(*)[3])matrix, s, list->shift[image]);
+        if (tilted) {
+            gb_mat_apply((const double(*)[3])matrix, s, list->shift[image]);
+        }
     }
 }

@@ -58,12 +58,7 @@ static void copy_front(const struct gb_state *state, bool die,
 static void measure_distances(const struct gb_state *state, struct gb_view_sample *sample)
 {
     const struct gb_cell cell = gb_state_cell(state);
-    double reach = rdf_reach;
-    for (int c = 0; c < 3; c++) {
-        if (c != 1 || state->dimension == 3) {
-            reach = fmin(reach, 0.499 * state->cell[c]);
-        }
-    }
+    const double reach = fmin(rdf_reach, 0.499 * gb_cell_shortest(&cell));
     if (gb_structure_rdf(&cell, state->count, state->position, reach, GB_VIEW_SAMPLE_RDF,
                          sample->rdf, NULL)) {
         sample->rdf_reach = reach;
