@@ -1,5 +1,6 @@
 #include "base/record.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -190,6 +191,41 @@ bool gb_record_members(struct gb_record *record, const struct gb_record_member *
         const struct gb_record_member *row = &table[k];
         if (!gb_record_array(record, row->name, row->type, 1, row->columns, row->unit,
                              (char *)object + row->offset, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* A copy of an item under another name. */
+static bool add_copy(struct gb_record *record, const char *name,
+                     const struct gb_record_item *from, struct gb_error *err)
+{
+    struct gb_record_item *item = gb_record_add(record, name, from->type, from->rows,
+                                                from->columns, from->unit, err);
+    if (item && from->rows > 0) {
+        memcpy(item->data, from->data, gb_record_bytes(from));
+    }
+    return item != NULL;
+}
+
+bool gb_record_nest(struct gb_record *record, const char *prefix, struct gb_record *inner,
+                    struct gb_error *err)
+{
+    const size_t length = strlen(prefix);
+    if (record->loading) {
+        gb_record_clear(inner);
+    }
+    const struct gb_record *from = record->loading ? record : inner;
+    for (int k = 0; k < from->count; k++) {
+        const char *name = from->item[k].name;
+        char outer[2 * GB_RECORD_NAME];
+        if (record->loading && strncmp(name, prefix, length) != 0) {
+            continue;
+        }
+        snprintf(outer, sizeof outer, "%s%s", prefix, name);
+        if (!(record->loading ? add_copy(inner, name + length, &from->item[k], err)
+                              : add_copy(record, outer, &from->item[k], err))) {
             return false;
         }
     }

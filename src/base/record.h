@@ -83,6 +83,11 @@ struct gb_record_member {
 bool gb_record_members(struct gb_record *record, const struct gb_record_member *table,
                        size_t count, void *object, struct gb_error *err);
 
+/* Copies all items of an inner record into this one, their names behind the prefix, or out
+ * of it; loading, the inner record is made of the items with that prefix. */
+bool gb_record_nest(struct gb_record *record, const char *prefix, struct gb_record *inner,
+                    struct gb_error *err);
+
 /* Removes all items whose names begin with prefix. */
 void gb_record_remove(struct gb_record *record, const char *prefix);
 

@@ -23,7 +23,9 @@ refused() {
 }
 
 header=branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,bridged,rattlers,
-header=${header}residual,iterations,evaluations,seconds
+header=${header}residual,iterations,evaluations,seconds,pxy_MPa,pxz_MPa,pyz_MPa,q_MPa,
+header=${header}asymmetry,exx,eyy,ezz,gxy,gxz,gyz,fxx,fyy,fzz,fxy,fxz,fyz,anisotropy,
+header=${header}anisotropy_bridged,anisotropy_tension,anisotropy_force,leg
 
 # --- a run ------------------------------------------------------------------------------
 run --out out
@@ -34,8 +36,8 @@ done
 is 'header of the curve' grep -qx "$header" out/curve.csv
 is 'the curve names the seed' grep -q '^# seed: 1$' out/curve.csv
 is 'several points' [ "$(grep -c '^load,' out/curve.csv)" -gt 1 ]
-is '14 columns everywhere' \
-    awk -F, '!/^#/ && NF != 14 { bad = 1 } END { exit bad }' out/curve.csv
+is '36 columns everywhere' \
+    awk -F, '!/^#/ && NF != 36 { bad = 1 } END { exit bad }' out/curve.csv
 is 'no nan or inf' sh -c '! grep -v "^#" out/curve.csv | grep -qiE "nan|inf"'
 is 'the pressure was reached' \
     awk -F, '/^load/ { p = $7 } END { exit !(p >= 5) }' out/curve.csv

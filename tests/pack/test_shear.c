@@ -225,7 +225,7 @@ static void test_record(void)
         world_evaluate_any(world);
         world_evaluate_any(loaded);
     }
-    gb_record_clear(&record);
+    gb_record_finish(&record);
     gb_world_destroy(loaded);
     gb_world_destroy(world);
 }

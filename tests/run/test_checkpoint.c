@@ -116,6 +116,54 @@ static struct gb_params quasistatic(const char *contact, const char *geometry,
                         geometry, relaxer, NULL);
 }
 
+/* The next point of the loading branch; false at the end of the run. */
+static bool step_loading(struct gb_experiment *experiment, GString *events)
+{
+    bool more = step(experiment, 1000, events);
+    while (more && gb_experiment_point(experiment)->branch > 0) {
+        more = step(experiment, 1000, events);
+    }
+    return more;
+}
+
+/* Unloading leaves no trace: the loading branch has the same bits without branches. */
+static void check_trace(struct gb_params params)
+{
+    struct gb_params plain = params;
+    plain.unload_count = 0;
+    struct gb_experiment *branched = create(&params), *straight = create(&plain);
+    GString *events = g_string_new(NULL);
+    while (step_loading(straight, events)) {
+        g_assert_true(step_loading(branched, events));
+        const struct gb_point *a = gb_experiment_point(branched);
+        const struct gb_point *b = gb_experiment_point(straight);
+        g_assert_cmpfloat(a->density, ==, b->density);
+        g_assert_cmpfloat(a->p_pa, ==, b->p_pa);
+        g_assert_cmpfloat(a->residual, ==, b->residual);
+        g_assert_cmpint(a->evaluations, ==, b->evaluations);
+        g_assert_cmpuint(gb_world_hash(gb_experiment_world(branched)), ==,
+                         gb_world_hash(gb_experiment_world(straight)));
+    }
+    g_assert_false(step_loading(branched, events));
+    g_assert_nonnull(strstr(events->str, "unloaded; loading continues"));
+    g_string_free(events, TRUE);
+    gb_experiment_destroy(branched);
+    gb_experiment_destroy(straight);
+}
+
+static void test_trace(void)
+{
+    static const char *const relaxer[] = {"numerics.relaxer=predict",
+                                          "numerics.relaxer=fire"};
+    static const char *const precision[] = {"numerics.precision=single",
+                                            "numerics.precision=double"};
+    for (int k = 0; k < 4; k++) {
+        check_trace(quasistatic("contact.mu=0.1", relaxer[k / 2], precision[k % 2]));
+    }
+    check_trace(scene_params("loading.until=density=0.26", "loading.unload_from=2 kPa",
+                             "loading.step=0.4 %", "numerics.relaxer=steepest", NULL));
+}
+
 static void test_bridges(void)
 {
     check(quasistatic("contact.mu=0.1", "loading.geometry=uniaxial",
@@ -269,6 +317,7 @@ static void test_memory(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/checkpoint/trace", test_trace);
     g_test_add_func("/checkpoint/bridges", test_bridges);
     g_test_add_func("/checkpoint/every point", test_every_point);
     g_test_add_func("/checkpoint/no bridges", test_no_bridges);

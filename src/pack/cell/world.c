@@ -222,6 +222,11 @@ int64_t gb_world_evaluations(const struct gb_world *world)
     return world->evaluations;
 }
 
+void gb_world_set_evaluations(struct gb_world *world, int64_t evaluations)
+{
+    world->evaluations = evaluations;
+}
+
 int64_t gb_world_rebuilds(const struct gb_world *world)
 {
     return world->rebuilds;

@@ -94,6 +94,8 @@ void gb_world_branch_vector(const struct gb_world *world, const struct gb_pair_l
                             int64_t i, int64_t k, double r[3]);
 
 int64_t gb_world_evaluations(const struct gb_world *world);
+/* Sets the number: after going back to a record, evaluations since then count, too. */
+void gb_world_set_evaluations(struct gb_world *world, int64_t evaluations);
 int64_t gb_world_rebuilds(const struct gb_world *world);
 
 /* A copy of cell, positions and contact histories, for a restore. */

@@ -16,8 +16,10 @@
 struct quasistatic_loading {
     struct gb_loading base;
     struct gb_relax *relax;
-    struct gb_world_copy *good;         /* before the strain step under way */
-    struct gb_world_copy *branch_start; /* where the unloading branch began */
+    struct gb_world_copy *good; /* before the strain step under way */
+    /* Where the unloading branch began: all that the loading branch depends on. */
+    struct gb_record branch_start;
+    struct gb_world_copy *old_branch_start; /* of a checkpoint of version 0.1, or NULL */
     struct gb_quasistatic schedule;
     struct gb_guard guard;
     int part; /* of the strain step, from 1; the parts are equal */
@@ -70,7 +72,8 @@ static void finish(struct gb_loading *loading)
 {
     struct quasistatic_loading *run = own(loading);
     gb_world_copy_destroy(run->good);
-    gb_world_copy_destroy(run->branch_start);
+    gb_world_copy_destroy(run->old_branch_start);
+    gb_record_finish(&run->branch_start);
     gb_relax_destroy(run->relax);
 }
 
@@ -213,13 +216,52 @@ static void add_restore_event(const struct quasistatic_loading *run,
     gb_event_queue_add(events, text);
 }
 
-/* Back to where the unloading branch began.  The evaluation brings the forces of that
- * state, so that the schedule sees its pressure. */
+/* Packing, relaxer and strain step into a record or out of it. */
+static bool record_branch_start(struct quasistatic_loading *run, struct gb_record *record,
+                                struct gb_error *err)
+{
+    return gb_record_array(record, "load/step", GB_RECORD_DOUBLE, 1, 1, "1",
+                           &run->schedule.step, err) &&
+           gb_world_record(run->base.world, record, err) &&
+           gb_relax_record(run->relax, run->base.model->count, record, err);
+}
+
+static bool save_branch_start(struct quasistatic_loading *run, struct gb_error *err)
+{
+    gb_record_clear(&run->branch_start);
+    gb_world_copy_destroy(run->old_branch_start);
+    run->old_branch_start = NULL;
+    const bool done = record_branch_start(run, &run->branch_start, err);
+    gb_record_remove(&run->branch_start, "world/pair_force"); /* for pictures only */
+    return done;
+}
+
+/* Back to where the unloading branch began, as a resumed run goes back to its checkpoint:
+ * loading continues to the same bits as without the branch. */
 static bool restore_branch_start(struct quasistatic_loading *run, struct gb_error *err)
 {
+    struct gb_world *world = run->base.world;
+    const int64_t evaluations = gb_world_evaluations(world);
     run->base.restored = true;
-    return gb_world_copy_restore(run->base.world, run->branch_start, err) &&
-           gb_world_evaluate(run->base.world, err);
+    if (run->old_branch_start) {
+        return gb_world_copy_restore(world, run->old_branch_start, err) &&
+               gb_world_evaluate(world, err);
+    }
+    run->branch_start.loading = true;
+    const bool done = record_branch_start(run, &run->branch_start, err);
+    gb_world_set_evaluations(world, evaluations);
+    return done;
+}
+
+/* The start of the branch in a checkpoint. */
+static bool record_branch(struct quasistatic_loading *run, struct gb_record *record,
+                          struct gb_error *err)
+{
+    if (run->old_branch_start ||
+        (record->loading && gb_record_find(record, "branch/position"))) {
+        return gb_world_record_copy(run->base.world, &run->old_branch_start, record, err);
+    }
+    return gb_record_nest(record, "branch_", &run->branch_start, err);
 }
 
 static enum gb_step_outcome save_good(struct quasistatic_loading *run,
@@ -251,7 +293,7 @@ static enum gb_step_outcome decide_next(struct quasistatic_loading *run,
             return GB_STEP_DONE;
         case GB_QUASISTATIC_UNLOAD:
             add_unload_event(run, pressure, events);
-            if (!gb_world_copy_save(run->base.world, &run->branch_start, err)) {
+            if (!save_branch_start(run, err)) {
                 return GB_STEP_STOPPED;
             }
             break;
@@ -285,9 +327,7 @@ static enum gb_step_outcome decide_again(struct gb_loading *loading, struct gb_e
     const double density = gb_world_measure_density(loading->world);
     switch (gb_quasistatic_next(&run->schedule, pressure, density, run->base.factor)) {
     case GB_QUASISTATIC_UNLOAD:
-        return gb_world_copy_save(loading->world, &run->branch_start, err)
-                   ? GB_STEP_MORE
-                   : GB_STEP_STOPPED;
+        return save_branch_start(run, err) ? GB_STEP_MORE : GB_STEP_STOPPED;
     case GB_QUASISTATIC_END:
         run->base.strain_due = false;
         return GB_STEP_DONE;
@@ -317,8 +357,7 @@ static bool record_schedule(struct gb_loading *loading, struct gb_record *record
     struct quasistatic_loading *run = own(loading);
     return gb_quasistatic_record(&run->schedule, record, err) &&
            gb_relax_record(run->relax, loading->model->count, record, err) &&
-           (run->schedule.branch <= 0 ||
-            gb_world_record_copy(loading->world, &run->branch_start, record, err)) &&
+           (run->schedule.branch <= 0 || record_branch(run, record, err)) &&
            (!record->loading || check_loaded(run, err));
 }
 
