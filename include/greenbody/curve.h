@@ -12,8 +12,14 @@ extern "C" {
 #endif
 
 /* Branches of a run besides unloading: relaxation before loading, loading, and holding at
- * the end density of a dynamic run. */
-enum { GB_BRANCH_RELAX = -1, GB_BRANCH_LOAD = 0, GB_BRANCH_HOLD = -2 };
+ * the end density of a dynamic run.  Leg n > 1 of a loading path: GB_BRANCH_LEG - n;
+ * the first one is the loading. */
+enum {
+    GB_BRANCH_RELAX = -1,
+    GB_BRANCH_LOAD = 0,
+    GB_BRANCH_HOLD = -2,
+    GB_BRANCH_LEG = -100
+};
 
 /* One recorded point of a run: one row of curve.csv.  Pressures in Pa; NaN where a value
  * does not exist (py in 2D).  p is the mean pressure over the compressed axes: the one

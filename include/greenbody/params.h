@@ -38,6 +38,8 @@ enum gb_geometry {
 enum gb_ramp { GB_RAMP_AUTO, GB_RAMP_LINEAR, GB_RAMP_QUADRATIC };
 enum gb_precision { GB_PRECISION_AUTO, GB_PRECISION_DOUBLE, GB_PRECISION_SINGLE };
 enum gb_fidelity { GB_FIDELITY_FAST, GB_FIDELITY_BALANCED, GB_FIDELITY_REFERENCE };
+/* What a loading path does where no equilibrium of a stress exists. */
+enum gb_on_collapse { GB_COLLAPSE_STOP, GB_COLLAPSE_STRAIN };
 enum gb_on_hangup { GB_ON_HANGUP_DETACH, GB_ON_HANGUP_STOP };
 
 enum { GB_UNLOAD_MAX = 16, GB_SIZES_MAX = 128 };
@@ -134,7 +136,9 @@ struct gb_params {
     double until_density;     /* NaN when the run stops at a pressure */
     double unload_from_pa[GB_UNLOAD_MAX];
     int unload_count;
-    char changes[256]; /* "120 contact.mu=0.3; ...": changes after a recorded step */
+    char path[512];    /* the legs of a loading path; empty: the keys above */
+    int on_collapse;   /* enum gb_on_collapse */
+    char changes[768]; /* "120 contact.mu=0.3; ...": changes after a recorded step */
     double rate_per_s; /* (1/rho) d rho/dt; this and the next four: dynamic scenes */
     double relax_s, hold_s;
     double record_density;     /* relative growth of density between recorded points */

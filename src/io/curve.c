@@ -86,6 +86,10 @@ const struct gb_point *gb_curve_at(const struct gb_curve *curve, size_t index)
 
 char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t size)
 {
+    if (point->branch < GB_BRANCH_LEG) {
+        snprintf(buffer, size, "leg:%d", GB_BRANCH_LEG - point->branch);
+        return buffer;
+    }
     if (point->branch <= 0) {
         snprintf(buffer, size, "%s",
                  point->branch == GB_BRANCH_LOAD   ? "load"

@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "io/line_file.h"
 #include "io/point_columns.h"
+#include "scene/derived.h"
 
 /* ",value" with the fewest digits that read back the same; only "," where there is none.
  */
@@ -20,7 +21,7 @@ static void append_number(GString *row, double value)
 
 static const char *compressed_axes(const struct gb_params *params)
 {
-    switch (params->geometry) {
+    switch (gb_derived_geometry(params)) {
     case GB_GEOMETRY_UNIAXIAL:
     case GB_GEOMETRY_DIE:
         return "z";

@@ -13,6 +13,7 @@
 #include "io/point_columns.h"
 #include "io/preset.h"
 #include "io/status_json.h"
+#include "scene/path/path.h"
 
 bool gb_follow_params(const char *directory, struct gb_params *params,
                       struct gb_error *err)
@@ -38,6 +39,14 @@ bool gb_follow_params(const char *directory, struct gb_params *params,
 static bool find_branch(const char *name, const struct gb_params *params,
                         struct gb_point *point)
 {
+    for (int leg = 2; leg <= GB_PATH_LEGS_MAX; leg++) {
+        char text[64];
+        point->branch = GB_BRANCH_LEG - leg;
+        point->branch_from_pa = 0.0;
+        if (strcmp(gb_curve_branch_name(point, text, sizeof text), name) == 0) {
+            return true;
+        }
+    }
     for (int branch = GB_BRANCH_HOLD; branch <= params->unload_count; branch++) {
         char text[64];
         point->branch = branch;

@@ -100,7 +100,7 @@ static bool change(struct gb_experiment *experiment, struct gb_error *err)
     if (!gb_change_apply(experiment, err)) {
         return false;
     }
-    snprintf(text, sizeof text, "changed after step %" PRId64 ", density %.4f: %s",
+    snprintf(text, sizeof text, "changed after step %" PRId64 ", density %.4f: %.256s",
              experiment->point.step, experiment->point.density,
              experiment->params.changes);
     gb_event_queue_add(&experiment->events, text);
@@ -135,6 +135,7 @@ static enum gb_step_outcome record(struct gb_experiment *experiment, struct gb_e
     }
     experiment->over = next == GB_STEP_DONE;
     if (next == GB_STEP_STOPPED || !change(experiment, err)) {
+        gb_event_queue_add(&experiment->events, err->text);
         return stop(experiment);
     }
     return GB_STEP_POINT;

@@ -15,7 +15,9 @@ static int branch_of(const struct gb_loading_report *report)
     static const int branch[] = {[GB_LOADING_RELAX] = GB_BRANCH_RELAX,
                                  [GB_LOADING_LOAD] = GB_BRANCH_LOAD,
                                  [GB_LOADING_HOLD] = GB_BRANCH_HOLD};
-    return report->unloading > 0 ? report->unloading : branch[report->stage];
+    return report->unloading > 0 ? report->unloading
+           : report->begun > 1   ? GB_BRANCH_LEG - report->begun
+                                 : branch[report->stage];
 }
 
 static double second_per_time(const struct gb_loading *loading)
@@ -50,7 +52,6 @@ static void measure_tensors(const struct gb_loading *loading, const double press
     point->asymmetry = gb_tensor_asymmetry(pressure, model->dimension);
     memcpy(point->fabric, fabric->all, sizeof point->fabric);
     memcpy(point->anisotropy, fabric->anisotropy, sizeof point->anisotropy);
-    point->leg = NAN;
     if (model->dimension == 2) {
         point->shear_pa[0] = point->shear_pa[2] = NAN;
         point->strain[1] = point->strain[3] = point->strain[5] = NAN;
@@ -106,6 +107,7 @@ static void measure_cell(const struct gb_loading *loading, struct gb_point *poin
     };
     leave_empty(point);
     measure_tensors(loading, (const double(*)[3])tensor, &fabric, point);
+    point->leg = report.leg > 0 ? report.leg : (double)NAN;
 }
 
 static void measure_die(const struct gb_loading *loading, struct gb_point *point)

@@ -4,6 +4,8 @@
 
 #include "law/law_storakers.h"
 #include "scene/field/field.h"
+#include "scene/loading_kind.h"
+#include "scene/path/path.h"
 #include "scene/size/sizes.h"
 
 /* sigma_b at auto, in E.  With bridges: P1's set II.  Without: P1
@@ -98,4 +100,14 @@ void gb_derived_cell(const struct gb_params *params, double edges[3])
     edges[0] = base;
     edges[1] = params->dimension == 2 ? 1.0 : base;
     edges[2] = volume / (edges[0] * edges[1]);
+}
+
+int gb_derived_geometry(const struct gb_params *params)
+{
+    struct gb_path path;
+    if (gb_loading_kind_follows_path(params) &&
+        gb_path_parse(&path, params->path, params->dimension, NULL) && path.count > 0) {
+        return gb_path_geometry(&path, params->dimension);
+    }
+    return params->geometry;
 }

@@ -20,6 +20,10 @@ double gb_derived_hollomon_pa(const struct gb_params *params);
 /* Density of the initial structure; auto is 0.24 in 3D and 0.5 in 2D (P1, P2). */
 double gb_derived_structure_density(const struct gb_params *params);
 
+/* Compressed axes, an enum gb_geometry: loading.geometry, or those of the first leg of
+ * loading.path. */
+int gb_derived_geometry(const struct gb_params *params);
+
 /* The reduced unit of time T = sqrt(m/(E d)) = sqrt(pi rho_m d^2/(6 E)), 0.74 ps for
  * alumina of 10 nm.  Source: P2 section 2. */
 double gb_derived_unit_time_s(const struct gb_params *params);

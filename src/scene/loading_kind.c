@@ -16,6 +16,8 @@ static const char *const quasistatic_fields[] = {
     "structure.r_meso",
     "loading.step",
     "loading.unload_from",
+    "loading.path",
+    "loading.on_collapse",
     "numerics.relaxer",
     "numerics.tolerance",
     "numerics.max_evaluations",
@@ -58,6 +60,7 @@ const struct gb_loading_kind gb_loading_kind_table[GB_LOADING_KINDS] = {
             .single_precision = true,
             .changes = true,
             .unloading_branches = true,
+            .paths = true,
             .check = gb_quasistatic_scene_check,
             .freeze = gb_quasistatic_scene_freeze,
             .note = gb_quasistatic_scene_note,
@@ -104,6 +107,11 @@ const struct gb_loading_kind *gb_loading_kind_at(int kind)
 const struct gb_loading_kind *gb_loading_kind_of(const struct gb_params *params)
 {
     return gb_loading_kind_at(params->kind);
+}
+
+bool gb_loading_kind_follows_path(const struct gb_params *params)
+{
+    return gb_loading_kind_of(params)->paths && params->path[0] != '\0';
 }
 
 static void append_name(char *buffer, size_t size, const char *name)

@@ -38,6 +38,7 @@ struct gb_loading_kind {
                               * steps is known beforehand, points belong to stages */
     bool changes;            /* loading.changes, and what-if runs that start from it */
     bool unloading_branches; /* loading.unload_from */
+    bool paths;              /* loading.path */
     /* What the kind requires beyond the ranges of its keys.  Errors: GB_ERR_INPUT naming
      * the keys. */
     bool (*check)(const struct gb_params *params, struct gb_error *err);
@@ -55,6 +56,9 @@ extern const struct gb_loading_kind gb_loading_kind_table[GB_LOADING_KINDS];
 /* The row of a kind (enum gb_kind), or of the scene of these parameters. */
 const struct gb_loading_kind *gb_loading_kind_at(int kind);
 const struct gb_loading_kind *gb_loading_kind_of(const struct gb_params *params);
+
+/* The scene follows loading.path instead of loading.geometry, until and unload_from. */
+bool gb_loading_kind_follows_path(const struct gb_params *params);
 
 /* GB_ERR_INPUT unless the kind's law of contact is one that it accepts. */
 bool gb_loading_kind_check_normal(const struct gb_params *params, struct gb_error *err);

@@ -68,9 +68,10 @@ static double by_fidelity(int fidelity, double fast, double balanced, double ref
 static void pick_for_predict(struct gb_numerics *numerics, const struct gb_params *params,
                              bool bridges, double *part)
 {
-    const int axes = params->geometry == GB_GEOMETRY_ISOTROPIC ? params->dimension
-                     : params->geometry == GB_GEOMETRY_BIAXIAL ? 2
-                                                               : 1;
+    const int geometry = gb_derived_geometry(params);
+    const int axes = geometry == GB_GEOMETRY_ISOTROPIC ? params->dimension
+                     : geometry == GB_GEOMETRY_BIAXIAL ? 2
+                                                       : 1;
     const bool fast = params->fidelity == GB_FIDELITY_FAST;
     *part = (fast ? GB_PREDICT_STRAIN_PART_FAST : GB_PREDICT_STRAIN_PART_BALANCED) /
             sqrt(axes);
@@ -196,9 +197,42 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
     model->terms.plain = model->cohesionless && model->terms.friction;
 }
 
+static void scale_leg(struct gb_leg *leg, double stress)
+{
+    for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
+        leg->component[k].value /=
+            leg->component[k].control == GB_LEG_STRESS ? stress : 1.0;
+    }
+    for (int e = 0; e < leg->end_count; e++) {
+        const enum gb_leg_end_kind kind = leg->end[e].kind;
+        leg->end[e].value /= kind == GB_LEG_END_PRESSURE || kind == GB_LEG_END_STRESS ||
+                                     kind == GB_LEG_END_MEAN || kind == GB_LEG_END_Q
+                                 ? stress
+                                 : 1.0;
+    }
+}
+
+/* The loading path, stresses over E. */
+static bool freeze_path(struct gb_model *model, const struct gb_params *params,
+                        struct gb_error *err)
+{
+    if (!gb_loading_kind_follows_path(params)) {
+        return true;
+    }
+    if (!gb_path_parse(&model->path, params->path, params->dimension, err)) {
+        return false;
+    }
+    for (int l = 0; l < model->path.count; l++) {
+        scale_leg(&model->path.leg[l], params->young_pa);
+    }
+    model->sheared = gb_path_sheared(&model->path);
+    model->collapse_strains = params->on_collapse == GB_COLLAPSE_STRAIN;
+    return true;
+}
+
 static void freeze_loading(struct gb_model *model, const struct gb_params *params)
 {
-    model->geometry = params->geometry;
+    model->geometry = gb_derived_geometry(params);
     model->strain_step = params->strain_step;
     model->until_pressure = isfinite(params->until_pressure_pa)
                                 ? params->until_pressure_pa / params->young_pa
@@ -260,7 +294,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .newton_per_force = params->young_pa * d * d,
     };
     gb_loading_kind_of(params)->freeze(model, params);
-    if (!freeze_sizes(model, params, err)) {
+    if (!freeze_sizes(model, params, err) || !freeze_path(model, params, err)) {
         return false;
     }
     if (params->precision == GB_PRECISION_SINGLE && !has_single_sweep(model)) {

@@ -9,6 +9,7 @@
 #include "law/law_dispersion.h"
 #include "law/law_rod.h"
 #include "law/law_slip.h"
+#include "scene/path/path.h"
 #include "scene/size/sizes.h"
 
 /* Which terms the force sweep of this scene carries.  The sweep contains
@@ -94,8 +95,10 @@ struct gb_model {
     double adhesion;    /* f_a(d), E d^2 */
     double force_floor; /* least force scale of the stopping rule, E d^2 */
     struct gb_numerics numerics;
-    bool sheared; /* the loading tilts the cell: double precision */
-    int geometry; /* enum gb_geometry */
+    bool sheared;          /* the loading tilts the cell: double precision */
+    struct gb_path path;   /* loading path, stresses over E; no legs: the next ones */
+    bool collapse_strains; /* where a stress cannot be held, strain goes on */
+    int geometry;          /* enum gb_geometry */
     double strain_step;
     double until_pressure; /* E; infinity when a density ends the run */
     double until_density;  /* 1 when a pressure ends the run */

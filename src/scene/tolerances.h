@@ -144,6 +144,57 @@
 #define GB_PROGRESS_MAX         0.99
 #define GB_PROGRESS_END_DENSITY 0.62
 
+/* Loading paths.  Affine strain of the measured tangent.  Larger: contacts slide.
+ * Smaller: rounding of single precision shows. */
+#define GB_TANGENT_STRAIN 1e-5
+
+/* A held stress is there within this share of its value, or this share of the largest
+ * stress of the leg.  The contract is 0.5 % and 1e-3; larger shares break it. Smaller ones
+ * take more corrections. */
+#define GB_PATH_STRESS_SHARE 0.003
+#define GB_PATH_STRESS_SCALE 6e-4
+
+/* A step that goes past the end of its leg by more than this many of these is taken again,
+ * shorter, a few times: a packing that breaks jumps past any stress. */
+#define GB_PATH_BEYOND          3.0
+#define GB_PATH_SHORTENINGS_MAX 4
+
+/* Share of the stress that ends a leg which counts as reached from the start.  0: in a
+ * loose packing, whose stresses scatter about 0, held stresses cannot be told from that. */
+#define GB_PATH_LARGEST_SHARE 0.1
+
+/* A leg has ended within this share of the stress that ends it, or this share of the
+ * largest stress of the leg.  Smaller: more short steps at the end. */
+#define GB_PATH_END_SHARE 0.002
+#define GB_PATH_END_SCALE 4e-4
+/* The same of strains and of the logarithm of density: rounding. */
+#define GB_PATH_STRAIN_TOLERANCE 1e-9
+
+/* A leg begins with a step this many times shorter: the tangent is not known yet in its
+ * direction.  Fewer: held stresses are missed by more before they are corrected. */
+#define GB_PATH_FIRST_STEP_PARTS 8.0
+
+/* Strain of a component with a held stress over the strain step, at most.  A tangent that
+ * asks for more is not trusted. */
+#define GB_PATH_STRAIN_RATIO_MAX 4.0
+
+/* Corrections of held stresses in a strain step after which it is halved.  One or two are
+ * usual. */
+#define GB_PATH_CORRECTIONS_MAX 12
+
+/* Smallest correction from which the tangent of small strains learns: below it rounding
+ * and the residual of the force balance decide. */
+#define GB_PATH_LEARN_STRAIN_MIN 1e-6
+
+/* Steps in which held stresses, on the way to their values, come no nearer, after which
+ * these are taken as out of reach. */
+#define GB_PATH_APPROACH_STEPS 40
+
+/* Strain of the leading component over which the stress that ends a leg has not risen,
+ * after which it is taken as out of reach.  Smaller: scatter of a small cell is taken for
+ * a plateau. */
+#define GB_PATH_PLATEAU_STRAIN 0.05
+
 /* Dynamic scenes.  Error of the end pressure when omega * step = 1; the square of omega *
  * step scales it.  From the known 2 % at 0.5 T in P2's scene, where omega is near 2 / T
  * at the end; 20 cells at v1 agree: 2850 +- 34 MPa where 1 % is allowed, 2805 +- 25 at

@@ -1,4 +1,5 @@
 #include "io/state/state_check.h"
+#include "scene/path/path.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -41,7 +42,7 @@ static const char *header_fault(const struct gb_state *state)
     if (!positive(state->pascal_per_stress, 1e30)) {
         return "pascal_per_stress";
     }
-    if (state->point.step < 0 || state->point.branch < GB_BRANCH_HOLD) {
+    if (state->point.step < 0 || state->point.branch < GB_BRANCH_LEG - GB_PATH_LEGS_MAX) {
         return state->point.step < 0 ? "step" : "branch";
     }
     for (size_t k = 0; k < sizeof finite_numbers / sizeof finite_numbers[0]; k++) {

@@ -30,6 +30,16 @@ static bool table(const struct gb_params *params)
     return params->distribution == GB_DISTRIBUTION_TABLE;
 }
 
+static bool without_path(const struct gb_params *params)
+{
+    return !gb_loading_kind_follows_path(params);
+}
+
+static bool with_path(const struct gb_params *params)
+{
+    return !without_path(params);
+}
+
 /* Two bodies of the law command; scenes have one material. */
 static bool never(const struct gb_params *params)
 {
@@ -69,6 +79,10 @@ static const struct {
     {"contact", "storakers", storakers},
     {"contact", "radius_i", never},
     {"contact", "radius_j", never},
+    {"loading", "geometry", without_path},
+    {"loading", "until", without_path},
+    {"loading", "unload_from", without_path},
+    {"loading", "on_collapse", with_path},
     {"numerics", "cutoff", rod},
 };
 

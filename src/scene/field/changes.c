@@ -7,15 +7,11 @@
 #include "scene/loading_kind.h"
 
 static const char *const allowed[] = {
-    "contact.alpha",
-    "contact.mu",
-    "contact.mu_pivot",
-    "contact.bridge_length",
-    "contact.shear_strength",
-    "loading.geometry",
-    "loading.step",
-    "loading.until",
-    NULL,
+    "contact.alpha",          "contact.mu",
+    "contact.mu_pivot",       "contact.bridge_length",
+    "contact.shear_strength", "loading.geometry",
+    "loading.path",           "loading.step",
+    "loading.until",          NULL,
 };
 
 /* One entry: the step that it follows, and "group.key=value". */

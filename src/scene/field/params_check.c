@@ -8,6 +8,7 @@
 #include "scene/field/field.h"
 #include "scene/field/keep_points.h"
 #include "scene/loading_kind.h"
+#include "scene/path/path.h"
 #include "scene/size/size_table.h"
 #include "scene/size/sizes.h"
 
@@ -77,6 +78,10 @@ static bool check_cell(const struct gb_params *params, struct gb_error *err)
 static bool check_loading(const struct gb_params *params, struct gb_error *err)
 {
     const double start = gb_derived_structure_density(params);
+    if (gb_loading_kind_follows_path(params)) {
+        struct gb_path path;
+        return gb_path_parse(&path, params->path, params->dimension, err);
+    }
     if (!isnan(params->until_density) && !(params->until_density > start)) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "loading.until = density = %g: must be above "

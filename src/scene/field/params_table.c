@@ -17,6 +17,7 @@ static const char *const motions[] = {"half", "full", NULL};
 static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", "die", NULL};
 static const char *const ramps[] = {"auto", "linear", "quadratic", NULL};
 static const char *const hangups[] = {"detach", "stop", NULL};
+static const char *const collapses[] = {"stop", "strain", NULL};
 static const char *const fidelities[] = {"fast", "balanced", "reference", NULL};
 static const char *const precisions[] = {"auto", "double", "single", NULL};
 static const char *const relaxers[] = {"auto", "predict", "fire", "steepest", NULL};
@@ -249,6 +250,16 @@ static const struct gb_field rows[] = {
     {"loading", "unload_from", GB_FIELD_PRESSURES, AT(unload_from_pa),
      .dimension = GB_DIM_PRESSURE, RANGE(1e3, 1e12), .fallback = "",
      .meaning = "pressures at which unloading branches start", .source = "P1 V, VI"},
+    {"loading", "path", GB_FIELD_TEXT, AT(path), .fallback = "",
+     .meaning = "loading path instead of geometry, until and unload_from: legs "
+                "separated by ';', as isotropic to 50 MPa; shear xz to 20 % at z = 50 "
+                "MPa; unload",
+     .source = "docs/mechanics.md"},
+    {"loading", "on_collapse", GB_FIELD_CHOICE, AT(on_collapse), .choices = collapses,
+     .fallback = "stop",
+     .meaning = "where a leg asks for a stress that the packing cannot carry: the run "
+                "stops, or goes on by strain",
+     .source = "docs/mechanics.md"},
     {"loading", "changes", GB_FIELD_TEXT, AT(changes), .fallback = "",
      .meaning = "changed parameters after recorded steps, as 120 contact.mu=0.3; "
                 "200 loading.geometry=isotropic",

@@ -16,6 +16,7 @@ static struct gb_loading *allocate(const struct gb_params *params,
                                    const struct gb_model *model, struct gb_error *err)
 {
     const struct gb_loading_mode *mode = gb_loading_modes[params->kind];
+    mode = mode->by_path && model->path.count > 0 ? mode->by_path : mode;
     struct gb_loading *loading = gb_alloc_array(1, mode->size, err);
     if (loading) {
         loading->mode = mode;

@@ -44,7 +44,9 @@ enum gb_loading_stage {
  * where a mode has no such quantity. */
 struct gb_loading_report {
     enum gb_loading_stage stage;
-    int unloading;                   /* k-th unloading branch; 0: none */
+    int begun;     /* leg of loading.path, from 1; 0: none */
+    int leg;       /* the same; 0 while held stresses are brought to their values */
+    int unloading; /* k-th unloading branch; 0: none */
     int64_t iterations, evaluations; /* since the last point */
     double residual;                 /* of the force balance */
     double time_step;                /* last used, T */
@@ -58,7 +60,9 @@ struct gb_loading_report {
 };
 
 struct gb_loading_mode {
-    size_t size; /* of its struct */
+    size_t size;                           /* of its struct */
+    const struct gb_loading_mode *by_path; /* takes its place under loading.path, or
+                                              * NULL */
     /* Places the particles and prepares the first step.  cancelled (may be NULL) is
      * polled with data, true fails with GB_ERR_CANCELLED. */
     bool (*build)(struct gb_loading *loading, bool (*cancelled)(void *data), void *data,
@@ -112,6 +116,7 @@ int64_t gb_loading_evaluations(const struct gb_loading *loading);
 /* All NaN or zero: what a mode's report fills in. */
 struct gb_loading_report gb_loading_empty_report(void);
 
+extern const struct gb_loading_mode gb_loading_path; /* of loading.path */
 extern const struct gb_loading_mode gb_loading_quasistatic, gb_loading_dynamic,
     gb_loading_die;
 

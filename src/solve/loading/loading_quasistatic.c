@@ -3,29 +3,21 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "pack/cell/nonaffine.h"
 #include "pack/cell/world_measure.h"
 #include "pack/cell/world_record.h"
 #include "scene/tolerances.h"
 #include "solve/loading/loading.h"
 #include "solve/loading/loading_cell.h"
 #include "solve/loading/quasistatic.h"
-#include "solve/relax/guard.h"
-#include "solve/relax/relax.h"
+#include "solve/loading/strain_step.h"
 
 struct quasistatic_loading {
     struct gb_loading base;
-    struct gb_relax *relax;
-    struct gb_world_copy *good; /* before the strain step under way */
+    struct gb_strain_step step;
     /* Where the unloading branch began: all that the loading branch depends on. */
     struct gb_record branch_start;
     struct gb_world_copy *old_branch_start; /* of a checkpoint of version 0.1, or NULL */
     struct gb_quasistatic schedule;
-    struct gb_guard guard;
-    int part; /* of the strain step, from 1; the parts are equal */
-    bool have_good;
-    int64_t spent_iterations, spent_evaluations; /* by attempts that were taken back and
-                                                  * by parts before this one */
 };
 
 static struct quasistatic_loading *own(struct gb_loading *loading)
@@ -42,14 +34,14 @@ static const struct quasistatic_loading *view(const struct gb_loading *loading)
 static void begin(struct quasistatic_loading *run)
 {
     gb_quasistatic_init(&run->schedule, run->base.model);
-    gb_relax_start(run->relax, run->base.world);
+    gb_strain_step_begin_first(&run->step, run->base.world);
 }
 
 /* The relaxer comes first: an unknown name is an error before the packing is grown. */
 static bool build(struct gb_loading *loading, bool (*cancelled)(void *data), void *data,
                   struct gb_error *err)
 {
-    if (!gb_relax_create(&own(loading)->relax, loading->model, err) ||
+    if (!gb_strain_step_init(&own(loading)->step, loading->model, err) ||
         !gb_loading_cell_grow(loading, cancelled, data, err)) {
         return false;
     }
@@ -60,7 +52,7 @@ static bool build(struct gb_loading *loading, bool (*cancelled)(void *data), voi
 static bool build_from(struct gb_loading *loading, struct gb_record *record,
                        struct gb_error *err)
 {
-    if (!gb_relax_create(&own(loading)->relax, loading->model, err) ||
+    if (!gb_strain_step_init(&own(loading)->step, loading->model, err) ||
         !gb_loading_cell_load(loading, record, err)) {
         return false;
     }
@@ -71,13 +63,12 @@ static bool build_from(struct gb_loading *loading, struct gb_record *record,
 static void finish(struct gb_loading *loading)
 {
     struct quasistatic_loading *run = own(loading);
-    gb_world_copy_destroy(run->good);
     gb_world_copy_destroy(run->old_branch_start);
     gb_record_finish(&run->branch_start);
-    gb_relax_destroy(run->relax);
+    gb_strain_step_finish(&run->step);
 }
 
-/* The next part of the strain step. */
+/* The strain step in equal parts. */
 static void strain(struct quasistatic_loading *run)
 {
     const int parts = run->base.model->numerics.parts;
@@ -86,102 +77,36 @@ static void strain(struct quasistatic_loading *run)
         factor[k] =
             parts > 1 ? pow(run->base.factor[k], 1.0 / parts) : run->base.factor[k];
     }
-    run->part = run->base.strain_due ? 1 : run->part + 1;
-    gb_world_strain(run->base.world, factor);
-    gb_relax_start(run->relax, run->base.world);
+    const struct gb_deformation part = gb_deformation_scaling(factor);
+    gb_strain_step_begin(&run->step, &part, parts);
     run->base.strain_due = false;
-}
-
-/* Adds the iterations and evaluations of this relaxation to those of the strain step. */
-static void count_relaxation(struct quasistatic_loading *run)
-{
-    run->spent_iterations += run->relax->iterations;
-    run->spent_evaluations += run->relax->evaluations;
-}
-
-/* Begins the next part of the strain step; false when this was the last one. */
-static bool begin_next_part(struct quasistatic_loading *run)
-{
-    if (run->part == 0 || run->part >= run->base.model->numerics.parts) {
-        return false;
-    }
-    count_relaxation(run);
-    strain(run);
-    return true;
-}
-
-/* Back to the state before the strain step under way. */
-static bool restore_good(struct quasistatic_loading *run, struct gb_error *err)
-{
-    count_relaxation(run);
-    return run->have_good && gb_world_copy_restore(run->base.world, run->good, err) &&
-           gb_world_evaluate(run->base.world, err);
-}
-
-static enum gb_step_outcome stop(struct quasistatic_loading *run)
-{
-    struct gb_error ignored;
-    restore_good(run, &ignored);
-    return GB_STEP_STOPPED;
-}
-
-/* The first relaxation has no earlier state to compare with: it is accepted. */
-static enum gb_guard_action check_nonaffine(struct quasistatic_loading *run, char *text,
-                                            size_t size)
-{
-    text[0] = '\0';
-    if (!run->have_good) {
-        return GB_GUARD_ACCEPT;
-    }
-    const struct gb_nonaffine motion = gb_nonaffine_since(run->base.world, run->good);
-    return gb_guard_nonaffine(&run->guard, &motion, text, size);
-}
-
-/* Half the strain step from the last good state on. */
-static enum gb_step_outcome retry(struct quasistatic_loading *run, const char *text,
-                                  struct gb_event_queue *events, struct gb_error *err)
-{
-    if (!restore_good(run, err)) {
-        return stop(run);
-    }
-    gb_event_queue_add(events, text);
-    gb_quasistatic_halve(&run->schedule, run->base.factor);
-    run->base.strain_due = true;
-    return GB_STEP_MORE;
 }
 
 static enum gb_step_outcome advance(struct gb_loading *loading, int64_t max_evaluations,
                                     struct gb_event_queue *events, struct gb_error *err)
 {
     struct quasistatic_loading *run = own(loading);
-    char text[GB_EVENT_TEXT];
     if (run->base.strain_due) {
         strain(run);
     }
-    const enum gb_relax_outcome outcome =
-        gb_relax_advance(run->relax, loading->world, max_evaluations, err);
-    if (outcome == GB_RELAX_MORE) {
-        return GB_STEP_MORE;
+    enum gb_strain_step_outcome outcome =
+        gb_strain_step_advance(&run->step, max_evaluations, events, err);
+    if (outcome == GB_STRAIN_STEP_RELAXED) {
+        outcome = gb_strain_step_check_jumps(&run->step, events, err);
     }
-    enum gb_guard_action action =
-        gb_guard_judge(&run->guard, outcome, run->relax, text, sizeof text, err);
-    if (action == GB_GUARD_ACCEPT) {
-        gb_event_queue_add(events, text);
-        if (begin_next_part(run)) {
-            return GB_STEP_MORE;
-        }
-        action = check_nonaffine(run, text, sizeof text);
-    }
-    switch (action) {
-    case GB_GUARD_ACCEPT:
-        gb_event_queue_add(events, text);
-        return GB_STEP_POINT;
-    case GB_GUARD_RETRY:
-        return retry(run, text, events, err);
-    case GB_GUARD_STOP:
+    switch (outcome) {
+    case GB_STRAIN_STEP_MORE:
         break;
+    case GB_STRAIN_STEP_RELAXED:
+        return GB_STEP_POINT;
+    case GB_STRAIN_STEP_RETRY: /* half the strain step from the last good state on */
+        gb_quasistatic_halve(&run->schedule, run->base.factor);
+        run->base.strain_due = true;
+        break;
+    case GB_STRAIN_STEP_STOPPED:
+        return GB_STEP_STOPPED;
     }
-    return stop(run);
+    return GB_STEP_MORE;
 }
 
 static double pressure_mpa(const struct quasistatic_loading *run,
@@ -223,7 +148,7 @@ static bool record_branch_start(struct quasistatic_loading *run, struct gb_recor
     return gb_record_array(record, "load/step", GB_RECORD_DOUBLE, 1, 1, "1",
                            &run->schedule.step, err) &&
            gb_world_record(run->base.world, record, err) &&
-           gb_relax_record(run->relax, run->base.model->count, record, err);
+           gb_relax_record(run->step.relax, run->base.model->count, record, err);
 }
 
 static bool save_branch_start(struct quasistatic_loading *run, struct gb_error *err)
@@ -267,9 +192,8 @@ static bool record_branch(struct quasistatic_loading *run, struct gb_record *rec
 static enum gb_step_outcome save_good(struct quasistatic_loading *run,
                                       struct gb_error *err)
 {
-    run->have_good = gb_world_copy_save(run->base.world, &run->good, err);
-    run->base.strain_due = run->have_good;
-    return run->have_good ? GB_STEP_MORE : GB_STEP_STOPPED;
+    run->base.strain_due = gb_strain_step_save(&run->step, err);
+    return run->base.strain_due ? GB_STEP_MORE : GB_STEP_STOPPED;
 }
 
 /* The next step of the schedule after a recorded state. */
@@ -310,7 +234,7 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
 {
     struct quasistatic_loading *run = own(loading);
     loading->restored = false;
-    run->spent_iterations = run->spent_evaluations = 0;
+    gb_strain_step_clear_spent(&run->step);
     gb_quasistatic_recover(&run->schedule);
     return decide_next(run, events, err);
 }
@@ -346,9 +270,7 @@ static bool check_loaded(struct quasistatic_loading *run, struct gb_error *err)
             return gb_error_set(err, GB_ERR_INPUT, "run/factor: is out of range");
         }
     }
-    run->have_good =
-        run->base.strain_due && gb_world_copy_save(run->base.world, &run->good, err);
-    return run->have_good || !run->base.strain_due;
+    return !run->base.strain_due || gb_strain_step_save(&run->step, err);
 }
 
 static bool record_schedule(struct gb_loading *loading, struct gb_record *record,
@@ -356,7 +278,7 @@ static bool record_schedule(struct gb_loading *loading, struct gb_record *record
 {
     struct quasistatic_loading *run = own(loading);
     return gb_quasistatic_record(&run->schedule, record, err) &&
-           gb_relax_record(run->relax, loading->model->count, record, err) &&
+           gb_relax_record(run->step.relax, loading->model->count, record, err) &&
            (run->schedule.branch <= 0 || record_branch(run, record, err)) &&
            (!record->loading || check_loaded(run, err));
 }
@@ -367,8 +289,8 @@ static struct gb_loading_report report(const struct gb_loading *loading)
     struct gb_loading_report report = gb_loading_empty_report();
     report.stage = run->schedule.branch < 0 ? GB_LOADING_RELAX : GB_LOADING_LOAD;
     report.unloading = run->schedule.branch > 0 ? run->schedule.branch : 0;
-    report.iterations = run->spent_iterations + run->relax->iterations;
-    report.evaluations = run->spent_evaluations + run->relax->evaluations;
+    report.iterations = gb_strain_step_iterations(&run->step);
+    report.evaluations = gb_strain_step_evaluations(&run->step);
     report.residual = gb_world_residual(loading->world);
     return report;
 }
@@ -381,6 +303,7 @@ static double progress(const struct gb_loading *loading, double pressure, double
 
 const struct gb_loading_mode gb_loading_quasistatic = {
     .size = sizeof(struct quasistatic_loading),
+    .by_path = &gb_loading_path,
     .build = build,
     .build_from = build_from,
     .finish = finish,

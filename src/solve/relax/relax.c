@@ -95,7 +95,7 @@ void gb_relax_destroy(struct gb_relax *relax)
     gb_alloc_free(relax);
 }
 
-void gb_relax_start(struct gb_relax *relax, struct gb_world *world)
+static void reset(struct gb_relax *relax)
 {
     relax->iterations = 0;
     relax->evaluations = 0;
@@ -103,7 +103,22 @@ void gb_relax_start(struct gb_relax *relax, struct gb_world *world)
     relax->best_at = 0;
     relax->restarts = 0;
     relax->stalled = false;
+}
+
+void gb_relax_start(struct gb_relax *relax, struct gb_world *world)
+{
+    reset(relax);
     relax->method->start(relax, world);
+}
+
+void gb_relax_proceed(struct gb_relax *relax, struct gb_world *world)
+{
+    reset(relax);
+    if (relax->method->rest) {
+        relax->method->rest(relax, world);
+    } else {
+        relax->method->start(relax, world);
+    }
 }
 
 /* True when the residual has stopped falling after a restart, too.  The restart: particles

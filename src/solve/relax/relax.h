@@ -34,6 +34,9 @@ struct gb_relaxer {
     bool slow; /* hundreds of evaluations a strain step: a chart has two settings of it */
     void (*start)(struct gb_relax *relax, struct gb_world *world);
     void (*move)(struct gb_relax *relax, struct gb_world *world);
+    /* Particles at rest where they are, the memory of the strain step kept; NULL: as
+     * start. */
+    void (*rest)(struct gb_relax *relax, struct gb_world *world);
     /* State kept from one relaxation to the next, into a checkpoint or out of it; NULL:
      * start sets all of it. */
     bool (*record)(struct gb_relax *relax, int64_t count, struct gb_record *record,
@@ -76,6 +79,9 @@ void gb_relax_destroy(struct gb_relax *relax); /* NULL is fine */
 /* Begins a relaxation, after the cell was strained: the particles are at rest, but may be
  * moved to where they are expected. */
 void gb_relax_start(struct gb_relax *relax, struct gb_world *world);
+
+/* Goes on with the same strain step after a small correction of the cell. */
+void gb_relax_proceed(struct gb_relax *relax, struct gb_world *world);
 
 /* One evaluation: gb_world_sums then tells the power along the velocities, where the
  * method has any. */

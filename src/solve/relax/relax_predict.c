@@ -160,6 +160,12 @@ static void start(struct gb_relax *relax, struct gb_world *world)
     predict_motion(relax, world, &before, request_since(state, gb_world_cell(world)));
 }
 
+static void rest(struct gb_relax *relax, struct gb_world *world)
+{
+    struct predict *state = relax->state;
+    gb_relax_fire_rest(relax, &state->fire, &gb_relax_predict_tuning, world);
+}
+
 static void move(struct gb_relax *relax, struct gb_world *world)
 {
     struct predict *state = relax->state;
@@ -197,5 +203,6 @@ const struct gb_relaxer gb_relax_predict = {
     .light = GB_PREDICT_TOLERANCE_FRACTION_MIN,
     .start = start,
     .move = move,
+    .rest = rest,
     .record = record,
 };

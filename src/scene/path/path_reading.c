@@ -1,0 +1,209 @@
+#include "scene/path/path_reading.h"
+
+#include <math.h>
+
+bool gb_path_reading_expected(struct gb_path_reading *in, const char *what)
+{
+    const char *word = gb_path_words_peek(&in->words);
+    return word[0] != '\0'
+               ? gb_error_set(in->err, GB_ERR_INPUT, "'%.24s': must be %s", word, what)
+               : gb_error_set(in->err, GB_ERR_INPUT, "ends too early: must go on with %s",
+                              what);
+}
+
+/* A component that exists in this scene. */
+bool gb_path_reading_component(struct gb_path_reading *in, int *component)
+{
+    const int next = in->words.next;
+    *component = gb_path_words_component(&in->words);
+    if (*component >= 0 && gb_path_has_component(in->dimension, *component)) {
+        return true;
+    }
+    in->words.next = next;
+    return gb_path_reading_expected(in, in->dimension == 3
+                                            ? "x, y, z, xy, xz or yz"
+                                            : "x, z or xz with scene.dimension = 2");
+}
+
+static bool read_pressure(struct gb_path_reading *in, double *value)
+{
+    gb_path_words_accept(&in->words, "=");
+    return gb_path_words_quantity(&in->words, GB_DIM_PRESSURE, value) ||
+           gb_path_reading_expected(in, "a pressure with its unit, as in 50 MPa");
+}
+
+bool gb_path_reading_number(struct gb_path_reading *in, double *value)
+{
+    gb_path_words_accept(&in->words, "=");
+    return gb_path_words_quantity(&in->words, GB_DIM_NONE, value) ||
+           gb_path_reading_expected(in, "a number");
+}
+
+static bool read_density_end(struct gb_path_reading *in, struct gb_leg_end *end)
+{
+    end->kind = GB_LEG_END_DENSITY;
+    return gb_path_reading_number(in, &end->value) &&
+           ((end->value > 0.0 && end->value < 1.0) ||
+            gb_error_set(in->err, GB_ERR_INPUT, "density %g: must be between 0 and 1",
+                         end->value));
+}
+
+static bool read_stress_end(struct gb_path_reading *in, int component,
+                            struct gb_leg_end *end)
+{
+    end->kind = GB_LEG_END_STRESS;
+    end->of = component;
+    return gb_path_has_component(in->dimension, component)
+               ? read_pressure(in, &end->value)
+               : gb_error_set(in->err, GB_ERR_INPUT,
+                              "%s: must be x, z or xz with scene.dimension = 2",
+                              gb_path_component_name(component));
+}
+
+/* "50 MPa" is the pressure that the leg raises, the shear stress of a shear; "20 %" its
+ * strain. */
+static bool read_own_end(struct gb_path_reading *in, struct gb_leg_end *end)
+{
+    if (gb_path_words_quantity(&in->words, GB_DIM_PRESSURE, &end->value)) {
+        const int leading = in->leg->leading;
+        end->kind = leading >= 3 ? GB_LEG_END_STRESS : GB_LEG_END_PRESSURE;
+        end->of = leading;
+        return true;
+    }
+    end->kind = GB_LEG_END_STRAIN;
+    return gb_path_words_quantity(&in->words, GB_DIM_FRACTION, &end->value) ||
+           gb_path_reading_expected(
+               in, "an end: a pressure (50 MPa, z = 50 MPa), a strain (20 %), "
+                   "density 0.5, p, q or q/p");
+}
+
+static bool read_one_end(struct gb_path_reading *in, struct gb_leg_end *end)
+{
+    struct gb_path_words *words = &in->words;
+    *end = (struct gb_leg_end){.of = in->leg->leading};
+    if (gb_path_words_accept(words, "density")) {
+        return read_density_end(in, end);
+    }
+    if (gb_path_words_accept(words, "q/p")) {
+        end->kind = GB_LEG_END_RATIO;
+        return gb_path_reading_number(in, &end->value);
+    }
+    if (gb_path_words_accept(words, "q")) {
+        end->kind = GB_LEG_END_Q;
+        return read_pressure(in, &end->value);
+    }
+    if (gb_path_words_accept(words, "p")) {
+        end->kind = GB_LEG_END_MEAN;
+        return read_pressure(in, &end->value);
+    }
+    const int component = gb_path_words_component(words);
+    return component >= 0 ? read_stress_end(in, component, end) : read_own_end(in, end);
+}
+
+/* "to 50 MPa", "to q/p = 0.8 or 20 %" */
+bool gb_path_reading_ends(struct gb_path_reading *in)
+{
+    struct gb_leg *leg = in->leg;
+    if (!gb_path_words_accept(&in->words, "to")) {
+        return gb_path_reading_expected(in,
+                                        "'to' and an end, as in to 50 MPa or to 20 %");
+    }
+    do {
+        if (leg->end_count == GB_PATH_ENDS_MAX) {
+            return gb_error_set(in->err, GB_ERR_INPUT, "must have at most %d ends",
+                                GB_PATH_ENDS_MAX);
+        }
+        if (!read_one_end(in, &leg->end[leg->end_count++])) {
+            return false;
+        }
+    } while (gb_path_words_accept(&in->words, "or"));
+    return true;
+}
+
+/* "between -1 % and 1 %" of a cycle */
+bool gb_path_reading_reversals(struct gb_path_reading *in)
+{
+    struct gb_leg *leg = in->leg;
+    leg->end_count = 2;
+    if (!gb_path_words_accept(&in->words, "between")) {
+        return gb_path_reading_expected(in,
+                                        "'between', as in between 20 MPa and 100 MPa");
+    }
+    if (!read_one_end(in, &leg->end[0])) {
+        return false;
+    }
+    if (!gb_path_words_accept(&in->words, "and")) {
+        return gb_path_reading_expected(in, "'and' and the other end");
+    }
+    if (!read_one_end(in, &leg->end[1])) {
+        return false;
+    }
+    return (leg->end[0].kind == leg->end[1].kind && leg->end[0].of == leg->end[1].of &&
+            leg->end[0].value != leg->end[1].value) ||
+           gb_error_set(in->err, GB_ERR_INPUT,
+                        "between: must be two different values of one quantity");
+}
+
+/* "x = y = z = 50 MPa", "x = y = 0.5 z", "z = held"; components may be left out where the
+ * leg has its own (triaxial, hold): "50 MPa". */
+static bool read_control(struct gb_path_reading *in, unsigned own)
+{
+    struct gb_leg_component control = {GB_LEG_STRESS, (double)NAN, -1};
+    unsigned members = 0;
+    for (int next = gb_path_words_component(&in->words); next >= 0;
+         next = gb_path_words_component(&in->words)) {
+        members |= 1u << next;
+        if (!gb_path_words_accept(&in->words, "=")) {
+            return gb_path_reading_expected(in, "'='");
+        }
+    }
+    members = members != 0 ? members : own;
+    if (members == 0) {
+        return gb_path_reading_expected(in, "a component to hold, as in z = 50 MPa");
+    }
+    if (!gb_path_words_accept(&in->words, "held") &&
+        !gb_path_words_quantity(&in->words, GB_DIM_PRESSURE, &control.value)) {
+        control.control = GB_LEG_RATIO;
+        if (!gb_path_words_quantity(&in->words, GB_DIM_NONE, &control.value)) {
+            return gb_path_reading_expected(
+                in, "a pressure (50 MPa), a share of another component "
+                    "(0.5 z) or 'held'");
+        }
+        if (!gb_path_reading_component(in, &control.of)) {
+            return false;
+        }
+    }
+    for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
+        if ((members >> k & 1u) == 0) {
+            continue;
+        }
+        if (!gb_path_has_component(in->dimension, k) || k == in->leg->leading ||
+            k == control.of) {
+            return gb_error_set(in->err, GB_ERR_INPUT, "%s: cannot be held here: %s",
+                                gb_path_component_name(k),
+                                k == in->leg->leading ? "it leads the leg"
+                                : k == control.of
+                                    ? "it would be a share of itself"
+                                    : "scene.dimension = 2 has x, z and xz");
+        }
+        in->leg->component[k] = control;
+    }
+    return true;
+}
+
+bool gb_path_reading_controls(struct gb_path_reading *in, unsigned own)
+{
+    do {
+        if (!read_control(in, own)) {
+            return false;
+        }
+    } while (gb_path_words_accept(&in->words, ",") ||
+             gb_path_words_accept(&in->words, "and"));
+    return true;
+}
+
+/* "at z = 50 MPa", or nothing */
+bool gb_path_reading_at(struct gb_path_reading *in, unsigned own)
+{
+    return !gb_path_words_accept(&in->words, "at") || gb_path_reading_controls(in, own);
+}
