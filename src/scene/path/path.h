@@ -17,7 +17,8 @@ enum { GB_PATH_LEGS_MAX = 24, GB_PATH_COMPONENTS = 6, GB_PATH_ENDS_MAX = 2 };
 enum gb_leg_control {
     GB_LEG_STRAIN, /* value: strain over that of the leading component; 0: fixed */
     GB_LEG_STRESS, /* value: stress to hold, Pa; NaN: the one at which the leg begins */
-    GB_LEG_RATIO   /* value: stress over that of component `of`; NaN: as the leg begins */
+    GB_LEG_RATIO,  /* value: stress over that of component `of`; NaN: as the leg begins */
+    GB_LEG_FOLLOW  /* value: change of stress since the leg began, over that of `of` */
 };
 
 struct gb_leg_component {

@@ -1,6 +1,7 @@
 #include "scene/path/path_reading.h"
 
 #include <math.h>
+#include <string.h>
 
 bool gb_path_reading_expected(struct gb_path_reading *in, const char *what)
 {
@@ -144,51 +145,74 @@ bool gb_path_reading_reversals(struct gb_path_reading *in)
                         "between: must be two different values of one quantity");
 }
 
-/* "x = y = z = 50 MPa", "x = y = 0.5 z", "z = held"; components may be left out where the
- * leg has its own (triaxial, hold): "50 MPa". */
+/* "x = y =" or "x = y by": bits of the components; false: neither follows them. */
+static bool read_members(struct gb_path_reading *in, unsigned *members)
+{
+    for (int next = gb_path_words_component(&in->words); next >= 0;
+         next = gb_path_words_component(&in->words)) {
+        *members |= 1u << next;
+        if (strcmp(gb_path_words_peek(&in->words), "by") == 0) {
+            return true;
+        }
+        if (!gb_path_words_accept(&in->words, "=")) {
+            return gb_path_reading_expected(in, "'=' or 'by'");
+        }
+    }
+    return true;
+}
+
+/* "50 MPa", "0.5 z", "held", "by 0.5 z" */
+static bool read_value(struct gb_path_reading *in, struct gb_leg_component *control)
+{
+    const bool by = gb_path_words_accept(&in->words, "by");
+    if (!by && (gb_path_words_accept(&in->words, "held") ||
+                gb_path_words_quantity(&in->words, GB_DIM_PRESSURE, &control->value))) {
+        return true;
+    }
+    control->control = by ? GB_LEG_FOLLOW : GB_LEG_RATIO;
+    if (!gb_path_words_quantity(&in->words, GB_DIM_NONE, &control->value)) {
+        return gb_path_reading_expected(
+            in, by ? "a share of the change of another component, as in by 0.5 z"
+                   : "a pressure (50 MPa), a share of another component (0.5 z) or "
+                     "'held'");
+    }
+    return gb_path_reading_component(in, &control->of);
+}
+
+static bool set_control(struct gb_path_reading *in, int k,
+                        const struct gb_leg_component *control)
+{
+    const char *why = k == in->leg->leading ? "it leads the leg"
+                      : k == control->of    ? "it would be a share of itself"
+                      : gb_path_has_component(in->dimension, k)
+                          ? NULL
+                          : "scene.dimension = 2 has x, z and xz";
+    if (why != NULL) {
+        return gb_error_set(in->err, GB_ERR_INPUT, "%s: cannot be held here: %s",
+                            gb_path_component_name(k), why);
+    }
+    in->leg->component[k] = *control;
+    return true;
+}
+
+/* "x = y = z = 50 MPa", "x = y = 0.5 z", "z = held", "x = y by -0.5 z"; components may be
+ * left out where the leg has its own (triaxial, hold): "50 MPa". */
 static bool read_control(struct gb_path_reading *in, unsigned own)
 {
     struct gb_leg_component control = {GB_LEG_STRESS, (double)NAN, -1};
     unsigned members = 0;
-    for (int next = gb_path_words_component(&in->words); next >= 0;
-         next = gb_path_words_component(&in->words)) {
-        members |= 1u << next;
-        if (!gb_path_words_accept(&in->words, "=")) {
-            return gb_path_reading_expected(in, "'='");
-        }
+    if (!read_members(in, &members)) {
+        return false;
     }
     members = members != 0 ? members : own;
     if (members == 0) {
         return gb_path_reading_expected(in, "a component to hold, as in z = 50 MPa");
     }
-    if (!gb_path_words_accept(&in->words, "held") &&
-        !gb_path_words_quantity(&in->words, GB_DIM_PRESSURE, &control.value)) {
-        control.control = GB_LEG_RATIO;
-        if (!gb_path_words_quantity(&in->words, GB_DIM_NONE, &control.value)) {
-            return gb_path_reading_expected(
-                in, "a pressure (50 MPa), a share of another component "
-                    "(0.5 z) or 'held'");
-        }
-        if (!gb_path_reading_component(in, &control.of)) {
-            return false;
-        }
+    bool good = read_value(in, &control);
+    for (int k = 0; k < GB_PATH_COMPONENTS && good; k++) {
+        good = (members >> k & 1u) == 0 || set_control(in, k, &control);
     }
-    for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
-        if ((members >> k & 1u) == 0) {
-            continue;
-        }
-        if (!gb_path_has_component(in->dimension, k) || k == in->leg->leading ||
-            k == control.of) {
-            return gb_error_set(in->err, GB_ERR_INPUT, "%s: cannot be held here: %s",
-                                gb_path_component_name(k),
-                                k == in->leg->leading ? "it leads the leg"
-                                : k == control.of
-                                    ? "it would be a share of itself"
-                                    : "scene.dimension = 2 has x, z and xz");
-        }
-        in->leg->component[k] = control;
-    }
-    return true;
+    return good;
 }
 
 bool gb_path_reading_controls(struct gb_path_reading *in, unsigned own)

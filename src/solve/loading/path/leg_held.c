@@ -27,8 +27,15 @@ double gb_leg_held_wanted(const struct gb_leg_run *run, const struct gb_leg *leg
                           const double stress[N])
 {
     const struct gb_leg_component *component = &leg->component[k];
-    return component->control == GB_LEG_RATIO ? run->target[k] * stress[component->of]
-                                              : run->target[k];
+    switch (component->control) {
+    case GB_LEG_RATIO:
+        return run->target[k] * stress[component->of];
+    case GB_LEG_FOLLOW:
+        return run->start[k] +
+               run->target[k] * (stress[component->of] - run->start[component->of]);
+    default:
+        return run->target[k];
+    }
 }
 
 static double tolerance(const struct gb_leg_run *run, double want)
@@ -68,7 +75,7 @@ int gb_leg_held_conditions(const struct gb_leg_run *run, const struct gb_model *
     int count = 0;
     for (int k = 0; k < N; k++) {
         if (gb_leg_held_component(run, model, k)) {
-            const bool ratio = leg->component[k].control == GB_LEG_RATIO;
+            const bool ratio = leg->component[k].control != GB_LEG_STRESS;
             condition[count++] = (struct gb_stress_condition){
                 .of = k,
                 .base = ratio ? leg->component[k].of : k,

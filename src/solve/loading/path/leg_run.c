@@ -45,6 +45,7 @@ bool gb_leg_run_record(struct gb_leg_run *run, const struct gb_model *model,
         {"path/approaching", GB_RECORD_BOOL, 1, AT(approaching), "1"},
         {"path/last_approach", GB_RECORD_BOOL, 1, AT(last_approach), "1"},
         {"path/step", GB_RECORD_DOUBLE, 1, AT(step), "1"},
+        {"path/start", GB_RECORD_DOUBLE, N, AT(start), "E"},
         {"path/target", GB_RECORD_DOUBLE, N, AT(target), "E or 1"},
         {"path/strain", GB_RECORD_DOUBLE, N, AT(strain), "1"},
         {"path/increment", GB_RECORD_DOUBLE, N, AT(increment), "1"},
@@ -121,6 +122,7 @@ void gb_leg_run_begin(struct gb_leg_run *run, const struct gb_model *model,
     run->largest = 0.0;
     memset(run->strain, 0, sizeof run->strain);
     memcpy(run->stress, stress, sizeof run->stress);
+    memcpy(run->start, stress, sizeof run->start);
     gb_leg_held_note_largest(run, stress);
     fix_targets(run, leg, stress);
     run->nearest = gb_leg_held_distance(run, model, stress);

@@ -31,6 +31,7 @@ struct gb_leg_run {
     double nearest;      /* least distance of held stresses from their values, and ... */
     int32_t nearest_at;  /* ... the number of steps since then */
     double step, step_most;         /* strain of the leading component */
+    double start[6];                /* stress at which the leg began */
     double target[6];               /* stress (E), or ratio */
     double strain[6];               /* since the leg began */
     double increment[6];            /* of the step under way, corrections included */
