@@ -146,9 +146,7 @@ static int jacobian(const gsl_vector *x, void *data, gsl_matrix *j)
     return GSL_SUCCESS;
 }
 
-/* Integral of the autocorrelation of n residuals less their mean: points per
- * independent point.  Summed up to the first value near 0; white noise gives 1. */
-static double correlation(const double *f, size_t n, double mean)
+double gb_decay_correlation(const double *f, size_t n, double mean)
 {
     double square = 0.0;
     double correlation = 1.0;
@@ -176,7 +174,7 @@ static void take_result(struct gb_decay *found, gsl_multifit_nlinear_workspace *
     for (size_t i = 0; i < f->size; i++) {
         found->squares += gsl_vector_get(f, i) * gsl_vector_get(f, i);
     }
-    found->correlation = correlation(f->data, f->size, 0.0);
+    found->correlation = gb_decay_correlation(f->data, f->size, 0.0);
     gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(work), 0.0, covariance);
     for (size_t a = 0; a < covariance->size1; a++) {
         found->x[a] = gsl_vector_get(gsl_multifit_nlinear_position(work), a);
@@ -246,7 +244,7 @@ void gb_decay_constant(struct gb_decay *found, const struct gb_decay_points *poi
         found->squares += pow(points->p[i] - found->x[0], 2.0);
     }
     found->covariance[0][0] = 1.0 / n;
-    found->correlation = correlation(points->p, points->count, found->x[0]);
+    found->correlation = gb_decay_correlation(points->p, points->count, found->x[0]);
 }
 
 static void swap_values(double *a, double *b)

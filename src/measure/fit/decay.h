@@ -37,6 +37,10 @@ struct gb_decay {
     double correlation; /* points per independent point, 1 for independent residuals */
 };
 
+/* Integral of the autocorrelation of n residuals less their mean: points per
+ * independent point.  Summed up to the first value near 0; white noise gives 1. */
+double gb_decay_correlation(const double *f, size_t n, double mean);
+
 void gb_decay_constant(struct gb_decay *found, const struct gb_decay_points *points);
 /* terms 1 or 2.  Errors: GB_ERR_MEMORY; a fit that does not settle is no error. */
 bool gb_decay_terms(struct gb_decay *found, int terms,

@@ -1,0 +1,57 @@
+#ifndef GB_MEASURE_FIT_COMPACTION_COMPACTION_FITS_H
+#define GB_MEASURE_FIT_COMPACTION_COMPACTION_FITS_H
+
+#include "measure/fit/compaction/equation_fit.h"
+#include "measure/fit/compaction/heckel_stretch.h"
+
+/* All equations of compaction fitted to the same points. */
+
+enum { GB_COMPACTION_FITS = 9 };
+
+struct gb_compaction_fit {
+    const struct gb_equation *equation;
+    bool fitted;                /* else: refusal says why not */
+    struct gb_equation_fit all; /* to all points: aicc, rms and the curve */
+    struct gb_error refusal;
+    double delta; /* AICc less the least of all equations */
+};
+
+struct gb_compaction_fits {
+    struct gb_compaction_fit fit[GB_COMPACTION_FITS]; /* by AICc, those refused last */
+    size_t count, fitted;
+    /* Heckel's equation on the straightest stretch, with 1/K: mean yield pressure, MPa.
+     * Equation NULL: refused. */
+    struct gb_equation_fit heckel;
+    struct gb_heckel_stretch stretch;
+    struct gb_fit_value yield;
+};
+
+enum gb_compaction_intervals {
+    GB_COMPACTION_LINEAR, /* quick: from the covariance */
+    GB_COMPACTION_PROFILE /* profile likelihood where the former is poor, jackknife */
+};
+
+/* only: one equation; NULL: all.  An equation that is refused or does not settle is no
+ * error: its row says why.  Errors: GB_ERR_MEMORY. */
+bool gb_compaction_fits(struct gb_compaction_fits *fits,
+                        const struct gb_equations_points *points,
+                        const struct gb_equation *only,
+                        enum gb_compaction_intervals intervals, struct gb_error *err);
+
+/* The fit of an equation whose parameters are reported: Heckel's on its stretch, the
+ * others to all points. */
+const struct gb_equation_fit *
+gb_compaction_fits_reported(const struct gb_compaction_fits *fits, size_t index);
+
+/* A parameter as reported: those of the fit, and the yield pressure of Heckel. */
+struct gb_compaction_value {
+    const char *name, *unit;
+    struct gb_fit_value value;
+};
+
+/* Number of reported parameters of a fitted row, and parameter k of them. */
+size_t gb_compaction_fits_values(const struct gb_compaction_fits *fits, size_t index);
+struct gb_compaction_value gb_compaction_fits_value(const struct gb_compaction_fits *fits,
+                                                    size_t index, size_t k);
+
+#endif
