@@ -60,6 +60,16 @@ static const struct gb_figures_row table[] = {
     {"continuum", "pressure against density, with continuum theory for three geometries",
      "P1 Fig. 12", GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, .x = DENSITY_AXIS,
      .y = PRESSURE_AXIS, .compute = gb_figures_continuum},
+    {"fit", "density against pressure with fitted equations of compaction, residuals", "",
+     GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT,
+     .ignored_keys = after_loading,
+     .x = {.name = "p_MPa", .label = "pressure <i>p</i> (MPa)", .log = true},
+     .y = DENSITY_AXIS, .compute = gb_figures_fit},
+    {"heckel", "Heckel plot with its straightest stretch and the yield pressure",
+     "Heckel 1961", GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, .ignored_keys = after_loading,
+     .x = PRESSURE_AXIS,
+     .y = {.name = "log_porosity", .label = "ln(1 / (1 \xe2\x88\x92 " RHO "))"},
+     .compute = gb_figures_heckel},
     {"coordination", "mean coordination number against density", "P1 Fig. 8",
      GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, .ignored_keys = after_loading,
      .x = DENSITY_AXIS,
@@ -180,13 +190,18 @@ static void set_axis(struct gb_series_axis *axis, const struct gb_series_axis *r
     }
 }
 
+void gb_figures_axes(const struct gb_figures_row *row, struct gb_series *series)
+{
+    set_axis(&series->x, &row->x);
+    set_axis(&series->y, &row->y);
+}
+
 bool gb_figures_run(const struct gb_figures_row *row, struct gb_series *series,
                     const struct gb_figures_input *input, struct gb_error *err)
 {
     const bool done = row->compute(series, input, err);
     if (done) {
-        set_axis(&series->x, &row->x);
-        set_axis(&series->y, &row->y);
+        gb_figures_axes(row, series);
     }
     return done;
 }

@@ -70,6 +70,8 @@ const struct gb_figures_row *gb_figures_table(void);
 const struct gb_figures_row *gb_figures_find(const char *name);
 /* Groups runs that differ in the ignored keys of the row only. */
 void gb_figures_group(const struct gb_figures_row *row, struct gb_runset *set);
+/* Sets the axes of the row where it has them. */
+void gb_figures_axes(const struct gb_figures_row *row, struct gb_series *series);
 /* Computes the series with the axes of the row. */
 bool gb_figures_run(const struct gb_figures_row *row, struct gb_series *series,
                     const struct gb_figures_input *input, struct gb_error *err);

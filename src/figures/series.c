@@ -16,6 +16,7 @@ void gb_series_init(struct gb_series *series, size_t rows)
 {
     *series = (struct gb_series){.x = {.low = NAN, .high = NAN},
                                  .y = {.low = NAN, .high = NAN},
+                                 .below_y = {.low = NAN, .high = NAN},
                                  .inset = {NAN, NAN}};
     series->curves = g_array_new(FALSE, FALSE, sizeof(struct gb_series_curve));
     g_array_set_clear_func(series->curves, free_label);
@@ -139,14 +140,18 @@ static const double *column_at(const struct gb_series *series, int index, size_t
                       : NULL;
 }
 
-void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
-                      struct gb_figure_curve **curves)
+/* Curves of one panel; returns their number. */
+static size_t take_curves(const struct gb_series *series, bool below,
+                          struct gb_figure_curve *curves)
 {
-    *curves = g_new0(struct gb_figure_curve, series->curves->len + 1);
+    size_t taken = 0;
     for (guint k = 0; k < series->curves->len; k++) {
         const struct gb_series_curve *from =
             &g_array_index(series->curves, struct gb_series_curve, k);
-        (*curves)[k] = (struct gb_figure_curve){
+        if (from->below != below) {
+            continue;
+        }
+        curves[taken++] = (struct gb_figure_curve){
             .label = from->label,
             .kind = from->kind,
             .style = from->style,
@@ -158,13 +163,26 @@ void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
             .x_error = column_at(series, from->x_error, from->from),
         };
     }
+    return taken;
+}
+
+void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
+                      struct gb_figure_curve **curves)
+{
+    *curves = g_new0(struct gb_figure_curve, series->curves->len + 1);
+    const size_t above = take_curves(series, false, *curves);
+    const size_t below = take_curves(series, true, *curves + above);
     *figure = (struct gb_figure){
         .caption = series->caption->str,
         .inset = {series->inset[0], series->inset[1]},
         .x = {series->x.label, series->x.log, series->x.low, series->x.high},
         .y = {series->y.label, series->y.log, series->y.low, series->y.high},
         .curve = *curves,
-        .count = series->curves->len,
+        .count = above,
+        .below_y = {series->below_y.label, series->below_y.log, series->below_y.low,
+                    series->below_y.high},
+        .below = *curves + above,
+        .below_count = below,
         .annotation =
             (const struct gb_figure_annotation *)(void *)series->annotations->data,
         .annotations = series->annotations->len,

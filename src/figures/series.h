@@ -17,6 +17,7 @@ struct gb_series_curve {
     enum gb_figure_kind kind;
     int style;
     bool open;   /* hollow markers */
+    bool below;  /* in the panel below */
     char *label; /* Pango markup; NULL: none */
 };
 
@@ -35,10 +36,11 @@ struct gb_series {
     GPtrArray *columns; /* double[rows] each */
     size_t rows;
     struct gb_series_axis x, y;
-    GArray *curves;      /* struct gb_series_curve */
-    GArray *annotations; /* struct gb_figure_annotation */
-    GString *caption;    /* Pango markup */
-    double inset[2];     /* x range of the inset; NaN: none */
+    struct gb_series_axis below_y; /* of the panel below; label NULL: there is none */
+    GArray *curves;                /* struct gb_series_curve */
+    GArray *annotations;           /* struct gb_figure_annotation */
+    GString *caption;              /* Pango markup */
+    double inset[2];               /* x range of the inset; NaN: none */
 };
 
 void gb_series_init(struct gb_series *series, size_t rows);
@@ -67,7 +69,8 @@ void gb_series_caption(struct gb_series *series, const char *format, ...)
 /* At least `rows` rows, the new ones NaN; pointers to columns become invalid. */
 void gb_series_grow(struct gb_series *series, size_t rows);
 
-/* The figure, whose arrays belong to the series; *curves for g_free. */
+/* The figure, whose arrays belong to the series; *curves for g_free, those of the panel
+ * below last. */
 void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
                       struct gb_figure_curve **curves);
 

@@ -149,6 +149,8 @@ static const struct source {
     {"decay", {"fast", "slow"}},
     {"unloading", {"a1", "a2"}},
     {"continuum", {"a1", "a2"}},
+    {"fit", {"a1", "a2", "b1"}},
+    {"heckel", {"a1", "a2", "b1"}},
     {"coordination", {"a1", "b1"}},
     {"lateral", {"a1", "a2"}},
     {"size-effect", {"a1", "a2", "b1"}},
@@ -350,6 +352,44 @@ static void test_series(void)
     gb_series_finish(&series);
 }
 
+/* Points, curve and residuals agree; the panel below lies under the frame. */
+static void test_fit(void)
+{
+    static const char *const runs[] = {"a1", "a2", NULL};
+    struct gb_series series = {0};
+    struct gb_figure figure;
+    struct gb_figure_layout layout;
+    struct gb_figure_curve *curves = NULL;
+    struct gb_image *image = NULL;
+    struct gb_error err = {0};
+    g_assert_true(run_named("fit", runs, &series, &err));
+    for (int row = 0; row < 30; row += 10) {
+        const double p = csv_cell(&series, "p_1_MPa", row);
+        const double rho = csv_cell(&series, "density_1", row);
+        /* p = 100 (rho - 0.4)^2 GPa less 1 MPa, between points of the curve */
+        g_assert_cmpfloat_with_epsilon(rho, 0.4 + sqrt((p - 1.0) / 1e5), 1e-3);
+        g_assert_cmpfloat_with_epsilon(
+            csv_cell(&series, "residual_secondi_1_percent", row),
+            100.0 * (rho - csv_cell(&series, "secondi_1", row)), 1e-6);
+    }
+    gb_series_figure(&series, &figure, &curves);
+    g_assert_cmpuint(figure.count + figure.below_count, ==, series.curves->len);
+    g_assert_cmpuint(figure.below_count, >, 1);
+    g_assert_true(gb_figure_render(&image, &figure, 800, 600, &layout, &err));
+    g_assert_cmpfloat(layout.below[0], ==, layout.frame[0]);
+    g_assert_cmpfloat(layout.below[2], ==, layout.frame[2]);
+    g_assert_cmpfloat(layout.below[1], >, layout.frame[3]);
+    g_assert_cmpfloat(layout.below[3], >, layout.below[1] + 40.0);
+    gb_image_destroy(image);
+    g_free(curves);
+    gb_series_finish(&series);
+    g_assert_true(run_named("heckel", runs, &series, &err));
+    g_assert_cmpfloat_with_epsilon(
+        csv_cell(&series, "log_1", 9),
+        -log(1.0 - 0.4 - sqrt((csv_cell(&series, "p_1_MPa", 9) - 1.0) / 1e5)), 2e-3);
+    gb_series_finish(&series);
+}
+
 static void test_formats(void)
 {
     static const char *const runs[] = {"a1", NULL};
@@ -397,9 +437,9 @@ static void remove_tree(const char *path)
 static void test_report(void)
 {
     static const char *const files[] = {
-        "index.html",         "report.md",       "preset.ini",
-        "tables/density.csv", "tables/ends.csv", "tables/runs.csv",
-        "figures/time.svg",   "figures/rdf.csv", "runs/2-curve.csv"};
+        "index.html",       "report.md",       "preset.ini",       "tables/density.csv",
+        "tables/ends.csv",  "tables/runs.csv", "figures/time.svg", "figures/rdf.csv",
+        "runs/2-curve.csv", "tables/fits.csv", "figures/fit.svg",  "figures/heckel.csv"};
     struct gb_runset set = {0};
     struct gb_error err = {0};
     char *paths[] = {path_in("a1", NULL), path_in("b1", NULL)};
@@ -449,6 +489,7 @@ int main(int argc, char **argv)
     g_test_add_func("/figures/rows", test_rows);
     g_test_add_func("/figures/errors", test_errors);
     g_test_add_func("/figures/series", test_series);
+    g_test_add_func("/figures/fit", test_fit);
     g_test_add_func("/figures/formats", test_formats);
     g_test_add_func("/figures/report", test_report);
     const int status = g_test_run();

@@ -9,6 +9,7 @@ static void scale_to_pixels(struct gb_figure_layout *layout)
         layout->frame[k] *= layout->unit;
         layout->legend[k] *= layout->unit;
         layout->inset[k] *= layout->unit;
+        layout->below[k] *= layout->unit;
     }
     layout->x.from *= layout->unit;
     layout->x.to *= layout->unit;

@@ -61,6 +61,10 @@ struct gb_figure {
     size_t count;
     const struct gb_figure_annotation *annotation;
     size_t annotations;
+    /* A second panel below, over the same x axis; no curves: none. */
+    struct gb_figure_axis below_y;
+    const struct gb_figure_curve *below;
+    size_t below_count;
     double
         inset[2]; /* x range of the inset, drawn where it has space; equal or NaN: none */
 };
@@ -71,6 +75,7 @@ struct gb_figure_layout {
     double frame[4];  /* left, top, right, bottom */
     double legend[4]; /* of the box; all 0: there is none */
     double inset[4];  /* with its tick labels; all 0: none */
+    double below[4];  /* frame of the panel below; all 0: none */
     bool direct;      /* labels stand beside the lines */
     double unit;      /* pixels per point */
 };

@@ -60,7 +60,8 @@ static void draw_ticks(const struct gb_figure_page *page, enum direction directi
 static void draw_tick_labels(const struct gb_figure_page *page)
 {
     const struct gb_figure_layout *layout = &page->layout;
-    for (int k = 0; k < layout->x.ticks; k++) {
+    const bool labelled = page->figure->below_count == 0; /* x ticks: else below */
+    for (int k = 0; k < layout->x.ticks && labelled; k++) {
         const double at[2] = {gb_figure_axis_position(&layout->x, layout->x.tick[k]),
                               layout->frame[3] + gb_figure_page_gap};
         gb_text_write(&page->text, layout->x.label[k], page->tick_size, 0.0, at,
@@ -97,10 +98,13 @@ static void draw_axes(const struct gb_figure_page *page)
     draw_rules(page);
     char *x_name = axis_name(&page->figure->x, &layout->x);
     char *y_name = axis_name(&page->figure->y, &layout->y);
-    gb_text_write(&page->text, x_name, gb_figure_page_label_size, 0.0,
-                  (double[2]){0.5 * (f[0] + f[2]),
-                              f[3] + gb_figure_page_gap + 1.5 * gb_figure_page_tick_size},
-                  (double[2]){0.5, 0.0}, 0);
+    if (page->figure->below_count == 0) {
+        gb_text_write(
+            &page->text, x_name, gb_figure_page_label_size, 0.0,
+            (double[2]){0.5 * (f[0] + f[2]),
+                        f[3] + gb_figure_page_gap + 1.5 * gb_figure_page_tick_size},
+            (double[2]){0.5, 0.0}, 0);
+    }
     gb_text_write(&page->text, y_name, gb_figure_page_label_size, 0.0,
                   (double[2]){8.0, 0.5 * (f[1] + f[3])}, (double[2]){0.5, 0.0}, 1);
     g_free(x_name);
@@ -181,11 +185,24 @@ static void draw_inset(const struct gb_figure_page *page)
     draw_rules(&inset);
 }
 
+static void draw_below(const struct gb_figure_page *page)
+{
+    struct gb_figure part;
+    struct gb_figure_page below;
+    if (page->figure->below_count == 0) {
+        return;
+    }
+    gb_figure_page_below(page, &part, &below);
+    draw_curves(&below);
+    draw_axes(&below);
+}
+
 void gb_figure_draw_page(const struct gb_figure_page *page)
 {
     draw_curves(page);
     draw_axes(page);
     draw_inset(page);
+    draw_below(page);
     draw_annotations(page);
     gb_figure_labels_draw(&page->labels, page->figure, &page->text);
     draw_texts(page);

@@ -16,6 +16,10 @@ const double gb_figure_page_gap = 4.0;
 static const double inset_tick_size = 7.4;
 static const double margin = 12.0;
 
+/* Height of the panel below over that of both, and the gap between them. */
+static const double below_share = 0.28;
+static const double below_gap = 7.0;
+
 double gb_figure_page_text_width(const struct gb_figure_page *page)
 {
     return page->width - 2.0 * margin;
@@ -75,6 +79,44 @@ static void set_axis_ends(struct gb_figure_layout *layout)
     layout->y.to = layout->frame[1];
 }
 
+/* Without its frame. */
+static void fit_below(const struct gb_figure_page *page, struct gb_figure *part,
+                      struct gb_figure_page *below)
+{
+    *part = *page->figure;
+    part->curve = page->figure->below;
+    part->count = page->figure->below_count;
+    part->y = page->figure->below_y;
+    part->annotations = 0;
+    part->below_count = 0;
+    *below = *page;
+    below->figure = part;
+    below->height = 2.2 * below_share * page->height; /* for the number of ticks */
+    fit_axes(below);
+    below->layout.x = page->layout.x;
+}
+
+/* Divides the frame among the two panels. */
+static void split_frame(struct gb_figure_page *page)
+{
+    double *frame = page->layout.frame;
+    double *below = page->layout.below;
+    memcpy(below, frame, 4 * sizeof *below);
+    frame[3] -= below_share * (frame[3] - frame[1]);
+    below[1] = frame[3] + below_gap;
+}
+
+static double widest_of_panels(const struct gb_figure_page *page)
+{
+    struct gb_figure part;
+    struct gb_figure_page below;
+    if (page->figure->below_count == 0) {
+        return widest_label(page);
+    }
+    fit_below(page, &part, &below);
+    return fmax(widest_label(page), widest_label(&below));
+}
+
 static void set_frame(struct gb_figure_page *page)
 {
     const struct gb_figure *figure = page->figure;
@@ -83,7 +125,7 @@ static void set_frame(struct gb_figure_page *page)
     const double caption =
         text_height(page, figure->caption, gb_figure_page_caption_size);
     double *frame = layout->frame;
-    frame[0] = 10.0 + 1.5 * gb_figure_page_label_size + widest_label(page) +
+    frame[0] = 10.0 + 1.5 * gb_figure_page_label_size + widest_of_panels(page) +
                2.0 * gb_figure_page_gap;
     frame[1] = 8.0 + (title > 0.0 ? title + 5.0 : 0.0);
     frame[2] = page->width - 14.0 - page->legend_width;
@@ -92,6 +134,9 @@ static void set_frame(struct gb_figure_page *page)
                gb_figure_page_gap;
     frame[2] = fmax(frame[2], frame[0] + 10.0);
     frame[3] = fmax(frame[3], frame[1] + 10.0);
+    if (figure->below_count > 0) {
+        split_frame(page);
+    }
     set_axis_ends(layout);
 }
 
@@ -168,4 +213,12 @@ void gb_figure_page_inset(const struct gb_figure_page *page, struct gb_figure *p
     frame[2] = box[2] - inset_tick_size; /* half of the last tick label */
     frame[3] = box[3] - 1.5 * inset_tick_size - gb_figure_page_gap;
     set_axis_ends(&inset->layout);
+}
+
+void gb_figure_page_below(const struct gb_figure_page *page, struct gb_figure *part,
+                          struct gb_figure_page *below)
+{
+    fit_below(page, part, below);
+    memcpy(below->layout.frame, page->layout.below, sizeof below->layout.frame);
+    set_axis_ends(&below->layout);
 }

@@ -30,4 +30,8 @@ void gb_figure_page_arrange(struct gb_figure_page *page);
 void gb_figure_page_inset(const struct gb_figure_page *page, struct gb_figure *part,
                           struct gb_figure_page *inset);
 
+/* The page of the panel below, in its frame, over the same x axis. */
+void gb_figure_page_below(const struct gb_figure_page *page, struct gb_figure *part,
+                          struct gb_figure_page *below);
+
 #endif

@@ -10,6 +10,8 @@ static const struct gb_report_part parts[] = {
     {"figures", "Figures", "every figure that the runs have data for", gb_report_figures},
     {"tables", "Tables", "densities at round pressures, ends of branches",
      gb_report_tables},
+    {"fits", "Equations of compaction", "parameters of all equations with intervals",
+     gb_report_fits},
     {"pictures", "Pictures", "last state of each scene: coordination, stress, forces",
      gb_report_pictures},
     {"provenance", "Provenance", "runs with seeds, presets, curves and checksums",

@@ -30,6 +30,7 @@ const struct gb_report_part *gb_report_parts(void);
 
 gb_report_part_function gb_report_figures;
 gb_report_part_function gb_report_tables;
+gb_report_part_function gb_report_fits;
 gb_report_part_function gb_report_pictures;
 gb_report_part_function gb_report_provenance;
 gb_report_part_function gb_report_preset;

@@ -68,3 +68,13 @@ bool gb_report_table_end(struct gb_report *report, struct gb_report_table *table
     g_ptr_array_unref(table->cells);
     return good;
 }
+
+char *gb_report_table_scene(const struct gb_runset *set, size_t group)
+{
+    char *label = gb_runset_label(set, group);
+    if (*label != '\0' && strlen(label) < 120) {
+        return label;
+    }
+    g_free(label);
+    return g_strdup(gb_runset_first(set, group)->params.title);
+}

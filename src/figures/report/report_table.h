@@ -24,4 +24,8 @@ void gb_report_table_put_mean(struct gb_report_table *table, double mean, double
 bool gb_report_table_end(struct gb_report *report, struct gb_report_table *table,
                          const char *name, const char *caption, struct gb_error *err);
 
+/* Differences of a group to the others, or its title where there are none or they are long.
+ * g_free. */
+char *gb_report_table_scene(const struct gb_runset *set, size_t group);
+
 #endif

@@ -10,18 +10,6 @@
 /* Pressures of the table of densities, MPa. */
 static const double levels[] = {10.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0};
 
-/* Differences of a group to the others, or its title where there are none or they are long.
- * g_free. */
-static char *scene_name(const struct gb_runset *set, size_t group)
-{
-    char *label = gb_runset_label(set, group);
-    if (*label != '\0' && strlen(label) < 120) {
-        return label;
-    }
-    g_free(label);
-    return g_strdup(gb_runset_first(set, group)->params.title);
-}
-
 static bool density_table(struct gb_report *report, struct gb_error *err)
 {
     static const char *const heads[] = {"scene", "runs", "pressure (MPa)", "density",
@@ -30,7 +18,7 @@ static bool density_table(struct gb_report *report, struct gb_error *err)
     struct gb_report_table table;
     gb_report_table_begin(&table, heads);
     for (size_t g = 0; g < set->groups; g++) {
-        char *name = scene_name(set, g);
+        char *name = gb_report_table_scene(set, g);
         for (size_t k = 0; k < G_N_ELEMENTS(levels); k++) {
             double mean = NAN;
             double error = NAN;
@@ -108,7 +96,7 @@ static bool ends_table(struct gb_report *report, struct gb_error *err)
     gb_report_table_begin(&table, heads);
     for (size_t g = 0; g < set->groups; g++) {
         GPtrArray *branches = branches_of(gb_runset_first(set, g));
-        char *name = scene_name(set, g);
+        char *name = gb_report_table_scene(set, g);
         for (guint b = 0; b < branches->len; b++) {
             const char *branch = g_ptr_array_index(branches, b);
             gb_report_table_put(&table, "%s", name);
