@@ -19,6 +19,8 @@ static const struct gb_commands_row rows[] = {
     {packings, "sizes", "log-normal law fitted to measured particle sizes", gb_cmd_sizes},
     {packings, "snapshot", "picture of a packing", gb_cmd_snapshot},
     {results, "plot", "figures over one or more runs, and of contact laws", gb_cmd_plot},
+    {results, "fit", "equations of compaction fitted to runs or measured points",
+     gb_cmd_fit},
     {results, "report", "figures, pictures and tables of runs in one folder",
      gb_cmd_report},
     {numerics, "chart", "accuracy against cost of the numerical settings of a scene",

@@ -1,0 +1,267 @@
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/units.h"
+#include "cli/commands.h"
+#include "cli/fit_output.h"
+#include "cli/options.h"
+#include "figures/figures.h"
+#include "figures/plotting.h"
+#include "figures/runs/compaction_series.h"
+#include "many/compaction_file.h"
+
+enum { DIRECTORIES_MAX = 1000 };
+
+/* The options of the command line. */
+struct request {
+    char *equation, *from, *to, *initial, *series, *output;
+    gboolean csv, force;
+    const struct gb_equation *only; /* NULL: all */
+    struct gb_compaction_window window;
+};
+
+static bool parse_equation(struct request *request, struct gb_error *err)
+{
+    request->only =
+        request->equation != NULL ? gb_equations_find(request->equation) : NULL;
+    if (request->equation == NULL || request->only != NULL) {
+        return true;
+    }
+    GString *names = g_string_new(NULL);
+    for (size_t i = 0; i < gb_equations_count(); i++) {
+        g_string_append_printf(names, "%s%s", i > 0 ? ", " : "",
+                               gb_equations_at(i)->name);
+    }
+    gb_error_set(err, GB_ERR_INPUT, "--equation %.80s: accepted %s", request->equation,
+                 names->str);
+    g_string_free(names, TRUE);
+    return false;
+}
+
+static bool parse_pressure(const char *option, const char *text, double *to,
+                           struct gb_error *err)
+{
+    double pascal = 0.0;
+    *to = NAN;
+    if (text == NULL) {
+        return true;
+    }
+    const bool good =
+        gb_units_parse(text, GB_DIM_PRESSURE, &pascal, NULL) && pascal > 0.0;
+    *to = 1e-6 * pascal;
+    return good || gb_error_set(err, GB_ERR_INPUT,
+                                "%s %.80s: accepted a pressure above 0 with its unit, as "
+                                "in \"20 MPa\"",
+                                option, text);
+}
+
+static bool parse_initial(struct request *request, struct gb_error *err)
+{
+    double *initial = &request->window.initial;
+    *initial = NAN;
+    if (request->initial == NULL) {
+        return true;
+    }
+    request->window.fits_initial = strcmp(request->initial, "fit") == 0;
+    return request->window.fits_initial ||
+           (gb_units_parse(request->initial, GB_DIM_NONE, initial, NULL) &&
+            *initial > 0.0 && *initial < 1.0) ||
+           gb_error_set(
+               err, GB_ERR_INPUT,
+               "--initial %.80s: accepted a relative density between 0 and 1, or "
+               "fit",
+               request->initial);
+}
+
+static bool parse(struct request *request, struct gb_error *err)
+{
+    return parse_equation(request, err) &&
+           parse_pressure("--from", request->from, &request->window.from, err) &&
+           parse_pressure("--to", request->to, &request->window.to, err) &&
+           parse_initial(request, err) &&
+           (request->output == NULL ||
+            gb_plotting_check(request->output,
+                              request->force ? GB_PLOTTING_REPLACE : GB_PLOTTING_KEEP,
+                              err));
+}
+
+static bool read_runs(struct gb_compaction_data *data, const struct request *request,
+                      char **words, struct gb_error *err)
+{
+    static const char *const none[] = {NULL};
+    struct gb_runset set = {0};
+    GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
+    for (size_t i = 0; words[i] != NULL; i++) {
+        gb_runset_expand(list, words[i]);
+    }
+    bool good = (list->len <= DIRECTORIES_MAX ||
+                 gb_error_set(err, GB_ERR_INPUT, "fit takes up to %d run directories",
+                              DIRECTORIES_MAX)) &&
+                gb_runset_read(&set, (char *const *)list->pdata, list->len, err);
+    if (good && set.groups > 1) {
+        const struct gb_field *field = gb_runset_difference(&set, 0, 1, none);
+        good = gb_error_set(
+            err, GB_ERR_INPUT,
+            "%.200s: another scene than %.200s (%s.%s): accepted runs of "
+            "one scene, which are replicas",
+            gb_runset_first(&set, 1)->directory, gb_runset_first(&set, 0)->directory,
+            field != NULL ? field->group : "", field != NULL ? field->key : "");
+    }
+    if (good && request->series != NULL) {
+        good =
+            gb_error_set(err, GB_ERR_INPUT, "--series is for a file of measured points");
+    }
+    good = good && gb_compaction_data_runs(data, &set, 0, &request->window, err);
+    gb_runset_finish(&set);
+    g_ptr_array_unref(list);
+    return good;
+}
+
+static bool read_data(struct gb_compaction_data *data, const struct request *request,
+                      char **words, struct gb_error *err)
+{
+    if (words[0] == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "fit takes run directories of one scene, or one file of "
+                            "measured points");
+    }
+    if (!g_file_test(words[0], G_FILE_TEST_IS_REGULAR)) {
+        return read_runs(data, request, words, err);
+    }
+    return words[1] == NULL
+               ? gb_compaction_file(data, words[0], request->series, &request->window,
+                                    err)
+               : gb_error_set(err, GB_ERR_INPUT,
+                              "%.200s: one file of measured points at a time", words[0]);
+}
+
+/* One line on stderr for each equation that is missing in the CSV. */
+static void print_refusals(const struct gb_compaction_fits *fits)
+{
+    for (size_t i = fits->fitted; i < fits->count; i++) {
+        fprintf(stderr, "greenbody: %s\n", fits->fit[i].refusal.text);
+    }
+}
+
+static bool print(GString *text, struct gb_error *err)
+{
+    const bool good =
+        (fwrite(text->str, 1, text->len, stdout) == text->len && fflush(stdout) == 0) ||
+        gb_options_output_failed(err);
+    g_string_free(text, TRUE);
+    return good;
+}
+
+/* The figure of the same name, with its data beside it. */
+static bool write_figure(const struct gb_compaction_series *one, const char *output,
+                         struct gb_error *err)
+{
+    const struct gb_figures_row *row = gb_figures_find("fit");
+    const struct gb_plotting_page page = {
+        .width = 1600, .height = 1200, .name = row->name};
+    struct gb_series series = {0};
+    bool good = gb_compaction_series_fit(&series, one, 1, err);
+    if (good) {
+        gb_figures_axes(row, &series);
+        good = gb_plotting_write(&series, &page, output, err);
+    }
+    gb_series_finish(&series);
+    return good;
+}
+
+static bool print_fits(const struct gb_compaction_series *one, bool csv,
+                       struct gb_error *err)
+{
+    if (csv) {
+        print_refusals(&one->fits);
+    }
+    return print(csv ? gb_fit_output_csv(&one->fits, &one->data)
+                     : gb_fit_output_text(&one->fits, &one->data),
+                 err);
+}
+
+static bool fit(struct request *request, char **words, struct gb_error *err)
+{
+    struct gb_compaction_data data = {0};
+    struct gb_compaction_series one = {0};
+    const bool good =
+        parse(request, err) && read_data(&data, request, words, err) &&
+        gb_compaction_series_init(&one, &data, request->only,
+                                  data.curves > 0 ? "simulated" : "measured", err) &&
+        (request->output == NULL || write_figure(&one, request->output, err)) &&
+        print_fits(&one, request->csv, err);
+    gb_compaction_series_finish(&one);
+    return good;
+}
+
+/* The list of equations under the options. */
+static char *describe_equations(void)
+{
+    GString *text = g_string_new("Equations (P pressure in MPa, rho relative density, D0 "
+                                 "initial density, C = 1 - D0/rho):\n");
+    for (size_t i = 0; i < gb_equations_count(); i++) {
+        const struct gb_equation *equation = gb_equations_at(i);
+        g_string_append_printf(text, "  %-18s %s\n  %-18s %s\n", equation->name,
+                               equation->form, "", equation->source);
+    }
+    g_string_append(
+        text,
+        "\nThe density is fitted as a function of the pressure, at the same points for "
+        "all\nequations.  Runs of one scene are replicas: their mean at up to 48 "
+        "pressures, weighted\nby its standard errors.  Heckel's parameters are those of "
+        "the straightest stretch of\nthe Heckel plot, dAICc and rms those of all "
+        "points.  A file has the columns density\n(or density_percent) and p_MPa (or "
+        "pressure_MPa; Pa, kPa, GPa), and optionally\ndensity_error, branch (load, "
+        "unload), series.");
+    return g_string_free(text, FALSE);
+}
+
+int gb_cmd_fit(int argc, char **argv)
+{
+    struct request request = {0};
+    struct gb_error err = {0};
+    char **words = NULL;
+    int status = 0;
+    const GOptionEntry entries[] = {
+        {"equation", 0, 0, G_OPTION_ARG_STRING, &request.equation,
+         "one of those below (all)", "NAME"},
+        {"csv", 0, 0, G_OPTION_ARG_NONE, &request.csv,
+         "print equation,parameter,value,low,high,unit", NULL},
+        {"from", 0, 0, G_OPTION_ARG_STRING, &request.from,
+         "lowest pressure (runs: 1 % of the highest; file: its lowest)", "P"},
+        {"to", 0, 0, G_OPTION_ARG_STRING, &request.to,
+         "highest pressure (the highest that all runs reach)", "P"},
+        {"initial", 0, 0, G_OPTION_ARG_STRING, &request.initial,
+         "initial density, or fit (runs: that before loading; file: fit)", "D0"},
+        {"series", 0, 0, G_OPTION_ARG_STRING, &request.series,
+         "rows of a file with this word in its column series", "WORD"},
+        {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output,
+         "the figure fit of these points, too", "FILE.png|svg|pdf|csv"},
+        {"force", 0, 0, G_OPTION_ARG_NONE, &request.force, "replace an existing file",
+         NULL},
+        {0},
+    };
+    char *equations = describe_equations();
+    const struct gb_options_page page = {
+        .usage = "DIR... or FILE.csv",
+        .summary = "Fits equations of compaction to runs of one scene, or to measured "
+                   "points:\nparameters with 95 % intervals, ranked by AICc.",
+        .description = equations,
+    };
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        signal(SIGXFSZ,
+               SIG_IGN); /* a file beyond its size limit is an error of write() */
+        status = fit(&request, words, &err) ? 0 : gb_options_fail(&err);
+    }
+    char *const texts[] = {request.equation, request.from,   request.to, request.initial,
+                           request.series,   request.output, equations};
+    for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
+        g_free(texts[k]);
+    }
+    g_strfreev(words);
+    return status;
+}
