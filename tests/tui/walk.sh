@@ -3,7 +3,8 @@
 # Usage: walk.sh GREENBODY PRESET_FOLDER
 . "$(dirname "$0")/terminal.sh"
 
-# title of each view, in the order of the keys 1, 2, ... 9, 0
+# title of each view, in the order of its keys
+view_keys='1 2 3 4 5 6 7 8 9 0 E'
 titles='Pressure against relative density
 Distribution of the coordination
 Mean normal force by
@@ -13,7 +14,8 @@ Lateral-to-axial stress
 Normal force of two
 Bridge strength
 Packing
-Accuracy against cost'
+Accuracy against cost
+Equations of compaction'
 
 # The bottom line is the footer as long as the screen is whole.
 is_whole() {
@@ -21,17 +23,18 @@ is_whole() {
 }
 
 walk_views() { # size
-    key=0
+    view=0
     echo "$titles" >"$here/titles"
     while IFS= read -r title; do
-        key=$(((key + 1) % 10))
+        view=$((view + 1))
+        key=$(echo "$view_keys" | cut -d ' ' -f $view)
         keys "$key"
         shows "$1: $key shows $title" "$key $title"
     done <"$here/titles"
     keys v
     shows "$1: v goes round" '1 Pressure'
     keys V
-    shows "$1: V goes back" "0 Accuracy against cost"
+    shows "$1: V goes back" "E Equations of compaction"
     keys 1
     shows "$1: 1 is the first again" '1 Pressure'
 }

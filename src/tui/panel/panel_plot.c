@@ -36,6 +36,7 @@ void gb_panel_plot_finish(struct gb_panel_plot *panel)
     for (int i = 0; i < GB_PANEL_INSETS; i++) {
         gb_plot_finish(&panel->inset[i]);
     }
+    gb_compaction_cache_finish(&panel->fits);
     gb_alloc_free(panel->x);
     gb_alloc_free(panel->y);
 }

@@ -3,6 +3,7 @@
 
 #include "tui/panel/action.h"
 #include "tui/panel/prompt.h"
+#include "tui/session/compaction_cache.h"
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
 
@@ -95,7 +96,8 @@ struct gb_panel_plot {
     struct gb_plot plot, inset[GB_PANEL_INSETS];
     struct gb_plot *target;  /* target of the current drawing: plot or an inset */
     struct gb_params edited; /* gb_panel_params_edit_params */
-    double *x, *y;           /* series under construction */
+    struct gb_compaction_cache fits;
+    double *x, *y; /* series under construction */
     size_t capacity;
 };
 

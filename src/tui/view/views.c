@@ -98,6 +98,17 @@ static const struct gb_plot_view views[] = {
         .need = GB_VIEW_NEEDS_CHART,
         .draw = gb_view_chart_draw,
     },
+    {
+        .key = "E",
+        .help = "equations of compaction fitted to the curve",
+        .title = "Equations of compaction",
+        .hint = "best fits by AICc from 1 % of the highest pressure on, Heckel on its "
+                "straightest stretch; L log or linear",
+        .need = GB_VIEW_NEEDS_POINTS,
+        .abscissa = GB_VIEW_DENSITY,
+        .options = GB_VIEW_PRESSURE_AXIS,
+        .draw = gb_view_fit_draw,
+    },
 };
 
 enum { VIEWS = sizeof views / sizeof views[0] };

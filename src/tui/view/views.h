@@ -76,6 +76,9 @@ void gb_view_ratio_draw(struct gb_panel_plot *panel, const struct gb_session *se
 void gb_view_law_force(struct gb_panel_plot *panel, const struct gb_session *session);
 void gb_view_law_strength(struct gb_panel_plot *panel, const struct gb_session *session);
 
+/* Equations of compaction fitted to the loading branch, beside it. */
+void gb_view_fit_draw(struct gb_panel_plot *panel, const struct gb_session *session);
+
 /* Law of Hertz or Storakers, for scenes with it; called by gb_view_law_force. */
 void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
