@@ -156,7 +156,7 @@ bool gb_leg_goal_beyond(struct gb_leg_run *run, const struct gb_model *model,
     const int first = leg->cycles > 0 ? run->reversals % 2 : 0;
     const int last = leg->cycles > 0 ? first : leg->end_count - 1;
     run->shorter = 1.0;
-    for (int e = first; e <= last && !run->approaching && run->steps > 0; e++) {
+    for (int e = first; e <= last && !run->approaching; e++) {
         const struct gb_leg_end *end = &leg->end[e];
         if (!gb_leg_end_is_stress(end)) {
             continue;
