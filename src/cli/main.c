@@ -34,8 +34,7 @@ static void print_help(void)
     g_strfreev(presets);
     puts("\nOptions:\n"
          "  -h, --help     this page\n"
-         "  --diagnose     the detected features of the terminal, and the disk space of "
-         "kept runs\n"
+         "  --diagnose     detected features of the terminal, disk space of kept runs\n"
          "  --batch        greenbody run instead of the workbench, also in a terminal\n"
          "  --color, --graph, --images, --mouse, --ascii, --slow\n"
          "                 of the workbench: see greenbody default --help\n"

@@ -105,14 +105,12 @@ int gb_cmd_attach(int argc, char **argv)
     static const struct gb_options_page page = {
         "DIR",
         "Shows a running simulation of another process, live, from its directory.\n"
-        "Leaving does not affect it.  For a directory of many runs (sweep, calibrate) "
-        "it\n"
-        "shows their mean curves with standard errors, the density over the varied\n"
+        "Leaving does not affect it.  For a directory of many runs (sweep, calibrate)\n"
+        "it shows their mean curves with standard errors, the density over the varied\n"
         "values, and the progress of each run.",
-        "t takes the run over: the other process is asked to stop with a checkpoint, "
-        "and\n"
-        "the run continues here.  Where stdout is no terminal, progress is printed line\n"
-        "by line."};
+        "t takes the run over: the other process is asked to stop with a checkpoint,\n"
+        "and the run continues here.  Where stdout is no terminal, progress is\n"
+        "printed line by line."};
     char **words = NULL;
     int status = 0;
     struct gb_screen_options screen = {0};

@@ -13,11 +13,10 @@ static const struct gb_options_page page = {
     .usage = "[PRESET] [group.key=value]...",
     .summary =
         "Measures the speed of the engine on this machine: the initial structure; one\n"
-        "force evaluation with its move (forces, torques, history, relaxer) on one core\n"
-        "and on all of them, at a coordination number of a pressed packing; a "
-        "checkpoint\n"
-        "of it, written in TMPDIR; the planar dynamic scene of P2 at density 0.9; and\n"
-        "the bed of P3 at 50 MPa in its die.",
+        "force evaluation with its move (forces, torques, history, relaxer) on one\n"
+        "core and on all of them, at a coordination number of a pressed packing; a\n"
+        "checkpoint of it, written in TMPDIR; the planar dynamic scene of P2 at\n"
+        "density 0.9; and the bed of P3 at 50 MPa in its die.",
     .description =
         "Without a preset: 8000 particles of 9.7 nm with bridges (P1, set II).\n"
         "Times are medians of 15 batches of 24 evaluations; several sizes are timed\n"

@@ -107,13 +107,12 @@ static const struct gb_options_page page = {
     "95 % intervals (errors of the data and scatter of the cells) and correlations.\n"
     "Small cells come first, the full ones last.",
     "FILE.csv has the columns p_MPa and density, and may have density_error, branch\n"
-    "(load, or unload: the density left after unloading from p_MPa) and keys with their\n"
-    "unit, as particles.diameter_nm, where several powders are fitted together.\n"
-    "Repeated, the command continues an interrupted fit.  DIR receives rounds.csv "
-    "during\n"
-    "the fit, then calibration.csv, fit.csv, calibrated.ini and the runs.\n\n"
-    "  greenbody calibrate p1-set1-uniaxial --data lab.csv --free "
-    "contact.mu,contact.alpha --out fit"};
+    "(load, or unload: the density left after unloading from p_MPa) and keys with\n"
+    "their unit, as particles.diameter_nm, where several powders are fitted together.\n"
+    "Repeated, the command continues an interrupted fit.  DIR receives rounds.csv\n"
+    "during the fit, then calibration.csv, fit.csv, calibrated.ini and the runs.\n\n"
+    "  greenbody calibrate p1-set1-uniaxial --data lab.csv \\\n"
+    "    --free contact.mu,contact.alpha --out fit"};
 
 int gb_cmd_calibrate(int argc, char **argv)
 {

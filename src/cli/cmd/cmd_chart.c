@@ -266,20 +266,16 @@ int gb_cmd_chart(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "PRESET [group.key=value]...",
-        "Measures the accuracy of numerical settings of a scene against their cost.  "
-        "Each\n"
-        "setting simulates the same cells as a reference with a small strain step and a\n"
-        "tight tolerance; densities at given pressures are compared cell by cell.  "
-        "Marks\n"
-        "the Pareto-optimal settings, recommends the cheapest one with an error below "
-        "the\n"
-        "scatter between cells, marks rows that are limited by noise, and estimates the\n"
-        "number of cells for a standard error.",
-        "DIR receives chart.csv (one row per setting), runs.csv (one row per cell) and\n"
-        "preset.ini.  Repeated, the command continues an interrupted chart.\n"
-        "`greenbody plot DIR --figure chart` draws it, `--figure chart-error` the "
-        "errors\n"
-        "at one of the pressures."};
+        "Measures the accuracy of numerical settings of a scene against their cost.\n"
+        "Each setting simulates the same cells as a reference with a small strain step\n"
+        "and a tight tolerance; densities at given pressures are compared cell by\n"
+        "cell.  Marks the Pareto-optimal settings, recommends the cheapest one with an\n"
+        "error below the scatter between cells, marks rows that are limited by noise,\n"
+        "and estimates the number of cells for a standard error.",
+        "DIR receives chart.csv (one row per setting), runs.csv (one row per cell)\n"
+        "and preset.ini.  Repeated, the command continues an interrupted chart.\n"
+        "`greenbody plot DIR --figure chart` draws it, `--figure chart-error` the\n"
+        "errors at one of the pressures."};
     struct chart chart = {.seeds = 4, .standard_error = 0.001, .log = {.lock = -1}};
     char **sets = NULL, **words = NULL;
     int status = 0;

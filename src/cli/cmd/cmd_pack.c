@@ -141,9 +141,8 @@ int gb_cmd_pack(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "PRESET [group.key=value]...",
-        "The initial structure alone: its particles (packing.csv), g(r) (g.csv), "
-        "contacts\n"
-        "and clusters (structure.json), and state.h5 for greenbody snapshot.",
+        "The initial structure alone: its particles (packing.csv), g(r) (g.csv),\n"
+        "contacts and clusters (structure.json), and state.h5 for greenbody snapshot.",
         NULL};
     struct pack pack = {0};
     struct gb_error err = {0};

@@ -43,9 +43,9 @@ int gb_cmd_report(int argc, char **argv)
     };
     static const struct gb_options_page page = {
         .usage = "DIR... -o OUT",
-        .summary = "Figures with their data, pictures, tables, presets and checksums in "
-                   "one folder\n"
-                   "with the pages index.html (for a browser) and report.md.",
+        .summary = "Figures with their data, pictures, tables, presets and checksums\n"
+                   "in one folder with the pages index.html (for a browser) and\n"
+                   "report.md.",
     };
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         signal(SIGXFSZ,

@@ -48,12 +48,10 @@ int gb_cmd_resume(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "DIR",
-        "Continues an interrupted run from its last checkpoint, to the same bits as "
-        "without\n"
-        "the interruption.",
-        "Rows of curve.csv after the checkpoint are computed again.  preset.ini may "
-        "have\n"
-        "changed in [output], title and threads only."};
+        "Continues an interrupted run from its last checkpoint, to the same bits as\n"
+        "without the interruption.",
+        "Rows of curve.csv after the checkpoint are computed again.  preset.ini may\n"
+        "have changed in [output], title and threads only."};
     struct gb_foreground run = {0};
     char **words = NULL;
     gboolean quiet = FALSE;

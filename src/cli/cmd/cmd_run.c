@@ -157,9 +157,8 @@ int gb_cmd_run(int argc, char **argv)
         "PRESET [group.key=value]...",
         "One run without a screen.  Results go to a directory, progress to stderr.",
         "SIGINT and SIGTERM stop the run with a checkpoint: `greenbody resume DIR`\n"
-        "continues it to the same bits as without the interruption.  When the terminal "
-        "is\n"
-        "closed, output.on_hangup says whether the run continues."};
+        "continues it to the same bits as without the interruption.  When the\n"
+        "terminal is closed, output.on_hangup says whether the run continues."};
     struct run run = {0};
     char **sets = NULL;
     char *from = NULL;

@@ -115,9 +115,8 @@ int gb_cmd_sizes(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "FILE.csv",
-        "Fits the log-normal law of particle sizes, P1 (17), to a measured histogram "
-        "and\n"
-        "prints it as keys of a preset.",
+        "Fits the log-normal law of particle sizes, P1 (17), to a measured histogram\n"
+        "and prints it as keys of a preset.",
         "The file has a row per class: its middle in diameter_nm (or another unit of\n"
         "length) and the number of its particles, count, or their share, share_number.\n"
         "Maximum likelihood; the limits of the classes lie halfway between the middles."};

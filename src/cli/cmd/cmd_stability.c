@@ -71,12 +71,10 @@ int gb_cmd_stability(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         NULL,
-        "Measures the longest stable step of each method and compares it with theory: "
-        "the\n"
-        "time step of velocity Verlet, fire and predict in sqrt(m/(E d)), and the "
-        "largest\n"
-        "displacement per force k of P1 (15) (steepest) in 1/(E d), at which a small\n"
-        "disturbance of a packing at rest does not grow.",
+        "Measures the longest stable step of each method and compares it with theory:\n"
+        "the time step of velocity Verlet, fire and predict in sqrt(m/(E d)), and the\n"
+        "largest displacement per force k of P1 (15) (steepest) in 1/(E d), at which a\n"
+        "small disturbance of a packing at rest does not grow.",
         "theory: 2/omega of the fastest mode, with damping times sqrt(1+xi^2)-xi;\n"
         "2/omega^2 for steepest, sqrt(2)/omega for fire and predict, which with a fixed\n"
         "step and a stop at every move are (15) with k = step^2.  damping: xi.  closed\n"

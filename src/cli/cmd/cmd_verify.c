@@ -39,9 +39,8 @@ int gb_cmd_verify(int argc, char **argv)
 {
     static const struct gb_options_page page = {
         "DIR",
-        "Repeats the last part of a run, from the checkpoint before the last one (or "
-        "from\n"
-        "the beginning), and compares the two states bit by bit.",
+        "Repeats the last part of a run, from the checkpoint before the last one (or\n"
+        "from the beginning), and compares the two states bit by bit.",
         "Exit status 0: equal; 1: different, with the first array and row that differ.\n"
         "The directory is not changed."};
     char **words = NULL;
