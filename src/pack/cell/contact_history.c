@@ -246,3 +246,31 @@ void gb_contact_history_read(const struct gb_contact_history *history,
                   gb_share(count, t + 1, threads));
     }
 }
+
+const struct gb_contact_history_names gb_contact_history_world = {"world/pair",
+                                                                  "world/history"};
+const struct gb_contact_history_names gb_contact_history_branch = {"branch/pair",
+                                                                   "branch/history"};
+
+bool gb_contact_history_record(struct gb_contact_history *history,
+                               const struct gb_engine *engine, struct gb_record *record,
+                               const struct gb_contact_history_names *names,
+                               struct gb_error *err)
+{
+    const int planes = engine->contacts.kept;
+    const enum gb_real real = engine->state.real;
+    int64_t rows = history->count;
+    if (record->loading &&
+        (!gb_record_rows(record, names->pair, GB_RECORD_INT32, 2, &rows, err) ||
+         !gb_contact_history_reserve(history, rows, planes, real, err))) {
+        return false;
+    }
+    history->count = rows;
+    return gb_record_array(record, names->pair, GB_RECORD_INT32, rows, 2, "1",
+                           history->pair, err) &&
+           (real == GB_REAL_F32
+                ? gb_record_f32(record, names->value, rows, planes, "d", history->value,
+                                err)
+                : gb_record_array(record, names->value, GB_RECORD_DOUBLE, rows, planes,
+                                  "d", history->value, err));
+}

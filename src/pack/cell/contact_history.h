@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/record.h"
 #include "greenbody/status.h"
 #include "pack/cell/contacts.h"
 
@@ -50,5 +51,20 @@ void gb_contact_history_apply(const struct gb_contact_history *history, int64_t 
 /* Gives every slot of a new list its history, or none. */
 void gb_contact_history_read(const struct gb_contact_history *history,
                              struct gb_engine *engine);
+
+/* Items of a checkpoint that hold a history: that of the world, and that of the start of a
+ * branch in checkpoints of version 0.1. */
+struct gb_contact_history_names {
+    const char *pair, *value;
+};
+extern const struct gb_contact_history_names gb_contact_history_world,
+    gb_contact_history_branch;
+
+/* Saves the kept values of a history, or loads them; contacts are not changed.
+ * Errors: GB_ERR_INPUT naming the item, GB_ERR_MEMORY. */
+bool gb_contact_history_record(struct gb_contact_history *history,
+                               const struct gb_engine *engine, struct gb_record *record,
+                               const struct gb_contact_history_names *names,
+                               struct gb_error *err);
 
 #endif

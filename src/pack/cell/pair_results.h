@@ -39,6 +39,12 @@ bool gb_pair_results_resize_far(struct gb_pair_results *results, int64_t capacit
                                 enum gb_real real, enum gb_pair_results_far content,
                                 struct gb_error *err);
 
+/* Force of near pair k on its first particle. */
+void gb_pair_results_force(const struct gb_pair_results *results, int64_t k,
+                           double force[3]);
+void gb_pair_results_set_force(struct gb_pair_results *results, int64_t k,
+                               const double force[3]);
+
 /* The far pairs of a new list have no last evaluation. */
 void gb_pair_results_reset_far(struct gb_pair_results *results, int64_t pairs);
 

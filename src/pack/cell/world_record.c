@@ -83,36 +83,6 @@ static bool record_vectors(struct gb_world *world, struct gb_record *record,
                            3, unit, data, err);
 }
 
-/* Contacts and their histories under two names. */
-struct history_names {
-    const char *pair, *value;
-};
-
-static const struct history_names world_names = {"world/pair", "world/history"};
-static const struct history_names branch_names = {"branch/pair", "branch/history"};
-
-static bool record_history(struct gb_contact_history *history,
-                           const struct gb_engine *engine, struct gb_record *record,
-                           const struct history_names *names, struct gb_error *err)
-{
-    const int planes = engine->contacts.kept;
-    const enum gb_real real = engine->state.real;
-    int64_t rows = history->count;
-    if (record->loading &&
-        (!gb_record_rows(record, names->pair, GB_RECORD_INT32, 2, &rows, err) ||
-         !gb_contact_history_reserve(history, rows, planes, real, err))) {
-        return false;
-    }
-    history->count = rows;
-    return gb_record_array(record, names->pair, GB_RECORD_INT32, rows, 2, "1",
-                           history->pair, err) &&
-           (real == GB_REAL_F32
-                ? gb_record_f32(record, names->value, rows, planes, "d", history->value,
-                                err)
-                : gb_record_array(record, names->value, GB_RECORD_DOUBLE, rows, planes,
-                                  "d", history->value, err));
-}
-
 /* Pairs inserted into the lists since their build. */
 static const char inserted_name[] = "world/amended";
 
@@ -189,15 +159,47 @@ static bool load_contacts(struct gb_world *world, struct gb_record *record,
 {
     struct gb_contact_history *history = &world->checkpoint_history;
     struct gb_engine *engine = &world->engine;
-    if (!record_history(history, engine, record, &world_names, err) ||
-        !gb_record_checks_history(history, engine->particles.count, world_names.pair,
-                                  err)) {
+    if (!gb_contact_history_record(history, engine, record, &gb_contact_history_world,
+                                   err) ||
+        !gb_record_checks_history(history, engine->particles.count,
+                                  gb_contact_history_world.pair, err)) {
         return false;
     }
     if (!fits(history, engine)) {
         return gb_error_set(err, GB_ERR_INPUT, "world/pair: does not fit the positions");
     }
     apply_history(history, engine);
+    return true;
+}
+
+/* Force on the first particle of every contact.  In single precision for pictures only;
+ * in double precision also the near rows of the loaded world, whose evaluation was one
+ * without histories. */
+static const char forces_name[] = "world/pair_force";
+
+static bool load_forces(struct gb_world *world, const struct gb_record *record,
+                        struct gb_error *err)
+{
+    struct gb_engine *engine = &world->engine;
+    const int64_t slots = gb_neighbour_list_slots(&engine->list, &engine->list.near);
+    int64_t rows = 0;
+    if (gb_engine_is_f32(engine)) {
+        return true;
+    }
+    if (!gb_record_rows(record, forces_name, GB_RECORD_DOUBLE, 3, &rows, err)) {
+        return false;
+    }
+    if (rows != world->checkpoint_history.count) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: does not fit the contacts",
+                            forces_name);
+    }
+    const double *force = gb_record_find(record, forces_name)->data;
+    for (int64_t k = 0; k < slots; k++) {
+        if (gb_contacts_touch(&engine->contacts, k)) {
+            gb_pair_results_set_force(&engine->pair, k, force);
+            force += 3;
+        }
+    }
     return true;
 }
 
@@ -229,7 +231,7 @@ static bool load(struct gb_world *world, struct gb_record *record, struct gb_err
     struct gb_particles *particles = &engine->particles;
     gb_engine_state_replace(&engine->state);
     if (!load_lists(world, record, err) || !load_positions(world, record, err) ||
-        !load_contacts(world, record, err) ||
+        !load_contacts(world, record, err) || !load_forces(world, record, err) ||
         !record_vectors(world, record, "world/force", "E d^2", particles->force, err) ||
         !record_vectors(world, record, "world/torque", "E d^3", particles->torque, err)) {
         return false;
@@ -238,14 +240,13 @@ static bool load(struct gb_world *world, struct gb_record *record, struct gb_err
     return gb_record_members(record, result_members, LENGTH(result_members), world, err);
 }
 
-/* Force on the first particle of every contact: for pictures, not read by a load. */
 static bool save_forces(const struct gb_world *world, struct gb_record *record,
                         struct gb_error *err)
 {
     const struct gb_engine *engine = &world->engine;
     const int64_t slots = gb_neighbour_list_slots(&engine->list, &engine->list.near);
     struct gb_record_item *item =
-        gb_record_add(record, "world/pair_force", GB_RECORD_DOUBLE,
+        gb_record_add(record, forces_name, GB_RECORD_DOUBLE,
                       world->checkpoint_history.count, 3, "E d^2", err);
     double *force = item ? item->data : NULL;
     struct gb_pair_forces forces;
@@ -276,7 +277,8 @@ static bool save(struct gb_world *world, struct gb_record *record, struct gb_err
            record_cell(world, record, err) &&
            record_vectors(world, record, "world/position", "d", particles->position,
                           err) &&
-           record_history(history, engine, record, &world_names, err) &&
+           gb_contact_history_record(history, engine, record, &gb_contact_history_world,
+                                     err) &&
            save_forces(world, record, err) &&
            record_vectors(world, record, "world/force", "E d^2", particles->force, err) &&
            record_vectors(world, record, "world/torque", "E d^3", particles->torque,
@@ -288,34 +290,6 @@ bool gb_world_record(struct gb_world *world, struct gb_record *record,
                      struct gb_error *err)
 {
     return record->loading ? load(world, record, err) : save(world, record, err);
-}
-
-bool gb_world_record_copy(const struct gb_world *world, struct gb_world_copy **copy,
-                          struct gb_record *record, struct gb_error *err)
-{
-    const struct gb_particles *particles = &world->engine.particles;
-    if (!gb_world_copy_ensure(world, copy, err)) {
-        return false;
-    }
-    struct gb_world_copy *at = *copy;
-    if (record->loading) {
-        at->cell = particles->cell;
-        at->count = particles->count;
-    }
-    return gb_record_array(record, "branch/edge", GB_RECORD_DOUBLE, 1, 3, "d",
-                           at->cell.edge, err) &&
-           (!world->engine.model->sheared ||
-            (gb_record_array(record, "branch/tilt", GB_RECORD_DOUBLE, 1, 3, "d",
-                             at->cell.tilt, err) &&
-             gb_record_array(record, "branch/shear", GB_RECORD_DOUBLE, 1, 3, "1",
-                             at->cell.shear, err))) &&
-           gb_record_checks_edges(&at->cell, "branch/edge", err) &&
-           gb_record_array(record, "branch/position", GB_RECORD_DOUBLE, at->count, 3, "d",
-                           at->position, err) &&
-           gb_record_checks_inside(&at->cell, at->position, at->count, 1.0,
-                                   "branch/position", err) &&
-           record_history(&at->history, &world->engine, record, &branch_names, err) &&
-           gb_record_checks_history(&at->history, at->count, branch_names.pair, err);
 }
 
 #undef AT

@@ -1,5 +1,7 @@
 #include "pack/kernel/pair_forces.h"
 
+#include <string.h>
+
 #include "pack/cell/world_private.h"
 #include "pack/kernel/sweep_f32.h"
 
@@ -17,13 +19,11 @@ void gb_pair_forces_init(struct gb_pair_forces *forces, const struct gb_world *w
 static void read_row(const struct gb_pair_forces *forces, int64_t k, double force[3])
 {
     const struct gb_engine *engine = &forces->world->engine;
-    const bool near = forces->list == &engine->list.near;
-    const double *row = near ? engine->pair.wrench + (int64_t)engine->pair.width * k
-                             : engine->pair.pull + 3 * k;
-    const bool planar = near && engine->pair.width < 6;
-    force[0] = row[0];
-    force[1] = planar ? 0.0 : row[1];
-    force[2] = planar ? row[1] : row[2];
+    if (forces->list == &engine->list.near) {
+        gb_pair_results_force(&engine->pair, k, force);
+    } else {
+        memcpy(force, engine->pair.pull + 3 * k, 3 * sizeof *force);
+    }
 }
 
 /* The batch that begins with pair k. */

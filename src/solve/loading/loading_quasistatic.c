@@ -157,7 +157,9 @@ static bool save_branch_start(struct quasistatic_loading *run, struct gb_error *
     gb_world_copy_destroy(run->old_branch_start);
     run->old_branch_start = NULL;
     const bool done = record_branch_start(run, &run->branch_start, err);
-    gb_record_remove(&run->branch_start, "world/pair_force"); /* for pictures only */
+    if (run->base.model->numerics.single) {
+        gb_record_remove(&run->branch_start, "world/pair_force"); /* for pictures only */
+    }
     return done;
 }
 
@@ -184,7 +186,7 @@ static bool record_branch(struct quasistatic_loading *run, struct gb_record *rec
 {
     if (run->old_branch_start ||
         (record->loading && gb_record_find(record, "branch/position"))) {
-        return gb_world_record_copy(run->base.world, &run->old_branch_start, record, err);
+        return gb_world_copy_record(run->base.world, &run->old_branch_start, record, err);
     }
     return gb_record_nest(record, "branch_", &run->branch_start, err);
 }
