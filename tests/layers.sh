@@ -207,5 +207,5 @@ for library in "$@"; do
     esac
 done
 
-[ "$bad" -eq 0 ] && echo "layers: the walls stand"
+[ "$bad" -eq 0 ] && echo "layers: no violation"
 exit "$bad"

@@ -17,14 +17,14 @@ NAMES = """
     narrowed ahead spot spots ledger ledgers spare sift sifted deal dealt leap departure foretell
     foretold foresee asked crew boss letter letters ranks errand errands overheard swarm husk life
     pressing solo dress lens hush sheet album programme trial relief guess whoever somebody
-    nobody manieth place places way ways arm arms turn turns turned
+    nobody manieth place places way ways arm arms turn turns turned stretch
 """.split()
 
 # Words of comments, messages and pages.
 TEXTS = """
     whoever whomever somebody someone nobody anybody manieth foretold foretell foretells stray
     strays flock flocks amend amends amended amendment amendments sift sifted errand errands
-    overheard swarm husk crew ledger
+    overheard swarm husk crew ledger album albums programme programmes solo hush boss dealt
 """.split()
 
 # What strings may hold all the same: items of checkpoints, whose names are a contract.

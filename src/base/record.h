@@ -9,8 +9,8 @@
 
 /* Named arrays of plain numbers: what a checkpoint is made of.
  *
- * Every part of the engine lists what it needs to go on in one function, which saves or
- * loads, whichever way the record goes; so the two cannot differ.  A record is memory
+ * Every part of the engine lists what it needs to continue in one function, which saves
+ * or loads, whichever way the record goes; so the two cannot differ.  A record is memory
  * only; src/io/store.h writes it to files.  Filling it costs no more than the copying. */
 enum gb_record_type {
     GB_RECORD_DOUBLE,

@@ -42,8 +42,8 @@ bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
                      const struct gb_viewpoint *viewpoint, const struct gb_frame *frame,
                      enum gb_background background, struct gb_error *err);
 
-/* An empty scene of a box of these edges: arrays for so many parts, the camera and the
- * light set. */
+/* An empty scene of a box: camera and light are set, and there is room for parts[0]
+ * spheres, parts[1] rods and parts[2] facets. */
 bool gb_scene_begin(struct gb_scene **out, const double cell[3], double margin,
                     const size_t parts[3], const struct gb_viewpoint *viewpoint,
                     const struct gb_frame *frame, enum gb_background background,

@@ -73,10 +73,9 @@ static const struct column_set {
          ",time_ns,kinetic,work,elastic,dissipated,energy_residual", append_energies},
     [GB_COLUMNS_DIE] =
         {"# die: p and pz are what the powder carries under the punch, px and py the "
-         "mean "
-         "on the side wall; density is that of the whole specimen, central_density that "
-         "of a ball in its middle; height_change is relative to the height before "
-         "pressing; time_ns is simulated time, wanted_MPa the pressure of the programme, "
+         "mean on the side wall; density is that of the whole specimen, central_density "
+         "that of a ball in its middle; height_change is relative to the height before "
+         "pressing; time_ns is simulated time, wanted_MPa the scheduled pressure, "
          "floor_over_punch a ratio of forces: not quasi-static outside 0.95 to 1.05\n",
          ",time_ns,central_density,height_um,height_change,wanted_MPa,floor_over_punch",
          append_die},
@@ -84,9 +83,8 @@ static const struct column_set {
 
 static const char tensor_note[] =
     "# tensors: pxy, pxz, pyz of the pressure tensor; q its deviatoric part; asymmetry "
-    "of "
-    "its antisymmetric part over the mean pressure; exx, eyy, ezz logarithmic strains, "
-    "positive in compression, gxy, gxz, gyz engineering shears, all since the start; fxx "
+    "of its antisymmetric part over the mean pressure; exx, eyy, ezz logarithmic "
+    "strains, positive in compression, gxy, gxz, gyz engineering shears, all since the start; fxx "
     "to fyz fabric of the contacts; anisotropies of the fabric of all, bridged, tensile "
     "contacts and weighted by force; leg of loading.path\n";
 

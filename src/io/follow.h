@@ -25,7 +25,7 @@ struct gb_follow_engine {
     bool here; /* on this machine */
 };
 
-/* Reads status.json.  It does not tell whether the engine still runs: the lock of the
+/* Reads status.json.  It does not show whether the engine still runs: the lock of the
  * directory does (gb_rundir_busy). */
 bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
                       struct gb_follow_engine *engine, struct gb_error *err);

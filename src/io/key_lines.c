@@ -49,7 +49,7 @@ static bool take_group(struct scanner *scanner, const struct piece *piece,
     return true;
 }
 
-/* GKeyFile would let the last of two equal keys win without a word. */
+/* GKeyFile would take the last of two equal keys silently. */
 static bool take_once(struct scanner *scanner, const struct piece *piece, const char *key,
                       struct gb_error *err)
 {

@@ -126,7 +126,7 @@ static bool apply_line(struct gb_preset *preset, GKeyFile *file,
                      line->key);
     } else if (field) {
         good = set_value(&preset->params, field, value, preset->path, &why);
-    } else { /* assign knows how to say which keys there are */
+    } else { /* its error names the keys that exist */
         char *text = g_strconcat(line->group, ".", line->key, "=", value, NULL);
         good = gb_params_assign(&preset->params, text, &why);
         g_free(text);
@@ -196,7 +196,7 @@ static char *resolve(const char *name, struct gb_error *err)
     }
     char *path = gb_preset_folders_find(name);
     if (!path && (strchr(name, '/') || g_file_test(name, G_FILE_TEST_EXISTS))) {
-        path = g_strdup(name); /* opening it tells what is wrong */
+        path = g_strdup(name); /* the error follows from opening it */
     }
     if (!path) {
         char **known = gb_preset_folders_list();

@@ -74,7 +74,7 @@ double gb_law_storakers_load(const struct gb_law_storakers *law, double radius, 
 }
 
 double gb_law_storakers_recovery(const struct gb_law_storakers *law, double radius,
-                                double deepest)
+                                 double deepest)
 {
     const double elastic = gb_law_hertz_force(&law->hertz, radius, deepest);
     const double plastic = gb_law_storakers_plastic(law, radius, deepest);
@@ -114,7 +114,8 @@ static double plastic_work(const struct gb_law_storakers *law, double radius, do
     return gb_law_storakers_plastic(law, radius, h) * h / (2.0 + 0.5 * law->exponent);
 }
 
-double gb_law_storakers_loading_work(const struct gb_law_storakers *law, double radius, double h)
+double gb_law_storakers_loading_work(const struct gb_law_storakers *law, double radius,
+                                     double h)
 {
     if (law->printed) {
         return plastic_work(law, radius, h);
@@ -124,8 +125,8 @@ double gb_law_storakers_loading_work(const struct gb_law_storakers *law, double 
            (plastic_work(law, radius, h) - plastic_work(law, radius, border));
 }
 
-double gb_law_storakers_unloading_energy(const struct gb_law_storakers *law, double radius,
-                                 double deepest, double h)
+double gb_law_storakers_unloading_energy(const struct gb_law_storakers *law,
+                                         double radius, double deepest, double h)
 {
     if (!(h > 0.0)) {
         return 0.0;

@@ -7,8 +7,10 @@ void gb_law_unequal_init(struct gb_law_unequal *law, const struct gb_law_rod *ro
                          const struct gb_law_dispersion *dispersion, double first,
                          double second)
 {
-    const double mean_diameter = 0.5 * (first + second), inverse_diameter = 1.0 / mean_diameter;
-    const double share = first * second * inverse_diameter * inverse_diameter; /* d_i d_j/D^2 = c */
+    const double mean_diameter = 0.5 * (first + second),
+                 inverse_diameter = 1.0 / mean_diameter;
+    const double share =
+        first * second * inverse_diameter * inverse_diameter; /* d_i d_j/D^2 = c */
     const double offset = 0.5 * (first - second) * inverse_diameter, root = sqrt(share);
     *law = (struct gb_law_unequal){
         .mean_diameter = mean_diameter,
@@ -18,8 +20,8 @@ void gb_law_unequal_init(struct gb_law_unequal *law, const struct gb_law_rod *ro
                 .rod = share * rod->rod,
                 .pivot = share * rod->pivot},
         .bridge_length = mean_diameter * bridge->length,
-        .strength =
-            share * share * share * dispersion->strength * inverse_diameter * inverse_diameter * inverse_diameter,
+        .strength = share * share * share * dispersion->strength * inverse_diameter *
+                    inverse_diameter * inverse_diameter,
         .shift = dispersion->shift * inverse_diameter,
         .offset = offset * offset,
     };
@@ -34,14 +36,18 @@ double gb_law_unequal_elastic(const struct gb_law_unequal *law, double deepest, 
     if (stiffness) {
         *stiffness = slope;
     }
-    return law->mean_diameter * law->mean_diameter * gb_law_rod_force(&law->rod, x) - slope * (from - h);
+    return law->mean_diameter * law->mean_diameter * gb_law_rod_force(&law->rod, x) -
+           slope * (from - h);
 }
 
-double gb_law_unequal_elastic_energy(const struct gb_law_unequal *law, double deepest, double h)
+double gb_law_unequal_elastic_energy(const struct gb_law_unequal *law, double deepest,
+                                     double h)
 {
     const double mean_diameter = law->mean_diameter;
-    const double from = deepest > 0.0 ? deepest : h, x = from / mean_diameter, back = from - h;
-    return mean_diameter * mean_diameter * mean_diameter * gb_law_rod_energy(&law->rod, x) -
+    const double from = deepest > 0.0 ? deepest : h, x = from / mean_diameter,
+                 back = from - h;
+    return mean_diameter * mean_diameter * mean_diameter *
+               gb_law_rod_energy(&law->rod, x) -
            mean_diameter * mean_diameter * gb_law_rod_force(&law->rod, x) * back +
            0.5 * mean_diameter * gb_law_rod_stiffness(&law->rod, x) * back * back;
 }
@@ -54,7 +60,8 @@ double gb_law_unequal_radius(const struct gb_law_unequal *law, double h)
 double gb_law_unequal_moment(const struct gb_law_unequal *law, double h)
 {
     /* a carries another root of c, in both terms of (9) */
-    return law->mean_diameter * law->mean_diameter * law->mean_diameter * sqrt(law->diameter_ratio) *
+    return law->mean_diameter * law->mean_diameter * law->mean_diameter *
+           sqrt(law->diameter_ratio) *
            gb_law_rod_moment(&law->rod, h / law->mean_diameter);
 }
 
@@ -62,7 +69,8 @@ double gb_law_unequal_attraction(const struct gb_law_unequal *law, double r)
 {
     const double s = fmax(r / law->mean_diameter, 1.0) + law->shift;
     const double near = s * s - 1.0, wide = s * s - law->offset;
-    return law->mean_diameter * law->mean_diameter * law->strength * s / (near * near * wide * wide);
+    return law->mean_diameter * law->mean_diameter * law->strength * s /
+           (near * near * wide * wide);
 }
 
 double gb_law_unequal_attraction_energy(const struct gb_law_unequal *law, double r)

@@ -55,7 +55,7 @@ struct gb_ensemble_callbacks {
     void *data;
 };
 
-/* Does the runs that have not ended.  One that fails is marked; the others go on.
+/* Does the runs that have not ended.  One that fails is marked; the others continue.
  *
  * Errors: GB_ERR_CANCELLED (the runs under way have stopped), GB_ERR_MACHINE when no
  * worker can be started at all. */

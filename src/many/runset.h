@@ -29,8 +29,8 @@ struct gb_runset {
 int gb_runset_compare(const char *a, const char *b);
 
 /* Adds (g_strdup) a run directory to a list, or, for a directory of many runs, those of
- * its runs that were done, by name.  A word that is neither is added as it is: reading it
- * tells what is wrong. */
+ * its runs that were done, by name.  A word that is neither is added as it is: the error
+ * follows from reading it. */
 void gb_runset_expand(GPtrArray *list, const char *directory);
 
 /* Reads preset.ini and curve.csv of each directory.  Errors are one line:

@@ -65,9 +65,8 @@ bool gb_harmonics_fit(struct gb_harmonics *rose, int dimension, const double *ax
     const size_t terms = dimension == 2 ? PLANAR_TERMS : GB_HARMONICS_TERMS;
     *rose = (struct gb_harmonics){.count = count};
     if (count < terms) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "rose of %zu forces: must be at least %zu", count,
-                            terms);
+        return gb_error_set(err, GB_ERR_INPUT, "rose of %zu forces: must be at least %zu",
+                            count, terms);
     }
     rose->mean = add_up(matrix, right, terms, axis, value, count);
     gsl_matrix_view a = gsl_matrix_view_array(matrix, terms, terms);

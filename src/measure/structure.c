@@ -64,11 +64,11 @@ static double nearest_square(const struct gb_cell *cell, const double matrix[3][
     return gb_vec_dot(nearest, nearest);
 }
 
-/* Particles of which all pairs are looked at in a tilted cell: 1/40 s. */
+/* Particles whose pairs are counted in a tilted cell: 1/40 s. */
 static const int64_t centres_most = 1000;
 
-/* The same in a tilted cell, which the grid does not know: pairs of every n-th particle
- * with all others stand for all pairs. */
+/* The same in a tilted cell, which the grid does not support: pairs of every n-th
+ * particle with all others stand for all pairs. */
 static void count_all_pairs(const struct gb_cell *cell, int64_t count,
                             const double *position, double r_max, int bins, double *pairs)
 {

@@ -118,7 +118,7 @@
 #define GB_OVERLAP_MAX 0.5
 
 /* Halvings of the strain step in a row after which a quasi-static run stops.  More: a run
- * that cannot go on takes longer to stop. */
+ * that cannot continue takes longer to stop. */
 #define GB_STRAIN_HALVINGS_MAX 6
 
 /* Unloading ends when the pressure is below this share of where it began. */

@@ -20,7 +20,7 @@ static inline gint64 patience_us(void)
 static inline void patience_check(gint64 from, const char *event)
 {
     if (g_get_monotonic_time() - from > patience_us()) {
-        g_error("waited in vain for: %s", event);
+        g_error("no event within the limit: %s", event);
     }
 }
 

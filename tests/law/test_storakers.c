@@ -224,8 +224,8 @@ static void test_cycles(void)
         go(&c, 0.999 * meeting, 0.0, &taken);
         g_assert_cmpfloat(fabs(taken), <, 1e-7 * put);
         g_assert_cmpfloat(work(&c, 0.999 * meeting), ==,
-                          gb_law_storakers_unloading_energy(&c.law, c.radius, 0.999 * meeting,
-                                                    0.999 * meeting));
+                          gb_law_storakers_unloading_energy(
+                              &c.law, c.radius, 0.999 * meeting, 0.999 * meeting));
         const double far = 8.0 * meeting;
         taken = 0.0;
         go(&c, 0.0, meeting, &taken);

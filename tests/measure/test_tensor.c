@@ -67,8 +67,9 @@ static void test_fabric(void)
 /* Two particles along z: all contacts are parallel. */
 static void test_pair(void)
 {
-    struct gb_params params = scene_params(
-        "numerics.precision=double", "structure.base=6 d", "structure.density=0.01", NULL);
+    struct gb_params params =
+        scene_params("numerics.precision=double", "structure.base=6 d",
+                     "structure.density=0.01", NULL);
     params.count = 2;
     const struct gb_model model = scene_model(&params);
     const double x[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.97};

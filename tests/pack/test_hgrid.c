@@ -132,7 +132,7 @@ static double random_normal(void)
            cos(2.0 * G_PI * g_test_rand_double());
 }
 
-/* Clusters, lines, planes, points on one spot, spheres outside of the box, far away, with
+/* Clusters, lines, planes, coincident points, spheres outside of the box, far away, with
  * no radius, as large as the box. */
 static void test_degenerate(void)
 {

@@ -85,7 +85,7 @@ static void test_sort(void)
         qsort(before, count, 3 * sizeof(double), by_position);
         g_assert_true(memcmp(position, before, sizeof before) == 0);
     }
-    /* sizes are dealt out in the order in which particles were grown */
+    /* sizes are assigned in the order in which particles were grown */
     model.polydisperse = true;
     memcpy(before, position, sizeof before);
     for (int c = 0; c < 3; c++) { /* the last one first, which a sort would undo */

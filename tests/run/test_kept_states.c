@@ -133,7 +133,7 @@ static void check_same_end(const char *a, const char *b)
 
 static void test_run(void)
 {
-    char *base = g_dir_make_tmp("album-XXXXXX", NULL);
+    char *base = g_dir_make_tmp("kept-XXXXXX", NULL);
     char *kept = g_build_filename(base, "kept", NULL);
     char *plain = g_build_filename(base, "plain", NULL);
     run(kept, wanted);
@@ -184,7 +184,7 @@ static void press(struct gb_run_recorder *keep, struct gb_experiment *experiment
 /* What was kept before the stop is left alone, what comes after it is kept. */
 static void test_resume(void)
 {
-    char *base = g_dir_make_tmp("album-XXXXXX", NULL);
+    char *base = g_dir_make_tmp("kept-XXXXXX", NULL);
     char *directory = g_build_filename(base, "run", NULL);
     const struct gb_params params = scene("1 kPa; 10 MPa; 20 MPa; every 50");
     struct gb_experiment *experiment = NULL;
@@ -219,8 +219,8 @@ static void test_resume(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/album/parse", test_parse);
-    g_test_add_func("/album/run", test_run);
-    g_test_add_func("/album/resume", test_resume);
+    g_test_add_func("/kept states/parse", test_parse);
+    g_test_add_func("/kept states/run", test_run);
+    g_test_add_func("/kept states/resume", test_resume);
     return g_test_run();
 }

@@ -2,8 +2,8 @@
 
 #include <glib.h>
 
-#include "scene/model.h"
 #include "io/preset.h"
+#include "scene/model.h"
 
 /* Pressed from all sides, a cell keeps its shape: it is a square or a cube from the start. */
 static void check_dynamic(const struct gb_model *model)

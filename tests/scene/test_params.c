@@ -210,7 +210,8 @@ static const struct check checks[] = {
     {{"particles.count=30"}, {"particles.count", "structure.base"}},
     {{"particles.count=1000", "structure.base=40 d"}, {"particles.count", "along z"}},
     {{"contact.bridge_length=10 um"}, {NULL}}, /* a diameter or more: no bridges */
-    {{"contact.shear_strength=400 GPa"}, {"contact.shear_strength", "between 0 E and 1 E"}},
+    {{"contact.shear_strength=400 GPa"},
+     {"contact.shear_strength", "between 0 E and 1 E"}},
     {{"structure.base=180 nm"}, {NULL}},
     {{"structure.base=20 nm"}, {"structure.base", "3 d"}},
     {{"numerics.cutoff=3 d", "particles.count=200"}, {"particles.count", "6 d"}},

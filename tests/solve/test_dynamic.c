@@ -171,7 +171,7 @@ struct outcome {
     uint64_t hash;
 };
 
-/* A whole programme on a small scene. */
+/* All stages on a small scene. */
 static struct outcome press(const struct gb_params *params, int64_t slice)
 {
     struct gb_model model = scene_model(params);

@@ -56,7 +56,7 @@ static struct outcome run(const struct gb_model *model)
             break;
         }
     }
-    g_error("the programme does not end");
+    g_error("the schedule does not end");
 }
 
 static void test_unloading(void)

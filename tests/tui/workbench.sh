@@ -25,7 +25,7 @@ open_terminal
 # --- the default scene
 start default
 shows "opens the default preset" 'Pressure against relative density'
-[ "$bad" -eq 0 ] || { # without it every step below would wait in vain
+[ "$bad" -eq 0 ] || { # without it every step below would end at its limit
     echo "Bail out! the workbench does not open"
     exit 1
 }

@@ -231,8 +231,7 @@ int gb_cmd_snapshot(int argc, char **argv)
          "POINT"},
         {"sequence", 0, 0, G_OPTION_ARG_NONE, &request.sequence,
          "all kept states: x.png is animated, x.mp4 (.webm, .mkv, .gif) a video by "
-         "ffmpeg, "
-         "x-%03d.png one image per state",
+         "ffmpeg, x-%03d.png one image per state",
          NULL},
         {"fps", 0, 0, G_OPTION_ARG_DOUBLE, &request.fps, "frames a second (8)", "N"},
         {"since", 0, 0, G_OPTION_ARG_STRING, &request.since,

@@ -188,8 +188,7 @@ int gb_cmd_sweep(int argc, char **argv)
          "runs per point, seeds counted up from that of the preset (1)", "N"},
         {"until-se", 0, 0, G_OPTION_ARG_STRING, &request.target,
          "end the replicas of a point, at 4 or more, when the standard error of its "
-         "density "
-         "at a pressure is this small",
+         "density at a pressure is this small",
          "SE@PRESSURE"},
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
          "pressures of the table, as in '50;100;200 MPa'", "PRESSURES"},

@@ -54,8 +54,8 @@ hid_t gb_hdf_memory_create(struct gb_hdf_memory *memory, const char *path)
                                          .udata_copy = same_data,
                                          .udata_free = keep_data,
                                          .udata = memory};
-    /* HDF5 reads a file of that name if there is one, and knows files in memory apart by
-     * nothing else */
+    /* HDF5 reads a file of that name if there is one, and distinguishes files in memory
+     * by their names only */
     char *name = g_strdup_printf("%s.%p.memory", path, (void *)memory);
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     const hid_t create = H5Pcreate(H5P_FILE_CREATE);

@@ -15,7 +15,7 @@ static const double lost_after_s = 20.0;
 /* The same at the end, when a rank has nothing to do but to send heartbeats. */
 static const double lost_at_end_s = 8.0;
 
-/* State of another rank, as the first one knows it. */
+/* State of another rank, as known to the first one. */
 struct member {
     size_t capacity;
     GArray *tickets; /* size_t: runs submitted and not reported */

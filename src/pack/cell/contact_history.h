@@ -31,7 +31,7 @@ struct gb_contact_history {
 
 void gb_contact_history_finish(struct gb_contact_history *history);
 
-/* Room for so many contacts of so many values; the contents are lost when it grows. */
+/* Room for `need` contacts with `planes` values each; growing loses the contents. */
 bool gb_contact_history_reserve(struct gb_contact_history *history, int64_t need,
                                 int planes, enum gb_real real, struct gb_error *err);
 

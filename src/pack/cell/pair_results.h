@@ -25,7 +25,7 @@ enum { GB_PAIR_RESULTS_SIZED = 12 };
 void gb_pair_results_init(struct gb_pair_results *results, const struct gb_model *model);
 void gb_pair_results_finish(struct gb_pair_results *results);
 
-/* Room for so many pairs; what was there is lost. */
+/* Room for `capacity` pairs; the contents are lost. */
 bool gb_pair_results_resize_near(struct gb_pair_results *results, int64_t capacity,
                                  struct gb_error *err);
 /* What is stored of a far pair. */

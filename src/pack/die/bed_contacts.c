@@ -16,9 +16,10 @@ bool gb_bed_contacts_init(struct gb_bed_contacts *contacts, int64_t room,
         return false;
     }
     double **const plane[PLANES] = {
-        &contacts->hertz,    &contacts->damping,   &contacts->inverse_mass,    &contacts->transition,
-        &contacts->deepest,  &contacts->permanent,   &contacts->shear[0], &contacts->shear[1],
-        &contacts->shear[2], &contacts->normal,
+        &contacts->hertz,      &contacts->damping,  &contacts->inverse_mass,
+        &contacts->transition, &contacts->deepest,  &contacts->permanent,
+        &contacts->shear[0],   &contacts->shear[1], &contacts->shear[2],
+        &contacts->normal,
     };
     for (int p = 0; p < PLANES; p++) {
         *plane[p] = slab + p * stride;

@@ -43,7 +43,8 @@ static void add_slot(struct gb_bed_list *list, int64_t i, int64_t other,
                      const struct gb_bed *bed)
 {
     const bool wall = list == &bed->walls;
-    const double radius[2] = {bed->position[i][3], wall ? HUGE_VAL : bed->position[other][3]};
+    const double radius[2] = {bed->position[i][3],
+                              wall ? HUGE_VAL : bed->position[other][3]};
     const double mass[2] = {bed->mass[i], wall ? HUGE_VAL : bed->mass[other]};
     list->first[list->count] = (int32_t)i;
     list->other[list->count] = (int32_t)other;
@@ -68,7 +69,7 @@ static void copy_slot(struct gb_bed_contacts *to, int64_t slot,
 }
 
 void gb_bed_list_transfer(struct gb_bed_list *to, const struct gb_bed_list *from,
-                         int64_t particles)
+                          int64_t particles)
 {
     for (int64_t i = 0; i < particles; i++) {
         int64_t old = from->start[i];
@@ -84,7 +85,7 @@ void gb_bed_list_transfer(struct gb_bed_list *to, const struct gb_bed_list *from
 }
 
 bool gb_bed_list_copy_touching(struct gb_bed_list *to, const struct gb_bed_list *from,
-                      int64_t particles, struct gb_error *err)
+                               int64_t particles, struct gb_error *err)
 {
     int64_t touching = 0;
     for (int64_t slot = 0; slot < from->count; slot++) {
@@ -130,8 +131,9 @@ static bool list_walls(struct gb_bed *bed, struct gb_error *err)
     for (int64_t i = 0; i < bed->count; i++) {
         list->start[i] = list->count;
         for (int wall = 0; wall < GB_DIE_WALLS; wall++) {
-            const double overlap = gb_die_overlap(&bed->die, (enum gb_die_wall)wall,
-                                                  bed->position[i], bed->position[i][3], unit);
+            const double overlap =
+                gb_die_overlap(&bed->die, (enum gb_die_wall)wall, bed->position[i],
+                               bed->position[i][3], unit);
             if (overlap > -bed->skin) {
                 add_slot(list, i, wall, bed);
             }

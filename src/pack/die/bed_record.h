@@ -5,7 +5,7 @@
 #include "pack/die/bed.h"
 
 /* A bed into a record, or back into one of the same sizes and law, right after an
- * evaluation: it then goes on to the same bits.  The lists are not part of it, since no
+ * evaluation: it then continues to the same bits.  The lists are not part of it, since no
  * force depends on them: they are rebuilt.  Errors: GB_ERR_INPUT naming what is missing
  * or out of range, GB_ERR_MEMORY. */
 bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error *err);

@@ -96,5 +96,6 @@ double gb_die_radius_at(const struct gb_die *die, double z)
 bool gb_die_contains(const struct gb_die *die, const double x[3])
 {
     const bool below = !die->punch || x[2] < die->punch_position;
-    return x[2] > 0.0 && below && across(x) < gb_die_radius_at(die, x[2]) && x[2] < HUGE_VAL;
+    return x[2] > 0.0 && below && across(x) < gb_die_radius_at(die, x[2]) &&
+           x[2] < HUGE_VAL;
 }

@@ -9,9 +9,9 @@
 #include "pack/kernel/simd.h"
 #include "pack/kernel/sweep_f32.h"
 
-/* Partial sums over so many parts of the particles, added in their order: the same bits
- * for any number of threads.  In single precision a part has at least PART_LEAST particles,
- * enough to fill some batches. */
+/* Partial sums over at most PARTS parts of the particles, added in their order: the same
+ * bits for any number of threads.  In single precision a part has at least PART_LEAST
+ * particles, enough to fill some batches. */
 enum { PARTS = 64, PART_LEAST = 1024 };
 
 static int parts_of(const struct gb_engine *engine)

@@ -33,7 +33,7 @@ double gb_list_check_margin(const struct gb_engine *engine);
 void gb_list_check_find(const struct gb_engine *engine, int64_t begin, int64_t end,
                         struct gb_missing_pairs *missing);
 
-/* True if checking so many escaped particles costs more than a new list. */
+/* True if checking the escaped particles costs more than a new list. */
 bool gb_list_check_too_many(int64_t escaped, int64_t particles);
 
 /* Displacements of block b since the build, from `position`. */

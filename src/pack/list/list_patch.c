@@ -26,7 +26,7 @@ static void plan_finish(struct plan *plan)
     *plan = (struct plan){0};
 }
 
-/* Room for so many pairs. */
+/* Room for `room` pairs. */
 static bool plan_init(struct plan *plan, int64_t room, struct gb_error *err)
 {
     *plan = (struct plan){0};

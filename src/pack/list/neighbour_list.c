@@ -11,8 +11,8 @@
 /* Pairs reserved beyond the need whenever a list grows. */
 enum { EXTRA = 256 };
 
-/* Pairs that may be inserted between two builds: this many, plus one for so many
- * particles. */
+/* Pairs that may be inserted between two builds: INSERTED_BASE, plus one for every
+ * PARTICLES_PER_INSERTED particles. */
 enum { INSERTED_BASE = 64, PARTICLES_PER_INSERTED = 256 };
 
 /* Free slots behind every block: a small system never needs more for one block than it

@@ -40,7 +40,7 @@ struct gb_hgrid {
     int32_t *earlier;     /* of the pairs sorted by the later one */
 };
 
-/* Room for so many spheres; a build with more allocates memory.
+/* Room for `capacity` spheres; a build with more allocates memory.
  * Errors: GB_ERR_MEMORY; GB_ERR_INPUT for more than 2^31 - 2. */
 bool gb_hgrid_init(struct gb_hgrid *hgrid, int64_t capacity, struct gb_error *err);
 void gb_hgrid_finish(struct gb_hgrid *hgrid);

@@ -4,12 +4,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "scene/model.h"
 #include "greenbody/status.h"
+#include "scene/model.h"
 
 /* Numbers the particles of a model along a Hilbert curve, so that neighbours in space are
  * neighbours in memory: every sweep reads and adds to both particles of a pair. Particles
- * of unequal sizes keep their order, in which the sizes are dealt out.
+ * of unequal sizes keep their order, in which the sizes are assigned.
  *
  * position   count x 3, d; put into the new order
  * Errors: GB_ERR_MEMORY.  Particles of one cell of the curve keep their order. */

@@ -18,7 +18,7 @@ struct gb_runner;
  * parameter is told at once (GB_ERR_INPUT); later failures are in the snapshot. */
 bool gb_runner_create(struct gb_runner **out, const struct gb_params *params,
                       struct gb_error *err);
-/* A run that goes on from the state of another with changes: "mu=0.3; ..." as
+/* A run that continues from the state of another with changes: "mu=0.3; ..." as
  * gb_changes_add takes them.  They join its loading.changes, so that its parameters alone
  * repeat it.  Its curve begins with the other's points up to that state.  directory keeps
  * it (gb_runner_create_in); NULL: it is not kept.  Errors as above; GB_ERR_INPUT when the
@@ -35,7 +35,7 @@ bool gb_runner_forked(struct gb_runner *runner, int64_t *step);
  */
 bool gb_runner_create_in(struct gb_runner **out, const struct gb_params *params,
                          const char *directory, struct gb_error *err);
-/* Goes on with the run in a directory, from its last checkpoint.  An engine that works
+/* Continues the run in a directory, from its last checkpoint.  An engine that works
  * there is asked to stop and waited for. */
 bool gb_runner_resume(struct gb_runner **out, const char *directory,
                       struct gb_error *err);

@@ -8,7 +8,7 @@
 /* The order of the stages of a die scene: when one ends, and how the next one begins. */
 
 enum gb_die_sequence_state {
-    GB_DIE_SEQUENCE_CONTINUES, /* the stage goes on */
+    GB_DIE_SEQUENCE_CONTINUES, /* the stage continues */
     GB_DIE_SEQUENCE_ENDED,     /* it has ended and the next one has begun */
     GB_DIE_SEQUENCE_FAILED     /* neither; err says why */
 };

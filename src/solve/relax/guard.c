@@ -18,7 +18,7 @@ static enum gb_guard_action judge_exhausted(const struct gb_relax *relax, char *
     }
     if (relax->stalled) {
         snprintf(text, size,
-                 "guard: the relaxation goes round: residual %.2e, at best %.2e, after "
+                 "guard: the relaxation stalls: residual %.2e, at best %.2e, after "
                  "%lld evaluations and a restart, tolerance %.2e; accepted",
                  relax->residual, relax->best, (long long)relax->evaluations,
                  relax->tolerance);
@@ -79,7 +79,7 @@ enum gb_guard_action gb_guard_nonaffine(struct gb_guard *guard,
     guard->jumps++;
     snprintf(
         text, size,
-        "guard: particle %lld goes %.2g d in one strain step and may pass contacts by; "
+        "guard: particle %lld moves %.2g d in one strain step and may pass contacts by; "
         "strain step halved (%d in a row)",
         (long long)nonaffine->particle, nonaffine->farthest, guard->jumps);
     return GB_GUARD_RETRY;

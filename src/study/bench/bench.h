@@ -28,7 +28,7 @@ struct gb_bench {
 bool gb_bench_run(struct gb_bench *bench, const struct gb_params *params,
                   double coordination, struct gb_error *err);
 
-/* A cell of so many particles among others, timed as by gb_bench_run. */
+/* The cell with `count` particles among others, timed as by gb_bench_run. */
 struct gb_bench_size {
     int64_t count;
     double coordination;
@@ -36,8 +36,8 @@ struct gb_bench_size {
     double bytes_per_particle;
 };
 
-/* Told when a cell of so many particles has been pressed (round 0), and when it has been
- * timed in a round. */
+/* Called when the cell with `count` particles has been pressed (round 0), and when it has
+ * been timed in a round. */
 enum { GB_BENCH_ROUNDS = 5 };
 typedef void gb_bench_progress(void *data, int64_t count, int round);
 

@@ -127,7 +127,7 @@ static void add_rounds_header(const struct gb_calibration *calibration)
     g_string_append_c(text, '\n');
 }
 
-/* A row of rounds.csv, for other programs that follow the fit; the fit goes on when it
+/* A row of rounds.csv, for other programs that follow the fit; the fit continues when it
  * cannot be written. */
 static void add_round(enum gb_calibrate_stage stage, int round, const double *best,
                       const double *half_width, void *context)

@@ -16,7 +16,7 @@ struct gb_calibration {
     struct gb_free_keys keys;
     struct gb_labdata lab;
     size_t replicas;
-    const char *directory; /* runs/ under it; rounds.csv while the fit goes on */
+    const char *directory; /* runs/ under it; rounds.csv during the fit */
 
     /* Does the runs of the ensemble that have not ended. */
     bool (*work)(struct gb_ensemble *ensemble, void *data, struct gb_error *err);

@@ -28,7 +28,7 @@ struct method {
     double inertia;
     double damping;
     double (*bound)(double frequency, double damping);
-    /* Lets a disturbed scene go on; the largest disturbance on the way over the first. */
+    /* Continues a disturbed scene; its largest disturbance over the first. */
     bool (*run)(const struct gb_stability_scene *scene, double step, double *growth,
                 struct gb_error *err);
     double (*used)(const struct gb_stability_scene *scene);
