@@ -1,12 +1,12 @@
 #include "cli/batch_progress.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/clock.h"
 #include "cli/options.h"
+#include "cli/signals.h"
 #include "many/single_run.h"
 #include "run/cost.h"
 
@@ -15,38 +15,14 @@ static const double plain_interval_s = 10.0;
 
 enum { JOBS_MAX = 4096 };
 
-/* Set by the signal handler, polled between reports. */
-static volatile sig_atomic_t caught;
-
-static void on_signal(int number)
-{
-    caught = number;
-}
-
-/* The first signal stops the runs and keeps their points, the second ends the process. */
-static void install_handlers(void)
-{
-    struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGHUP, &action, NULL);
-    signal(SIGXFSZ, SIG_IGN); /* a file beyond its size limit is an error of write() */
-}
-
-static bool is_cancelled(void *data)
-{
-    (void)data;
-    return caught != 0;
-}
-
 static bool serve(struct gb_mpi_pool *mpi, int jobs, struct gb_error *err)
 {
     const size_t workers = jobs > 0 ? (size_t)jobs : 1;
     struct gb_pool *local = NULL;
-    install_handlers();
-    const bool good = gb_pool_create(&local, workers, gb_single_run, NULL, err) &&
-                      gb_mpi_pool_serve(mpi, local, workers, is_cancelled, NULL, err);
+    gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
+    const bool good =
+        gb_pool_create(&local, workers, gb_single_run, NULL, err) &&
+        gb_mpi_pool_serve(mpi, local, workers, gb_signals_cancelled, NULL, err);
     gb_pool_destroy(local);
     return good;
 }
@@ -152,7 +128,8 @@ bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble 
                             int jobs, struct gb_error *err)
 {
     struct gb_pool *pool = NULL;
-    const struct gb_ensemble_callbacks callbacks = {is_cancelled, on_progress, batch};
+    const struct gb_ensemble_callbacks callbacks = {gb_signals_cancelled, on_progress,
+                                                    batch};
     if (jobs < 0 || jobs > JOBS_MAX) {
         return gb_error_set(err, GB_ERR_INPUT, "--jobs %d: accepted 1 to %d, 0 for all",
                             jobs, JOBS_MAX);
@@ -160,7 +137,7 @@ bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble 
     const size_t workers = jobs > 0             ? (size_t)jobs
                            : batch->mpi != NULL ? 1
                                                 : g_get_num_processors();
-    install_handlers();
+    gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
     begin(batch, ensemble);
     if (batch->output == GB_BATCH_PROGRESS_ALL) {
         fprintf(stderr, "%zu runs, %zu of them done before; %zu at once\n", batch->total,
@@ -179,6 +156,6 @@ bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble 
 
 int gb_batch_progress_exit(const struct gb_error *err)
 {
-    const int status = gb_options_fail(err);
-    return err->code == GB_ERR_CANCELLED && caught != 0 ? 128 + (int)caught : status;
+    (void)gb_options_fail(err);
+    return gb_signals_exit_status(err);
 }

@@ -57,7 +57,7 @@ void gb_foreground_init(struct gb_foreground *run, bool quiet)
                                             .data = run};
     gb_progress_init(&run->progress, quiet);
     gb_run_loop_init(&run->loop, &hooks);
-    gb_signals_install();
+    gb_signals_install(GB_SIGNALS_HANGUP_NOTED);
 }
 
 void gb_foreground_finish(struct gb_foreground *run)

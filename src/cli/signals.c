@@ -17,17 +17,17 @@ static void on_hangup(int number)
     hung = 1;
 }
 
-void gb_signals_install(void)
+void gb_signals_install(enum gb_signals_hangup hangup)
 {
     struct sigaction before;
     struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
-    const struct sigaction hangup = {.sa_handler = on_hangup, .sa_flags = SA_RESTART};
+    const struct sigaction note = {.sa_handler = on_hangup, .sa_flags = SA_RESTART};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, NULL, &before);
     if (before.sa_handler != SIG_IGN) {
-        sigaction(SIGHUP, &hangup, NULL);
+        sigaction(SIGHUP, hangup == GB_SIGNALS_HANGUP_ENDS ? &action : &note, NULL);
     }
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);

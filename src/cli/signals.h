@@ -7,10 +7,15 @@
 
 /* Signals of a command without a screen. */
 
+/* What HUP does; under nohup it is ignored. */
+enum gb_signals_hangup {
+    GB_SIGNALS_HANGUP_NOTED, /* for gb_signals_take_hangup */
+    GB_SIGNALS_HANGUP_ENDS   /* the same as INT */
+};
+
 /* Installs the handlers: the first INT or TERM requests an orderly end, the second ends
- * the process at once.  HUP is noted, or ignored under nohup.  A file size limit and a
- * closed pipe become errors of the write. */
-void gb_signals_install(void);
+ * the process at once.  A file size limit and a closed pipe become errors of the write. */
+void gb_signals_install(enum gb_signals_hangup hangup);
 
 /* Number of the signal that requests the end; 0: none. */
 int gb_signals_caught(void);

@@ -40,7 +40,7 @@ static int print_progress(const char *directory, struct gb_error *err)
     if (!gb_runner_follow(&runner, directory, err)) {
         return gb_options_fail(err);
     }
-    gb_signals_install();
+    gb_signals_install(GB_SIGNALS_HANGUP_NOTED);
     gb_progress_init(&progress, false);
     const struct gb_snapshot *shot = gb_runner_snapshot(runner, NULL);
     while (gb_signals_caught() == 0 && shot->state <= GB_RUN_PAUSED) {

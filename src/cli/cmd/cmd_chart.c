@@ -1,5 +1,4 @@
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -11,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "cli/signals.h"
 #include "io/preset.h"
 #include "study/chart/chart_text.h"
 
@@ -31,26 +31,10 @@ struct chart {
     int missing; /* cells beyond the budget */
 };
 
-static volatile sig_atomic_t caught;
-
-static void on_signal(int number)
-{
-    caught = number;
-}
-
-static void install_handlers(void)
-{
-    struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    signal(SIGXFSZ, SIG_IGN);
-}
-
 static bool cancelled(void *data, double cpu_s)
 {
     const struct chart *chart = data;
-    return caught != 0 || chart->spent_s + cpu_s > chart->budget_s;
+    return gb_signals_caught() != 0 || chart->spent_s + cpu_s > chart->budget_s;
 }
 
 /* --write: a new file, or the preset itself; another file only with --force. */
@@ -145,7 +129,7 @@ static bool measure(struct chart *chart, const struct gb_chart_setting *setting,
     const bool done = gb_chart_press(&run, &chart->plan.params, chart->plan.pressure_pa,
                                      chart->plan.pressures, cancelled, chart, err);
     chart->spent_s += run.cpu_s;
-    if (!done && err->code == GB_ERR_CANCELLED && caught == 0) {
+    if (!done && err->code == GB_ERR_CANCELLED && gb_signals_caught() == 0) {
         chart->missing++;
         return true;
     }
@@ -240,11 +224,11 @@ static int perform(struct chart *chart, char **words, char **sets)
         conclude(chart, &err)) {
         return 0;
     }
-    if (err.code == GB_ERR_CANCELLED && caught != 0) {
+    if (err.code == GB_ERR_CANCELLED && gb_signals_caught() != 0) {
         struct gb_error ignored;
         write_table(chart, &ignored);
         gb_progress_say(&chart->progress, "stopped; the same command continues");
-        return 128 + (int)caught;
+        return gb_signals_exit_status(&err);
     }
     return gb_options_fail(&err);
 }
@@ -307,7 +291,7 @@ int gb_cmd_chart(int argc, char **argv)
     chart.command = join_command(argc, argv);
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         gb_progress_init(&chart.progress, chart.quiet);
-        install_handlers();
+        gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
         status = perform(&chart, words, sets);
     }
     gb_chart_log_close(&chart.log);

@@ -52,7 +52,7 @@ int gb_cmd_verify(int argc, char **argv)
         if (directory == NULL) {
             status = gb_options_fail(&err);
         } else {
-            gb_signals_install();
+            gb_signals_install(GB_SIGNALS_HANGUP_NOTED);
             status = perform(directory);
         }
     }
