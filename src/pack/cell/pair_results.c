@@ -62,30 +62,14 @@ void gb_pair_results_reset_far(struct gb_pair_results *results, int64_t pairs)
     }
 }
 
-static bool is_planar(const struct gb_pair_results *results)
-{
-    return results->width < 6;
-}
-
-void gb_pair_results_force(const struct gb_pair_results *results, int64_t k,
-                           double force[3])
-{
-    const double *row = results->wrench + (int64_t)results->width * k;
-    const bool planar = is_planar(results);
-    force[0] = row[0];
-    force[1] = planar ? 0.0 : row[1];
-    force[2] = planar ? row[1] : row[2];
-}
-
 void gb_pair_results_set_force(struct gb_pair_results *results, int64_t k,
                                const double force[3])
 {
     double *row = results->wrench + (int64_t)results->width * k;
-    row[0] = force[0];
-    if (is_planar(results)) {
+    if (gb_pair_results_planar(results)) {
+        row[0] = force[0];
         row[1] = force[2];
     } else {
-        row[1] = force[1];
-        row[2] = force[2];
+        memcpy(row, force, 3 * sizeof *row);
     }
 }

@@ -39,9 +39,22 @@ bool gb_pair_results_resize_far(struct gb_pair_results *results, int64_t capacit
                                 enum gb_real real, enum gb_pair_results_far content,
                                 struct gb_error *err);
 
+/* Rows of a scene in the x-z plane. */
+static inline bool gb_pair_results_planar(const struct gb_pair_results *results)
+{
+    return results->width < 6;
+}
+
 /* Force of near pair k on its first particle. */
-void gb_pair_results_force(const struct gb_pair_results *results, int64_t k,
-                           double force[3]);
+static inline void gb_pair_results_force(const struct gb_pair_results *results, int64_t k,
+                                         double force[3])
+{
+    const double *row = results->wrench + (int64_t)results->width * k;
+    const bool planar = gb_pair_results_planar(results);
+    force[0] = row[0];
+    force[1] = planar ? 0.0 : row[1];
+    force[2] = planar ? row[1] : row[2];
+}
 void gb_pair_results_set_force(struct gb_pair_results *results, int64_t k,
                                const double force[3]);
 

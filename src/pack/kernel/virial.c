@@ -10,14 +10,19 @@
 #include "pack/kernel/sweep_f32.h"
 
 /* Partial sums over at most PARTS parts of the particles, added in their order: the same
- * bits for any number of threads.  In single precision a part has at least PART_LEAST
- * particles, enough to fill some batches. */
-enum { PARTS = 64, PART_LEAST = 1024 };
+ * bits for any number of threads.  Groups of parts have at least GROUP_LEAST particles,
+ * enough to fill some batches; in single precision a part is a group. */
+enum { PARTS = 64, GROUP_LEAST = 1024 };
+
+static int groups_of(const struct gb_engine *engine)
+{
+    const int64_t groups = 1 + engine->particles.count / GROUP_LEAST;
+    return groups < PARTS ? (int)groups : PARTS;
+}
 
 static int parts_of(const struct gb_engine *engine)
 {
-    const int64_t parts = 1 + engine->particles.count / PART_LEAST;
-    return gb_engine_is_f32(engine) && parts < PARTS ? (int)parts : PARTS;
+    return gb_engine_is_f32(engine) ? groups_of(engine) : PARTS;
 }
 
 static void add(double sum[3][3], const double force[3], const double r[3])
@@ -132,13 +137,14 @@ static void sum_f64(struct gb_pair_forces *forces, int64_t i, double sum[3][3],
     }
 }
 
+/* pairs: contacts in double precision that are not in the fabric yet. */
 static void sum_part(const struct gb_world *world, int64_t begin, int64_t end,
-                     double sum[3][3], struct gb_fabric_sums *fabric)
+                     double sum[3][3], struct gb_fabric_sums_batch *pairs,
+                     struct gb_fabric_sums *fabric)
 {
     const struct gb_engine *engine = &world->engine;
     const struct gb_pair_list *near = &engine->list.near, *far = &engine->list.far;
     struct gb_pair_forces near_forces, far_forces;
-    struct gb_fabric_sums_batch pairs;
     if (gb_engine_is_f32(engine)) {
         sum_f32(engine, near, near->start[begin], near->start[end], sum, fabric);
         sum_f32(engine, far, far->start[begin], far->start[end], sum, NULL);
@@ -146,12 +152,25 @@ static void sum_part(const struct gb_world *world, int64_t begin, int64_t end,
     }
     gb_pair_forces_init(&near_forces, world, GB_PAIR_FORCES_NEAR);
     gb_pair_forces_init(&far_forces, world, GB_PAIR_FORCES_FAR);
-    pairs.n = 0;
     for (int64_t i = begin; i < end; i++) {
-        sum_f64(&near_forces, i, sum, &pairs, fabric);
+        sum_f64(&near_forces, i, sum, pairs, fabric);
         sum_f64(&far_forces, i, sum, NULL, NULL);
     }
-    if (fabric) {
+}
+
+/* Parts begin .. end - 1; the fabric of all of them, or NULL. */
+static void sum_group(const struct gb_world *world, int begin, int end,
+                      double (*part)[3][3], struct gb_fabric_sums *fabric)
+{
+    const int64_t count = world->engine.particles.count;
+    const int parts = parts_of(&world->engine);
+    struct gb_fabric_sums_batch pairs;
+    pairs.n = 0;
+    for (int p = begin; p < end; p++) {
+        sum_part(world, gb_share(count, p, parts), gb_share(count, p + 1, parts), part[p],
+                 &pairs, fabric);
+    }
+    if (fabric && pairs.n > 0) {
         gb_fabric_sums_add(fabric, &pairs);
     }
 }
@@ -161,13 +180,13 @@ void gb_virial_sum(const struct gb_world *world, double sum[3][3])
     gb_virial_sum_fabric(world, sum, NULL);
 }
 
-/* Adds the sums of a part. */
-static void add_part(struct gb_fabric_sums *sums, const struct gb_fabric_sums *part)
+/* Adds the sums of a group. */
+static void add_group(struct gb_fabric_sums *sums, const struct gb_fabric_sums *group)
 {
     for (int kind = 0; kind < GB_FABRIC_KINDS; kind++) {
-        sums->weight[kind] += part->weight[kind];
+        sums->weight[kind] += group->weight[kind];
         for (int s = 0; s < 6; s++) {
-            sums->tensor[kind][s] += part->tensor[kind][s];
+            sums->tensor[kind][s] += group->tensor[kind][s];
         }
     }
 }
@@ -176,18 +195,18 @@ void gb_virial_sum_fabric(const struct gb_world *world, double sum[3][3],
                           struct gb_fabric_sums *fabric)
 {
     double part[PARTS][3][3] = {0};
-    struct gb_fabric_sums fabric_part[PARTS];
-    const int64_t count = world->engine.particles.count;
-    const int threads = world->engine.threads, parts = parts_of(&world->engine);
+    struct gb_fabric_sums group[PARTS];
+    const int threads = world->engine.threads, parts = parts_of(&world->engine),
+              groups = groups_of(&world->engine);
     (void)threads; /* without OpenMP */
 #pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
-    for (int p = 0; p < parts; p++) {
-        fabric_part[p] = (struct gb_fabric_sums){.weight = {0}};
-        sum_part(world, gb_share(count, p, parts), gb_share(count, p + 1, parts), part[p],
-                 fabric ? &fabric_part[p] : NULL);
+    for (int g = 0; g < groups; g++) {
+        group[g] = (struct gb_fabric_sums){.weight = {0}};
+        sum_group(world, (int)gb_share(parts, g, groups),
+                  (int)gb_share(parts, g + 1, groups), part, fabric ? &group[g] : NULL);
     }
-    for (int p = 0; fabric && p < parts; p++) {
-        add_part(fabric, &fabric_part[p]);
+    for (int g = 0; fabric && g < groups; g++) {
+        add_group(fabric, &group[g]);
     }
     memset(sum, 0, sizeof part[0]);
     for (int p = 0; p < parts; p++) {

@@ -31,6 +31,7 @@ static void add_missing(struct gb_missing_pairs *missing, int64_t i, int64_t j, 
  * are prefetched before the first is read. */
 enum { CANDIDATES = 256 };
 struct candidates {
+    bool tilted; /* gb_cell_tilted of the cell */
     int count;
     int32_t particle[CANDIDATES];
 };
@@ -50,18 +51,38 @@ static double fixed_distance2(const struct gb_engine *engine, const int32_t from
     return squared;
 }
 
-/* Squared distance of nearest images, d^2. */
-static double distance2(const struct gb_engine *engine, int64_t i, int64_t j)
+static double distance2_tilted(const struct gb_cell *cell, const double *xi,
+                               const double *xj)
 {
-    const double *xi = engine->particles.position + 3 * i;
-    const double *xj = engine->particles.position + 3 * j;
+    double r[3] = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
+    gb_cell_nearest(cell, r);
+    return gb_vec_dot(r, r);
+}
+
+/* The same where the cell has no tilt, in registers. */
+static inline double distance2_straight(const struct gb_cell *cell, const double *xi,
+                                        const double *xj)
+{
+    double squared = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double r = xi[k] - xj[k], edge = cell->edge[k];
+        const double nearest = cell->periodic[k] ? r - edge * gb_cell_whole(r / edge) : r;
+        squared += nearest * nearest;
+    }
+    return squared;
+}
+
+/* Squared distance of nearest images, d^2. */
+static double distance2(const struct gb_engine *engine, bool tilted, int64_t i, int64_t j)
+{
+    const struct gb_particles *particles = &engine->particles;
+    const double *xi = particles->position + 3 * i, *xj = particles->position + 3 * j;
     if (gb_engine_is_f32(engine)) {
         return fixed_distance2(engine, engine->f32.particle[i].position,
                                engine->f32.particle[j].position);
     }
-    double r[3] = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
-    gb_cell_nearest(&engine->particles.cell, r);
-    return gb_vec_dot(r, r);
+    return tilted ? distance2_tilted(&particles->cell, xi, xj)
+                  : distance2_straight(&particles->cell, xi, xj);
 }
 
 /* Keeps the candidates that are near enough to be in a list of particle i. */
@@ -73,7 +94,7 @@ static void keep_near(const struct gb_engine *engine, int64_t i,
     int kept = 0;
     for (int k = 0; k < candidates->count; k++) {
         const int32_t j = candidates->particle[k];
-        const double squared = distance2(engine, i, j);
+        const double squared = distance2(engine, candidates->tilted, i, j);
         candidates->particle[kept] = j;
         kept += squared < reach * reach && j != i;
     }
@@ -97,14 +118,14 @@ static void prefetch_pairs(const struct gb_engine *engine, int64_t i,
 }
 
 /* Adds the pair if it is not in the list that belongs to its distance. */
-static void check_pair(const struct gb_engine *engine, int64_t i, int64_t j,
+static void check_pair(const struct gb_engine *engine, bool tilted, int64_t i, int64_t j,
                        struct gb_missing_pairs *missing)
 {
     const struct gb_neighbour_list *list = &engine->list;
     const double *d = list->diameter;
     const double touch = (d ? 0.5 * (d[i] + d[j]) : 1.0) + GB_ESCAPED_SEARCH_TOLERANCE;
     const double reach = touch + engine->model->numerics.cutoff - 1.0;
-    const double squared = distance2(engine, i, j);
+    const double squared = distance2(engine, tilted, i, j);
     const bool touches = squared < touch * touch;
     if (squared < reach * reach && !holds(engine, &list->near, i, j, squared) &&
         (touches || !holds(engine, &list->far, i, j, squared))) {
@@ -119,7 +140,7 @@ static void check_candidates(const struct gb_engine *engine, int64_t i,
     keep_near(engine, i, candidates);
     prefetch_pairs(engine, i, candidates);
     for (int k = 0; k < candidates->count; k++) {
-        check_pair(engine, i, candidates->particle[k], missing);
+        check_pair(engine, candidates->tilted, i, candidates->particle[k], missing);
     }
     candidates->count = 0;
 }
@@ -180,7 +201,9 @@ void gb_escaped_search_run(const struct gb_engine *engine, int64_t i, int span,
 {
     const int32_t *start = engine->list.bin_start, *particle = engine->list.bin_particle;
     struct run run[RUNS];
-    struct candidates candidates = {.count = 0};
+    struct candidates candidates;
+    candidates.tilted = gb_cell_tilted(&engine->particles.cell);
+    candidates.count = 0;
     const int runs = find_runs(engine, i, span, run);
     for (int r = 0; r < runs; r++) {
         __builtin_prefetch(&start[run[r].first]);

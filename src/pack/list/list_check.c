@@ -58,11 +58,15 @@ enum gb_list_check_verdict gb_list_check_judge(const struct gb_engine *engine,
 }
 
 /* Squared non-affine displacement of particle i since the build, d^2. */
-static double displacement2(const struct gb_engine *engine, int64_t i)
+static double displacement2(const struct gb_engine *engine, int64_t i, bool tilted)
 {
     double x[3];
     gb_engine_position(engine, i, x);
-    return gb_neighbour_list_displacement2(&engine->list, i, x);
+    if (tilted) {
+        const double at[3] = {x[0], x[1], x[2]}; /* x itself stays in registers */
+        return gb_neighbour_list_displacement2_tilted(&engine->list, i, at);
+    }
+    return gb_neighbour_list_displacement2_scaled(&engine->list, i, x);
 }
 
 /* True if a group begins with particle i whose bound excludes an escaped particle. */
@@ -76,13 +80,14 @@ void gb_list_check_find(const struct gb_engine *engine, int64_t begin, int64_t e
                         struct gb_missing_pairs *missing)
 {
     const double margin = gb_list_check_margin(engine), near = search_of(engine).near;
+    const bool tilted = gb_cell_tilted(&engine->list.unit);
     *missing = (struct gb_missing_pairs){0};
     for (int64_t i = begin; i < end && !missing->incomplete; i++) {
         if (group_inside(engine, i, margin)) {
             i += GB_F32_STATE_GROUP - 1;
             continue;
         }
-        const double square = displacement2(engine, i);
+        const double square = displacement2(engine, i, tilted);
         if (square < margin * margin) {
             continue;
         }

@@ -185,7 +185,8 @@ static void displacement_sheared(const struct gb_neighbour_list *list,
                                  double *total, double *most)
 {
     for (int64_t i = begin; i < end; i++) {
-        const double square = gb_neighbour_list_displacement2(list, i, position + 3 * i);
+        const double square =
+            gb_neighbour_list_displacement2_tilted(list, i, position + 3 * i);
         *most = square > *most ? square : *most;
         *total += square;
     }
@@ -230,20 +231,43 @@ void gb_neighbour_list_deform(struct gb_neighbour_list *list,
     list->strain = (1.0 + list->strain) * (1.0 + strain_of(deformation)) - 1.0;
 }
 
-void gb_neighbour_list_update_shifts(struct gb_neighbour_list *list,
-                                     const struct gb_cell *cell)
+/* The same in a tilted cell: whole numbers of edge vectors. */
+static void update_shifts_tilted(struct gb_neighbour_list *list,
+                                 const struct gb_cell *cell)
 {
     double matrix[3][3];
     gb_cell_matrix(cell, matrix);
-    const bool tilted = gb_cell_tilted(cell);
     for (int image = 0; image < 27; image++) {
-        double s[3] = {image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1};
+        const int digit[3] = {image % 3, image / 3 % 3, image / 9};
+        double s[3];
         for (int k = 0; k < 3; k++) {
-            s[k] = cell->periodic[k] ? s[k] : 0.0;
-            list->shift[image][k] = s[k] * cell->edge[k];
+            s[k] = cell->periodic[k] ? digit[k] - 1 : 0.0;
         }
-        if (tilted) {
-            gb_mat_apply((const double(*)[3])matrix, s, list->shift[image]);
+        gb_mat_apply((const double(*)[3])matrix, s, list->shift[image]);
+    }
+}
+
+void gb_neighbour_list_update_shifts(struct gb_neighbour_list *list,
+                                     const struct gb_cell *cell)
+{
+    double along[3][3]; /* -1, 0, 1 edges of each axis */
+    if (gb_cell_tilted(cell)) {
+        update_shifts_tilted(list, cell);
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        along[k][2] = cell->periodic[k] ? cell->edge[k] : 0.0;
+        along[k][1] = 0.0;
+        along[k][0] = 0.0 - along[k][2];
+    }
+    for (int w = 0; w < 3; w++) {
+        for (int v = 0; v < 3; v++) {
+            for (int u = 0; u < 3; u++) {
+                double *shift = list->shift[9 * w + 3 * v + u];
+                shift[0] = along[0][u];
+                shift[1] = along[1][v];
+                shift[2] = along[2][w];
+            }
         }
     }
 }

@@ -97,18 +97,16 @@ double gb_neighbour_list_displacement(const struct gb_neighbour_list *list,
                                       const double *position, int64_t begin, int64_t end);
 
 /* Squared displacement of particle i at x since the build, beside the affine motion, d^2;
- * after any deformation of the cell. */
+ * after any deformation of the cell (gb_cell_tilted of `unit`). */
 double gb_neighbour_list_displacement2_tilted(const struct gb_neighbour_list *list,
                                               int64_t i, const double x[3]);
 
-/* The same, fast where the cell was only scaled. */
-static inline double gb_neighbour_list_displacement2(const struct gb_neighbour_list *list,
-                                                     int64_t i, const double x[3])
+/* The same where the cell was only scaled. */
+static inline double
+gb_neighbour_list_displacement2_scaled(const struct gb_neighbour_list *list, int64_t i,
+                                       const double x[3])
 {
     double square = 0.0;
-    if (gb_cell_tilted(&list->unit)) {
-        return gb_neighbour_list_displacement2_tilted(list, i, x);
-    }
     for (int k = 0; k < 3; k++) {
         const double moved = x[k] - list->built_position[3 * i + k] * list->unit.edge[k];
         square += moved * moved;

@@ -124,31 +124,58 @@ static void displacement_tilted(const struct gb_cell *cell, const struct gb_cell
     gb_cell_fraction(cell, position, scaled_position);
 }
 
+/* Adds the predicted motion to that of a particle. */
+static inline void predict_particle(struct gb_relax *relax, const struct gb_bodies *b,
+                                    int64_t i, double displacement[3],
+                                    struct request request)
+{
+    double rotation[3];
+    load_rotation(relax, i, rotation);
+    predict_vector(displacement, request);
+    predict_vector(rotation, request);
+    save_rotation(relax, i, rotation);
+    gb_vec_add(b->position + 3 * i, 1.0, displacement);
+    gb_vec_add(b->rotation + 3 * i, 1.0, rotation);
+}
+
+static void predict_scaled(struct gb_relax *relax, const struct gb_bodies *b,
+                           const double edge[3], int threads, struct request request)
+{
+    (void)threads; /* without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
+    for (int64_t i = 0; i < b->count; i++) {
+        double displacement[3];
+        displacement_of(edge, b->position + 3 * i, relax->vector[POSITION] + 3 * i,
+                        displacement);
+        predict_particle(relax, b, i, displacement, request);
+    }
+}
+
+static void predict_tilted(struct gb_relax *relax, const struct gb_bodies *b,
+                           const struct gb_cell *cell, const struct gb_cell *before,
+                           int threads, struct request request)
+{
+    (void)threads; /* without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
+    for (int64_t i = 0; i < b->count; i++) {
+        double displacement[3];
+        displacement_tilted(cell, before, b->position + 3 * i,
+                            relax->vector[POSITION] + 3 * i, displacement);
+        predict_particle(relax, b, i, displacement, request);
+    }
+}
+
 /* before: the cell at the last start. */
 static void predict_motion(struct gb_relax *relax, struct gb_world *world,
                            const struct gb_cell *before, struct request request)
 {
     const struct gb_bodies b = gb_world_movable(world);
     const struct gb_cell *cell = gb_world_cell(world);
-    const bool tilted = gb_world_model(world)->sheared && before->edge[0] > 0.0;
-#pragma omp parallel for num_threads(gb_world_threads(world))                            \
-    schedule(static) if (gb_world_threads(world) > 1)
-    for (int64_t i = 0; i < b.count; i++) {
-        double *scaled_position = relax->vector[POSITION] + 3 * i;
-        double rotation[3];
-        double *position = b.position + 3 * i;
-        double displacement[3];
-        if (tilted) {
-            displacement_tilted(cell, before, position, scaled_position, displacement);
-        } else {
-            displacement_of(cell->edge, position, scaled_position, displacement);
-        }
-        load_rotation(relax, i, rotation);
-        predict_vector(displacement, request);
-        predict_vector(rotation, request);
-        save_rotation(relax, i, rotation);
-        gb_vec_add(position, 1.0, displacement);
-        gb_vec_add(b.rotation + 3 * i, 1.0, rotation);
+    const int threads = gb_world_threads(world);
+    if (gb_world_model(world)->sheared && before->edge[0] > 0.0) {
+        predict_tilted(relax, &b, cell, before, threads, request);
+    } else {
+        predict_scaled(relax, &b, cell->edge, threads, request);
     }
 }
 
