@@ -17,7 +17,7 @@ NAMES = """
     narrowed ahead spot spots ledger ledgers spare sift sifted deal dealt leap departure foretell
     foretold foresee asked crew boss letter letters ranks errand errands overheard swarm husk life
     pressing solo dress lens hush sheet album programme trial relief guess whoever somebody
-    nobody manieth place places way ways arm arms turn turns turned stretch
+    nobody manieth place places way ways arm arms turn turns turned
 """.split()
 
 # Words of comments, messages and pages.
