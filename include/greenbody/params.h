@@ -27,6 +27,15 @@ enum gb_distribution {
 };
 enum gb_normal { GB_NORMAL_ROD, GB_NORMAL_HERTZ, GB_NORMAL_STORAKERS };
 enum gb_storakers { GB_STORAKERS_CAPPED, GB_STORAKERS_PRINTED };
+enum gb_structure {
+    GB_STRUCTURE_GROWN,
+    GB_STRUCTURE_SC,
+    GB_STRUCTURE_FCC,
+    GB_STRUCTURE_BCC,
+    GB_STRUCTURE_DIAMOND,
+    GB_STRUCTURE_SQUARE,
+    GB_STRUCTURE_HEXAGONAL
+};
 enum gb_bridge_radius { GB_BRIDGE_RADIUS_DEEPEST, GB_BRIDGE_RADIUS_CURRENT };
 enum gb_relative_motion { GB_MOTION_HALF, GB_MOTION_FULL };
 enum gb_geometry {
@@ -114,6 +123,8 @@ struct gb_params {
     int storakers;                     /* enum gb_storakers */
     double radius_i_m, radius_j_m;     /* of a pair; NaN: d/2, infinite: a wall */
     /* [structure] */
+    int structure;            /* enum gb_structure */
+    double overlap;           /* of nearest neighbours in a lattice, h/d */
     double structure_density; /* NaN: auto, 0.24 in 3D, 0.5 in 2D */
     struct gb_relative base;  /* relative with value 0: auto, P1's aspect ratio */
     struct gb_relative r_meso;

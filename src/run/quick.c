@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "run/cost.h"
+#include "scene/lattice.h"
 #include "scene/loading_kind.h"
 
 /* Strain of a quick step: three times the default.  Smaller steps would take longer than
@@ -34,8 +35,10 @@ static bool shrink_dynamic(struct gb_params *quick)
 bool gb_quick_params(const struct gb_params *full, struct gb_params *quick)
 {
     *quick = *full;
+    const struct gb_lattice *lattice = gb_lattice_of(full->structure);
     if (quick->count > GB_QUICK_COUNT) {
-        quick->count = GB_QUICK_COUNT;
+        quick->count =
+            lattice ? gb_lattice_count_below(lattice, GB_QUICK_COUNT) : GB_QUICK_COUNT;
         /* the base of a larger cell would make this one too flat */
         quick->base = (struct gb_relative){0.0, true};
     }

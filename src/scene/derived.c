@@ -4,6 +4,7 @@
 
 #include "law/law_storakers.h"
 #include "scene/field/field.h"
+#include "scene/lattice.h"
 #include "scene/loading_kind.h"
 #include "scene/path/path.h"
 #include "scene/size/sizes.h"
@@ -42,8 +43,19 @@ double gb_derived_hollomon_pa(const struct gb_params *params)
                : params->hollomon_pa;
 }
 
+static double lattice_density(const struct gb_params *params)
+{
+    const double particle = params->dimension == 2 ? M_PI / 4.0 : M_PI / 6.0;
+    double edges[3];
+    gb_derived_cell(params, edges);
+    return (double)params->count * particle / (edges[0] * edges[1] * edges[2]);
+}
+
 double gb_derived_structure_density(const struct gb_params *params)
 {
+    if (gb_lattice_of(params->structure)) {
+        return lattice_density(params);
+    }
     if (!isnan(params->structure_density)) {
         return params->structure_density;
     }
@@ -93,6 +105,11 @@ static double base_edge(const struct gb_params *params, double volume)
 
 void gb_derived_cell(const struct gb_params *params, double edges[3])
 {
+    const struct gb_lattice *lattice = gb_lattice_of(params->structure);
+    if (lattice) {
+        gb_lattice_edges(lattice, params->count, params->overlap, edges);
+        return;
+    }
     const double particle = params->dimension == 2 ? M_PI / 4.0 : M_PI / 6.0;
     const double volume = (double)params->count * mean_cube(params) * particle /
                           gb_derived_structure_density(params);

@@ -141,11 +141,12 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
     numerics->cutoff = isfinite(given) && given > 0.0
                            ? given
                            : gb_law_dispersion_range(&model->dispersion, share);
-    if (!model->terms.attraction && !(isfinite(given) && given > 0.0)) {
+    const bool contacts_only =
+        !model->terms.attraction || model->structure != GB_STRUCTURE_GROWN;
+    if (contacts_only && !(isfinite(given) && given > 0.0)) {
         numerics->cutoff = 1.0;
     }
-    numerics->cutoff =
-        fmax(numerics->cutoff, model->terms.attraction ? GB_CUTOFF_MIN : 1.0);
+    numerics->cutoff = fmax(numerics->cutoff, contacts_only ? 1.0 : GB_CUTOFF_MIN);
     numerics->skin =
         gb_loading_kind_at(model->kind)->follows_time ? GB_SKIN_DYNAMIC : GB_SKIN;
     numerics->threads = params->threads > 0 ? (int)params->threads : 0;
@@ -287,6 +288,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .dimension = params->dimension,
         .count = params->count,
         .seed = params->seed,
+        .structure = params->structure,
         .r_meso =
             params->r_meso.relative ? params->r_meso.value : params->r_meso.value / d,
         .pascal_per_stress = params->young_pa,
@@ -366,7 +368,10 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
     case 2:
         snprintf(
             buffer, size,
-            terms->attraction
+            terms->attraction && numerics->cutoff <= 1.0
+                ? "attraction: between touching particles only (a lattice without "
+                  "numerics.cutoff)"
+            : terms->attraction
                 ? "attraction: carried to %.3f d, where it is %.1e of its contact value"
             : model->cohesionless ? "attraction: left out (contact.normal = hertz)"
                                   : "attraction: left out (material.epsilon = 0)",

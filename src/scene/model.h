@@ -80,6 +80,7 @@ struct gb_model {
     uint64_t seed;
     double edges[3]; /* initial cell, d */
     double start_density;
+    int structure; /* enum gb_structure */
     double r_meso;
     bool polydisperse;     /* more than one size; else the next four are 0 or 1 */
     struct gb_sizes sizes; /* in m */

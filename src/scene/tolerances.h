@@ -303,6 +303,10 @@
  * Larger: faster, and particles are thrown up. */
 #define GB_FLATTEN_RISE 0.2
 
+/* Moduli.  Displacement (d) and rotation of the differences that make the tangent of a
+ * pair.  Larger: light contacts open within the difference.  Smaller: rounding. */
+#define GB_PAIR_TANGENT_STEP 1e-7
+
 /* Length of a cell edge over the reach of the neighbour list: below 2 a particle would
  * interact with two images of the same neighbour. */
 #define GB_EDGE_OVER_RANGE_MIN 2.0

@@ -74,7 +74,10 @@ static double value_at(const struct gb_contact_history *history, int64_t index, 
 void gb_contact_history_apply(const struct gb_contact_history *history, int64_t index,
                               struct gb_contacts *contacts, int64_t k)
 {
-    for (int p = 0; p < history->planes; p++) {
+    /* a viscous scene keeps more planes than a quasi-static copy of it has */
+    const int planes =
+        history->planes < contacts->planes ? history->planes : contacts->planes;
+    for (int p = 0; p < planes; p++) {
         gb_contacts_put(contacts, p, k, value_at(history, index, p));
     }
 }

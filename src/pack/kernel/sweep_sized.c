@@ -39,21 +39,22 @@ static void advance_spring(double spring[3], const double motion[3], const doubl
     }
 }
 
-/* Geometry and contact record of near pair k. */
-static void load(const struct gb_engine *engine, int64_t k, struct contact *contact)
+/* Geometry of near pair k with the branch vector contact->r, and its contact record.
+ * turn_i, turn_j: rotation increments of its particles. */
+static void load(const struct gb_engine *engine, int64_t k, const double turn_i[3],
+                 const double turn_j[3], struct contact *contact)
 {
     const struct gb_pair_list *near = &engine->list.near;
     const struct gb_contacts *contacts = &engine->contacts;
     const double *diameter = engine->particles.diameter;
     const int64_t i = near->first[k], j = near->other[k];
     gb_unequal_pair_init(&contact->law, engine->model, diameter[i], diameter[j]);
-    contact->distance = sqrt(gb_engine_branch_vector(engine, near, i, k, contact->r));
+    contact->distance = sqrt(gb_vec_dot(contact->r, contact->r));
     contact->overlap = contact->law.mean_diameter - contact->distance;
     contact->deepest = gb_contacts_deepest(contacts, k);
     contact->pivot = gb_contacts_value(contacts, contacts->pivot, k);
     for (int c = 0; c < 3; c++) {
-        const double ti = engine->particles.rotation[3 * i + c];
-        const double tj = engine->particles.rotation[3 * j + c];
+        const double ti = turn_i[c], tj = turn_j[c];
         contact->n[c] = contact->r[c] / contact->distance;
         contact->rotation_sum[c] = ti + tj;
         contact->rotation_difference[c] =
@@ -240,7 +241,11 @@ static void sweep_near(struct gb_engine *engine, int64_t k)
 {
     struct contact contact = {0};
     double *row = engine->pair.wrench + WIDTH * k;
-    load(engine, k, &contact);
+    const struct gb_pair_list *near = &engine->list.near;
+    const double *rotation = engine->particles.rotation;
+    gb_engine_branch_vector(engine, near, near->first[k], k, contact.r);
+    load(engine, k, rotation + 3 * (int64_t)near->first[k],
+         rotation + 3 * (int64_t)near->other[k], &contact);
     advance(engine, k, &contact);
     for (int c = 0; c < WIDTH; c++) {
         row[c] = 0.0;
@@ -254,6 +259,34 @@ static void sweep_near(struct gb_engine *engine, int64_t k)
     }
     row[OVERLAP] = contact.overlap / contact.law.mean_diameter;
     store(engine, k, &contact);
+}
+
+void gb_sweep_sized_pair(const struct gb_engine *engine, bool near, int64_t k,
+                         const double motion[9], double result[9])
+{
+    const struct gb_pair_list *far = &engine->list.far;
+    const double *diameter = engine->particles.diameter;
+    struct contact contact = {.r = {motion[0], motion[1], motion[2]}};
+    double row[9] = {0};
+    if (near) {
+        load(engine, k, motion + 3, motion + 6, &contact);
+        advance(engine, k, &contact);
+    } else {
+        gb_unequal_pair_init(&contact.law, engine->model, diameter[far->first[k]],
+                             diameter[far->other[k]]);
+        contact.distance = sqrt(gb_vec_dot(contact.r, contact.r));
+        contact.deepest = -1.0;
+    }
+    if (contact.deepest >= 0.0) {
+        contact_forces(engine->model, &contact, row);
+    } else {
+        gap_force(engine->model, &contact.law, contact.r, contact.distance, row);
+    }
+    for (int c = 0; c < 3; c++) { /* a row has the torque on j first */
+        result[c] = row[c];
+        result[3 + c] = row[6 + c];
+        result[6 + c] = row[3 + c];
+    }
 }
 
 static void sweep_far(struct gb_engine *engine, int64_t k)

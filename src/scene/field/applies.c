@@ -40,6 +40,16 @@ static bool with_path(const struct gb_params *params)
     return !without_path(params);
 }
 
+static bool grown(const struct gb_params *params)
+{
+    return params->structure == GB_STRUCTURE_GROWN;
+}
+
+static bool lattice(const struct gb_params *params)
+{
+    return !grown(params);
+}
+
 /* Two bodies of the law command; scenes have one material. */
 static bool never(const struct gb_params *params)
 {
@@ -83,6 +93,10 @@ static const struct {
     {"loading", "until", without_path},
     {"loading", "unload_from", without_path},
     {"loading", "on_collapse", with_path},
+    {"structure", "overlap", lattice},
+    {"structure", "density", grown},
+    {"structure", "base", grown},
+    {"structure", "r_meso", grown},
     {"numerics", "cutoff", rod},
 };
 

@@ -7,6 +7,7 @@
 #include "scene/field/changes.h"
 #include "scene/field/field.h"
 #include "scene/field/keep_points.h"
+#include "scene/lattice.h"
 #include "scene/loading_kind.h"
 #include "scene/path/path.h"
 #include "scene/size/size_table.h"
@@ -126,7 +127,8 @@ static bool check_normal(const struct gb_params *params, struct gb_error *err)
 /* Requirements of scenes in a periodic cell. */
 static bool check_periodic(const struct gb_params *params, struct gb_error *err)
 {
-    return check_normal(params, err) && check_cell(params, err) &&
+    return check_normal(params, err) && gb_lattice_check(params, err) &&
+           check_cell(params, err) &&
            check_loading(params, err);
 }
 

@@ -12,6 +12,8 @@ static const char *const dimensions[] = {"3", "2", NULL};
 static const char *const distributions[] = {"mono", "lognormal", "table", NULL};
 static const char *const normals[] = {"rod", "hertz", "storakers", NULL};
 static const char *const storakers[] = {"capped", "printed", NULL};
+static const char *const structures[] = {"grown",   "sc",     "fcc",       "bcc",
+                                         "diamond", "square", "hexagonal", NULL};
 static const char *const radii[] = {"deepest", "current", NULL};
 static const char *const motions[] = {"half", "full", NULL};
 static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", "die", NULL};
@@ -182,6 +184,13 @@ static const struct gb_field rows[] = {
      .meaning = "radius of the second body of a pair; auto is half the diameter",
      .source = "P3 (4)"},
 
+    {"structure", "kind", GB_FIELD_CHOICE, AT(structure), .choices = structures,
+     .fallback = "grown",
+     .meaning = "initial structure: grown from chains, or a lattice of whole unit cells",
+     .source = "P1 III; crystallography"},
+    {"structure", "overlap", GB_FIELD_NUMBER, AT(overlap), RANGE(1e-6, 0.45),
+     .fallback = "0.01",
+     .meaning = "overlap of nearest neighbours in a lattice, h/d", .source = "user"},
     {"structure", "density", GB_FIELD_NUMBER, AT(structure_density), RANGE(0.01, 0.74),
      AUTO(NAN), .fallback = "auto",
      .meaning =

@@ -2,8 +2,8 @@
 
 #include "base/alloc.h"
 #include "pack/cell/world_record.h"
-#include "pack/structure/chain_growth.h"
 #include "pack/structure/hilbert.h"
+#include "pack/structure/initial_structure.h"
 
 bool gb_loading_cell_grow(struct gb_loading *loading, bool (*cancelled)(void *data),
                           void *data, struct gb_error *err)
@@ -13,10 +13,7 @@ bool gb_loading_cell_grow(struct gb_loading *loading, bool (*cancelled)(void *da
     if (!position) {
         return false;
     }
-    struct gb_chain_growth growth = gb_chain_growth_from_model(model);
-    growth.cancelled = cancelled;
-    growth.data = data;
-    const bool done = gb_chain_growth_run(&growth, position, err) &&
+    const bool done = gb_initial_structure_place(model, cancelled, data, position, err) &&
                       gb_hilbert_sort(model, position, err) &&
                       gb_world_create(&loading->world, model, position, err) &&
                       gb_world_evaluate(loading->world, err);

@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "measure/fit/average.h"
 #include "measure/structure.h"
-#include "pack/structure/chain_growth.h"
+#include "pack/structure/initial_structure.h"
 #include "scene/model.h"
 
 /* A g(r) whose ripple is below this counts as 1.  At density 0.24 the ripple is 0.02 from
@@ -24,8 +24,8 @@ static bool add_g(const struct gb_model *model, double half, int bins, double *s
     gb_cell_init(&cell, model->dimension, model->edges);
     double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
     double *g = gb_alloc_array((size_t)bins, sizeof *g, err);
-    const struct gb_chain_growth grow = gb_chain_growth_from_model(model);
-    const bool done = position && g && gb_chain_growth_run(&grow, position, err) &&
+    const bool done = position && g &&
+                      gb_initial_structure_place(model, NULL, NULL, position, err) &&
                       gb_structure_rdf(&cell, model->count, position, half, bins, g, err);
     for (int k = 0; k < bins && done; k++) {
         sum[k] += g[k];

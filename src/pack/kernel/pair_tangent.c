@@ -1,0 +1,235 @@
+#include "pack/kernel/pair_tangent.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+#include "pack/cell/world_private.h"
+#include "pack/kernel/sweep_sized.h"
+#include "scene/loading_kind.h"
+#include "scene/tolerances.h"
+
+enum { WIDTH = GB_PAIR_TANGENT_WIDTH };
+
+/* The nine motions of 128 pairs, and the nine conjugates. */
+struct span {
+    double motion[WIDTH][GB_BATCH];
+    double result[WIDTH][GB_BATCH];
+};
+
+/* One of the two lists. */
+struct source {
+    const struct gb_engine *engine;
+    const struct gb_pair_list *list;
+    bool near;
+    struct gb_contacts *scratch; /* one batch of contact records */
+};
+
+/* Indices of the nine numbers that exist in the plane x-z; the others stay 0. */
+static const int planar_index[] = {0, 2, 4, 7};
+
+static int index_count(const struct gb_engine *engine)
+{
+    return engine->model->dimension == 2 ? 4 : WIDTH;
+}
+
+static int index_at(const struct gb_engine *engine, int k)
+{
+    return engine->model->dimension == 2 ? planar_index[k] : k;
+}
+
+/* Contact records [slot, slot + n) into the scratch. */
+static void copy_contacts(const struct source *from, int64_t slot, int n)
+{
+    const struct gb_contacts *contacts = &from->engine->contacts;
+    for (int p = 0; p < contacts->planes; p++) {
+        memcpy(from->scratch->plane[p], (const double *)contacts->plane[p] + slot,
+               (size_t)n * sizeof(double));
+    }
+}
+
+/* Rows of r, of rotations and of forces in a batch: three in space, in the plane x, z and
+ * one rotation about y. */
+static void to_batch(const struct span *span, int dimension, struct gb_batch *batch)
+{
+    const int vectors = dimension == 2 ? 2 : 3, rotations = dimension == 2 ? 1 : 3;
+    for (int c = 0; c < vectors; c++) {
+        const double *motion = span->motion[dimension == 2 ? 2 * c : c];
+        memcpy(batch->r[c], motion, sizeof batch->r[c]);
+    }
+    for (int c = 0; c < rotations; c++) {
+        const int axis = dimension == 2 ? 1 : c;
+        const double *i = span->motion[3 + axis], *j = span->motion[6 + axis];
+        for (int k = 0; k < batch->n; k++) {
+            batch->rotation_sum[c][k] = i[k] + j[k];
+            batch->rotation_difference[c][k] = i[k] - j[k];
+        }
+    }
+}
+
+static void from_batch(const struct gb_batch *batch, int dimension, bool near,
+                       struct span *span)
+{
+    const int vectors = dimension == 2 ? 2 : 3, rotations = dimension == 2 ? 1 : 3;
+    memset(span->result, 0, sizeof span->result);
+    for (int c = 0; c < vectors; c++) {
+        memcpy(span->result[dimension == 2 ? 2 * c : c], batch->force[c],
+               sizeof batch->force[c]);
+    }
+    for (int c = 0; c < rotations && near; c++) {
+        const int axis = dimension == 2 ? 1 : c;
+        memcpy(span->result[3 + axis], batch->torque_i[c], sizeof batch->torque_i[c]);
+        memcpy(span->result[6 + axis], batch->torque_j[c], sizeof batch->torque_j[c]);
+    }
+}
+
+/* Equal spheres: the kernel of the sweep on a copy of the contact records. */
+static void apply_batch(const struct source *from, int64_t slot, int n, struct span *span)
+{
+    const struct gb_engine *engine = from->engine;
+    const double cutoff =
+        engine->model->terms.attraction ? engine->model->numerics.cutoff : 0.0;
+    struct gb_tally tally = {0};
+    struct gb_batch batch;
+    memset(&batch, 0, sizeof batch);
+    batch.n = n;
+    batch.cutoff2 = cutoff * cutoff;
+    to_batch(span, engine->model->dimension, &batch);
+    if (from->near) {
+        copy_contacts(from, slot, n);
+        engine->kernel.advance(engine->model, &batch, from->scratch, 0);
+    } else {
+        engine->kernel.attract(engine->model, &batch, NULL, NULL, &tally);
+    }
+    from_batch(&batch, engine->model->dimension, from->near, span);
+}
+
+/* Unequal spheres, pair by pair. */
+static void apply_sized(const struct source *from, int64_t slot, int n, struct span *span)
+{
+    for (int k = 0; k < n; k++) {
+        double motion[WIDTH], result[WIDTH];
+        for (int m = 0; m < WIDTH; m++) {
+            motion[m] = span->motion[m][k];
+        }
+        gb_sweep_sized_pair(from->engine, from->near, slot + k, motion, result);
+        for (int m = 0; m < WIDTH; m++) {
+            span->result[m][k] = result[m];
+        }
+    }
+}
+
+static void apply(const struct source *from, int64_t slot, int n, struct span *span)
+{
+    (from->engine->particles.diameter ? apply_sized : apply_batch)(from, slot, n, span);
+}
+
+/* Particles, branch vectors and forces of pairs [slot, slot + n); no rotation. */
+static void fill_pairs(const struct source *from, int64_t slot, int n, struct span *span,
+                       struct gb_pair_tangent *pair)
+{
+    memset(span, 0, sizeof *span);
+    memset(pair, 0, (size_t)n * sizeof *pair);
+    for (int k = 0; k < n; k++) {
+        const int32_t i = from->list->first[slot + k];
+        pair[k].first = i;
+        pair[k].other = from->list->other[slot + k];
+        gb_engine_branch_vector(from->engine, from->list, i, slot + k, pair[k].r);
+        for (int c = 0; c < 3; c++) {
+            span->motion[c][k] = pair[k].r[c];
+        }
+    }
+    apply(from, slot, n, span);
+    for (int k = 0; k < n; k++) {
+        for (int c = 0; c < 3; c++) {
+            pair[k].force[c] = span->result[c][k];
+        }
+    }
+}
+
+/* Adds a side of the difference by motion m. */
+static void add_side(const struct source *from, int64_t slot, int n, int m, double step,
+                     struct span *span, struct gb_pair_tangent *pair)
+{
+    const double weight = -0.5 / step;
+    for (int k = 0; k < n; k++) {
+        span->motion[m][k] += step;
+    }
+    apply(from, slot, n, span);
+    for (int k = 0; k < n; k++) {
+        span->motion[m][k] = m < 3 ? pair[k].r[m] : 0.0;
+        for (int c = 0; c < WIDTH; c++) {
+            pair[k].stiffness[c][m] += weight * span->result[c][k];
+        }
+    }
+}
+
+/* The laws have a kink where a contact opens or slides: each side is taken as it is. */
+static void fill_stiffness(const struct source *from, int64_t slot, int n,
+                           struct span *span, struct gb_pair_tangent *pair)
+{
+    for (int k = 0; k < index_count(from->engine); k++) {
+        const int m = index_at(from->engine, k);
+        add_side(from, slot, n, m, GB_PAIR_TANGENT_STEP, span, pair);
+        add_side(from, slot, n, m, -GB_PAIR_TANGENT_STEP, span, pair);
+    }
+}
+
+/* True for a contact, and for a pair that attracts across a gap. */
+static bool transmits(const struct source *from, int64_t slot,
+                      const struct gb_pair_tangent *pair)
+{
+    return (from->near && gb_contacts_touch(&from->engine->contacts, slot)) ||
+           pair->force[0] != 0.0 || pair->force[1] != 0.0 || pair->force[2] != 0.0;
+}
+
+/* Appends the pairs of a list that transmit forces; counts them where out is NULL.
+ * pair: scratch. */
+static int64_t append(const struct source *from, struct gb_pair_tangent *pair,
+                      struct gb_pair_tangent *out)
+{
+    const int64_t pairs = from->list->pair_count;
+    int64_t count = 0;
+    struct span span;
+    for (int64_t slot = 0; slot < pairs; slot += GB_BATCH) {
+        const int n = pairs - slot < GB_BATCH ? (int)(pairs - slot) : GB_BATCH;
+        fill_pairs(from, slot, n, &span, pair);
+        if (out) {
+            fill_stiffness(from, slot, n, &span, pair);
+        }
+        for (int k = 0; k < n; k++) {
+            if (transmits(from, slot + k, &pair[k])) {
+                if (out) {
+                    out[count] = pair[k];
+                }
+                count++;
+            }
+        }
+    }
+    return count;
+}
+
+bool gb_pair_tangent_list(const struct gb_world *world, struct gb_pair_tangent **out,
+                          int64_t *count, struct gb_error *err)
+{
+    const struct gb_engine *engine = &world->engine;
+    const struct gb_contacts_shape shape = {
+        engine->model->dimension, gb_loading_kind_at(engine->model->kind)->viscous_contacts,
+        GB_REAL_F64};
+    struct gb_contacts scratch;
+    struct gb_pair_tangent *pair = gb_alloc_array(GB_BATCH, sizeof *pair, err);
+    if (!pair || !gb_contacts_init(&scratch, shape, GB_BATCH, err)) {
+        gb_alloc_free(pair);
+        return false;
+    }
+    const struct source near = {engine, &engine->list.near, true, &scratch};
+    const struct source far = {engine, &engine->list.far, false, &scratch};
+    const int64_t pairs = append(&near, pair, NULL) + append(&far, pair, NULL);
+    *out = gb_alloc_array((size_t)pairs + 1, sizeof **out, err);
+    if (*out) {
+        *count = append(&near, pair, *out);
+        *count += append(&far, pair, *out + *count);
+    }
+    gb_contacts_finish(&scratch);
+    gb_alloc_free(pair);
+    return *out != NULL;
+}

@@ -1,0 +1,35 @@
+#ifndef GB_PACK_KERNEL_PAIR_TANGENT_H
+#define GB_PACK_KERNEL_PAIR_TANGENT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+
+struct gb_world;
+
+/* Nine numbers describe the motion of a pair: the branch vector r_ij, the rotation of i,
+ * the rotation of j; their conjugates are the force on i (its opposite acts on j) and the
+ * torques on i and j. */
+enum { GB_PAIR_TANGENT_WIDTH = 9 };
+
+/* A pair that transmits forces, at the state of the last evaluation.  Reduced units. */
+struct gb_pair_tangent {
+    int32_t first, other;
+    double r[3];     /* x_first - x_other, nearest image, d */
+    double force[3]; /* on the first, E d^2 */
+    /* Minus the derivatives of the conjugates by the nine numbers.  Not symmetric where
+     * springs are loaded; a spring at its cap counts half. */
+    double stiffness[GB_PAIR_TANGENT_WIDTH][GB_PAIR_TANGENT_WIDTH];
+};
+
+/* Tangents of all pairs of a world in double precision, right after an evaluation: central
+ * differences of the laws of its own sweep, so for every law, size and dimension.  In the
+ * order of the lists.  The world does not change.
+ *
+ * out, count   made here; freed with gb_alloc_free
+ * Errors: GB_ERR_MEMORY. */
+bool gb_pair_tangent_list(const struct gb_world *world, struct gb_pair_tangent **out,
+                          int64_t *count, struct gb_error *err);
+
+#endif
