@@ -307,6 +307,56 @@
  * pair.  Larger: light contacts open within the difference.  Smaller: rounding. */
 #define GB_PAIR_TANGENT_STEP 1e-7
 
+/* Weak spring that holds directions without stiffness, as a share of the stiffness of the
+ * particle: without it the blocks of rattlers are singular.  Larger: slower solutions. */
+#define GB_TANGENT_HOLD 1e-9
+
+/* Residual of the linear equations for the response to a strain, as a share of the
+ * forces. */
+#define GB_TANGENT_SHARE 1e-6
+
+/* Rounding of the forces by an affine strain, over those of the pairs alone.  In a lattice
+ * they cancel, and what is left of them is no load. */
+#define GB_TANGENT_NOISE 1e-7
+
+/* Residual, over the force scale, of the copy that is probed, and that from which Newton's
+ * method starts.  A strain of 1e-6 changes contact forces by 1e-4 of the scale: a residual
+ * of 1e-10 is 1e-6 of that.  A start further away has contacts that open or slide on the
+ * way. */
+#define GB_PROBE_RESIDUAL       1e-10
+#define GB_PROBE_RESIDUAL_START 1e-4
+/* A copy with a larger one has no equilibrium to probe. */
+#define GB_PROBE_RESIDUAL_MAX 1e-5
+
+/* Force evaluations of FIRE on a copy. */
+#define GB_PROBE_EVALUATIONS_MAX 100000
+
+/* Imbalance of forces by the rounding of positions, E d^2 over the longest edge: no probe
+ * is relaxed further.  And so many times that where Newton's method ends by itself: FIRE
+ * would not come closer. */
+#define GB_PROBE_ROUNDING      5e-16
+#define GB_PROBE_ROUNDING_LEFT 100.0
+
+/* A Newton step is taken if the imbalance falls by this share of what it predicts. */
+#define GB_PROBE_FALL 0.1
+
+/* Imbalance left after a probe, as a share of that of the affine strain: the relative
+ * error of the moduli by it is of the same order. */
+#define GB_PROBE_SHARE 1e-6
+
+/* Strain of the first probes, and the least.  C at a strain and at half of it agree to
+ * GB_PROBE_AGREEMENT of its largest element, else the strain is divided by ten.  Larger
+ * strains open contacts; below the least, rounding is 1e-6 of the increments. */
+#define GB_PROBE_STRAIN     1e-6
+#define GB_PROBE_STRAIN_MIN 1e-8
+#define GB_PROBE_AGREEMENT  1e-4
+
+/* Elastic range: loss of the secant modulus that ends it, ratio of consecutive strains,
+ * and the strain at which the search ends. */
+#define GB_PROBE_LOSS      0.05
+#define GB_PROBE_GROWTH    2.0
+#define GB_PROBE_RANGE_MAX 0.01
+
 /* Length of a cell edge over the reach of the neighbour list: below 2 a particle would
  * interact with two images of the same neighbour. */
 #define GB_EDGE_OVER_RANGE_MIN 2.0

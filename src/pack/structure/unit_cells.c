@@ -7,8 +7,7 @@ static void place(const struct gb_model *model, const struct gb_lattice *lattice
                   const int64_t cells[3], const int64_t at[3], int p, double x[3])
 {
     for (int k = 0; k < 3; k++) {
-        const double share =
-            ((double)at[k] + lattice->point[p][k]) / (double)cells[k];
+        const double share = ((double)at[k] + lattice->point[p][k]) / (double)cells[k];
         x[k] = lattice->cell[k] > 0.0 ? model->edges[k] * share : 0.0;
     }
 }

@@ -128,8 +128,7 @@ static bool check_normal(const struct gb_params *params, struct gb_error *err)
 static bool check_periodic(const struct gb_params *params, struct gb_error *err)
 {
     return check_normal(params, err) && gb_lattice_check(params, err) &&
-           check_cell(params, err) &&
-           check_loading(params, err);
+           check_cell(params, err) && check_loading(params, err);
 }
 
 bool gb_params_check(const struct gb_params *params, struct gb_error *err)

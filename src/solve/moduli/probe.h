@@ -1,0 +1,59 @@
+#ifndef GB_SOLVE_MODULI_PROBE_H
+#define GB_SOLVE_MODULI_PROBE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+#include "pack/cell/world.h"
+#include "solve/moduli/tangent.h"
+#include "solve/relax/relax.h"
+
+/* A copy of a packing in double precision, for small strains: each is applied to the same
+ * saved state as one increment, with the motion that keeps the forces in balance.  The
+ * contact histories then advance once, from the same start, whatever the solver tried on
+ * the way.  The packing that was copied does not change.
+ *
+ * Equilibrium is found by Newton's method with the stiffness matrix of the saved state,
+ * and by FIRE where that does not converge. */
+struct gb_probe {
+    struct gb_model model; /* of the copy */
+    struct gb_world *world;
+    struct gb_world_copy *base; /* where every strain begins */
+    struct gb_relax *relax;
+    struct gb_tangent *tangent;   /* of the saved state */
+    double *motion;               /* 6 x count, as in tangent.h: of the last strain ... */
+    double *force, *step;         /* ... and scratch */
+    double pressure[3][3];        /* of the saved state, E */
+    double residual;              /* of it, as gb_world_residual */
+    double moved_rms, moved_most; /* from the packing that was copied, d */
+    bool (*cancelled)(void *data); /* polled; NULL is fine */
+    void *data;
+    int64_t iterations; /* of the conjugate gradients so far */
+    int64_t fallbacks;  /* strains that were relaxed by FIRE */
+};
+
+/* Copies a world right after an evaluation and relaxes the copy to GB_PROBE_RESIDUAL.
+ * cancelled as above, from the start.  Errors: GB_ERR_INPUT where no equilibrium is near,
+ * GB_ERR_GUARD, GB_ERR_MEMORY, GB_ERR_CANCELLED. */
+bool gb_probe_create(struct gb_probe **out, const struct gb_world *world,
+                     bool (*cancelled)(void *data), void *data, struct gb_error *err);
+void gb_probe_destroy(struct gb_probe *probe); /* NULL is fine */
+
+/* Pressure tensor (E) after a symmetric strain of the saved state.
+ *
+ * guess    first motion in probe->motion: as it is, times `guess`
+ * share    residual allowed, as a share of that of the affine strain */
+bool gb_probe_strain(struct gb_probe *probe, const double strain[3][3], double guess,
+                     double share, double pressure[3][3], struct gb_error *err);
+
+/* The state after the last strain becomes the saved one. */
+bool gb_probe_advance(struct gb_probe *probe, struct gb_error *err);
+
+/* A copy of the saved state, and back to it: for several advances from one state. */
+bool gb_probe_save(const struct gb_probe *probe, struct gb_world_copy **copy,
+                   struct gb_error *err);
+bool gb_probe_return(struct gb_probe *probe, const struct gb_world_copy *copy,
+                     struct gb_error *err);
+
+#endif
