@@ -18,6 +18,8 @@ static const struct gb_commands_row rows[] = {
     {packings, "pack", "the initial structure alone", gb_cmd_pack},
     {packings, "sizes", "log-normal law fitted to measured particle sizes", gb_cmd_sizes},
     {packings, "snapshot", "picture of a packing", gb_cmd_snapshot},
+    {results, "moduli", "elastic moduli at states of a run, or of a lattice",
+     gb_cmd_moduli},
     {results, "plot", "figures over one or more runs, and of contact laws", gb_cmd_plot},
     {results, "fit", "equations of compaction fitted to runs or measured points",
      gb_cmd_fit},

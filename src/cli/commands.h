@@ -28,6 +28,7 @@ int gb_cmd_calibrate(int argc, char **argv);
 int gb_cmd_chart(int argc, char **argv);
 int gb_cmd_fit(int argc, char **argv);
 int gb_cmd_law(int argc, char **argv);
+int gb_cmd_moduli(int argc, char **argv);
 int gb_cmd_pack(int argc, char **argv);
 int gb_cmd_params(int argc, char **argv);
 int gb_cmd_plot(int argc, char **argv);

@@ -101,8 +101,9 @@ static GPtrArray *list_paths(const char *source)
     return paths;
 }
 
+/* which: index of the path. */
 static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
-                         const struct gb_keep_point *point, GString *list,
+                         const struct gb_keep_point *point, GString *list, guint *which,
                          struct gb_error *err)
 {
     double best = INFINITY;
@@ -120,6 +121,7 @@ static bool read_nearest(struct gb_state **out, const GPtrArray *paths,
             *out = state;
             state = other;
             best = distance_to_point;
+            *which = k;
         }
         gb_state_destroy(state);
     }
@@ -130,6 +132,7 @@ bool gb_states_read(struct gb_state **out, const char *source, const char *at,
                     struct gb_error *err)
 {
     struct gb_keep_point point = {0};
+    guint which = 0;
     *out = NULL;
     if (at != NULL && !parse_point(at, &point, err)) {
         return false;
@@ -148,7 +151,7 @@ bool gb_states_read(struct gb_state **out, const char *source, const char *at,
     }
     GString *list = g_string_new(NULL);
     struct gb_error cause = {0};
-    const bool good = read_nearest(out, paths, &point, list, &cause);
+    const bool good = read_nearest(out, paths, &point, list, &which, &cause);
     if (!good) {
         gb_state_destroy(*out);
         *out = NULL;
@@ -210,4 +213,45 @@ GPtrArray *gb_states_along(const char *source, struct gb_error *err)
     g_array_unref(frames);
     g_ptr_array_unref(paths);
     return sorted;
+}
+
+/* Path of the state nearest to a point (g_free), or NULL. */
+static char *find_nearest(const char *source, const GPtrArray *paths,
+                          const struct gb_keep_point *point, struct gb_error *err)
+{
+    struct gb_state *state = NULL;
+    struct gb_error cause = {0};
+    GString *list = g_string_new(NULL);
+    guint which = 0;
+    const bool found = read_nearest(&state, paths, point, list, &which, &cause);
+    if (!found && cause.code != GB_OK) {
+        *err = cause;
+    } else if (!found) {
+        gb_error_set(err, GB_ERR_INPUT, "--at: %.200s keeps states at %.150s", source,
+                     list->str);
+    }
+    gb_state_destroy(state);
+    g_string_free(list, TRUE);
+    return found ? g_strdup(g_ptr_array_index(paths, which)) : NULL;
+}
+
+GPtrArray *gb_states_select(const char *source, const struct gb_keep_points *points,
+                            struct gb_error *err)
+{
+    GPtrArray *all = gb_states_along(source, err);
+    if (all == NULL || points->count == 0) {
+        return all;
+    }
+    GPtrArray *chosen = g_ptr_array_new_with_free_func(g_free);
+    for (int k = 0; k < points->count && chosen != NULL; k++) {
+        char *path = find_nearest(source, all, &points->point[k], err);
+        if (path != NULL) {
+            g_ptr_array_add(chosen, path);
+        } else {
+            g_ptr_array_unref(chosen);
+            chosen = NULL;
+        }
+    }
+    g_ptr_array_unref(all);
+    return chosen;
 }

@@ -6,6 +6,7 @@
 #include <glib.h>
 
 #include "io/state/state.h"
+#include "scene/field/keep_points.h"
 
 /* Kept states of a run directory: the last, state.h5, and those in its folder snapshots. */
 
@@ -19,5 +20,9 @@ bool gb_states_read(struct gb_state **out, const char *source, const char *at,
 /* Paths of all states of a directory in the order of the run, each point once
  * (g_ptr_array_unref); NULL and err when one cannot be read. */
 GPtrArray *gb_states_along(const char *source, struct gb_error *err);
+
+/* The same, or for each of the points the state nearest to it, as gb_states_read. */
+GPtrArray *gb_states_select(const char *source, const struct gb_keep_points *points,
+                            struct gb_error *err);
 
 #endif

@@ -56,7 +56,8 @@ char *gb_kept_states_name(const struct gb_keep_point *mark, char *name, size_t s
 }
 
 static bool write_state(const char *directory, const char *name,
-                        const struct gb_state *state, struct gb_error *err)
+                        const struct gb_state *state, const struct gb_record *record,
+                        struct gb_error *err)
 {
     char *folder = g_build_filename(directory, "snapshots", NULL);
     char *path = g_strdup_printf("%s/%s.h5", folder, name);
@@ -65,7 +66,7 @@ static bool write_state(const char *directory, const char *name,
         gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be made: %s", folder,
                      g_strerror(errno));
     } else if (!done) {
-        done = gb_state_write(state, NULL, path, err);
+        done = gb_state_write(state, record, path, err);
     }
     g_free(path);
     g_free(folder);
@@ -99,7 +100,7 @@ bool gb_kept_states_point(struct gb_kept_states *states, const char *directory,
     const int count = list_due(states, point, number, names);
     bool good = count == 0 || gb_state_record(&state, record, params, model, err);
     for (int i = 0; i < count && good; i++) {
-        good = write_state(directory, names[i], state, err);
+        good = write_state(directory, names[i], state, record, err);
     }
     gb_state_destroy(state);
     gb_kept_states_pass(states, point);

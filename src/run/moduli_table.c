@@ -1,0 +1,279 @@
+#include "run/moduli_table.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "measure/elastic.h"
+#include "run/experiment.h"
+#include "run/record/run_recorder.h"
+#include "scene/loading_kind.h"
+
+/* Force evaluations between two questions whether to stop. */
+enum { SLICE = 200 };
+
+static const char *const names[] = {"density",
+                                    "p_MPa",
+                                    "probe_strain",
+                                    "C11_GPa",
+                                    "C12_GPa",
+                                    "C13_GPa",
+                                    "C22_GPa",
+                                    "C23_GPa",
+                                    "C33_GPa",
+                                    "C44_GPa",
+                                    "C55_GPa",
+                                    "C66_GPa",
+                                    "px_MPa",
+                                    "py_MPa",
+                                    "pz_MPa",
+                                    "K_GPa",
+                                    "G_GPa",
+                                    "E_GPa",
+                                    "nu",
+                                    "K_voigt_GPa",
+                                    "K_reuss_GPa",
+                                    "G_voigt_GPa",
+                                    "G_reuss_GPa",
+                                    "axial_C11_GPa",
+                                    "axial_C12_GPa",
+                                    "axial_C13_GPa",
+                                    "axial_C33_GPa",
+                                    "axial_C44_GPa",
+                                    "axial_misfit",
+                                    "vp_z_m_s",
+                                    "vp_x_m_s",
+                                    "vs_z_m_s",
+                                    "vs_x_m_s",
+                                    "elastic_range",
+                                    "sizes_differ",
+                                    "residual",
+                                    "moved_rms_d",
+                                    "moved_most_d",
+                                    "C14_GPa",
+                                    "C15_GPa",
+                                    "C16_GPa",
+                                    "C21_GPa",
+                                    "C24_GPa",
+                                    "C25_GPa",
+                                    "C26_GPa",
+                                    "C31_GPa",
+                                    "C32_GPa",
+                                    "C34_GPa",
+                                    "C35_GPa",
+                                    "C36_GPa",
+                                    "C45_GPa",
+                                    "C46_GPa",
+                                    "C56_GPa",
+                                    "C41_GPa",
+                                    "C42_GPa",
+                                    "C43_GPa",
+                                    "evaluations",
+                                    "iterations",
+                                    "fallbacks",
+                                    "pyz_MPa",
+                                    "pxz_MPa",
+                                    "pxy_MPa"};
+_Static_assert(sizeof names / sizeof names[0] == GB_MODULI_TABLE_COLUMNS,
+               "a name for every column");
+
+const char *gb_moduli_table_name(int column)
+{
+    return names[column];
+}
+
+int gb_moduli_table_find(const char *name)
+{
+    for (int k = 0; k < GB_MODULI_TABLE_COLUMNS; k++) {
+        if (strcmp(names[k], name) == 0) {
+            return k;
+        }
+    }
+    return -1;
+}
+
+static void put(struct gb_moduli_table_row *row, const char *name, double value)
+{
+    row->value[gb_moduli_table_find(name)] = value;
+}
+
+/* Elements of C by their names, "C12_GPa". */
+static void fill_matrix(struct gb_moduli_table_row *row)
+{
+    for (int k = 0; k < GB_MODULI_TABLE_COLUMNS; k++) {
+        if (names[k][0] == 'C') {
+            row->value[k] = row->c_gpa[names[k][1] - '1'][names[k][2] - '1'];
+        }
+    }
+}
+
+static void fill_averages(struct gb_moduli_table_row *row)
+{
+    const struct gb_elastic_averages of =
+        gb_elastic_average((const double(*)[6])row->c_gpa);
+    put(row, "K_GPa", of.bulk);
+    put(row, "G_GPa", of.shear);
+    put(row, "E_GPa", of.young);
+    put(row, "nu", of.poisson);
+    put(row, "K_voigt_GPa", of.bulk_voigt);
+    put(row, "K_reuss_GPa", of.bulk_reuss);
+    put(row, "G_voigt_GPa", of.shear_voigt);
+    put(row, "G_reuss_GPa", of.shear_reuss);
+}
+
+static void fill_axial(struct gb_moduli_table_row *row, double mass_density)
+{
+    const struct gb_elastic_axial of = gb_elastic_project((const double(*)[6])row->c_gpa);
+    const struct gb_elastic_waves speed =
+        gb_elastic_wave_speeds(&of, 1e-9 * mass_density);
+    put(row, "axial_C11_GPa", of.c11);
+    put(row, "axial_C12_GPa", of.c12);
+    put(row, "axial_C13_GPa", of.c13);
+    put(row, "axial_C33_GPa", of.c33);
+    put(row, "axial_C44_GPa", of.c44);
+    put(row, "axial_misfit", of.misfit);
+    put(row, "vp_z_m_s", speed.p_along);
+    put(row, "vp_x_m_s", speed.p_across);
+    put(row, "vs_z_m_s", speed.s_along);
+    put(row, "vs_x_m_s", speed.s_across);
+}
+
+static void fill_state(struct gb_moduli_table_row *row, const struct gb_moduli *moduli,
+                       double mpa, int dimension)
+{
+    const double(*p)[3] = (const double(*)[3])moduli->pressure;
+    put(row, "density", moduli->density);
+    put(row, "p_MPa", mpa * (p[0][0] + p[1][1] + p[2][2]) / dimension);
+    put(row, "px_MPa", mpa * p[0][0]);
+    put(row, "py_MPa", mpa * p[1][1]);
+    put(row, "pz_MPa", mpa * p[2][2]);
+    put(row, "pyz_MPa", mpa * 0.5 * (p[1][2] + p[2][1]));
+    put(row, "pxz_MPa", mpa * 0.5 * (p[0][2] + p[2][0]));
+    put(row, "pxy_MPa", mpa * 0.5 * (p[0][1] + p[1][0]));
+    put(row, "probe_strain", moduli->strain);
+    put(row, "elastic_range", moduli->elastic_range);
+    put(row, "sizes_differ", moduli->agreement);
+    put(row, "residual", moduli->residual);
+    put(row, "moved_rms_d", moduli->moved_rms);
+    put(row, "moved_most_d", moduli->moved_most);
+    put(row, "evaluations", (double)moduli->evaluations);
+    put(row, "iterations", (double)moduli->iterations);
+    put(row, "fallbacks", (double)moduli->fallbacks);
+}
+
+void gb_moduli_table_fill(struct gb_moduli_table_row *row, const struct gb_moduli *moduli,
+                          const struct gb_params *params)
+{
+    *row = (struct gb_moduli_table_row){.range_open = moduli->range_open};
+    for (int k = 0; k < 36; k++) {
+        row->c_gpa[k / 6][k % 6] = 1e-9 * params->young_pa * moduli->c[k / 6][k % 6];
+    }
+    fill_matrix(row);
+    fill_averages(row);
+    fill_axial(row, params->density_kg_m3 * moduli->density);
+    fill_state(row, moduli, 1e-6 * params->young_pa, params->dimension);
+}
+
+static bool probe(const struct gb_experiment *experiment,
+                  const struct gb_moduli_table_sink *sink, struct gb_error *err)
+{
+    const struct gb_moduli_options options = {
+        .range = sink->range, .cancelled = sink->cancelled, .data = sink->cancel_data};
+    struct gb_moduli moduli;
+    struct gb_moduli_table_row row;
+    if (!gb_moduli_measure(&moduli, gb_experiment_world(experiment), &options, err)) {
+        return false;
+    }
+    gb_moduli_table_fill(&row, &moduli, gb_experiment_params(experiment));
+    return sink->row(sink->data, &row, err);
+}
+
+/* Points that a run has reached so far. */
+struct progress {
+    const struct gb_keep_points *points;
+    double p_pa, density; /* highest while loading */
+    int reached;
+    bool probed; /* the state as it is */
+};
+
+/* Whether the last recorded point is the first beyond a point of the list. */
+static bool is_due(struct progress *progress, const struct gb_point *point)
+{
+    int due = 0;
+    if (point->branch != GB_BRANCH_LOAD) {
+        return false;
+    }
+    for (int k = 0; k < progress->points->count; k++) {
+        const struct gb_keep_point *at = &progress->points->point[k];
+        const double before = at->by_density ? progress->density : progress->p_pa;
+        const double now = at->by_density ? point->density : point->p_pa;
+        due += before < at->value && now >= at->value;
+    }
+    progress->p_pa = fmax(progress->p_pa, point->p_pa);
+    progress->density = fmax(progress->density, point->density);
+    progress->reached += due;
+    return due > 0;
+}
+
+static bool press(struct gb_experiment *experiment, struct progress *progress,
+                  const struct gb_moduli_table_sink *sink, struct gb_error *err)
+{
+    char text[GB_EVENT_TEXT];
+    for (;;) {
+        const enum gb_step_outcome outcome =
+            gb_experiment_advance(experiment, SLICE, err);
+        while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
+        }
+        if (sink->cancelled && sink->cancelled(sink->cancel_data)) {
+            return gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
+        }
+        if (outcome == GB_STEP_POINT) {
+            progress->probed = is_due(progress, gb_experiment_point(experiment));
+            if (progress->probed && !probe(experiment, sink, err)) {
+                return false;
+            }
+        }
+        if (outcome == GB_STEP_STOPPED) {
+            struct gb_error ignored;
+            (void)(progress->probed || probe(experiment, sink, &ignored));
+            return false;
+        }
+        if (outcome == GB_STEP_DONE) {
+            return progress->probed || probe(experiment, sink, err);
+        }
+    }
+}
+
+bool gb_moduli_table_run(const struct gb_params *params,
+                         const struct gb_keep_points *points,
+                         const struct gb_moduli_table_sink *sink, int *missed,
+                         struct gb_error *err)
+{
+    struct gb_experiment *experiment = NULL;
+    struct progress progress = {points, -INFINITY, -INFINITY, 0, false};
+    if (!gb_experiment_create(&experiment, params, sink->cancelled, sink->cancel_data,
+                              err)) {
+        return false;
+    }
+    const bool placed = params->structure != GB_STRUCTURE_GROWN && points->count == 0;
+    const bool done =
+        placed ? probe(experiment, sink, err) : press(experiment, &progress, sink, err);
+    *missed = points->count - progress.reached;
+    gb_experiment_destroy(experiment);
+    return done;
+}
+
+bool gb_moduli_table_file(const char *directory, const char *name,
+                          const struct gb_moduli_table_sink *sink, struct gb_error *err)
+{
+    struct gb_params params;
+    struct gb_record record = {0};
+    struct gb_experiment *experiment = NULL;
+    const bool done = gb_run_recorder_read(directory, name, &params, &record, err) &&
+                      gb_loading_kind_check_cell(&params, "moduli", err) &&
+                      gb_experiment_resume(&experiment, &params, &record, err) &&
+                      probe(experiment, sink, err);
+    gb_experiment_destroy(experiment);
+    gb_record_finish(&record);
+    return done;
+}
