@@ -337,8 +337,17 @@
 #define GB_PROBE_ROUNDING      5e-16
 #define GB_PROBE_ROUNDING_LEFT 100.0
 
+/* Displacement of the differences in a Newton step, as a share of the strain: a spring that
+ * slides by less than it counts half.  And that without a strain, and the least one, where
+ * rounding makes 1e-5 of the stiffness, d. */
+#define GB_PROBE_TANGENT_STEP  1e-3
+#define GB_PROBE_TANGENT_REST  1e-10
+#define GB_PROBE_TANGENT_LEAST 1e-11
+
 /* A Newton step is taken if the imbalance falls by this share of what it predicts. */
 #define GB_PROBE_FALL 0.1
+/* Rise of the imbalance that a Newton step may cause a few times. */
+#define GB_PROBE_RISE 20.0
 
 /* Imbalance left after a probe, as a share of that of the affine strain: the relative
  * error of the moduli by it is of the same order. */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/mat.h"
 #include "pack/cell/world_private.h"
 #include "pack/kernel/sweep_sized.h"
 #include "scene/loading_kind.h"
@@ -21,7 +22,8 @@ struct source {
     const struct gb_engine *engine;
     const struct gb_pair_list *list;
     bool near;
-    struct gb_contacts *scratch; /* one batch of contact records */
+    struct gb_contacts *scratch;                 /* one batch of contact records */
+    const struct gb_pair_tangent_motion *motion; /* or NULL */
 };
 
 /* Indices of the nine numbers that exist in the plane x-z; the others stay 0. */
@@ -123,7 +125,24 @@ static void apply(const struct source *from, int64_t slot, int n, struct span *s
     (from->engine->particles.diameter ? apply_sized : apply_batch)(from, slot, n, span);
 }
 
-/* Particles, branch vectors and forces of pairs [slot, slot + n); no rotation. */
+/* Adds the motion of all particles to the numbers of pair k of a span. */
+static void add_motion(const struct source *from, struct gb_pair_tangent *pair, int k,
+                       struct span *span)
+{
+    const int64_t count = from->engine->particles.count;
+    const double *motion = from->motion->motion;
+    const double *xi = motion + 3 * (int64_t)pair->first;
+    const double *xj = motion + 3 * (int64_t)pair->other;
+    double affine[3];
+    gb_mat_apply(from->motion->strain, pair->r, affine);
+    for (int c = 0; c < 3; c++) {
+        pair->r[c] += affine[c] + xi[c] - xj[c];
+        span->motion[3 + c][k] = xi[3 * count + c];
+        span->motion[6 + c][k] = xj[3 * count + c];
+    }
+}
+
+/* Particles, branch vectors and forces of pairs [slot, slot + n). */
 static void fill_pairs(const struct source *from, int64_t slot, int n, struct span *span,
                        struct gb_pair_tangent *pair)
 {
@@ -134,6 +153,9 @@ static void fill_pairs(const struct source *from, int64_t slot, int n, struct sp
         pair[k].first = i;
         pair[k].other = from->list->other[slot + k];
         gb_engine_branch_vector(from->engine, from->list, i, slot + k, pair[k].r);
+        if (from->motion) {
+            add_motion(from, &pair[k], k, span);
+        }
         for (int c = 0; c < 3; c++) {
             span->motion[c][k] = pair[k].r[c];
         }
@@ -151,12 +173,14 @@ static void add_side(const struct source *from, int64_t slot, int n, int m, doub
                      struct span *span, struct gb_pair_tangent *pair)
 {
     const double weight = -0.5 / step;
+    double before[GB_BATCH];
+    memcpy(before, span->motion[m], sizeof before);
     for (int k = 0; k < n; k++) {
         span->motion[m][k] += step;
     }
     apply(from, slot, n, span);
+    memcpy(span->motion[m], before, sizeof before);
     for (int k = 0; k < n; k++) {
-        span->motion[m][k] = m < 3 ? pair[k].r[m] : 0.0;
         for (int c = 0; c < WIDTH; c++) {
             pair[k].stiffness[c][m] += weight * span->result[c][k];
         }
@@ -167,10 +191,11 @@ static void add_side(const struct source *from, int64_t slot, int n, int m, doub
 static void fill_stiffness(const struct source *from, int64_t slot, int n,
                            struct span *span, struct gb_pair_tangent *pair)
 {
+    const double step = from->motion ? from->motion->step : GB_PAIR_TANGENT_STEP;
     for (int k = 0; k < index_count(from->engine); k++) {
         const int m = index_at(from->engine, k);
-        add_side(from, slot, n, m, GB_PAIR_TANGENT_STEP, span, pair);
-        add_side(from, slot, n, m, -GB_PAIR_TANGENT_STEP, span, pair);
+        add_side(from, slot, n, m, step, span, pair);
+        add_side(from, slot, n, m, -step, span, pair);
     }
 }
 
@@ -208,8 +233,10 @@ static int64_t append(const struct source *from, struct gb_pair_tangent *pair,
     return count;
 }
 
-bool gb_pair_tangent_list(const struct gb_world *world, struct gb_pair_tangent **out,
-                          int64_t *count, struct gb_error *err)
+bool gb_pair_tangent_list(const struct gb_world *world,
+                          const struct gb_pair_tangent_motion *motion,
+                          struct gb_pair_tangent **out, int64_t *count,
+                          struct gb_error *err)
 {
     const struct gb_engine *engine = &world->engine;
     const struct gb_contacts_shape shape = {
@@ -221,8 +248,8 @@ bool gb_pair_tangent_list(const struct gb_world *world, struct gb_pair_tangent *
         gb_alloc_free(pair);
         return false;
     }
-    const struct source near = {engine, &engine->list.near, true, &scratch};
-    const struct source far = {engine, &engine->list.far, false, &scratch};
+    const struct source near = {engine, &engine->list.near, true, &scratch, motion};
+    const struct source far = {engine, &engine->list.far, false, &scratch, motion};
     const int64_t pairs = append(&near, pair, NULL) + append(&far, pair, NULL);
     *out = gb_alloc_array((size_t)pairs + 1, sizeof **out, err);
     if (*out) {

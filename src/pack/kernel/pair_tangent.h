@@ -23,13 +23,25 @@ struct gb_pair_tangent {
     double stiffness[GB_PAIR_TANGENT_WIDTH][GB_PAIR_TANGENT_WIDTH];
 };
 
+/* A strain with displacements (count x 3, d), then rotations, of all particles. */
+struct gb_pair_tangent_motion {
+    double strain[3][3];
+    const double *motion; /* 6 x count */
+    double step; /* of the differences, d: far below the motion of a contact, so that both
+                  * sides slide or neither */
+};
+
 /* Tangents of all pairs of a world in double precision, right after an evaluation: central
  * differences of the laws of its own sweep, so for every law, size and dimension.  In the
  * order of the lists.  The world does not change.
  *
+ * motion       where the differences are taken, from the contact histories as they are: a
+ *              spring that slides by this motion slides on both sides; NULL: no motion
  * out, count   made here; freed with gb_alloc_free
  * Errors: GB_ERR_MEMORY. */
-bool gb_pair_tangent_list(const struct gb_world *world, struct gb_pair_tangent **out,
-                          int64_t *count, struct gb_error *err);
+bool gb_pair_tangent_list(const struct gb_world *world,
+                          const struct gb_pair_tangent_motion *motion,
+                          struct gb_pair_tangent **out, int64_t *count,
+                          struct gb_error *err);
 
 #endif

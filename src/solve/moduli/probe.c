@@ -13,7 +13,13 @@
 
 /* Newton steps before FIRE takes over, halvings of a step, and iterations of a solution of
  * the linear equations. */
-enum { NEWTON_MAX = 30, HALVINGS_MAX = 4, ITERATIONS_MAX = 6000, SLICE = 200 };
+enum {
+    NEWTON_MAX = 30,
+    HALVINGS_MAX = 4,
+    RISES_MAX = 6,
+    ITERATIONS_MAX = 6000,
+    SLICE = 200
+};
 
 /* Residual of the linear equations in a Newton step, as a share of the forces. */
 static const double linear_share = 1e-3;
@@ -70,6 +76,32 @@ static void read_forces(struct gb_probe *probe)
     memcpy(probe->force + numbers, b.torque, numbers * sizeof *b.torque);
 }
 
+/* Step of the differences of a tangent: a share of the motion of contacts. */
+static double difference_step(const double strain[3][3])
+{
+    double most = 0.0;
+    for (int k = 0; k < 9; k++) {
+        most = fmax(most, fabs(strain[k / 3][k % 3]));
+    }
+    const double step = most > 0.0 ? GB_PROBE_TANGENT_STEP * most : GB_PROBE_TANGENT_REST;
+    return fmin(fmax(step, GB_PROBE_TANGENT_LEAST), GB_PAIR_TANGENT_STEP);
+}
+
+/* Stiffness matrix of the saved state after the motion so far. */
+static bool renew_local(struct gb_probe *probe, const double strain[3][3],
+                        struct gb_error *err)
+{
+    struct gb_pair_tangent_motion motion = {.motion = probe->motion};
+    memcpy(motion.strain, strain, sizeof motion.strain);
+    motion.step = difference_step(strain);
+    return gb_world_copy_restore(probe->world, probe->base, err) &&
+           gb_world_evaluate(probe->world, err) &&
+           (probe->local
+                ? gb_tangent_renew(probe->local, probe->world, &motion, err)
+                : gb_tangent_create(&probe->local, probe->world, err) &&
+                      gb_tangent_renew(probe->local, probe->world, &motion, err));
+}
+
 /* motion += factor * step */
 static void move(struct gb_probe *probe, double factor)
 {
@@ -78,13 +110,17 @@ static void move(struct gb_probe *probe, double factor)
     }
 }
 
-/* A Newton step, halved until the imbalance falls; false in *fell if it never does. */
+/* A Newton step, halved until the imbalance falls, or rises little: contacts that begin or
+ * cease to slide raise it once.  False in *fell if it does neither. */
 static bool improve(struct gb_probe *probe, const double strain[3][3], double *left,
-                    bool *fell, struct gb_error *err)
+                    int *rises, bool *fell, struct gb_error *err)
 {
     double factor = 1.0;
     read_forces(probe);
-    probe->iterations += gb_tangent_solve(probe->tangent, probe->force, linear_share,
+    if (!renew_local(probe, strain, err)) {
+        return false;
+    }
+    probe->iterations += gb_tangent_solve(probe->local, probe->force, linear_share,
                                           ITERATIONS_MAX, probe->step);
     move(probe, factor);
     for (int halving = 0; halving <= HALVINGS_MAX; halving++) {
@@ -92,7 +128,9 @@ static bool improve(struct gb_probe *probe, const double strain[3][3], double *l
             return false;
         }
         const double now = imbalance(probe->world);
-        *fell = now < (1.0 - GB_PROBE_FALL * factor) * *left;
+        *fell = now < (1.0 - GB_PROBE_FALL * factor) * *left ||
+                (*rises > 0 && now < GB_PROBE_RISE * *left);
+        *rises -= now > *left && *fell;
         if (*fell) {
             *left = now;
             return true;
@@ -126,8 +164,9 @@ static bool settle(struct gb_probe *probe, const double strain[3][3], double tar
 {
     double left = imbalance(probe->world);
     bool falls = true;
+    int rises = RISES_MAX;
     for (int k = 0; k < NEWTON_MAX && falls && left > target; k++) {
-        if (!improve(probe, strain, &left, &falls, err)) {
+        if (!improve(probe, strain, &left, &rises, &falls, err)) {
             return false;
         }
     }
@@ -264,6 +303,7 @@ void gb_probe_destroy(struct gb_probe *probe)
         return;
     }
     gb_tangent_destroy(probe->tangent);
+    gb_tangent_destroy(probe->local);
     gb_relax_destroy(probe->relax);
     gb_world_copy_destroy(probe->base);
     gb_world_destroy(probe->world);

@@ -21,7 +21,8 @@ struct gb_probe {
     struct gb_world *world;
     struct gb_world_copy *base; /* where every strain begins */
     struct gb_relax *relax;
-    struct gb_tangent *tangent;   /* of the saved state */
+    struct gb_tangent *tangent;   /* of the saved state ... */
+    struct gb_tangent *local;     /* ... and after the motion so far */
     double *motion;               /* 6 x count, as in tangent.h: of the last strain ... */
     double *force, *step;         /* ... and scratch */
     double pressure[3][3];        /* of the saved state, E */

@@ -32,17 +32,7 @@ static double product(const struct gb_pair_tangent *pair, const double a[WIDTH],
     return sum;
 }
 
-static void symmetrise(struct gb_pair_tangent *pair)
-{
-    for (int m = 0; m < WIDTH; m++) {
-        for (int n = 0; n < m; n++) {
-            const double mean = 0.5 * (pair->stiffness[m][n] + pair->stiffness[n][m]);
-            pair->stiffness[m][n] = pair->stiffness[n][m] = mean;
-        }
-    }
-}
-
-/* Adds a pair to the diagonal block of one of its particles. */
+/* Adds the symmetric part of a pair to the diagonal block of one of its particles. */
 static void add_block(const struct gb_pair_tangent *pair, int side, double *block)
 {
     double a[WIDTH], b[WIDTH];
@@ -50,7 +40,7 @@ static void add_block(const struct gb_pair_tangent *pair, int side, double *bloc
         motion_of(side, m, a);
         for (int n = 0; n < BLOCK; n++) {
             motion_of(side, n, b);
-            block[BLOCK * m + n] += product(pair, a, b);
+            block[BLOCK * m + n] += 0.5 * (product(pair, a, b) + product(pair, b, a));
         }
     }
 }
@@ -117,8 +107,7 @@ static void invert(double *block)
 static void fill_blocks(struct gb_tangent *tangent)
 {
     for (int64_t p = 0; p < tangent->pairs; p++) {
-        struct gb_pair_tangent *pair = &tangent->pair[p];
-        symmetrise(pair);
+        const struct gb_pair_tangent *pair = &tangent->pair[p];
         add_block(pair, 0, tangent->inverse + BLOCK * BLOCK * (int64_t)pair->first);
         add_block(pair, 1, tangent->inverse + BLOCK * BLOCK * (int64_t)pair->other);
     }
@@ -138,16 +127,29 @@ bool gb_tangent_create(struct gb_tangent **out, const struct gb_world *world,
     const size_t count = (size_t)tangent->count;
     tangent->inverse = gb_alloc_array(BLOCK * BLOCK * count, sizeof(double), err);
     bool whole = tangent->inverse != NULL;
-    for (int v = 0; v < 4 && whole; v++) {
+    for (int v = 0; v < 5 && whole; v++) {
         tangent->scratch[v] = gb_alloc_array(BLOCK * count, sizeof(double), err);
         whole = tangent->scratch[v] != NULL;
     }
-    if (!whole || !gb_pair_tangent_list(world, &tangent->pair, &tangent->pairs, err)) {
+    if (!whole || !gb_tangent_renew(tangent, world, NULL, err)) {
         gb_tangent_destroy(tangent);
         return false;
     }
-    fill_blocks(tangent);
     *out = tangent;
+    return true;
+}
+
+bool gb_tangent_renew(struct gb_tangent *tangent, const struct gb_world *world,
+                      const struct gb_pair_tangent_motion *motion, struct gb_error *err)
+{
+    const size_t numbers = BLOCK * BLOCK * (size_t)tangent->count;
+    gb_alloc_free(tangent->pair);
+    tangent->pair = NULL;
+    memset(tangent->inverse, 0, numbers * sizeof *tangent->inverse);
+    if (!gb_pair_tangent_list(world, motion, &tangent->pair, &tangent->pairs, err)) {
+        return false;
+    }
+    fill_blocks(tangent);
     return true;
 }
 
@@ -156,7 +158,7 @@ void gb_tangent_destroy(struct gb_tangent *tangent)
     if (!tangent) {
         return;
     }
-    for (int v = 0; v < 4; v++) {
+    for (int v = 0; v < 5; v++) {
         gb_alloc_free(tangent->scratch[v]);
     }
     gb_alloc_free(tangent->inverse);
@@ -171,7 +173,7 @@ static void respond(const struct gb_pair_tangent *pair, const double motion[WIDT
     for (int m = 0; m < WIDTH; m++) {
         double sum = 0.0;
         for (int n = 0; n < WIDTH; n++) {
-            sum += pair->stiffness[n][m] * motion[n]; /* symmetric */
+            sum += pair->stiffness[m][n] * motion[n];
         }
         result[m] = sum;
     }
@@ -288,33 +290,51 @@ static void add(double *a, double factor, const double *b, int64_t n)
     }
 }
 
-/* Source: Nocedal and Wright, Numerical Optimization, 2nd ed., algorithms 5.3 and 7.1. */
+/* A direction of the biconjugate gradients: preconditioned, and the forces against it. */
+static void follow(const struct gb_tangent *tangent, const double *direction,
+                   double *motion, double *force)
+{
+    precondition(tangent, direction, motion);
+    multiply(tangent, motion, force);
+}
+
+/* Source: H. A. van der Vorst, SIAM J. Sci. Stat. Comput. 13, 631 (1992), with the
+ * preconditioner from the right; rest is the residual, mirror the residual at the start. */
 int gb_tangent_solve(struct gb_tangent *tangent, const double *force, double tolerance,
                      int iterations_max, double *motion)
 {
     const int64_t n = BLOCK * tangent->count;
-    double *rest = tangent->scratch[0], *z = tangent->scratch[1];
-    double *way = tangent->scratch[2], *pushed = tangent->scratch[3];
+    const size_t bytes = (size_t)n * sizeof *motion;
+    double *rest = tangent->scratch[0], *way = tangent->scratch[1];
+    double *pushed = tangent->scratch[2], *moved = tangent->scratch[3];
+    double *bent = tangent->scratch[4];
+    const double *mirror = force;
     const double target = tolerance * tolerance * dot(force, force, n);
-    memset(motion, 0, (size_t)n * sizeof *motion);
-    memcpy(rest, force, (size_t)n * sizeof *rest);
-    precondition(tangent, rest, z);
-    memcpy(way, z, (size_t)n * sizeof *way);
-    double rate = dot(rest, z, n);
+    memset(motion, 0, bytes);
+    memcpy(rest, force, bytes);
+    memcpy(way, force, bytes);
+    double rate = dot(mirror, rest, n);
     int iterations = 0;
     while (iterations < iterations_max && dot(rest, rest, n) > target) {
-        multiply(tangent, way, pushed);
-        const double curvature = dot(way, pushed, n);
-        if (!(curvature > 0.0)) {
+        follow(tangent, way, moved, pushed);
+        const double along = rate / dot(mirror, pushed, n);
+        if (!isfinite(along)) {
             break;
         }
+        add(motion, along, moved, n);
+        add(rest, -along, pushed, n);
+        follow(tangent, rest, moved, bent);
+        const double length2 = dot(bent, bent, n);
+        const double smooth = length2 > 0.0 ? dot(bent, rest, n) / length2 : 0.0;
+        add(motion, smooth, moved, n);
+        add(rest, -smooth, bent, n);
+        const double next = dot(mirror, rest, n), share = next / rate * along / smooth;
         iterations++;
-        add(motion, rate / curvature, way, n);
-        add(rest, -rate / curvature, pushed, n);
-        precondition(tangent, rest, z);
-        const double next = dot(rest, z, n), share = next / rate;
+        if (!isfinite(share)) {
+            break;
+        }
         for (int64_t k = 0; k < n; k++) {
-            way[k] = z[k] + share * way[k];
+            way[k] = rest[k] + share * (way[k] - smooth * pushed[k]);
         }
         rate = next;
     }

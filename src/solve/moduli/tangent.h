@@ -8,8 +8,8 @@
 #include "pack/cell/world.h"
 #include "pack/kernel/pair_tangent.h"
 
-/* Stiffness matrix of a packing: symmetric parts of the tangents of its pairs, and the
- * linear equations of all displacements and rotations with it.
+/* Stiffness matrix of a packing from the tangents of its pairs, and the linear equations
+ * of all displacements and rotations with it.  It is not symmetric where contacts slide.
  *
  * Vectors have 6 x count numbers: displacements (count x 3, d), then rotations; forces
  * (E d^2), then torques. */
@@ -17,12 +17,16 @@ struct gb_tangent {
     int64_t count, pairs;
     struct gb_pair_tangent *pair;
     double *inverse;    /* count x 36: inverse blocks of the diagonal */
-    double *scratch[4]; /* of gb_tangent_solve */
+    double *scratch[5]; /* of gb_tangent_solve */
 };
 
-/* Of a world in double precision right after an evaluation; the world does not change. */
+/* Of a world in double precision right after an evaluation; the world does not change.
+ * motion: as of gb_pair_tangent_list; NULL is fine. */
 bool gb_tangent_create(struct gb_tangent **out, const struct gb_world *world,
                        struct gb_error *err);
+/* Another motion of the same world. */
+bool gb_tangent_renew(struct gb_tangent *tangent, const struct gb_world *world,
+                      const struct gb_pair_tangent_motion *motion, struct gb_error *err);
 void gb_tangent_destroy(struct gb_tangent *tangent); /* NULL is fine */
 
 /* Forces and torques after an affine strain with the particles held.  Returns what their
@@ -30,10 +34,9 @@ void gb_tangent_destroy(struct gb_tangent *tangent); /* NULL is fine */
 double gb_tangent_affine(const struct gb_tangent *tangent, const double strain[3][3],
                          double *force);
 
-/* Displacements that these forces cause: preconditioned conjugate gradients to a residual
- * of `tolerance` of the forces, or until the iterations end, or at the first direction of
- * negative stiffness.  Directions without stiffness do not move.  Returns the iterations.
- */
+/* Motion that these forces cause: stabilised biconjugate gradients to a residual of
+ * `tolerance` of the forces, or until the iterations end.  Directions without stiffness do
+ * not move.  Returns the iterations. */
 int gb_tangent_solve(struct gb_tangent *tangent, const double *force, double tolerance,
                      int iterations_max, double *motion);
 
