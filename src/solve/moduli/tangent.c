@@ -104,10 +104,23 @@ static void invert(double *block)
     }
 }
 
+/* Columns instead of rows, so that products are sums of vectors. */
+static void transpose(struct gb_pair_tangent *pair)
+{
+    for (int m = 0; m < WIDTH; m++) {
+        for (int n = 0; n < m; n++) {
+            const double other = pair->stiffness[m][n];
+            pair->stiffness[m][n] = pair->stiffness[n][m];
+            pair->stiffness[n][m] = other;
+        }
+    }
+}
+
 static void fill_blocks(struct gb_tangent *tangent)
 {
     for (int64_t p = 0; p < tangent->pairs; p++) {
-        const struct gb_pair_tangent *pair = &tangent->pair[p];
+        struct gb_pair_tangent *pair = &tangent->pair[p];
+        transpose(pair);
         add_block(pair, 0, tangent->inverse + BLOCK * BLOCK * (int64_t)pair->first);
         add_block(pair, 1, tangent->inverse + BLOCK * BLOCK * (int64_t)pair->other);
     }
@@ -170,12 +183,13 @@ void gb_tangent_destroy(struct gb_tangent *tangent)
 static void respond(const struct gb_pair_tangent *pair, const double motion[WIDTH],
                     double result[WIDTH])
 {
-    for (int m = 0; m < WIDTH; m++) {
-        double sum = 0.0;
-        for (int n = 0; n < WIDTH; n++) {
-            sum += pair->stiffness[m][n] * motion[n];
+    memset(result, 0, WIDTH * sizeof *result);
+    for (int n = 0; n < WIDTH; n++) {
+        const double *column = pair->stiffness[n];
+        const double by = motion[n];
+        for (int m = 0; m < WIDTH; m++) {
+            result[m] += column[m] * by;
         }
-        result[m] = sum;
     }
 }
 

@@ -15,7 +15,7 @@
  * (E d^2), then torques. */
 struct gb_tangent {
     int64_t count, pairs;
-    struct gb_pair_tangent *pair;
+    struct gb_pair_tangent *pair; /* stiffness transposed */
     double *inverse;    /* count x 36: inverse blocks of the diagonal */
     double *scratch[5]; /* of gb_tangent_solve */
 };
