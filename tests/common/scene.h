@@ -46,7 +46,7 @@ static inline double *scene_positions(const struct gb_model *model)
 {
     struct gb_error err = {0};
     double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, &err);
-    if (!position || !gb_initial_structure_place(model, NULL, NULL, position, &err)) {
+    if (!position || !gb_initial_structure_fill(model, NULL, NULL, position, &err)) {
         g_error("%s", err.text);
     }
     return position;

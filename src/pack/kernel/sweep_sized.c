@@ -40,9 +40,9 @@ static void advance_spring(double spring[3], const double motion[3], const doubl
 }
 
 /* Geometry of near pair k with the branch vector contact->r, and its contact record.
- * turn_i, turn_j: rotation increments of its particles. */
-static void load(const struct gb_engine *engine, int64_t k, const double turn_i[3],
-                 const double turn_j[3], struct contact *contact)
+ * rotation_i, rotation_j: rotation increments of its particles. */
+static void load(const struct gb_engine *engine, int64_t k, const double rotation_i[3],
+                 const double rotation_j[3], struct contact *contact)
 {
     const struct gb_pair_list *near = &engine->list.near;
     const struct gb_contacts *contacts = &engine->contacts;
@@ -54,7 +54,7 @@ static void load(const struct gb_engine *engine, int64_t k, const double turn_i[
     contact->deepest = gb_contacts_deepest(contacts, k);
     contact->pivot = gb_contacts_value(contacts, contacts->pivot, k);
     for (int c = 0; c < 3; c++) {
-        const double ti = turn_i[c], tj = turn_j[c];
+        const double ti = rotation_i[c], tj = rotation_j[c];
         contact->n[c] = contact->r[c] / contact->distance;
         contact->rotation_sum[c] = ti + tj;
         contact->rotation_difference[c] =

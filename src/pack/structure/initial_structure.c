@@ -3,9 +3,9 @@
 #include "pack/structure/chain_growth.h"
 #include "pack/structure/unit_cells.h"
 
-bool gb_initial_structure_place(const struct gb_model *model,
-                                bool (*cancelled)(void *data), void *data,
-                                double *position, struct gb_error *err)
+bool gb_initial_structure_fill(const struct gb_model *model,
+                               bool (*cancelled)(void *data), void *data,
+                               double *position, struct gb_error *err)
 {
     if (model->structure != GB_STRUCTURE_GROWN) {
         gb_unit_cells_fill(model, position);

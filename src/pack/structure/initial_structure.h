@@ -12,7 +12,7 @@
  * position    count x 3, filled with positions inside the cell (y = 0 in 2D)
  * cancelled   polled with data during growth; NULL is fine
  * Errors: of gb_chain_growth_run. */
-bool gb_initial_structure_place(const struct gb_model *model,
+bool gb_initial_structure_fill(const struct gb_model *model,
                                 bool (*cancelled)(void *data), void *data,
                                 double *position, struct gb_error *err);
 

@@ -13,7 +13,7 @@ bool gb_loading_cell_grow(struct gb_loading *loading, bool (*cancelled)(void *da
     if (!position) {
         return false;
     }
-    const bool done = gb_initial_structure_place(model, cancelled, data, position, err) &&
+    const bool done = gb_initial_structure_fill(model, cancelled, data, position, err) &&
                       gb_hilbert_sort(model, position, err) &&
                       gb_world_create(&loading->world, model, position, err) &&
                       gb_world_evaluate(loading->world, err);

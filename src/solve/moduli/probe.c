@@ -174,13 +174,13 @@ static bool settle(struct gb_probe *probe, const double strain[3][3], double tar
     return left <= enough || relax(probe, target, err);
 }
 
-bool gb_probe_strain(struct gb_probe *probe, const double strain[3][3], double guess,
+bool gb_probe_strain(struct gb_probe *probe, const double strain[3][3], double first,
                      double share, double pressure[3][3], struct gb_error *err)
 {
     double sum = 0.0;
     gb_tangent_affine(probe->tangent, strain, probe->force);
     for (int64_t k = 0; k < 6 * probe->model.count; k++) {
-        probe->motion[k] *= guess;
+        probe->motion[k] *= first;
         sum += probe->force[k] * probe->force[k];
     }
     const double affine = sqrt(sum / (double)probe->model.count);

@@ -43,9 +43,9 @@ void gb_probe_destroy(struct gb_probe *probe); /* NULL is fine */
 
 /* Pressure tensor (E) after a symmetric strain of the saved state.
  *
- * guess    first motion in probe->motion: as it is, times `guess`
+ * first    the first motion tried is probe->motion times this
  * share    residual allowed, as a share of that of the affine strain */
-bool gb_probe_strain(struct gb_probe *probe, const double strain[3][3], double guess,
+bool gb_probe_strain(struct gb_probe *probe, const double strain[3][3], double first,
                      double share, double pressure[3][3], struct gb_error *err);
 
 /* The state after the last strain becomes the saved one. */

@@ -197,12 +197,12 @@ static void respond(const struct gb_pair_tangent *pair, const double motion[WIDT
 static void gather(const struct gb_tangent *tangent, const struct gb_pair_tangent *pair,
                    const double *motion, double out[WIDTH])
 {
-    const double *turn = motion + 3 * tangent->count;
+    const double *rotation = motion + 3 * tangent->count;
     const int64_t i = 3 * (int64_t)pair->first, j = 3 * (int64_t)pair->other;
     for (int c = 0; c < 3; c++) {
         out[c] = motion[i + c] - motion[j + c];
-        out[3 + c] = turn[i + c];
-        out[6 + c] = turn[j + c];
+        out[3 + c] = rotation[i + c];
+        out[6 + c] = rotation[j + c];
     }
 }
 
@@ -271,19 +271,19 @@ static void multiply(const struct gb_tangent *tangent, const double *motion,
 static void precondition(const struct gb_tangent *tangent, const double *force,
                          double *motion)
 {
-    const int64_t turn = 3 * tangent->count;
+    const int64_t rotations = 3 * tangent->count;
     for (int64_t i = 0; i < tangent->count; i++) {
         const double *inverse = tangent->inverse + BLOCK * BLOCK * i;
         double in[BLOCK];
         for (int m = 0; m < BLOCK; m++) {
-            in[m] = force[(m < 3 ? 0 : turn - 3) + 3 * i + m];
+            in[m] = force[(m < 3 ? 0 : rotations - 3) + 3 * i + m];
         }
         for (int m = 0; m < BLOCK; m++) {
             double sum = 0.0;
             for (int n = 0; n < BLOCK; n++) {
                 sum += inverse[BLOCK * m + n] * in[n];
             }
-            motion[(m < 3 ? 0 : turn - 3) + 3 * i + m] = sum;
+            motion[(m < 3 ? 0 : rotations - 3) + 3 * i + m] = sum;
         }
     }
 }
@@ -319,18 +319,18 @@ int gb_tangent_solve(struct gb_tangent *tangent, const double *force, double tol
 {
     const int64_t n = BLOCK * tangent->count;
     const size_t bytes = (size_t)n * sizeof *motion;
-    double *rest = tangent->scratch[0], *way = tangent->scratch[1];
+    double *rest = tangent->scratch[0], *direction = tangent->scratch[1];
     double *pushed = tangent->scratch[2], *moved = tangent->scratch[3];
     double *bent = tangent->scratch[4];
     const double *mirror = force;
     const double target = tolerance * tolerance * dot(force, force, n);
     memset(motion, 0, bytes);
     memcpy(rest, force, bytes);
-    memcpy(way, force, bytes);
+    memcpy(direction, force, bytes);
     double rate = dot(mirror, rest, n);
     int iterations = 0;
     while (iterations < iterations_max && dot(rest, rest, n) > target) {
-        follow(tangent, way, moved, pushed);
+        follow(tangent, direction, moved, pushed);
         const double along = rate / dot(mirror, pushed, n);
         if (!isfinite(along)) {
             break;
@@ -348,7 +348,7 @@ int gb_tangent_solve(struct gb_tangent *tangent, const double *force, double tol
             break;
         }
         for (int64_t k = 0; k < n; k++) {
-            way[k] = rest[k] + share * (way[k] - smooth * pushed[k]);
+            direction[k] = rest[k] + share * (direction[k] - smooth * pushed[k]);
         }
         rate = next;
     }

@@ -16,8 +16,8 @@
 struct gb_tangent {
     int64_t count, pairs;
     struct gb_pair_tangent *pair; /* stiffness transposed */
-    double *inverse;    /* count x 36: inverse blocks of the diagonal */
-    double *scratch[5]; /* of gb_tangent_solve */
+    double *inverse;              /* count x 36: inverse blocks of the diagonal */
+    double *scratch[5];           /* of gb_tangent_solve */
 };
 
 /* Of a world in double precision right after an evaluation; the world does not change.

@@ -25,7 +25,7 @@ static bool add_g(const struct gb_model *model, double half, int bins, double *s
     double *position = gb_alloc_array(3 * (size_t)model->count, sizeof *position, err);
     double *g = gb_alloc_array((size_t)bins, sizeof *g, err);
     const bool done = position && g &&
-                      gb_initial_structure_place(model, NULL, NULL, position, err) &&
+                      gb_initial_structure_fill(model, NULL, NULL, position, err) &&
                       gb_structure_rdf(&cell, model->count, position, half, bins, g, err);
     for (int k = 0; k < bins && done; k++) {
         sum[k] += g[k];
