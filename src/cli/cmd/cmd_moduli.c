@@ -380,7 +380,7 @@ int gb_cmd_moduli(int argc, char **argv)
     char **words = NULL;
     int status = 0;
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        gb_signals_install();
+        gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
         status = perform(&request, words);
     }
     g_free(request.at);
