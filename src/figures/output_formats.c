@@ -37,22 +37,31 @@ const struct gb_output_formats_row *gb_output_formats_table(void)
     return table;
 }
 
+static bool is_for(const struct gb_output_formats_row *row,
+                   enum gb_output_formats_use use)
+{
+    return (row->uses & use) != 0;
+}
+
 const struct gb_output_formats_row *gb_output_formats_find(const char *path,
                                                            enum gb_output_formats_use use)
 {
     for (const struct gb_output_formats_row *row = table; row->extension; row++) {
-        if ((row->uses & use) != 0 && g_str_has_suffix(path, row->extension)) {
+        if (is_for(row, use) && g_str_has_suffix(path, row->extension)) {
             return row;
         }
     }
     return NULL;
 }
 
-char *gb_output_formats_names(enum gb_output_formats_use use)
+/* Rows of a use, or its videos alone. */
+enum chosen { ALL, VIDEOS };
+
+static char *join_names(enum gb_output_formats_use use, enum chosen chosen)
 {
     GPtrArray *names = g_ptr_array_new();
     for (const struct gb_output_formats_row *row = table; row->extension; row++) {
-        if ((row->uses & use) != 0) {
+        if (is_for(row, use) && (chosen == ALL || row->video_filter != NULL)) {
             g_ptr_array_add(names, (gpointer)(uintptr_t)row->extension);
         }
     }
@@ -63,5 +72,27 @@ char *gb_output_formats_names(enum gb_output_formats_use use)
                                (const char *)g_ptr_array_index(names, k));
     }
     g_ptr_array_unref(names);
+    return g_string_free(text, FALSE);
+}
+
+char *gb_output_formats_names(enum gb_output_formats_use use)
+{
+    return join_names(use, ALL);
+}
+
+char *gb_output_formats_videos(void)
+{
+    return join_names(GB_OUTPUT_FORMATS_SEQUENCE, VIDEOS);
+}
+
+char *gb_output_formats_pattern(enum gb_output_formats_use use)
+{
+    GString *text = g_string_new("FILE.");
+    for (const struct gb_output_formats_row *row = table; row->extension; row++) {
+        if (is_for(row, use)) {
+            g_string_append_printf(text, "%s|", row->extension + 1);
+        }
+    }
+    g_string_truncate(text, text->len - 1);
     return g_string_free(text, FALSE);
 }

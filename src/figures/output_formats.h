@@ -31,5 +31,9 @@ const struct gb_output_formats_row *
 gb_output_formats_find(const char *path, enum gb_output_formats_use use);
 /* ".png, .svg or .pdf"; g_free. */
 char *gb_output_formats_names(enum gb_output_formats_use use);
+/* "FILE.png|svg|pdf", for a list of options; g_free. */
+char *gb_output_formats_pattern(enum gb_output_formats_use use);
+/* ".mp4, .webm or .gif": the videos of a sequence; g_free. */
+char *gb_output_formats_videos(void);
 
 #endif

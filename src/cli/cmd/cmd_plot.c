@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "figures/figures.h"
+#include "figures/output_formats.h"
 #include "figures/plotting.h"
 #include "many/runset.h"
 
@@ -279,8 +280,46 @@ static char *describe_figures(void)
     return g_string_free(text, FALSE);
 }
 
+/* What an option does, with the names of the figures that read it. */
+static char *describe_option(const char *what, enum gb_figures_options option)
+{
+    char *names = gb_figures_names(option);
+    char *text = g_strdup_printf("%s: %s", names, what);
+    g_free(names);
+    return text;
+}
+
+/* Texts of the options that follow from the tables. */
+struct option_texts {
+    char *output, *reference, *density, *pressure, *at;
+};
+
+static struct option_texts describe_options(void)
+{
+    return (struct option_texts){
+        .output = gb_output_formats_pattern(GB_OUTPUT_FORMATS_FIGURE),
+        .reference = describe_option("a run of the group that is subtracted",
+                                     GB_FIGURES_REFERENCE),
+        .density = describe_option("densities at which pressures are compared",
+                                   GB_FIGURES_DENSITY),
+        .pressure = describe_option("pressure compared (100 MPa; chart: the last)",
+                                    GB_FIGURES_PRESSURE),
+        .at = describe_option("a kept state, as \"p=500 MPa\" (the last)", GB_FIGURES_AT),
+    };
+}
+
+static void free_texts(struct option_texts *texts)
+{
+    g_free(texts->output);
+    g_free(texts->reference);
+    g_free(texts->density);
+    g_free(texts->pressure);
+    g_free(texts->at);
+}
+
 int gb_cmd_plot(int argc, char **argv)
 {
+    struct option_texts texts = describe_options();
     struct request request = {0};
     struct gb_error err = {0};
     char **words = NULL;
@@ -289,7 +328,7 @@ int gb_cmd_plot(int argc, char **argv)
         {"figure", 0, 0, G_OPTION_ARG_STRING, &request.figure, "one of those below",
          "NAME"},
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output,
-         "the figure, and its data beside it (standard output)", "FILE.png|svg|pdf|csv"},
+         "the figure, and its data beside it (standard output)", texts.output},
         {"size", 0, 0, G_OPTION_ARG_STRING, &request.size, "pixels (1600x1200)",
          "WIDTHxHEIGHT"},
         {"log", 0, 0, G_OPTION_ARG_STRING, &request.log, "axes that are logarithmic",
@@ -301,21 +340,18 @@ int gb_cmd_plot(int argc, char **argv)
         {"title", 0, 0, G_OPTION_ARG_STRING, &request.title, "above the figure", "TEXT"},
         {"force", 0, 0, G_OPTION_ARG_NONE, &request.force, "replace an existing file",
          NULL},
-        {"reference", 0, 0, G_OPTION_ARG_FILENAME, &request.reference,
-         "difference: a run of the group that is subtracted", "DIR"},
-        {"density", 0, 0, G_OPTION_ARG_STRING, &request.densities,
-         "rate: densities at which pressures are compared", "RHO,RHO..."},
-        {"pressure", 0, 0, G_OPTION_ARG_STRING, &request.pressure,
-         "where size-effect, sweep (100 MPa), chart-error (the last one) compare", "P"},
-        {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
-         "rdf, force-angle, sizes: a kept state, as \"p=500 MPa\" (the last)", "POINT"},
+        {"reference", 0, 0, G_OPTION_ARG_FILENAME, &request.reference, texts.reference,
+         "DIR"},
+        {"density", 0, 0, G_OPTION_ARG_STRING, &request.densities, texts.density,
+         "RHO,RHO..."},
+        {"pressure", 0, 0, G_OPTION_ARG_STRING, &request.pressure, texts.pressure, "P"},
+        {"at", 0, 0, G_OPTION_ARG_STRING, &request.at, texts.at, "POINT"},
         {0},
     };
     char *figures = describe_figures();
     const struct gb_options_page page = {
         .usage = "DIR...",
-        .summary = "A figure over one or more run directories: PNG, SVG, PDF, or its "
-                   "data as CSV.",
+        .summary = "A figure over one or more run directories, or its data as CSV.",
         .description = figures,
     };
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
@@ -324,6 +360,7 @@ int gb_cmd_plot(int argc, char **argv)
         status = plot(&request, words, &err) ? 0 : gb_options_fail(&err);
     }
     g_free(figures);
+    free_texts(&texts);
     g_strfreev(words);
     free_request(&request);
     return status;

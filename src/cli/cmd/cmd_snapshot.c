@@ -196,10 +196,21 @@ static char *describe_colours(void)
     return text;
 }
 
+static char *describe_sequence(void)
+{
+    char *videos = gb_output_formats_videos();
+    char *text = g_strdup_printf("all kept states: .png is animated, %s a video by "
+                                 "ffmpeg, x-%%03d.png one image per state",
+                                 videos);
+    g_free(videos);
+    return text;
+}
+
 int gb_cmd_snapshot(int argc, char **argv)
 {
     struct request request = {.fps = 8.0};
     char *colours = describe_colours();
+    char *sequence = describe_sequence();
     const GOptionEntry entries[] = {
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, "the picture",
          "FILE.png"},
@@ -229,10 +240,7 @@ int gb_cmd_snapshot(int argc, char **argv)
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
          "a kept state, as \"p=100 MPa\" or \"density=0.5\" (default: the last)",
          "POINT"},
-        {"sequence", 0, 0, G_OPTION_ARG_NONE, &request.sequence,
-         "all kept states: x.png is animated, x.mp4 (.webm, .mkv, .gif) a video by "
-         "ffmpeg, x-%03d.png one image per state",
-         NULL},
+        {"sequence", 0, 0, G_OPTION_ARG_NONE, &request.sequence, sequence, NULL},
         {"fps", 0, 0, G_OPTION_ARG_DOUBLE, &request.fps, "frames a second (8)", "N"},
         {"since", 0, 0, G_OPTION_ARG_STRING, &request.since,
          "displacement from this state: a point of the run, or another directory",
@@ -252,6 +260,7 @@ int gb_cmd_snapshot(int argc, char **argv)
     int status = 0;
     struct gb_error err = {0};
     const bool parsed = gb_options_parse(&page, entries, argc, argv, &words, &status);
+    g_free(sequence);
     g_free(colours);
     if (!parsed) {
         free_request(&request);
