@@ -35,7 +35,7 @@ struct gb_key {
     enum gb_action action; /* of a navigation key */
 };
 
-/* Number of rows, including the digits of the views. */
+/* Number of rows, including the keys of the views. */
 size_t gb_keys_count(void);
 struct gb_key gb_keys_at(size_t index);
 

@@ -187,6 +187,6 @@ void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
     } else if (!(view->options & GB_VIEW_PRESSURE_AXIS) ||
                !describe_misfit(session, message)) {
         snprintf(message->text, sizeof message->text,
-                 "%s; v, V and the digits change the view", view->hint);
+                 "%s; v and V change the view", view->hint);
     }
 }

@@ -48,7 +48,7 @@ struct gb_session {
     double particle_steps_per_s;         /* speed of the last dynamic run; 0: none yet */
     int64_t events_seen;
     char log[GB_SESSION_LOG][GB_EVENT_TEXT + 16];
-    int64_t log_count; /* of all lines; the last GB_SESSION_LOG are previous_total */
+    int64_t log_count; /* of all lines; the last GB_SESSION_LOG are kept */
 };
 
 void gb_session_init(struct gb_session *session, struct gb_preset *preset);

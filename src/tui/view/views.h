@@ -15,6 +15,9 @@ enum gb_view_need {
 /* x axis of the views of curve points, on which the cursor moves. */
 enum gb_view_abscissa { GB_VIEW_NO_CURSOR, GB_VIEW_DENSITY, GB_VIEW_ELAPSED };
 
+/* Longest texts that 80 columns show whole. */
+enum { GB_VIEW_TITLE = 43, GB_VIEW_HINT = 120 };
+
 enum gb_view_option {
     GB_VIEW_PRESSURE_AXIS = 1, /* y is the pressure: L switches its axis */
     GB_VIEW_INSET = 2          /* also drawn below the curve, if there is room */
@@ -25,9 +28,9 @@ enum gb_view_option {
 struct gb_plot_view {
     const char *key;               /* digit or letter */
     const char *help;              /* in the list of keys, at most 49 characters */
-    const char *title;             /* of the pane */
+    const char *title;             /* of the pane, at most GB_VIEW_TITLE characters */
     const char *title_quasistatic; /* title for other scenes; NULL: the same */
-    const char *hint;              /* message line */
+    const char *hint;              /* message, at most GB_VIEW_HINT characters */
     enum gb_view_need need;
     enum gb_view_abscissa abscissa;
     int options; /* bits of enum gb_view_option */
