@@ -10,7 +10,7 @@
 #include "solve/relax/relax.h"
 #include "solve/relax/relax_fire.h"
 
-/* Every relaxer brings every small problem to the same stopping rule. */
+/* Every relaxer brings every small problem to the same stopping rule, in both precisions. */
 static void test_all(void)
 {
     static const char *const problem[][3] = {
@@ -20,13 +20,16 @@ static void test_all(void)
         {"particles.diameter=10.4 nm", "contact.mu=0", "contact.bridge_length=1 d"},
         {"scene.dimension=2", "contact.mu=0.5", "contact.bridge_length=0.008 d"},
     };
+    static const char *const precision[] = {"numerics.precision=auto",
+                                            "numerics.precision=double"};
     for (int m = 0; gb_relax_table()[m]; m++) {
-        for (size_t p = 0; p < G_N_ELEMENTS(problem); p++) {
+        for (size_t p = 0; p < 2 * G_N_ELEMENTS(problem); p++) {
+            const char *const *set = problem[p / 2];
             char relaxer[64];
             g_snprintf(relaxer, sizeof relaxer, "numerics.relaxer=%s",
                        gb_relax_table()[m]->name);
             const struct gb_params params =
-                scene_params(relaxer, problem[p][0], problem[p][1], problem[p][2],
+                scene_params(relaxer, set[0], set[1], set[2], precision[p % 2],
                              "numerics.tolerance=5e-3", NULL);
             const struct gb_model model = scene_model(&params);
             struct gb_world *world = scene_world(&model);
@@ -277,6 +280,18 @@ static void test_exhausted(void)
     gb_world_destroy(world);
 }
 
+/* The choices of numerics.relaxer are auto and the names of the table. */
+static void test_choices(void)
+{
+    const char *const *choices = gb_params_find("numerics", "relaxer")->choices;
+    size_t count = 0;
+    g_assert_cmpstr(choices[0], ==, "auto");
+    for (; gb_relax_table()[count] != NULL; count++) {
+        g_assert_true(g_strv_contains(choices, gb_relax_table()[count]->name));
+    }
+    g_assert_cmpuint(g_strv_length((char **)choices), ==, count + 1);
+}
+
 static void test_unknown(void)
 {
     struct gb_params params = scene_params(NULL);
@@ -339,6 +354,7 @@ int main(int argc, char **argv)
     g_test_add_func("/relax/picked", test_picked);
     g_test_add_func("/relax/slices", test_slices);
     g_test_add_func("/relax/exhausted", test_exhausted);
+    g_test_add_func("/relax/choices", test_choices);
     g_test_add_func("/relax/unknown", test_unknown);
     g_test_add_func("/relax/guard", test_guard);
     return g_test_run();
