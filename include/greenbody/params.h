@@ -25,7 +25,12 @@ enum gb_distribution {
     GB_DISTRIBUTION_LOGNORMAL,
     GB_DISTRIBUTION_TABLE
 };
-enum gb_normal { GB_NORMAL_ROD, GB_NORMAL_HERTZ, GB_NORMAL_STORAKERS };
+enum gb_normal {
+    GB_NORMAL_ROD,
+    GB_NORMAL_HERTZ,
+    GB_NORMAL_STORAKERS,
+    GB_NORMAL_LAWS /* number of laws */
+};
 enum gb_storakers { GB_STORAKERS_CAPPED, GB_STORAKERS_PRINTED };
 enum gb_structure {
     GB_STRUCTURE_GROWN,

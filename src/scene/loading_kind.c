@@ -7,6 +7,7 @@
 
 #include "scene/die_scene.h"
 #include "scene/dynamic_scene.h"
+#include "scene/field/field.h"
 #include "scene/quasistatic_scene.h"
 
 static const char *const quasistatic_fields[] = {
@@ -170,27 +171,12 @@ bool gb_loading_kind_check_cell(const struct gb_params *params, const char *what
                         gb_loading_kind_names(has_cell, names, sizeof names));
 }
 
-/* Is this field one of a kind's own? */
-static bool lists(const struct gb_loading_kind *kind, const struct gb_field *field)
-{
-    const size_t group = strlen(field->group);
-    for (int i = 0; kind->fields[i] != NULL; i++) {
-        const char *own = kind->fields[i];
-        if (strncmp(own, field->group, group) == 0 &&
-            (own[group] == '\0' ||
-             (own[group] == '.' && strcmp(own + group + 1, field->key) == 0))) {
-            return true;
-        }
-    }
-    return false;
-}
-
 bool gb_loading_kind_uses(const struct gb_loading_kind *kind,
                           const struct gb_field *field)
 {
     bool special = false;
     for (int k = 0; k < GB_LOADING_KINDS; k++) {
-        special = special || lists(&gb_loading_kind_table[k], field);
+        special = special || gb_field_listed(field, gb_loading_kind_table[k].fields);
     }
-    return !special || lists(kind, field);
+    return !special || gb_field_listed(field, kind->fields);
 }

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "scene/derived.h"
 #include "scene/loading_kind.h"
+#include "scene/normal_law.h"
 #include "scene/tolerances.h"
 #include "scene/unequal_pair.h"
 
@@ -154,21 +155,6 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
         params->max_evaluations > 0 ? params->max_evaluations : GB_EVALUATIONS_MAX;
 }
 
-/* Hertz, Mindlin and Coulomb: the first term of (1), and (5) with its friction only;
- * springs of half the relative motion with (5)'s stiffness are Mindlin's. */
-static void freeze_cohesionless(struct gb_model *model)
-{
-    model->cohesionless = true;
-    model->rod.rod = model->rod.pivot = 0.0;
-    model->dispersion.strength = model->dispersion.contact = 0.0;
-    model->adhesion = 0.0;
-    model->force_floor = gb_law_rod_force(&model->rod, GB_FORCE_FLOOR_OVERLAP);
-    model->bridge.length = 1.0;
-    model->bridge.strength = model->slip.strength = GB_STRENGTH_COHESIONLESS;
-    model->slip.mu_pivot = 0.0;
-    model->slip.motion = 0.5;
-}
-
 static void freeze_laws(struct gb_model *model, const struct gb_params *params)
 {
     const double d = model->metre_per_length, young = params->young_pa;
@@ -177,8 +163,6 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
                            params->epsilon_j / (young * d * d * d), params->alpha,
                            params->d0_m / d);
     model->adhesion = model->dispersion.contact;
-    model->force_floor =
-        fmax(model->adhesion, gb_law_rod_force(&model->rod, GB_FORCE_FLOOR_OVERLAP));
     model->bridge = (struct gb_law_bridge){
         .length = gb_derived_bridge_length_m(params) / d,
         .strength = gb_derived_shear_strength_pa(params) / young,
@@ -188,14 +172,19 @@ static void freeze_laws(struct gb_model *model, const struct gb_params *params)
     gb_law_slip_init(&model->slip, params->poisson, params->mu, mu_pivot,
                      model->bridge.strength,
                      params->relative_motion == GB_MOTION_FULL ? 1.0 : 0.5);
-    if (gb_loading_kind_of(params)->periodic_cell && params->normal == GB_NORMAL_HERTZ) {
-        freeze_cohesionless(model);
+    const struct gb_normal_law *law = gb_normal_law_at(model->normal);
+    if (gb_loading_kind_of(params)->periodic_cell && law->freeze) {
+        law->freeze(model, params);
+    }
+    if (law->force) {
+        model->force_floor =
+            fmax(model->adhesion, law->force(model, GB_FORCE_FLOOR_OVERLAP));
     }
     model->terms.attraction = model->adhesion > 0.0;
     model->terms.bridges = model->bridge.length < 1.0;
     model->terms.friction =
         model->terms.bridges || params->mu > 0.0 || model->slip.mu_pivot > 0.0;
-    model->terms.plain = model->cohesionless && model->terms.friction;
+    model->terms.plain = model->cohesionless;
 }
 
 static void scale_leg(struct gb_leg *leg, double stress)
@@ -285,6 +274,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
     const double d = gb_derived_reference_m(params);
     *model = (struct gb_model){
         .kind = params->kind,
+        .normal = params->normal,
         .dimension = params->dimension,
         .count = params->count,
         .seed = params->seed,
@@ -350,22 +340,34 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
     if (!kind->periodic_cell) {
         return kind->note(model, index, buffer, size);
     }
+    const char *law = gb_normal_law_at(model->normal)->name;
     switch (index) {
     case 0:
+        if (model->cohesionless) {
+            snprintf(buffer, size, "bridges: left out (contact.normal = %s)", law);
+            return buffer;
+        }
         snprintf(buffer, size, "bridges: %s",
-                 terms->bridges ? "carried"
-                 : model->cohesionless
-                     ? "left out (contact.normal = hertz)"
+                 terms->bridges
+                     ? "carried"
                      : "left out (contact.bridge_length is a diameter or more)");
         return buffer;
     case 1:
+        if (terms->friction && model->cohesionless) {
+            snprintf(buffer, size,
+                     "friction, pivoting and their history: carried, but for pivoting "
+                     "(contact.normal = %s)",
+                     law);
+            return buffer;
+        }
         snprintf(buffer, size, "friction, pivoting and their history: %s",
-                 !terms->friction ? "left out (mu = 0, no bridges)"
-                 : model->cohesionless
-                     ? "carried, but for pivoting (contact.normal = hertz)"
-                     : "carried");
+                 terms->friction ? "carried" : "left out (mu = 0, no bridges)");
         return buffer;
     case 2:
+        if (model->cohesionless) {
+            snprintf(buffer, size, "attraction: left out (contact.normal = %s)", law);
+            return buffer;
+        }
         snprintf(
             buffer, size,
             terms->attraction && numerics->cutoff <= 1.0
@@ -373,8 +375,7 @@ const char *gb_model_note(const struct gb_model *model, int index, char *buffer,
                   "numerics.cutoff)"
             : terms->attraction
                 ? "attraction: carried to %.3f d, where it is %.1e of its contact value"
-            : model->cohesionless ? "attraction: left out (contact.normal = hertz)"
-                                  : "attraction: left out (material.epsilon = 0)",
+                : "attraction: left out (material.epsilon = 0)",
             numerics->cutoff,
             gb_law_dispersion_force(&model->dispersion, numerics->cutoff) /
                 model->adhesion);

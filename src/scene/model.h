@@ -18,7 +18,7 @@ struct gb_terms {
     bool attraction;
     bool bridges;
     bool friction; /* shear and pivoting caps above zero, or bridges */
-    bool plain;    /* Hertz and Mindlin: friction in shear, and nothing else */
+    bool plain;    /* a cohesionless law: no more than friction in shear beside it */
 };
 
 /* Numbers under [numerics] after fidelity has filled what the preset left open. */
@@ -74,7 +74,8 @@ struct gb_die_scene {
 /* Frozen from gb_params: reduced units (length d, stress E, mass m), all derived
  * constants. Const during a run. */
 struct gb_model {
-    int kind; /* enum gb_kind */
+    int kind;   /* enum gb_kind */
+    int normal; /* enum gb_normal */
     int dimension;
     int64_t count;
     uint64_t seed;

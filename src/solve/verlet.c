@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "pack/kernel/simd.h"
+#include "scene/normal_law.h"
 
 bool gb_verlet_init(struct gb_verlet *verlet, const struct gb_model *model,
                     struct gb_error *err)
@@ -119,7 +120,7 @@ double gb_verlet_frequency(const struct gb_world *world, double *scratch)
             const double from = deepest > 0.0 ? deepest : h;
             const double a = deepest > 0.0 ? gb_law_bridge_radius(&model->bridge, from, h)
                                            : 0.5 * sqrt(fmax(h, 0.0));
-            const double normal = 2.0 * gb_law_rod_stiffness(&model->rod, from);
+            const double normal = 2.0 * gb_normal_law_stiffness(model, from);
             const double shear =
                 model->terms.friction
                     ? shear_share * gb_law_slip_shear_stiffness(&model->slip, a)

@@ -83,7 +83,7 @@ static const char *const refused[][2] = {
      "material.yield = 800 MPa: must be at most material.young_j = 100 MPa"},
     {"law hertz --at h=0 contact.radius_j=inf", "must be auto, wall or between 0.1 nm"},
     {"run default contact.normal=storakers",
-     "contact.normal = storakers: must be rod or hertz with scene.kind = quasistatic"},
+     "contact.normal = storakers: must be rod or hertz"},
     {"plot default contact.normal=hertz --figure bridge-strength",
      "bridge-strength: accepted contact.normal = rod"},
     {"plot default contact.normal=hertz --figure contact",

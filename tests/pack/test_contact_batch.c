@@ -3,6 +3,8 @@
 
 #include "base/vec.h"
 #include "common/scene.h"
+#include "scene/loading_kind.h"
+#include "scene/normal_law.h"
 
 static const struct gb_contacts_shape f64 = {.dimension = 3, .real = GB_REAL_F64};
 
@@ -265,6 +267,51 @@ static void test_laws(void)
     gb_contacts_finish(&pair.contacts);
 }
 
+/* The same in single precision; the shear springs are at rest. */
+static double force_f32(const struct gb_model *model, double h)
+{
+    static struct gb_batch_f32 batch;
+    struct gb_contacts contacts;
+    struct gb_error err = {0};
+    const struct gb_contacts_shape f32 = {.dimension = 3, .real = GB_REAL_F32};
+    memset(&batch, 0, sizeof batch);
+    g_assert_true(gb_contacts_init(&contacts, f32, 1, &err));
+    gb_contacts_clear(&contacts, 0);
+    batch.n = 1;
+    batch.cutoff2 = 1.44F;
+    batch.r[2][0] = (float)(1.0 - h);
+    gb_batch_f32_pick(model, 0).advance(model, &batch, &contacts, 0);
+    gb_contacts_finish(&contacts);
+    return (double)batch.force[2][0];
+}
+
+/* Every normal law of a periodic cell, with and without friction, as the batches of both
+ * precisions compute it. */
+static void test_normal_laws(void)
+{
+    static const char *const friction[] = {"contact.mu=0.1", "contact.mu=0"};
+    const unsigned normals = gb_loading_kind_at(GB_KIND_QUASISTATIC)->normals;
+    struct pair pair = {0};
+    for (int i = 0; i < 2 * GB_NORMAL_LAWS; i++) {
+        struct gb_params params =
+            scene_params(friction[i % 2], "contact.bridge_length=1 d", NULL);
+        params.normal = i / 2;
+        for (double h = 0x1p-12; h < 0.4 && (normals >> i / 2 & 1u) != 0; h *= 1.25) {
+            const double overlap = 1.0 - (double)(float)(1.0 - h);
+            start(&pair, &params, overlap);
+            advance(&pair);
+            const double expected =
+                gb_normal_law_force(&pair.model, overlap) - pair.model.adhesion;
+            g_assert_cmpfloat_with_epsilon(pair.force[2], expected,
+                                           1e-12 * pair.model.force_floor + 1e-13);
+            g_assert_cmpfloat_with_epsilon(force_f32(&pair.model, overlap), expected,
+                                           2e-6 * fabs(expected) +
+                                               1e-6 * pair.model.force_floor);
+        }
+    }
+    gb_contacts_finish(&pair.contacts);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -276,5 +323,6 @@ int main(int argc, char **argv)
     g_test_add_func("/contact/rolling-cap", test_rolling_cap);
     g_test_add_func("/contact/switches", test_switches);
     g_test_add_func("/contact/laws", test_laws);
+    g_test_add_func("/contact/normal-laws", test_normal_laws);
     return g_test_run();
 }

@@ -4,16 +4,7 @@
 #include <string.h>
 
 #include "scene/loading_kind.h"
-
-static bool rod(const struct gb_params *params)
-{
-    return params->normal == GB_NORMAL_ROD;
-}
-
-static bool storakers(const struct gb_params *params)
-{
-    return params->normal == GB_NORMAL_STORAKERS;
-}
+#include "scene/normal_law.h"
 
 static bool mono(const struct gb_params *params)
 {
@@ -57,18 +48,12 @@ static bool never(const struct gb_params *params)
     return false;
 }
 
-/* Fields that matter only with one normal law or distribution; those of the kinds of
- * scenes are listed in scene/loading_kind.c. */
+/* Fields that matter only with one distribution; those of the kinds of scenes are listed in
+ * scene/loading_kind.c, those of the normal laws in scene/normal_law.c. */
 static const struct {
     const char *group, *key;
     bool (*when)(const struct gb_params *params);
 } rules[] = {
-    {"material", "d0", rod},
-    {"material", "n_d0_cubed", rod},
-    {"material", "epsilon", rod},
-    {"material", "yield", storakers},
-    {"material", "hardening", storakers},
-    {"material", "hollomon", storakers},
     {"material", "young_j", never},
     {"material", "poisson_j", never},
     {"material", "density_j", never},
@@ -79,14 +64,6 @@ static const struct {
     {"particles", "least", lognormal},
     {"particles", "largest", lognormal},
     {"particles", "table", table},
-    {"contact", "alpha", rod},
-    {"contact", "mu_pivot", rod},
-    {"contact", "bridge_length", rod},
-    {"contact", "shear_strength", rod},
-    {"contact", "bridge_radius", rod},
-    {"contact", "relative_motion", rod},
-    {"contact", "shear_ratio", storakers},
-    {"contact", "storakers", storakers},
     {"contact", "radius_i", never},
     {"contact", "radius_j", never},
     {"loading", "geometry", without_path},
@@ -97,12 +74,12 @@ static const struct {
     {"structure", "density", grown},
     {"structure", "base", grown},
     {"structure", "r_meso", grown},
-    {"numerics", "cutoff", rod},
 };
 
 bool gb_applies_field(const struct gb_params *params, const struct gb_field *field)
 {
-    if (!gb_loading_kind_uses(gb_loading_kind_of(params), field)) {
+    if (!gb_loading_kind_uses(gb_loading_kind_of(params), field) ||
+        !gb_normal_law_uses(gb_normal_law_of(params), field)) {
         return false;
     }
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {

@@ -168,3 +168,17 @@ bool gb_field_valid(const struct gb_field *field, const struct gb_params *params
     }
     return false;
 }
+
+bool gb_field_listed(const struct gb_field *field, const char *const *names)
+{
+    const size_t group = strlen(field->group);
+    for (int i = 0; names[i] != NULL; i++) {
+        const char *name = names[i];
+        if (strncmp(name, field->group, group) == 0 &&
+            (name[group] == '\0' ||
+             (name[group] == '.' && strcmp(name + group + 1, field->key) == 0))) {
+            return true;
+        }
+    }
+    return false;
+}

@@ -9,6 +9,7 @@
 #include "scene/field/keep_points.h"
 #include "scene/lattice.h"
 #include "scene/loading_kind.h"
+#include "scene/normal_law.h"
 #include "scene/path/path.h"
 #include "scene/size/size_table.h"
 #include "scene/size/sizes.h"
@@ -110,14 +111,15 @@ static bool check_loading(const struct gb_params *params, struct gb_error *err)
     return true;
 }
 
-/* Cohesionless Hertz contacts are for particles of one size. */
 static bool check_normal(const struct gb_params *params, struct gb_error *err)
 {
     char distribution[32];
-    if (params->normal == GB_NORMAL_HERTZ && gb_sizes_polydisperse(params)) {
+    const struct gb_normal_law *law = gb_normal_law_of(params);
+    if (law->one_size && gb_sizes_polydisperse(params)) {
         return gb_error_set(err, GB_ERR_INPUT,
-                            "contact.normal = hertz: must be rod with "
+                            "contact.normal = %s: must be rod with "
                             "particles.distribution = %s",
+                            law->name,
                             choice(params, "particles", "distribution", distribution,
                                    sizeof distribution));
     }

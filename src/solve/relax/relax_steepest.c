@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "base/vec.h"
+#include "scene/normal_law.h"
 #include "scene/tolerances.h"
 #include "solve/relax/relax.h"
 
@@ -30,7 +31,7 @@ static void start(struct gb_relax *relax, struct gb_world *world)
 static double contact_stiffness(const struct gb_model *model, double deepest, double h)
 {
     const double from = deepest > 0.0 ? deepest : h;
-    const double normal = gb_law_rod_stiffness(&model->rod, from);
+    const double normal = gb_normal_law_stiffness(model, from);
     if (!model->terms.friction) {
         return normal;
     }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "scene/model.h"
+#include "scene/normal_law.h"
 #include "tui/view/views.h"
 
 /* Points of a curve; its depth beyond the formation of a bridge, in bridge lengths; its
@@ -59,7 +60,7 @@ static void follow_loading(const struct gb_model *model, const double range[2],
                                 ? gb_law_dispersion_force(&model->dispersion, 1.0 - h)
                                 : 0.0;
         line->x[i] = nano_metre(model, h);
-        line->y[i] = nano_newton(model, gb_law_rod_force(&model->rod, h) - pull);
+        line->y[i] = nano_newton(model, gb_normal_law_force(model, h) - pull);
     }
 }
 
@@ -135,7 +136,7 @@ void gb_view_law_force(struct gb_panel_plot *panel, const struct gb_session *ses
     double range[2];
     double bridge_x[2][2];
     double bridge_y[2][2];
-    if (panel->edited.normal != GB_NORMAL_ROD) {
+    if (gb_normal_law_of(&panel->edited)->pair) {
         gb_view_pair_draw(panel, session);
         return;
     }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "scene/contact_pair.h"
+#include "scene/normal_law.h"
 #include "tui/view/views.h"
 
 /* Largest overlap drawn, in diameters of the smaller body. */
@@ -57,7 +58,7 @@ static bool draw_before(struct gb_plot *plot, const struct gb_params *edited,
     struct line line;
     const struct gb_params *run =
         session->runner != NULL ? gb_runner_params(session->runner) : NULL;
-    if (run == NULL || run->normal == GB_NORMAL_ROD ||
+    if (run == NULL || !gb_normal_law_of(run)->pair ||
         gb_params_diff_count(edited, run) == 0 ||
         !gb_contact_pair_init(&pair, run, NULL)) {
         return false;

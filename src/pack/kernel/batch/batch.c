@@ -56,21 +56,30 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
     VARIANT(name##_friction, attribute, .friction = true, __VA_ARGS__)                   \
     VARIANT(name##_bridges, attribute, .friction = true, .bridges = true, __VA_ARGS__)
 
+/* {normal only, friction} of the cohesionless laws. */
+#define TWO(name, attribute, ...)                                                        \
+    VARIANT(name##_plain, attribute, .plain = true, __VA_ARGS__)                         \
+    VARIANT(name##_plain_friction, attribute, .plain = true, .friction = true,           \
+            __VA_ARGS__)
+
 #define VARIANTS(width, attribute)                                                       \
     THREE(width##_3d, attribute, .planar = false)                                        \
     THREE(width##_3d_viscous, attribute, .planar = false, .viscous = true)               \
     THREE(width##_2d, attribute, .planar = true)                                         \
-    THREE(width##_2d_viscous, attribute, .planar = true, .viscous = true)
+    THREE(width##_2d_viscous, attribute, .planar = true, .viscous = true)                \
+    TWO(width##_3d, attribute, .planar = false)                                          \
+    TWO(width##_2d, attribute, .planar = true)
 
 #define ROW(name)                                                                        \
     {                                                                                    \
         name##_advance, name##_tally, name##_attract                                     \
     }
-#define ROWS(name) ROW(name##_normal), ROW(name##_friction), ROW(name##_bridges)
+#define ROWS(name)       ROW(name##_normal), ROW(name##_friction), ROW(name##_bridges)
+#define PLAIN_ROWS(name) ROW(name##_plain), ROW(name##_plain_friction)
 #define TABLE(width)                                                                     \
     {                                                                                    \
         ROWS(width##_3d), ROWS(width##_3d_viscous), ROWS(width##_2d),                    \
-            ROWS(width##_2d_viscous)                                                     \
+            ROWS(width##_2d_viscous), PLAIN_ROWS(width##_3d), PLAIN_ROWS(width##_2d)     \
     }
 
 VARIANTS(w128, )
@@ -98,5 +107,8 @@ struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest)
     const int terms = model->terms.bridges ? 2 : model->terms.friction ? 1 : 0;
     const int viscous = gb_loading_kind_at(model->kind)->viscous_contacts;
     const int planar = model->dimension == 2;
+    if (model->terms.plain) { /* behind the four times three rows */
+        return table_for(widest)[12 + 2 * planar + model->terms.friction];
+    }
     return table_for(widest)[6 * planar + 3 * viscous + terms];
 }

@@ -61,11 +61,11 @@ INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
             vx = where(lasts, keep * vx + ux);
             vy = where(lasts, keep * vy + uy);
             vz = where(lasts, keep * vz + uz);
-            const real twist = t.plain ? 0 : where(lasts, pivot[k] + m * dn);
+            const real twist = t.unpivoted ? 0 : where(lasts, pivot[k] + m * dn);
             sx[k] = vx;
             sy[k] = vy;
             sz[k] = vz;
-            if (!t.plain) {
+            if (!t.unpivoted) {
                 pivot[k] = twist;
             }
             if (t.viscous) {
@@ -194,18 +194,18 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
             const real strength = a2 * slip.bond;
             const real twisting = half * a2 * a * slip.bond;
             const real cap = held ? strength : smaller(slip.mu * f.elastic, strength);
-            const real moment = t.plain         ? 0
+            const real moment = t.unpivoted     ? 0
                                 : MOMENT_FITTED ? fitted_moment(&slip, from, f.root)
                                                 : b->moment[k];
             const real pivot_cap =
                 held ? twisting : smaller(slip.mu_pivot * moment, twisting);
-            real vx = sx[k], vy = sy[k], vz = sz[k], p = t.plain ? 0 : pivot[k];
+            real vx = sx[k], vy = sy[k], vz = sz[k], p = t.unpivoted ? 0 : pivot[k];
             const real ox = vx, oy = vy, oz = vz, op = p;
             const real v2 = vx * vx + vy * vy + vz * vz;
             const real shear2 = ks * ks * v2, pivot2 = kp * kp * p * p;
             const bool cut = shear2 > cap * cap, pivots = pivot2 > pivot_cap * pivot_cap;
             const real keep = cut_to(t, cap, shear2, cut);
-            const real stay = t.plain ? 0 : cut_to(t, pivot_cap, pivot2, pivots);
+            const real stay = t.unpivoted ? 0 : cut_to(t, pivot_cap, pivot2, pivots);
             vx *= keep;
             vy *= keep;
             vz *= keep;
@@ -213,7 +213,7 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
             sx[k] = vx;
             sy[k] = vy;
             sz[k] = vz;
-            if (!t.plain) {
+            if (!t.unpivoted) {
                 pivot[k] = p;
             }
             slides = mask(cut);

@@ -51,7 +51,9 @@
     VARIANT(width##_normal, attribute, .friction = false)                                \
     VARIANT(width##_friction, attribute, .friction = true)                               \
     VARIANT(width##_bridges, attribute, .friction = true, .bridges = true)               \
-    VARIANT(width##_plain, attribute, .friction = true, .plain = true)
+    VARIANT(width##_plain, attribute, .plain = true, .unpivoted = true)                  \
+    VARIANT(width##_plain_friction, attribute, .friction = true, .plain = true,          \
+            .unpivoted = true)
 
 #define ROW(name)                                                                        \
     {                                                                                    \
@@ -60,7 +62,7 @@
 #define TABLE(width)                                                                     \
     {                                                                                    \
         ROW(width##_normal), ROW(width##_friction), ROW(width##_bridges),                \
-            ROW(width##_plain)                                                           \
+            ROW(width##_plain), ROW(width##_plain_friction)                              \
     }
 
 VARIANTS(w128, )
@@ -74,7 +76,7 @@ static const struct gb_batch_f32_kernel table512[] = TABLE(w512);
 
 struct gb_batch_f32_kernel gb_batch_f32_pick(const struct gb_model *model, int widest)
 {
-    const int terms = model->terms.plain      ? 3
+    const int terms = model->terms.plain      ? 3 + model->terms.friction
                       : model->terms.bridges  ? 2
                       : model->terms.friction ? 1
                                               : 0;

@@ -20,7 +20,9 @@
 struct terms {
     bool planar, friction, bridges, viscous;
     bool printed; /* a_ch follows the printed form at the current r */
-    bool plain; /* Hertz and Mindlin: no rod, no attraction, no resistance to pivoting */
+    bool plain;   /* a cohesionless law: no rod, no attraction */
+    /* without springs of pivoting; double precision keeps them, without a force */
+    bool unpivoted;
 };
 
 INLINE real larger(real a, real b)
@@ -102,7 +104,7 @@ INLINE struct normal normal_force(struct terms t, const struct normal_law *law,
                                   real deepest, real h, real r)
 {
     const real overlap = larger(h, 0);
-    if (t.plain) {
+    if (t.plain) { /* the sum of these laws: one of them has constants other than 0 */
         const real half_width = root(overlap), hertz = law->hertz * half_width;
         const real force = hertz * overlap;
         return (struct normal){force, (real)1.5 * hertz, force, half_width};
