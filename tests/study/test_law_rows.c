@@ -30,7 +30,8 @@ static bool take(const double *value, int columns, void *data, struct gb_error *
 static bool compute(struct rows *rows, const struct gb_law_rows_request *request,
                     struct gb_error *err)
 {
-    const struct gb_params params = scene_params("contact.bridge_length=0.01 d", NULL);
+    struct gb_params params = scene_params("contact.bridge_length=0.01 d", NULL);
+    params.normal = request->law->normal;
     *rows = (struct rows){.limit = rows->limit > 0 ? rows->limit : ROWS_MAX};
     return gb_law_rows_compute(request, &params, take, rows, err);
 }

@@ -5,6 +5,8 @@
 
 #include <glib.h>
 
+#include "scene/loading_kind.h"
+#include "scene/normal_law.h"
 #include "study/law/law_points.h"
 
 /* Points between two corners of a path. */
@@ -296,7 +298,14 @@ static bool take_pair(struct rows *rows, const struct gb_params *params,
     return take_rows(rows, err);
 }
 
-/* The laws of P1: particles of one size, reduced units. */
+/* The laws of P1 also show the constants of a die's powder. */
+static bool has_law(const struct gb_model *model, int normal)
+{
+    return gb_loading_kind_at(model->kind)->periodic_cell ? model->normal == normal
+                                                          : normal == GB_NORMAL_ROD;
+}
+
+/* Particles of one size, reduced units. */
 static bool take_reduced(struct rows *rows, const struct gb_params *params,
                          struct gb_error *err)
 {
@@ -304,11 +313,12 @@ static bool take_reduced(struct rows *rows, const struct gb_params *params,
     if (!gb_params_check(params, err) || !gb_model_init(&model, params, err)) {
         return false;
     }
-    if (model.cohesionless) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "law %s: accepted contact.normal = rod; law hertz is "
-                            "for grains without cohesion",
-                            rows->law->name);
+    if (!has_law(&model, rows->law->normal)) {
+        return gb_error_set(err, GB_ERR_INPUT, "law %s: accepted contact.normal = %s%s",
+                            rows->law->name, gb_normal_law_at(rows->law->normal)->name,
+                            model.normal == GB_NORMAL_HERTZ
+                                ? "; law hertz is for grains without cohesion"
+                                : "");
     }
     rows->input.model = &model;
     rows->diameter = 1.0;

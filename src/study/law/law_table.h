@@ -33,6 +33,7 @@ struct gb_law_table_law {
     bool pair;            /* two bodies of any size and material, SI; else reduced */
     bool h_min;           /* takes h_min beside h */
     bool bridged;         /* for scenes with bridges only */
+    int normal;           /* enum gb_normal of its scenes; any for pairs */
     double low, high;     /* of the variable, in diameters; high is exclusive */
     /* The columns of a row; out has room for GB_LAW_TABLE_COLUMNS. */
     void (*values)(const struct gb_law_table_input *input, double *out);
