@@ -41,8 +41,10 @@ int gb_cmd_stability(int argc, char **argv);
 int gb_cmd_sweep(int argc, char **argv);
 int gb_cmd_verify(int argc, char **argv);
 
-/* Without a command: the workbench, and the list of its keys. */
+/* Without a command: the workbench, the list of its keys, and that of its views (key and
+ * title in a quasi-static scene). */
 int gb_cmd_workbench(int argc, char **argv);
 void gb_cmd_workbench_keys(void);
+void gb_cmd_workbench_views(void);
 
 #endif

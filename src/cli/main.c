@@ -122,6 +122,10 @@ static int dispatch(int argc, char **argv)
         gb_cmd_workbench_keys();
         return 0;
     }
+    if (strcmp(word, "--views") == 0) { /* of the workbench, for tests */
+        gb_cmd_workbench_views();
+        return 0;
+    }
     if (strcmp(word, "--commands") == 0) { /* for the manual page */
         gb_commands_print_plain(stdout);
         return 0;

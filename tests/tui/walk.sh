@@ -3,40 +3,24 @@
 # Usage: walk.sh GREENBODY PRESET_FOLDER
 . "$(dirname "$0")/terminal.sh"
 
-# title of each view, in the order of its keys
-view_keys='1 2 3 4 5 6 7 8 9 0 E'
-titles='Pressure against relative density
-Distribution of the coordination
-Mean normal force by
-Pressure against step
-Radial distribution
-Lateral-to-axial stress
-Normal force of two
-Bridge strength
-Packing
-Accuracy against cost
-Equations of compaction'
-
 # The bottom line is the footer as long as the screen is whole.
 is_whole() {
     screen | sed '/^$/d' | tail -n 1 | grep -q 'quit'
 }
 
 walk_views() { # size
-    view=0
-    echo "$titles" >"$here/titles"
+    # key and the first words of the title: narrow panes cut the rest
+    "$greenbody" --views | cut -c 1-22 >"$here/views"
     while IFS= read -r title; do
-        view=$((view + 1))
-        key=$(echo "$view_keys" | cut -d ' ' -f $view)
-        keys "$key"
-        shows "$1: $key shows $title" "$key $title"
-    done <"$here/titles"
+        keys "${title%% *}"
+        shows "$1: ${title%% *} shows ${title#* }" "$title"
+    done <"$here/views"
     keys v
-    shows "$1: v goes round" '1 Pressure'
+    shows "$1: v goes round" "$(sed -n 1p "$here/views")"
     keys V
-    shows "$1: V goes back" "E Equations of compaction"
+    shows "$1: V goes back" "$(sed -n '$p' "$here/views")"
     keys 1
-    shows "$1: 1 is the first again" '1 Pressure'
+    shows "$1: 1 is the first again" "$(sed -n 1p "$here/views")"
 }
 
 # Each row of the table by its first name, save those that leave: nothing breaks.

@@ -10,6 +10,7 @@
 #include "tui/app/keys.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/term/term_profile.h"
+#include "tui/view/views.h"
 
 static bool names_preset(char **words)
 {
@@ -41,6 +42,15 @@ void gb_cmd_workbench_keys(void)
     for (size_t i = 0; i < count; i++) {
         const struct gb_key key = gb_keys_at(i);
         printf("%-10s%s\n", key.name, key.help);
+    }
+}
+
+void gb_cmd_workbench_views(void)
+{
+    for (size_t i = 0; i < gb_views_count(); i++) {
+        const struct gb_plot_view *view = gb_views_at(i);
+        printf("%s %s\n", view->key,
+               view->title_quasistatic != NULL ? view->title_quasistatic : view->title);
     }
 }
 
