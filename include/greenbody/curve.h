@@ -12,12 +12,18 @@ extern "C" {
 #endif
 
 /* Branches of a run besides unloading: relaxation before loading, loading, and holding at
- * the end density of a dynamic run.  Leg n > 1 of a loading path: GB_BRANCH_LEG - n;
+ * the end density of a dynamic run; of a full die cycle unloading, rest in the die without
+ * the punch, ejection, and rest outside.  Leg n > 1 of a loading path: GB_BRANCH_LEG - n;
  * the first one is the loading. */
 enum {
     GB_BRANCH_RELAX = -1,
     GB_BRANCH_LOAD = 0,
     GB_BRANCH_HOLD = -2,
+    GB_BRANCH_UNLOAD = -3,
+    GB_BRANCH_CONFINED = -4,
+    GB_BRANCH_EJECT = -5,
+    GB_BRANCH_EJECTED = -6,
+    GB_BRANCH_LEAST = -6, /* but for legs */
     GB_BRANCH_LEG = -100
 };
 
@@ -49,6 +55,15 @@ struct gb_point {
     double height_change;    /* over the height before pressing; negative */
     double target_pa;        /* prescribed pressure of the punch */
     double floor_over_punch; /* forces; far from 1: not quasi-static */
+    double floor_pa;         /* force on the floor over its area */
+    double wall_pa;          /* mean radial pressure on the wall */
+    double wall_third_pa[3]; /* of the lower, middle and upper third of its powder */
+    double wall_friction_n;  /* axial force of the wall on the powder, downward */
+    double punch_work;       /* done on the powder since pressing began, J */
+    /* Growth of the compact since the full pressure: of the mean height of its mass, and
+     * of the rms distance of its mass from the axis. */
+    double axial_springback, radial_springback;
+    double welded; /* share of the cold welds that holds */
     /* Periodic cells only, else NaN.  Components in the order xx, yy, zz, xy, xz, yz. */
     double shear_pa[3]; /* pressure tensor, xy, xz, yz: minus the stresses */
     double q_pa;      /* sqrt(3/2 s:s), s the deviator of the pressures; 2D: |p1 - p2| */
@@ -77,7 +92,7 @@ size_t gb_curve_count(const struct gb_curve *curve);
 /* Point 0 <= index < gb_curve_count; valid as long as the curve exists. */
 const struct gb_point *gb_curve_at(const struct gb_curve *curve, size_t index);
 
-/* "load", "relax", "hold", "unload:100MPa": the branch column of curve.csv.  Writes at
+/* "load", "relax", "hold", "unload:100MPa", "unload", "in-die", "eject", "ejected": the branch column of curve.csv.  Writes at
  * most size bytes with the end; returns buffer. */
 char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t size);
 

@@ -49,6 +49,7 @@ enum gb_geometry {
     GB_GEOMETRY_ISOTROPIC,
     GB_GEOMETRY_DIE
 };
+enum gb_die_cycle { GB_DIE_CYCLE_PRESS, GB_DIE_CYCLE_FULL };
 enum gb_ramp { GB_RAMP_AUTO, GB_RAMP_LINEAR, GB_RAMP_QUADRATIC };
 enum gb_precision { GB_PRECISION_AUTO, GB_PRECISION_DOUBLE, GB_PRECISION_SINGLE };
 enum gb_fidelity { GB_FIDELITY_FAST, GB_FIDELITY_BALANCED, GB_FIDELITY_REFERENCE };
@@ -145,6 +146,9 @@ struct gb_params {
     double flatten_m;
     double punch_mass; /* in masses of the powder */
     double central_m;  /* diameter of the sphere of the central density */
+    int die_cycle;     /* enum gb_die_cycle */
+    double eject_m_s;
+    double weld_strength_pa; /* 0: no cold welds */
     /* [loading] */
     int geometry; /* enum gb_geometry */
     double strain_step;
@@ -162,6 +166,8 @@ struct gb_params {
     int ramp;                  /* enum gb_ramp; this and the next two: dies */
     double ramp_s;             /* NaN: auto */
     double record_pressure_pa; /* between recorded points */
+    double unload_s;           /* of a die, as rest_s; NaN: auto */
+    double rest_s;
     /* [numerics]: NaN or negative means "auto", set by fidelity when the model is frozen
      */
     int fidelity;     /* enum gb_fidelity */

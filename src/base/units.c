@@ -64,6 +64,8 @@ static const struct unit units[] = {
     {GB_DIM_FORCE, "uN", -6, 1.0, true},
     {GB_DIM_FORCE, "mN", -3, 1.0, true},
     {GB_DIM_FORCE, "N", 0, 1.0, true},
+    {GB_DIM_SPEED, "mm/s", -3, 1.0, true},
+    {GB_DIM_SPEED, "m/s", 0, 1.0, true},
 };
 
 const char *gb_units_accepted(enum gb_dimension dimension)
@@ -89,6 +91,8 @@ const char *gb_units_accepted(enum gb_dimension dimension)
         return "Pa s, mPa s";
     case GB_DIM_FORCE:
         return "nN, uN, mN, N";
+    case GB_DIM_SPEED:
+        return "m/s, mm/s";
     }
     return "none";
 }

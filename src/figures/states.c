@@ -50,12 +50,17 @@ static bool is_kept_for(const char *path, const struct gb_keep_point *point)
     return same;
 }
 
+static bool is_after_loading(const struct gb_point *point)
+{
+    return point->branch > 0 || point->branch < GB_BRANCH_HOLD;
+}
+
 /* Relative distance; states of unloading come after those of loading. */
 static double distance(const struct gb_state *state, const struct gb_keep_point *point)
 {
     const double relative =
         fabs(value_of(state, point) - point->value) / fmax(fabs(point->value), 1e-12);
-    return isfinite(relative) ? relative + (state->point.branch > 0 ? 1e-6 : 0.0)
+    return isfinite(relative) ? relative + (is_after_loading(&state->point) ? 1e-6 : 0.0)
                               : INFINITY;
 }
 

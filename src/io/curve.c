@@ -86,15 +86,14 @@ const struct gb_point *gb_curve_at(const struct gb_curve *curve, size_t index)
 
 char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t size)
 {
+    static const char *const names[] = {"load",   "relax", "hold", "unload",
+                                        "in-die", "eject", "ejected"};
     if (point->branch < GB_BRANCH_LEG) {
         snprintf(buffer, size, "leg:%d", GB_BRANCH_LEG - point->branch);
         return buffer;
     }
     if (point->branch <= 0) {
-        snprintf(buffer, size, "%s",
-                 point->branch == GB_BRANCH_LOAD   ? "load"
-                 : point->branch == GB_BRANCH_HOLD ? "hold"
-                                                   : "relax");
+        snprintf(buffer, size, "%s", names[-point->branch]);
         return buffer;
     }
     char pressure[48];

@@ -32,11 +32,17 @@ static const char *compressed_axes(const struct gb_params *params)
     }
 }
 
-static void append_tensors(GString *row, const struct gb_point *point)
+static void append_columns(GString *row, const struct gb_point *point, size_t from,
+                           size_t to)
 {
-    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
+    for (size_t k = from; k < to; k++) {
         append_number(row, gb_point_columns_value(point, k));
     }
+}
+
+static void append_tensors(GString *row, const struct gb_point *point)
+{
+    append_columns(row, point, 0, GB_POINT_COLUMNS);
 }
 
 static void append_energies(GString *row, const struct gb_point *point)
@@ -58,6 +64,7 @@ static void append_die(GString *row, const struct gb_point *point)
     for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
         append_number(row, values[k]);
     }
+    append_columns(row, point, GB_POINT_COLUMNS, GB_POINT_ALL_COLUMNS);
 }
 
 /* By enum gb_curve_columns: a comment of the head of curve.csv, names of the columns, and
@@ -80,6 +87,14 @@ static const struct column_set {
          ",time_ns,central_density,height_um,height_change,wanted_MPa,floor_over_punch",
          append_die},
 };
+
+static const char die_note[] =
+    "# die: floor_MPa and wall_MPa are means over their surfaces, wall_low, wall_middle "
+    "and wall_high of the thirds of the height of powder on the wall; wall_friction_mN "
+    "is the axial force of the wall on the powder, downward: the force of ejection; "
+    "punch_work_J since pressing began; springback since the full pressure, of the mean "
+    "height of the mass and of its rms distance from the axis; welded is the share of "
+    "the cold welds that holds\n";
 
 static const char tensor_note[] =
     "# tensors: pxy, pxz, pyz of the pressure tensor; q its deviatoric part; asymmetry "
@@ -105,13 +120,13 @@ GString *gb_curve_csv_head(const struct gb_params *params)
         compressed_axes(params));
     const struct column_set *set = &column_sets[gb_loading_kind_of(params)->columns];
     g_string_append(head, set->note);
-    if (set->append != append_die) {
-        g_string_append(head, tensor_note);
-    }
+    const bool die = set->append == append_die;
+    g_string_append(head, die ? die_note : tensor_note);
     g_string_append(head, "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,"
                           "bridged,rattlers,residual,iterations,evaluations,seconds");
     g_string_append(head, set->names);
-    for (size_t k = 0; k < GB_POINT_COLUMNS && set->append != append_die; k++) {
+    for (size_t k = die ? GB_POINT_COLUMNS : 0;
+         k < (die ? GB_POINT_ALL_COLUMNS : GB_POINT_COLUMNS); k++) {
         g_string_append_printf(head, ",%s", gb_point_columns_name(k));
     }
     g_string_append_c(head, '\n');

@@ -47,7 +47,7 @@ static bool find_branch(const char *name, const struct gb_params *params,
             return true;
         }
     }
-    for (int branch = GB_BRANCH_HOLD; branch <= params->unload_count; branch++) {
+    for (int branch = GB_BRANCH_LEAST; branch <= params->unload_count; branch++) {
         char text[64];
         point->branch = branch;
         point->branch_from_pa = branch > 0 ? params->unload_from_pa[branch - 1] : 0.0;
@@ -102,7 +102,7 @@ static void fill_point(const struct gb_table *table, size_t row, struct gb_point
             memcpy(member, &value, sizeof value);
         }
     }
-    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
+    for (size_t k = 0; k < GB_POINT_ALL_COLUMNS; k++) {
         const double *values = gb_table_column(table, gb_point_columns_name(k), NULL);
         *gb_point_columns_member(point, k) =
             values != NULL ? values[row] * gb_point_columns_factor(k) : NAN;

@@ -9,7 +9,7 @@ struct column {
 };
 
 #define AT(member) offsetof(struct gb_point, member)
-static const struct column table[GB_POINT_COLUMNS] = {
+static const struct column table[GB_POINT_ALL_COLUMNS] = {
     {"pxy_MPa", AT(shear_pa[0]), 1e6},
     {"pxz_MPa", AT(shear_pa[1]), 1e6},
     {"pyz_MPa", AT(shear_pa[2]), 1e6},
@@ -32,6 +32,16 @@ static const struct column table[GB_POINT_COLUMNS] = {
     {"anisotropy_tension", AT(anisotropy[2]), 1.0},
     {"anisotropy_force", AT(anisotropy[3]), 1.0},
     {"leg", AT(leg), 1.0},
+    {"floor_MPa", AT(floor_pa), 1e6},
+    {"wall_MPa", AT(wall_pa), 1e6},
+    {"wall_low_MPa", AT(wall_third_pa[0]), 1e6},
+    {"wall_middle_MPa", AT(wall_third_pa[1]), 1e6},
+    {"wall_high_MPa", AT(wall_third_pa[2]), 1e6},
+    {"wall_friction_mN", AT(wall_friction_n), 1e-3},
+    {"punch_work_J", AT(punch_work), 1.0},
+    {"axial_springback_percent", AT(axial_springback), 1e-2},
+    {"radial_springback_percent", AT(radial_springback), 1e-2},
+    {"welded", AT(welded), 1.0},
 };
 #undef AT
 
@@ -50,20 +60,33 @@ double *gb_point_columns_member(struct gb_point *point, size_t k)
     return (double *)(void *)((char *)point + table[k].offset);
 }
 
+static bool exchange(struct gb_point *point, size_t first, int count, const char *name,
+                     struct gb_record *record, struct gb_error *err)
+{
+    double value[GB_POINT_ALL_COLUMNS];
+    const bool missing = record->loading && !gb_record_find(record, name);
+    for (int k = 0; k < count; k++) {
+        value[k] =
+            missing ? (double)NAN : *gb_point_columns_member(point, first + (size_t)k);
+    }
+    const bool done = missing || gb_record_array(record, name, GB_RECORD_DOUBLE, 1,
+                                                 count, "SI", value, err);
+    for (int k = 0; k < count; k++) {
+        *gb_point_columns_member(point, first + (size_t)k) = value[k];
+    }
+    return done;
+}
+
 bool gb_point_columns_record(struct gb_point *point, const char *name,
                              struct gb_record *record, struct gb_error *err)
 {
-    double value[GB_POINT_COLUMNS];
-    const bool missing = record->loading && !gb_record_find(record, name);
-    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
-        value[k] = missing ? (double)NAN : *gb_point_columns_member(point, k);
-    }
-    const bool done = missing || gb_record_array(record, name, GB_RECORD_DOUBLE, 1,
-                                                 GB_POINT_COLUMNS, "SI", value, err);
-    for (size_t k = 0; k < GB_POINT_COLUMNS; k++) {
-        *gb_point_columns_member(point, k) = value[k];
-    }
-    return done;
+    return exchange(point, 0, GB_POINT_COLUMNS, name, record, err);
+}
+
+bool gb_point_columns_record_die(struct gb_point *point, const char *name,
+                                 struct gb_record *record, struct gb_error *err)
+{
+    return exchange(point, GB_POINT_COLUMNS, GB_POINT_DIE_COLUMNS, name, record, err);
 }
 
 double gb_point_columns_value(const struct gb_point *point, size_t k)

@@ -75,6 +75,27 @@ void gb_observe_die_contacts(const struct gb_bed *bed, struct gb_contact_counts 
     counts->coordination = 2.0 * (double)counts->contacts / (double)bed->count;
 }
 
+void gb_observe_die_wall(const struct gb_bed *bed, double height, int bands,
+                         double *pressure)
+{
+    const double area = 2.0 * M_PI * bed->die.radius * height / bands;
+    for (int b = 0; b < bands; b++) {
+        pressure[b] = height > 0.0 ? 0.0 : (double)NAN;
+    }
+    for (int64_t slot = 0; height > 0.0 && slot < bed->walls.count; slot++) {
+        const double *x = bed->position[bed->walls.first[slot]];
+        double unit[3];
+        if (bed->walls.other[slot] != GB_DIE_SIDE || !touches(&bed->walls, slot)) {
+            continue;
+        }
+        gb_die_overlap(&bed->die, GB_DIE_SIDE, x, x[3], unit);
+        const double radial = hypot(unit[0], unit[1]);
+        const int b = (int)(x[2] / height * bands);
+        pressure[b < bands ? b : bands - 1] +=
+            bed->walls.contacts.normal[slot] * radial / area;
+    }
+}
+
 void gb_observe_die_force(const struct gb_bed *bed, int64_t slot, double unit[3],
                           double force[3])
 {

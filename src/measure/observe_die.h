@@ -23,6 +23,14 @@ void gb_observe_die_contacts(const struct gb_bed *bed, struct gb_contact_counts 
 /* As gb_observe_rose, of contacts between particles. */
 void gb_observe_die_rose(const struct gb_bed *bed, int bins, double *mean);
 
+/* Mean radial pressure on the wall in bands of equal height from the floor up to `height`,
+ * from the normal forces of the last evaluation; NaN where height is not above 0.  During
+ * an ejection the contacts with the rim of the bore count too.
+ *
+ * pressure   bands values, E */
+void gb_observe_die_wall(const struct gb_bed *bed, double height, int bands,
+                         double *pressure);
+
 /* Unit vector of pair `slot`, from its second particle to the first, and the whole force
  * on the first.  The pair touches. */
 void gb_observe_die_force(const struct gb_bed *bed, int64_t slot, double unit[3],

@@ -58,7 +58,10 @@ static bool record_points(struct gb_experiment *experiment, struct gb_record *re
 {
     return gb_record_members(record, members, MEMBERS, experiment, err) &&
            gb_point_columns_record(&experiment->point, "point/tensors", record, err) &&
-           gb_point_columns_record(&experiment->shown, "shown/tensors", record, err);
+           gb_point_columns_record(&experiment->shown, "shown/tensors", record, err) &&
+           (gb_loading_kind_of(&experiment->params)->periodic_cell ||
+            (gb_point_columns_record_die(&experiment->point, "point/die", record, err) &&
+             gb_point_columns_record_die(&experiment->shown, "shown/die", record, err)));
 }
 
 bool gb_checkpoint_take(struct gb_experiment *experiment, struct gb_record *record,

@@ -14,7 +14,11 @@ static int branch_of(const struct gb_loading_report *report)
 {
     static const int branch[] = {[GB_LOADING_RELAX] = GB_BRANCH_RELAX,
                                  [GB_LOADING_LOAD] = GB_BRANCH_LOAD,
-                                 [GB_LOADING_HOLD] = GB_BRANCH_HOLD};
+                                 [GB_LOADING_HOLD] = GB_BRANCH_HOLD,
+                                 [GB_LOADING_UNLOAD] = GB_BRANCH_UNLOAD,
+                                 [GB_LOADING_CONFINED] = GB_BRANCH_CONFINED,
+                                 [GB_LOADING_EJECT] = GB_BRANCH_EJECT,
+                                 [GB_LOADING_EJECTED] = GB_BRANCH_EJECTED};
     return report->unloading > 0 ? report->unloading
            : report->begun > 1   ? GB_BRANCH_LEG - report->begun
                                  : branch[report->stage];
@@ -62,6 +66,9 @@ static void measure_tensors(const struct gb_loading *loading, const double press
 /* Members of dies and of dynamic scenes. */
 static void leave_empty(struct gb_point *point)
 {
+    for (size_t k = GB_POINT_COLUMNS; k < GB_POINT_ALL_COLUMNS; k++) {
+        *gb_point_columns_member(point, k) = NAN;
+    }
     const double none = (double)NAN;
     point->time_s = point->kinetic = point->work = point->elastic = none;
     point->dissipated = point->energy_residual = none;
@@ -110,6 +117,26 @@ static void measure_cell(const struct gb_loading *loading, struct gb_point *poin
     point->leg = report.leg > 0 ? report.leg : (double)NAN;
 }
 
+/* Forces on the die and what the compact has sprung back. */
+static void measure_cycle(const struct gb_loading *loading,
+                          const struct gb_loading_report *report, struct gb_point *point)
+{
+    const struct gb_model *model = loading->model;
+    const double pascal = model->pascal_per_stress;
+    double third[3];
+    gb_observe_die_wall(loading->bed, report->contact, 3, third);
+    for (int k = 0; k < 3; k++) {
+        point->wall_third_pa[k] = third[k] * pascal;
+    }
+    point->floor_pa = report->floor * pascal;
+    point->wall_pa = 0.5 * (point->px_pa + point->py_pa);
+    point->wall_friction_n = report->drag * model->newton_per_force;
+    point->punch_work = report->work * model->newton_per_force * model->metre_per_length;
+    point->axial_springback = report->axial;
+    point->radial_springback = report->radial;
+    point->welded = report->welded;
+}
+
 static void measure_die(const struct gb_loading *loading, struct gb_point *point)
 {
     const struct gb_model *model = loading->model;
@@ -142,6 +169,7 @@ static void measure_die(const struct gb_loading *loading, struct gb_point *point
                                : (double)NAN;
     point->target_pa = report.target_pressure * pascal;
     point->floor_over_punch = report.floor_over_punch;
+    measure_cycle(loading, &report, point);
 }
 
 void gb_point_measure_packing(const struct gb_loading *loading, struct gb_point *point)

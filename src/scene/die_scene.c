@@ -100,6 +100,7 @@ void gb_die_scene_freeze(struct gb_model *model, const struct gb_params *params)
     const double gravity = standard_gravity * unit * unit / d;
     const bool fast = params->fidelity == GB_FIDELITY_FAST;
     const double step = gb_derived_time_step_s(params);
+    const double ramp_s = given_or(params->ramp_s, fast ? 20e-6 : 100e-6);
     model->die = (struct gb_die_scene){
         .radius = 0.5 * params->die_diameter_m / d,
         .height = given_or(params->die_height_m, 0.0) / d,
@@ -110,12 +111,17 @@ void gb_die_scene_freeze(struct gb_model *model, const struct gb_params *params)
         .gravity = params->rest_gravity * gravity,
         .gravity_ramp = params->gravity_ramp_s / unit,
         .flatten_travel = params->flatten_m / d,
-        .ramp_time = given_or(params->ramp_s, fast ? 20e-6 : 100e-6) / unit,
+        .ramp_time = ramp_s / unit,
         .pressure = params->until_pressure_pa / params->young_pa,
         .quadratic =
             params->ramp == GB_RAMP_QUADRATIC || (params->ramp == GB_RAMP_AUTO && fast),
         .record = params->record_pressure_pa / params->young_pa,
         .punch_mass = params->punch_mass,
+        .full_cycle = params->die_cycle == GB_DIE_CYCLE_FULL,
+        .unload_time = given_or(params->unload_s, ramp_s) / unit,
+        .rest_time = params->rest_s / unit,
+        .eject_speed = params->eject_m_s * unit / d,
+        .weld_strength = params->weld_strength_pa / params->young_pa,
         .safety = given_or(params->safety, params->fidelity == GB_FIDELITY_REFERENCE
                                                ? GB_SAFETY_REFERENCE
                                                : GB_SAFETY_BALANCED),
@@ -156,6 +162,25 @@ static void note_ramp(const struct gb_model *model, char *buffer, size_t size)
              die->quadratic ? "with the square of time" : "linear");
 }
 
+static void note_cycle(const struct gb_model *model, char *buffer, size_t size)
+{
+    const struct gb_die_scene *die = &model->die;
+    char unload[48], rest[48], speed[48], strength[48] = "no cold welds";
+    write_time(die, die->unload_time, unload, sizeof unload);
+    write_time(die, die->rest_time, rest, sizeof rest);
+    gb_units_format_short(die->eject_speed * model->metre_per_length /
+                              die->second_per_time,
+                          GB_DIM_SPEED, 4, speed, sizeof speed);
+    if (die->weld_strength > 0.0) {
+        char value[32];
+        gb_units_format_short(die->weld_strength * model->pascal_per_stress,
+                              GB_DIM_PRESSURE, 4, value, sizeof value);
+        snprintf(strength, sizeof strength, "cold welds of %s", value);
+    }
+    snprintf(buffer, size, "unload in %s, punch off, rest %s, eject at %s, rest; %s",
+             unload, rest, speed, strength);
+}
+
 const char *gb_die_scene_note(const struct gb_model *model, int index, char *buffer,
                               size_t size)
 {
@@ -178,6 +203,13 @@ const char *gb_die_scene_note(const struct gb_model *model, int index, char *buf
                  die->inertia_scale);
         return buffer;
     case 4:
+        if (die->full_cycle) {
+            note_cycle(model, buffer, size);
+            return buffer;
+        }
+        snprintf(buffer, size, "cycle ends at full pressure; die.cycle = full goes on");
+        return buffer;
+    case 5:
         snprintf(buffer, size, "threads: one; a die is swept by a single core");
         return buffer;
     default:

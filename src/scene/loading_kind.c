@@ -44,6 +44,7 @@ static const char *const die_fields[] = {
     "contact.damping",        "die",
     "loading.ramp",           "loading.time",
     "numerics.safety",        "loading.record_pressure",
+    "loading.unload_time",    "loading.rest_time",
     "numerics.inertia_scale", NULL,
 };
 

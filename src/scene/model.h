@@ -64,6 +64,11 @@ struct gb_die_scene {
     bool quadratic;        /* p = p_max (t/T)^2 instead of p_max t/T */
     double record;         /* pressure between recorded points */
     double punch_mass;     /* in masses of the bed */
+    bool full_cycle;       /* unloading to rest after ejection follow the ramp */
+    double unload_time;    /* of the pressure, down to none */
+    double rest_time;      /* in the die, and after ejection */
+    double eject_speed;
+    double weld_strength; /* of cold welds; 0: none */
     double safety;         /* of the time step */
     double time_step;      /* 0: by the critical one */
     double inertia_scale;

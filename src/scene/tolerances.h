@@ -299,6 +299,11 @@
 #define GB_GRAVITY_RAMP_DRAG 0.1
 #define GB_REST_DRAG         1.0
 
+/* Time constant of a drag on the powder from the withdrawal of the punch on, as a share of
+ * loading.rest_time.  Without it the compact vibrates in the die and loose particles are
+ * thrown off.  Stronger: it delays the springback. */
+#define GB_CYCLE_DRAG 0.1
+
 /* A particle pushed by the flattening punch rises by up to a quarter of this (d).
  * Larger: faster, and particles are thrown up. */
 #define GB_FLATTEN_RISE 0.2

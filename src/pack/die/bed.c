@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "pack/die/bed_list.h"
 #include "pack/die/bed_walls.h"
+#include "pack/die/bed_welds.h"
 #include "scene/tolerances.h"
 
 /* Evaluations between two list builds to aim at; a build costs a few tens of
@@ -96,6 +97,7 @@ void gb_bed_destroy(struct gb_bed *bed)
     gb_bed_list_finish(&bed->previous_pairs);
     gb_bed_list_finish(&bed->walls);
     gb_bed_list_finish(&bed->previous_walls);
+    gb_bed_welds_destroy(bed->welds);
     gb_alloc_free(bed);
 }
 
@@ -137,8 +139,10 @@ static bool refresh_lists(struct gb_bed *bed, double moved2, struct gb_error *er
 {
     const double moved = sqrt(moved2);
     const double punch = fabs(bed->die.punch_position - bed->punch_listed_position);
+    const double top = fabs(bed->die.top - bed->top_listed_position);
     if (bed->listed && 2.0 * moved < bed->skin &&
-        (!bed->die.punch || moved + punch < bed->skin)) {
+        (!bed->die.punch || moved + punch < bed->skin) &&
+        (bed->die.bore != GB_DIE_BORE_OPEN || moved + top < bed->skin)) {
         return true;
     }
     adapt_skin(bed);
@@ -148,6 +152,7 @@ static bool refresh_lists(struct gb_bed *bed, double moved2, struct gb_error *er
     memcpy(bed->listed_position, bed->position,
            (size_t)bed->count * sizeof *bed->position);
     bed->punch_listed_position = bed->die.punch_position;
+    bed->top_listed_position = bed->die.top;
     bed->listed_evaluation = bed->evaluations;
     bed->listed = true;
     bed->rebuilds++;
@@ -188,6 +193,9 @@ bool gb_bed_evaluate(struct gb_bed *bed, double step, double moved2, struct gb_e
     sweep_pairs(bed, &batch);
     gb_bed_walls_sweep(bed, &batch);
     bed->tally.stiffest = batch.stiffest;
+    if (bed->welds) {
+        gb_bed_welds_sweep(bed, step);
+    }
     bed->evaluations++;
     return true;
 }

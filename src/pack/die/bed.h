@@ -29,7 +29,10 @@ struct gb_bed_tally {
     double stiffest;     /* largest omega^2 = k/m of (29) */
     double floor, punch; /* force on them, positive in compression */
     double side[2];      /* sum of f_x x, f_y y over the side's contacts */
+    double drag;         /* of the side on the powder, along -z */
 };
+
+struct gb_bed_welds;
 
 struct gb_bed {
     int64_t count;
@@ -43,6 +46,7 @@ struct gb_bed {
     struct gb_bed_transfer transfer; /* of pairs */
     struct gb_bed_list pairs, walls;
     struct gb_bed_tally tally;
+    struct gb_bed_welds *welds; /* of the compact; NULL: none */
     double smallest; /* radius */
     int32_t *counts; /* one per particle, for measures to count in */
     int64_t evaluations, rebuilds;
@@ -50,7 +54,7 @@ struct gb_bed {
     double skin;
     struct gb_hgrid hgrid;
     gb_bed_row *listed_position;
-    double punch_listed_position;
+    double punch_listed_position, top_listed_position;
     int64_t listed_evaluation; /* evaluations then */
     bool listed;
     struct gb_bed_list previous_pairs, previous_walls;

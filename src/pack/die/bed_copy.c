@@ -4,12 +4,14 @@
 
 #include "base/alloc.h"
 #include "pack/die/bed_list.h"
+#include "pack/die/bed_welds.h"
 
 struct gb_bed_copy {
     int64_t count;
     gb_bed_row *rows; /* positions, velocities, spins */
     struct gb_die die;
     struct gb_bed_list pairs, walls; /* what touches */
+    struct gb_bed_welds *welds;
     double skin;
 };
 
@@ -39,6 +41,7 @@ void gb_bed_copy_destroy(struct gb_bed_copy *copy)
     gb_alloc_free(copy->rows);
     gb_bed_list_finish(&copy->pairs);
     gb_bed_list_finish(&copy->walls);
+    gb_bed_welds_destroy(copy->welds);
     gb_alloc_free(copy);
 }
 
@@ -56,7 +59,8 @@ bool gb_bed_copy_take(const struct gb_bed *bed, struct gb_bed_copy **copy,
     (*copy)->die = bed->die;
     (*copy)->skin = bed->skin;
     return gb_bed_list_copy_touching(&(*copy)->pairs, &bed->pairs, bed->count, err) &&
-           gb_bed_list_copy_touching(&(*copy)->walls, &bed->walls, bed->count, err);
+           gb_bed_list_copy_touching(&(*copy)->walls, &bed->walls, bed->count, err) &&
+           gb_bed_welds_copy(&(*copy)->welds, bed->welds, err);
 }
 
 bool gb_bed_copy_restore(struct gb_bed *bed, const struct gb_bed_copy *copy,
@@ -71,7 +75,8 @@ bool gb_bed_copy_restore(struct gb_bed *bed, const struct gb_bed_copy *copy,
     bed->skin = copy->skin;
     bed->listed = false; /* rebuilt at the next evaluation, from these: */
     return gb_bed_list_copy_touching(&bed->pairs, &copy->pairs, bed->count, err) &&
-           gb_bed_list_copy_touching(&bed->walls, &copy->walls, bed->count, err);
+           gb_bed_list_copy_touching(&bed->walls, &copy->walls, bed->count, err) &&
+           gb_bed_welds_copy(&bed->welds, copy->welds, err);
 }
 
 static uint64_t mix(uint64_t hash, const void *data, size_t bytes)
@@ -99,6 +104,18 @@ static uint64_t mix_list(uint64_t hash, const struct gb_bed_list *list)
     return hash;
 }
 
+static uint64_t mix_welds(uint64_t hash, const struct gb_bed_welds *welds)
+{
+    for (int64_t k = 0; welds && k < welds->count; k++) {
+        const double state[] = {welds->length[k], welds->area[k], welds->force[0][k],
+                                welds->force[1][k], welds->force[2][k]};
+        hash = mix(hash, &welds->first[k], sizeof welds->first[k]);
+        hash = mix(hash, &welds->other[k], sizeof welds->other[k]);
+        hash = mix(hash, state, sizeof state);
+    }
+    return hash;
+}
+
 uint64_t gb_bed_copy_hash(const struct gb_bed *bed)
 {
     const size_t bytes = (size_t)bed->count * sizeof(gb_bed_row);
@@ -108,5 +125,8 @@ uint64_t gb_bed_copy_hash(const struct gb_bed *bed)
     hash = mix(hash, bed->spin, bytes);
     hash = mix(hash, &bed->die.punch_position, sizeof bed->die.punch_position);
     hash = mix(hash, &bed->die.punch_velocity, sizeof bed->die.punch_velocity);
-    return mix_list(mix_list(hash, &bed->pairs), &bed->walls);
+    if (bed->die.bore != GB_DIE_BORE_ENDLESS) {
+        hash = mix(hash, &bed->die.top, sizeof bed->die.top);
+    }
+    return mix_welds(mix_list(mix_list(hash, &bed->pairs), &bed->walls), bed->welds);
 }

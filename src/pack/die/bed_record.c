@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "pack/cell/record_checks.h"
 #include "pack/die/bed_list.h"
+#include "pack/die/bed_welds.h"
 
 #define AT(member) offsetof(struct gb_bed, member)
 
@@ -21,7 +22,31 @@ static const struct gb_record_member members[] = {
     {"bed/evaluations", GB_RECORD_INT64, 1, AT(evaluations), "1"},
 };
 
+/* Of an ejection; records of earlier versions have none of them. */
+static const struct gb_record_member ejection_members[] = {
+    {"bed/bore", GB_RECORD_INT32, 1, AT(die.bore), "1"},
+    {"bed/top", GB_RECORD_DOUBLE, 1, AT(die.top), "d"},
+    {"bed/side_speed", GB_RECORD_DOUBLE, 1, AT(die.side_velocity), "d/T"},
+    {"bed/side_drag", GB_RECORD_DOUBLE, 1, AT(tally.drag), "E d^2"},
+};
+
 #undef AT
+
+static bool record_ejection(struct gb_bed *bed, struct gb_record *record,
+                            struct gb_error *err)
+{
+    if (record->loading && !gb_record_find(record, "bed/bore")) {
+        return true;
+    }
+    if (!gb_record_members(record, ejection_members,
+                           sizeof ejection_members / sizeof ejection_members[0], bed,
+                           err)) {
+        return false;
+    }
+    return (int)bed->die.bore >= 0 && bed->die.bore <= GB_DIE_BORE_GONE
+               ? true
+               : gb_record_checks_out_of_range("bed/bore", err);
+}
 
 static bool rows(struct gb_bed *bed, struct gb_record *record, const char *name,
                  const char *unit, gb_bed_row *data, struct gb_error *err)
@@ -138,5 +163,6 @@ bool gb_bed_record(struct gb_bed *bed, struct gb_record *record, struct gb_error
            rows(bed, record, "bed/torque", "E d^3", bed->torque, err) &&
            check_positions(bed, bed->mass, err) &&
            exchange_contacts(bed, GB_BED_PARTNER_PARTICLE, record, err) &&
-           exchange_contacts(bed, GB_BED_PARTNER_WALL, record, err);
+           exchange_contacts(bed, GB_BED_PARTNER_WALL, record, err) &&
+           record_ejection(bed, record, err) && gb_bed_welds_record(bed, record, err);
 }

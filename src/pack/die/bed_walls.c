@@ -16,7 +16,9 @@ static void gather_walls(const struct gb_bed *bed, struct gb_bed_batch *b, int64
             b->slip[c][k] = bed->velocity[i][c];
             b->roll[c][k] = radius * bed->spin[i][c];
         }
-        b->slip[2][k] -= wall == GB_DIE_PUNCH ? bed->die.punch_velocity : 0.0;
+        b->slip[2][k] -= wall == GB_DIE_PUNCH  ? bed->die.punch_velocity
+                         : wall == GB_DIE_SIDE ? bed->die.side_velocity
+                                               : 0.0;
     }
 }
 
@@ -33,6 +35,7 @@ static void add_wall_force(struct gb_bed_tally *tally, enum gb_die_wall wall,
     case GB_DIE_SIDE:
         tally->side[0] -= force[0] * x[0];
         tally->side[1] -= force[1] * x[1];
+        tally->drag -= force[2];
         break;
     case GB_DIE_FUNNEL:
     case GB_DIE_WALLS:

@@ -23,16 +23,6 @@ static double plane_overlap(double distance, double radius, double up, double un
     return radius - distance;
 }
 
-static double side_overlap(const struct gb_die *die, const double x[3], double radius,
-                           double unit[3])
-{
-    if (die->funnel && x[2] > die->height) {
-        return -INFINITY;
-    }
-    const double rho = across(x);
-    swing(x, rho, -1.0, 0.0, unit);
-    return rho + radius - die->radius;
-}
 
 /* From a point of the wall, (rho, z) away from the centre, to the centre. */
 static double point_overlap(const double x[3], double rho, double out, double up,
@@ -45,6 +35,31 @@ static double point_overlap(const double x[3], double rho, double out, double up
         swing(x, rho, -1.0, 0.0, unit);
     }
     return radius - distance;
+}
+
+/* Above an open end the nearest point of the block is the rim of the bore, or its flat top
+ * further out. */
+static double block_overlap(const struct gb_die *die, const double x[3], double rho,
+                            double radius, double unit[3])
+{
+    const double up = x[2] - die->top;
+    return rho < die->radius
+               ? point_overlap(x, rho, rho - die->radius, up, radius, unit)
+               : plane_overlap(up, radius, 1.0, unit);
+}
+
+static double side_overlap(const struct gb_die *die, const double x[3], double radius,
+                           double unit[3])
+{
+    if ((die->funnel && x[2] > die->height) || die->bore == GB_DIE_BORE_GONE) {
+        return -INFINITY;
+    }
+    const double rho = across(x);
+    if (die->bore == GB_DIE_BORE_OPEN && x[2] > die->top) {
+        return block_overlap(die, x, rho, radius, unit);
+    }
+    swing(x, rho, -1.0, 0.0, unit);
+    return rho + radius - die->radius;
 }
 
 /* In the half-plane (rho, z) the funnel is the ring's segment and the cone's ray, which
@@ -96,6 +111,9 @@ double gb_die_radius_at(const struct gb_die *die, double z)
 bool gb_die_contains(const struct gb_die *die, const double x[3])
 {
     const bool below = !die->punch || x[2] < die->punch_position;
-    return x[2] > 0.0 && below && across(x) < gb_die_radius_at(die, x[2]) &&
-           x[2] < HUGE_VAL;
+    const bool beside = die->bore == GB_DIE_BORE_GONE ||
+                        (die->bore == GB_DIE_BORE_OPEN && x[2] > die->top);
+    const double rho = across(x);
+    const double most = beside ? HUGE_VAL : gb_die_radius_at(die, x[2]);
+    return x[2] > 0.0 && below && rho < most && x[2] < HUGE_VAL;
 }

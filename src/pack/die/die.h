@@ -3,6 +3,9 @@
 
 #include <stdbool.h>
 
+/* The bore: without an upper end; with one at `top`; drawn off to below the floor. */
+enum gb_die_bore { GB_DIE_BORE_ENDLESS, GB_DIE_BORE_OPEN, GB_DIE_BORE_GONE };
+
 /* A cylinder on a floor with a funnel over it and a punch in it.  Axis z through x = y =
  * 0, floor at z = 0; any unit of length.  All are rigid walls: to the contact laws each
  * is a sphere of infinite radius.  Source: P3 section 5, Fig. 13. */
@@ -16,6 +19,11 @@ struct gb_die {
     /* The punch: a plane that presses from above. */
     bool punch;
     double punch_position, punch_velocity; /* along z */
+    /* The cylinder while the compact is ejected: a block whose flat top, with the open end
+     * of the bore, lies at `top` and sinks towards the floor.  A push of the lower punch,
+     * seen from that punch. */
+    enum gb_die_bore bore;
+    double top, side_velocity; /* of the block, along z */
 };
 
 enum gb_die_wall { GB_DIE_FLOOR, GB_DIE_SIDE, GB_DIE_PUNCH, GB_DIE_FUNNEL, GB_DIE_WALLS };

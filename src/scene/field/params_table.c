@@ -17,6 +17,7 @@ static const char *const structures[] = {"grown",   "sc",     "fcc",       "bcc"
 static const char *const radii[] = {"deepest", "current", NULL};
 static const char *const motions[] = {"half", "full", NULL};
 static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", "die", NULL};
+static const char *const cycles[] = {"press", "full", NULL};
 static const char *const ramps[] = {"auto", "linear", "quadratic", NULL};
 static const char *const hangups[] = {"detach", "stop", NULL};
 static const char *const collapses[] = {"stop", "strain", NULL};
@@ -245,6 +246,21 @@ static const struct gb_field rows[] = {
      RANGE(1e-9, 1.0), .fallback = "54 um",
      .meaning = "diameter of the sphere of the central relative density",
      .source = "P3 5"},
+    {"die", "cycle", GB_FIELD_CHOICE, AT(die_cycle), .choices = cycles,
+     .fallback = "press",
+     .meaning = "press: the run ends at full pressure; full: unloading, punch off, "
+                "ejection and rest follow",
+     .source = "numerical"},
+    {"die", "eject_speed", GB_FIELD_NUMBER, AT(eject_m_s), .dimension = GB_DIM_SPEED,
+     RANGE(1e-6, 100.0), .fallback = "1 m/s",
+     .meaning = "speed at which the compact is pushed out of the die, and the punch "
+                "taken off",
+     .source = "numerical"},
+    {"die", "weld_strength", GB_FIELD_NUMBER, AT(weld_strength_pa),
+     .dimension = GB_DIM_PRESSURE, RANGE(0.0, 1e12), .fallback = "0 Pa",
+     .meaning = "tensile strength of cold welds that contacts form under the full "
+                "pressure of a full cycle; 0: none, the ejected compact falls apart",
+     .source = "Potyondy & Cundall 2004"},
 
     {"loading", "geometry", GB_FIELD_CHOICE, AT(geometry), .choices = geometries,
      .fallback = "uniaxial", .meaning = "compressed axes: z; y and z; all; or a die",
@@ -303,6 +319,15 @@ static const struct gb_field rows[] = {
     {"loading", "record_pressure", GB_FIELD_NUMBER, AT(record_pressure_pa),
      .dimension = GB_DIM_PRESSURE, RANGE(1.0, 1e12), .fallback = "500 kPa",
      .meaning = "pressure increase between recorded points of a die",
+     .source = "numerical"},
+    {"loading", "unload_time", GB_FIELD_NUMBER, AT(unload_s), .dimension = GB_DIM_TIME,
+     RANGE(1e-9, 1.0), AUTO(NAN), .fallback = "auto",
+     .meaning = "time from the full punch pressure to none in a full die cycle; auto: "
+                "as loading.time",
+     .source = "numerical"},
+    {"loading", "rest_time", GB_FIELD_NUMBER, AT(rest_s), .dimension = GB_DIM_TIME,
+     RANGE(1e-9, 1.0), .fallback = "20 us",
+     .meaning = "rest in the die with the punch off, and again after ejection",
      .source = "numerical"},
 
     {"numerics", "fidelity", GB_FIELD_CHOICE, AT(fidelity), .choices = fidelities,

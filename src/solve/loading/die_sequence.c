@@ -153,26 +153,20 @@ static enum gb_die_sequence_state check_rest(struct gb_die_stages *stages,
                                                          : GB_DIE_SEQUENCE_FAILED;
 }
 
+/* By stage; stages that record points are rows of die_cycle.c. */
+static enum gb_die_sequence_state (*const checks[GB_DIE_STAGES_COUNT])(
+    struct gb_die_stages *stages, struct gb_bed *bed, char *text, size_t size,
+    struct gb_error *err) = {
+    [GB_DIE_STAGES_POUR] = check_pour,       [GB_DIE_STAGES_EASE] = check_ease,
+    [GB_DIE_STAGES_SETTLE] = check_settle,   [GB_DIE_STAGES_FLATTEN] = check_flatten,
+    [GB_DIE_STAGES_LIFT] = check_lift,       [GB_DIE_STAGES_REST] = check_rest,
+};
+
 enum gb_die_sequence_state gb_die_sequence_check(struct gb_die_stages *stages,
                                                  struct gb_bed *bed, char *text,
                                                  size_t size, struct gb_error *err)
 {
-    switch (stages->now.stage) {
-    case GB_DIE_STAGES_POUR:
-        return check_pour(stages, bed, text, size, err);
-    case GB_DIE_STAGES_EASE:
-        return check_ease(stages, bed, text, size, err);
-    case GB_DIE_STAGES_SETTLE:
-        return check_settle(stages, bed, text, size, err);
-    case GB_DIE_STAGES_FLATTEN:
-        return check_flatten(stages, bed, text, size, err);
-    case GB_DIE_STAGES_LIFT:
-        return check_lift(stages, bed, text, size, err);
-    case GB_DIE_STAGES_REST:
-        return check_rest(stages, bed, text, size, err);
-    case GB_DIE_STAGES_PRESS:
-    case GB_DIE_STAGES_OVER:
-        break;
-    }
-    return GB_DIE_SEQUENCE_CONTINUES;
+    const enum gb_die_stages_stage stage = stages->now.stage;
+    return checks[stage] ? checks[stage](stages, bed, text, size, err)
+                         : GB_DIE_SEQUENCE_CONTINUES;
 }

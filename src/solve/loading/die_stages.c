@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "pack/die/bed_welds.h"
 #include "scene/tolerances.h"
+#include "solve/loading/die_cycle.h"
 #include "solve/loading/die_sequence.h"
 #include "solve/loading/die_state.h"
 
@@ -71,21 +73,6 @@ bool gb_die_stages_begin(struct gb_die_stages *stages, struct gb_bed *bed,
     return gb_die_sequence_begin_press(stages, bed, err);
 }
 
-static bool point_due(struct gb_die_stages *stages)
-{
-    const struct gb_die_scene *scene = &stages->scene;
-    struct gb_die_progress *now = &stages->now;
-    const double wanted = gb_punch_wanted(&now->punch, now->punch.time);
-    if (now->punch.time >= scene->ramp_time) {
-        return true;
-    }
-    if (wanted < now->next_record) {
-        return false;
-    }
-    now->next_record += scene->record;
-    return true;
-}
-
 static void write_escape(const struct gb_bed *bed, int64_t i, char *why, size_t size)
 {
     const double *x = bed->position[i];
@@ -143,24 +130,25 @@ static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_be
             return halve_time_step(stages, bed, why, text, size, err);
         }
     }
-    if (now->stage == GB_DIE_STAGES_PRESS) {
-        gb_punch_follow(&now->punch, &now->leapfrog, bed);
-        return point_due(stages) ? GB_STEP_POINT : GB_STEP_MORE;
+    if (gb_die_cycle_contains(now->stage)) {
+        gb_punch_follow(&now->punch, &now->leapfrog, bed, gb_die_cycle_wall(stages, bed));
+        return gb_die_cycle_due(stages, bed) ? GB_STEP_POINT : GB_STEP_MORE;
     }
     return check_stage(stages, bed, text, size, err);
 }
 
-/* A recorded point is a state to go back to. */
-static bool after_point(struct gb_die_stages *stages, const struct gb_bed *bed,
-                        struct gb_error *err)
+/* A recorded point is a state to go back to.  The next stage begins here and not at the
+ * end of the last step: a resumed run begins with the state of the point. */
+static bool after_point(struct gb_die_stages *stages, struct gb_bed *bed, char *text,
+                        size_t size, struct gb_error *err)
 {
     struct gb_die_progress *now = &stages->now;
     now->at_point = false;
     now->since_point = 0;
-    gb_punch_clear(&now->punch);
-    if (now->punch.time >= stages->scene.ramp_time) {
-        gb_die_sequence_enter(stages, GB_DIE_STAGES_OVER);
+    if (!gb_die_cycle_after_point(stages, bed, text, size, err)) {
+        return false;
     }
+    gb_punch_clear(&now->punch);
     return save_good(stages, bed, err);
 }
 
@@ -173,7 +161,7 @@ enum gb_step_outcome gb_die_stages_advance(struct gb_die_stages *stages,
     if (!stages->have_good && !save_good(stages, bed, err)) {
         return GB_STEP_STOPPED;
     }
-    if (now->at_point && !after_point(stages, bed, err)) {
+    if (now->at_point && !after_point(stages, bed, text, size, err)) {
         return GB_STEP_STOPPED;
     }
     if (now->stage == GB_DIE_STAGES_OVER) {
@@ -196,24 +184,28 @@ struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *sta
     const struct gb_punch *punch = &now->punch;
     const double weight = punch->weight > 0.0 ? punch->weight : 1.0;
     const double wanted = now->height0 > 0.0 ? gb_punch_wanted(punch, punch->time) : 0.0;
+    const bool pressed = now->height0 > 0.0;
     struct gb_die_stages_report report = {
         .stage = now->stage,
         .time = now->time,
         .pressed = punch->time,
         .steps = now->since_point,
-        .height = bed->die.punch ? bed->die.punch_position : gb_bed_top(bed),
+        .height = gb_die_cycle_height(stages, bed),
         .height0 = now->height0,
         .floor_over_punch = punch->carried > 0.0 ? punch->floor / punch->carried : NAN,
         .wanted = wanted,
         .carried = wanted + (punch->carried - punch->wanted) / weight,
         .side = {punch->side[0] / weight, punch->side[1] / weight},
+        .floor = pressed ? punch->floor / weight : (double)NAN,
+        .contact = pressed ? gb_die_cycle_wall(stages, bed) : (double)NAN,
+        .drag = pressed ? punch->drag / weight : (double)NAN,
+        .work = pressed ? punch->work : (double)NAN,
+        .welded = gb_bed_welds_share(bed),
         .residual = gb_bed_unbalanced_force(bed, now->leapfrog.gravity),
         .time_step = now->leapfrog.step,
     };
-    report.progress = now->stage == GB_DIE_STAGES_OVER ? 1.0
-                      : now->stage == GB_DIE_STAGES_PRESS
-                          ? 0.5 + 0.5 * punch->time / stages->scene.ramp_time
-                          : 0.5 * (double)now->stage / GB_DIE_STAGES_PRESS;
+    gb_die_cycle_springback(stages, bed, &report.axial, &report.radial);
+    report.progress = gb_die_cycle_progress(stages, bed);
     return report;
 }
 
@@ -248,13 +240,29 @@ bool gb_die_stages_record(struct gb_die_stages *stages, struct gb_record *record
         {"press/floor", GB_RECORD_DOUBLE, 1, AT(now.punch.floor), "E T"},
         {"press/side", GB_RECORD_DOUBLE, 2, AT(now.punch.side), "E T"},
     };
+    /* Records of earlier versions have none of them. */
+    static const struct gb_record_member cycle_members[] = {
+        {"cycle/ramp", GB_RECORD_INT32, 1, AT(now.punch.ramp), "1"},
+        {"cycle/work", GB_RECORD_DOUBLE, 1, AT(now.punch.work), "E d^3"},
+        {"cycle/position", GB_RECORD_DOUBLE, 1, AT(now.punch.position), "d"},
+        {"cycle/force", GB_RECORD_DOUBLE, 1, AT(now.punch.force), "E d^2"},
+        {"cycle/drag", GB_RECORD_DOUBLE, 1, AT(now.punch.drag), "E d^2 T"},
+        {"cycle/peak_height", GB_RECORD_DOUBLE, 1, AT(now.peak.height), "d"},
+        {"cycle/peak_axial", GB_RECORD_DOUBLE, 1, AT(now.peak.axial), "m d"},
+        {"cycle/peak_radial", GB_RECORD_DOUBLE, 1, AT(now.peak.radial), "m d^2"},
+        {"cycle/height", GB_RECORD_DOUBLE, 1, AT(now.height), "d"},
+    };
 #undef AT
     struct gb_die_progress *now = &stages->now;
+    const bool known = !record->loading || gb_record_find(record, "cycle/ramp");
     if (!gb_record_members(record, members, sizeof members / sizeof members[0], stages,
-                           err)) {
+                           err) ||
+        (known && !gb_record_members(record, cycle_members,
+                                     sizeof cycle_members / sizeof cycle_members[0],
+                                     stages, err))) {
         return false;
     }
-    if (now->stage != GB_DIE_STAGES_PRESS && now->stage != GB_DIE_STAGES_OVER) {
+    if (now->stage != GB_DIE_STAGES_OVER && !gb_die_cycle_contains(now->stage)) {
         return gb_error_set(err, GB_ERR_INPUT, "press/stage: is out of range");
     }
     now->at_point = true;

@@ -24,7 +24,15 @@ enum gb_die_stages_stage {
     GB_DIE_STAGES_LIFT,    /* and up again */
     GB_DIE_STAGES_REST,    /* until the powder is at rest: its height is H0 */
     GB_DIE_STAGES_PRESS,   /* the punch carries the pressure of the ramp */
-    GB_DIE_STAGES_OVER
+    GB_DIE_STAGES_OVER,
+    /* A full cycle goes on instead, solve/loading/die_cycle.h; the numbers are in
+     * checkpoints. */
+    GB_DIE_STAGES_UNLOAD,   /* the pressure falls to none */
+    GB_DIE_STAGES_WITHDRAW, /* punch up and off */
+    GB_DIE_STAGES_CONFINED, /* rest in the die, its upper end open */
+    GB_DIE_STAGES_EJECT,    /* pushed out through that end */
+    GB_DIE_STAGES_FREE,     /* rest on the lower punch, outside the die */
+    GB_DIE_STAGES_COUNT
 };
 
 /* The bed is loose in its funnel and has the law of filling; `law`: that of pressing.
@@ -56,6 +64,14 @@ struct gb_die_stages_report {
     double carried; /* by the powder under the punch, mean since the last point */
     double floor_over_punch; /* forces, likewise; NaN without a punch */
     double side[2];          /* mean pressure on the side wall, x and y */
+    double floor;            /* mean pressure on the floor; NaN before pressing */
+    double contact;          /* height of the powder against the side, d */
+    double drag;             /* mean axial force of the side on the powder, downward */
+    double work;             /* of the punch since pressing began, E d^3 */
+    /* Growth of the compact since the full pressure, as fractions: of the mean height of
+     * its mass, and of the rms distance of its mass from the axis; NaN until then. */
+    double axial, radial;
+    double welded; /* share of the welds that holds; NaN without any */
     double residual;         /* rms resultant force over the mean contact force */
     double time_step;        /* last used */
     double progress;         /* 0..1 */

@@ -11,7 +11,14 @@
 #include "solve/loading/die_stages.h"
 #include "solve/loading/punch.h"
 
-/* Internal to die_stages.c, die_sequence.c and die_rest.c.  Reduced units. */
+/* Internal to die_stages.c, die_sequence.c, die_cycle.c and die_rest.c.  Reduced units. */
+
+/* The compact under full pressure: what springback is measured from.  Sums over the
+ * particles, weighted by mass. */
+struct gb_die_peak {
+    double height;        /* of the punch; 0: not reached yet */
+    double axial, radial; /* sums of z and of x^2 + y^2 */
+};
 
 /* The part of the state that a guard restores. */
 struct gb_die_progress {
@@ -25,6 +32,8 @@ struct gb_die_progress {
     double punch_from;  /* position of the punch when flattening began */
     double height0, next_record;
     bool at_point; /* the last step ended in a point */
+    struct gb_die_peak peak;
+    double height; /* of the powder without a punch, at the last point */
 };
 
 struct gb_die_stages {

@@ -109,5 +109,11 @@ struct gb_loading_report gb_loading_empty_report(void)
         .height = none,
         .height0 = none,
         .floor_over_punch = none,
+        .floor = none,
+        .drag = none,
+        .contact = none,
+        .axial = none,
+        .radial = none,
+        .welded = none,
     };
 }

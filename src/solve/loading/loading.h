@@ -37,7 +37,12 @@ struct gb_loading {
 enum gb_loading_stage {
     GB_LOADING_RELAX, /* before the load rises */
     GB_LOADING_LOAD,
-    GB_LOADING_HOLD
+    GB_LOADING_HOLD,
+    /* of a die: */
+    GB_LOADING_UNLOAD,
+    GB_LOADING_CONFINED, /* in the die, without a punch */
+    GB_LOADING_EJECT,
+    GB_LOADING_EJECTED
 };
 
 /* What goes into a recorded point beside the measures of the packing.  Reduced units; NaN
@@ -57,6 +62,11 @@ struct gb_loading_report {
     double target_pressure; /* of the punch, E */
     double height, height0; /* of the powder, and before pressing; d */
     double floor_over_punch;
+    double floor;         /* mean pressure on the floor, E */
+    double drag;          /* axial force of the side on the powder, downward; E d^2 */
+    double contact;       /* height of the powder against the side, d */
+    double axial, radial; /* springback since the full pressure */
+    double welded;        /* share of the cold welds that holds */
 };
 
 struct gb_loading_mode {

@@ -67,6 +67,27 @@ static enum gb_step_outcome advance(struct gb_loading *loading, int64_t max_eval
     return outcome;
 }
 
+/* What a point counts as. */
+static enum gb_loading_stage loading_stage(const struct gb_die_stages_report *now)
+{
+    switch (now->stage) {
+    case GB_DIE_STAGES_PRESS:
+    case GB_DIE_STAGES_OVER:
+        return now->pressed > 0.0 ? GB_LOADING_LOAD : GB_LOADING_RELAX;
+    case GB_DIE_STAGES_UNLOAD:
+        return GB_LOADING_UNLOAD;
+    case GB_DIE_STAGES_WITHDRAW:
+    case GB_DIE_STAGES_CONFINED:
+        return GB_LOADING_CONFINED;
+    case GB_DIE_STAGES_EJECT:
+        return GB_LOADING_EJECT;
+    case GB_DIE_STAGES_FREE:
+        return GB_LOADING_EJECTED;
+    default:
+        return GB_LOADING_RELAX;
+    }
+}
+
 static bool is_not_quasistatic(double floor_over_punch)
 {
     return isfinite(floor_over_punch) &&
@@ -83,6 +104,9 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
     const struct gb_die_stages_report now = stages_report(loading);
     const bool not_quasistatic = is_not_quasistatic(now.floor_over_punch);
     (void)err;
+    if (loading_stage(&now) != GB_LOADING_LOAD) {
+        return GB_STEP_MORE;
+    }
     if (not_quasistatic != own(loading)->not_quasistatic) {
         snprintf(
             text, sizeof text,
@@ -111,9 +135,8 @@ static bool record_stages(struct gb_loading *loading, struct gb_record *record,
 static struct gb_loading_report report(const struct gb_loading *loading)
 {
     const struct gb_die_stages_report now = stages_report(loading);
-    const bool loaded = now.stage >= GB_DIE_STAGES_PRESS && now.pressed > 0.0;
     struct gb_loading_report report = gb_loading_empty_report();
-    report.stage = loaded ? GB_LOADING_LOAD : GB_LOADING_RELAX;
+    report.stage = loading_stage(&now);
     report.iterations = report.evaluations = now.steps;
     report.residual = now.residual;
     report.time_step = now.time_step;
@@ -125,6 +148,13 @@ static struct gb_loading_report report(const struct gb_loading *loading)
     report.height = now.height;
     report.height0 = now.height0;
     report.floor_over_punch = now.floor_over_punch;
+    report.floor = now.floor;
+    report.drag = now.drag;
+    report.contact = now.contact;
+    report.work = now.work;
+    report.axial = now.axial;
+    report.radial = now.radial;
+    report.welded = now.welded;
     return report;
 }
 
