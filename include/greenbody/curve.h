@@ -60,8 +60,8 @@ struct gb_point {
     double wall_third_pa[3]; /* of the lower, middle and upper third of its powder */
     double wall_friction_n;  /* axial force of the wall on the powder, downward */
     double punch_work;       /* done on the powder since pressing began, J */
-    /* Growth of the compact since the full pressure: of the mean height of its mass, and
-     * of the rms distance of its mass from the axis. */
+    /* Height over that under the full pressure, outer radius over that of the bore, each
+     * less 1. */
     double axial_springback, radial_springback;
     double welded; /* share of the cold welds that holds */
     /* Periodic cells only, else NaN.  Components in the order xx, yy, zz, xy, xz, yz. */

@@ -92,9 +92,9 @@ static const char die_note[] =
     "# die: floor_MPa and wall_MPa are means over their surfaces, wall_low, wall_middle "
     "and wall_high of the thirds of the height of powder on the wall; wall_friction_mN "
     "is the axial force of the wall on the powder, downward: the force of ejection; "
-    "punch_work_J since pressing began; springback since the full pressure, of the mean "
-    "height of the mass and of its rms distance from the axis; welded is the share of "
-    "the cold welds that holds\n";
+    "punch_work_J since pressing began; axial springback is the height over that under "
+    "the full pressure, radial springback the outer radius over that of the bore, each "
+    "less 1; welded is the share of the cold welds that holds\n";
 
 static const char tensor_note[] =
     "# tensors: pxy, pxz, pyz of the pressure tensor; q its deviatoric part; asymmetry "

@@ -170,6 +170,9 @@ static void measure_die(const struct gb_loading *loading, struct gb_point *point
     point->target_pa = report.target_pressure * pascal;
     point->floor_over_punch = report.floor_over_punch;
     measure_cycle(loading, &report, point);
+    if (report.stage == GB_LOADING_EJECTED) { /* out of the bore */
+        point->density /= (1.0 + report.radial) * (1.0 + report.radial);
+    }
 }
 
 void gb_point_measure_packing(const struct gb_loading *loading, struct gb_point *point)

@@ -100,6 +100,7 @@ bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
     }
     leapfrog->moved2 = drift(bed, leapfrog->step);
     bed->die.punch_position += leapfrog->step * bed->die.punch_velocity;
+    bed->die.top += leapfrog->step * bed->die.side_velocity;
     if (!gb_bed_evaluate(bed, leapfrog->step, leapfrog->moved2, err)) {
         return false;
     }

@@ -107,7 +107,7 @@ static uint64_t mix_list(uint64_t hash, const struct gb_bed_list *list)
 static uint64_t mix_welds(uint64_t hash, const struct gb_bed_welds *welds)
 {
     for (int64_t k = 0; welds && k < welds->count; k++) {
-        const double state[] = {welds->length[k], welds->area[k], welds->force[0][k],
+        const double state[] = {welds->length[k], welds->radius[k], welds->force[0][k],
                                 welds->force[1][k], welds->force[2][k]};
         hash = mix(hash, &welds->first[k], sizeof welds->first[k]);
         hash = mix(hash, &welds->other[k], sizeof welds->other[k]);

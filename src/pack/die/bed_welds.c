@@ -9,7 +9,7 @@
 #include "law/law_hertz.h"
 #include "pack/cell/record_checks.h"
 
-enum { PLANES = 5 }; /* length, area, force */
+enum { PLANES = 5 }; /* length, radius, force */
 
 static bool create(struct gb_bed_welds **out, int64_t room, struct gb_error *err)
 {
@@ -26,7 +26,7 @@ static bool create(struct gb_bed_welds **out, int64_t room, struct gb_error *err
         gb_bed_welds_destroy(welds);
         return false;
     }
-    double **const plane[PLANES] = {&welds->length, &welds->area, &welds->force[0],
+    double **const plane[PLANES] = {&welds->length, &welds->radius, &welds->force[0],
                                     &welds->force[1], &welds->force[2]};
     for (size_t k = 0; k < PLANES; k++) {
         *plane[k] = welds->slab + k * size;
@@ -57,28 +57,28 @@ static double direction(const struct gb_bed *bed, int32_t i, int32_t j, double u
     return distance;
 }
 
-/* pi a^2 of the contact under its force: Hertz' a^2 = R* h, and R* h of Storakers' law
- * times 2 c^2, c^2 = 1.43 exp(-0.97 m). */
-static double contact_area(const struct gb_bed_law *law, double star, double overlap)
+/* Of the contact under its force: Hertz' a^2 = R* h, Storakers' a^2 = 2 c^2 R* h with
+ * c^2 = 1.43 exp(-0.97 m), P3 (17). */
+static double contact_radius(const struct gb_bed_law *law, double star, double overlap)
 {
-    const bool plastic = law->storakers &&
-                         overlap > gb_law_storakers_transition(&law->normal, star);
-    const double c2 = plastic ? 1.43 * exp(-0.97 * law->normal.exponent) : 0.5;
-    return M_PI * 2.0 * c2 * star * overlap;
+    const bool plastic =
+        law->storakers && overlap > gb_law_storakers_transition(&law->normal, star);
+    const double twice_c2 =
+        plastic ? 2.0 * 1.43 * exp(-0.97 * law->normal.exponent) : 1.0;
+    return sqrt(twice_c2 * star * overlap);
 }
 
-static void add_weld(struct gb_bed_welds *welds, const struct gb_bed *bed, int32_t i,
-                     int32_t j)
+static void add_weld(struct gb_bed_welds *welds, const struct gb_bed *bed, int64_t slot)
 {
+    const int32_t i = bed->pairs.first[slot], j = bed->pairs.other[slot];
     const double ri = bed->position[i][3], rj = bed->position[j][3];
     double unit[3];
-    const double distance = direction(bed, i, j, unit);
+    const double overlap = fmax(ri + rj - direction(bed, i, j, unit), 0.0);
     const int64_t k = welds->count++;
     welds->first[k] = i;
     welds->other[k] = j;
-    welds->length[k] = distance;
-    welds->area[k] = contact_area(&bed->law, gb_law_hertz_radius(ri, rj),
-                                  fmax(ri + rj - distance, 0.0));
+    welds->length[k] = ri + rj - bed->pairs.contacts.permanent[slot];
+    welds->radius[k] = contact_radius(&bed->law, gb_law_hertz_radius(ri, rj), overlap);
     welds->force[0][k] = welds->force[1][k] = welds->force[2][k] = 0.0;
 }
 
@@ -95,7 +95,7 @@ bool gb_bed_welds_form(struct gb_bed *bed, double strength, struct gb_error *err
     welds->strength = strength;
     for (int64_t slot = 0; slot < bed->pairs.count; slot++) {
         if (bed->pairs.contacts.normal[slot] > 0.0) {
-            add_weld(welds, bed, bed->pairs.first[slot], bed->pairs.other[slot]);
+            add_weld(welds, bed, slot);
         }
     }
     welds->formed = welds->count;
@@ -107,7 +107,7 @@ bool gb_bed_welds_form(struct gb_bed *bed, double strength, struct gb_error *err
 static void remove_weld(struct gb_bed_welds *welds, int64_t at)
 {
     const size_t behind = (size_t)(--welds->count - at);
-    double *const plane[PLANES] = {welds->length, welds->area, welds->force[0],
+    double *const plane[PLANES] = {welds->length, welds->radius, welds->force[0],
                                    welds->force[1], welds->force[2]};
     memmove(welds->first + at, welds->first + at + 1, behind * sizeof *welds->first);
     memmove(welds->other + at, welds->other + at + 1, behind * sizeof *welds->other);
@@ -117,26 +117,27 @@ static void remove_weld(struct gb_bed_welds *welds, int64_t at)
 }
 
 /* Constants of a weld. */
-struct stiffness {
-    double normal, across; /* E d */
-    double dashpot;        /* of the normal motion */
-    double rate;           /* k over the lesser mass */
+struct weld {
+    double normal, across; /* stiffness, E d */
+    double dashpot;
+    double rate;             /* k over the lesser mass */
+    double strength, plastic; /* greatest tension, and force across it */
 };
 
-static struct stiffness stiffness_of(const struct gb_bed *bed, int64_t k)
+static struct weld weld_of(const struct gb_bed *bed, int64_t k)
 {
     const struct gb_bed_welds *welds = bed->welds;
     const int32_t i = welds->first[k], j = welds->other[k];
     const struct gb_law_hertz *hertz = &bed->law.normal.hertz;
-    const double reach = bed->position[i][3] + bed->position[j][3];
+    const double a = welds->radius[k];
     const double reduced = gb_law_hertz_radius(bed->mass[i], bed->mass[j]);
-    struct stiffness s = {.normal = welds->area[k] / reach};
-    /* E* = E/(2 (1 - nu^2)) with E = 1 gives nu, and G/E = 1/(2 (1 + nu)) */
-    const double nu = sqrt(fmax(1.0 - 0.5 / hertz->modulus, 0.0));
-    s.across = s.normal / (2.0 * (1.0 + nu));
-    s.dashpot = 2.0 * bed->law.damping * sqrt(reduced * s.normal);
-    s.rate = s.normal * fmax(bed->inverse_mass[i], bed->inverse_mass[j]);
-    return s;
+    struct weld weld = {.normal = 2.0 * hertz->modulus * a,
+                        .across = 8.0 * hertz->shear * a,
+                        .strength = welds->strength * M_PI * a * a};
+    weld.plastic = weld.strength / sqrt(3.0);
+    weld.dashpot = 2.0 * bed->law.damping * sqrt(reduced * weld.normal);
+    weld.rate = weld.normal * fmax(bed->inverse_mass[i], bed->inverse_mass[j]);
+    return weld;
 }
 
 /* Velocity of the first surface against the second at the weld.  lever: distance of the
@@ -155,24 +156,26 @@ static void slip_of(const struct gb_bed *bed, int32_t i, int32_t j, const double
     }
 }
 
-/* The force across the weld, turned into the present plane with its length, and loaded by
- * the slip of the last step; and the damping of the slip.  Returns its length. */
-static double advance_shear(struct gb_bed_welds *welds, int64_t k,
-                            const struct stiffness *s, const double unit[3],
-                            const double slip[3], double step, double force[3])
+/* The force across the weld: turned into the present plane with its length, loaded by the
+ * slip of the last step, and cut to its plastic limit. */
+static void advance_shear(struct gb_bed_welds *welds, int64_t k, const struct weld *weld,
+                          const double unit[3], const double slip[3], double step,
+                          double force[3])
 {
     double held[3] = {welds->force[0][k], welds->force[1][k], welds->force[2][k]};
     const double before = gb_vec_length(held), rate = gb_vec_dot(slip, unit);
     gb_vec_add(held, -gb_vec_dot(held, unit), unit);
-    const double after = gb_vec_length(held);
-    gb_vec_scale(held, after > 0.0 ? before / after : 0.0);
+    const double turned = gb_vec_length(held);
+    gb_vec_scale(held, turned > 0.0 ? before / turned : 0.0);
     for (int c = 0; c < 3; c++) {
-        const double tangential = slip[c] - rate * unit[c];
-        held[c] -= s->across * step * tangential;
-        welds->force[c][k] = held[c];
-        force[c] += held[c] - 0.5 * s->dashpot * tangential;
+        held[c] -= weld->across * step * (slip[c] - rate * unit[c]);
     }
-    return gb_vec_length(held);
+    const double now = gb_vec_length(held);
+    gb_vec_scale(held, now > weld->plastic ? weld->plastic / now : 1.0);
+    for (int c = 0; c < 3; c++) {
+        welds->force[c][k] = held[c];
+        force[c] += held[c];
+    }
 }
 
 static void apply(struct gb_bed *bed, int32_t i, int32_t j, const double unit[3],
@@ -195,20 +198,21 @@ static enum weld_state advance_weld(struct gb_bed *bed, int64_t k, double step,
 {
     struct gb_bed_welds *welds = bed->welds;
     const int32_t i = welds->first[k], j = welds->other[k];
-    const struct stiffness s = stiffness_of(bed, k);
+    const struct weld weld = weld_of(bed, k);
     double unit[3], slip[3], force[3] = {0.0, 0.0, 0.0};
     const double distance = direction(bed, i, j, unit);
     const double lever = distance / (bed->position[i][3] + bed->position[j][3]);
-    const double tension = s.normal * (distance - welds->length[k]);
-    slip_of(bed, i, j, unit, lever, slip);
-    const double shear = advance_shear(welds, k, &s, unit, slip, step, force);
-    if (tension > welds->strength * welds->area[k] ||
-        shear * sqrt(3.0) > welds->strength * welds->area[k]) {
+    const double tension = weld.normal * (distance - welds->length[k]);
+    if (tension > weld.strength) {
         return WELD_BREAKS;
     }
-    gb_vec_add(force, -tension - s.dashpot * gb_vec_dot(slip, unit), unit);
+    slip_of(bed, i, j, unit, lever, slip);
+    advance_shear(welds, k, &weld, unit, slip, step, force);
+    if (tension > 0.0) {
+        gb_vec_add(force, -tension - weld.dashpot * gb_vec_dot(slip, unit), unit);
+    }
     apply(bed, i, j, unit, lever, force);
-    *stiffest = fmax(*stiffest, s.rate);
+    *stiffest = fmax(*stiffest, weld.rate);
     return WELD_HOLDS;
 }
 
@@ -237,13 +241,14 @@ double gb_bed_welds_energy(const struct gb_bed *bed)
     double sum = 0.0, unit[3];
     for (int64_t k = 0; bed->welds && k < bed->welds->count; k++) {
         const struct gb_bed_welds *welds = bed->welds;
-        const struct stiffness s = stiffness_of(bed, k);
-        const double stretch =
-            direction(bed, welds->first[k], welds->other[k], unit) - welds->length[k];
+        const struct weld weld = weld_of(bed, k);
+        const double stretch = fmax(
+            direction(bed, welds->first[k], welds->other[k], unit) - welds->length[k],
+            0.0);
         const double force[3] = {welds->force[0][k], welds->force[1][k],
                                  welds->force[2][k]};
-        sum += 0.5 * (s.normal * stretch * stretch +
-                      gb_vec_dot(force, force) / s.across);
+        sum += 0.5 * (weld.normal * stretch * stretch +
+                      gb_vec_dot(force, force) / weld.across);
     }
     return sum;
 }
@@ -265,9 +270,9 @@ bool gb_bed_welds_copy(struct gb_bed_welds **to, const struct gb_bed_welds *from
     }
     struct gb_bed_welds *copy = *to;
     const size_t count = (size_t)from->count;
-    double *const plane[PLANES] = {copy->length, copy->area, copy->force[0],
+    double *const plane[PLANES] = {copy->length, copy->radius, copy->force[0],
                                    copy->force[1], copy->force[2]};
-    const double *const source[PLANES] = {from->length, from->area, from->force[0],
+    const double *const source[PLANES] = {from->length, from->radius, from->force[0],
                                           from->force[1], from->force[2]};
     memcpy(copy->first, from->first, count * sizeof *copy->first);
     memcpy(copy->other, from->other, count * sizeof *copy->other);
@@ -280,14 +285,14 @@ bool gb_bed_welds_copy(struct gb_bed_welds **to, const struct gb_bed_welds *from
     return true;
 }
 
-/* Sorted welds of existing particles with an area and a length. */
+/* Welds of existing particles with a radius and a length. */
 static bool check(const struct gb_bed_welds *welds, int64_t particles,
                   struct gb_error *err)
 {
     for (int64_t k = 0; k < welds->count; k++) {
         const int32_t i = welds->first[k], j = welds->other[k];
         if (i < 0 || j <= i || j >= particles || !(welds->length[k] > 0.0) ||
-            !(welds->area[k] >= 0.0)) {
+            !(welds->radius[k] >= 0.0)) {
             return gb_record_checks_out_of_range("welds/first", err);
         }
     }
@@ -297,16 +302,16 @@ static bool check(const struct gb_bed_welds *welds, int64_t particles,
 static bool exchange(struct gb_bed_welds *welds, struct gb_record *record,
                      struct gb_error *err)
 {
-    static const char *const names[PLANES] = {"welds/length", "welds/area",
+    static const char *const names[PLANES] = {"welds/length", "welds/radius",
                                               "welds/force_x", "welds/force_y",
                                               "welds/force_z"};
-    static const char *const units[PLANES] = {"d", "d^2", "E d^2", "E d^2", "E d^2"};
+    static const char *const units[PLANES] = {"d", "d", "E d^2", "E d^2", "E d^2"};
     static const struct gb_record_member members[] = {
         {"welds/formed", GB_RECORD_INT64, 1, offsetof(struct gb_bed_welds, formed), "1"},
         {"welds/strength", GB_RECORD_DOUBLE, 1, offsetof(struct gb_bed_welds, strength),
          "E"},
     };
-    double *const plane[PLANES] = {welds->length, welds->area, welds->force[0],
+    double *const plane[PLANES] = {welds->length, welds->radius, welds->force[0],
                                    welds->force[1], welds->force[2]};
     bool done = gb_record_members(record, members, 2, welds, err) &&
                 gb_record_array(record, "welds/first", GB_RECORD_INT32, welds->count, 1,

@@ -7,20 +7,24 @@
 /* Cold welds between the spheres of a compact: necks that form where contacts touch under
  * the full pressure of the punch, and that hold the compact together without the die.
  *
- * A weld is an elastic disc of the contact's radius a beside the contact, free of stress
- * when it forms: k_n = E pi a^2/(R_i + R_j), k_t = k_n/(2 (1 + nu)), dashpots of the share
- * xi of the critical damping.  It breaks for good where its tension exceeds `strength`
- * or its shear stress strength/sqrt 3 (von Mises).  No moments: necks of a few per cent of
- * a sphere bend easily.  Source: the parallel bond of D. O. Potyondy, P. A. Cundall,
- * Int. J. Rock Mech. Min. Sci. 41, 1329 (2004), without its moments. */
+ * A weld keeps the radius a of the contact under that pressure.  Along its axis it carries
+ * tension alone: the contact's own law holds until its force is zero (at distance
+ * `length`), and beyond the neck is a flat punch, k = 2 E* a, so that the force goes through
+ * zero without a step.  It breaks for good where the tension exceeds strength pi a^2.
+ * Across it the neck is Mindlin's spring k_t = 8 G* a, free of stress when it forms, that
+ * yields at strength/sqrt 3 (von Mises) times pi a^2, whatever the normal force, as the
+ * shear spring of P1 (5) at its cap.  Dashpots of the share xi of the critical damping.
+ * No moments: the neck of a few per cent of a sphere bends easily.  Contacts do not gain
+ * strength later.  Source: the parallel bond of D. O. Potyondy, P. A. Cundall, Int. J. Rock
+ * Mech. Min. Sci. 41, 1329 (2004), with the stiffness of the contact instead of a bar. */
 struct gb_bed_welds {
     int64_t count;  /* unbroken */
     int64_t formed; /* at the start */
     int64_t room;
     int32_t *first, *other; /* sorted as a list of contacts */
     double *slab;
-    double *length, *area; /* distance of the centres without stress; pi a^2 */
-    double *force[3];      /* across the weld, on the first */
+    double *length, *radius; /* distance of the centres without tension; a */
+    double *force[3];        /* across the weld, on the first */
     double strength;       /* tensile, E */
 };
 

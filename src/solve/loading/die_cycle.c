@@ -33,7 +33,7 @@ static double ramp_share(const struct gb_die_stages *stages, const struct gb_bed
 static double withdraw_share(const struct gb_die_stages *stages, const struct gb_bed *bed)
 {
     const struct gb_die_progress *now = &stages->now;
-    const double travel = now->height0 - now->peak.height;
+    const double travel = now->height0 - now->peak;
     const double left = now->height0 - bed->die.punch_position;
     if (bed->tally.punch > 0.0) {
         return 0.0;
@@ -64,29 +64,19 @@ static double eject_interval(const struct gb_die_stages *stages)
     return 1.0 / EJECT_POINTS;
 }
 
-/* Sums over the particles that springback is measured by. */
-static struct gb_die_peak sums(const struct gb_bed *bed)
-{
-    struct gb_die_peak sum = {.height = bed->die.punch_position};
-    for (int64_t i = 0; i < bed->count; i++) {
-        const double *x = bed->position[i];
-        sum.axial += bed->mass[i] * x[2];
-        sum.radial += bed->mass[i] * (x[0] * x[0] + x[1] * x[1]);
-    }
-    return sum;
-}
-
 static bool begin_unload(struct gb_die_stages *stages, struct gb_bed *bed,
                          struct gb_error *err)
 {
     struct gb_die_progress *now = &stages->now;
-    now->peak = sums(bed);
+    now->peak = bed->die.punch_position;
     now->punch.ramp = GB_PUNCH_FALLS;
     now->punch.time = 0.0;
     now->punch.length = stages->scene.unload_time;
     now->next_record = stages->scene.pressure - stages->scene.record;
-    return !(stages->scene.weld_strength > 0.0) ||
-           gb_bed_welds_form(bed, stages->scene.weld_strength, err);
+    return gb_die_surface_take(&stages->side, bed, GB_DIE_SIDE, err) &&
+           gb_die_surface_take(&stages->top, bed, GB_DIE_PUNCH, err) &&
+           (!(stages->scene.weld_strength > 0.0) ||
+            gb_bed_welds_form(bed, stages->scene.weld_strength, err));
 }
 
 /* From here on the punch has no mass: it keeps its speed. */
@@ -168,11 +158,11 @@ double gb_die_cycle_height(const struct gb_die_stages *stages, const struct gb_b
     if (bed->die.punch && stages->now.stage != GB_DIE_STAGES_WITHDRAW) {
         return bed->die.punch_position;
     }
-    if (!(stages->now.peak.height > 0.0)) {
+    if (!(stages->now.peak > 0.0)) {
         return gb_bed_top(bed);
     }
     gb_die_cycle_springback(stages, bed, &axial, &radial);
-    return stages->now.peak.height * (1.0 + axial);
+    return stages->now.peak * (1.0 + axial);
 }
 
 double gb_die_cycle_wall(const struct gb_die_stages *stages, const struct gb_bed *bed)
@@ -250,12 +240,10 @@ bool gb_die_cycle_after_point(struct gb_die_stages *stages, struct gb_bed *bed, 
 void gb_die_cycle_springback(const struct gb_die_stages *stages, const struct gb_bed *bed,
                              double *axial, double *radial)
 {
-    const struct gb_die_peak *peak = &stages->now.peak;
     *axial = *radial = (double)NAN;
-    if (peak->height > 0.0) {
-        const struct gb_die_peak now = sums(bed);
-        *axial = now.axial / peak->axial - 1.0;
-        *radial = sqrt(now.radial / peak->radial) - 1.0;
+    if (stages->now.peak > 0.0) {
+        *axial = gb_die_surface_height(&stages->top, bed) / stages->now.peak - 1.0;
+        *radial = gb_die_surface_radius(&stages->side, bed) / bed->die.radius - 1.0;
     }
 }
 

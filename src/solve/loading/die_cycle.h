@@ -30,7 +30,9 @@ bool gb_die_cycle_due(struct gb_die_stages *stages, const struct gb_bed *bed);
 bool gb_die_cycle_after_point(struct gb_die_stages *stages, struct gb_bed *bed, char *text,
                               size_t size, struct gb_error *err);
 
-/* Growth since the full pressure as fractions; NaN until then. */
+/* Height of the compact over that under the full pressure, and its outer radius over that of
+ * the bore, less 1; NaN before the full pressure.  Elastic particles enter wall and punch
+ * by their overlap, which counts as growth under load. */
 void gb_die_cycle_springback(const struct gb_die_stages *stages, const struct gb_bed *bed,
                              double *axial, double *radial);
 

@@ -33,6 +33,8 @@ void gb_die_stages_destroy(struct gb_die_stages *stages)
         return;
     }
     gb_bed_copy_destroy(stages->kept);
+    gb_die_surface_finish(&stages->side);
+    gb_die_surface_finish(&stages->top);
     gb_alloc_free(stages);
 }
 
@@ -209,8 +211,8 @@ struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *sta
     return report;
 }
 
-bool gb_die_stages_record(struct gb_die_stages *stages, struct gb_record *record,
-                          struct gb_error *err)
+bool gb_die_stages_record(struct gb_die_stages *stages, const struct gb_bed *bed,
+                          struct gb_record *record, struct gb_error *err)
 {
 #define AT(member) offsetof(struct gb_die_stages, member)
     static const struct gb_record_member members[] = {
@@ -247,9 +249,7 @@ bool gb_die_stages_record(struct gb_die_stages *stages, struct gb_record *record
         {"cycle/position", GB_RECORD_DOUBLE, 1, AT(now.punch.position), "d"},
         {"cycle/force", GB_RECORD_DOUBLE, 1, AT(now.punch.force), "E d^2"},
         {"cycle/drag", GB_RECORD_DOUBLE, 1, AT(now.punch.drag), "E d^2 T"},
-        {"cycle/peak_height", GB_RECORD_DOUBLE, 1, AT(now.peak.height), "d"},
-        {"cycle/peak_axial", GB_RECORD_DOUBLE, 1, AT(now.peak.axial), "m d"},
-        {"cycle/peak_radial", GB_RECORD_DOUBLE, 1, AT(now.peak.radial), "m d^2"},
+        {"cycle/peak", GB_RECORD_DOUBLE, 1, AT(now.peak), "d"},
         {"cycle/height", GB_RECORD_DOUBLE, 1, AT(now.height), "d"},
     };
 #undef AT
@@ -259,7 +259,9 @@ bool gb_die_stages_record(struct gb_die_stages *stages, struct gb_record *record
                            err) ||
         (known && !gb_record_members(record, cycle_members,
                                      sizeof cycle_members / sizeof cycle_members[0],
-                                     stages, err))) {
+                                     stages, err)) ||
+        !gb_die_surface_record(&stages->side, "cycle/side", bed->count, record, err) ||
+        !gb_die_surface_record(&stages->top, "cycle/top", bed->count, record, err)) {
         return false;
     }
     if (now->stage != GB_DIE_STAGES_OVER && !gb_die_cycle_contains(now->stage)) {

@@ -68,8 +68,8 @@ struct gb_die_stages_report {
     double contact;          /* height of the powder against the side, d */
     double drag;             /* mean axial force of the side on the powder, downward */
     double work;             /* of the punch since pressing began, E d^3 */
-    /* Growth of the compact since the full pressure, as fractions: of the mean height of
-     * its mass, and of the rms distance of its mass from the axis; NaN until then. */
+    /* Springback as fractions: height over that under the full pressure, outer radius over
+     * that of the bore, less 1; NaN before that pressure. */
     double axial, radial;
     double welded; /* share of the welds that holds; NaN without any */
     double residual;         /* rms resultant force over the mean contact force */
@@ -81,7 +81,7 @@ struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *sta
 
 /* The stages into a record at a recorded point, or back; then the bed is of the law of
  * pressing.  Errors: GB_ERR_INPUT naming what does not fit. */
-bool gb_die_stages_record(struct gb_die_stages *stages, struct gb_record *record,
-                          struct gb_error *err);
+bool gb_die_stages_record(struct gb_die_stages *stages, const struct gb_bed *bed,
+                          struct gb_record *record, struct gb_error *err);
 
 #endif

@@ -9,16 +9,10 @@
 #include "scene/model.h"
 #include "solve/leapfrog.h"
 #include "solve/loading/die_stages.h"
+#include "solve/loading/die_surface.h"
 #include "solve/loading/punch.h"
 
 /* Internal to die_stages.c, die_sequence.c, die_cycle.c and die_rest.c.  Reduced units. */
-
-/* The compact under full pressure: what springback is measured from.  Sums over the
- * particles, weighted by mass. */
-struct gb_die_peak {
-    double height;        /* of the punch; 0: not reached yet */
-    double axial, radial; /* sums of z and of x^2 + y^2 */
-};
 
 /* The part of the state that a guard restores. */
 struct gb_die_progress {
@@ -32,7 +26,7 @@ struct gb_die_progress {
     double punch_from;  /* position of the punch when flattening began */
     double height0, next_record;
     bool at_point; /* the last step ended in a point */
-    struct gb_die_peak peak;
+    double peak;   /* height of the punch under the full pressure; 0: not reached yet */
     double height; /* of the powder without a punch, at the last point */
 };
 
@@ -40,7 +34,8 @@ struct gb_die_stages {
     struct gb_die_scene scene;
     struct gb_bed_law law; /* of pressing */
     struct gb_die_progress now, good;
-    struct gb_bed_copy *kept; /* the bed of `good` */
+    struct gb_bed_copy *kept;        /* the bed of `good` */
+    struct gb_die_surface side, top; /* of the compact, against wall and punch */
     int halvings;
     bool have_good;
 };

@@ -129,7 +129,7 @@ static bool record_stages(struct gb_loading *loading, struct gb_record *record,
          "1"},
     };
     return gb_record_members(record, members, 1, loading, err) &&
-           gb_die_stages_record(own(loading)->stages, record, err);
+           gb_die_stages_record(own(loading)->stages, loading->bed, record, err);
 }
 
 static struct gb_loading_report report(const struct gb_loading *loading)

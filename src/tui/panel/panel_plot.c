@@ -63,9 +63,12 @@ bool gb_panel_plot_reserve(struct gb_panel_plot *panel, size_t count)
 
 const char *gb_panel_plot_stage(int branch)
 {
-    return branch == GB_BRANCH_RELAX  ? "relax"
-           : branch == GB_BRANCH_HOLD ? "hold"
-                                      : "compress";
+    static const char *const names[] = {
+        [-GB_BRANCH_LOAD] = "compress",      [-GB_BRANCH_RELAX] = "relax",
+        [-GB_BRANCH_HOLD] = "hold",          [-GB_BRANCH_UNLOAD] = "unloading",
+        [-GB_BRANCH_CONFINED] = "punch off", [-GB_BRANCH_EJECT] = "ejection",
+        [-GB_BRANCH_EJECTED] = "ejected"};
+    return names[branch < 0 ? -branch : 0];
 }
 
 void gb_panel_plot_step_view(struct gb_panel_plot *panel, int step)

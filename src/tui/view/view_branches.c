@@ -34,7 +34,7 @@ static const struct gb_point *point_at(const struct gb_view_curve *view, size_t 
 /* A quasi-static run has no stages: its initial state is part of loading. */
 static bool on_branch(const struct gb_point *point, int branch, bool dynamic)
 {
-    if (!dynamic && point->branch <= 0) {
+    if (!dynamic && point->branch <= 0 && point->branch >= GB_BRANCH_HOLD) {
         return branch == GB_BRANCH_LOAD;
     }
     return point->branch == branch;
@@ -89,12 +89,20 @@ static struct gb_plot_series branch_style(int branch, bool dynamic, double from_
                                        .marker = MARK_UNLOAD + (branch - 1) % MARKS,
                                        .spacing = UNLOAD_SPACING};
     }
-    g_strlcpy(name, dynamic ? gb_panel_plot_stage(branch) : "loading", size);
+    const bool stage = dynamic || branch < GB_BRANCH_HOLD;
+    g_strlcpy(name, stage ? gb_panel_plot_stage(branch) : "loading", size);
     switch (branch) {
     case GB_BRANCH_RELAX:
         return (struct gb_plot_series){.ink = INK_RELAX, .marker = MARK_RELAX};
     case GB_BRANCH_HOLD:
         return (struct gb_plot_series){.ink = INK_HOLD, .marker = MARK_HOLD};
+    case GB_BRANCH_UNLOAD:
+    case GB_BRANCH_CONFINED:
+    case GB_BRANCH_EJECT:
+    case GB_BRANCH_EJECTED:
+        return (struct gb_plot_series){
+            .ink = GB_PLOT_INK_SERIES + GB_BRANCH_HOLD - branch,
+            .marker = MARK_HOLD + GB_BRANCH_HOLD - branch};
     default:
         return (struct gb_plot_series){.ink = GB_PLOT_INK_SERIES, .marker = MARK_LOAD};
     }
@@ -132,7 +140,9 @@ void gb_view_branches_draw(struct gb_view_curve *view)
     for (int branch = last_branch(view); branch > 0; branch--) {
         draw_branch(view, branch);
     }
-    draw_branch(view, GB_BRANCH_HOLD);
+    for (int branch = GB_BRANCH_LEAST; branch <= GB_BRANCH_HOLD; branch++) {
+        draw_branch(view, branch);
+    }
     draw_branch(view, GB_BRANCH_LOAD);
     draw_branch(view, GB_BRANCH_RELAX);
 }
