@@ -102,16 +102,22 @@ static void set_edges(struct gb_scene *scene, const struct gb_state *state)
     }
 }
 
-/* Outline of the die: a circle at the floor, one at the punch, four lines on the wall. */
+/* Outline of the die: a circle at the floor, one at the punch or at the open end of the bore,
+ * four lines on the wall; nothing of a die that is drawn off. */
 static void set_die(struct gb_scene *scene, const struct gb_state *state)
 {
+    const bool open = isfinite(state->die_top);
+    const double end = open ? fmin(state->die_top, state->cell[2]) : state->cell[2];
+    if (end <= 0.0) {
+        return;
+    }
     double ring[2][GB_SCENE_RING][3];
     for (int k = 0; k < GB_SCENE_RING; k++) {
         const double angle = 2.0 * M_PI * k / GB_SCENE_RING;
         for (int top = 0; top < 2; top++) {
             ring[top][k][0] = 0.5 * state->cell[0] + state->die_radius * cos(angle);
             ring[top][k][1] = 0.5 * state->cell[1] + state->die_radius * sin(angle);
-            ring[top][k][2] = top * state->cell[2];
+            ring[top][k][2] = top * end;
         }
     }
     for (int k = 0; k < GB_SCENE_RING; k++) {

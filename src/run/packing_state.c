@@ -75,11 +75,41 @@ static void copy_bed_pairs(const struct gb_bed *bed, struct gb_state *state)
     }
 }
 
-/* Of the box around the die, or around the powder that is still in the funnel. */
+static bool copy_walls(const struct gb_bed *bed, struct gb_state *state,
+                       struct gb_error *err)
+{
+    const struct gb_bed_list *walls = &bed->walls;
+    int64_t line = 0;
+    for (int64_t slot = 0; slot < walls->count; slot++) {
+        line += walls->contacts.normal[slot] >= 0.0;
+    }
+    if (!gb_state_set_walls(state, line, err)) {
+        return false;
+    }
+    line = 0;
+    for (int64_t slot = 0; slot < walls->count; slot++) {
+        if (walls->contacts.normal[slot] < 0.0) {
+            continue;
+        }
+        const double *x = bed->position[walls->first[slot]];
+        double unit[3];
+        gb_die_overlap(&bed->die, (enum gb_die_wall)walls->other[slot], x, x[3], unit);
+        for (int k = 0; k < 3; k++) {
+            state->wall_force[3 * line + k] =
+                walls->contacts.normal[slot] * unit[k] + walls->contacts.shear[k][slot];
+        }
+        state->wall[2 * line] = walls->first[slot];
+        state->wall[2 * line++ + 1] = walls->other[slot];
+    }
+    return true;
+}
+
+/* Of the box around the die, or around the powder outside of it. */
 static double half_width(const struct gb_bed *bed)
 {
     double half = bed->die.radius;
-    for (int64_t i = 0; i < bed->count && bed->die.funnel; i++) {
+    const bool outside = bed->die.funnel || bed->die.bore != GB_DIE_BORE_ENDLESS;
+    for (int64_t i = 0; i < bed->count && outside; i++) {
         const double *x = bed->position[i];
         half = fmax(half, fmax(fabs(x[0]), fabs(x[1])) + x[3]);
     }
@@ -100,6 +130,9 @@ static bool copy_bed(const struct gb_loading *loading, struct gb_state **out,
     const double top =
         fmax(gb_bed_top(bed), bed->die.punch ? bed->die.punch_position : 0.0);
     state->die_radius = bed->die.radius;
+    state->die_top = bed->die.bore == GB_DIE_BORE_ENDLESS ? (double)NAN
+                     : bed->die.bore == GB_DIE_BORE_OPEN  ? bed->die.top
+                                                          : 0.0;
     state->cell[0] = state->cell[1] = 2.0 * radius;
     state->cell[2] = top;
     gb_observe_die_contacts(bed, &counts, NULL, 0, state->contacts);
@@ -110,7 +143,7 @@ static bool copy_bed(const struct gb_loading *loading, struct gb_state **out,
         state->radius[i] = bed->position[i][3];
     }
     copy_bed_pairs(bed, state);
-    return true;
+    return copy_walls(bed, state, err);
 }
 
 bool gb_packing_state_copy(const struct gb_loading *loading, struct gb_state **out,

@@ -1,6 +1,7 @@
 #include "io/state/state.h"
 
 #include <glib.h>
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -10,14 +11,15 @@
 #include "io/state/state_check.h"
 
 /* Raised when a reader of the old layout would misunderstand the new one.  1: without
- * checkpoints; 2: without dies; 3: without tilts and tensors; the packing is as in 4. */
-static const int32_t layout_number = 4, layout_oldest = 1;
+ * checkpoints; 2: without dies; 3: without tilts and tensors; 4: without walls.
+ * The packing is as in 5. */
+static const int32_t layout_number = 5, layout_oldest = 1;
 
 /* Beyond this a file is nonsense rather than large. */
 static const int64_t count_max = 200000000;
 
 /* What a row of an array belongs to. */
-enum row_of { PARTICLE, PAIR, ROW_KINDS };
+enum row_of { PARTICLE, PAIR, WALL, ROW_KINDS };
 
 /* An array of the file and its place in the struct. */
 struct array_row {
@@ -40,7 +42,13 @@ static const struct array_row arrays[] = {
      "E d^2"},
     {"/pair_bridged", GB_HDF_UINT8, 1, PAIR, offsetof(struct gb_state, pair_bridged),
      "1"},
+    {"/wall", GB_HDF_INT32, 2, WALL, offsetof(struct gb_state, wall), "1"},
+    {"/wall_force", GB_HDF_DOUBLE, 3, WALL, offsetof(struct gb_state, wall_force),
+     "E d^2"},
 };
+
+/* First layout with a kind of rows. */
+static const int32_t row_layout[ROW_KINDS] = {[WALL] = 5};
 
 /* A number of the file's root group: unit in the name, as in curve.csv and the struct. */
 struct number_row {
@@ -55,6 +63,7 @@ static const struct number_row numbers[] = {
     {"cell_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, cell), 0},
     {"cell_tilt_d", GB_HDF_DOUBLE, 3, offsetof(struct gb_state, tilt), 4},
     {"die_radius_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_radius), 3},
+    {"die_top_d", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, die_top), 5},
     {"metre_per_length", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, metre_per_length),
      0},
     {"pascal_per_stress", GB_HDF_DOUBLE, 1, offsetof(struct gb_state, pascal_per_stress),
@@ -112,13 +121,29 @@ static const void *array_data(const struct gb_state *state, const struct array_r
 static struct gb_hdf_array shape_of(const struct array_row *row,
                                     const struct gb_state *state)
 {
+    const int64_t rows[ROW_KINDS] = {state->count, state->pair_count, state->wall_count};
     return (struct gb_hdf_array){
         .name = row->name,
         .type = row->type,
-        .rows = row->row_of == PAIR ? state->pair_count : state->count,
+        .rows = rows[row->row_of],
         .columns = row->columns,
         .unit = row->unit,
     };
+}
+
+static bool allocate(struct gb_state *state, const struct array_row *row,
+                     struct gb_error *err)
+{
+    const struct gb_hdf_array shape = shape_of(row, state);
+    /* one spare row, so that an empty array is still memory */
+    void *memory = gb_alloc_array((size_t)(shape.rows + 1) * (size_t)shape.columns,
+                                  type_size(shape.type), err);
+    if (memory == NULL) {
+        return false;
+    }
+    gb_alloc_free(*array_member(state, row));
+    *array_member(state, row) = memory;
+    return true;
 }
 
 bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
@@ -135,19 +160,27 @@ bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
     state->dimension = 3;
     state->count = count;
     state->pair_count = pair_count;
+    state->die_top = (double)NAN;
     for (int k = 0; k < ARRAY_COUNT; k++) {
-        const struct gb_hdf_array shape = shape_of(&arrays[k], state);
-        /* one spare row, so that an empty array is still memory */
-        void *memory = gb_alloc_array((size_t)(shape.rows + 1) * (size_t)shape.columns,
-                                      type_size(shape.type), err);
-        if (memory == NULL) {
+        if (!allocate(state, &arrays[k], err)) {
             gb_state_destroy(state);
             return false;
         }
-        *array_member(state, &arrays[k]) = memory;
     }
     *out = state;
     return true;
+}
+
+bool gb_state_set_walls(struct gb_state *state, int64_t count, struct gb_error *err)
+{
+    const int64_t before = state->wall_count;
+    bool good = true;
+    state->wall_count = count;
+    for (int k = 0; k < ARRAY_COUNT && good; k++) {
+        good = arrays[k].row_of != WALL || allocate(state, &arrays[k], err);
+    }
+    state->wall_count = good ? count : before;
+    return good;
 }
 
 struct gb_cell gb_state_cell(const struct gb_state *state)
@@ -171,10 +204,13 @@ void gb_state_destroy(struct gb_state *state)
 
 /* SHA-256 of all arrays in the order of the table.  HDF5 checks its headers but not plain
  * data. */
-static void digest(const struct gb_state *state, char text[DIGEST_SIZE])
+static void digest(const struct gb_state *state, int32_t layout, char text[DIGEST_SIZE])
 {
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
     for (int k = 0; k < ARRAY_COUNT; k++) {
+        if (layout < row_layout[arrays[k].row_of]) {
+            continue;
+        }
         const struct gb_hdf_array shape = shape_of(&arrays[k], state);
         const size_t bytes =
             (size_t)shape.rows * (size_t)shape.columns * type_size(shape.type);
@@ -190,7 +226,7 @@ static bool write_numbers(const struct gb_state *state, struct gb_hdf *file,
     const int32_t dimension = state->dimension;
     const int32_t branch = state->point.branch;
     char sum[DIGEST_SIZE];
-    digest(state, sum);
+    digest(state, layout_number, sum);
     if (!gb_hdf_put_numbers(file, "layout", GB_HDF_INT32, 1, &layout_number, err) ||
         !gb_hdf_put_numbers(file, "dimension", GB_HDF_INT32, 1, &dimension, err) ||
         !gb_hdf_put_numbers(file, "branch", GB_HDF_INT32, 1, &branch, err) ||
@@ -268,15 +304,15 @@ static bool read_numbers(struct gb_state *state, struct gb_hdf *file, int32_t la
     return true;
 }
 
-static bool check_digest(const struct gb_state *state, struct gb_hdf *file,
-                         const char *path, struct gb_error *err)
+static bool check_digest(const struct gb_state *state, int32_t layout,
+                         struct gb_hdf *file, const char *path, struct gb_error *err)
 {
     char kept[DIGEST_SIZE];
     char sum[DIGEST_SIZE];
     if (!gb_hdf_get_text(file, "sha256", kept, sizeof kept, err)) {
         return false;
     }
-    digest(state, sum);
+    digest(state, layout, sum);
     return strcmp(kept, sum) == 0 ||
            gb_error_set(err, GB_ERR_INPUT, "%s: sha256: does not fit the data: damaged",
                         path);
@@ -297,11 +333,16 @@ static bool check(const struct gb_state *state, const char *path, struct gb_erro
 }
 
 /* Sizes before memory: every dataset must agree with the first of its kind. */
-static bool read_sizes(struct gb_hdf *file, const char *path, int64_t *count,
-                       int64_t *pair_count, struct gb_error *err)
+static bool read_sizes(struct gb_hdf *file, const char *path, int32_t layout,
+                       int64_t size[ROW_KINDS], struct gb_error *err)
 {
-    int64_t size[ROW_KINDS] = {-1, -1};
+    for (int k = 0; k < ROW_KINDS; k++) {
+        size[k] = layout < row_layout[k] ? 0 : -1;
+    }
     for (int k = 0; k < ARRAY_COUNT; k++) {
+        if (layout < row_layout[arrays[k].row_of]) {
+            continue;
+        }
         const struct gb_hdf_array shape = {
             .name = arrays[k].name, .type = arrays[k].type, .columns = arrays[k].columns};
         int64_t *known = &size[arrays[k].row_of];
@@ -317,8 +358,6 @@ static bool read_sizes(struct gb_hdf *file, const char *path, int64_t *count,
                                 arrays[k].name, (long long)rows, (long long)*known);
         }
     }
-    *count = size[PARTICLE];
-    *pair_count = size[PAIR];
     return true;
 }
 
@@ -326,22 +365,25 @@ bool gb_state_read(struct gb_state **out, const char *path, struct gb_error *err
 {
     struct gb_hdf *file = NULL;
     struct gb_state *state = NULL;
-    int64_t count = 0;
-    int64_t pair_count = 0;
+    int64_t size[ROW_KINDS];
     *out = NULL;
     if (!gb_hdf_open(&file, path, err)) {
         return false;
     }
     int32_t layout = 0;
     bool done = read_layout(file, path, &layout, err) &&
-                read_sizes(file, path, &count, &pair_count, err) &&
-                gb_state_create(&state, count, pair_count, err) &&
+                read_sizes(file, path, layout, size, err) &&
+                gb_state_create(&state, size[PARTICLE], size[PAIR], err) &&
+                gb_state_set_walls(state, size[WALL], err) &&
                 read_numbers(state, file, layout, err);
     for (int k = 0; k < ARRAY_COUNT && done; k++) {
+        if (layout < row_layout[arrays[k].row_of]) {
+            continue;
+        }
         const struct gb_hdf_array shape = shape_of(&arrays[k], state);
         done = gb_hdf_get_array(file, &shape, *array_member(state, &arrays[k]), err);
     }
-    done = done && check(state, path, err) && check_digest(state, file, path, err);
+    done = done && check(state, path, err) && check_digest(state, layout, file, path, err);
     gb_hdf_destroy(file);
     if (!done) {
         gb_state_destroy(state);

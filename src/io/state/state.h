@@ -17,6 +17,7 @@ struct gb_state {
     double cell[3];      /* periodic edges, d; y is 1 in 2D */
     double tilt[3];      /* of the cell: xy, xz, yz, d */
     double die_radius;   /* d; 0: a periodic cell, else the cell is the box of a die */
+    double die_top; /* of the open end of the bore; NaN: endless; 0 and below: drawn off */
     double *position;    /* count x 3, inside the cell */
     double *radius;      /* count */
     int32_t *contacts;   /* count: coordination number of each particle */
@@ -25,6 +26,9 @@ struct gb_state {
     double *pair_force;  /* pair_count x 3: whole force on the first, E d^2 */
     double *pair_normal; /* pair_count: f_n, positive when pressed */
     uint8_t *pair_bridged;
+    int64_t wall_count; /* contacts with the walls of a die */
+    int32_t *wall;      /* wall_count x 2: particle, enum gb_die_wall */
+    double *wall_force; /* wall_count x 3: whole force on the particle, E d^2 */
     struct gb_point point;
     double metre_per_length, pascal_per_stress;
     char preset[256]; /* title of the preset */
@@ -35,6 +39,8 @@ struct gb_state {
 /* Arrays for count particles and pair_count pairs, zeroed. */
 bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
                      struct gb_error *err);
+/* Arrays for count contacts with walls, zeroed; those that it had are lost. */
+bool gb_state_set_walls(struct gb_state *state, int64_t count, struct gb_error *err);
 void gb_state_destroy(struct gb_state *state); /* NULL is fine */
 
 /* The periodic cell; in a die the box around it. */

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "pack/die/die.h"
+
 /* Beyond this a length is nonsense rather than large; d. */
 static const double length_max = 1e9;
 
@@ -88,6 +90,20 @@ static const char *pair_fault(const struct gb_state *state, int64_t i)
     return state->pair_bridged[i] > 1 ? "/pair_bridged" : NULL;
 }
 
+static const char *wall_fault(const struct gb_state *state, int64_t i)
+{
+    const int32_t particle = state->wall[2 * i], wall = state->wall[2 * i + 1];
+    if (particle < 0 || particle >= state->count || wall < 0 || wall >= GB_DIE_WALLS) {
+        return "/wall";
+    }
+    for (int k = 0; k < 3; k++) {
+        if (!isfinite(state->wall_force[3 * i + k])) {
+            return "/wall_force";
+        }
+    }
+    return NULL;
+}
+
 const char *gb_state_check(const struct gb_state *state, int64_t *row)
 {
     const char *fault = header_fault(state);
@@ -98,6 +114,10 @@ const char *gb_state_check(const struct gb_state *state, int64_t *row)
     }
     for (int64_t i = 0; i < state->pair_count && fault == NULL; i++) {
         fault = pair_fault(state, i);
+        *row = i;
+    }
+    for (int64_t i = 0; i < state->wall_count && fault == NULL; i++) {
+        fault = wall_fault(state, i);
         *row = i;
     }
     return fault;

@@ -8,6 +8,7 @@
 #include "base/vec.h"
 #include "io/point_columns.h"
 #include "pack/cell/cell.h"
+#include "pack/die/die.h"
 #include "pack/structure/assign_sizes.h"
 #include "scene/loading_kind.h"
 
@@ -107,19 +108,97 @@ static void fill_header(struct gb_state *state, const struct gb_params *params,
     snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
 }
 
+/* Half the width of the box: of the die, or of what has come out of it. */
+static double half_width(const double (*position)[4], int64_t count,
+                         const struct gb_die *die)
+{
+    double half = die->radius;
+    for (int64_t i = 0; i < count && die->bore != GB_DIE_BORE_ENDLESS; i++) {
+        const double *x = position[i];
+        half = fmax(half, fmax(fabs(x[0]), fabs(x[1])) + x[3]);
+    }
+    return half;
+}
+
 /* Spheres of a bed in the box of the die, with their own radii. */
 static void copy_spheres(struct gb_state *state, const double (*position)[4],
-                         double radius)
+                         const struct gb_die *die)
 {
-    state->die_radius = radius;
-    state->cell[0] = state->cell[1] = 2.0 * radius;
+    const double half = half_width(position, state->count, die);
+    state->die_radius = die->radius;
+    state->die_top = die->bore == GB_DIE_BORE_ENDLESS ? (double)NAN
+                     : die->bore == GB_DIE_BORE_OPEN  ? die->top
+                                                      : 0.0;
+    state->cell[0] = state->cell[1] = 2.0 * half;
     for (int64_t i = 0; i < state->count; i++) {
         for (int k = 0; k < 3; k++) {
-            state->position[3 * i + k] = position[i][k] + (k < 2 ? radius : 0.0);
+            state->position[3 * i + k] = position[i][k] + (k < 2 ? half : 0.0);
         }
         state->radius[i] = position[i][3];
         state->cell[2] = fmax(state->cell[2], position[i][2] + position[i][3]);
     }
+}
+
+/* The die of the record; bores of earlier versions are endless. */
+static bool take_die(const struct gb_record *record, const struct gb_model *model,
+                     struct gb_die *die, struct gb_error *err)
+{
+    *die = (struct gb_die){.radius = model->die.radius, .punch = true};
+    int32_t bore = GB_DIE_BORE_ENDLESS;
+    if (!take(record, "bed/punch_place", GB_RECORD_DOUBLE, 1, 1, &die->punch_position,
+              err)) {
+        return false;
+    }
+    if (gb_record_find(record, "bed/bore") &&
+        (!take(record, "bed/bore", GB_RECORD_INT32, 1, 1, &bore, err) ||
+         !take(record, "bed/top", GB_RECORD_DOUBLE, 1, 1, &die->top, err) ||
+         !take(record, "bed/punch", GB_RECORD_BOOL, 1, 1, &die->punch, err))) {
+        return false;
+    }
+    die->bore = (enum gb_die_bore)bore;
+    return true;
+}
+
+/* Whole forces of the walls on particles. */
+static bool take_walls(struct gb_state *state, const struct gb_record *record,
+                       const double (*position)[4], const struct gb_die *die,
+                       struct gb_error *err)
+{
+    static const char *const names[3] = {"walls/shear_x", "walls/shear_y",
+                                         "walls/shear_z"};
+    const struct gb_record_item *normal = gb_record_find(record, "walls/normal");
+    const int64_t n = normal ? normal->rows : 0;
+    double *value = gb_alloc_array((size_t)n + 1, sizeof *value, err);
+    int32_t *index = gb_alloc_array((size_t)n + 1, sizeof *index, err);
+    bool done = value && index && gb_state_set_walls(state, n, err);
+    for (int end = 0; done && end < 2; end++) {
+        done = take(record, end == 0 ? "walls/first" : "walls/wall", GB_RECORD_INT32, n,
+                    1, index, err);
+        for (int64_t k = 0; done && k < n; k++) {
+            state->wall[2 * k + end] = index[k];
+        }
+    }
+    for (int c = 0; done && c < 3; c++) {
+        done = take(record, names[c], GB_RECORD_DOUBLE, n, 1, value, err);
+        for (int64_t k = 0; done && k < n; k++) {
+            state->wall_force[3 * k + c] = value[k];
+        }
+    }
+    done = done && take(record, "walls/normal", GB_RECORD_DOUBLE, n, 1, value, err);
+    for (int64_t k = 0; done && k < n; k++) {
+        const int32_t i = state->wall[2 * k];
+        double unit[3] = {0.0, 0.0, 0.0};
+        if (i < 0 || i >= state->count) {
+            done = gb_error_set(err, GB_ERR_INPUT, "walls/first: is out of range");
+            break;
+        }
+        gb_die_overlap(die, (enum gb_die_wall)state->wall[2 * k + 1], position[i],
+                       position[i][3], unit);
+        gb_vec_add(state->wall_force + 3 * k, value[k], unit);
+    }
+    gb_alloc_free(index);
+    gb_alloc_free(value);
+    return done;
 }
 
 /* Whole forces from normal and shear parts. */
@@ -149,8 +228,8 @@ static bool fill_die(struct gb_state *state, const struct gb_record *record,
     double *const shear[3] = {work + 4 * state->count, work + 4 * state->count + n,
                               work + 4 * state->count + 2 * n};
     int32_t *index = (int32_t *)(void *)shear[0];
-    double punch = 0.0;
-    if (!take(record, "bed/punch_place", GB_RECORD_DOUBLE, 1, 1, &punch, err) ||
+    struct gb_die die;
+    if (!take_die(record, model, &die, err) ||
         !take(record, "bed/place", GB_RECORD_DOUBLE, state->count, 4, position, err) ||
         !take(record, "bed/normal", GB_RECORD_DOUBLE, n, 1, state->pair_normal, err) ||
         !take_point(record, &state->point, err)) {
@@ -170,10 +249,10 @@ static bool fill_die(struct gb_state *state, const struct gb_record *record,
             return false;
         }
     }
-    state->cell[2] = punch;
-    copy_spheres(state, (const double(*)[4])position, model->die.radius);
+    state->cell[2] = die.punch ? die.punch_position : 0.0;
+    copy_spheres(state, (const double(*)[4])position, &die);
     join_forces(state, shear);
-    return true;
+    return take_walls(state, record, (const double(*)[4])position, &die, err);
 }
 
 static bool die_state(struct gb_state **out, const struct gb_record *record,
