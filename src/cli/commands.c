@@ -25,6 +25,8 @@ static const struct gb_commands_row rows[] = {
      gb_cmd_fit},
     {results, "report", "figures, pictures and tables of runs in one folder",
      gb_cmd_report},
+    {results, "cycle", "springback and force of ejection of full die cycles",
+     gb_cmd_cycle},
     {numerics, "chart", "accuracy against cost of the numerical settings of a scene",
      gb_cmd_chart},
     {numerics, "stability", "longest stable step of each method, beside theory",

@@ -26,6 +26,7 @@ int gb_cmd_attach(int argc, char **argv);
 int gb_cmd_bench(int argc, char **argv);
 int gb_cmd_calibrate(int argc, char **argv);
 int gb_cmd_chart(int argc, char **argv);
+int gb_cmd_cycle(int argc, char **argv);
 int gb_cmd_fit(int argc, char **argv);
 int gb_cmd_law(int argc, char **argv);
 int gb_cmd_moduli(int argc, char **argv);

@@ -14,6 +14,10 @@
     {                                                                                    \
         .name = "p_MPa", .label = "pressure <i>p</i> (MPa)"                              \
     }
+#define HEIGHT_AXIS                                                                      \
+    {                                                                                    \
+        .name = "z", .label = "height over that of the powder <i>z</i> / <i>H</i>"       \
+    }
 #define RATE_AXIS                                                                        \
     {                                                                                    \
         .name = "rate_per_s", .label = "densification rate <i>v</i> (1/s)", .log = true  \
@@ -116,6 +120,31 @@ static const struct gb_figures_row table[] = {
     {"die-density", "density of a compact in a die and of its central region",
      "P3 Fig. 18-20", GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, .x = PRESSURE_AXIS,
      .y = DENSITY_AXIS, .compute = gb_figures_die_density},
+    {"die-cycle", "punch pressure against density: loading, unloading, ejected", "",
+     GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, .x = DENSITY_AXIS, .y = PRESSURE_AXIS,
+     .compute = gb_figures_die_cycle},
+    {"die-ejection", "force of ejection against the travel of the compact", "",
+     GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT,
+     .x = {.name = "travel_um",
+           .label = "travel of the compact through the die <i>s</i> (\xc2\xb5m)"},
+     .y = {.name = "force_mN", .label = "force of ejection <i>F</i> (mN)"},
+     .compute = gb_figures_die_ejection},
+    {"die-wall", "radial pressure on the wall of a die over the height", "",
+     GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT, .x = HEIGHT_AXIS,
+     .y = {.name = "wall_MPa", .label = "wall pressure <i>p<sub>r</sub></i> (MPa)"},
+     .compute = gb_figures_die_wall},
+    {"die-axial", "density of a compact in a die over the height", "", GB_FIGURES_STATES,
+     GB_FIGURES_IN_REPORT, GB_FIGURES_AT, .x = HEIGHT_AXIS, .y = DENSITY_AXIS,
+     .compute = gb_figures_die_axial},
+    {"die-radial", "density of a compact in a die against the distance from the axis", "",
+     GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,
+     .x = {.name = "r", .label = "distance from the axis <i>r</i> / <i>R</i>"},
+     .y = DENSITY_AXIS, .compute = gb_figures_die_radial},
+    {"die-map", "density of a compact in a die over radius and height", "",
+     GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,
+     .x = {.name = "r_um", .label = "distance from the axis <i>r</i> (\xc2\xb5m)"},
+     .y = {.name = "z_um", .label = "height <i>z</i> (\xc2\xb5m)"},
+     .compute = gb_figures_die_map},
     {"contact", "normal force of two particles, loading and unloading", "P1 Fig. 1",
      GB_FIGURES_SCENE, .preset = "p1-set2-16nm",
      .x = {.name = "h", .label = "overlap <i>h</i> / <i>d</i>"},

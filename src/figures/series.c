@@ -38,7 +38,22 @@ void gb_series_finish(struct gb_series *series)
         g_array_unref(series->annotations);
         g_string_free(series->caption, TRUE);
     }
+    if (series->map != NULL) {
+        g_free((double *)(uintptr_t)series->map->x);
+        g_free((double *)(uintptr_t)series->map->y);
+        g_free((double *)(uintptr_t)series->map->value);
+        g_free(series->map);
+    }
     *series = (struct gb_series){0};
+}
+
+void gb_series_map(struct gb_series *series, const struct gb_figure_map *map)
+{
+    const size_t columns = (size_t)map->columns, rows = (size_t)map->rows;
+    series->map = g_memdup2(map, sizeof *map);
+    series->map->x = g_memdup2(map->x, (columns + 1) * sizeof *map->x);
+    series->map->y = g_memdup2(map->y, (rows + 1) * sizeof *map->y);
+    series->map->value = g_memdup2(map->value, columns * rows * sizeof *map->value);
 }
 
 void gb_series_note(struct gb_series *series, const char *format, ...)
@@ -173,6 +188,7 @@ void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
     const size_t above = take_curves(series, false, *curves);
     const size_t below = take_curves(series, true, *curves + above);
     *figure = (struct gb_figure){
+        .map = series->map,
         .caption = series->caption->str,
         .inset = {series->inset[0], series->inset[1]},
         .x = {series->x.label, series->x.log, series->x.low, series->x.high},

@@ -41,6 +41,7 @@ struct gb_series {
     GArray *annotations;           /* struct gb_figure_annotation */
     GString *caption;              /* Pango markup */
     double inset[2];               /* x range of the inset; NaN: none */
+    struct gb_figure_map *map;     /* NULL: none; its arrays belong to the series */
 };
 
 void gb_series_init(struct gb_series *series, size_t rows);
@@ -62,6 +63,9 @@ struct gb_series_curve *gb_series_draw(struct gb_series *series, const double *x
                                        const double *y, const double *error,
                                        enum gb_figure_kind kind, int style,
                                        const char *label);
+/* Gives the figure a map; edges and values are copied, the label is not. */
+void gb_series_map(struct gb_series *series, const struct gb_figure_map *map);
+
 /* Adds a sentence to the caption. */
 void gb_series_caption(struct gb_series *series, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "draw/figure/figure_curve.h"
+#include "draw/figure/figure_map.h"
 
 /* Lengths in points. */
 static const double rule_width = 0.6; /* frame and ticks */
@@ -199,6 +200,7 @@ static void draw_below(const struct gb_figure_page *page)
 
 void gb_figure_draw_page(const struct gb_figure_page *page)
 {
+    gb_figure_map_draw(page);
     draw_curves(page);
     draw_axes(page);
     draw_inset(page);

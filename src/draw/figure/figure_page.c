@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "draw/figure/figure_map.h"
 #include "draw/figure/figure_occupancy.h"
 #include "draw/figure/figure_range.h"
 
@@ -187,6 +188,7 @@ static void set_labels(struct gb_figure_page *page)
 
 void gb_figure_page_arrange(struct gb_figure_page *page)
 {
+    page->legend_width = gb_figure_map_bar_width(page->figure);
     fit_axes(page);
     set_frame(page);
     find_inset(page);

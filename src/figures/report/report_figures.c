@@ -68,7 +68,7 @@ static bool add_figure(struct gb_report *report, const struct gb_figures_row *ro
     if (!compute(&series, report, row, &cause)) {
         good = is_missing_data(&cause);
         gb_report_leave_out(report, row->name, cause.text);
-    } else if (series.curves->len > 0) {
+    } else if (series.curves->len > 0 || series.map != NULL) {
         good = write_files(&series, report, row->name, &cause);
         show_files(report, row);
     }

@@ -1,0 +1,133 @@
+#include <math.h>
+#include <stdio.h>
+
+#include <glib.h>
+
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "many/die_summary.h"
+
+/* "1.30 +- 0.05", or as CSV "1.3012,0.0512"; empty where there is no value. */
+static void print_value(double mean, double error, gboolean csv)
+{
+    char text[64] = "-";
+    if (csv) {
+        printf(isfinite(mean) ? ",%.6g" : ",", mean);
+        printf(isfinite(error) ? ",%.3g" : ",", error);
+        return;
+    }
+    if (isfinite(error)) {
+        g_snprintf(text, sizeof text, "%.4g +- %.2g", mean, error);
+    } else if (isfinite(mean)) {
+        g_snprintf(text, sizeof text, "%.4g", mean);
+    }
+    printf("  %-20s", text);
+}
+
+/* A column a group; a row a number, with what it means. */
+static void print_table(const struct gb_runset *set)
+{
+    printf("%-22s", "beds");
+    for (size_t g = 0; g < set->groups; g++) {
+        printf("  %-20zu", gb_runset_members(set, g));
+    }
+    printf("\n");
+    for (const struct gb_die_summary_row *row = gb_die_summary_table(); row->name;
+         row++) {
+        printf("%-22s", row->name);
+        for (size_t g = 0; g < set->groups; g++) {
+            double mean = 0.0, error = 0.0;
+            gb_die_summary_mean(row, set, g, &mean, &error);
+            print_value(mean, error, FALSE);
+        }
+        printf("  %s\n", row->doc);
+    }
+}
+
+static void print_groups(const struct gb_runset *set)
+{
+    for (size_t g = 0; g < set->groups; g++) {
+        char *label = gb_runset_label(set, g);
+        printf("# %zu: %s\n", g + 1,
+               label[0] != '\0' ? label : gb_runset_first(set, g)->params.title);
+        g_free(label);
+    }
+}
+
+/* A row a group, with the standard error of each number behind it. */
+static void print_csv(const struct gb_runset *set)
+{
+    printf("group,beds");
+    for (const struct gb_die_summary_row *row = gb_die_summary_table(); row->name;
+         row++) {
+        printf(",%s,%s_se", row->name, row->name);
+    }
+    printf("\n");
+    for (size_t g = 0; g < set->groups; g++) {
+        printf("%zu,%zu", g + 1, gb_runset_members(set, g));
+        for (const struct gb_die_summary_row *row = gb_die_summary_table(); row->name;
+             row++) {
+            double mean = 0.0, error = 0.0;
+            gb_die_summary_mean(row, set, g, &mean, &error);
+            print_value(mean, error, TRUE);
+        }
+        printf("\n");
+    }
+}
+
+static bool show(char **words, gboolean csv, struct gb_error *err)
+{
+    struct gb_runset set = {0};
+    GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
+    for (size_t i = 0; words[i] != NULL; i++) {
+        gb_runset_expand(list, words[i]);
+    }
+    bool good = list->len > 0 ||
+                gb_error_set(err, GB_ERR_INPUT, "cycle takes run directories: DIR...");
+    good = good &&
+           gb_runset_read(&set, (char *const *)list->pdata, list->len, err) &&
+           gb_die_summary_check(&set, err);
+    if (good) {
+        print_groups(&set);
+        if (csv) {
+            print_csv(&set);
+        } else {
+            print_table(&set);
+        }
+        good = (fflush(stdout) == 0 && !ferror(stdout)) || gb_options_output_failed(err);
+    }
+    gb_runset_finish(&set);
+    g_ptr_array_unref(list);
+    return good;
+}
+
+int gb_cmd_cycle(int argc, char **argv)
+{
+    static const struct gb_options_page page = {
+        "DIR...",
+        "Springback, residual radial stress and force of ejection of full die cycles, "
+        "with\n"
+        "standard errors over beds: runs that differ by their seed only.",
+        "Three frictions, three beds each:\n"
+        "  greenbody sweep p3-cycle --vary 'contact.mu=0;0.02;0.05' --replicas 3 \\\n"
+        "    --out cycles\n"
+        "  greenbody cycle cycles",
+    };
+    gboolean csv = FALSE;
+    const GOptionEntry entries[] = {
+        {"csv", 0, 0, G_OPTION_ARG_NONE, &csv, "one row per group of beds, as CSV",
+         NULL},
+        {0},
+    };
+    char **words = NULL;
+    int status = 0;
+    struct gb_error err = {0};
+    if (!gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        return status;
+    }
+    if (!show(words, csv, &err)) {
+        status = gb_options_fail(&err);
+    }
+    g_strfreev(words);
+    return status;
+}
