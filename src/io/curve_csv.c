@@ -89,8 +89,10 @@ static const struct column_set {
 };
 
 static const char die_note[] =
-    "# die: floor_MPa and wall_MPa are means over their surfaces, wall_low, wall_middle "
-    "and wall_high of the thirds of the height of powder on the wall; wall_friction_mN "
+    "# die: floor_MPa and wall_friction_mN are means since the last point, while loading "
+    "those of the point; wall_MPa is the radial pressure at the point, wall_low, "
+    "wall_middle and wall_high that on the thirds of the powder's height; "
+    "wall_friction_mN "
     "is the axial force of the wall on the powder, downward: the force of ejection; "
     "punch_work_J since pressing began; axial springback is the height over that under "
     "the full pressure, radial springback the outer radius over that of the bore, each "

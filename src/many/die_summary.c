@@ -46,16 +46,25 @@ static double floor_over_punch(const struct gb_table *table)
     return last(table, "load", "floor_over_punch");
 }
 
+/* Mean of the thirds of the wall. */
+static double wall(const struct gb_table *table, const char *branch)
+{
+    return (last(table, branch, "wall_low_MPa") + last(table, branch, "wall_middle_MPa") +
+            last(table, branch, "wall_high_MPa")) /
+           3.0;
+}
+
 /* Radial pressure over the mean of punch and floor. */
 static double lateral_ratio(const struct gb_table *table)
 {
-    const double axial = 0.5 * (last(table, "load", "p_MPa") + last(table, "load", "floor_MPa"));
-    return last(table, "load", "wall_MPa") / axial;
+    const double axial =
+        0.5 * (last(table, "load", "p_MPa") + last(table, "load", "floor_MPa"));
+    return wall(table, "load") / axial;
 }
 
 static double residual_radial(const struct gb_table *table)
 {
-    return last(table, "in-die", "wall_MPa");
+    return wall(table, "in-die");
 }
 
 static double ejection_force(const struct gb_table *table)

@@ -26,12 +26,14 @@ double gb_density_map_lens(double a, double b, double distance)
     if (distance <= big - small) {
         return M_PI * small * small;
     }
-    const double p = (distance * distance + a * a - b * b) / (2.0 * distance * a);
-    const double q = (distance * distance + b * b - a * a) / (2.0 * distance * b);
-    const double kite = (a + b - distance) * (distance + a - b) * (distance + b - a) *
-                        (distance + a + b);
-    return a * a * acos(fmax(fmin(p, 1.0), -1.0)) +
-           b * b * acos(fmax(fmin(q, 1.0), -1.0)) - 0.5 * sqrt(fmax(kite, 0.0));
+    /* 16 times the squared area of the triangle of both centres and a point of both
+     * circles; factors and products keep their digits where the radii differ much */
+    const double kite = sqrt(fmax((a + b - distance) * (distance + a - b) *
+                                      (distance + b - a) * (distance + a + b),
+                                  0.0));
+    const double at_a = atan2(kite, (distance - b) * (distance + b) + a * a);
+    const double at_b = atan2(kite, (distance - a) * (distance + a) + b * b);
+    return a * a * at_a + b * b * at_b - 0.5 * kite;
 }
 
 /* Volume between two angles, z = r sin angle. */

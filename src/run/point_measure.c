@@ -123,13 +123,14 @@ static void measure_cycle(const struct gb_loading *loading,
 {
     const struct gb_model *model = loading->model;
     const double pascal = model->pascal_per_stress;
-    double third[3];
+    double third[3], whole = 0.0;
+    gb_observe_die_wall(loading->bed, report->contact, 1, &whole);
     gb_observe_die_wall(loading->bed, report->contact, 3, third);
     for (int k = 0; k < 3; k++) {
         point->wall_third_pa[k] = third[k] * pascal;
     }
     point->floor_pa = report->floor * pascal;
-    point->wall_pa = 0.5 * (point->px_pa + point->py_pa);
+    point->wall_pa = whole * pascal;
     point->wall_friction_n = report->drag * model->newton_per_force;
     point->punch_work = report->work * model->newton_per_force * model->metre_per_length;
     point->axial_springback = report->axial;

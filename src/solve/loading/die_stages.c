@@ -206,6 +206,12 @@ struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *sta
         .residual = gb_bed_unbalanced_force(bed, now->leapfrog.gravity),
         .time_step = now->leapfrog.step,
     };
+    if (now->stage == GB_DIE_STAGES_PRESS && punch->carried > 0.0) {
+        /* at the pressure of the point, which is above the mean since the last one */
+        const double scale = report.carried * weight / punch->carried;
+        report.floor *= scale;
+        report.drag *= scale;
+    }
     gb_die_cycle_springback(stages, bed, &report.axial, &report.radial);
     report.progress = gb_die_cycle_progress(stages, bed);
     return report;

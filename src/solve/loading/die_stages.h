@@ -64,9 +64,9 @@ struct gb_die_stages_report {
     double carried; /* by the powder under the punch, mean since the last point */
     double floor_over_punch; /* forces, likewise; NaN without a punch */
     double side[2];          /* mean pressure on the side wall, x and y */
-    double floor;            /* mean pressure on the floor; NaN before pressing */
+    double floor;            /* pressure on the floor, mean since the last point */
     double contact;          /* height of the powder against the side, d */
-    double drag;             /* mean axial force of the side on the powder, downward */
+    double drag;             /* axial force of the side on the powder, likewise; downward */
     double work;             /* of the punch since pressing began, E d^3 */
     /* Springback as fractions: height over that under the full pressure, outer radius over
      * that of the bore, less 1; NaN before that pressure. */

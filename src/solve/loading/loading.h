@@ -62,7 +62,7 @@ struct gb_loading_report {
     double target_pressure; /* of the punch, E */
     double height, height0; /* of the powder, and before pressing; d */
     double floor_over_punch;
-    double floor;         /* mean pressure on the floor, E */
+    double floor;         /* pressure on the floor, E */
     double drag;          /* axial force of the side on the powder, downward; E d^2 */
     double contact;       /* height of the powder against the side, d */
     double axial, radial; /* springback since the full pressure */
