@@ -346,8 +346,8 @@ int main(int argc, char **argv)
     g_test_add_func("/cycle/resume", test_resume);
     g_test_add_func("/cycle/fault", test_fault);
     if (g_test_slow()) {
-        g_test_add_func("/cycle/work", test_work);
-        g_test_add_func("/cycle/janssen", test_janssen);
+        g_test_add_func("/cycle/slow/work", test_work);
+        g_test_add_func("/cycle/slow/janssen", test_janssen);
     }
     return g_test_run();
 }
