@@ -52,7 +52,8 @@ static bool is_kept_for(const char *path, const struct gb_keep_point *point)
 
 static bool is_after_loading(const struct gb_point *point)
 {
-    return point->branch > 0 || point->branch < GB_BRANCH_HOLD;
+    return point->branch > 0 ||
+           (point->branch < GB_BRANCH_HOLD && point->branch >= GB_BRANCH_LEAST);
 }
 
 /* Relative distance; states of unloading come after those of loading. */

@@ -86,7 +86,7 @@ const struct gb_point *gb_curve_at(const struct gb_curve *curve, size_t index)
 
 char *gb_curve_branch_name(const struct gb_point *point, char *buffer, size_t size)
 {
-    static const char *const names[] = {"load",   "relax", "hold", "unload",
+    static const char *const names[] = {"load",   "relax", "hold",   "unload",
                                         "in-die", "eject", "ejected"};
     if (point->branch < GB_BRANCH_LEG) {
         snprintf(buffer, size, "leg:%d", GB_BRANCH_LEG - point->branch);

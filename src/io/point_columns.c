@@ -69,8 +69,8 @@ static bool exchange(struct gb_point *point, size_t first, int count, const char
         value[k] =
             missing ? (double)NAN : *gb_point_columns_member(point, first + (size_t)k);
     }
-    const bool done = missing || gb_record_array(record, name, GB_RECORD_DOUBLE, 1,
-                                                 count, "SI", value, err);
+    const bool done = missing || gb_record_array(record, name, GB_RECORD_DOUBLE, 1, count,
+                                                 "SI", value, err);
     for (int k = 0; k < count; k++) {
         *gb_point_columns_member(point, first + (size_t)k) = value[k];
     }

@@ -46,8 +46,7 @@ static double integrate(double cylinder, double sphere, double axis, double from
         const double side = k < HALF ? -1.0 : 1.0;
         const double angle = middle + side * half * node[k % HALF];
         const double section = sphere * cos(angle);
-        sum += weight[k % HALF] * section *
-               gb_density_map_lens(section, cylinder, axis);
+        sum += weight[k % HALF] * section * gb_density_map_lens(section, cylinder, axis);
     }
     return half * sum;
 }
@@ -87,11 +86,11 @@ static void add_sphere(const struct gb_density_map *map, const double x[3], doub
         if (low >= radius || low + height <= -radius) {
             continue;
         }
-        double inside = gb_density_map_cylinder(first * width, radius, axis, low,
-                                                low + height);
+        double inside =
+            gb_density_map_cylinder(first * width, radius, axis, low, low + height);
         for (int ring = first; ring < map->rings; ring++) {
-            const double within = gb_density_map_cylinder(
-                (ring + 1) * width, radius, axis, low, low + height);
+            const double within = gb_density_map_cylinder((ring + 1) * width, radius,
+                                                          axis, low, low + height);
             solid[ring * map->bands + band] += within - inside;
             inside = within;
             if ((ring + 1) * width >= axis + radius) {

@@ -69,8 +69,8 @@ struct gb_die_scene {
     double rest_time;      /* in the die, and after ejection */
     double eject_speed;
     double weld_strength; /* of cold welds; 0: none */
-    double safety;         /* of the time step */
-    double time_step;      /* 0: by the critical one */
+    double safety;        /* of the time step */
+    double time_step;     /* 0: by the critical one */
     double inertia_scale;
     double central_radius; /* of the sphere that measures the central density */
     double second_per_time;

@@ -11,6 +11,7 @@
 #include "figures/report/report.h"
 #include "io/preset.h"
 #include "io/state/state.h"
+#include "pack/die/die.h"
 
 static char *folder;
 
@@ -126,6 +127,46 @@ static void write_die(void)
                "load,1.1,1,0.6,0.65,-0.01\nload,2.1,2,0.62,0.67,-0.02\n");
 }
 
+/* A full cycle, with a state of four stacked spheres on the axis, one of them on the wall. */
+static void write_cycle(const char *directory, uint64_t seed)
+{
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    char *preset = g_strdup_printf("[scene]\nkind = die\n[contact]\nnormal = hertz\n"
+                                   "[structure]\nseed = %d\n[die]\ncycle = full\n"
+                                   "[loading]\ngeometry = die\n",
+                                   (int)seed);
+    char *path = path_in(directory, "state.h5");
+    write_text(directory, "preset.ini", preset);
+    write_text(directory, "curve.csv",
+               "branch,time_ns,p_MPa,density,wall_friction_mN,axial_springback_percent\n"
+               "load,1000,50,0.65,-2,\nunload,2000,20,0.64,-1,0.5\n"
+               "in-die,3000,0,0.63,0.1,1\neject,4000,0,0.63,3,1.1\n"
+               "eject,5000,0,0.63,2,1.2\neject,6000,0,0.63,0,1.3\n"
+               "ejected,7000,0,0.625,0,1.5\n");
+    g_assert_true(gb_state_create(&state, 4, 0, &err));
+    g_assert_true(gb_state_set_walls(state, 1, &err));
+    state->seed = seed;
+    state->metre_per_length = 1e-6;
+    state->pascal_per_stress = 1e9;
+    state->die_radius = 0.5;
+    state->cell[0] = state->cell[1] = 1.0;
+    state->cell[2] = 4.0;
+    for (int i = 0; i < 4; i++) {
+        state->position[3 * i] = 0.5 + (i == 1 ? 0.01 : 0.0);
+        state->position[3 * i + 1] = 0.5;
+        state->position[3 * i + 2] = 0.5 + i;
+        state->radius[i] = 0.5;
+    }
+    state->wall[0] = 1;
+    state->wall[1] = GB_DIE_SIDE;
+    state->wall_force[0] = -0.002;
+    g_assert_true(gb_state_write(state, NULL, path, &err));
+    gb_state_destroy(state);
+    g_free(path);
+    g_free(preset);
+}
+
 static void write_chart(void)
 {
     write_text("chart", "chart.csv",
@@ -162,6 +203,12 @@ static const struct source {
     {"rdf", {"a1", "a2"}},
     {"die-height", {"die"}},
     {"die-density", {"die"}},
+    {"die-cycle", {"cycle1", "cycle2"}},
+    {"die-ejection", {"cycle1", "cycle2"}},
+    {"die-wall", {"cycle1", "cycle2"}},
+    {"die-axial", {"cycle1", "cycle2"}},
+    {"die-radial", {"cycle1"}},
+    {"die-map", {"cycle1", "cycle2"}},
 };
 
 static bool run_scene(const struct gb_figures_row *row, struct gb_series *series,
@@ -227,13 +274,52 @@ static void assert_drawn(const struct gb_figures_row *row, const struct gb_serie
     g_assert_nonnull(series->x.label);
     g_assert_nonnull(series->y.name);
     g_assert_nonnull(series->y.label);
-    g_assert_cmpuint(series->curves->len, >, 0);
+    g_assert_true(series->curves->len > 0 || series->map != NULL);
     gb_series_figure(series, &figure, &curves);
     g_assert_true(gb_figure_render(&image, &figure, 640, 480, &layout, &err));
     g_assert_cmpstr(err.text, ==, "");
     g_test_message("%s: %u curves", row->name, series->curves->len);
     gb_image_destroy(image);
     g_free(curves);
+}
+
+static const double *column(const struct gb_series *series, const char *name)
+{
+    for (guint k = 0; k < series->names->len; k++) {
+        if (strcmp(g_ptr_array_index(series->names, k), name) == 0) {
+            return g_ptr_array_index(series->columns, k);
+        }
+    }
+    g_error("no column %s", name);
+}
+
+/* A column of spheres has density 2/3 in every band; one force on one band of the wall; the
+ * force of ejection at its travel. */
+static void test_die_numbers(void)
+{
+    static const char *const words[] = {"cycle1", "cycle2", NULL};
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(run_named("die-axial", words, &series, &err));
+    for (int k = 4; k < 16; k += 4) {
+        double sum = 0.0;
+        for (int i = 0; i < 4; i++) {
+            sum += 0.25 * column(&series, "density_1")[k + i];
+        }
+        g_assert_cmpfloat_with_epsilon(sum, 2.0 / 3.0, k == 4 ? 0.02 : 1e-6);
+    }
+    gb_series_finish(&series);
+    g_assert_true(run_named("die-wall", words, &series, &err));
+    const double area = 2.0 * M_PI * 0.5 * 4.0 / 12.0;
+    for (int k = 0; k < 12; k++) {
+        g_assert_cmpfloat_with_epsilon(column(&series, "wall_MPa_1")[k],
+                                       k == 4 ? 1e3 * 0.002 / area : 0.0, 1e-9);
+    }
+    gb_series_finish(&series);
+    g_assert_true(run_named("die-ejection", words, &series, &err));
+    g_assert_cmpfloat_with_epsilon(column(&series, "travel_um")[100], 3.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(column(&series, "force_mN_1")[67], 1.98, 1e-9);
+    gb_series_finish(&series);
 }
 
 /* Every row draws. */
@@ -496,11 +582,14 @@ int main(int argc, char **argv)
     write_dynamic("fast", "100 1/us");
     write_dynamic("slow", "10 1/us");
     write_die();
+    write_cycle("cycle1", 1);
+    write_cycle("cycle2", 2);
     write_chart();
     write_text("empty", "preset.ini", "[scene]\ntitle = empty\n");
     g_test_add_func("/figures/table", test_table);
     g_test_add_func("/figures/options", test_options);
     g_test_add_func("/figures/rows", test_rows);
+    g_test_add_func("/figures/die_numbers", test_die_numbers);
     g_test_add_func("/figures/errors", test_errors);
     g_test_add_func("/figures/series", test_series);
     g_test_add_func("/figures/fit", test_fit);

@@ -12,13 +12,12 @@ static void test_coaxial(void)
         const double sphere = 1.3, cylinder = 0.2 * k, c = fmin(cylinder, sphere);
         const double half = sqrt(sphere * sphere - c * c);
         /* the cylinder's part between the caps, and the caps */
-        const double exact = 2.0 * M_PI * c * c * half +
-                             2.0 * gb_ball_slab(sphere, half, INFINITY);
+        const double exact =
+            2.0 * M_PI * c * c * half + 2.0 * gb_ball_slab(sphere, half, INFINITY);
         const double found =
             gb_density_map_cylinder(cylinder, sphere, 0.0, -INFINITY, INFINITY);
         g_assert_cmpfloat_with_epsilon(found / exact, 1.0, 1e-6);
-        const double part =
-            gb_density_map_cylinder(cylinder, sphere, 0.0, 0.0, INFINITY);
+        const double part = gb_density_map_cylinder(cylinder, sphere, 0.0, 0.0, INFINITY);
         g_assert_cmpfloat_with_epsilon(part / exact, 0.5, 1e-6);
     }
 }
@@ -53,8 +52,7 @@ static void test_eccentric(void)
             for (int j = 0; j < N; j++) {
                 const double x = axis - sphere + 2.0 * sphere * (i + 0.5) / N;
                 const double y = -sphere + 2.0 * sphere * (j + 0.5) / N;
-                const double left2 =
-                    sphere * sphere - (x - axis) * (x - axis) - y * y;
+                const double left2 = sphere * sphere - (x - axis) * (x - axis) - y * y;
                 sum += x * x + y * y < cylinder * cylinder && left2 > 0.0
                            ? 2.0 * sqrt(left2)
                            : 0.0;
@@ -91,8 +89,8 @@ static void test_conserves(void)
         for (int c = 0; c < map.rings * map.bands; c++) {
             const double ring = c / map.bands, width = map.radius / map.rings;
             g_assert_cmpfloat(density[c], >, -1e-9);
-            sum += density[c] * M_PI * width * width * (2.0 * ring + 1.0) * 8.0 /
-                   map.bands;
+            sum +=
+                density[c] * M_PI * width * width * (2.0 * ring + 1.0) * 8.0 / map.bands;
         }
         g_assert_cmpfloat_with_epsilon(sum / solid, 1.0, 1e-6);
     }

@@ -32,8 +32,9 @@ static struct gb_bed *welded_pair(const struct gb_bed_law *law)
 static double radius_of(const struct gb_bed_law *law, double h)
 {
     const double star = gb_law_hertz_radius(0.5, 0.4);
-    return law->storakers ? sqrt(2.0 * 1.43 * exp(-0.97 * law->normal.exponent) * star * h)
-                          : sqrt(star * h);
+    return law->storakers
+               ? sqrt(2.0 * 1.43 * exp(-0.97 * law->normal.exponent) * star * h)
+               : sqrt(star * h);
 }
 
 static double pull(struct gb_bed *bed, double gap)

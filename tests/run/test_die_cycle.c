@@ -87,9 +87,9 @@ static double largest_friction(const struct cycle *cycle)
 /* Every stage in its order, told by an event, and what it has to leave behind. */
 static void test_stages(void)
 {
-    static const char *const told[] = {"pressed after",       "unloaded after",
-                                       "punch off after",     "rested in the die after",
-                                       "ejected after",       "rested outside the die"};
+    static const char *const told[] = {"pressed after",   "unloaded after",
+                                       "punch off after", "rested in the die after",
+                                       "ejected after",   "rested outside the die"};
     static const int order[] = {GB_BRANCH_RELAX,    GB_BRANCH_LOAD,  GB_BRANCH_UNLOAD,
                                 GB_BRANCH_CONFINED, GB_BRANCH_EJECT, GB_BRANCH_EJECTED};
     const struct gb_params params =
@@ -124,9 +124,8 @@ static void test_stages(void)
     const struct gb_point *slides = rest + 1;
     const double area = M_PI * params.die_diameter_m * slides->height_m;
     g_assert_cmpint(slides->branch, ==, GB_BRANCH_EJECT);
-    g_assert_cmpfloat_with_epsilon(slides->wall_friction_n /
-                                       (params.mu_wall * slides->wall_pa * area),
-                                   1.0, 0.05);
+    g_assert_cmpfloat_with_epsilon(
+        slides->wall_friction_n / (params.mu_wall * slides->wall_pa * area), 1.0, 0.05);
     g_assert_cmpfloat(ejected->wall_pa, ==, 0.0);
     g_assert_cmpfloat(ejected->welded, >, 0.5);
     g_assert_cmpfloat(ejected->axial_springback, >, 0.0);
@@ -239,8 +238,8 @@ static double elastic(const struct gb_bed_list *list, double modulus,
     for (int64_t slot = 0; slot < list->count; slot++) {
         const double force = list->contacts.normal[slot];
         const double ri = bed->position[list->first[slot]][3];
-        const double rj = list == &bed->walls ? HUGE_VAL
-                                              : bed->position[list->other[slot]][3];
+        const double rj =
+            list == &bed->walls ? HUGE_VAL : bed->position[list->other[slot]][3];
         const double hertz = 4.0 / 3.0 * modulus * sqrt(gb_law_hertz_radius(ri, rj));
         sum += force > 0.0 ? 0.4 * force * cbrt(pow(force / hertz, 2.0)) : 0.0;
     }
@@ -268,8 +267,8 @@ static struct unloading unload(const char *normal, const char *time)
     const double joule =
         experiment->model->newton_per_force * experiment->model->metre_per_length;
     const double modulus = bed->law.normal.hertz.modulus;
-    result.stored = joule * (elastic(&bed->pairs, modulus, bed) +
-                             elastic(&bed->walls, modulus, bed));
+    result.stored =
+        joule * (elastic(&bed->pairs, modulus, bed) + elastic(&bed->walls, modulus, bed));
     result.work = point->punch_work;
     bed->law.damping = 0.0;
     for (int64_t k = 0; k < bed->pairs.count; k++) {

@@ -84,8 +84,7 @@ static bool show(char **words, gboolean csv, struct gb_error *err)
     }
     bool good = list->len > 0 ||
                 gb_error_set(err, GB_ERR_INPUT, "cycle takes run directories: DIR...");
-    good = good &&
-           gb_runset_read(&set, (char *const *)list->pdata, list->len, err) &&
+    good = good && gb_runset_read(&set, (char *const *)list->pdata, list->len, err) &&
            gb_die_summary_check(&set, err);
     if (good) {
         print_groups(&set);
@@ -115,8 +114,7 @@ int gb_cmd_cycle(int argc, char **argv)
     };
     gboolean csv = FALSE;
     const GOptionEntry entries[] = {
-        {"csv", 0, 0, G_OPTION_ARG_NONE, &csv, "one row per group of beds, as CSV",
-         NULL},
+        {"csv", 0, 0, G_OPTION_ARG_NONE, &csv, "one row per group of beds, as CSV", NULL},
         {0},
     };
     char **words = NULL;

@@ -57,15 +57,15 @@ struct gb_figure_annotation {
 /* Coloured cells behind the curves: `columns` along x times `rows` along y. */
 struct gb_figure_map {
     int columns, rows;
-    const double *x, *y;   /* columns + 1 and rows + 1 edges, ascending */
-    const double *value;   /* column by column; NaN: no cell */
-    double low, high;      /* of the colours */
-    const char *label;     /* of the colour bar, with its unit */
+    const double *x, *y; /* columns + 1 and rows + 1 edges, ascending */
+    const double *value; /* column by column; NaN: no cell */
+    double low, high;    /* of the colours */
+    const char *label;   /* of the colour bar, with its unit */
 };
 
 struct gb_figure {
     const struct gb_figure_map *map; /* NULL: none */
-    const char *title, *caption; /* NULL: none */
+    const char *title, *caption;     /* NULL: none */
     struct gb_figure_axis x, y;
     const struct gb_figure_curve *curve;
     size_t count;

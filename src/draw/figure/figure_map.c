@@ -56,8 +56,7 @@ static void draw_bar(const struct gb_figure_page *page)
     scale.from = f[3];
     scale.to = f[1];
     for (int k = 0; k < BAR_STEPS; k++) {
-        set_colour(cairo, map,
-                   map->low + (map->high - map->low) * (k + 0.5) / BAR_STEPS);
+        set_colour(cairo, map, map->low + (map->high - map->low) * (k + 0.5) / BAR_STEPS);
         cairo_rectangle(cairo, left, f[3] - (k + 1) * height, bar_width, height + 0.3);
         cairo_fill(cairo);
     }

@@ -55,7 +55,8 @@ static void set_colours(struct gb_figure_map *map, const double *density)
     memcpy(sorted, density, sizeof sorted);
     gsl_sort(sorted, 1, CELLS);
     map->low = gsl_stats_quantile_from_sorted_data(sorted, 1, CELLS, extreme_share);
-    map->high = gsl_stats_quantile_from_sorted_data(sorted, 1, CELLS, 1.0 - extreme_share);
+    map->high =
+        gsl_stats_quantile_from_sorted_data(sorted, 1, CELLS, 1.0 - extreme_share);
 }
 
 static void set_map(struct gb_series *series, const struct gb_state *state,

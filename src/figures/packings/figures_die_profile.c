@@ -72,7 +72,11 @@ bool gb_figures_die_wall(struct gb_series *series, const struct gb_figures_input
                          struct gb_error *err)
 {
     static const struct profile profile = {
-        "die-wall", "z", "wall_MPa", 12, gb_die_profile_wall,
+        "die-wall",
+        "z",
+        "wall_MPa",
+        12,
+        gb_die_profile_wall,
         "the state has no contacts with walls; accepted states in the die, of version "
         "0.2.0 on"};
     return draw(series, input, &profile, err);
@@ -81,15 +85,15 @@ bool gb_figures_die_wall(struct gb_series *series, const struct gb_figures_input
 bool gb_figures_die_axial(struct gb_series *series, const struct gb_figures_input *input,
                           struct gb_error *err)
 {
-    static const struct profile profile = {"die-axial", "z", "density", 16, fill_axial,
-                                           ""};
+    static const struct profile profile = {"die-axial", "z",        "density",
+                                           16,          fill_axial, ""};
     return draw(series, input, &profile, err);
 }
 
 bool gb_figures_die_radial(struct gb_series *series, const struct gb_figures_input *input,
                            struct gb_error *err)
 {
-    static const struct profile profile = {"die-radial", "r", "density", 16, fill_radial,
-                                           ""};
+    static const struct profile profile = {"die-radial", "r",         "density",
+                                           16,           fill_radial, ""};
     return draw(series, input, &profile, err);
 }

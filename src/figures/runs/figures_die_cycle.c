@@ -6,8 +6,8 @@
 #include "figures/figures_label.h"
 #include "figures/packings/state_set.h"
 #include "figures/runs/runs_check.h"
-#include "measure/fit/average.h"
 #include "many/die_summary.h"
+#include "measure/fit/average.h"
 
 enum { TRAVEL_POINTS = 101 };
 
@@ -136,7 +136,7 @@ bool gb_figures_die_ejection(struct gb_series *series,
     if (!check(set, "die-ejection", err)) {
         return false;
     }
-    double *rows = g_new(double, set->count * TRAVEL_POINTS);
+    double *rows = g_new(double, set->count *TRAVEL_POINTS);
     gb_series_init(series, TRAVEL_POINTS);
     double *grid = gb_series_column(series, "travel_um");
     const bool good = sample_ejection(set, grid, rows, err);

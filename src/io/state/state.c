@@ -383,7 +383,8 @@ bool gb_state_read(struct gb_state **out, const char *path, struct gb_error *err
         const struct gb_hdf_array shape = shape_of(&arrays[k], state);
         done = gb_hdf_get_array(file, &shape, *array_member(state, &arrays[k]), err);
     }
-    done = done && check(state, path, err) && check_digest(state, layout, file, path, err);
+    done =
+        done && check(state, path, err) && check_digest(state, layout, file, path, err);
     gb_hdf_destroy(file);
     if (!done) {
         gb_state_destroy(state);

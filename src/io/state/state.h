@@ -14,10 +14,11 @@
 struct gb_state {
     int dimension;
     int64_t count;
-    double cell[3];      /* periodic edges, d; y is 1 in 2D */
-    double tilt[3];      /* of the cell: xy, xz, yz, d */
-    double die_radius;   /* d; 0: a periodic cell, else the cell is the box of a die */
-    double die_top; /* of the open end of the bore; NaN: endless; 0 and below: drawn off */
+    double cell[3];    /* periodic edges, d; y is 1 in 2D */
+    double tilt[3];    /* of the cell: xy, xz, yz, d */
+    double die_radius; /* d; 0: a periodic cell, else the cell is the box of a die */
+    double
+        die_top; /* of the open end of the bore; NaN: endless; 0 and below: drawn off */
     double *position;    /* count x 3, inside the cell */
     double *radius;      /* count */
     int32_t *contacts;   /* count: coordination number of each particle */

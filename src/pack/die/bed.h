@@ -47,8 +47,8 @@ struct gb_bed {
     struct gb_bed_list pairs, walls;
     struct gb_bed_tally tally;
     struct gb_bed_welds *welds; /* of the compact; NULL: none */
-    double smallest; /* radius */
-    int32_t *counts; /* one per particle, for measures to count in */
+    double smallest;            /* radius */
+    int32_t *counts;            /* one per particle, for measures to count in */
     int64_t evaluations, rebuilds;
     /* the lists hold while nothing has moved further than half the skin */
     double skin;

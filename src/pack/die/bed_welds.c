@@ -120,7 +120,7 @@ static void remove_weld(struct gb_bed_welds *welds, int64_t at)
 struct weld {
     double normal, across; /* stiffness, E d */
     double dashpot;
-    double rate;             /* k over the lesser mass */
+    double rate;              /* k over the lesser mass */
     double strength, plastic; /* greatest tension, and force across it */
 };
 
@@ -247,8 +247,8 @@ double gb_bed_welds_energy(const struct gb_bed *bed)
             0.0);
         const double force[3] = {welds->force[0][k], welds->force[1][k],
                                  welds->force[2][k]};
-        sum += 0.5 * (weld.normal * stretch * stretch +
-                      gb_vec_dot(force, force) / weld.across);
+        sum += 0.5 *
+               (weld.normal * stretch * stretch + gb_vec_dot(force, force) / weld.across);
     }
     return sum;
 }

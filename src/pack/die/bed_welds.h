@@ -25,7 +25,7 @@ struct gb_bed_welds {
     double *slab;
     double *length, *radius; /* distance of the centres without tension; a */
     double *force[3];        /* across the weld, on the first */
-    double strength;       /* tensile, E */
+    double strength;         /* tensile, E */
 };
 
 /* Welds every touching contact between particles, right after an evaluation; strength

@@ -23,7 +23,6 @@ static double plane_overlap(double distance, double radius, double up, double un
     return radius - distance;
 }
 
-
 /* From a point of the wall, (rho, z) away from the centre, to the centre. */
 static double point_overlap(const double x[3], double rho, double out, double up,
                             double radius, double unit[3])
@@ -43,9 +42,8 @@ static double block_overlap(const struct gb_die *die, const double x[3], double 
                             double radius, double unit[3])
 {
     const double up = x[2] - die->top;
-    return rho < die->radius
-               ? point_overlap(x, rho, rho - die->radius, up, radius, unit)
-               : plane_overlap(up, radius, 1.0, unit);
+    return rho < die->radius ? point_overlap(x, rho, rho - die->radius, up, radius, unit)
+                             : plane_overlap(up, radius, 1.0, unit);
 }
 
 static double side_overlap(const struct gb_die *die, const double x[3], double radius,

@@ -132,8 +132,8 @@ static const struct row rows[GB_DIE_STAGES_COUNT] = {
                              begin_unload},
     [GB_DIE_STAGES_UNLOAD] = {"unloaded", ramp_share, NULL, GB_DIE_STAGES_WITHDRAW,
                               begin_withdraw},
-    [GB_DIE_STAGES_WITHDRAW] = {"punch off", withdraw_share, NULL,
-                                GB_DIE_STAGES_CONFINED, begin_confined},
+    [GB_DIE_STAGES_WITHDRAW] = {"punch off", withdraw_share, NULL, GB_DIE_STAGES_CONFINED,
+                                begin_confined},
     [GB_DIE_STAGES_CONFINED] = {"rested in the die", rest_share, rest_interval,
                                 GB_DIE_STAGES_EJECT, begin_eject},
     [GB_DIE_STAGES_EJECT] = {"ejected", eject_share, eject_interval, GB_DIE_STAGES_FREE,
@@ -218,8 +218,8 @@ static void write_event(const struct gb_die_stages *stages, char *text, size_t s
              (long long)stages->now.steps);
 }
 
-bool gb_die_cycle_after_point(struct gb_die_stages *stages, struct gb_bed *bed, char *text,
-                              size_t size, struct gb_error *err)
+bool gb_die_cycle_after_point(struct gb_die_stages *stages, struct gb_bed *bed,
+                              char *text, size_t size, struct gb_error *err)
 {
     const struct row *row = row_of(stages);
     if (gb_die_cycle_contains(stages->now.stage) && row->share(stages, bed) >= 1.0) {
@@ -252,9 +252,9 @@ void gb_die_cycle_springback(const struct gb_die_stages *stages, const struct gb
 double gb_die_cycle_progress(const struct gb_die_stages *stages, const struct gb_bed *bed)
 {
     static const double full[GB_DIE_STAGES_COUNT + 1] = {
-        [GB_DIE_STAGES_PRESS] = 0.3,     [GB_DIE_STAGES_UNLOAD] = 0.4,
-        [GB_DIE_STAGES_WITHDRAW] = 0.5,  [GB_DIE_STAGES_CONFINED] = 0.52,
-        [GB_DIE_STAGES_EJECT] = 0.6,     [GB_DIE_STAGES_FREE] = 0.94,
+        [GB_DIE_STAGES_PRESS] = 0.3,    [GB_DIE_STAGES_UNLOAD] = 0.4,
+        [GB_DIE_STAGES_WITHDRAW] = 0.5, [GB_DIE_STAGES_CONFINED] = 0.52,
+        [GB_DIE_STAGES_EJECT] = 0.6,    [GB_DIE_STAGES_FREE] = 0.94,
         [GB_DIE_STAGES_FREE + 1] = 1.0,
     };
     const enum gb_die_stages_stage stage = stages->now.stage;

@@ -27,8 +27,8 @@ bool gb_die_cycle_due(struct gb_die_stages *stages, const struct gb_bed *bed);
 
 /* After that point: the next stage begins where this one has ended.  text (size bytes)
  * receives one line then.  Errors: as of gb_bed_welds_form. */
-bool gb_die_cycle_after_point(struct gb_die_stages *stages, struct gb_bed *bed, char *text,
-                              size_t size, struct gb_error *err);
+bool gb_die_cycle_after_point(struct gb_die_stages *stages, struct gb_bed *bed,
+                              char *text, size_t size, struct gb_error *err);
 
 /* Height of the compact over that under the full pressure, and its outer radius over that of
  * the bore, less 1; NaN before the full pressure.  Elastic particles enter wall and punch

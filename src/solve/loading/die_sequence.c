@@ -157,9 +157,9 @@ static enum gb_die_sequence_state check_rest(struct gb_die_stages *stages,
 static enum gb_die_sequence_state (*const checks[GB_DIE_STAGES_COUNT])(
     struct gb_die_stages *stages, struct gb_bed *bed, char *text, size_t size,
     struct gb_error *err) = {
-    [GB_DIE_STAGES_POUR] = check_pour,       [GB_DIE_STAGES_EASE] = check_ease,
-    [GB_DIE_STAGES_SETTLE] = check_settle,   [GB_DIE_STAGES_FLATTEN] = check_flatten,
-    [GB_DIE_STAGES_LIFT] = check_lift,       [GB_DIE_STAGES_REST] = check_rest,
+    [GB_DIE_STAGES_POUR] = check_pour,     [GB_DIE_STAGES_EASE] = check_ease,
+    [GB_DIE_STAGES_SETTLE] = check_settle, [GB_DIE_STAGES_FLATTEN] = check_flatten,
+    [GB_DIE_STAGES_LIFT] = check_lift,     [GB_DIE_STAGES_REST] = check_rest,
 };
 
 enum gb_die_sequence_state gb_die_sequence_check(struct gb_die_stages *stages,

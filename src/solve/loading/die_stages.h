@@ -66,15 +66,15 @@ struct gb_die_stages_report {
     double side[2];          /* mean pressure on the side wall, x and y */
     double floor;            /* pressure on the floor, mean since the last point */
     double contact;          /* height of the powder against the side, d */
-    double drag;             /* axial force of the side on the powder, likewise; downward */
-    double work;             /* of the punch since pressing began, E d^3 */
+    double drag; /* axial force of the side on the powder, likewise; downward */
+    double work; /* of the punch since pressing began, E d^3 */
     /* Springback as fractions: height over that under the full pressure, outer radius over
      * that of the bore, less 1; NaN before that pressure. */
     double axial, radial;
-    double welded; /* share of the welds that holds; NaN without any */
-    double residual;         /* rms resultant force over the mean contact force */
-    double time_step;        /* last used */
-    double progress;         /* 0..1 */
+    double welded;    /* share of the welds that holds; NaN without any */
+    double residual;  /* rms resultant force over the mean contact force */
+    double time_step; /* last used */
+    double progress;  /* 0..1 */
 };
 struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *stages,
                                                  const struct gb_bed *bed);

@@ -93,9 +93,9 @@ bool gb_die_surface_record(struct gb_die_surface *surface, const char *name,
         }
         surface->count = count;
     }
-    if (surface->count > 0 && !gb_record_array(record, name, GB_RECORD_INT32,
-                                               surface->count, 1, "1",
-                                               surface->particle, err)) {
+    if (surface->count > 0 &&
+        !gb_record_array(record, name, GB_RECORD_INT32, surface->count, 1, "1",
+                         surface->particle, err)) {
         return false;
     }
     for (int64_t k = 0; k < surface->count; k++) {

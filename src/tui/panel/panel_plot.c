@@ -68,7 +68,7 @@ const char *gb_panel_plot_stage(int branch)
         [-GB_BRANCH_HOLD] = "hold",          [-GB_BRANCH_UNLOAD] = "unloading",
         [-GB_BRANCH_CONFINED] = "punch off", [-GB_BRANCH_EJECT] = "ejection",
         [-GB_BRANCH_EJECTED] = "ejected"};
-    return names[branch < 0 ? -branch : 0];
+    return names[branch < 0 && branch >= GB_BRANCH_LEAST ? -branch : 0];
 }
 
 void gb_panel_plot_step_view(struct gb_panel_plot *panel, int step)

@@ -31,10 +31,15 @@ static const struct gb_point *point_at(const struct gb_view_curve *view, size_t 
     return gb_curve_at(gb_runner_curve(view->session->runner), i);
 }
 
+static bool is_stage_of_cycle(int branch)
+{
+    return branch < GB_BRANCH_HOLD && branch >= GB_BRANCH_LEAST;
+}
+
 /* A quasi-static run has no stages: its initial state is part of loading. */
 static bool on_branch(const struct gb_point *point, int branch, bool dynamic)
 {
-    if (!dynamic && point->branch <= 0 && point->branch >= GB_BRANCH_HOLD) {
+    if (!dynamic && point->branch <= 0 && !is_stage_of_cycle(point->branch)) {
         return branch == GB_BRANCH_LOAD;
     }
     return point->branch == branch;
@@ -89,7 +94,7 @@ static struct gb_plot_series branch_style(int branch, bool dynamic, double from_
                                        .marker = MARK_UNLOAD + (branch - 1) % MARKS,
                                        .spacing = UNLOAD_SPACING};
     }
-    const bool stage = dynamic || branch < GB_BRANCH_HOLD;
+    const bool stage = dynamic || is_stage_of_cycle(branch);
     g_strlcpy(name, stage ? gb_panel_plot_stage(branch) : "loading", size);
     switch (branch) {
     case GB_BRANCH_RELAX:
@@ -100,9 +105,9 @@ static struct gb_plot_series branch_style(int branch, bool dynamic, double from_
     case GB_BRANCH_CONFINED:
     case GB_BRANCH_EJECT:
     case GB_BRANCH_EJECTED:
-        return (struct gb_plot_series){
-            .ink = GB_PLOT_INK_SERIES + GB_BRANCH_HOLD - branch,
-            .marker = MARK_HOLD + GB_BRANCH_HOLD - branch};
+        return (struct gb_plot_series){.ink =
+                                           GB_PLOT_INK_SERIES + GB_BRANCH_HOLD - branch,
+                                       .marker = MARK_HOLD + GB_BRANCH_HOLD - branch};
     default:
         return (struct gb_plot_series){.ink = GB_PLOT_INK_SERIES, .marker = MARK_LOAD};
     }
