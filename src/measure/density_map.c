@@ -17,7 +17,7 @@ static const double weight[HALF] = {
     0.086190161531953275917, 0.073346481411080305734, 0.059298584915436780746,
     0.044277438817419806169, 0.028531388628933663181, 0.012341229799987199547};
 
-double gb_density_map_lens(double a, double b, double distance)
+double gb_density_map_shared_area(double a, double b, double distance)
 {
     const double small = fmin(a, b), big = fmax(a, b);
     if (distance >= a + b) {
@@ -46,7 +46,8 @@ static double integrate(double cylinder, double sphere, double axis, double from
         const double side = k < HALF ? -1.0 : 1.0;
         const double angle = middle + side * half * node[k % HALF];
         const double section = sphere * cos(angle);
-        sum += weight[k % HALF] * section * gb_density_map_lens(section, cylinder, axis);
+        sum += weight[k % HALF] * section *
+               gb_density_map_shared_area(section, cylinder, axis);
     }
     return half * sum;
 }

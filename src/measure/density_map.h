@@ -16,7 +16,7 @@ struct gb_density_map {
 
 /* Area that a disc of radius a shares with one of radius b at this distance of the
  * centres. */
-double gb_density_map_lens(double a, double b, double distance);
+double gb_density_map_shared_area(double a, double b, double distance);
 
 /* Volume of a sphere within a cylinder about the z axis, between two heights: the shared
  * areas of its sections, by Gauss' rule of 24 points in the angle asin(z/r) on each of the

@@ -156,7 +156,7 @@ static void slip_of(const struct gb_bed *bed, int32_t i, int32_t j, const double
     }
 }
 
-/* The force across the weld: turned into the present plane with its length, loaded by the
+/* The force across the weld: projected into the present plane with its length, loaded by the
  * slip of the last step, and cut to its plastic limit. */
 static void advance_shear(struct gb_bed_welds *welds, int64_t k, const struct weld *weld,
                           const double unit[3], const double slip[3], double step,
@@ -165,8 +165,8 @@ static void advance_shear(struct gb_bed_welds *welds, int64_t k, const struct we
     double held[3] = {welds->force[0][k], welds->force[1][k], welds->force[2][k]};
     const double before = gb_vec_length(held), rate = gb_vec_dot(slip, unit);
     gb_vec_add(held, -gb_vec_dot(held, unit), unit);
-    const double turned = gb_vec_length(held);
-    gb_vec_scale(held, turned > 0.0 ? before / turned : 0.0);
+    const double projected = gb_vec_length(held);
+    gb_vec_scale(held, projected > 0.0 ? before / projected : 0.0);
     for (int c = 0; c < 3; c++) {
         held[c] -= weld->across * step * (slip[c] - rate * unit[c]);
     }
