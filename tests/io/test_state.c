@@ -63,6 +63,12 @@ static struct gb_state *made_up(int64_t count, int64_t pair_count)
                                      .iterations = 77,
                                      .evaluations = 99,
                                      .seconds = 1.5};
+    g_assert_true(gb_state_set_walls(state, 3, &err));
+    for (int k = 0; k < 3; k++) {
+        state->wall[2 * k + 1] = k;
+        state->wall_force[3 * k + 1] = 0.5 + k;
+    }
+    state->die_top = 1.25;
     state->metre_per_length = 1e-8;
     state->pascal_per_stress = 3.82e11;
     state->seed = UINT64_MAX;
@@ -114,6 +120,10 @@ static void assert_equal(const struct gb_state *a, const struct gb_state *b)
     assert_same(a->pair_force, b->pair_force, 24 * m);
     assert_same(a->pair_normal, b->pair_normal, 8 * m);
     assert_same(a->pair_bridged, b->pair_bridged, m);
+    g_assert_cmpint(a->wall_count, ==, b->wall_count);
+    assert_same(a->wall, b->wall, 8 * (size_t)a->wall_count);
+    assert_same(a->wall_force, b->wall_force, 24 * (size_t)a->wall_count);
+    g_assert_cmpfloat(a->die_top, ==, b->die_top);
     g_assert_cmpint(a->point.branch, ==, b->point.branch);
     g_assert_cmpint(a->point.step, ==, b->point.step);
     g_assert_cmpfloat(a->point.branch_from_pa, ==, b->point.branch_from_pa);
@@ -324,7 +334,8 @@ static const struct wrong_value {
     {"metre_per", AT(metre_per_length), MEMBER, 0, REAL, -1.0},
     {"pascal_per", AT(pascal_per_stress), MEMBER, 0, REAL, 0.0},
     {"p_pa", AT(point.p_pa), MEMBER, 0, REAL, (double)INFINITY},
-    {"branch", AT(point.branch), MEMBER, 0, MEMBER_INT, GB_BRANCH_HOLD - 1},
+    {"branch", AT(point.branch), MEMBER, 0, MEMBER_INT, GB_BRANCH_LEAST - 1},
+    {"branch", AT(point.branch), MEMBER, 0, MEMBER_INT, -1000.0},
     {"/pair_bri", AT(pair_bridged), ELEMENT, 3, BYTE, 2.0},
 };
 

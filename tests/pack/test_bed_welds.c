@@ -163,9 +163,9 @@ static void test_bore(void)
         const double x[3] = {3.0 + 0.3 * cos(angle), 0.0, 2.0 + 0.3 * sin(angle)};
         const double h = gb_die_overlap(&die, GB_DIE_SIDE, x, 0.4, unit);
         if (k > 0 && x[2] > 2.0) {
-            const double projected[3] = {unit[0] - before[0], unit[1] - before[1],
+            const double change[3] = {unit[0] - before[0], unit[1] - before[1],
                                       unit[2] - before[2]};
-            g_assert_cmpfloat(gb_vec_length(projected), <, 0.02);
+            g_assert_cmpfloat(gb_vec_length(change), <, 0.02);
             g_assert_cmpfloat(fabs(h - last), <, 0.01);
         }
         last = h;

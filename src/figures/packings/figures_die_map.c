@@ -105,8 +105,8 @@ bool gb_figures_die_map(struct gb_series *series, const struct gb_figures_input 
         gb_figures_label_groups(series, input->set);
         set_map(series, states.state[0], mean);
         gb_state_set_caption(series, &states);
-        gb_series_caption(series, "Mean over %zu beds; %d rings, %d bands.", states.count,
-                          RINGS, BANDS);
+        gb_series_caption(series, "%zu bed%s; %d rings, %d bands.", states.count,
+                          states.count > 1 ? "s, mean" : "", RINGS, BANDS);
     }
     gb_state_set_finish(&states);
     return good;

@@ -28,6 +28,13 @@ static const struct {
     {"seconds", offsetof(struct gb_state, point.seconds)},
 };
 
+/* A branch of loading and unloading, a stage, or a leg from the second on. */
+static bool is_branch(int branch)
+{
+    return branch >= GB_BRANCH_LEAST ||
+           (branch < GB_BRANCH_LEG - 1 && branch >= GB_BRANCH_LEG - GB_PATH_LEGS_MAX);
+}
+
 static const char *header_fault(const struct gb_state *state)
 {
     if (state->dimension != 2 && state->dimension != 3) {
@@ -44,7 +51,7 @@ static const char *header_fault(const struct gb_state *state)
     if (!positive(state->pascal_per_stress, 1e30)) {
         return "pascal_per_stress";
     }
-    if (state->point.step < 0 || state->point.branch < GB_BRANCH_LEG - GB_PATH_LEGS_MAX) {
+    if (state->point.step < 0 || !is_branch(state->point.branch)) {
         return state->point.step < 0 ? "step" : "branch";
     }
     for (size_t k = 0; k < sizeof finite_numbers / sizeof finite_numbers[0]; k++) {

@@ -155,7 +155,9 @@ bool gb_die_cycle_contains(enum gb_die_stages_stage stage)
 double gb_die_cycle_height(const struct gb_die_stages *stages, const struct gb_bed *bed)
 {
     double axial = 0.0, radial = 0.0;
-    if (bed->die.punch && stages->now.stage != GB_DIE_STAGES_WITHDRAW) {
+    const bool left =
+        stages->now.punch.ramp != GB_PUNCH_RISES && !(bed->tally.punch > 0.0);
+    if (bed->die.punch && stages->now.stage != GB_DIE_STAGES_WITHDRAW && !left) {
         return bed->die.punch_position;
     }
     if (!(stages->now.peak > 0.0)) {
