@@ -67,6 +67,13 @@ struct gb_path {
 bool gb_path_parse(struct gb_path *path, const char *text, int dimension,
                    struct gb_error *err);
 
+/* Adds one leg to the path.  Errors: GB_ERR_INPUT with what is wrong and accepted, without
+ * the leg's name; path is as before then. */
+bool gb_path_parse_leg(struct gb_path *path, const char *text, int dimension,
+                       struct gb_error *err);
+/* The texts of the legs, without blanks at their ends; g_strfreev. */
+char **gb_path_parse_split(const char *text);
+
 /* The components that exist in 2 or 3 dimensions. */
 bool gb_path_has_component(int dimension, int component);
 /* "x", "y", "z", "xy", "xz", "yz"; and the component of a name of `length` characters

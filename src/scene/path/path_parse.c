@@ -352,38 +352,51 @@ static void init_leg(struct gb_leg *leg, const char *text)
     g_strlcpy(leg->text, text, sizeof leg->text);
 }
 
-static bool parse_leg(struct gb_path *path, const char *text, int dimension,
-                      struct gb_error *err)
+bool gb_path_parse_leg(struct gb_path *path, const char *text, int dimension,
+                       struct gb_error *err)
 {
-    struct gb_error why = {0};
-    struct gb_path_reading in = {.before = path, .dimension = dimension, .err = &why};
+    struct gb_path_reading in = {.before = path, .dimension = dimension, .err = err};
     if (path->count == GB_PATH_LEGS_MAX) {
-        return gb_error_set(err, GB_ERR_INPUT, "loading.path: must be at most %d legs",
+        return gb_error_set(err, GB_ERR_INPUT, "must be at most %d legs",
                             GB_PATH_LEGS_MAX);
     }
     in.leg = &path->leg[path->count];
     init_leg(in.leg, text);
-    const bool good = gb_path_words_init(&in.words, text, &why) && read_leg(&in);
+    const bool good = gb_path_words_init(&in.words, text, err) && read_leg(&in);
     gb_path_words_finish(&in.words);
     path->count += good;
-    return good || gb_error_set(err, GB_ERR_INPUT, "loading.path, leg %d '%.60s': %s",
-                                path->count + 1, text, why.text);
+    return good;
+}
+
+char **gb_path_parse_split(const char *text)
+{
+    char **phrases = g_regex_split_simple("\\s*;\\s*|\\s+then\\s+", text, 0, 0);
+    GPtrArray *legs = g_ptr_array_new();
+    for (int i = 0; phrases[i] != NULL; i++) {
+        const bool last = phrases[i + 1] == NULL;
+        if (g_strstrip(phrases[i])[0] == '\0' && (last || legs->len == 0)) {
+            g_free(phrases[i]); /* GLib ends a list by ';' */
+        } else {
+            g_ptr_array_add(legs, phrases[i]);
+        }
+    }
+    g_free(phrases);
+    g_ptr_array_add(legs, NULL);
+    return (char **)g_ptr_array_free(legs, FALSE);
 }
 
 bool gb_path_parse(struct gb_path *path, const char *text, int dimension,
                    struct gb_error *err)
 {
-    char **phrases = g_regex_split_simple("\\s*;\\s*|\\s+then\\s+", text, 0, 0);
+    char **legs = gb_path_parse_split(text);
     bool good = true;
     path->count = 0;
-    for (int i = 0; phrases[i] != NULL && good; i++) {
-        const char *phrase = g_strstrip(phrases[i]);
-        const bool last = phrases[i + 1] == NULL;
-        if (phrase[0] == '\0' && (last || path->count == 0)) {
-            continue; /* GLib ends a list by ';' */
-        }
-        good = parse_leg(path, phrase, dimension, err);
+    for (int i = 0; legs[i] != NULL && good; i++) {
+        struct gb_error why = {0};
+        good = gb_path_parse_leg(path, legs[i], dimension, &why) ||
+               gb_error_set(err, GB_ERR_INPUT, "loading.path, leg %d '%.60s': %s", i + 1,
+                            legs[i], why.text);
     }
-    g_strfreev(phrases);
+    g_strfreev(legs);
     return good;
 }

@@ -41,9 +41,18 @@ void gb_dialog_show_presets(struct gb_dialog *dialog, const struct gb_dialog_typ
     gb_preset_browser_init(&dialog->browser, current);
 }
 
+void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                         const struct gb_params *params, enum gb_plot_glyphs glyphs)
+{
+    gb_dialog_close(dialog);
+    dialog->type = type;
+    gb_leg_editor_init(&dialog->legs, params->path, params->dimension, glyphs);
+}
+
 void gb_dialog_close(struct gb_dialog *dialog)
 {
     gb_preset_browser_finish(&dialog->browser);
+    gb_leg_editor_finish(&dialog->legs);
     g_free(dialog->text);
     memset(dialog, 0, sizeof *dialog);
 }

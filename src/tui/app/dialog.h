@@ -3,6 +3,7 @@
 
 #include "tui/app/keys.h"
 #include "tui/app/preset_browser.h"
+#include "tui/legs/leg_editor.h"
 #include "tui/panel/prompt.h"
 #include "tui/term/paint.h"
 
@@ -29,6 +30,7 @@ struct gb_dialog_type {
     const char *label;    /* of the input line */
     const char *yes, *no; /* answers of a question */
     bool completes_path;  /* Tab completes the line as a path */
+    int scope;            /* bit of the keys of the table that act in it; 0: none */
     void (*opened_by)(struct gb_app *app,
                       const struct gb_key *key); /* its key closes the dialog, too */
     void (*accept)(struct gb_app *app);
@@ -43,6 +45,7 @@ struct gb_dialog {
     const struct gb_dialog_type *type; /* NULL: none is open */
     int top, focus, page; /* first line, focused line and lines per page of a list */
     struct gb_preset_browser browser;
+    struct gb_leg_editor legs;
     char *text;               /* shell command shown; owned */
     char note[400];           /* question, or why the last answer was refused */
     enum gb_dialog_note kind; /* of the note; after a warning the same answer is taken */
@@ -55,6 +58,9 @@ void gb_dialog_show(struct gb_dialog *dialog, const struct gb_dialog_type *type,
 /* The list of presets, compared with the parameters `current`. */
 void gb_dialog_show_presets(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                             const struct gb_params *current);
+/* The legs of the loading path of these parameters. */
+void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                         const struct gb_params *params, enum gb_plot_glyphs glyphs);
 void gb_dialog_close(struct gb_dialog *dialog);
 
 void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);

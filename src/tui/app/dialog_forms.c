@@ -1,7 +1,6 @@
 #include "tui/app/dialog_forms.h"
 
 #include <glib.h>
-#include <limits.h>
 #include <stdio.h>
 
 #include "tui/panel/complete.h"
@@ -10,6 +9,10 @@ enum {
     HELP_COLS = 60,
     PRESETS_ROWS = 34,
     PRESETS_COLS = 84,
+    LEGS_ROWS = 40,
+    LEGS_COLS = 110,
+    LEGS_PAGE = 5,
+    FAR = 100000, /* beyond any list */
     PROMPT_ROWS = 8,
     PROMPT_COLS = 64,
     NAME_COLS = 10,
@@ -74,33 +77,31 @@ static void draw_help(struct gb_dialog *dialog, const struct gb_paint *screen)
     }
 }
 
+/* Lines by which a key moves in a list with this many lines per page. */
+static int list_step(enum gb_action action, int page)
+{
+    switch (action) {
+    case GB_ACTION_UP:
+        return -1;
+    case GB_ACTION_DOWN:
+        return 1;
+    case GB_ACTION_PAGE_UP:
+        return -page;
+    case GB_ACTION_PAGE_DOWN:
+        return page;
+    case GB_ACTION_HOME:
+        return -FAR;
+    case GB_ACTION_END:
+        return FAR;
+    default:
+        return 0;
+    }
+}
+
 /* No upper limit here: draw_help limits the position. */
 static enum gb_dialog_result scroll_help(struct gb_dialog *dialog, int code)
 {
-    int to = dialog->focus;
-    switch (gb_keys_action(code)) {
-    case GB_ACTION_UP:
-        to -= 1;
-        break;
-    case GB_ACTION_DOWN:
-        to += 1;
-        break;
-    case GB_ACTION_PAGE_UP:
-        to -= dialog->page;
-        break;
-    case GB_ACTION_PAGE_DOWN:
-        to += dialog->page;
-        break;
-    case GB_ACTION_HOME:
-        to = 0;
-        break;
-    case GB_ACTION_END:
-        to = INT_MAX / 2;
-        break;
-    default:
-        break;
-    }
-    dialog->focus = MAX(to, 0);
+    dialog->focus = MAX(dialog->focus + list_step(gb_keys_action(code), dialog->page), 0);
     return GB_DIALOG_OPEN;
 }
 
@@ -134,6 +135,38 @@ static enum gb_dialog_result accept_preset(struct gb_dialog *dialog, int code)
 
 const struct gb_dialog_form gb_dialog_forms_presets = {draw_presets, edit_presets,
                                                        accept_preset};
+
+/* --- legs ------------------------------------------------------------------------- */
+
+static void draw_legs(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    const int note = dialog->note[0] != '\0' ? NOTE_ROWS : 0;
+    const struct gb_paint frame = box(screen, LEGS_ROWS, LEGS_COLS, dialog->type->title);
+    struct gb_paint paint = inside(&frame);
+    draw_note(dialog, &paint, paint.rect.rows - note, note);
+    paint.rect.rows -= note;
+    gb_leg_editor_draw(&dialog->legs, &paint);
+}
+
+static bool edit_legs(struct gb_dialog *dialog, const struct gb_term_event *event)
+{
+    gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", "");
+    return gb_leg_editor_type(&dialog->legs, event);
+}
+
+static enum gb_dialog_result go_in_legs(struct gb_dialog *dialog, int code)
+{
+    struct gb_leg_editor *legs = &dialog->legs;
+    const enum gb_action action = gb_keys_action(code);
+    if (action == GB_ACTION_ENTER) {
+        gb_leg_editor_change(legs);
+        return GB_DIALOG_OPEN;
+    }
+    gb_leg_editor_go(legs, list_step(action, LEGS_PAGE));
+    return GB_DIALOG_OPEN;
+}
+
+const struct gb_dialog_form gb_dialog_forms_legs = {draw_legs, edit_legs, go_in_legs};
 
 /* --- input line -------------------------------------------------------------------- */
 

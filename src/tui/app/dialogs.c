@@ -67,6 +67,12 @@ const struct gb_dialog_type gb_dialogs_calibrate = {
     .accept = gb_job_commands_accept_calibrate,
 };
 
+const struct gb_dialog_type gb_dialogs_legs = {
+    .form = &gb_dialog_forms_legs,
+    .title = "Legs of loading.path (y takes them, Esc restores)",
+    .scope = GB_KEY_LEGS,
+};
+
 const struct gb_dialog_type gb_dialogs_shell = {
     .form = &gb_dialog_forms_command,
     .title = "Shell command that repeats this run (Esc closes)",

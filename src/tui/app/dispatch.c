@@ -18,6 +18,12 @@ static void handle_dialog(struct gb_app *app, const struct gb_term_event *event)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
     const struct gb_dialog_type *type = dialog->type;
+    struct gb_key key;
+    if (type->scope != 0 && dialog->legs.typing == GB_LEG_EDITOR_LIST &&
+        gb_keys_find(event->code, &key) && (key.scope & type->scope)) {
+        key.command(app, &key);
+        return;
+    }
     switch (gb_dialog_handle(dialog, event)) {
     case GB_DIALOG_OPEN:
         break;

@@ -17,6 +17,16 @@ void gb_pane_commands_decrease(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_revert(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_accept_find(struct gb_app *app);
 
+/* leg_commands.c: the legs of loading.path. */
+void gb_leg_commands_open(struct gb_screen *screen);
+void gb_leg_commands_add(struct gb_app *app, const struct gb_key *key);
+void gb_leg_commands_insert(struct gb_app *app, const struct gb_key *key);
+void gb_leg_commands_delete(struct gb_app *app, const struct gb_key *key);
+void gb_leg_commands_down(struct gb_app *app, const struct gb_key *key);
+void gb_leg_commands_up(struct gb_app *app, const struct gb_key *key);
+void gb_leg_commands_text(struct gb_app *app, const struct gb_key *key);
+void gb_leg_commands_take(struct gb_app *app, const struct gb_key *key);
+
 /* view_commands.c: views and their options. */
 void gb_view_commands_show(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_next(struct gb_app *app, const struct gb_key *key);

@@ -76,5 +76,9 @@ void gb_pane_commands_revert(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_screen *screen = &app->screen;
     (void)key;
+    if (screen->dialog.type == &gb_dialogs_legs) {
+        gb_leg_editor_undo(&screen->dialog.legs);
+        return;
+    }
     gb_panel_params_edit_revert(&screen->params, &screen->session, &screen->message);
 }

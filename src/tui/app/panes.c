@@ -2,6 +2,8 @@
 
 #include <stdio.h>
 
+#include "tui/app/key_commands.h"
+
 static void draw_params(struct gb_screen *screen, const struct gb_paint *paint,
                         enum gb_paint_focus focus)
 {
@@ -10,6 +12,11 @@ static void draw_params(struct gb_screen *screen, const struct gb_paint *paint,
 
 static void navigate_params(struct gb_screen *screen, enum gb_action action)
 {
+    const struct gb_field *field = gb_panel_params_field(&screen->params);
+    if (action == GB_ACTION_ENTER && field == gb_params_find("loading", "path")) {
+        gb_leg_commands_open(screen);
+        return;
+    }
     gb_panel_params_navigate(&screen->params, &screen->session, action);
 }
 

@@ -58,7 +58,13 @@ static int footer_width(const struct gb_key *key, int gap)
     return gb_paint_width(name) + 1 + gb_paint_width(key->brief) + gap;
 }
 
-enum { FOOTER_KEYS = 64 };
+enum { FOOTER_KEYS = 96 };
+
+/* Keys of a dialog stand in the dialog. */
+static bool in_footer(const struct gb_key *key)
+{
+    return key->brief != NULL && (key->scope & GB_KEY_ANY_PANE);
+}
 
 /* Columns of the keys in the footer: the first rows of the table that fit, and always the
  * last two, help and quit.  at[i] is -1 for the others.  Returns the number of rows of
@@ -69,7 +75,7 @@ static size_t layout_footer(int cols, int at[FOOTER_KEYS])
     int all = 0;
     for (size_t i = 0; i < count; i++) {
         const struct gb_key key = gb_keys_at(i);
-        all += key.brief != NULL ? footer_width(&key, 2) : 0;
+        all += in_footer(&key) ? footer_width(&key, 2) : 0;
     }
     const int gap = all <= cols ? 2 : 1;
     const struct gb_key help = gb_keys_at(count - 2);
@@ -80,7 +86,7 @@ static size_t layout_footer(int cols, int at[FOOTER_KEYS])
         const struct gb_key key = gb_keys_at(i);
         const bool last = i + 2 >= count;
         at[i] = -1;
-        if (key.brief != NULL &&
+        if (in_footer(&key) &&
             (last || col + footer_width(&key, gap) + reserved <= cols)) {
             at[i] = col;
             col += footer_width(&key, gap);

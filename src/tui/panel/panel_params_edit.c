@@ -39,10 +39,8 @@ void gb_panel_params_edit_revert(struct gb_panel_params *panel,
     gb_session_quick_start(session);
 }
 
-/* Sets a valid value.  One that conflicts with others is set with a warning, because the
- * others may be changed next.  False: not valid by itself, nothing is set. */
-static bool set_value(struct gb_session *session, const struct gb_field *field,
-                      const char *text, struct gb_message *message)
+bool gb_panel_params_edit_set(struct gb_session *session, const struct gb_field *field,
+                              const char *text, struct gb_message *message)
 {
     struct gb_error err = {0};
     if (!gb_params_set(gb_session_params(session), field, text, &err)) {
@@ -68,7 +66,7 @@ void gb_panel_params_edit_step(struct gb_panel_params *panel, struct gb_session 
     char text[GB_PARAMS_VALUE_MAX + 16];
     gb_params_format(gb_session_params(session), field, value, sizeof value);
     if (gb_value_step_next(field, value, direction, text, sizeof text)) {
-        set_value(session, field, text, message);
+        gb_panel_params_edit_set(session, field, text, message);
     } else {
         snprintf(message->text, sizeof message->text,
                  "%s has no next value: Enter edits it", field->key);
@@ -125,7 +123,8 @@ void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *
     }
     const enum gb_action action = gb_keys_action(event->code);
     if (action == GB_ACTION_ENTER) {
-        panel->editing = !set_value(session, field, edited_text(panel), message);
+        panel->editing =
+            !gb_panel_params_edit_set(session, field, edited_text(panel), message);
     } else if (action == GB_ACTION_BACK) {
         panel->editing = false;
         message->text[0] = '\0';

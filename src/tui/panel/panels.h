@@ -67,6 +67,10 @@ void gb_panel_params_edit_begin(struct gb_panel_params *panel,
 void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *session,
                               const struct gb_term_event *event,
                               struct gb_message *message);
+/* Sets a valid value.  One that conflicts with others is set with a warning, because the
+ * others may be changed next.  False: not valid by itself, nothing is set. */
+bool gb_panel_params_edit_set(struct gb_session *session, const struct gb_field *field,
+                              const char *text, struct gb_message *message);
 /* Increases (1) or decreases (-1) the focused value and starts the quick cell. */
 void gb_panel_params_edit_step(struct gb_panel_params *panel, struct gb_session *session,
                                int direction, struct gb_message *message);
