@@ -125,13 +125,3 @@ void gb_leg_words_write(const struct gb_leg *leg, int dimension,
         g_strlcpy(words->leads, "nothing: stresses are held", sizeof words->leads);
     }
 }
-
-void gb_leg_words_name(const struct gb_path *path, int leg, char *text, size_t size)
-{
-    snprintf(text, size, "leg %d", leg);
-    if (leg >= 1 && leg <= path->count) {
-        char **words = g_strsplit(path->leg[leg - 1].text, " to ", 2);
-        snprintf(text, size, "leg %d %.40s", leg, words[0]);
-        g_strfreev(words);
-    }
-}

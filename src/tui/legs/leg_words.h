@@ -16,7 +16,4 @@ struct gb_leg_words {
 void gb_leg_words_write(const struct gb_leg *leg, int dimension,
                         struct gb_leg_words *words);
 
-/* Title of a leg in legends: "leg 2 shear xz". */
-void gb_leg_words_name(const struct gb_path *path, int leg, char *text, size_t size);
-
 #endif

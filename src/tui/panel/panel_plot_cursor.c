@@ -99,7 +99,8 @@ void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
     const int down = row - 1 - panel->plot.top; /* the plot begins at 1, 1 */
     const int right = col - 1 - panel->plot.left;
     double nearest = HUGE_VAL;
-    if (!has_cursor(panel) || panel->plot.field_cols <= 0) {
+    if (!has_cursor(panel) || panel->view->abscissa == GB_VIEW_OWN ||
+        panel->plot.field_cols <= 0) {
         return;
     }
     for (size_t i = 0; i < shown.points; i++) {
@@ -154,6 +155,27 @@ static bool describe_misfit(const struct gb_session *session, struct gb_message 
     return true;
 }
 
+/* "q 12.3 MPa  strains 1.2 %, ... " of a point on a leg, "coordination ..." elsewhere. */
+static void write_details(const struct gb_point *point, char *text, size_t size)
+{
+    static const char *const name[6] = {"x", "y", "z", "xy", "xz", "yz"};
+    char q[32];
+    int n = 0;
+    if (!isfinite(point->leg)) {
+        snprintf(text, size, "coordination %.3f  bridged %.1f %%", point->coordination,
+                 100.0 * point->bridged);
+        return;
+    }
+    n = snprintf(text, size, "q %s  strain, %%:",
+                 gb_units_format_short(point->q_pa, GB_DIM_PRESSURE, 4, q, sizeof q));
+    for (int k = 0; k < 6 && n > 0 && (size_t)n < size; k++) {
+        if (isfinite(point->strain[k]) && (k < 3 || point->strain[k] != 0.0)) {
+            n += snprintf(text + n, size - (size_t)n, " %s %.2f", name[k],
+                          100.0 * point->strain[k]);
+        }
+    }
+}
+
 static void describe_point(const struct gb_panel_plot *panel,
                            const struct gb_session *session, struct gb_message *message)
 {
@@ -163,16 +185,18 @@ static void describe_point(const struct gb_panel_plot *panel,
     char p[32];
     char px[32];
     char pz[32];
+    char details[160];
+    write_details(point, details, sizeof details);
     write_point_label(session, point, label, sizeof label);
     message->style = GB_STYLE_PLAIN;
     snprintf(message->text, sizeof message->text,
              "point %zu of %zu (%s)  rel. density %.5f  p %s  px %s  pz %s  "
-             "coordination %.3f  bridged %.1f %%",
+             "%s",
              panel->cursor + 1, shown.points, label, point->density,
              gb_units_format_short(point->p_pa, GB_DIM_PRESSURE, 5, p, sizeof p),
              gb_units_format_short(point->px_pa, GB_DIM_PRESSURE, 5, px, sizeof px),
              gb_units_format_short(point->pz_pa, GB_DIM_PRESSURE, 5, pz, sizeof pz),
-             point->coordination, 100.0 * point->bridged);
+             details);
 }
 
 void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,

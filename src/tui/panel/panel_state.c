@@ -81,17 +81,17 @@ static void draw_progress(const struct gb_paint *paint, const struct gb_session 
 
 static void draw_item(const struct gb_paint *paint, int row, int col, int cols,
                       const struct gb_panel_state_item *item,
-                      const struct gb_snapshot *now)
+                      const struct gb_session_shown *shown)
 {
     char text[48];
-    gb_panel_state_items_write(item, now, text, sizeof text);
+    gb_panel_state_items_write(item, shown, text, sizeof text);
     const char *name = cols >= FULL_NAME_COLS ? item->name : item->brief;
     gb_paint_text(paint, row, col, GB_STYLE_DIM, name);
     gb_paint_text(paint, row, col + cols - (int)strlen(text), GB_STYLE_PLAIN, text);
 }
 
 static void draw_items(const struct gb_paint *paint, int first, int rows,
-                       const struct gb_snapshot *now,
+                       const struct gb_session_shown *shown,
                        const struct gb_panel_state_choice *choice)
 {
     const int count = choice->count;
@@ -111,7 +111,7 @@ static void draw_items(const struct gb_paint *paint, int first, int rows,
         const int column = all ? i / each : i % columns;
         const int row = all ? i % each : i / columns;
         draw_item(paint, first + row, 1 + column * (width + gap), width,
-                  all ? choice->item[i] : choice->by_weight[i], now);
+                  all ? choice->item[i] : choice->by_weight[i], shown);
     }
 }
 
@@ -125,7 +125,7 @@ void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *
     const bool roomy = paint->rect.rows >= choice.count + 5;
     draw_progress(paint, session, roomy);
     int row = roomy ? 4 : 2;
-    draw_items(paint, row, paint->rect.rows - row, now, &choice);
+    draw_items(paint, row, paint->rect.rows - row, &shown, &choice);
     if (roomy && now->error.text[0] != '\0') {
         row += choice.count + 1;
         gb_paint_wrap(paint, row, paint->rect.rows - row, GB_STYLE_WARN, now->error.text);

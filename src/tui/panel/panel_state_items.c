@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "scene/loading_kind.h"
+#include "scene/path/path.h"
 #include "tui/panel/panel_state_items.h"
 #include "tui/panel/panels.h"
 
@@ -46,55 +47,55 @@ static void write_count(char *text, size_t size, double value)
     snprintf(text, size, "%.*f%s%s", decimals, value, k > 0 ? " " : "", prefix[k]);
 }
 
-static void density(const struct gb_snapshot *now, char *text, size_t size)
+static void density(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.4f", now->now.density);
+    write_number(text, size, "%.4f", shown->now->now.density);
 }
 
-static void contacts(const struct gb_snapshot *now, char *text, size_t size)
+static void contacts(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.2f", now->now.coordination);
+    write_number(text, size, "%.2f", shown->now->now.coordination);
 }
 
-static void bridged(const struct gb_snapshot *now, char *text, size_t size)
+static void bridged(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.1f %%", 100.0 * now->now.bridged);
+    write_number(text, size, "%.1f %%", 100.0 * shown->now->now.bridged);
 }
 
-static void rattlers(const struct gb_snapshot *now, char *text, size_t size)
+static void rattlers(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.1f %%", 100.0 * now->now.rattlers);
+    write_number(text, size, "%.1f %%", 100.0 * shown->now->now.rattlers);
 }
 
-static void p(const struct gb_snapshot *now, char *text, size_t size)
+static void p(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_pressure(now, now->now.p_pa, text, size);
+    write_pressure(shown->now, shown->now->now.p_pa, text, size);
 }
 
-static void px(const struct gb_snapshot *now, char *text, size_t size)
+static void px(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_pressure(now, now->now.px_pa, text, size);
+    write_pressure(shown->now, shown->now->now.px_pa, text, size);
 }
 
-static void py(const struct gb_snapshot *now, char *text, size_t size)
+static void py(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_pressure(now, now->now.py_pa, text, size);
+    write_pressure(shown->now, shown->now->now.py_pa, text, size);
 }
 
-static void pz(const struct gb_snapshot *now, char *text, size_t size)
+static void pz(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_pressure(now, now->now.pz_pa, text, size);
+    write_pressure(shown->now, shown->now->now.pz_pa, text, size);
 }
 
-static void simulated(const struct gb_snapshot *now, char *text, size_t size)
+static void simulated(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    const double ns = 1e9 * now->now.time_s;
+    const double ns = 1e9 * shown->now->now.time_s;
     write_number(text, size, ns < 99.995 ? "%.2f ns" : "%.0f ns", ns);
 }
 
-static void stage(const struct gb_snapshot *now, char *text, size_t size)
+static void stage(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    snprintf(text, size, "%s", gb_panel_plot_stage(now->now.branch));
+    snprintf(text, size, "%s", gb_panel_plot_stage(shown->now->now.branch));
 }
 
 /* "31.2 aJ", "214 fJ": three digits, the prefix below one joule. */
@@ -116,51 +117,51 @@ static void write_energy(char *text, size_t size, double value)
     }
 }
 
-static void kinetic(const struct gb_snapshot *now, char *text, size_t size)
+static void kinetic(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_energy(text, size, now->now.kinetic);
+    write_energy(text, size, shown->now->now.kinetic);
 }
 
-static void work(const struct gb_snapshot *now, char *text, size_t size)
+static void work(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_energy(text, size, now->now.work);
+    write_energy(text, size, shown->now->now.work);
 }
 
-static void elastic(const struct gb_snapshot *now, char *text, size_t size)
+static void elastic(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_energy(text, size, now->now.elastic);
+    write_energy(text, size, shown->now->now.elastic);
 }
 
-static void dissipated(const struct gb_snapshot *now, char *text, size_t size)
+static void dissipated(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_energy(text, size, now->now.dissipated);
+    write_energy(text, size, shown->now->now.dissipated);
 }
 
-static void energy_error(const struct gb_snapshot *now, char *text, size_t size)
+static void energy_error(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.2g %%", 100.0 * now->now.energy_residual);
+    write_number(text, size, "%.2g %%", 100.0 * shown->now->now.energy_residual);
 }
 
-static void time_step(const struct gb_snapshot *now, char *text, size_t size)
+static void time_step(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    if (now->time_step_s > 0.0) {
-        gb_units_format_short(now->time_step_s, GB_DIM_TIME, 3, text, size);
+    if (shown->now->time_step_s > 0.0) {
+        gb_units_format_short(shown->now->time_step_s, GB_DIM_TIME, 3, text, size);
     }
 }
 
-static void residual(const struct gb_snapshot *now, char *text, size_t size)
+static void residual(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.0e", now->live_residual);
+    write_number(text, size, "%.0e", shown->now->live_residual);
 }
 
-static void evaluations(const struct gb_snapshot *now, char *text, size_t size)
+static void evaluations(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_count(text, size, (double)now->evaluations);
+    write_count(text, size, (double)shown->now->evaluations);
 }
 
-static void rate(const struct gb_snapshot *now, char *text, size_t size)
+static void rate(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_count(text, size, now->evaluations_per_s);
+    write_count(text, size, shown->now->evaluations_per_s);
 }
 
 char *gb_panel_state_items_duration(double seconds, char *text, size_t size)
@@ -172,13 +173,45 @@ char *gb_panel_state_items_duration(double seconds, char *text, size_t size)
     return gb_paint_time(seconds, text, size);
 }
 
-static void elapsed_time(const struct gb_snapshot *now, char *text, size_t size)
+static void elapsed_time(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    gb_panel_state_items_duration(now->seconds, text, size);
+    gb_panel_state_items_duration(shown->now->seconds, text, size);
+}
+
+static void leg(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    struct gb_path path;
+    const double number = shown->now->now.leg;
+    if (isfinite(number) &&
+        gb_path_parse(&path, shown->params->path, shown->params->dimension, NULL)) {
+        snprintf(text, size, "%.0f of %d", number, path.count);
+    }
+}
+
+static void q(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    write_pressure(shown->now, shown->now->now.q_pa, text, size);
+}
+
+/* Shear stresses have the sign of the shear, as in loading.path. */
+static void stress_xy(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    write_pressure(shown->now, -shown->now->now.shear_pa[0], text, size);
+}
+
+static void stress_xz(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    write_pressure(shown->now, -shown->now->now.shear_pa[1], text, size);
+}
+
+static void stress_yz(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    write_pressure(shown->now, -shown->now->now.shear_pa[2], text, size);
 }
 
 /* Order of the columns when all fit. */
 static const struct gb_panel_state_item still_items[] = {
+    {"leg", "leg", leg},
     {"density", "relative density", density},
     {"coord.", "mean coordination number", contacts},
     {"bridged", "bridged contacts", bridged},
@@ -187,6 +220,10 @@ static const struct gb_panel_state_item still_items[] = {
     {"px", "  along x", px},
     {"py", "  along y", py},
     {"pz", "  along z", pz},
+    {"q", "deviatoric stress q", q},
+    {"xy", "shear stress xy", stress_xy},
+    {"xz", "shear stress xz", stress_xz},
+    {"yz", "shear stress yz", stress_yz},
     {"residual", "force residual", residual},
     {"evals", "force evaluations", evaluations},
     {"evals/s", "force evaluations/s", rate},
@@ -196,7 +233,8 @@ static const struct gb_panel_state_item still_items[] = {
 enum { STILL_ITEMS = sizeof still_items / sizeof still_items[0] };
 
 /* Order of importance, for panes that are too small for all. */
-static const int still_weight[STILL_ITEMS] = {0, 4, 8, 1, 7, 10, 2, 3, 5, 6, 9, 11};
+static const int still_weight[STILL_ITEMS] = {0, 1,  5, 9, 11, 10, 12, 13, 2,
+                                              8, 15, 3, 4, 6,  7,  14, 16};
 
 /* The residual of a dynamic run is the unbalanced force. */
 static const struct gb_panel_state_item moving_items[] = {
@@ -225,10 +263,28 @@ enum { MOVING_ITEMS = sizeof moving_items / sizeof moving_items[0] };
 static const int moving_weight[MOVING_ITEMS] = {2,  3,  1,  0,  7,  8, 9, 10, 11,
                                                 15, 12, 16, 17, 13, 4, 6, 14, 5};
 
-static bool applies(const struct gb_panel_state_item *item,
-                    const struct gb_params *params)
+/* Some leg of the path strains or holds this component. */
+static bool sheared(const struct gb_path *path, int component)
 {
-    return item->write != py || params->dimension == 3;
+    bool moved = false;
+    for (int l = 0; l < path->count; l++) {
+        const struct gb_leg_component *control = &path->leg[l].component[component];
+        moved = moved || control->control != GB_LEG_STRAIN || control->value != 0.0;
+    }
+    return moved;
+}
+
+static bool applies(const struct gb_panel_state_item *item,
+                    const struct gb_params *params, const struct gb_path *path)
+{
+    if (item->write == leg || item->write == q) {
+        return path->count > 0;
+    }
+    return item->write == py          ? params->dimension == 3
+           : item->write == stress_xy ? sheared(path, 3)
+           : item->write == stress_xz ? sheared(path, 4)
+           : item->write == stress_yz ? sheared(path, 5)
+                                      : true;
 }
 
 struct gb_panel_state_choice gb_panel_state_items_choose(const struct gb_session *session)
@@ -238,12 +294,17 @@ struct gb_panel_state_choice gb_panel_state_items_choose(const struct gb_session
     const struct gb_panel_state_item *all = moving ? moving_items : still_items;
     const int *weight = moving ? moving_weight : still_weight;
     struct gb_panel_state_choice choice = {.count = 0};
+    struct gb_path path = {.count = 0};
     int weighed = 0;
+    if (!gb_loading_kind_follows_path(params) ||
+        !gb_path_parse(&path, params->path, params->dimension, NULL)) {
+        path.count = 0;
+    }
     for (int i = 0; i < (moving ? (int)MOVING_ITEMS : (int)STILL_ITEMS); i++) {
-        if (applies(&all[i], params)) {
+        if (applies(&all[i], params, &path)) {
             choice.item[choice.count++] = &all[i];
         }
-        if (applies(&all[weight[i]], params)) {
+        if (applies(&all[weight[i]], params, &path)) {
             choice.by_weight[weighed++] = &all[weight[i]];
         }
     }
@@ -252,11 +313,13 @@ struct gb_panel_state_choice gb_panel_state_items_choose(const struct gb_session
 
 /* Items of a run without state: elapsed time and evaluations. */
 void gb_panel_state_items_write(const struct gb_panel_state_item *item,
-                                const struct gb_snapshot *now, char *text, size_t size)
+                                const struct gb_session_shown *shown, char *text,
+                                size_t size)
 {
+    const struct gb_snapshot *now = shown->now;
     snprintf(text, size, "-");
     if (now->now_valid || item->write == elapsed_time ||
         (item->write == residual && now->evaluations > 0)) {
-        item->write(now, text, size);
+        item->write(shown, text, size);
     }
 }

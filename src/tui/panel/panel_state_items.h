@@ -6,7 +6,7 @@
 /* Quantities of the state pane.  A new one is a writing function and a row. */
 struct gb_panel_state_item {
     const char *brief, *name; /* for narrow and wide columns */
-    void (*write)(const struct gb_snapshot *now, char *text, size_t size);
+    void (*write)(const struct gb_session_shown *shown, char *text, size_t size);
 };
 
 enum { GB_PANEL_STATE_ITEMS = 20 };
@@ -23,7 +23,8 @@ gb_panel_state_items_choose(const struct gb_session *session);
 
 /* Value of an item; "-" where there is none yet. */
 void gb_panel_state_items_write(const struct gb_panel_state_item *item,
-                                const struct gb_snapshot *now, char *text, size_t size);
+                                const struct gb_session_shown *shown, char *text,
+                                size_t size);
 
 /* "0.7 s", "12:34", "3:04:05"; returns text. */
 char *gb_panel_state_items_duration(double seconds, char *text, size_t size);

@@ -13,7 +13,12 @@
 /* State of the workbench without its screen: the parameters being edited, the current
  * run, its data on display and the previous curves. */
 
-enum { GB_SESSION_PREVIOUS = 6, GB_SESSION_LOG = 200, GB_SESSION_WHATIFS = 16 };
+enum {
+    GB_SESSION_WHATIF = 800,
+    GB_SESSION_PREVIOUS = 6,
+    GB_SESSION_LOG = 200,
+    GB_SESSION_WHATIFS = 16
+};
 
 /* The cell that a curve comes from. */
 enum gb_session_cell { GB_SESSION_FULL_CELL, GB_SESSION_QUICK_CELL };
@@ -37,7 +42,8 @@ struct gb_session {
     bool start_due;  /* the full cell is due */
     struct gb_previous_curve previous[GB_SESSION_PREVIOUS];
     int previous_count, previous_total; /* number of previous curves, and of all so far */
-    char whatif_text[200]; /* what-if that waits for the next point; "": none */
+    char whatif_text
+        [GB_SESSION_WHATIF]; /* what-if that waits for the next point; "": none */
     size_t whatif_at[GB_SESSION_WHATIFS]; /* points of the curve where a what-if began */
     int whatifs;
     struct gb_child_command child;       /* picture, report, replicas or calibration */

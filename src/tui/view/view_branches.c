@@ -6,6 +6,7 @@
 #include "base/units.h"
 #include "scene/loading_kind.h"
 #include "tui/view/view_curve.h"
+#include "tui/view/view_legs.h"
 
 /* Branches of the run's curve: loading, unloading, and the stages of a dynamic run. */
 
@@ -39,7 +40,8 @@ static bool is_stage_of_cycle(int branch)
 /* A quasi-static run has no stages: its initial state is part of loading. */
 static bool on_branch(const struct gb_point *point, int branch, bool dynamic)
 {
-    if (!dynamic && point->branch <= 0 && !is_stage_of_cycle(point->branch)) {
+    if (!dynamic && point->branch <= 0 && point->branch >= GB_BRANCH_LEG &&
+        !is_stage_of_cycle(point->branch)) {
         return branch == GB_BRANCH_LOAD;
     }
     return point->branch == branch;
@@ -53,7 +55,7 @@ static void put_point(const struct gb_view_curve *view, size_t at,
 }
 
 /* Collects the points of a branch in the panel.  A branch starts at the point that it
- * leaves: a stage at the last point of the stage before, an unloading branch at its point
+ * leaves: a stage or a leg at the last point of the one before, an unloading branch at its point
  * of the loading branch.  Against time, NaN separates it from branches in between. */
 static size_t gather(const struct gb_view_curve *view, int branch, double *from_pa)
 {
@@ -123,6 +125,11 @@ static void draw_branch(struct gb_view_curve *view, int branch)
     }
     struct gb_plot_series series =
         branch_style(branch, is_dynamic(view->session), from_pa, name, sizeof name);
+    const int leg = gb_view_legs_number(&view->path, branch);
+    if (leg > 0) {
+        series = gb_view_legs_style(leg);
+        gb_view_legs_name(&view->path, leg, name, sizeof name);
+    }
     series.x = view->panel->x;
     series.y = view->panel->y;
     series.count = count;
@@ -144,6 +151,9 @@ void gb_view_branches_draw(struct gb_view_curve *view)
 {
     for (int branch = last_branch(view); branch > 0; branch--) {
         draw_branch(view, branch);
+    }
+    for (int leg = view->path.count; leg > 1; leg--) {
+        draw_branch(view, GB_BRANCH_LEG - leg);
     }
     for (int branch = GB_BRANCH_LEAST; branch <= GB_BRANCH_HOLD; branch++) {
         draw_branch(view, branch);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/loading_kind.h"
+#include "tui/view/view_legs.h"
 
 /* Largest ratio of pressures on a logarithmic axis: smaller pressures come from single
  * contacts. */
@@ -192,7 +193,8 @@ static void draw_cursor(const struct gb_view_curve *view)
 
 void gb_view_curve_draw(struct gb_panel_plot *panel, const struct gb_session *session)
 {
-    struct gb_view_curve view = {.panel = panel, .session = session};
+    struct gb_view_curve view = {
+        .panel = panel, .session = session, .path = gb_view_legs_path(session)};
     draw_axes(&view);
     gb_view_overlays_previous(&view);
     gb_view_overlays_quick(&view);

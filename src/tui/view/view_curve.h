@@ -1,20 +1,22 @@
 #ifndef GB_TUI_VIEW_VIEW_CURVE_H
 #define GB_TUI_VIEW_VIEW_CURVE_H
 
+#include "scene/path/path.h"
 #include "tui/view/views.h"
 
 /* Parts of the view of the pressure curve, drawn from back to front. */
 
 enum {
     GB_VIEW_CURVE_ENTRIES =
-        3 + 3 + GB_UNLOAD_MAX + GB_SESSION_PREVIOUS /* of the legend */
+        3 + 3 + GB_PATH_LEGS_MAX + GB_UNLOAD_MAX + GB_SESSION_PREVIOUS /* of the legend */
 };
 
 /* State of the drawing. */
 struct gb_view_curve {
     struct gb_panel_plot *panel;
     const struct gb_session *session;
-    double unit_pa; /* of the pressure axis */
+    double unit_pa;      /* of the pressure axis */
+    struct gb_path path; /* legs of the run */
     struct gb_plot_entry entry[GB_VIEW_CURVE_ENTRIES];
     int entries;
 };

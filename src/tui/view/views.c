@@ -2,9 +2,16 @@
 
 #include <string.h>
 
+#include "scene/loading_kind.h"
+
 static bool has_rod_law(const struct gb_params *params)
 {
     return params->normal == GB_NORMAL_ROD;
+}
+
+static bool has_tensors(const struct gb_params *params)
+{
+    return gb_loading_kind_of(params)->changes;
 }
 
 static const struct gb_plot_view views[] = {
@@ -108,6 +115,44 @@ static const struct gb_plot_view views[] = {
         .abscissa = GB_VIEW_DENSITY,
         .options = GB_VIEW_PRESSURE_AXIS,
         .draw = gb_view_fit_draw,
+    },
+    {
+        .key = "P",
+        .help = "stress path: q against mean pressure, by leg",
+        .title = "Stress path: q against p",
+        .hint =
+            "deviatoric stress against mean pressure; a number ends each leg; Left and "
+            "Right move a cursor",
+        .need = GB_VIEW_NEEDS_POINTS,
+        .abscissa = GB_VIEW_OWN,
+        .draw = gb_view_legs_stress_path,
+        .applies = has_tensors,
+        .excluded = "pressure tensors are recorded in quasi-static scenes",
+    },
+    {
+        .key = "Q",
+        .help = "deviatoric stress against strain, by leg",
+        .title = "Deviatoric stress q against strain",
+        .hint = "q against the shear or axial strain of the legs; Left and Right move a "
+                "cursor",
+        .need = GB_VIEW_NEEDS_POINTS,
+        .abscissa = GB_VIEW_OWN,
+        .draw = gb_view_legs_stress_strain,
+        .applies = has_tensors,
+        .excluded = "strains are recorded in quasi-static scenes",
+    },
+    {
+        .key = "U",
+        .help = "volume strain against strain, by leg",
+        .title = "Volume strain against strain",
+        .hint =
+            "volume strain (positive: denser) against the shear or axial strain of the "
+            "legs",
+        .need = GB_VIEW_NEEDS_POINTS,
+        .abscissa = GB_VIEW_OWN,
+        .draw = gb_view_legs_volume_strain,
+        .applies = has_tensors,
+        .excluded = "strains are recorded in quasi-static scenes",
     },
 };
 

@@ -12,8 +12,14 @@ enum gb_view_need {
     GB_VIEW_NEEDS_CHART     /* a chart.csv */
 };
 
-/* x axis of the views of curve points, on which the cursor moves. */
-enum gb_view_abscissa { GB_VIEW_NO_CURSOR, GB_VIEW_DENSITY, GB_VIEW_ELAPSED };
+/* x axis of the views of curve points, on which the cursor moves; on one of its own the
+ * mouse does not reach it. */
+enum gb_view_abscissa {
+    GB_VIEW_NO_CURSOR,
+    GB_VIEW_DENSITY,
+    GB_VIEW_ELAPSED,
+    GB_VIEW_OWN
+};
 
 /* Longest texts that 80 columns show whole. */
 enum { GB_VIEW_TITLE = 43, GB_VIEW_HINT = 120 };
@@ -87,6 +93,15 @@ void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *ses
 
 /* The packing along y: shaded spheres, darker with depth; discs in 2D. */
 void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *session);
+
+/* Leg by leg: the path in the plane of mean pressure and deviatoric stress; deviatoric
+ * stress, and volume strain, against the strain that the path is about. */
+void gb_view_legs_stress_path(struct gb_panel_plot *panel,
+                              const struct gb_session *session);
+void gb_view_legs_stress_strain(struct gb_panel_plot *panel,
+                                const struct gb_session *session);
+void gb_view_legs_volume_strain(struct gb_panel_plot *panel,
+                                const struct gb_session *session);
 
 /* Accuracy against cost of the numerical settings in the loaded chart. */
 void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *session);
