@@ -23,6 +23,29 @@ static bool same_terms(const struct gb_model *a, const struct gb_model *b)
            a->terms.friction == b->terms.friction && a->cohesionless == b->cohesionless;
 }
 
+/* The contacts of the packing carry what the next model needs. */
+static bool fits(const struct gb_model *now, const struct gb_model *next,
+                 struct gb_error *err)
+{
+    if (!same_terms(now, next)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "loading.changes: attraction, bridges and friction are there "
+                            "from the start or not at all");
+    }
+    if (now->numerics.single != next->numerics.single) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            next->sheared
+                ? "loading.path: legs that shear need double precision, but the run "
+                  "began "
+                  "in single: must be a path without shear, or a run with "
+                  "numerics.precision = double"
+                : "loading.path: the run is in double precision: must be a path with "
+                  "shear, or a run with numerics.precision = double");
+    }
+    return true;
+}
+
 /* Model, loading and what is left to do become those of the next experiment, which takes
  * the former ones with it. */
 static void take_over(struct gb_experiment *experiment, struct gb_experiment *next)
@@ -51,13 +74,18 @@ static bool check(const struct gb_experiment *experiment, struct gb_error *err)
                             "loading.changes: step %lld lies on an unloading branch",
                             (long long)experiment->step - 1);
     }
-    if (!gb_model_init(&model, &effective, err)) {
-        return false;
-    }
-    return same_terms(&model, experiment->model) ||
-           gb_error_set(err, GB_ERR_INPUT,
-                        "loading.changes: attraction, bridges and friction are there "
-                        "from the start or not at all");
+    return gb_model_init(&model, &effective, err) && fits(experiment->model, &model, err);
+}
+
+bool gb_change_allowed(const struct gb_params *params, const struct gb_params *changed,
+                       int64_t step, struct gb_error *err)
+{
+    struct gb_params before, after;
+    struct gb_model now, next;
+    gb_changes_effective(params, step, &before);
+    gb_changes_effective(changed, step, &after);
+    return gb_model_init(&now, &before, err) && gb_model_init(&next, &after, err) &&
+           fits(&now, &next, err);
 }
 
 bool gb_change_apply(struct gb_experiment *experiment, struct gb_error *err)

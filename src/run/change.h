@@ -14,6 +14,12 @@
  * contacts do not carry (bridges or friction where there were none); GB_ERR_MEMORY. */
 bool gb_change_apply(struct gb_experiment *experiment, struct gb_error *err);
 
+/* Whether a run can continue after a recorded step with these changed parameters instead.
+ * Errors: GB_ERR_INPUT as above, and for a change of precision (a path that shears after
+ * one that does not, unless numerics.precision = double). */
+bool gb_change_allowed(const struct gb_params *params, const struct gb_params *changed,
+                       int64_t step, struct gb_error *err);
+
 /* Last part of a resume: when a change was due at the step of the record, the next strain
  * step is decided again with the changed parameters. */
 bool gb_change_order(struct gb_experiment *experiment, struct gb_error *err);

@@ -167,6 +167,27 @@ static void write_cycle(const char *directory, uint64_t seed)
     g_free(preset);
 }
 
+/* Isotropic to 50 MPa, then sheared: q rises to 40 MPa at half the final strain. */
+static void write_legs(void)
+{
+    GString *text =
+        g_string_new("branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,q_MPa,exx,eyy,ezz,"
+                     "gxy,gxz,gyz\n");
+    for (int i = 0; i <= 10; i++) {
+        g_string_append_printf(text, "load,%d,0.4,%d,%d,%d,%d,1,0,0,0,0,0,0\n", i, 5 * i,
+                               5 * i, 5 * i, 5 * i);
+    }
+    for (int i = 1; i <= 10; i++) {
+        g_string_append_printf(text, "leg:2,%d,0.4,47,53,50,50,%d,0,0,0,0,%g,0\n", 10 + i,
+                               MIN(8 * i, 40), 0.02 * i);
+    }
+    write_text("legs", "preset.ini",
+               "[loading]\npath = isotropic to 50 MPa; shear xz to 20 % at z = 50 MPa\n");
+    write_text("legs", "curve.csv", text->str);
+    write_state("legs", 1);
+    g_string_free(text, TRUE);
+}
+
 static void write_chart(void)
 {
     write_text("chart", "chart.csv",
@@ -198,6 +219,8 @@ static const struct source {
     {"fit", {"a1", "a2", "b1"}},
     {"heckel", {"a1", "a2", "b1"}},
     {"coordination", {"a1", "b1"}},
+    {"path", {"legs"}},
+    {"stress-strain", {"legs"}},
     {"size-effect", {"a1", "a2", "b1"}},
     {"sweep", {"a1", "a2", "b1"}},
     {"rdf", {"a1", "a2"}},
@@ -582,6 +605,7 @@ int main(int argc, char **argv)
     write_dynamic("fast", "100 1/us");
     write_dynamic("slow", "10 1/us");
     write_die();
+    write_legs();
     write_cycle("cycle1", 1);
     write_cycle("cycle2", 2);
     write_chart();

@@ -6,8 +6,10 @@
 
 #include "common/scene.h"
 #include "measure/observe.h"
+#include "run/change.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
+#include "scene/field/changes.h"
 
 static struct gb_experiment *create(const struct gb_params *params)
 {
@@ -325,6 +327,36 @@ static void test_what_if(void)
     g_string_free(events, TRUE);
 }
 
+/* A shear asked of a run that began in single precision, as a what-if and as a change that
+ * the preset itself has. */
+static void test_what_if_precision(void)
+{
+    struct gb_error err = {0};
+    struct gb_params params = params_of(
+        "II", "loading.path=isotropic to 10 MPa; triaxial to 2 %", "scene.title=a");
+    struct gb_params changed = params;
+    g_assert_true(gb_changes_add(&changed, 10, "path=uniaxial to z = 15 MPa", &err));
+    g_assert_true(gb_change_allowed(&params, &changed, 10, &err));
+    changed = params;
+    g_assert_true(gb_changes_add(&changed, 10, "path=shear xz to 2 % then unload", &err));
+    g_assert_false(gb_change_allowed(&params, &changed, 10, &err));
+    g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+    g_assert_nonnull(strstr(err.text, "numerics.precision = double"));
+    struct gb_experiment *experiment = create(&changed);
+    struct gb_error why = {0};
+    enum gb_step_outcome outcome = GB_STEP_POINT;
+    while (outcome == GB_STEP_POINT || outcome == GB_STEP_MORE) {
+        outcome = gb_experiment_advance(experiment, 100000, &why);
+    }
+    g_assert_cmpint(outcome, ==, GB_STEP_STOPPED);
+    g_assert_cmpstr(why.text, ==, err.text);
+    gb_experiment_destroy(experiment);
+    g_assert_true(gb_params_assign(&params, "numerics.precision=double", NULL));
+    changed = params;
+    g_assert_true(gb_changes_add(&changed, 10, "path=shear xz to 2 % then unload", &err));
+    g_assert_true(gb_change_allowed(&params, &changed, 10, &err));
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -335,5 +367,6 @@ int main(int argc, char **argv)
     g_test_add_func("/loading-path/elastic-cycle", test_elastic_cycle);
     g_test_add_func("/loading-path/no-energy-created", test_no_energy_created);
     g_test_add_func("/loading-path/what-if", test_what_if);
+    g_test_add_func("/loading-path/what-if-precision", test_what_if_precision);
     return g_test_run();
 }

@@ -1,4 +1,5 @@
 #include "run/runner/runner.h"
+#include "run/change.h"
 
 #include <glib.h>
 #include <stdio.h>
@@ -91,7 +92,8 @@ bool gb_runner_create_fork(struct gb_runner **out, const char *changes,
     if (!gb_runner_forked(parent, &step)) {
         return gb_error_set(err, GB_ERR_INPUT, "the run has not handed over its state");
     }
-    if (!gb_changes_add(&changed, step, changes, err)) {
+    if (!gb_changes_add(&changed, step, changes, err) ||
+        !gb_change_allowed(&parent->params, &changed, step, err)) {
         return false;
     }
     struct gb_runner *runner = create(&changed, directory, err);

@@ -34,6 +34,27 @@ static bool fixed(const struct gb_leg_component *component)
     return component->control == GB_LEG_STRAIN && component->value == 0.0;
 }
 
+/* Strains all axes alike. */
+static bool is_isotropic(const struct gb_leg *leg)
+{
+    return leg->leading < 3 && leg->component[0].control == GB_LEG_STRAIN &&
+           leg->component[0].value == leg->component[2].value &&
+           leg->component[2].control == GB_LEG_STRAIN;
+}
+
+int gb_path_strained(const struct gb_path *path)
+{
+    int component = -1;
+    for (int l = 0; l < path->count; l++) {
+        const struct gb_leg *leg = &path->leg[l];
+        if (leg->leading >= 3 ||
+            (component < 3 && leg->leading >= 0 && !is_isotropic(leg))) {
+            component = leg->leading;
+        }
+    }
+    return component >= 0 ? component : 2;
+}
+
 bool gb_path_sheared(const struct gb_path *path)
 {
     for (int l = 0; l < path->count; l++) {

@@ -81,6 +81,10 @@ bool gb_path_has_component(int dimension, int component);
 const char *gb_path_component_name(int component);
 int gb_path_component_find(const char *name, size_t length);
 
+/* The component whose strain the path is about: the sheared one, or the axis that leads
+ * against the others; z without such a leg. */
+int gb_path_strained(const struct gb_path *path);
+
 /* True if a leg tilts the cell. */
 bool gb_path_sheared(const struct gb_path *path);
 /* Axes whose mean pressure is p_MPa of the curve, an enum gb_geometry: those that strain

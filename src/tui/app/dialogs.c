@@ -38,7 +38,7 @@ const struct gb_dialog_type gb_dialogs_data = {
 const struct gb_dialog_type gb_dialogs_what_if = {
     .form = &gb_dialog_forms_prompt,
     .title = "What-if: continue with other values (Esc cancels)",
-    .label = "key=value; several separated by semicolons:",
+    .label = "key=value; ... (legs of a path: leg then leg):",
     .opened_by = gb_run_commands_what_if,
     .accept = gb_run_commands_accept_what_if,
 };

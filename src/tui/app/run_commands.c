@@ -1,7 +1,10 @@
+#include <glib.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "run/quick.h"
 #include "scene/loading_kind.h"
+#include "scene/path/path.h"
 #include "tui/app/dialogs.h"
 #include "tui/app/key_commands.h"
 #include "tui/session/run_lifecycle.h"
@@ -120,6 +123,18 @@ void gb_run_commands_auto_start(struct gb_app *app, const struct gb_key *key)
 }
 
 /* Prefills the dialog with the focused parameter. */
+/* Semicolons separate assignments here: legs of a path are separated by `then`. */
+static void separate_legs(char *text, size_t size)
+{
+    char **legs = gb_path_parse_split(text);
+    if (strncmp(text, "loading.path=", strlen("loading.path=")) == 0) {
+        char *joined = g_strjoinv(" then ", legs);
+        g_strlcpy(text, joined, size);
+        g_free(joined);
+    }
+    g_strfreev(legs);
+}
+
 void gb_run_commands_what_if(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_screen *screen = &app->screen;
@@ -141,6 +156,7 @@ void gb_run_commands_what_if(struct gb_app *app, const struct gb_key *key)
         return;
     }
     gb_panel_params_assignment(&screen->params, &screen->session, text, sizeof text);
+    separate_legs(text, sizeof text);
     gb_dialog_show(&screen->dialog, &gb_dialogs_what_if, text);
 }
 

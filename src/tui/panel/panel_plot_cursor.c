@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "scene/loading_kind.h"
+#include "scene/path/path.h"
 #include "tui/panel/panels.h"
 #include "tui/view/views.h"
 
@@ -155,23 +156,21 @@ static bool describe_misfit(const struct gb_session *session, struct gb_message 
     return true;
 }
 
-/* "q 12.3 MPa  strains 1.2 %, ... " of a point on a leg, "coordination ..." elsewhere. */
-static void write_details(const struct gb_point *point, char *text, size_t size)
+/* "point 12 of 60, leg 2: density 0.4120  p 50 MPa  q 12.3 MPa  strain % x 1.20 ..." */
+static void describe_leg(const struct gb_panel_plot *panel, size_t points,
+                         const struct gb_point *point, struct gb_message *message)
 {
-    static const char *const name[6] = {"x", "y", "z", "xy", "xz", "yz"};
-    char q[32];
-    int n = 0;
-    if (!isfinite(point->leg)) {
-        snprintf(text, size, "coordination %.3f  bridged %.1f %%", point->coordination,
-                 100.0 * point->bridged);
-        return;
-    }
-    n = snprintf(text, size, "q %s  strain, %%:",
-                 gb_units_format_short(point->q_pa, GB_DIM_PRESSURE, 4, q, sizeof q));
-    for (int k = 0; k < 6 && n > 0 && (size_t)n < size; k++) {
+    char p[32], q[32];
+    const size_t size = sizeof message->text;
+    int n = snprintf(message->text, size,
+                     "point %zu of %zu, leg %.0f: density %.5f  p %s  q %s  strain %%",
+                     panel->cursor + 1, points, point->leg, point->density,
+                     gb_units_format_short(point->p_pa, GB_DIM_PRESSURE, 5, p, sizeof p),
+                     gb_units_format_short(point->q_pa, GB_DIM_PRESSURE, 4, q, sizeof q));
+    for (int k = 0; k < GB_PATH_COMPONENTS; k++) {
         if (isfinite(point->strain[k]) && (k < 3 || point->strain[k] != 0.0)) {
-            n += snprintf(text + n, size - (size_t)n, " %s %.2f", name[k],
-                          100.0 * point->strain[k]);
+            n += snprintf(message->text + n, size - (size_t)n, " %s %.2f",
+                          gb_path_component_name(k), 100.0 * point->strain[k]);
         }
     }
 }
@@ -185,18 +184,20 @@ static void describe_point(const struct gb_panel_plot *panel,
     char p[32];
     char px[32];
     char pz[32];
-    char details[160];
-    write_details(point, details, sizeof details);
     write_point_label(session, point, label, sizeof label);
     message->style = GB_STYLE_PLAIN;
+    if (isfinite(point->leg)) {
+        describe_leg(panel, shown.points, point, message);
+        return;
+    }
     snprintf(message->text, sizeof message->text,
              "point %zu of %zu (%s)  rel. density %.5f  p %s  px %s  pz %s  "
-             "%s",
+             "coordination %.3f  bridged %.1f %%",
              panel->cursor + 1, shown.points, label, point->density,
              gb_units_format_short(point->p_pa, GB_DIM_PRESSURE, 5, p, sizeof p),
              gb_units_format_short(point->px_pa, GB_DIM_PRESSURE, 5, px, sizeof px),
              gb_units_format_short(point->pz_pa, GB_DIM_PRESSURE, 5, pz, sizeof pz),
-             details);
+             point->coordination, 100.0 * point->bridged);
 }
 
 void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,

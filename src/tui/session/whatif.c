@@ -3,6 +3,7 @@
 #include <glib.h>
 #include <string.h>
 
+#include "run/change.h"
 #include "scene/field/changes.h"
 #include "tui/session/run_lifecycle.h"
 
@@ -17,7 +18,8 @@ bool gb_whatif_request(struct gb_session *session, const char *text, struct gb_e
     }
     struct gb_params probe = *gb_runner_params(session->runner);
     if (strlen(text) >= sizeof session->whatif_text ||
-        !gb_changes_add(&probe, some_step, text, err)) {
+        !gb_changes_add(&probe, some_step, text, err) ||
+        !gb_change_allowed(gb_runner_params(session->runner), &probe, some_step, err)) {
         return err->code != GB_OK ? false : gb_error_set(err, GB_ERR_INPUT, "too long");
     }
     if (!gb_runner_send(session->runner, GB_COMMAND_FORK) ||

@@ -58,31 +58,10 @@ void gb_view_legs_name(const struct gb_path *path, int leg, char *text, size_t s
 
 int gb_view_legs_number(const struct gb_path *path, int branch)
 {
-    const int leg = branch < GB_BRANCH_LEG    ? GB_BRANCH_LEG - branch
+    const int leg = branch < GB_BRANCH_LEG     ? GB_BRANCH_LEG - branch
                     : branch == GB_BRANCH_LOAD ? 1
                                                : 0;
     return leg <= path->count ? leg : 0;
-}
-
-/* Strains all axes alike. */
-static bool isotropic(const struct gb_leg *leg)
-{
-    return leg->leading < 3 && leg->component[0].control == GB_LEG_STRAIN &&
-           leg->component[0].value == leg->component[2].value &&
-           leg->component[2].control == GB_LEG_STRAIN;
-}
-
-int gb_view_legs_component(const struct gb_path *path)
-{
-    int component = -1;
-    for (int l = 0; l < path->count; l++) {
-        const struct gb_leg *leg = &path->leg[l];
-        if (leg->leading >= 3 ||
-            (component < 3 && leg->leading >= 0 && !isotropic(leg))) {
-            component = leg->leading;
-        }
-    }
-    return component >= 0 ? component : 2;
 }
 
 /* --- quantities ------------------------------------------------------------------- */
@@ -206,7 +185,7 @@ static void draw(struct gb_panel_plot *panel, const struct gb_session *session,
         return;
     }
     if (axes.x != mean_pressure) {
-        drawing.axes.component = gb_view_legs_component(&drawing.path);
+        drawing.axes.component = gb_path_strained(&drawing.path);
         label_strain(&drawing.axes);
     }
     draw_axes(&drawing);
@@ -229,8 +208,7 @@ static void draw(struct gb_panel_plot *panel, const struct gb_session *session,
 void gb_view_legs_stress_path(struct gb_panel_plot *panel,
                               const struct gb_session *session)
 {
-    draw(panel, session,
-         (struct axes){mean_pressure, deviatoric, 2, "p, MPa", "q, MPa"});
+    draw(panel, session, (struct axes){mean_pressure, deviatoric, 2, "p, MPa", "q, MPa"});
 }
 
 void gb_view_legs_stress_strain(struct gb_panel_plot *panel,

@@ -18,8 +18,4 @@ void gb_view_legs_name(const struct gb_path *path, int leg, char *text, size_t s
 /* The number of the leg of a branch, from 1; 0: no leg, or no loading path. */
 int gb_view_legs_number(const struct gb_path *path, int branch);
 
-/* The component whose strain the path is about: the sheared one, or the axis that leads
- * against the others; z without such a leg. */
-int gb_view_legs_component(const struct gb_path *path);
-
 #endif
