@@ -55,12 +55,21 @@ static const struct gb_record_member result_members[] = {
 
 #define LENGTH(table) (sizeof(table) / sizeof((table)[0]))
 
+/* A scene that shears has its tilts in the record.  One that shears only from here on
+ * (loading.changes) begins without: they are 0. */
+static bool has_tilts(const struct gb_world *world, const struct gb_record *record,
+                      const char *name)
+{
+    return world->engine.model->sheared &&
+           (!record->loading || gb_record_find(record, name) != NULL);
+}
+
 /* Edges, and tilts in scenes that shear, of the lists' build. */
 static bool record_build(struct gb_world *world, struct gb_record *record,
                          struct gb_error *err)
 {
     return gb_record_members(record, build_members, LENGTH(build_members), world, err) &&
-           (!world->engine.model->sheared ||
+           (!has_tilts(world, record, "world/built_tilt") ||
             gb_record_members(record, sheared_build_members,
                               LENGTH(sheared_build_members), world, err));
 }
@@ -69,7 +78,7 @@ static bool record_cell(struct gb_world *world, struct gb_record *record,
                         struct gb_error *err)
 {
     return gb_record_members(record, cell_members, LENGTH(cell_members), world, err) &&
-           (!world->engine.model->sheared ||
+           (!has_tilts(world, record, "world/tilt") ||
             gb_record_members(record, sheared_cell_members, LENGTH(sheared_cell_members),
                               world, err));
 }

@@ -209,7 +209,11 @@ static bool record(struct gb_relax *relax, int64_t count, struct gb_record *reco
         {"relax/sheared", GB_RECORD_DOUBLE, 3, offsetof(struct predict, cell.shear), "1"},
         {"relax/shear", GB_RECORD_DOUBLE, 3, offsetof(struct predict, shear), "1"},
     };
-    const size_t used = relax->sheared ? sizeof members / sizeof members[0] : 2;
+    /* a scene that shears only from here on has none in its record */
+    const bool tilts =
+        relax->sheared &&
+        (!record->loading || gb_record_find(record, "relax/sheared") != NULL);
+    const size_t used = tilts ? sizeof members / sizeof members[0] : 2;
     return gb_record_members(record, members, used, relax->state, err) &&
            gb_record_array(record, "relax/place", GB_RECORD_DOUBLE, count, 3, "1",
                            relax->vector[POSITION], err) &&
