@@ -215,11 +215,29 @@ static void test_table(void)
     g_assert_cmpint(count, ==, 10);
 }
 
+/* The page has the usage and the sentence of every shorthand, word by word. */
+static void test_page(void)
+{
+    char *page = NULL;
+    const char *usage, *doc;
+    g_assert_true(
+        g_file_get_contents(GB_TEST_DIR "/../../docs/mechanics.md", &page, NULL, NULL));
+    for (int i = 0; gb_path_parse_shorthand(i, &usage, &doc); i++) {
+        char *entry = g_strdup_printf("\n%s\n    %s\n", usage, doc);
+        if (strstr(page, entry) == NULL) {
+            g_error("docs/mechanics.md lacks:%s", entry);
+        }
+        g_free(entry);
+    }
+    g_free(page);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/path/example", test_example);
     g_test_add_func("/path/shorthands", test_shorthands);
+    g_test_add_func("/path/page", test_page);
     g_test_add_func("/path/general", test_general);
     g_test_add_func("/path/unload", test_unload);
     g_test_add_func("/path/plane", test_plane);
