@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Turns of a cycle that are drawn. */
-enum { TURNS = 4, HALVINGS = 60, DOUBLINGS = 60 };
+/* Reversals of a cycle that are drawn. */
+enum { REVERSALS = 4, HALVINGS = 60, DOUBLINGS = 60 };
 
 struct state {
     double stress[GB_PATH_COMPONENTS]; /* of the sign of struct gb_path, Pa */
@@ -188,14 +188,14 @@ static void follow(struct gb_leg_plan *plan, const struct gb_leg *leg, int numbe
                    struct state *state)
 {
     const struct state from = *state;
-    const int turns = leg->cycles > TURNS / 2 ? TURNS : 2 * leg->cycles;
+    const int reversals = leg->cycles > REVERSALS / 2 ? REVERSALS : 2 * leg->cycles;
     double t = (double)NAN;
-    for (int turn = 0; turn < turns; turn++) {
-        const struct gb_leg_end *end = &leg->end[turn % 2];
+    for (int reversal = 0; reversal < reversals; reversal++) {
+        const struct gb_leg_end *end = &leg->end[reversal % 2];
         set_stresses(leg, &from, solve(leg, end, &from), state);
         add(plan, number, state, strain_of(end));
     }
-    if (turns == 0) {
+    if (reversals == 0) {
         const struct gb_leg_end *end = choose_end(leg, &from, &t);
         const double strain = leg->end_count == 1 ? strain_of(end)
                               : leg->end[1].kind == GB_LEG_END_STRAIN

@@ -25,7 +25,7 @@ static bool stress_line(const struct gb_leg_plan *plan, int i, struct line *line
     return isfinite(to->p) && isfinite(to->q) && isfinite(from->p) && isfinite(from->q);
 }
 
-/* Turns of a leg side by side; a new leg begins at strain 0. */
+/* Reversals of a leg side by side; a new leg begins at strain 0. */
 static bool strain_line(const struct gb_leg_plan *plan, int i, struct line *line)
 {
     const struct gb_leg_plan_state *from = &plan->state[i - 1], *to = &plan->state[i];
