@@ -56,11 +56,17 @@ static void add_typed(struct lines *lines, struct gb_leg_editor *editor,
                       const struct gb_paint *paint)
 {
     const char *text = gb_prompt_text(&editor->prompt);
-    const int before = editor->typing == GB_LEG_EDITOR_WHOLE ? 0 : editor->focus;
+    const bool whole = editor->typing == GB_LEG_EDITOR_WHOLE;
+    const int before = whole ? 0 : editor->focus;
+    struct gb_path path;
     lines->typed_leg = (struct gb_leg){.leading = -1};
-    lines->typed_good =
-        text[0] != '\0' && gb_leg_list_try(&editor->list, before, text, &lines->typed_leg,
-                                           &lines->typed_error);
+    if (whole) {
+        gb_path_parse(&path, text, editor->list.dimension, &lines->typed_error);
+    } else {
+        lines->typed_good =
+            text[0] != '\0' && gb_leg_list_try(&editor->list, before, text,
+                                               &lines->typed_leg, &lines->typed_error);
+    }
     lines->focus = lines->count;
     add(lines, (struct line){before, 1, GB_STYLE_EDIT, true, ""});
     if (lines->typed_error.text[0] != '\0') {
@@ -74,6 +80,10 @@ static void list_lines(struct lines *lines, struct gb_leg_editor *editor,
     const struct gb_leg_list *list = &editor->list;
     const int count = gb_leg_list_count(list);
     const enum gb_leg_editor_typing typing = editor->typing;
+    if (typing == GB_LEG_EDITOR_WHOLE) {
+        add_typed(lines, editor, paint);
+        return;
+    }
     for (int i = 0; i < count; i++) {
         const bool focused = i == editor->focus;
         if (focused && typing != GB_LEG_EDITOR_LIST) {
@@ -119,12 +129,20 @@ static int rows_to_focus(const struct lines *lines, int from)
     return rows;
 }
 
+/* Legs behind one that is put in count from it. */
+static int number_of(const struct gb_leg_editor *editor, const struct line *line)
+{
+    const bool behind = editor->typing == GB_LEG_EDITOR_INSERT && !line->typed &&
+                        line->leg >= editor->focus;
+    return line->leg + 1 + behind;
+}
+
 static void draw_line(struct gb_leg_editor *editor, const struct gb_paint *paint, int row,
                       const struct line *line, bool first)
 {
     const int cols = paint->rect.cols - TEXT_COL;
     char number[16];
-    snprintf(number, sizeof number, "%2d", line->leg + 1);
+    snprintf(number, sizeof number, "%2d", number_of(editor, line));
     if (first) {
         gb_paint_text(paint, row, 0, GB_STYLE_DIM, number);
     }
