@@ -157,15 +157,16 @@ static bool draw(struct gb_series *series, const struct gb_runset *set, int comp
     return good;
 }
 
-bool gb_figures_path(struct gb_series *series, const struct gb_figures_input *input,
-                     struct gb_error *err)
+bool gb_figures_legs_path(struct gb_series *series, const struct gb_figures_input *input,
+                          struct gb_error *err)
 {
     return draw(series, input->set, -1, err);
 }
 
 /* All runs against the strain of the first one. */
-bool gb_figures_stress_strain(struct gb_series *series,
-                              const struct gb_figures_input *input, struct gb_error *err)
+bool gb_figures_legs_stress_strain(struct gb_series *series,
+                                   const struct gb_figures_input *input,
+                                   struct gb_error *err)
 {
     static const char *const labels[GB_PATH_COMPONENTS] = {
         "axial strain <i>\xce\xb5<sub>x</sub></i> (%)",
