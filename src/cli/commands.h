@@ -39,8 +39,10 @@ int gb_cmd_run(int argc, char **argv);
 int gb_cmd_sizes(int argc, char **argv);
 int gb_cmd_snapshot(int argc, char **argv);
 int gb_cmd_stability(int argc, char **argv);
+int gb_cmd_strength(int argc, char **argv);
 int gb_cmd_sweep(int argc, char **argv);
 int gb_cmd_verify(int argc, char **argv);
+int gb_cmd_yield(int argc, char **argv);
 
 /* Without a command: the workbench, the list of its keys, and that of its views (key and
  * title in a quasi-static scene). */

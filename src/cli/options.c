@@ -259,3 +259,17 @@ bool gb_options_output_failed(struct gb_error *err)
     }
     return gb_error_set(err, GB_ERR_MACHINE, "standard output: %s", g_strerror(number));
 }
+
+char *gb_options_command(const char *head, int argc, char **argv)
+{
+    GString *text = g_string_new(head);
+    g_string_append(text, "greenbody");
+    for (int i = 0; i < argc; i++) {
+        const bool plain = strpbrk(argv[i], " ;'\"\n") == NULL;
+        char *quoted = plain ? g_strdup(argv[i]) : g_shell_quote(argv[i]);
+        g_string_append_printf(text, " %s", quoted);
+        g_free(quoted);
+    }
+    g_strdelimit(text->str, "\n\r", '?');
+    return g_string_free(text, FALSE);
+}

@@ -44,6 +44,9 @@ bool gb_options_scene(struct gb_preset **out, char **words, char **sets,
 /* The only word of a command that takes one run directory; NULL after an error. */
 const char *gb_options_directory(char **words, const char *command, struct gb_error *err);
 
+/* The command as typed, quoted for a shell, in one line behind a head; g_free. */
+char *gb_options_command(const char *head, int argc, char **argv);
+
 /* Writes "greenbody: text" to stderr and returns the exit status.  Silent for GB_OK: the
  * reader of a pipe has closed it. */
 int gb_options_fail(const struct gb_error *err);

@@ -182,6 +182,11 @@
  * usual. */
 #define GB_PATH_CORRECTIONS_MAX 12
 
+/* Largest correction of held stresses in one go, where the strain step is not longer than
+ * that.  Smaller: a stress drop that needs more strain than a short step is taken for a
+ * collapse. */
+#define GB_PATH_CORRECTION_STRAIN 1e-3
+
 /* Smallest correction from which the tangent of small strains learns: below it rounding
  * and the residual of the force balance decide. */
 #define GB_PATH_LEARN_STRAIN_MIN 1e-6

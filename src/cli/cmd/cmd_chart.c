@@ -233,19 +233,6 @@ static int perform(struct chart *chart, char **words, char **sets)
     return gb_options_fail(&err);
 }
 
-static char *join_command(int argc, char **argv)
-{
-    GString *text = g_string_new("command: greenbody");
-    for (int i = 0; i < argc; i++) {
-        const bool plain = strpbrk(argv[i], " ;'\"\n") == NULL;
-        char *quoted = plain ? g_strdup(argv[i]) : g_shell_quote(argv[i]);
-        g_string_append_printf(text, " %s", quoted);
-        g_free(quoted);
-    }
-    g_strdelimit(text->str, "\n\r", '?');
-    return g_string_free(text, FALSE);
-}
-
 int gb_cmd_chart(int argc, char **argv)
 {
     static const struct gb_options_page page = {
@@ -288,7 +275,7 @@ int gb_cmd_chart(int argc, char **argv)
          "let --write replace another file", NULL},
         {"quiet", 'q', 0, G_OPTION_ARG_NONE, &chart.quiet, "only errors on stderr", NULL},
         {0}};
-    chart.command = join_command(argc, argv);
+    chart.command = gb_options_command("command: ", argc, argv);
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         gb_progress_init(&chart.progress, chart.quiet);
         gb_signals_install(GB_SIGNALS_HANGUP_ENDS);

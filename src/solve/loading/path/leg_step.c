@@ -89,7 +89,8 @@ static bool find_correction(struct gb_leg_run *run, const struct gb_model *model
     for (int attempt = 0; attempt < 2; attempt++) {
         memset(correction, 0, N * sizeof *correction);
         if (gb_strain_tangent_solve(&run->small, condition, count, correction) &&
-            gb_leg_step_largest(correction) <= run->step_most) {
+            gb_leg_step_largest(correction) <=
+                fmax(run->step_most, GB_PATH_CORRECTION_STRAIN)) {
             return true;
         }
         run->small = run->affine;

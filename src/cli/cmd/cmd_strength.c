@@ -1,0 +1,81 @@
+#include <glib.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/commands.h"
+#include "cli/compact_options.h"
+#include "cli/options.h"
+#include "cli/signals.h"
+#include "study/strength/strength_study.h"
+
+static void print_summary(const struct gb_strength_study *study)
+{
+    puts("pressed to  test         strength MPa        strain %  Weibull modulus");
+    for (guint i = 0; i < study->result->len; i++) {
+        const struct gb_strength_result *r =
+            &g_array_index(study->result, struct gb_strength_result, i);
+        printf("%7g %-3s  %-11s  %7.3f +- %6.3f  %8.3g  %.3g (%.3g to %.3g)\n",
+               r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
+               r->mark.by_density ? "" : "MPa", gb_strength_test_rows[r->test].name,
+               1e-6 * r->strength_pa, 1e-6 * r->strength_error_pa, 100.0 * r->strain,
+               r->weibull.modulus, r->weibull.modulus_low, r->weibull.modulus_high);
+    }
+}
+
+static bool conclude(struct gb_compact_options *common,
+                     const struct gb_strength_study *study, struct gb_error *err)
+{
+    if (!gb_compact_options_keep_preset(common, err) ||
+        !gb_strength_study_write(study, common->directory,
+                                 gb_preset_params(common->preset)->title, common->command,
+                                 err)) {
+        return false;
+    }
+    print_summary(study);
+    return study->failed == 0 ||
+           gb_error_set(err, study->why.code, "%s", study->why.text);
+}
+
+static bool perform(struct gb_compact_options *common, char **words, char **sets,
+                    struct gb_error *err)
+{
+    struct gb_strength_study study = {0};
+    struct gb_strength_options options;
+    gb_strength_options_init(&options);
+    options.replicas = common->replicas;
+    const bool good =
+        gb_compact_options_begin(common, words, sets, &options.marks, err) &&
+        gb_strength_study_run(&study, gb_preset_params(common->preset), &options,
+                              common->directory, common->jobs, &common->callbacks, err) &&
+        conclude(common, &study, err);
+    gb_strength_study_finish(&study);
+    return good;
+}
+
+int gb_cmd_strength(int argc, char **argv)
+{
+    static const struct gb_options_page page = {
+        "PRESET [group.key=value]...",
+        "Strength of compacts after unloading.  Cells are pressed as the preset says, all\n"
+        "stresses are taken away, and copies are stretched and compressed along z at\n"
+        "p_x = p_y = 0, and sheared along xz at p_z = 0, to beyond the largest stress.",
+        "DIR receives strength.csv (largest stress, strain, bridges broken, Weibull\n"
+        "modulus), strength_curves.csv, strength.md and preset.ini.  cells/ keeps what is\n"
+        "measured: repeated, the command continues."};
+    struct gb_compact_options common = {.replicas = 8};
+    struct gb_error err = {0};
+    char **sets = NULL, **words = NULL;
+    int status = 0;
+    GOptionEntry entries[GB_COMPACT_OPTIONS_ENTRIES + 2] = {0};
+    gb_compact_options_entries(&common, entries);
+    entries[GB_COMPACT_OPTIONS_ENTRIES] = gb_options_set(&sets);
+    common.command = gb_options_command("", argc, argv);
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        status = perform(&common, words, sets, &err) ? 0 : gb_options_fail(&err);
+        status = err.code == GB_ERR_CANCELLED ? gb_signals_exit_status(&err) : status;
+    }
+    gb_compact_options_finish(&common);
+    g_strfreev(words);
+    g_strfreev(sets);
+    return status;
+}

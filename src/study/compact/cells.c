@@ -1,0 +1,230 @@
+#include "study/compact/cells.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "io/text_file.h"
+#include "many/ensemble.h"
+
+static const double poll_s = 0.2;
+static const char group[] = "cell";
+
+static void free_cell(void *data)
+{
+    struct gb_cells_item *cell = data;
+    g_free(cell->name);
+    g_free(cell->question);
+    g_free(cell);
+}
+
+bool gb_cells_init(struct gb_cells *cells, const char *directory, struct gb_error *err)
+{
+    cells->list = g_ptr_array_new_with_free_func(free_cell);
+    cells->directory = g_build_filename(directory, "cells", NULL);
+    return gb_ensemble_make_directory(directory, err) &&
+           gb_ensemble_make_directory(cells->directory, err);
+}
+
+void gb_cells_finish(struct gb_cells *cells)
+{
+    if (cells->list != NULL) {
+        g_ptr_array_unref(cells->list);
+    }
+    g_free(cells->directory);
+    memset(cells, 0, sizeof *cells);
+}
+
+/* Every parameter that changes a result. */
+static void add_params(GString *text, const struct gb_params *params)
+{
+    size_t count = 0;
+    const struct gb_field *field = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        char value[GB_PARAMS_VALUE_MAX];
+        if (strcmp(field[i].group, "output") != 0 && strcmp(field[i].key, "threads") != 0 &&
+            strcmp(field[i].key, "title") != 0) {
+            g_string_append_printf(text, "%s.%s=%s\n", field[i].group, field[i].key,
+                                   gb_params_format(params, &field[i], value,
+                                                    sizeof value));
+        }
+    }
+}
+
+struct gb_cells_item *gb_cells_add(struct gb_cells *cells, const struct gb_params *params,
+                             char *name, const char *options)
+{
+    struct gb_cells_item *cell = g_new0(struct gb_cells_item, 1);
+    GString *text = g_string_new(NULL);
+    g_string_append_printf(text, "[%s]\nversion=%s\n%s", group, GB_VERSION, options);
+    add_params(text, params);
+    cell->params = *params;
+    cell->name = name;
+    cell->question = g_string_free(text, FALSE);
+    g_ptr_array_add(cells->list, cell);
+    return cell;
+}
+
+char *gb_cells_name(const struct gb_keep_point *mark, int replica)
+{
+    return mark->by_density
+               ? g_strdup_printf("density-%.9g-cell-%03d", mark->value, replica + 1)
+               : g_strdup_printf("p-%.9gMPa-cell-%03d", 1e-6 * mark->value, replica + 1);
+}
+
+static char *path_of(const struct gb_cells *cells, const struct gb_cells_item *cell,
+                     const char *ending)
+{
+    char *file = g_strconcat(cell->name, ending, NULL);
+    char *path = g_build_filename(cells->directory, file, NULL);
+    g_free(file);
+    return path;
+}
+
+/* An answer to the same question is there. */
+static bool is_done(const struct gb_cells *cells, const struct gb_cells_item *cell)
+{
+    char *question = path_of(cells, cell, ".ini");
+    char *answer = path_of(cells, cell, ".csv");
+    char *text = NULL;
+    const bool done = g_file_get_contents(question, &text, NULL, NULL) &&
+                      strcmp(text, cell->question) == 0 &&
+                      g_file_test(answer, G_FILE_TEST_IS_REGULAR);
+    g_free(text);
+    g_free(answer);
+    g_free(question);
+    return done;
+}
+
+/* The old answer goes before the question changes. */
+static bool ask(const struct gb_cells *cells, const struct gb_cells_item *cell,
+                struct gb_error *err)
+{
+    char *question = path_of(cells, cell, ".ini");
+    char *answer = path_of(cells, cell, ".csv");
+    (void)remove(answer);
+    const bool good = gb_text_file_replace(question, cell->question,
+                                           strlen(cell->question), GB_TEXT_FILE_OF_RUN,
+                                           err);
+    g_free(answer);
+    g_free(question);
+    return good;
+}
+
+static bool submit(struct gb_cells *cells, struct gb_pool *pool, size_t index,
+                   struct gb_error *err)
+{
+    struct gb_cells_item *cell = g_ptr_array_index(cells->list, index);
+    char *path = path_of(cells, cell, "");
+    const bool good =
+        ask(cells, cell, err) && gb_pool_submit(pool, index, &cell->params, path, err);
+    g_free(path);
+    return good;
+}
+
+static void report(const struct gb_cells *cells, const struct gb_cells_callbacks *callbacks,
+                   const struct gb_cells_item *cell, size_t done)
+{
+    if (callbacks->progress != NULL) {
+        callbacks->progress(callbacks->data, cell, done, cells->list->len);
+    }
+}
+
+/* Cells in the order of the list, as workers become idle. */
+static bool run(struct gb_cells *cells, struct gb_pool *pool,
+                const struct gb_cells_callbacks *callbacks, struct gb_error *err)
+{
+    size_t next = 0, ended = 0;
+    bool stopped = false;
+    while (ended < cells->list->len && (!stopped || gb_pool_busy(pool) > 0)) {
+        struct gb_pool_report end;
+        while (!stopped && next < cells->list->len && gb_pool_idle(pool) > 0) {
+            struct gb_cells_item *cell = g_ptr_array_index(cells->list, next);
+            cell->done = is_done(cells, cell);
+            ended += cell->done;
+            if (!cell->done && !submit(cells, pool, next, err)) {
+                return false;
+            }
+            next++;
+        }
+        if (gb_pool_busy(pool) > 0 && gb_pool_receive(pool, poll_s, &end)) {
+            struct gb_cells_item *cell = g_ptr_array_index(cells->list, end.ticket);
+            cell->error = end.error;
+            cell->done = end.error.code == GB_OK;
+            report(cells, callbacks, cell, ++ended);
+        }
+        if (!stopped && callbacks->cancelled != NULL &&
+            callbacks->cancelled(callbacks->data)) {
+            gb_pool_stop(pool);
+            stopped = true;
+        }
+    }
+    return !stopped || gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
+}
+
+bool gb_cells_work(struct gb_cells *cells, int jobs, gb_pool_work *work,
+                   const struct gb_cells_callbacks *callbacks, struct gb_error *err)
+{
+    static const struct gb_cells_callbacks none;
+    struct gb_pool *pool = NULL;
+    const size_t workers = jobs > 0 ? (size_t)jobs : g_get_num_processors();
+    const bool good = gb_pool_create(&pool, workers, work, NULL, err) &&
+                      run(cells, pool, callbacks != NULL ? callbacks : &none, err);
+    gb_pool_destroy(pool);
+    return good;
+}
+
+bool gb_cells_check(const struct gb_cells *cells, struct gb_error *err)
+{
+    const struct gb_cells_item *first = NULL;
+    size_t failed = 0;
+    for (size_t i = 0; i < cells->list->len; i++) {
+        const struct gb_cells_item *cell = g_ptr_array_index(cells->list, i);
+        if (!cell->done) {
+            first = first != NULL ? first : cell;
+            failed++;
+        }
+    }
+    return first == NULL ||
+           gb_error_set(err, GB_ERR_GUARD, "%zu of %u cells failed; %s: %.300s", failed,
+                        cells->list->len, first->name, first->error.text);
+}
+
+double gb_cells_option(GKeyFile *question, const char *key)
+{
+    GError *error = NULL;
+    const double value = g_key_file_get_double(question, group, key, &error);
+    if (error != NULL) {
+        g_error_free(error);
+        return (double)NAN;
+    }
+    return value;
+}
+
+bool gb_cells_question(GKeyFile **question, const char *path, struct gb_error *err)
+{
+    char *file = g_strconcat(path, ".ini", NULL);
+    GError *error = NULL;
+    *question = g_key_file_new();
+    const bool good =
+        g_key_file_load_from_file(*question, file, G_KEY_FILE_NONE, &error) ||
+        gb_error_set(err, GB_ERR_MACHINE, "%.300s: %.200s", file, error->message);
+    g_clear_error(&error);
+    if (!good) {
+        g_key_file_free(*question);
+        *question = NULL;
+    }
+    g_free(file);
+    return good;
+}
+
+bool gb_cells_answer(const char *path, const char *ending, const GString *text,
+                     struct gb_error *err)
+{
+    char *file = g_strconcat(path, ending, NULL);
+    const bool good =
+        gb_text_file_replace(file, text->str, text->len, GB_TEXT_FILE_OF_RUN, err);
+    g_free(file);
+    return good;
+}

@@ -1,0 +1,260 @@
+#include "study/compact/compact.h"
+
+#include <glib.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "run/checkpoint.h"
+#include "run/experiment.h"
+#include "scene/field/changes.h"
+#include "scene/path/path.h"
+#include "scene/tolerances.h"
+
+/* Force evaluations between two looks at whether to stop. */
+enum { SLICE = 2000 };
+
+/* Strain step of unloading: that of the preset is one of loading. */
+static const double hold_step = 5e-4;
+
+static bool is_cancelled(const struct gb_pool_callbacks *callbacks)
+{
+    return callbacks != NULL && callbacks->cancelled != NULL &&
+           callbacks->cancelled(callbacks->data);
+}
+
+/* Advances to the point at which the walk has enough. */
+static enum gb_compact_outcome advance(struct gb_experiment *experiment,
+                                       const struct gb_compact_walk *walk,
+                                       struct gb_error *err)
+{
+    for (;;) {
+        if (is_cancelled(walk->callbacks)) {
+            gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
+            return GB_COMPACT_FAILED;
+        }
+        switch (gb_experiment_advance(experiment, SLICE, err)) {
+        case GB_STEP_MORE:
+            break;
+        case GB_STEP_POINT:
+            if (!walk->take(walk->data, gb_experiment_point(experiment))) {
+                return GB_COMPACT_TAKEN;
+            }
+            break;
+        case GB_STEP_DONE:
+            return GB_COMPACT_ENDED;
+        case GB_STEP_STOPPED:
+            return err->code == GB_ERR_GUARD || err->code == GB_ERR_NOT_CONVERGED
+                       ? GB_COMPACT_STOPPED
+                       : GB_COMPACT_FAILED;
+        }
+    }
+}
+
+static bool keep(struct gb_compact *to, struct gb_experiment *experiment,
+                 struct gb_error *err)
+{
+    to->params = *gb_experiment_params(experiment);
+    to->point = *gb_experiment_point(experiment);
+    to->tolerance = (double)NAN;
+    return gb_checkpoint_take(experiment, &to->record, err);
+}
+
+bool gb_compact_params(struct gb_params *params, const struct gb_params *preset,
+                       struct gb_error *err)
+{
+    if (preset->kind != GB_KIND_QUASISTATIC || preset->dimension != 3) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "scene.kind and scene.dimension: must be quasistatic and 3: "
+                            "yield and strength are measured in a periodic cell");
+    }
+    *params = *preset;
+    params->changes[0] = '\0';
+    params->unload_count = 0;
+    return true;
+}
+
+/* The geometry as a path beyond the mark, so that the run has not ended there. */
+static void set_path(struct gb_params *params, const struct gb_keep_point *mark,
+                     bool sheared)
+{
+    static const char *const words[] = {[GB_GEOMETRY_UNIAXIAL] = "uniaxial",
+                                        [GB_GEOMETRY_BIAXIAL] = "biaxial",
+                                        [GB_GEOMETRY_ISOTROPIC] = "isotropic"};
+    const char *word = words[params->geometry];
+    if (params->path[0] != '\0') {
+        g_strlcat(params->path, sheared ? "; shear xz to 1 %" : "", sizeof params->path);
+        return;
+    }
+    if (mark->by_density) {
+        snprintf(params->path, sizeof params->path,
+                 "%s to density %.9g; %s to density 0.99", word, mark->value, word);
+    } else {
+        snprintf(params->path, sizeof params->path, "%s to %.9g MPa; %s to density 0.99",
+                 word, 1e-6 * mark->value, word);
+    }
+    g_strlcat(params->path, sheared ? "; shear xz to 1 %" : "", sizeof params->path);
+}
+
+static bool before_mark(void *data, const struct gb_point *point)
+{
+    const struct gb_keep_point *mark = data;
+    return mark->by_density ? point->density < mark->value * (1.0 - 1e-6)
+                            : point->p_pa < mark->value * (1.0 - GB_PATH_END_SHARE);
+}
+
+static bool refuse(enum gb_compact_outcome outcome, const struct gb_keep_point *mark,
+                   struct gb_error *err)
+{
+    const struct gb_error why = *err;
+    const double value = mark->by_density ? mark->value : 1e-6 * mark->value;
+    if (outcome == GB_COMPACT_FAILED) {
+        return false;
+    }
+    return gb_error_set(err, GB_ERR_GUARD, "pressing ends before %s %g%s%s%.200s",
+                        mark->by_density ? "density" : "pressure", value,
+                        mark->by_density ? "" : " MPa",
+                        outcome == GB_COMPACT_STOPPED ? ": " : "",
+                        outcome == GB_COMPACT_STOPPED ? why.text : "");
+}
+
+bool gb_compact_press(struct gb_compact *compact, const struct gb_params *params,
+                      const struct gb_keep_point *mark,
+                      const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+{
+    struct gb_experiment *experiment = NULL;
+    struct gb_keep_point wanted = *mark;
+    const struct gb_compact_walk walk = {before_mark, &wanted, callbacks};
+    struct gb_params own = *params;
+    set_path(&own, mark, compact->sheared);
+    if (!gb_experiment_create(&experiment, &own,
+                              callbacks != NULL ? callbacks->cancelled : NULL,
+                              callbacks != NULL ? callbacks->data : NULL, err)) {
+        return false;
+    }
+    const enum gb_compact_outcome outcome = advance(experiment, &walk, err);
+    const bool good = outcome == GB_COMPACT_TAKEN ? keep(compact, experiment, err)
+                                                  : refuse(outcome, mark, err);
+    gb_experiment_destroy(experiment);
+    return good;
+}
+
+/* The parameters of the compact, then the legs. */
+static bool set_legs(struct gb_params *params, const struct gb_compact *from,
+                     const char *path, double step, struct gb_error *err)
+{
+    char text[sizeof params->changes];
+    gb_changes_effective(&from->params, from->point.step, params);
+    params->changes[0] = '\0';
+    params->tolerance =
+        isfinite(from->tolerance) ? from->tolerance : params->tolerance;
+    snprintf(text, sizeof text, "loading.path=%s%s; loading.step=%.9g", path,
+             from->sheared ? " then shear xz to 1 %" : "", step);
+    return gb_changes_add(params, from->point.step, text, err);
+}
+
+enum gb_compact_outcome gb_compact_follow(struct gb_compact *from, const char *path,
+                                          double step, const struct gb_compact_walk *walk,
+                                          struct gb_compact *to, struct gb_error *err)
+{
+    struct gb_experiment *experiment = NULL;
+    struct gb_params params;
+    if (!set_legs(&params, from, path, step, err) ||
+        !gb_experiment_resume(&experiment, &params, &from->record, err)) {
+        return GB_COMPACT_FAILED;
+    }
+    enum gb_compact_outcome outcome = advance(experiment, walk, err);
+    if (outcome == GB_COMPACT_TAKEN && to != NULL) {
+        outcome = keep(to, experiment, err) ? outcome : GB_COMPACT_FAILED;
+        to->tolerance = from->tolerance;
+        to->sheared = from->sheared;
+    }
+    gb_experiment_destroy(experiment);
+    return outcome;
+}
+
+char *gb_compact_leg(double axial, double lateral, const char *end, char *buffer,
+                     size_t size)
+{
+    if (fabs(axial) >= fabs(lateral)) {
+        snprintf(buffer, size, "strain z = 1 to %s at x = y by %.12f z", end,
+                 lateral / axial);
+    } else {
+        snprintf(buffer, size, "strain x = 1, y = 1 to %s at z by %.12f x", end,
+                 axial / lateral);
+    }
+    return buffer;
+}
+
+/* Every point is taken until the second leg. */
+static bool before_second_leg(void *data, const struct gb_point *point)
+{
+    (void)data;
+    return !(point->leg >= 2.0);
+}
+
+/* The leg of one attempt at unloading and its strain step; false behind the last.  The
+ * first is by equal strains, where no stress has to be held. */
+static bool unloading(const struct gb_point *at, double pressure_pa, int attempt, char *leg,
+                      size_t size, double *step)
+{
+    static const double steps[] = {1.0, 2.0, 4.0, 0.5};
+    static const double nearly_equal = 0.1;
+    char end[64];
+    const struct gb_compact_state state = gb_compact_state_of(at);
+    const double axial = pressure_pa - at->pz_pa;
+    const double lateral = pressure_pa - 0.5 * (at->px_pa + at->py_pa);
+    if (attempt < 0 && fabs(state.q) < nearly_equal * state.p) {
+        snprintf(leg, size, "isotropic to %.9g MPa", 1e-6 * pressure_pa);
+        *step = hold_step;
+        return true;
+    }
+    attempt = attempt < 0 ? 0 : attempt;
+    snprintf(end, sizeof end, "%s = %.9g MPa", fabs(axial) >= fabs(lateral) ? "z" : "x",
+             1e-6 * pressure_pa);
+    gb_compact_leg(axial, lateral, end, leg, size);
+    *step = hold_step * steps[attempt < 4 ? attempt : 0];
+    return attempt < 4;
+}
+
+bool gb_compact_unload(struct gb_compact *from, double pressure_pa,
+                       const struct gb_pool_callbacks *callbacks, struct gb_compact *to,
+                       struct gb_error *err)
+{
+    char leg[GB_LEG_TEXT], path[2 * GB_LEG_TEXT];
+    const struct gb_compact_walk walk = {before_second_leg, NULL, callbacks};
+    struct gb_error why = {0};
+    double step;
+    for (int attempt = -1;
+         unloading(&from->point, pressure_pa, attempt, leg, sizeof leg, &step);
+         attempt++) {
+        snprintf(path, sizeof path, "%s then hold 100 times", leg);
+        const enum gb_compact_outcome outcome =
+            gb_compact_follow(from, path, step, &walk, to, &why);
+        if (outcome == GB_COMPACT_TAKEN) {
+            return true;
+        }
+        if (outcome == GB_COMPACT_FAILED) {
+            return gb_error_set(err, why.code, "%s", why.text);
+        }
+    }
+    return gb_error_set(err, GB_ERR_GUARD, "unloading to %g MPa: %.200s",
+                        1e-6 * pressure_pa, why.text);
+}
+
+void gb_compact_finish(struct gb_compact *compact)
+{
+    gb_record_finish(&compact->record);
+    memset(compact, 0, sizeof *compact);
+}
+
+struct gb_compact_state gb_compact_state_of(const struct gb_point *point)
+{
+    const double *e = point->strain;
+    return (struct gb_compact_state){
+        .p = (point->px_pa + point->py_pa + point->pz_pa) / 3.0,
+        .q = point->pz_pa - 0.5 * (point->px_pa + point->py_pa),
+        .volume = e[0] + e[1] + e[2],
+        .shear = 2.0 / 3.0 * (e[2] - 0.5 * (e[0] + e[1])),
+    };
+}

@@ -1,0 +1,81 @@
+#ifndef GB_STUDY_COMPACT_COMPACT_H
+#define GB_STUDY_COMPACT_COMPACT_H
+
+#include <stdbool.h>
+
+#include "base/record.h"
+#include "greenbody/curve.h"
+#include "greenbody/params.h"
+#include "many/pool.h"
+#include "scene/field/keep_points.h"
+
+/* A pressed packing in memory.  Copies of it follow other loading paths; it does not
+ * change itself. */
+struct gb_compact {
+    struct gb_params params; /* of the run that made it */
+    struct gb_record record;
+    struct gb_point point; /* the recorded one that it was taken at */
+    bool sheared;     /* its cell can be tilted: set before it is
+                       * pressed; its paths go on with a leg of shear, which is not for
+                       * the caller */
+    double tolerance; /* of the residual on copies; NaN: that of the parameters */
+};
+
+/* Called at each recorded point; false: enough. */
+typedef bool gb_compact_take(void *data, const struct gb_point *point);
+
+enum gb_compact_outcome {
+    GB_COMPACT_TAKEN,   /* the callback said enough */
+    GB_COMPACT_ENDED,   /* the path ended before that */
+    GB_COMPACT_STOPPED, /* a guard ended it, or a stress is out of reach; err says why */
+    GB_COMPACT_FAILED   /* cancelled, no memory, bad parameters; err */
+};
+
+/* A run on the way to a compact, or from one.  Any member may be NULL. */
+struct gb_compact_walk {
+    gb_compact_take *take;
+    void *data;
+    const struct gb_pool_callbacks *callbacks; /* cancelled is polled */
+};
+
+/* Parameters that press a packing to a mark: the preset's own path, or its geometry (axes
+ * are strained alike, the others are fixed).  Unloading and changes of the preset are left
+ * out.  Errors: GB_ERR_INPUT for scenes other than a quasi-static 3D cell. */
+bool gb_compact_params(struct gb_params *params, const struct gb_params *preset,
+                       struct gb_error *err);
+
+/* Presses a packing until a mark is reached.  gb_compact_finish is due, also after an error.
+ * Errors: GB_ERR_GUARD when the run ends before. */
+bool gb_compact_press(struct gb_compact *compact, const struct gb_params *params,
+                      const struct gb_keep_point *mark,
+                      const struct gb_pool_callbacks *callbacks, struct gb_error *err);
+
+/* Follows legs ("hold x = y = z = 0 MPa", separated by "then") on a copy, in strain steps
+ * of `step`.  to (NULL: none): the compact at the last point taken, if TAKEN; it has to be
+ * there for the next path to go on, so that its path must not have ended. */
+enum gb_compact_outcome gb_compact_follow(struct gb_compact *from, const char *path,
+                                          double step, const struct gb_compact_walk *walk,
+                                          struct gb_compact *to, struct gb_error *err);
+
+/* Takes a copy to equal pressures on all axes, Pa: by equal strains where its stresses are
+ * about equal, else along a straight line of the (p, q) plane. */
+bool gb_compact_unload(struct gb_compact *from, double pressure_pa,
+                       const struct gb_pool_callbacks *callbacks, struct gb_compact *to,
+                       struct gb_error *err);
+
+/* The leg along which axial and lateral pressure (p_x = p_y) change in proportion: the axis
+ * that changes more is strained, the other follows.  end: of that axis, as "3 %" or
+ * "50 MPa".  Returns buffer. */
+char *gb_compact_leg(double axial, double lateral, const char *end, char *buffer,
+                     size_t size);
+
+void gb_compact_finish(struct gb_compact *compact); /* zeroed is fine */
+
+/* q = p_z - (p_x + p_y)/2, mean pressure, and the strains conjugate to both (see
+ * measure/yield_point.h); Pa. */
+struct gb_compact_state {
+    double p, q, volume, shear;
+};
+struct gb_compact_state gb_compact_state_of(const struct gb_point *point);
+
+#endif

@@ -1,0 +1,31 @@
+#ifndef GB_STUDY_COMPACT_STUDY_TEXT_H
+#define GB_STUDY_COMPACT_STUDY_TEXT_H
+
+#include <glib.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "greenbody/status.h"
+#include "measure/fit/fit.h"
+
+/* Tables and pages of the studies of compacts. */
+
+/* '#' in front of every line. */
+void gb_study_text_comment(GString *text, const char *comment);
+/* Numbers separated by commas, empty where not finite; and the same with the end of line. */
+void gb_study_text_cells(GString *text, const double *number, size_t count);
+void gb_study_text_numbers(GString *text, const double *number, size_t count);
+/* "12.3 +- 0.4" behind a head; "-" where there is no value. */
+void gb_study_text_value(GString *text, const char *head,
+                         const struct gb_fit_value *value, double factor);
+
+struct gb_study_text_file {
+    const char *name;
+    GString *text;
+};
+
+/* Writes files into a folder, each as a whole, and frees the texts. */
+bool gb_study_text_write(const struct gb_study_text_file *file, size_t count,
+                         const char *directory, struct gb_error *err);
+
+#endif
