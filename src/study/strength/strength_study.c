@@ -173,7 +173,7 @@ static void add_cells(struct gb_cells *cells, const struct gb_params *params,
 {
     struct gb_params own = *params;
     own.threads = 1;
-    own.on_collapse = GB_COLLAPSE_STRAIN;
+    own.on_collapse = GB_COLLAPSE_STOP;
     for (int c = 0; c < options->replicas; c++) {
         own.seed = params->seed + (uint64_t)c;
         for (int m = 0; m < options->marks.count; m++) {
