@@ -45,12 +45,14 @@ static bool read_marks(const struct gb_compact_options *options,
 {
     struct gb_error why = {0};
     if (options->at != NULL && options->density != NULL) {
-        return gb_error_set(err, GB_ERR_INPUT, "--at and --density: accepted one of them");
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--at and --density: accepted one of them");
     }
     if (options->at == NULL && options->density == NULL) {
         return true;
     }
-    char *text = options->at != NULL ? g_strdup(options->at) : densities(options->density);
+    char *text =
+        options->at != NULL ? g_strdup(options->at) : densities(options->density);
     const bool good = gb_keep_points_parse(text, marks, &why);
     g_free(text);
     return good || gb_error_set(err, GB_ERR_INPUT, "--%s: %.300s",
@@ -95,8 +97,7 @@ bool gb_compact_options_keep_preset(struct gb_compact_options *options,
                                     struct gb_error *err)
 {
     char *path = g_build_filename(options->directory, "preset.ini", NULL);
-    const bool good =
-        gb_preset_save(options->preset, path, GB_PRESET_ALL_KEYS, err);
+    const bool good = gb_preset_save(options->preset, path, GB_PRESET_ALL_KEYS, err);
     g_free(path);
     return good;
 }

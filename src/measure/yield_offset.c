@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-void gb_yield_offset_slopes(const struct gb_yield_path *path, const double *by, double range,
-                            double slope[2])
+void gb_yield_offset_slopes(const struct gb_yield_path *path, const double *by,
+                            double range, double slope[2])
 {
     double squares = 0.0;
     slope[0] = slope[1] = 0.0;
@@ -45,11 +45,10 @@ static struct state state_at(const struct gb_yield_path *path,
 {
     const double p = path->p[row] - path->p[0], q = path->q[row] - path->q[0];
     const double(*compliance)[2] = elastic->compliance;
-    return (struct state){path->p[row], path->q[row],
-                          path->volume[row] - path->volume[0] - compliance[0][0] * p -
-                              compliance[0][1] * q,
-                          path->shear[row] - path->shear[0] - compliance[1][0] * p -
-                              compliance[1][1] * q};
+    return (struct state){
+        path->p[row], path->q[row],
+        path->volume[row] - path->volume[0] - compliance[0][0] * p - compliance[0][1] * q,
+        path->shear[row] - path->shear[0] - compliance[1][0] * p - compliance[1][1] * q};
 }
 
 static double measure_of(const struct state *state)

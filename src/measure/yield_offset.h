@@ -21,8 +21,8 @@ struct gb_yield_elastic {
 
 /* Slopes of p and q against a strain along a path in which that strain alone grows, by least
  * squares through row 0 over the rows up to `range`; by: the strain, volume or shear. */
-void gb_yield_offset_slopes(const struct gb_yield_path *path, const double *by, double range,
-                            double slope[2]);
+void gb_yield_offset_slopes(const struct gb_yield_path *path, const double *by,
+                            double range, double slope[2]);
 /* Compliance from the slopes along a path of volume strain and one of shear.  False: they
  * are no stiffness. */
 bool gb_yield_offset_elastic(struct gb_yield_elastic *elastic, const double by_volume[2],

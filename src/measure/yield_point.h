@@ -5,8 +5,8 @@
  * positive in compression.  Strains are conjugate to them: p dv + q dw is the work per
  * volume, v = e_x + e_y + e_z and w = 2/3 (e_z - (e_x + e_y)/2), logarithmic. */
 struct gb_yield_point {
-    double density; /* of the compact, before it was unloaded */
-    double p_pa, q_pa; /* q < 0: extension */
+    double density;                 /* of the compact, before it was unloaded */
+    double p_pa, q_pa;              /* q < 0: extension */
     double flow_volume, flow_shear; /* plastic strain increments, compression positive;
                                      * shear has the sign of q */
     double p_error_pa, q_error_pa;  /* standard errors; NaN for the point of one cell */

@@ -26,9 +26,9 @@ static void print_summary(const struct gb_yield_study *study)
                "%5.3f +- %5.3f  %4.1f +- %3.1f\n",
                surface->density.value, 100.0 * surface->offset,
                1e-6 * value[GB_YIELD_CENTRE_P].value,
-               1e-6 * value[GB_YIELD_CENTRE_P].error,
-               1e-6 * value[GB_YIELD_HALF_P].value, 1e-6 * value[GB_YIELD_HALF_P].error,
-               1e-6 * value[GB_YIELD_HALF_Q].value, 1e-6 * value[GB_YIELD_HALF_Q].error,
+               1e-6 * value[GB_YIELD_CENTRE_P].error, 1e-6 * value[GB_YIELD_HALF_P].value,
+               1e-6 * value[GB_YIELD_HALF_P].error, 1e-6 * value[GB_YIELD_HALF_Q].value,
+               1e-6 * value[GB_YIELD_HALF_Q].error,
                value[GB_YIELD_DILATANCY_COMPRESSION].value,
                value[GB_YIELD_DILATANCY_COMPRESSION].error,
                value[GB_YIELD_ANGLE_RMS].value, value[GB_YIELD_ANGLE_RMS].error);
@@ -56,13 +56,13 @@ static bool perform(struct request *request, char **words, char **sets,
     struct gb_yield_study study = {0};
     request->yield.offset = 0.01 * request->offset_percent;
     request->yield.replicas = request->common.replicas;
-    bool good = gb_compact_options_begin(&request->common, words, sets,
-                                         &request->yield.marks, err) &&
-                gb_yield_study_run(&study, gb_preset_params(request->common.preset),
-                                   &request->yield, request->common.directory,
-                                   request->common.jobs, &request->common.callbacks,
-                                   err) &&
-                conclude(request, &study, err);
+    bool good =
+        gb_compact_options_begin(&request->common, words, sets, &request->yield.marks,
+                                 err) &&
+        gb_yield_study_run(&study, gb_preset_params(request->common.preset),
+                           &request->yield, request->common.directory,
+                           request->common.jobs, &request->common.callbacks, err) &&
+        conclude(request, &study, err);
     gb_yield_study_finish(&study);
     return good;
 }

@@ -10,7 +10,8 @@
  * ((q - centre_q)/half_q)^2 = 1; any unit of stress. */
 struct gb_ellipse {
     double centre_p, centre_q, half_p, half_q;
-    double misfit; /* rms of the relative distance of the points along rays from the centre */
+    double
+        misfit; /* rms of the relative distance of the points along rays from the centre */
 };
 
 enum { GB_ELLIPSE_PARAMETERS = 4 };

@@ -18,7 +18,8 @@ struct sample {
 };
 
 /* Mean of x^m and of x^m ln x, x the value over the largest one. */
-static void moments(const struct sample *sample, double m, double *power, double *weighted)
+static void moments(const struct sample *sample, double m, double *power,
+                    double *weighted)
 {
     *power = *weighted = 0.0;
     for (size_t i = 0; i < sample->count; i++) {
@@ -53,8 +54,8 @@ static bool find_root(double (*function)(double m, void *data), struct sample *s
 {
     gsl_function f = {function, sample};
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-    bool good = solver != NULL &&
-                gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS;
+    bool good =
+        solver != NULL && gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS;
     int status = GSL_CONTINUE;
     for (int i = 0; good && status == GSL_CONTINUE && i < ITERATIONS; i++) {
         good = gsl_root_fsolver_iterate(solver) == GSL_SUCCESS;
@@ -77,8 +78,7 @@ static bool find_all(struct gb_weibull *law, struct sample *sample)
     moments(sample, law->modulus, &power, &weighted);
     law->scale = sample->largest * pow(power, 1.0 / law->modulus);
     sample->level = 0.0;
-    sample->level =
-        profile(law->modulus, sample) - 0.5 * gsl_cdf_chisq_Pinv(0.95, 1.0);
+    sample->level = profile(law->modulus, sample) - 0.5 * gsl_cdf_chisq_Pinv(0.95, 1.0);
     return find_root(profile, sample, modulus_min, law->modulus, &law->modulus_low) &&
            find_root(profile, sample, law->modulus, modulus_max, &law->modulus_high);
 }

@@ -43,17 +43,17 @@ static void add_params(GString *text, const struct gb_params *params)
     const struct gb_field *field = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
         char value[GB_PARAMS_VALUE_MAX];
-        if (strcmp(field[i].group, "output") != 0 && strcmp(field[i].key, "threads") != 0 &&
-            strcmp(field[i].key, "title") != 0) {
-            g_string_append_printf(text, "%s.%s=%s\n", field[i].group, field[i].key,
-                                   gb_params_format(params, &field[i], value,
-                                                    sizeof value));
+        if (strcmp(field[i].group, "output") != 0 &&
+            strcmp(field[i].key, "threads") != 0 && strcmp(field[i].key, "title") != 0) {
+            g_string_append_printf(
+                text, "%s.%s=%s\n", field[i].group, field[i].key,
+                gb_params_format(params, &field[i], value, sizeof value));
         }
     }
 }
 
 struct gb_cells_item *gb_cells_add(struct gb_cells *cells, const struct gb_params *params,
-                             char *name, const char *options)
+                                   char *name, const char *options)
 {
     struct gb_cells_item *cell = g_new0(struct gb_cells_item, 1);
     GString *text = g_string_new(NULL);
@@ -104,9 +104,8 @@ static bool ask(const struct gb_cells *cells, const struct gb_cells_item *cell,
     char *question = path_of(cells, cell, ".ini");
     char *answer = path_of(cells, cell, ".csv");
     (void)remove(answer);
-    const bool good = gb_text_file_replace(question, cell->question,
-                                           strlen(cell->question), GB_TEXT_FILE_OF_RUN,
-                                           err);
+    const bool good = gb_text_file_replace(
+        question, cell->question, strlen(cell->question), GB_TEXT_FILE_OF_RUN, err);
     g_free(answer);
     g_free(question);
     return good;
@@ -123,7 +122,8 @@ static bool submit(struct gb_cells *cells, struct gb_pool *pool, size_t index,
     return good;
 }
 
-static void report(const struct gb_cells *cells, const struct gb_cells_callbacks *callbacks,
+static void report(const struct gb_cells *cells,
+                   const struct gb_cells_callbacks *callbacks,
                    const struct gb_cells_item *cell, size_t done)
 {
     if (callbacks->progress != NULL) {

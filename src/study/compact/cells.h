@@ -29,7 +29,8 @@ struct gb_cells {
 /* Callbacks; NULL members are not called. */
 struct gb_cells_callbacks {
     bool (*cancelled)(void *data);
-    void (*progress)(void *data, const struct gb_cells_item *cell, size_t done, size_t total);
+    void (*progress)(void *data, const struct gb_cells_item *cell, size_t done,
+                     size_t total);
     void *data;
 };
 
@@ -41,7 +42,7 @@ void gb_cells_finish(struct gb_cells *cells); /* zeroed is fine */
 /* Takes name and options (lines "key=value"); parameters and program version are added to
  * the question. */
 struct gb_cells_item *gb_cells_add(struct gb_cells *cells, const struct gb_params *params,
-                             char *name, const char *options);
+                                   char *name, const char *options);
 
 /* "density-0.5-cell-001", of replica 0; g_free. */
 char *gb_cells_name(const struct gb_keep_point *mark, int replica);

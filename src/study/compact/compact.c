@@ -146,8 +146,7 @@ static bool set_legs(struct gb_params *params, const struct gb_compact *from,
     char text[sizeof params->changes];
     gb_changes_effective(&from->params, from->point.step, params);
     params->changes[0] = '\0';
-    params->tolerance =
-        isfinite(from->tolerance) ? from->tolerance : params->tolerance;
+    params->tolerance = isfinite(from->tolerance) ? from->tolerance : params->tolerance;
     snprintf(text, sizeof text, "loading.path=%s%s; loading.step=%.9g", path,
              from->sheared ? " then shear xz to 1 %" : "", step);
     return gb_changes_add(params, from->point.step, text, err);
@@ -195,8 +194,8 @@ static bool before_second_leg(void *data, const struct gb_point *point)
 
 /* The leg of one attempt at unloading and its strain step; false behind the last.  The
  * first is by equal strains, where no stress has to be held. */
-static bool unloading(const struct gb_point *at, double pressure_pa, int attempt, char *leg,
-                      size_t size, double *step)
+static bool unloading(const struct gb_point *at, double pressure_pa, int attempt,
+                      char *leg, size_t size, double *step)
 {
     static const double steps[] = {1.0, 2.0, 4.0, 0.5};
     static const double nearly_equal = 0.1;

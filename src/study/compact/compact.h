@@ -15,10 +15,10 @@ struct gb_compact {
     struct gb_params params; /* of the run that made it */
     struct gb_record record;
     struct gb_point point; /* the recorded one that it was taken at */
-    bool sheared;     /* its cell can be tilted: set before it is
+    bool sheared;          /* its cell can be tilted: set before it is
                        * pressed; its paths go on with a leg of shear, which is not for
                        * the caller */
-    double tolerance; /* of the residual on copies; NaN: that of the parameters */
+    double tolerance;      /* of the residual on copies; NaN: that of the parameters */
 };
 
 /* Called at each recorded point; false: enough. */

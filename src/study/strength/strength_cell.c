@@ -33,8 +33,7 @@ static double bridges(const struct gb_point *point)
 
 static double stress_of(enum gb_strength_test test, const struct gb_point *point)
 {
-    const double pressure =
-        test == GB_STRENGTH_SHEAR ? point->shear_pa[1] : point->pz_pa;
+    const double pressure = test == GB_STRENGTH_SHEAR ? point->shear_pa[1] : point->pz_pa;
     return gb_strength_test_rows[test].sense * pressure;
 }
 
@@ -50,10 +49,8 @@ static void add_row(struct breaking *breaking, const struct gb_point *point)
 {
     const struct cell *cell = breaking->cell;
     const double all = bridges(&cell->free.point);
-    const double number[] = {breaking->test,
-                             strain_of(breaking->test, cell, point),
-                             stress_of(breaking->test, point),
-                             cell->free.point.density,
+    const double number[] = {breaking->test, strain_of(breaking->test, cell, point),
+                             stress_of(breaking->test, point), cell->free.point.density,
                              all > 0.0 ? 1.0 - bridges(point) / all : (double)NAN};
     gb_study_text_numbers(cell->rows, number, G_N_ELEMENTS(number));
 }
@@ -68,7 +65,8 @@ static bool take(void *data, const struct gb_point *point)
     }
     add_row(breaking, point);
     breaking->peak = fmax(breaking->peak, stress);
-    return !(breaking->peak > 0.0 && stress < breaking->cell->options.fall * breaking->peak &&
+    return !(breaking->peak > 0.0 &&
+             stress < breaking->cell->options.fall * breaking->peak &&
              strain_of(breaking->test, breaking->cell, point) >
                  10.0 * breaking->cell->options.step);
 }

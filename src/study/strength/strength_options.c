@@ -26,6 +26,7 @@ bool gb_strength_options_check(const struct gb_strength_options *options,
                             options->replicas, GB_STRENGTH_REPLICAS_MAX);
     }
     return (options->marks.count > 0 && options->marks.every == 0) ||
-           gb_error_set(err, GB_ERR_INPUT,
-                        "--at: accepted pressures and densities, as in '50 MPa; 100 MPa'");
+           gb_error_set(
+               err, GB_ERR_INPUT,
+               "--at: accepted pressures and densities, as in '50 MPa; 100 MPa'");
 }

@@ -24,7 +24,8 @@ struct gb_strength_options {
     int replicas;
     double step;        /* strain step of a test */
     double strain_most; /* at which a test ends */
-    double fall; /* a test has passed its peak when the stress is below this share of it */
+    double
+        fall; /* a test has passed its peak when the stress is below this share of it */
 };
 
 enum { GB_STRENGTH_REPLICAS_MAX = 1000 };

@@ -28,7 +28,8 @@ static struct broken read_test(const struct gb_table *table, int test)
             continue;
         }
         if (stress[i] > found.strength) {
-            found = (struct broken){density[i], stress[i], strain[i], broken[i], broken[i]};
+            found =
+                (struct broken){density[i], stress[i], strain[i], broken[i], broken[i]};
         }
         found.at_end = broken[i];
     }
@@ -95,7 +96,9 @@ static void add_curves(struct gb_strength_study *study, const struct gb_keep_poi
     for (size_t i = 0; i < gb_table_rows(table); i++) {
         const double number[] = {mark->by_density ? (double)NAN : 1e-6 * mark->value,
                                  mark->by_density ? mark->value : (double)NAN,
-                                 cell + 1.0, 100.0 * column[0][i], 1e-6 * column[1][i],
+                                 cell + 1.0,
+                                 100.0 * column[0][i],
+                                 1e-6 * column[1][i],
                                  100.0 * column[2][i]};
         g_string_append_printf(study->curves, "%s,",
                                gb_strength_test_rows[(int)test[i]].name);
@@ -186,7 +189,8 @@ static void add_cells(struct gb_cells *cells, const struct gb_params *params,
     }
 }
 
-bool gb_strength_study_run(struct gb_strength_study *study, const struct gb_params *preset,
+bool gb_strength_study_run(struct gb_strength_study *study,
+                           const struct gb_params *preset,
                            const struct gb_strength_options *options,
                            const char *directory, int jobs,
                            const struct gb_cells_callbacks *callbacks,

@@ -15,23 +15,24 @@ struct gb_strength_result {
     struct gb_keep_point mark;
     enum gb_strength_test test;
     int cells;
-    double density;                       /* without stress */
+    double density;                        /* without stress */
     double strength_pa, strength_error_pa; /* largest stress */
-    double strain, strain_error;          /* at it */
-    double broken_at_peak, broken_at_end; /* share of the bridges; NaN without any */
-    struct gb_weibull weibull;            /* of the strengths, Pa; NaN: fewer than 3 */
+    double strain, strain_error;           /* at it */
+    double broken_at_peak, broken_at_end;  /* share of the bridges; NaN without any */
+    struct gb_weibull weibull;             /* of the strengths, Pa; NaN: fewer than 3 */
 };
 
 struct gb_strength_study {
     struct gb_strength_options options;
-    GArray *result; /* of struct gb_strength_result: marks x tests */
+    GArray *result;  /* of struct gb_strength_result: marks x tests */
     GString *curves; /* CSV of all stress-strain curves */
     size_t failed;   /* cells without an answer; `why` says it of the first */
     struct gb_error why;
 };
 
 /* As gb_yield_study_run, for strengths. */
-bool gb_strength_study_run(struct gb_strength_study *study, const struct gb_params *preset,
+bool gb_strength_study_run(struct gb_strength_study *study,
+                           const struct gb_params *preset,
                            const struct gb_strength_options *options,
                            const char *directory, int jobs,
                            const struct gb_cells_callbacks *callbacks,

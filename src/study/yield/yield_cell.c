@@ -29,13 +29,14 @@ static void add_point(struct cell *cell, int direction, int offset,
 {
     const double none = (double)NAN;
     const double size = gb_yield_options_offset[offset] * cell->options.offset;
-    struct gb_yield_point point = {.p_pa = none, .q_pa = none, .flow_volume = none,
-                                   .flow_shear = none};
+    struct gb_yield_point point = {
+        .p_pa = none, .q_pa = none, .flow_volume = none, .flow_shear = none};
     const struct gb_compact_state top = gb_compact_state_of(&cell->top.point);
     gb_yield_probe_point(probe, size, &point);
     g_string_append_printf(cell->points, "%d,%d", direction, offset);
-    const double number[] = {cell->top.point.density, top.p, top.q, point.p_pa,
-                             point.q_pa, point.flow_volume, point.flow_shear};
+    const double number[] = {
+        cell->top.point.density, top.p,           top.q, point.p_pa, point.q_pa,
+        point.flow_volume,       point.flow_shear};
     for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
         add_number(cell->points, number[i]);
     }

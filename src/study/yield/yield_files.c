@@ -57,13 +57,10 @@ GString *gb_yield_files_cells(const struct gb_yield_study *study, const char *co
     for (guint i = 0; i < study->point->len; i++) {
         const struct gb_yield_point *point =
             &g_array_index(study->point, struct gb_yield_point, i);
-        const double number[] = {point->density,
-                                 point->replica,
-                                 point->direction * 180.0 / G_PI,
-                                 1e-6 * point->p_pa,
-                                 1e-6 * point->q_pa,
-                                 point->flow_volume,
-                                 point->flow_shear};
+        const double number[] = {
+            point->density,     point->replica,     point->direction * 180.0 / G_PI,
+            1e-6 * point->p_pa, 1e-6 * point->q_pa, point->flow_volume,
+            point->flow_shear};
         gb_study_text_numbers(text, number, G_N_ELEMENTS(number));
     }
     return text;
@@ -110,10 +107,11 @@ static const struct gb_fit_value *quantity(const struct gb_yield_surface *surfac
 
 static void add_surfaces(GString *text, const struct gb_yield_study *study)
 {
-    g_string_append(text, "\n## Ellipses\n\n"
-                          "| density | pressed to p (MPa) | offset (%) | centre p (MPa) | "
-                          "centre q | half axis p | half axis q | misfit |\n"
-                          "|---|---|---|---|---|---|---|---|\n");
+    g_string_append(text,
+                    "\n## Ellipses\n\n"
+                    "| density | pressed to p (MPa) | offset (%) | centre p (MPa) | "
+                    "centre q | half axis p | half axis q | misfit |\n"
+                    "|---|---|---|---|---|---|---|---|\n");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
         g_string_append_printf(text, "| %.4f", surface->density.value);
@@ -155,13 +153,14 @@ static void add_statements_on(GString *text, const struct gb_yield_surface *surf
     const struct gb_fit_value *centre = quantity(surface, GB_YIELD_CENTRE_P);
     const struct gb_fit_value *loaded = quantity(surface, GB_YIELD_DILATANCY_COMPRESSION);
     const struct gb_fit_value *pulled = quantity(surface, GB_YIELD_DILATANCY_EXTENSION);
-    g_string_append_printf(text, "\nDensity %.4f, offset %g %%:\n\n- centre of the ellipse",
+    g_string_append_printf(text,
+                           "\nDensity %.4f, offset %g %%:\n\n- centre of the ellipse",
                            surface->density.value, 100.0 * surface->offset);
     gb_study_text_value(text, " at p = ", centre, 1e-6);
     g_string_append_printf(text, " MPa, %s: shift over half axis", verdict(centre));
     gb_study_text_value(text, " ", quantity(surface, GB_YIELD_SHIFT), 1.0);
-    gb_study_text_value(text, "\n- dilatancy -dv/|dw| under shear at constant p: ", loaded,
-                        1.0);
+    gb_study_text_value(
+        text, "\n- dilatancy -dv/|dw| under shear at constant p: ", loaded, 1.0);
     g_string_append_printf(text, " (%s) in compression", verdict(loaded));
     gb_study_text_value(text, ", ", pulled, 1.0);
     g_string_append_printf(text, " (%s) in extension", verdict(pulled));
@@ -174,9 +173,10 @@ static void add_statements_on(GString *text, const struct gb_yield_surface *surf
 
 static void add_directions(GString *text, const struct gb_yield_study *study)
 {
-    g_string_append(text, "\n## Points at the chosen offset\n\n"
-                          "| density | direction (deg) | cells | p (MPa) | q (MPa) | angle "
-                          "to normal (deg) | dilatancy |\n|---|---|---|---|---|---|---|\n");
+    g_string_append(text,
+                    "\n## Points at the chosen offset\n\n"
+                    "| density | direction (deg) | cells | p (MPa) | q (MPa) | angle "
+                    "to normal (deg) | dilatancy |\n|---|---|---|---|---|---|---|\n");
     for (int m = 0; m < study->options.marks.count; m++) {
         const struct gb_yield_surface *surface =
             gb_yield_study_surface(study, m, GB_YIELD_OFFSET_CHOSEN);

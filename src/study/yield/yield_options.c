@@ -49,8 +49,7 @@ bool gb_yield_options_check(const struct gb_yield_options *options, struct gb_er
     }
     if (options->directions < 8 || options->directions > GB_YIELD_DIRECTIONS_MAX ||
         options->directions % 4 != 0) {
-        return refuse(err, "directions", options->directions,
-                      "8 to 72, a multiple of 4");
+        return refuse(err, "directions", options->directions, "8 to 72, a multiple of 4");
     }
     if (!(options->inside > 0.0 && options->inside < 1.0)) {
         return refuse(err, "inside", options->inside, "between 0 and 1");

@@ -16,8 +16,7 @@ char *gb_yield_probe_leg(double volume, double shear, double strain_most, char *
     const double axial = volume / 3.0 + shear, lateral = volume / 3.0 - 0.5 * shear;
     if (fabs(axial) >= fabs(lateral)) {
         snprintf(buffer, size, "strain z = 1, x = %.12f, y = %.12f to %.9g %%",
-                 lateral / axial, lateral / axial,
-                 100.0 * copysign(strain_most, axial));
+                 lateral / axial, lateral / axial, 100.0 * copysign(strain_most, axial));
     } else {
         snprintf(buffer, size, "strain x = 1, y = 1, z = %.12f to %.9g %%",
                  axial / lateral, 100.0 * copysign(strain_most, lateral));
@@ -38,12 +37,9 @@ static double *columns_of(const struct gb_yield_probe *probe, struct gb_yield_pa
         column[2 * count + i] = state->volume;
         column[3 * count + i] = state->shear;
     }
-    *path = (struct gb_yield_path){column,
-                                   column + count,
-                                   column + 2 * count,
-                                   column + 3 * count,
-                                   count,
-                                   probe->direction};
+    *path = (struct gb_yield_path){
+        column, column + count,  column + 2 * count, column + 3 * count,
+        count,  probe->direction};
     return column;
 }
 
@@ -100,12 +96,11 @@ static bool measure_slopes(struct gb_compact *inside, bool by_shear, double slop
     struct gb_yield_probe probe = {0};
     gb_yield_probe_leg(by_shear ? 0.0 : 3.0, by_shear ? 1.0 : 0.0, options->elastic, leg,
                        sizeof leg);
-    const bool good =
-        follow(&probe, inside, leg, options->elastic, NULL, callbacks, err);
+    const bool good = follow(&probe, inside, leg, options->elastic, NULL, callbacks, err);
     if (good) {
         double *columns = columns_of(&probe, &path);
-        gb_yield_offset_slopes(&path, by_shear ? path.shear : path.volume, (double)INFINITY,
-                               slope);
+        gb_yield_offset_slopes(&path, by_shear ? path.shear : path.volume,
+                               (double)INFINITY, slope);
         g_free(columns);
     }
     gb_yield_probe_finish(&probe);

@@ -15,7 +15,7 @@
 struct gb_yield_probe {
     double direction; /* rad in the (p, q) plane */
     struct gb_yield_elastic elastic;
-    GArray *state;    /* struct gb_compact_state; the first one is that of the compact */
+    GArray *state; /* struct gb_compact_state; the first one is that of the compact */
     enum gb_compact_outcome outcome;
     struct gb_error why; /* of a probe that a guard has stopped */
 };

@@ -50,9 +50,9 @@ enum { COLUMNS = 9 };
 static bool find_columns(const struct gb_table *table, const double *column[COLUMNS],
                          struct gb_error *err)
 {
-    static const char *const names[COLUMNS] = {
-        "direction", "offset", "density",     "top_p_Pa",  "top_q_Pa",
-        "p_Pa",      "q_Pa",   "flow_volume", "flow_shear"};
+    static const char *const names[COLUMNS] = {"direction", "offset",      "density",
+                                               "top_p_Pa",  "top_q_Pa",    "p_Pa",
+                                               "q_Pa",      "flow_volume", "flow_shear"};
     for (int k = 0; k < COLUMNS; k++) {
         column[k] = gb_table_column(table, names[k], err);
         if (column[k] == NULL) {
@@ -119,9 +119,9 @@ static bool measure_surfaces(struct gb_yield_study *study, const struct answers 
 {
     for (int o = 0; o < GB_YIELD_OFFSETS; o++) {
         struct gb_yield_surface *surface = g_new0(struct gb_yield_surface, 1);
-        const struct gb_yield_surface_data data = {
-            answers_at(answers, o, 0, 0), answers->top_p, answers->top_q, answers->cells,
-            answers->directions};
+        const struct gb_yield_surface_data data = {answers_at(answers, o, 0, 0),
+                                                   answers->top_p, answers->top_q,
+                                                   answers->cells, answers->directions};
         surface->mark = *mark;
         surface->offset = study->options.offset * gb_yield_options_offset[o];
         g_ptr_array_add(study->surface, surface);
@@ -149,8 +149,7 @@ static bool conclude_mark(struct gb_yield_study *study, const struct gb_cells *c
             good = read_cell(&answers, c, cells, item, &study->options, err);
         }
     }
-    good = good &&
-           (there > 0 || gb_cells_check(cells, err)) &&
+    good = good && (there > 0 || gb_cells_check(cells, err)) &&
            measure_surfaces(study, &answers, &study->options.marks.point[mark], err);
     answers_finish(&answers);
     return good;
@@ -188,7 +187,8 @@ static void add_cells(struct gb_cells *cells, const struct gb_params *params,
         for (int m = 0; m < options->marks.count; m++) {
             GString *text = g_string_new("study=yield\n");
             gb_yield_options_write(options, &options->marks.point[m], text);
-            gb_cells_add(cells, &own, gb_cells_name(&options->marks.point[m], c), text->str);
+            gb_cells_add(cells, &own, gb_cells_name(&options->marks.point[m], c),
+                         text->str);
             g_string_free(text, TRUE);
         }
     }

@@ -184,10 +184,9 @@ static struct gb_fit_value jackknife(const struct summary *all,
         value[c] = *(const double *)(const void *)at;
     }
     const char *at = (const char *)all + offset;
-    return value_with(*(const double *)(const void *)at,
-                      cells > 1 ? gb_average_jackknife(value, (size_t)cells)
-                                : (double)NAN,
-                      cells);
+    return value_with(
+        *(const double *)(const void *)at,
+        cells > 1 ? gb_average_jackknife(value, (size_t)cells) : (double)NAN, cells);
 }
 
 #define AT(member, index)                                                                \

@@ -13,7 +13,7 @@ enum gb_yield_surface_quantity {
     GB_YIELD_CENTRE_Q,
     GB_YIELD_HALF_P,
     GB_YIELD_HALF_Q,
-    GB_YIELD_TENSION,   /* where the ellipse meets the p axis, Pa: centre less half axis ... */
+    GB_YIELD_TENSION, /* where the ellipse meets the p axis, Pa: centre less half axis ... */
     GB_YIELD_PRESSURE,  /* ... and centre plus half axis */
     GB_YIELD_SHIFT,     /* centre over half axis along p; above 0: towards compression */
     GB_YIELD_MISFIT,    /* rms distance of the points from the ellipse, relative */
@@ -32,9 +32,9 @@ extern const struct gb_yield_surface_row gb_yield_surface_rows[GB_YIELD_QUANTITI
 
 /* One direction of loading, over the cells. */
 struct gb_yield_surface_direction {
-    struct gb_yield_point mean; /* replica 0 */
-    int cells;                  /* that reached the offset */
-    struct gb_fit_value angle;  /* of the flow from the outward normal, degrees */
+    struct gb_yield_point mean;    /* replica 0 */
+    int cells;                     /* that reached the offset */
+    struct gb_fit_value angle;     /* of the flow from the outward normal, degrees */
     struct gb_fit_value dilatancy; /* -dv/|dw| */
 };
 
