@@ -87,7 +87,7 @@ bool gb_compact_options_begin(struct gb_compact_options *options, char **words,
         return false;
     }
     gb_progress_init(&options->progress, options->quiet);
-    gb_signals_install();
+    gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
     options->callbacks =
         (struct gb_cells_callbacks){gb_signals_cancelled, on_progress, options};
     return true;

@@ -96,7 +96,8 @@ int main(int argc, char **argv)
     g_test_add_func("/yield/workers", test_workers);
     g_test_add_func("/yield/refused", test_refused);
     const int status = g_test_run();
-    char *command[] = {"rm", "-rf", folder, NULL};
+    char rm[] = "rm", all[] = "-rf";
+    char *command[] = {rm, all, folder, NULL};
     g_spawn_sync(NULL, command, NULL, G_SPAWN_SEARCH_PATH, NULL, NULL, NULL, NULL, NULL,
                  NULL);
     g_free(folder);

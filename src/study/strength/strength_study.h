@@ -39,7 +39,7 @@ bool gb_strength_study_run(struct gb_strength_study *study,
                            struct gb_error *err);
 void gb_strength_study_finish(struct gb_strength_study *study); /* zeroed is fine */
 
-/* strength.csv, strength_curves.csv and strength.md. */
+/* The tables strength.csv, strength_curves.csv, and a page beside them. */
 bool gb_strength_study_write(const struct gb_strength_study *study, const char *directory,
                              const char *title, const char *command,
                              struct gb_error *err);

@@ -15,7 +15,7 @@ GString *gb_yield_files_points(const struct gb_yield_study *study, const char *c
 GString *gb_yield_files_cells(const struct gb_yield_study *study, const char *comment);
 /* yield_fit.csv: a row per compact, offset and quantity, with its 95 % interval. */
 GString *gb_yield_files_fit(const struct gb_yield_study *study, const char *comment);
-/* yield.md: what was done, the fitted surfaces, and the three statements on each compact:
+/* The page: what was done, the fitted surfaces, and the three statements on each compact:
  * shift of the ellipse, dilatancy under shear, flow against normal. */
 GString *gb_yield_files_page(const struct gb_yield_study *study, const char *title,
                              const char *command);
