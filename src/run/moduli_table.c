@@ -121,9 +121,25 @@ static void fill_averages(struct gb_moduli_table_row *row)
     put(row, "G_reuss_GPa", of.shear_reuss);
 }
 
-static void fill_axial(struct gb_moduli_table_row *row, double mass_density)
+/* In 2D the plane has four constants; there is nothing to project. */
+static struct gb_elastic_axial axial_of(const double c[6][6], int dimension)
 {
-    const struct gb_elastic_axial of = gb_elastic_project((const double(*)[6])row->c_gpa);
+    if (dimension == 3) {
+        return gb_elastic_project(c);
+    }
+    return (struct gb_elastic_axial){.c11 = c[0][0],
+                                     .c12 = NAN,
+                                     .c13 = 0.5 * (c[0][2] + c[2][0]),
+                                     .c33 = c[2][2],
+                                     .c44 = c[4][4],
+                                     .misfit = NAN};
+}
+
+static void fill_axial(struct gb_moduli_table_row *row, double mass_density,
+                       int dimension)
+{
+    const struct gb_elastic_axial of =
+        axial_of((const double(*)[6])row->c_gpa, dimension);
     const struct gb_elastic_waves speed =
         gb_elastic_wave_speeds(&of, 1e-9 * mass_density);
     put(row, "axial_C11_GPa", of.c11);
@@ -170,7 +186,7 @@ void gb_moduli_table_fill(struct gb_moduli_table_row *row, const struct gb_modul
     }
     fill_matrix(row);
     fill_averages(row);
-    fill_axial(row, params->density_kg_m3 * moduli->density);
+    fill_axial(row, params->density_kg_m3 * moduli->density, params->dimension);
     fill_state(row, moduli, 1e-6 * params->young_pa, params->dimension);
 }
 

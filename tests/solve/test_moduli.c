@@ -23,9 +23,30 @@ struct lattice_case {
 
 static const double young_gpa = 382.0, poisson = 0.25;
 
+static int dimension_of(const char *kind)
+{
+    return strcmp(kind, "square") == 0 || strcmp(kind, "hexagonal") == 0 ? 2 : 3;
+}
+
+/* Square or hexagonal, in the x-z plane. */
+static int plane_neighbours(const char *kind, double n[6][3])
+{
+    const int count = kind[0] == 's' ? 2 : 3;
+    for (int k = 0; k < count; k++) {
+        const double angle = k * M_PI / count;
+        n[k][0] = cos(angle);
+        n[k][1] = 0.0;
+        n[k][2] = sin(angle);
+    }
+    return count;
+}
+
 /* Vectors to half of the nearest neighbours, in their distance; returns their number. */
 static int neighbours(const char *kind, double n[6][3])
 {
+    if (dimension_of(kind) == 2) {
+        return plane_neighbours(kind, n);
+    }
     static const double sc[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     static const double fcc[][3] = {{1, 1, 0},  {1, -1, 0}, {1, 0, 1},
                                     {1, 0, -1}, {0, 1, 1},  {0, 1, -1}};
@@ -42,10 +63,16 @@ static int neighbours(const char *kind, double n[6][3])
     return count;
 }
 
-/* Volume of a particle in cubes of the nearest distance. */
-static double particle_volume(const char *kind)
+/* Volume of a particle at the nearest distance r, d^3; a plane is d thick. */
+static double particle_volume(const char *kind, double r)
 {
-    return kind[0] == 's' ? 1.0 : kind[0] == 'f' ? sqrt(0.5) : 4.0 / (3.0 * sqrt(3.0));
+    if (dimension_of(kind) == 2) {
+        return (kind[0] == 's' ? 1.0 : sqrt(0.75)) * r * r;
+    }
+    return (kind[0] == 's'   ? 1.0
+            : kind[0] == 'f' ? sqrt(0.5)
+                             : 4.0 / (3.0 * sqrt(3.0))) *
+           r * r * r;
 }
 
 struct contact {
@@ -82,11 +109,12 @@ static double closed_form(const struct lattice_case *of, double c[6][6])
 {
     const struct contact contact = contact_of(of);
     const double r = 1.0 - of->overlap;
-    const double volume = particle_volume(of->kind) * r * r * r;
+    const double volume = particle_volume(of->kind, r);
+    const int dimension = dimension_of(of->kind);
     double n[6][3], pressure = 0.0;
     const int count = neighbours(of->kind, n);
     for (int k = 0; k < count; k++) {
-        pressure += contact.f * r / (3.0 * volume) * young_gpa;
+        pressure += contact.f * r / (dimension * volume) * young_gpa;
     }
     for (int e = 0; e < 6; e++) {
         double strain[3][3], sigma[3][3] = {{0.0}};
@@ -106,8 +134,10 @@ static double closed_form(const struct lattice_case *of, double c[6][6])
             }
         }
         for (int m = 0; m < 6; m++) {
-            c[m][e] = young_gpa * voigt((const double(*)[3])sigma, m) +
-                      (e < 3 && m < 3 ? pressure : 0.0);
+            const bool in_plane = dimension == 3 || (m % 2 == 0 && e % 2 == 0);
+            c[m][e] = in_plane ? young_gpa * voigt((const double(*)[3])sigma, m) +
+                                     (e < 3 && m < 3 ? pressure : 0.0)
+                               : 0.0;
         }
     }
     return pressure;
@@ -193,6 +223,8 @@ static void test_lattices(void)
         {"sc", "64", 0.02, 16.0, 0.3, 0.0, "scene.title=bare", 0, 0, 0, 0},
         {"bcc", "250", 0.01, 16.0, 0.3, 0.5, "contact.bridge_length=0.002 d", 0, 0, 0, 0},
         {"bcc", "128", 0.1, 10.0, 0.37, 0.0, "scene.title=bare", 0, 0, 0, 0},
+        {"hexagonal", "100", 0.03, 10.0, 0.24, 0.5, "scene.dimension=2", 0, 0, 0, 0},
+        {"square", "64", 0.02, 10.0, 0.24, 0.5, "scene.dimension=2", 0, 0, 0, 0},
     };
     for (size_t k = 0; k < G_N_ELEMENTS(cases); k++) {
         check_case(&cases[k]);
