@@ -68,7 +68,7 @@ static bool draw(struct gb_series *series, const struct gb_figures_input *input,
     return good;
 }
 
-bool gb_figures_die_wall(struct gb_series *series, const struct gb_figures_input *input,
+bool gb_figures_die_profile_wall(struct gb_series *series, const struct gb_figures_input *input,
                          struct gb_error *err)
 {
     static const struct profile profile = {
@@ -82,7 +82,7 @@ bool gb_figures_die_wall(struct gb_series *series, const struct gb_figures_input
     return draw(series, input, &profile, err);
 }
 
-bool gb_figures_die_axial(struct gb_series *series, const struct gb_figures_input *input,
+bool gb_figures_die_profile_axial(struct gb_series *series, const struct gb_figures_input *input,
                           struct gb_error *err)
 {
     static const struct profile profile = {"die-axial", "z",        "density",
@@ -90,7 +90,7 @@ bool gb_figures_die_axial(struct gb_series *series, const struct gb_figures_inpu
     return draw(series, input, &profile, err);
 }
 
-bool gb_figures_die_radial(struct gb_series *series, const struct gb_figures_input *input,
+bool gb_figures_die_profile_radial(struct gb_series *series, const struct gb_figures_input *input,
                            struct gb_error *err)
 {
     static const struct profile profile = {"die-radial", "r",         "density",

@@ -129,7 +129,7 @@ static bool sample_ejection(const struct gb_runset *set, double *grid, double *r
     return good;
 }
 
-bool gb_figures_die_ejection(struct gb_series *series,
+bool gb_figures_die_cycle_ejection(struct gb_series *series,
                              const struct gb_figures_input *input, struct gb_error *err)
 {
     const struct gb_runset *set = input->set;
