@@ -83,7 +83,7 @@ static bool copy_walls(const struct gb_bed *bed, struct gb_state *state,
     for (int64_t slot = 0; slot < walls->count; slot++) {
         line += walls->contacts.normal[slot] >= 0.0;
     }
-    if (!gb_state_set_walls(state, line, err)) {
+    if (!gb_state_allocate_walls(state, line, err)) {
         return false;
     }
     line = 0;

@@ -145,7 +145,7 @@ static void write_cycle(const char *directory, uint64_t seed)
                "eject,5000,0,0.63,2,1.2\neject,6000,0,0.63,0,1.3\n"
                "ejected,7000,0,0.625,0,1.5\n");
     g_assert_true(gb_state_create(&state, 4, 0, &err));
-    g_assert_true(gb_state_set_walls(state, 1, &err));
+    g_assert_true(gb_state_allocate_walls(state, 1, &err));
     state->seed = seed;
     state->metre_per_length = 1e-6;
     state->pascal_per_stress = 1e9;

@@ -63,7 +63,7 @@ static struct gb_state *made_up(int64_t count, int64_t pair_count)
                                      .iterations = 77,
                                      .evaluations = 99,
                                      .seconds = 1.5};
-    g_assert_true(gb_state_set_walls(state, 3, &err));
+    g_assert_true(gb_state_allocate_walls(state, 3, &err));
     for (int k = 0; k < 3; k++) {
         state->wall[2 * k + 1] = k;
         state->wall_force[3 * k + 1] = 0.5 + k;

@@ -78,7 +78,7 @@ int gb_cmd_yield(int argc, char **argv)
         "DIR receives yield.csv (points, flow), yield_cells.csv, yield_fit.csv (ellipse,\n"
         "dilatancy, angle between flow and normal), yield.md and preset.ini; half and\n"
         "double offset are reported, too.  cells/ keeps what is measured: repeated, the\n"
-        "command continues.."};
+        "command continues."};
     struct request request = {.offset_percent = 0.1};
     struct gb_error err = {0};
     char **sets = NULL, **words = NULL;

@@ -171,7 +171,7 @@ bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
     return true;
 }
 
-bool gb_state_set_walls(struct gb_state *state, int64_t count, struct gb_error *err)
+bool gb_state_allocate_walls(struct gb_state *state, int64_t count, struct gb_error *err)
 {
     const int64_t before = state->wall_count;
     bool good = true;
@@ -374,7 +374,7 @@ bool gb_state_read(struct gb_state **out, const char *path, struct gb_error *err
     bool done = read_layout(file, path, &layout, err) &&
                 read_sizes(file, path, layout, size, err) &&
                 gb_state_create(&state, size[PARTICLE], size[PAIR], err) &&
-                gb_state_set_walls(state, size[WALL], err) &&
+                gb_state_allocate_walls(state, size[WALL], err) &&
                 read_numbers(state, file, layout, err);
     for (int k = 0; k < ARRAY_COUNT && done; k++) {
         if (layout < row_layout[arrays[k].row_of]) {

@@ -41,7 +41,7 @@ struct gb_state {
 bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
                      struct gb_error *err);
 /* Arrays for count contacts with walls, zeroed; those that it had are lost. */
-bool gb_state_set_walls(struct gb_state *state, int64_t count, struct gb_error *err);
+bool gb_state_allocate_walls(struct gb_state *state, int64_t count, struct gb_error *err);
 void gb_state_destroy(struct gb_state *state); /* NULL is fine */
 
 /* The periodic cell; in a die the box around it. */

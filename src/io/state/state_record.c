@@ -170,7 +170,7 @@ static bool take_walls(struct gb_state *state, const struct gb_record *record,
     const int64_t n = normal ? normal->rows : 0;
     double *value = gb_alloc_array((size_t)n + 1, sizeof *value, err);
     int32_t *index = gb_alloc_array((size_t)n + 1, sizeof *index, err);
-    bool done = value && index && gb_state_set_walls(state, n, err);
+    bool done = value && index && gb_state_allocate_walls(state, n, err);
     for (int end = 0; done && end < 2; end++) {
         done = take(record, end == 0 ? "walls/first" : "walls/wall", GB_RECORD_INT32, n,
                     1, index, err);
