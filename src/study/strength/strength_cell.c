@@ -34,13 +34,13 @@ static double bridges(const struct gb_point *point)
 static double stress_of(enum gb_strength_test test, const struct gb_point *point)
 {
     const double pressure = test == GB_STRENGTH_SHEAR ? point->shear_pa[1] : point->pz_pa;
-    return gb_strength_test_rows[test].sense * pressure;
+    return gb_strength_options_tests[test].sense * pressure;
 }
 
 static double strain_of(enum gb_strength_test test, const struct cell *cell,
                         const struct gb_point *point)
 {
-    const int k = gb_strength_test_rows[test].component;
+    const int k = gb_strength_options_tests[test].component;
     const double strain = point->strain[k] - cell->free.point.strain[k];
     return test == GB_STRENGTH_TENSION ? -strain : strain;
 }
@@ -78,7 +78,7 @@ static bool break_one(struct cell *cell, enum gb_strength_test test, struct gb_e
     struct breaking breaking = {cell, test, 0.0};
     const struct gb_compact_walk walk = {take, &breaking, cell->callbacks};
     add_row(&breaking, &cell->free.point);
-    snprintf(leg, sizeof leg, gb_strength_test_rows[test].leg,
+    snprintf(leg, sizeof leg, gb_strength_options_tests[test].leg,
              100.0 * cell->options.strain_most);
     return gb_compact_follow(&cell->free, leg, cell->options.step, &walk, NULL, &why) !=
                GB_COMPACT_FAILED ||

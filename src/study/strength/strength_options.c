@@ -1,6 +1,6 @@
 #include "study/strength/strength_options.h"
 
-const struct gb_strength_test_row gb_strength_test_rows[GB_STRENGTH_TESTS] = {
+const struct gb_strength_test_row gb_strength_options_tests[GB_STRENGTH_TESTS] = {
     [GB_STRENGTH_TENSION] = {"tension", "triaxial to -%g %% at x = y = 0 MPa", -1.0, 2},
     [GB_STRENGTH_COMPRESSION] = {"compression", "triaxial to %g %% at x = y = 0 MPa", 1.0,
                                  2},

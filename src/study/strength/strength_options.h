@@ -17,7 +17,7 @@ struct gb_strength_test_row {
     double sense;    /* of the stress that is the strength */
     int component;   /* of strain: zz or xz, in the order of struct gb_point */
 };
-extern const struct gb_strength_test_row gb_strength_test_rows[GB_STRENGTH_TESTS];
+extern const struct gb_strength_test_row gb_strength_options_tests[GB_STRENGTH_TESTS];
 
 struct gb_strength_options {
     struct gb_keep_points marks; /* pressing pressures or densities */

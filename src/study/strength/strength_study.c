@@ -101,7 +101,7 @@ static void add_curves(struct gb_strength_study *study, const struct gb_keep_poi
                                  1e-6 * column[1][i],
                                  100.0 * column[2][i]};
         g_string_append_printf(study->curves, "%s,",
-                               gb_strength_test_rows[(int)test[i]].name);
+                               gb_strength_options_tests[(int)test[i]].name);
         gb_study_text_numbers(study->curves, number, G_N_ELEMENTS(number));
     }
 }
@@ -250,7 +250,7 @@ static GString *table(const struct gb_strength_study *study, const char *comment
                                  r->weibull.modulus_low,
                                  r->weibull.modulus_high,
                                  1e-6 * r->weibull.scale};
-        g_string_append_printf(text, "%s,", gb_strength_test_rows[r->test].name);
+        g_string_append_printf(text, "%s,", gb_strength_options_tests[r->test].name);
         gb_study_text_numbers(text, number, G_N_ELEMENTS(number));
     }
     return text;
@@ -279,7 +279,7 @@ static GString *page(const struct gb_strength_study *study, const char *title,
         g_string_append_printf(text, "| %g%s | %s",
                                r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
                                r->mark.by_density ? "" : " MPa",
-                               gb_strength_test_rows[r->test].name);
+                               gb_strength_options_tests[r->test].name);
         gb_study_text_value(text, " | ", &strength, 1e-6);
         gb_study_text_value(text, " | ", &strain, 100.0);
         gb_study_text_value(text, " | ", &broken, 100.0);
