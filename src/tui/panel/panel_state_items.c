@@ -59,7 +59,8 @@ static void contacts(const struct gb_session_shown *shown, char *text, size_t si
 
 static void bridged(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.1f %%", 100.0 * shown->now->now.bridged);
+    const double percent = 100.0 * shown->now->now.bridged;
+    write_number(text, size, percent >= 99.95 ? "%.0f %%" : "%.1f %%", percent);
 }
 
 static void rattlers(const struct gb_session_shown *shown, char *text, size_t size)
