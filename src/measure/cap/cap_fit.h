@@ -1,0 +1,35 @@
+#ifndef GB_MEASURE_CAP_CAP_FIT_H
+#define GB_MEASURE_CAP_CAP_FIT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "greenbody/status.h"
+#include "measure/cap/cap.h"
+#include "measure/fit/fit.h"
+#include "measure/yield_point.h"
+
+/* A cap surface fitted to yield points of one density: d and beta by least squares
+ * through the points of shear failure, then R and p_a through those of the cap. */
+struct gb_cap_fit {
+    struct gb_cap cap;
+    struct gb_fit_value d, beta, r, p_a, p_b; /* Pa, rad, 1, Pa, Pa */
+    size_t shear_points, cap_points;
+    double rms; /* of the distances along q of the shear points and along p of the
+                 * pressed ones, weighted alike, Pa */
+};
+
+/* Points that grow in volume as they flow fail in shear; the others lie on the cap. */
+bool gb_cap_fit_is_shear(const struct gb_yield_point *point);
+
+/* Least squares weighted by the errors of p and q; unknown errors (0 or NaN in any point)
+ * weigh alike, and the residuals give the intervals.  Extension counts as compression
+ * (K = 1).  The 95 % intervals hold for points that are independent; those of a set of
+ * replicas are the caller's, by leaving out one at a time.
+ * a: transition, 0 to 0.05.
+ * Errors: GB_ERR_INPUT (fewer than two points of either side, beta not above 0, d not
+ * above 0, a cap that does not close), GB_ERR_NOT_CONVERGED, GB_ERR_MEMORY. */
+bool gb_cap_fit(struct gb_cap_fit *fit, const struct gb_yield_point *points, size_t count,
+                double a, struct gb_error *err);
+
+#endif

@@ -1,0 +1,193 @@
+#include "measure/cap/cap_side.h"
+
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+
+#include "base/alloc.h"
+
+enum { SIZE = GB_CAP_SIDE_FREE, ITERATIONS = 200, REWEIGHTINGS = 4 };
+
+/* The cap through points, beside a given shear failure line. */
+struct problem {
+    const struct gb_cap_side *side;
+    struct gb_cap line; /* d, beta and a */
+    double unit;        /* of pressures, Pa */
+    double *weight;     /* 1/error of each residual */
+};
+
+static struct gb_cap at(const struct problem *problem, const gsl_vector *x)
+{
+    struct gb_cap cap = problem->line;
+    cap.r = exp(gsl_vector_get(x, 0));
+    cap.p_a = gsl_vector_get(x, 1) * problem->unit;
+    return cap;
+}
+
+double gb_cap_side_radius(const struct gb_cap *cap, const struct gb_yield_point *point)
+{
+    return hypot(point->p_pa - cap->p_a, cap->r * point->q_pa / gb_cap_flattening(cap));
+}
+
+static int residuals(const gsl_vector *x, void *data, gsl_vector *f)
+{
+    const struct problem *problem = data;
+    const struct gb_cap cap = at(problem, x);
+    for (size_t i = 0; i < problem->side->count; i++) {
+        const double off = gb_cap_side_radius(&cap, problem->side->point[i]) -
+                           cap.r * gb_cap_depth(&cap);
+        gsl_vector_set(f, i, off * problem->weight[i]);
+    }
+    return GSL_SUCCESS;
+}
+
+static int jacobian(const gsl_vector *x, void *data, gsl_matrix *j)
+{
+    const struct problem *problem = data;
+    const struct gb_cap cap = at(problem, x);
+    const double slope = tan(cap.beta), k = gb_cap_flattening(&cap);
+    for (size_t i = 0; i < problem->side->count; i++) {
+        const struct gb_yield_point *point = problem->side->point[i];
+        const double s = fmax(gb_cap_side_radius(&cap, point), 1e-12 * problem->unit);
+        const double across = cap.r * point->q_pa / k, off = point->p_pa - cap.p_a;
+        const double scale = problem->weight[i];
+        gsl_matrix_set(j, i, 0,
+                       scale * (across * across / s - cap.r * gb_cap_depth(&cap)));
+        gsl_matrix_set(j, i, 1, -scale * problem->unit * (off / s + cap.r * slope));
+    }
+    return GSL_SUCCESS;
+}
+
+/* Weights from the errors of the points, seen at the surface x. */
+static void weigh(const struct problem *problem, const gsl_vector *x)
+{
+    const struct gb_cap cap = at(problem, x);
+    const double k = gb_cap_flattening(&cap);
+    for (size_t i = 0; i < problem->side->count; i++) {
+        const struct gb_yield_point *point = problem->side->point[i];
+        const double length =
+            fmax(gb_cap_side_radius(&cap, point), 1e-12 * problem->unit);
+        const double p = (point->p_pa - cap.p_a) / length * point->p_error_pa;
+        const double q =
+            cap.r * cap.r * point->q_pa / (k * k * length) * point->q_error_pa;
+        problem->weight[i] =
+            1.0 / (problem->side->weighted ? hypot(p, q) : problem->unit);
+    }
+}
+
+static double sum_of_squares(const struct problem *problem, const gsl_vector *x)
+{
+    double sum = 0.0;
+    const struct gb_cap cap = at(problem, x);
+    for (size_t i = 0; i < problem->side->count; i++) {
+        const double off = gb_cap_side_radius(&cap, problem->side->point[i]) -
+                           cap.r * gb_cap_depth(&cap);
+        sum += off * off / (problem->unit * problem->unit);
+    }
+    return sum;
+}
+
+/* Best of a grid of R whose caps end at the largest pressure of the points. */
+static void start(const struct problem *problem, gsl_vector *x)
+{
+    double best = INFINITY, log_r = 0.0, p_a = 0.0;
+    for (double trial = log(0.05); trial < log(20.0); trial += 0.1) {
+        struct gb_cap cap = problem->line;
+        cap.r = exp(trial);
+        cap = gb_cap_with_end(&cap, problem->unit);
+        gsl_vector_set(x, 0, trial);
+        gsl_vector_set(x, 1, cap.p_a / problem->unit);
+        const double sum = sum_of_squares(problem, x);
+        if (gb_cap_depth(&cap) > 0.0 && sum < best) {
+            best = sum;
+            log_r = trial;
+            p_a = cap.p_a / problem->unit;
+        }
+    }
+    gsl_vector_set(x, 0, log_r);
+    gsl_vector_set(x, 1, p_a);
+}
+
+static void take_covariance(struct gb_cap_side_found *found,
+                            const struct problem *problem,
+                            gsl_multifit_nlinear_workspace *work, gsl_matrix *covariance)
+{
+    const gsl_vector *f = gsl_multifit_nlinear_residual(work);
+    const double scale[SIZE] = {found->r, problem->unit};
+    double variance = 1.0;
+    found->squares = 0.0;
+    for (size_t i = 0; i < f->size; i++) {
+        found->squares += gsl_vector_get(f, i) * gsl_vector_get(f, i);
+    }
+    if (!problem->side->weighted && f->size > SIZE) {
+        variance = found->squares / (double)(f->size - SIZE);
+    }
+    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(work), 0.0, covariance);
+    for (size_t i = 0; i < SIZE; i++) {
+        for (size_t j = 0; j < SIZE; j++) {
+            found->cov[i][j] =
+                gsl_matrix_get(covariance, i, j) * scale[i] * scale[j] * variance;
+        }
+    }
+}
+
+/* Levenberg-Marquardt; the weights follow the surface for a few rounds. */
+static bool solve(struct gb_cap_side_found *found, const struct problem *problem,
+                  gsl_vector *x, gsl_multifit_nlinear_workspace *work,
+                  gsl_matrix *covariance)
+{
+    gsl_multifit_nlinear_fdf system = {.f = residuals,
+                                       .df = jacobian,
+                                       .n = problem->side->count,
+                                       .p = SIZE,
+                                       .params = (void *)(size_t)problem};
+    int info = 0, status = GSL_SUCCESS;
+    start(problem, x);
+    for (int round = 0; round < REWEIGHTINGS && status == GSL_SUCCESS; round++) {
+        weigh(problem, x);
+        gsl_multifit_nlinear_init(x, &system, work);
+        status = gsl_multifit_nlinear_driver(ITERATIONS, 1e-10, 1e-10, 0.0, NULL, NULL,
+                                             &info, work);
+        /* no progress left in double precision is convergence, too */
+        status = info == GSL_ENOPROG ? GSL_SUCCESS : status;
+        gsl_vector_memcpy(x, gsl_multifit_nlinear_position(work));
+    }
+    const struct gb_cap cap = at(problem, x);
+    found->r = cap.r;
+    found->p_a = cap.p_a;
+    take_covariance(found, problem, work, covariance);
+    return status == GSL_SUCCESS && isfinite(cap.r) && gb_cap_depth(&cap) > 0.0;
+}
+
+bool gb_cap_side_fit(struct gb_cap_side_found *found, const struct gb_cap_side *side,
+                     const struct gb_cap *line, struct gb_error *err)
+{
+    const gsl_multifit_nlinear_parameters options =
+        gsl_multifit_nlinear_default_parameters();
+    struct problem problem = {.side = side, .line = *line};
+    for (size_t i = 0; i < side->count; i++) {
+        problem.unit = fmax(problem.unit, side->point[i]->p_pa);
+    }
+    if (!(problem.unit > 0.0)) {
+        return gb_error_set(err, GB_ERR_INPUT, "the cap has no point at a pressure");
+    }
+    problem.weight = gb_alloc_array(side->count, sizeof *problem.weight, err);
+    gsl_multifit_nlinear_workspace *work = gsl_multifit_nlinear_alloc(
+        gsl_multifit_nlinear_trust, &options, side->count, SIZE);
+    gsl_matrix *covariance = gsl_matrix_alloc(SIZE, SIZE);
+    gsl_vector *x = gsl_vector_alloc(SIZE);
+    bool good = problem.weight && work && covariance && x;
+    if (!good) {
+        gb_error_set(err, GB_ERR_MEMORY, "out of memory");
+    } else {
+        good = solve(found, &problem, x, work, covariance) ||
+               gb_error_set(err, GB_ERR_NOT_CONVERGED,
+                            "no cap through %zu points beside d = %.4g MPa, beta = %.4g "
+                            "degrees",
+                            side->count, line->d / 1e6, line->beta * 180.0 / M_PI);
+    }
+    gsl_vector_free(x);
+    gsl_matrix_free(covariance);
+    gsl_multifit_nlinear_free(work);
+    gb_alloc_free(problem.weight);
+    return good;
+}
