@@ -19,6 +19,8 @@ static const struct gb_commands_row rows[] = {
      gb_cmd_yield},
     {many, "strength", "tension, compression and shear of unloaded compacts",
      gb_cmd_strength},
+    {many, "card", "Drucker-Prager cap card for finite elements, with intervals",
+     gb_cmd_card},
     {packings, "pack", "the initial structure alone", gb_cmd_pack},
     {packings, "sizes", "log-normal law fitted to measured particle sizes", gb_cmd_sizes},
     {packings, "snapshot", "picture of a packing", gb_cmd_snapshot},

@@ -5,6 +5,8 @@
 
 /* The functions of the table of figures, one line each; each is in the file of its name. */
 gb_figures_compute gb_figures_bridge_strength;
+gb_figures_compute gb_figures_card;
+gb_figures_compute gb_figures_card_uniaxial;
 gb_figures_compute gb_figures_chart;
 gb_figures_compute gb_figures_chart_error;
 gb_figures_compute gb_figures_contact;

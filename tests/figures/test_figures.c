@@ -198,6 +198,20 @@ static void write_chart(void)
                "fire,1000,0,3,100,1,0.02,1,1,-0.02,0.001,0.004\n");
 }
 
+static void write_card(void)
+{
+    write_text("card", "card.csv",
+               "density,d_MPa,beta_deg,R,p_a_MPa,transition\n"
+               "0.4,40,45,1,10,0.03\n0.5,60,40,1.3,50,0.03\n");
+    write_text("card", "card_points.csv",
+               "density,p_MPa,q_MPa,q_MPa_error,side\n"
+               "0.4,10,48,2,cap\n0.4,-5,-36,2,shear\n0.5,60,110,3,cap\n");
+    write_text("card", "card_uniaxial.csv",
+               "density,ratio,ratio_low,ratio_high,card_ratio,card_ratio_low,"
+               "card_ratio_high\n"
+               "0.42,0.4,0.38,0.42,0.7,0.65,0.75\n0.5,0.5,0.48,0.52,0.8,0.75,0.85\n");
+}
+
 /* Directories that a figure is drawn from, by what it takes, unless it has a row of its
  * own below. */
 static const char *const usual[][3] = {
@@ -232,6 +246,8 @@ static const struct source {
     {"die-axial", {"cycle1", "cycle2"}},
     {"die-radial", {"cycle1"}},
     {"die-map", {"cycle1", "cycle2"}},
+    {"card", {"card"}},
+    {"card-uniaxial", {"card"}},
 };
 
 static bool run_scene(const struct gb_figures_row *row, struct gb_series *series,
@@ -608,6 +624,7 @@ int main(int argc, char **argv)
     write_legs();
     write_cycle("cycle1", 1);
     write_cycle("cycle2", 2);
+    write_card();
     write_chart();
     write_text("empty", "preset.ini", "[scene]\ntitle = empty\n");
     g_test_add_func("/figures/table", test_table);

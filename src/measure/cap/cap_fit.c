@@ -18,9 +18,14 @@ struct line {
     double cov00, cov01, cov11;
 };
 
-bool gb_cap_fit_is_shear(const struct gb_yield_point *point)
+enum gb_cap_fit_side gb_cap_fit_side_of(const struct gb_yield_point *point)
 {
-    return point->flow_volume < 0.0;
+    if (!(point->flow_volume < 0.0)) {
+        return GB_CAP_FIT_CAP;
+    }
+    return -point->flow_volume > GB_CAP_FIT_TENSION * fabs(point->flow_shear)
+               ? GB_CAP_FIT_LEFT_OUT
+               : GB_CAP_FIT_SHEAR;
 }
 
 static bool has_error(const struct gb_yield_point *point)
@@ -29,7 +34,7 @@ static bool has_error(const struct gb_yield_point *point)
 }
 
 static bool take_side(struct gb_cap_side *side, const struct gb_yield_point *points,
-                      size_t count, bool shear, struct gb_error *err)
+                      size_t count, enum gb_cap_fit_side which, struct gb_error *err)
 {
     side->weighted = true;
     side->point = gb_alloc_array(count > 0 ? count : 1, sizeof(void *), err);
@@ -38,14 +43,15 @@ static bool take_side(struct gb_cap_side *side, const struct gb_yield_point *poi
     }
     for (size_t i = 0; i < count; i++) {
         side->weighted = side->weighted && has_error(&points[i]);
-        if (gb_cap_fit_is_shear(&points[i]) == shear) {
+        if (gb_cap_fit_side_of(&points[i]) == which) {
             side->point[side->count++] = &points[i];
         }
     }
     return side->count >= SIZE ||
            gb_error_set(err, GB_ERR_INPUT,
                         "%zu of %zu yield points %s: at least 2 are needed", side->count,
-                        count, shear ? "fail in shear" : "lie on the cap");
+                        count,
+                        which == GB_CAP_FIT_SHEAR ? "fail in shear" : "lie on the cap");
 }
 
 /* Errors of p count through the slope, which the last round gave. */
@@ -216,8 +222,8 @@ bool gb_cap_fit(struct gb_cap_fit *fit, const struct gb_yield_point *points, siz
                 double a, struct gb_error *err)
 {
     struct gb_cap_side side[2] = {{.count = 0}, {.count = 0}};
-    const bool good = take_side(&side[0], points, count, true, err) &&
-                      take_side(&side[1], points, count, false, err) &&
+    const bool good = take_side(&side[0], points, count, GB_CAP_FIT_SHEAR, err) &&
+                      take_side(&side[1], points, count, GB_CAP_FIT_CAP, err) &&
                       fit_sides(fit, side, a, err);
     gb_alloc_free(side[0].point);
     gb_alloc_free(side[1].point);

@@ -19,8 +19,12 @@ struct gb_cap_fit {
                  * pressed ones, weighted alike, Pa */
 };
 
-/* Points that grow in volume as they flow fail in shear; the others lie on the cap. */
-bool gb_cap_fit_is_shear(const struct gb_yield_point *point);
+/* By plastic flow: points that lose volume lie on the cap, those that grow fail in shear.
+ * Where volume grows more than GB_CAP_FIT_TENSION times the shear it is failure in tension,
+ * for which the surface has no part: such a point is left out. */
+#define GB_CAP_FIT_TENSION 2.0
+enum gb_cap_fit_side { GB_CAP_FIT_SHEAR, GB_CAP_FIT_CAP, GB_CAP_FIT_LEFT_OUT };
+enum gb_cap_fit_side gb_cap_fit_side_of(const struct gb_yield_point *point);
 
 /* Least squares weighted by the errors of p and q; unknown errors (0 or NaN in any point)
  * weigh alike, and the residuals give the intervals.  Extension counts as compression

@@ -8,8 +8,8 @@
 
 enum { COMPONENTS = 6, AXES = 3, ROUNDS = 200 };
 
-/* A return to the surface: the trial stress and what the step may change. */
-struct trial {
+/* A return to the surface: the elastic stress and what the step may change. */
+struct prediction {
     const struct gb_cap_material *material;
     struct gb_cap_row now; /* at the density of the end of the sub-step */
     double plastic_volume;
@@ -22,21 +22,21 @@ struct returned {
     double outside;             /* yield function, Pa: 0 on the surface */
 };
 
-typedef struct returned try_return(const struct trial *trial, double unknown);
+typedef struct returned try_return(const struct prediction *from, double unknown);
 
 struct search {
-    const struct trial *trial;
+    const struct prediction *from;
     try_return *attempt;
 };
 
-double gb_cap_mean(const double pressure[6])
+double gb_cap_path_mean(const double pressure[6])
 {
     return (pressure[0] + pressure[1] + pressure[2]) / AXES;
 }
 
-double gb_cap_deviator(const double pressure[6])
+double gb_cap_path_deviator(const double pressure[6])
 {
-    const double p = gb_cap_mean(pressure);
+    const double p = gb_cap_path_mean(pressure);
     double sum = 0.0;
     for (int k = 0; k < AXES; k++) {
         sum += (pressure[k] - p) * (pressure[k] - p) +
@@ -79,8 +79,8 @@ static double hardened(const struct gb_cap_material *material, double plastic_vo
                        (row[k + 1].plastic_volume - row[k].plastic_volume));
 }
 
-struct gb_cap_row gb_cap_material_at(const struct gb_cap_material *material,
-                                     double density, double plastic_volume)
+struct gb_cap_row gb_cap_path_at(const struct gb_cap_material *material, double density,
+                                 double plastic_volume)
 {
     const struct gb_cap_row *row = material->row;
     size_t k = 0;
@@ -105,7 +105,7 @@ static bool row_is_good(const struct gb_cap_row *row)
            row->cap.beta < M_PI_2 && row->p_b > 0.0 && gb_cap_flattening(&row->cap) > 0.0;
 }
 
-bool gb_cap_material_check(const struct gb_cap_material *material, struct gb_error *err)
+bool gb_cap_path_check(const struct gb_cap_material *material, struct gb_error *err)
 {
     for (size_t i = 0; i < material->count; i++) {
         const struct gb_cap_row *row = &material->row[i];
@@ -122,34 +122,33 @@ bool gb_cap_material_check(const struct gb_cap_material *material, struct gb_err
 }
 
 /* Return to the cap by a plastic volumetric strain. */
-static struct returned to_cap(const struct trial *trial, double volume)
+static struct returned to_cap(const struct prediction *from, double volume)
 {
     const struct gb_cap cap = gb_cap_with_end(
-        &trial->now.cap, hardened(trial->material, trial->plastic_volume + volume));
+        &from->now.cap, hardened(from->material, from->plastic_volume + volume));
     const double flat = gb_cap_flattening(&cap), reach = cap.r * gb_cap_depth(&cap);
     const double stretch = cap.r * cap.r / (flat * flat);
-    struct returned end = {.p = trial->p - trial->now.bulk * volume, .volume = volume};
+    struct returned end = {.p = from->p - from->now.bulk * volume, .volume = volume};
     const double off = end.p - cap.p_a;
     if (off <= 0.0) {
         end.outside = off - reach; /* beyond p_a: the flow would be a shear alone */
         return end;
     }
     const double multiplier = volume / off;
-    end.q = trial->q / (1.0 + 3.0 * trial->now.shear_modulus * multiplier * stretch);
+    end.q = from->q / (1.0 + 3.0 * from->now.shear_modulus * multiplier * stretch);
     end.shear = multiplier * stretch * end.q;
     end.outside = hypot(off, cap.r * end.q / flat) - reach;
     return end;
 }
 
 /* Return to shear failure or transition by a multiple of the flow. */
-static struct returned to_shear(const struct trial *trial, double multiplier)
+static struct returned to_shear(const struct prediction *from, double multiplier)
 {
-    const struct gb_cap *cap = &trial->now.cap;
+    const struct gb_cap *cap = &from->now.cap;
     const double flat = gb_cap_flattening(cap), slope = tan(cap->beta);
-    const double push = trial->now.bulk * multiplier * slope * slope;
-    struct returned end = {.p = (trial->p + push * cap->p_a) / (1.0 + push)};
-    end.q =
-        trial->q / (1.0 + 3.0 * trial->now.shear_modulus * multiplier / (flat * flat));
+    const double push = from->now.bulk * multiplier * slope * slope;
+    struct returned end = {.p = (from->p + push * cap->p_a) / (1.0 + push)};
+    end.q = from->q / (1.0 + 3.0 * from->now.shear_modulus * multiplier / (flat * flat));
     end.volume = multiplier * slope * slope * (end.p - cap->p_a);
     end.shear = multiplier * end.q / (flat * flat);
     end.outside = end.q - gb_cap_height(cap, end.p);
@@ -159,7 +158,7 @@ static struct returned to_shear(const struct trial *trial, double multiplier)
 static double outside(double unknown, void *data)
 {
     const struct search *search = data;
-    return search->attempt(search->trial, unknown).outside;
+    return search->attempt(search->from, unknown).outside;
 }
 
 /* Brent's method between 0 (outside) and most (inside). */
@@ -180,36 +179,36 @@ static bool find(struct returned *end, struct search *search, double most,
             break;
         }
     }
-    *end = search->attempt(search->trial, gsl_root_fsolver_root(solver));
+    *end = search->attempt(search->from, gsl_root_fsolver_root(solver));
     gsl_root_fsolver_free(solver);
     return status == GSL_SUCCESS ||
            gb_error_set(err, GB_ERR_NOT_CONVERGED,
                         "card: no return to the yield surface from p = %.4g MPa, "
                         "q = %.4g MPa",
-                        search->trial->p / 1e6, search->trial->q / 1e6);
+                        search->from->p / 1e6, search->from->q / 1e6);
 }
 
-static bool return_to_surface(struct returned *end, const struct trial *trial,
+static bool return_to_surface(struct returned *end, const struct prediction *from,
                               struct gb_error *err)
 {
-    struct search search = {.trial = trial, .attempt = to_shear};
-    if (trial->p > trial->now.cap.p_a) {
+    struct search search = {.from = from, .attempt = to_shear};
+    if (from->p > from->now.cap.p_a) {
         search.attempt = to_cap;
-        return find(end, &search, (trial->p - trial->now.cap.p_a) / trial->now.bulk, err);
+        return find(end, &search, (from->p - from->now.cap.p_a) / from->now.bulk, err);
     }
-    double most = 1e-3 / trial->now.shear_modulus;
-    while (to_shear(trial, most).outside > 0.0) {
+    double most = 1e-3 / from->now.shear_modulus;
+    while (to_shear(from, most).outside > 0.0) {
         most *= 2.0;
     }
     return find(end, &search, most, err);
 }
 
-static struct trial predict(const struct gb_cap_material *material,
-                            struct gb_cap_state *state, const double strain[COMPONENTS],
-                            double share)
+static struct prediction predict(const struct gb_cap_material *material,
+                                 struct gb_cap_state *state,
+                                 const double strain[COMPONENTS], double share)
 {
     const double volume = (strain[0] + strain[1] + strain[2]) * share;
-    const struct gb_cap_row half = gb_cap_material_at(
+    const struct gb_cap_row half = gb_cap_path_at(
         material, state->density * exp(0.5 * volume), state->plastic_volume);
     for (int k = 0; k < AXES; k++) {
         state->pressure[k] +=
@@ -219,31 +218,32 @@ static struct trial predict(const struct gb_cap_material *material,
     }
     state->density *= exp(volume);
     struct gb_cap_row now =
-        gb_cap_material_at(material, state->density, state->plastic_volume);
+        gb_cap_path_at(material, state->density, state->plastic_volume);
     now.bulk = half.bulk;
     now.shear_modulus = half.shear_modulus;
-    return (struct trial){.material = material,
-                          .now = now,
-                          .plastic_volume = state->plastic_volume,
-                          .p = gb_cap_mean(state->pressure),
-                          .q = gb_cap_deviator(state->pressure)};
+    return (struct prediction){.material = material,
+                               .now = now,
+                               .plastic_volume = state->plastic_volume,
+                               .p = gb_cap_path_mean(state->pressure),
+                               .q = gb_cap_path_deviator(state->pressure)};
 }
 
 /* Pressures with the same principal directions and another p and q. */
-static void move(struct gb_cap_state *state, const struct trial *trial,
+static void move(struct gb_cap_state *state, const struct prediction *from,
                  const struct returned *end)
 {
-    const double share = trial->q > 0.0 ? end->q / trial->q : 0.0;
+    const double share = from->q > 0.0 ? end->q / from->q : 0.0;
     for (int k = 0; k < AXES; k++) {
-        state->pressure[k] = end->p + share * (state->pressure[k] - trial->p);
+        state->pressure[k] = end->p + share * (state->pressure[k] - from->p);
         state->pressure[k + AXES] *= share;
     }
     state->plastic_volume += end->volume;
     state->plastic_shear += end->shear;
 }
 
-bool gb_cap_strain(const struct gb_cap_material *material, struct gb_cap_state *state,
-                   const double strain[6], struct gb_error *err)
+bool gb_cap_path_strain(const struct gb_cap_material *material,
+                        struct gb_cap_state *state, const double strain[6],
+                        struct gb_error *err)
 {
     double largest = 0.0;
     for (int k = 0; k < COMPONENTS; k++) {
@@ -252,14 +252,14 @@ bool gb_cap_strain(const struct gb_cap_material *material, struct gb_cap_state *
     const int steps = (int)fmax(1.0, ceil(largest / GB_CAP_SUBSTEP));
     for (int s = 0; s < steps; s++) {
         struct returned end;
-        const struct trial trial = predict(material, state, strain, 1.0 / steps);
-        if (trial.q <= gb_cap_height(&trial.now.cap, trial.p)) {
+        const struct prediction from = predict(material, state, strain, 1.0 / steps);
+        if (from.q <= gb_cap_height(&from.now.cap, from.p)) {
             continue;
         }
-        if (!return_to_surface(&end, &trial, err)) {
+        if (!return_to_surface(&end, &from, err)) {
             return false;
         }
-        move(state, &trial, &end);
+        move(state, &from, &end);
     }
     return true;
 }

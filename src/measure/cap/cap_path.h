@@ -34,10 +34,10 @@ struct gb_cap_state {
 };
 
 /* Parameters at a density; the cap ends at the p_b of the plastic volumetric strain. */
-struct gb_cap_row gb_cap_material_at(const struct gb_cap_material *material,
-                                     double density, double plastic_volume);
+struct gb_cap_row gb_cap_path_at(const struct gb_cap_material *material, double density,
+                                 double plastic_volume);
 /* Errors: GB_ERR_INPUT naming the row: order, moduli, cohesion, R, beta. */
-bool gb_cap_material_check(const struct gb_cap_material *material, struct gb_error *err);
+bool gb_cap_path_check(const struct gb_cap_material *material, struct gb_error *err);
 
 /* Strains the material: elastic prediction, return to the surface along the plastic flow.
  * On the cap the return is implicit in stress and hardening; on the shear failure and
@@ -47,11 +47,12 @@ bool gb_cap_material_check(const struct gb_cap_material *material, struct gb_err
  *          sign of the pressures that they cause
  * The increment is taken in equal sub-steps of at most GB_CAP_SUBSTEP (scene/tolerances.h).
  * Errors: GB_ERR_NOT_CONVERGED, GB_ERR_MEMORY. */
-bool gb_cap_strain(const struct gb_cap_material *material, struct gb_cap_state *state,
-                   const double strain[6], struct gb_error *err);
+bool gb_cap_path_strain(const struct gb_cap_material *material,
+                        struct gb_cap_state *state, const double strain[6],
+                        struct gb_error *err);
 
 /* p and q of pressures. */
-double gb_cap_mean(const double pressure[6]);
-double gb_cap_deviator(const double pressure[6]);
+double gb_cap_path_mean(const double pressure[6]);
+double gb_cap_path_deviator(const double pressure[6]);
 
 #endif

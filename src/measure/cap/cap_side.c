@@ -90,16 +90,16 @@ static double sum_of_squares(const struct problem *problem, const gsl_vector *x)
 static void start(const struct problem *problem, gsl_vector *x)
 {
     double best = INFINITY, log_r = 0.0, p_a = 0.0;
-    for (double trial = log(0.05); trial < log(20.0); trial += 0.1) {
+    for (double log_of_r = log(0.05); log_of_r < log(20.0); log_of_r += 0.1) {
         struct gb_cap cap = problem->line;
-        cap.r = exp(trial);
+        cap.r = exp(log_of_r);
         cap = gb_cap_with_end(&cap, problem->unit);
-        gsl_vector_set(x, 0, trial);
+        gsl_vector_set(x, 0, log_of_r);
         gsl_vector_set(x, 1, cap.p_a / problem->unit);
         const double sum = sum_of_squares(problem, x);
         if (gb_cap_depth(&cap) > 0.0 && sum < best) {
             best = sum;
-            log_r = trial;
+            log_r = log_of_r;
             p_a = cap.p_a / problem->unit;
         }
     }

@@ -1,0 +1,218 @@
+#include "study/card/card_cell.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/path/path.h"
+#include "study/card/card_probe.h"
+
+/* Share of the top pressure at which the lowest density of a card is pressed. */
+static const double lowest_share = 0.05;
+
+/* Elastic volumetric strain of a compact, about. */
+static const double assumed_strain = 0.03;
+
+/* Strain step of unloading to the point inside. */
+static const double unload_step = 5e-4;
+
+/* A walk that records and ends at a density or a pressure. */
+struct record {
+    GArray *uniaxial;                                   /* NULL: not recorded */
+    double density_most, pressure_most, pressure_least; /* that end it */
+};
+
+static bool take(void *data, const struct gb_point *point)
+{
+    const struct record *record = data;
+    const double p = gb_compact_state_of(point).p;
+    if (record->uniaxial != NULL) {
+        const struct gb_card_uniaxial row = {
+            point->density, 0.5 * (point->px_pa + point->py_pa), point->pz_pa};
+        g_array_append_val(record->uniaxial, row);
+    }
+    return point->density < record->density_most && p < record->pressure_most &&
+           p > record->pressure_least;
+}
+
+static bool follow(struct gb_compact *from, const char *path, double step,
+                   struct record *record, const struct gb_pool_callbacks *callbacks,
+                   struct gb_compact *to, struct gb_error *err)
+{
+    const struct gb_compact_walk walk = {take, record, callbacks};
+    switch (gb_compact_follow(from, path, step, &walk, to, err)) {
+    case GB_COMPACT_TAKEN:
+        return true;
+    case GB_COMPACT_ENDED:
+        return gb_error_set(err, GB_ERR_GUARD, "card: '%s' ends before its density",
+                            path);
+    default:
+        return false;
+    }
+}
+
+/* The loose packing at its first recorded point. */
+static bool start(struct gb_compact *loose, const struct gb_params *preset, int replica,
+                  const struct gb_card_options *options,
+                  const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+{
+    struct gb_params params;
+    const struct gb_keep_point at_once = {.by_density = true, .value = 0.0};
+    if (!gb_compact_params(&params, preset, err)) {
+        return false;
+    }
+    params.geometry = GB_GEOMETRY_ISOTROPIC;
+    params.seed += (uint64_t)(replica - 1);
+    params.threads = 1;
+    params.tolerance = options->tolerance;
+    g_strlcpy(params.path, "isotropic to density 0.99", sizeof params.path);
+    return gb_compact_press(loose, &params, &at_once, callbacks, err);
+}
+
+static bool press_uniaxial(struct gb_card_cell *cell, struct gb_compact *loose,
+                           const struct gb_card_options *options,
+                           const struct gb_pool_callbacks *callbacks,
+                           struct gb_error *err)
+{
+    struct record record = {cell->uniaxial, options->density[options->levels - 1],
+                            INFINITY, -INFINITY};
+    return follow(loose, "uniaxial to density 0.99", loose->params.strain_step, &record,
+                  callbacks, NULL, err);
+}
+
+/* K and G by which directions of stress are translated, from two short probes: without
+ * sliding K and 3 G of a compact are about alike, which is enough to aim these. */
+static bool first_moduli(const struct gb_card_level *level, struct gb_compact *inside,
+                         const struct gb_card_options *options,
+                         const struct gb_pool_callbacks *callbacks, double *bulk,
+                         double *shear, struct gb_error *err)
+{
+    struct gb_card_options brief = *options;
+    struct gb_card_probe probe[2] = {{.state = NULL}, {.state = NULL}};
+    brief.strain_most = 1.01 * options->step;
+    brief.offset = INFINITY;
+    const double assumed = level->p_pa / assumed_strain;
+    const bool good = gb_card_probe_run(&probe[0], inside, 0.0, assumed, assumed / 3.0,
+                                        &brief, callbacks, err) &&
+                      gb_card_probe_run(&probe[1], inside, M_PI_2, assumed, assumed / 3.0,
+                                        &brief, callbacks, err);
+    gb_card_probe_moduli(probe, 2, bulk, shear);
+    gb_card_probe_finish(&probe[0]);
+    gb_card_probe_finish(&probe[1]);
+    return good && ((*bulk > 0.0 && *shear > 0.0) ||
+                    gb_error_set(err, GB_ERR_GUARD,
+                                 "card: the compact of density %.4f is not stiff",
+                                 level->density));
+}
+
+/* All directions; K and G of the first round of them are those of the level. */
+static bool probe_level(struct gb_card_cell *cell, struct gb_card_level *level,
+                        struct gb_compact *inside, int replica, double density,
+                        const struct gb_card_options *options,
+                        const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+{
+    struct gb_card_probe probe[GB_CARD_DIRECTIONS_MAX];
+    const int count = options->directions;
+    double bulk, shear;
+    memset(probe, 0, sizeof probe);
+    bool good = first_moduli(level, inside, options, callbacks, &bulk, &shear, err);
+    for (int k = 0; k < count && good; k++) {
+        good = gb_card_probe_run(&probe[k], inside, gb_card_options_direction(options, k),
+                                 bulk, shear, options, callbacks, err);
+    }
+    gb_card_probe_moduli(probe, count, &level->bulk, &level->shear_modulus);
+    for (int k = 0; k < count && good; k++) {
+        struct gb_yield_point point;
+        if (gb_card_probe_point(&probe[k], level->bulk, level->shear_modulus,
+                                options->offset, &point)) {
+            point.replica = replica;
+            point.density = density;
+            g_array_append_val(cell->point, point);
+        }
+    }
+    for (int k = 0; k < count; k++) {
+        gb_card_probe_finish(&probe[k]);
+    }
+    return good;
+}
+
+static bool measure_level(struct gb_card_cell *cell, int index, int replica,
+                          struct gb_compact *top, const struct gb_card_options *options,
+                          const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+{
+    struct gb_card_level *level = &cell->level[index];
+    const struct gb_compact_state state = gb_compact_state_of(&top->point);
+    struct record record = {NULL, INFINITY, INFINITY, options->inside * state.p};
+    struct gb_compact inside = {0};
+    char path[GB_LEG_TEXT];
+    level->density = top->point.density;
+    level->p_pa = state.p;
+    level->q_pa = state.q;
+    snprintf(path, sizeof path, "isotropic to %.9g MPa", -1e-6 * state.p);
+    const bool good = follow(top, path, unload_step, &record, callbacks, &inside, err);
+    if (good) {
+        level->inside_pa = gb_compact_state_of(&inside.point).p;
+    }
+    const bool probed =
+        good && probe_level(cell, level, &inside, replica, options->density[index],
+                            options, callbacks, err);
+    gb_compact_finish(&inside);
+    return probed;
+}
+
+bool gb_card_cell_measure(struct gb_card_cell *cell, const struct gb_params *preset,
+                          int replica, const struct gb_card_options *options,
+                          const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+{
+    struct gb_compact now = {0};
+    cell->point = g_array_new(FALSE, FALSE, sizeof(struct gb_yield_point));
+    cell->uniaxial = g_array_new(FALSE, FALSE, sizeof(struct gb_card_uniaxial));
+    bool good = start(&now, preset, replica, options, callbacks, err) &&
+                press_uniaxial(cell, &now, options, callbacks, err);
+    for (int k = 0; k < options->levels && good; k++) {
+        struct gb_compact top = {0};
+        struct record record = {NULL, options->density[k], INFINITY, -INFINITY};
+        good = follow(&now, "isotropic to density 0.99", now.params.strain_step, &record,
+                      callbacks, &top, err);
+        gb_compact_finish(&now);
+        now = top;
+        good = good && measure_level(cell, k, replica, &now, options, callbacks, err);
+    }
+    gb_compact_finish(&now);
+    return good;
+}
+
+void gb_card_cell_finish(struct gb_card_cell *cell)
+{
+    if (cell->point != NULL) {
+        g_array_free(cell->point, TRUE);
+        g_array_free(cell->uniaxial, TRUE);
+    }
+    memset(cell, 0, sizeof *cell);
+}
+
+bool gb_card_cell_scout(struct gb_card_options *options, const struct gb_params *preset,
+                        int levels, const struct gb_pool_callbacks *callbacks,
+                        struct gb_error *err)
+{
+    struct gb_compact loose = {0}, low = {0}, high = {0};
+    struct record first = {NULL, 0.99, lowest_share * options->pressure_pa, -INFINITY};
+    struct record last = {NULL, 0.99, options->pressure_pa, -INFINITY};
+    const char *path = "isotropic to density 0.99";
+    bool good = start(&loose, preset, 1, options, callbacks, err);
+    good = good &&
+           follow(&loose, path, loose.params.strain_step, &first, callbacks, &low, err);
+    good = good &&
+           follow(&low, path, loose.params.strain_step, &last, callbacks, &high, err);
+    options->levels = levels;
+    for (int k = 0; k < levels && good; k++) {
+        const double density =
+            low.point.density +
+            (high.point.density - low.point.density) * k / (levels - 1);
+        options->density[k] = round(1e3 * density) / 1e3;
+    }
+    gb_compact_finish(&loose);
+    gb_compact_finish(&low);
+    gb_compact_finish(&high);
+    return good;
+}
