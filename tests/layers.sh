@@ -4,7 +4,8 @@
 #   2. no two layers see each other,
 #   3. an exported symbol starts with gb_<file>_,
 #   4. no two files, struct, union or enum tags of one name; no file takes the symbols of another,
-#   5. the files of the periodic engine call each other in one direction only (docs/engine.md).
+#   5. the files of the periodic engine call each other in one direction only (docs/engine.md),
+#   6. no folder holds more than 30 sources and headers.
 # Usage: layers.sh SOURCE_DIR [library.a | object directory]...
 set -u
 
@@ -93,6 +94,19 @@ check_names() {
         's/^\(struct\|union\|enum\) \([a-zA-Z0-9_]*\)[ ]*{.*/\2/p' | grep '^gb_' | repeated); do
         complain "two definitions of the tag $tag"
     done
+}
+
+largest_folder=30
+
+check_folders() {
+    find "$source/src" "$source/include" "$source/tests" -name '*.[ch]' | sed 's|/[^/]*$||' |
+        sort | uniq -c | while read -r count folder; do
+        [ "$count" -le "$largest_folder" ] ||
+            echo "$folder holds $count files, more than $largest_folder"
+    done >"$scratch/folders"
+    while read -r line; do
+        complain "$line"
+    done <"$scratch/folders"
 }
 
 # file:prefix pairs besides gb_<file>_: several things one file is about.
@@ -194,6 +208,7 @@ for file in "$source"/include/greenbody/*.h; do
 done
 check_cycles
 check_names
+check_folders
 for library in "$@"; do
     if [ -d "$library" ]; then
         for object in "$library"/*.o; do

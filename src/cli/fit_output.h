@@ -3,7 +3,7 @@
 
 #include <glib.h>
 
-#include "many/compaction_data.h"
+#include "many/lab/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
 /* Fits of the equations of compaction as text; g_string_free. */

@@ -6,7 +6,7 @@
 #include <glib/gstdio.h>
 #include <gsl/gsl_errno.h>
 
-#include "many/compaction_file.h"
+#include "many/lab/compaction_file.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
 static const struct gb_compaction_window whole = {

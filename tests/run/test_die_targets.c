@@ -9,7 +9,7 @@
 #include "measure/observe_die.h"
 #include "pack/die/bed_copy.h"
 #include "pack/die/filling.h"
-#include "solve/loading/die_stages.h"
+#include "solve/loading/die/die_stages.h"
 
 /* The targets of P3's experiment: three beds, each filled once and pressed by every
  * model, and as many again by the frictionless ones only: one bed scatters by as much as

@@ -12,7 +12,7 @@
 #include "figures/figures.h"
 #include "figures/plotting.h"
 #include "figures/runs/compaction_series.h"
-#include "many/compaction_file.h"
+#include "many/lab/compaction_file.h"
 
 enum { DIRECTORIES_MAX = 1000 };
 

@@ -3,7 +3,7 @@
 
 #include "figures/report/report.h"
 #include "figures/report/report_table.h"
-#include "many/compaction_data.h"
+#include "many/lab/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
 /* A number, or an empty cell for an end without bound. */

@@ -1,10 +1,10 @@
-/* The mode `die`: powder poured into a die and pressed, solve/loading/die_stages.h. */
+/* The mode `die`: powder poured into a die and pressed, solve/loading/die/die_stages.h. */
 #include <math.h>
 #include <stdio.h>
 
 #include "pack/die/filling.h"
 #include "scene/tolerances.h"
-#include "solve/loading/die_stages.h"
+#include "solve/loading/die/die_stages.h"
 #include "solve/loading/loading.h"
 
 struct die_loading {

@@ -11,7 +11,7 @@
 #include "measure/observe_die.h"
 #include "pack/die/filling.h"
 #include "solve/leapfrog.h"
-#include "solve/loading/die_stages.h"
+#include "solve/loading/die/die_stages.h"
 
 /* Batches timed, and steps in each: the median counts.  Processor time, because a bed
  * runs on one thread and other work on the machine comes and goes. */

@@ -5,7 +5,7 @@
 
 #include "io/preset.h"
 #include "many/ensemble.h"
-#include "many/labdata.h"
+#include "many/lab/labdata.h"
 #include "study/calibrate/calibrate.h"
 #include "study/calibrate/free_keys.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "tui/app/dialogs.h"
+#include "tui/app/dialog/dialogs.h"
 #include "tui/app/dispatch.h"
 #include "tui/app/key_commands.h"
 #include "tui/app/mouse.h"

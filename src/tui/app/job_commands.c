@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "io/store.h"
-#include "tui/app/dialogs.h"
+#include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
 
 /* Replicas of the scene shown and its calibration to the measured data: the commands

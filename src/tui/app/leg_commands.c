@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "tui/app/dialogs.h"
+#include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
 
 /* The legs of loading.path: keys of their editor. */

@@ -1,4 +1,4 @@
-#include "tui/app/dialogs.h"
+#include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
 #include "tui/app/panes.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/units.h"
 #include "io/preset_folders.h"
-#include "tui/session/previous_curve.h"
+#include "tui/session/overlay/previous_curve.h"
 
 enum { LIST_COLS = 26, PREVIEW_FROM = LIST_COLS + 24, HEAD_LINES = 4, DIFFERENCE = 400 };
 

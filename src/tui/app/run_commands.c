@@ -5,7 +5,7 @@
 #include "run/quick.h"
 #include "scene/loading_kind.h"
 #include "scene/path/path.h"
-#include "tui/app/dialogs.h"
+#include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/session/session_quick.h"

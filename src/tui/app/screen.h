@@ -1,7 +1,7 @@
 #ifndef GB_TUI_APP_SCREEN_H
 #define GB_TUI_APP_SCREEN_H
 
-#include "tui/app/dialog.h"
+#include "tui/app/dialog/dialog.h"
 #include "tui/panel/panels.h"
 #include "tui/term/term_image.h"
 

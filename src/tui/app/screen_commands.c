@@ -1,6 +1,6 @@
 #include <glib.h>
 
-#include "tui/app/dialogs.h"
+#include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
 
 /* Mouse, help and quitting. */

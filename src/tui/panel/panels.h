@@ -3,7 +3,7 @@
 
 #include "tui/panel/action.h"
 #include "tui/panel/prompt.h"
-#include "tui/session/compaction_cache.h"
+#include "tui/session/overlay/compaction_cache.h"
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "io/preset_folders.h"
-#include "tui/session/previous_curve.h"
+#include "tui/session/overlay/previous_curve.h"
 
 /* "p1-set2-38nm" if the preset is found by that name, otherwise its path. */
 static char *name_of(const char *path)

@@ -4,11 +4,11 @@
 #include "io/measured.h"
 #include "io/preset.h"
 #include "run/runner/runner.h"
-#include "tui/session/chart_csv.h"
+#include "tui/session/overlay/chart_csv.h"
 #include "tui/session/child_command.h"
-#include "tui/session/previous_curve.h"
+#include "tui/session/overlay/previous_curve.h"
 #include "tui/session/quick_cell.h"
-#include "tui/session/replica_band.h"
+#include "tui/session/overlay/replica_band.h"
 
 /* State of the workbench without its screen: the parameters being edited, the current
  * run, its data on display and the previous curves. */

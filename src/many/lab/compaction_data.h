@@ -1,0 +1,43 @@
+#ifndef GB_MANY_LAB_COMPACTION_DATA_H
+#define GB_MANY_LAB_COMPACTION_DATA_H
+
+#include "many/runset.h"
+#include "measure/fit/average.h"
+#include "measure/fit/compaction/equations.h"
+
+/* Loading curves of runs or of a laboratory as points for the equations of compaction. */
+
+enum { GB_COMPACTION_DATA_LEVELS = 48 }; /* most pressures of a curve */
+
+/* Which points, MPa; NaN: the default, 1 % of the highest pressure (runs) or the lowest
+ * one (files), and the highest one that all curves reach. */
+struct gb_compaction_window {
+    double from, to;
+    double initial;    /* D0; NaN: that of the data, unknown in files */
+    bool fits_initial; /* D0 is a parameter, even if it is known */
+};
+
+struct gb_compaction_data {
+    struct gb_equations_points points; /* arrays belong to the data */
+    double *memory;
+    size_t curves; /* replicas; 0: a file */
+};
+
+/* The curves (x: P in MPa, y: rho) of replicas, at pressures in geometric progression, no
+ * more than the shortest curve has points in the window: mean, and for several curves the
+ * standard errors, smoothed along the curve.  rho is that where a curve first reaches a
+ * pressure.  initial: D0 of the curves, NaN: unknown.
+ * Errors: GB_ERR_INPUT (no points in the window), GB_ERR_MEMORY. */
+bool gb_compaction_data_curves(struct gb_compaction_data *data,
+                               const struct gb_average_curve *curves, size_t count,
+                               double initial, const struct gb_compaction_window *window,
+                               struct gb_error *err);
+
+/* The loading branch of the runs of a group; D0 is the density before loading. */
+bool gb_compaction_data_runs(struct gb_compaction_data *data, const struct gb_runset *set,
+                             size_t group, const struct gb_compaction_window *window,
+                             struct gb_error *err);
+
+void gb_compaction_data_finish(struct gb_compaction_data *data); /* zeroed is fine */
+
+#endif

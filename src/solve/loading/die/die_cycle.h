@@ -1,0 +1,43 @@
+#ifndef GB_SOLVE_LOADING_DIE_DIE_CYCLE_H
+#define GB_SOLVE_LOADING_DIE_DIE_CYCLE_H
+
+#include <stddef.h>
+
+#include "solve/loading/die/die_state.h"
+
+/* The stages of a die scene that record points: pressing and, in a full cycle, what follows
+ * it.  The pressure falls the way it rose; the punch is drawn off; the compact rests in
+ * the die; a lower punch pushes it through the open upper end, which lies at the height
+ * of the powder before pressing; it rests outside.  The floor is that lower punch and
+ * stands still: the die sinks past it at die.eject_speed.  From the withdrawal on a drag
+ * takes up what the compact releases. */
+
+/* Is this a stage of the table? */
+bool gb_die_cycle_contains(enum gb_die_stages_stage stage);
+
+/* Height of the powder: of the punch, of the highest particle before pressing, or of the
+ * compact by its springback. */
+double gb_die_cycle_height(const struct gb_die_stages *stages, const struct gb_bed *bed);
+
+/* Height of the powder against the side, above 0. */
+double gb_die_cycle_wall(const struct gb_die_stages *stages, const struct gb_bed *bed);
+
+/* After a step of a stage of the table: has it come to a recorded point? */
+bool gb_die_cycle_due(struct gb_die_stages *stages, const struct gb_bed *bed);
+
+/* After that point: the next stage begins where this one has ended.  text (size bytes)
+ * receives one line then.  Errors: as of gb_bed_welds_form. */
+bool gb_die_cycle_after_point(struct gb_die_stages *stages, struct gb_bed *bed,
+                              char *text, size_t size, struct gb_error *err);
+
+/* Height of the compact over that under the full pressure, and its outer radius over that of
+ * the bore, less 1; NaN before the full pressure.  Elastic particles enter wall and punch
+ * by their overlap, which counts as growth under load. */
+void gb_die_cycle_springback(const struct gb_die_stages *stages, const struct gb_bed *bed,
+                             double *axial, double *radial);
+
+/* Share of the whole run that is done, 0 to 1. */
+double gb_die_cycle_progress(const struct gb_die_stages *stages,
+                             const struct gb_bed *bed);
+
+#endif

@@ -1,0 +1,62 @@
+#include "solve/loading/die/die_rest.h"
+
+#include <math.h>
+
+#include "scene/tolerances.h"
+
+/* True when contacts bear the highest particle; false while it falls. */
+static bool top_is_supported(const struct gb_bed *bed, double gravity)
+{
+    int64_t highest = 0;
+    double top = 0.0;
+    for (int64_t i = 0; i < bed->count; i++) {
+        const double reach = bed->position[i][2] + bed->position[i][3];
+        highest = reach > top ? i : highest;
+        top = fmax(reach, top);
+    }
+    return bed->force[highest][2] > GB_REST_SUPPORT_MIN * bed->mass[highest] * gravity;
+}
+
+/* Translational kinetic energy over that of a small fall, resultant over contact forces,
+ * and support of the highest particle.  Rotation is left out: nothing damps the spin of a
+ * smooth sphere. */
+static bool at_rest(const struct gb_die_stages *stages, const struct gb_bed *bed)
+{
+    const bool pours = stages->now.stage == GB_DIE_STAGES_POUR;
+    const double gravity = stages->now.leapfrog.gravity;
+    const double weight = gravity * gb_bed_solid_volume(bed) / (M_PI / 6.0);
+    return gb_bed_kinetic_energy(bed).translational <
+               (pours ? GB_POURED_FALL : GB_REST_FALL) * weight &&
+           gb_bed_unbalanced_force(bed, gravity) <
+               (pours ? GB_POURED_UNBALANCED : GB_REST_UNBALANCED) &&
+           top_is_supported(bed, gravity);
+}
+
+static int64_t left_in_funnel(const struct gb_bed *bed)
+{
+    int64_t left = 0;
+    for (int64_t i = 0; i < bed->count; i++) {
+        left += bed->position[i][2] > bed->die.height;
+    }
+    return left;
+}
+
+bool gb_die_rest_lasts(struct gb_die_stages *stages, const struct gb_bed *bed)
+{
+    struct gb_die_progress *now = &stages->now;
+    if (now->steps % GB_REST_CHECK_STEPS != 0) {
+        return false;
+    }
+    now->checks_at_rest = at_rest(stages, bed) ? now->checks_at_rest + 1 : 0;
+    return now->checks_at_rest >= GB_REST_CHECKS;
+}
+
+bool gb_die_rest_check_funnel(const struct gb_bed *bed, struct gb_error *err)
+{
+    const int64_t left = left_in_funnel(bed);
+    return left == 0 ||
+           gb_error_set(err, GB_ERR_GUARD,
+                        "the funnel is clogged: %lld particles rest in it; accepted: a "
+                        "larger die.outlet or smaller particles",
+                        (long long)left);
+}

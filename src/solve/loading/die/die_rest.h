@@ -1,0 +1,17 @@
+#ifndef GB_SOLVE_LOADING_DIE_DIE_REST_H
+#define GB_SOLVE_LOADING_DIE_DIE_REST_H
+
+#include "solve/loading/die/die_state.h"
+
+/* Whether the powder in a die is at rest.  Limits: GB_REST_... and GB_POURED_... of
+ * scene/tolerances.h. */
+
+/* Checks every GB_REST_CHECK_STEPS steps; true when the last GB_REST_CHECKS checks have
+ * found the powder at rest. */
+bool gb_die_rest_lasts(struct gb_die_stages *stages, const struct gb_bed *bed);
+
+/* Checks that all particles at rest lie in the die.  Errors: GB_ERR_GUARD naming how many are
+ * left in the funnel. */
+bool gb_die_rest_check_funnel(const struct gb_bed *bed, struct gb_error *err);
+
+#endif

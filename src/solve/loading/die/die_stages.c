@@ -1,0 +1,278 @@
+#include "solve/loading/die/die_stages.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "pack/die/bed_welds.h"
+#include "scene/tolerances.h"
+#include "solve/loading/die/die_cycle.h"
+#include "solve/loading/die/die_sequence.h"
+#include "solve/loading/die/die_state.h"
+
+bool gb_die_stages_create(struct gb_die_stages **out, const struct gb_die_scene *scene,
+                          const struct gb_bed_law *law, struct gb_error *err)
+{
+    struct gb_die_stages *stages = gb_alloc_array(1, sizeof *stages, err);
+    if (!stages) {
+        return false;
+    }
+    stages->scene = *scene;
+    stages->law = *law;
+    gb_leapfrog_init(&stages->now.leapfrog, scene->safety, scene->time_step);
+    stages->now.leapfrog.gravity = scene->fill_gravity;
+    *out = stages;
+    return true;
+}
+
+void gb_die_stages_destroy(struct gb_die_stages *stages)
+{
+    if (!stages) {
+        return;
+    }
+    gb_bed_copy_destroy(stages->kept);
+    gb_die_surface_finish(&stages->side);
+    gb_die_surface_finish(&stages->top);
+    gb_alloc_free(stages);
+}
+
+static bool save_good(struct gb_die_stages *stages, const struct gb_bed *bed,
+                      struct gb_error *err)
+{
+    stages->good = stages->now;
+    stages->have_good = gb_bed_copy_take(bed, &stages->kept, err);
+    return stages->have_good;
+}
+
+/* Half the step from the last good state on, or the end. */
+static enum gb_step_outcome halve_time_step(struct gb_die_stages *stages,
+                                            struct gb_bed *bed, const char *why,
+                                            char *text, size_t size, struct gb_error *err)
+{
+    const double step = stages->now.leapfrog.step;
+    if (!gb_bed_copy_restore(bed, stages->kept, err)) {
+        return GB_STEP_STOPPED;
+    }
+    stages->now = stages->good;
+    stages->now.leapfrog.limit = 0.5 * step;
+    stages->now.leapfrog.step = 0.0;
+    if (++stages->halvings > GB_STEP_HALVINGS_MAX) {
+        gb_error_set(err, GB_ERR_GUARD, "%s, also with a time step of %.3g ps", why,
+                     1e12 * step * stages->scene.second_per_time);
+        return GB_STEP_STOPPED;
+    }
+    snprintf(text, size, "guard: %s; time step halved to %.3g ps", why,
+             0.5e12 * step * stages->scene.second_per_time);
+    return GB_STEP_MORE;
+}
+
+bool gb_die_stages_begin(struct gb_die_stages *stages, struct gb_bed *bed,
+                         struct gb_error *err)
+{
+    stages->have_good = false;
+    return gb_die_sequence_begin_press(stages, bed, err);
+}
+
+static void write_escape(const struct gb_bed *bed, int64_t i, char *why, size_t size)
+{
+    const double *x = bed->position[i];
+    if (!isfinite(x[0] + x[1] + x[2])) {
+        snprintf(why, size, "particle %lld: its position is not a number", (long long)i);
+    } else if (bed->die.punch && x[2] >= bed->die.punch_position) {
+        snprintf(why, size, "the punch is below the powder: particle %lld is above it",
+                 (long long)i);
+    } else {
+        snprintf(why, size, "particle %lld has left the die at (%.3g, %.3g, %.3g) d",
+                 (long long)i, x[0], x[1], x[2]);
+    }
+}
+
+/* A stage before pressing: pressing begins with a recorded point, every other stage with
+ * a state to go back to. */
+static enum gb_step_outcome check_stage(struct gb_die_stages *stages, struct gb_bed *bed,
+                                        char *text, size_t size, struct gb_error *err)
+{
+    switch (gb_die_sequence_check(stages, bed, text, size, err)) {
+    case GB_DIE_SEQUENCE_CONTINUES:
+        return GB_STEP_MORE;
+    case GB_DIE_SEQUENCE_ENDED:
+        break;
+    case GB_DIE_SEQUENCE_FAILED:
+        return GB_STEP_STOPPED;
+    }
+    if (stages->now.stage == GB_DIE_STAGES_PRESS) {
+        return GB_STEP_POINT;
+    }
+    return save_good(stages, bed, err) ? GB_STEP_MORE : GB_STEP_STOPPED;
+}
+
+static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_bed *bed,
+                                      char *text, size_t size, struct gb_error *err)
+{
+    struct gb_die_progress *now = &stages->now;
+    const int64_t rebuilds = bed->rebuilds;
+    if (!gb_leapfrog_step(&now->leapfrog, bed, err)) {
+        char why[sizeof err->text];
+        snprintf(why, sizeof why, "%s", err->text);
+        return err->code == GB_ERR_GUARD
+                   ? halve_time_step(stages, bed, why, text, size, err)
+                   : GB_STEP_STOPPED;
+    }
+    now->time += now->leapfrog.step;
+    now->stage_time += now->leapfrog.step;
+    now->steps++;
+    now->since_point++;
+    if (now->steps % GB_ESCAPE_CHECK_STEPS == 0 || bed->rebuilds != rebuilds) {
+        const int64_t lost = gb_bed_escaped(bed);
+        if (lost >= 0) {
+            char why[160];
+            write_escape(bed, lost, why, sizeof why);
+            return halve_time_step(stages, bed, why, text, size, err);
+        }
+    }
+    if (gb_die_cycle_contains(now->stage)) {
+        gb_punch_follow(&now->punch, &now->leapfrog, bed, gb_die_cycle_wall(stages, bed));
+        return gb_die_cycle_due(stages, bed) ? GB_STEP_POINT : GB_STEP_MORE;
+    }
+    return check_stage(stages, bed, text, size, err);
+}
+
+/* A recorded point is a state to go back to.  The next stage begins here and not at the
+ * end of the last step: a resumed run begins with the state of the point. */
+static bool after_point(struct gb_die_stages *stages, struct gb_bed *bed, char *text,
+                        size_t size, struct gb_error *err)
+{
+    struct gb_die_progress *now = &stages->now;
+    now->at_point = false;
+    now->since_point = 0;
+    if (!gb_die_cycle_after_point(stages, bed, text, size, err)) {
+        return false;
+    }
+    gb_punch_clear(&now->punch);
+    return save_good(stages, bed, err);
+}
+
+enum gb_step_outcome gb_die_stages_advance(struct gb_die_stages *stages,
+                                           struct gb_bed *bed, int64_t max_steps,
+                                           char *text, size_t size, struct gb_error *err)
+{
+    struct gb_die_progress *now = &stages->now;
+    text[0] = '\0';
+    if (!stages->have_good && !save_good(stages, bed, err)) {
+        return GB_STEP_STOPPED;
+    }
+    if (now->at_point && !after_point(stages, bed, text, size, err)) {
+        return GB_STEP_STOPPED;
+    }
+    if (now->stage == GB_DIE_STAGES_OVER) {
+        return GB_STEP_DONE;
+    }
+    for (int64_t k = 0; k < max_steps && text[0] == '\0'; k++) {
+        const enum gb_step_outcome outcome = step_once(stages, bed, text, size, err);
+        if (outcome != GB_STEP_MORE) {
+            now->at_point = outcome == GB_STEP_POINT;
+            return outcome;
+        }
+    }
+    return GB_STEP_MORE;
+}
+
+struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *stages,
+                                                 const struct gb_bed *bed)
+{
+    const struct gb_die_progress *now = &stages->now;
+    const struct gb_punch *punch = &now->punch;
+    const double weight = punch->weight > 0.0 ? punch->weight : 1.0;
+    const double wanted = now->height0 > 0.0 ? gb_punch_wanted(punch, punch->time) : 0.0;
+    const bool pressed = now->height0 > 0.0;
+    struct gb_die_stages_report report = {
+        .stage = now->stage,
+        .time = now->time,
+        .pressed = punch->time,
+        .steps = now->since_point,
+        .height = gb_die_cycle_height(stages, bed),
+        .height0 = now->height0,
+        .floor_over_punch = punch->carried > 0.0 ? punch->floor / punch->carried : NAN,
+        .wanted = wanted,
+        .carried = wanted + (punch->carried - punch->wanted) / weight,
+        .side = {punch->side[0] / weight, punch->side[1] / weight},
+        .floor = pressed ? punch->floor / weight : (double)NAN,
+        .contact = pressed ? gb_die_cycle_wall(stages, bed) : (double)NAN,
+        .drag = pressed ? punch->drag / weight : (double)NAN,
+        .work = pressed ? punch->work : (double)NAN,
+        .welded = gb_bed_welds_share(bed),
+        .residual = gb_bed_unbalanced_force(bed, now->leapfrog.gravity),
+        .time_step = now->leapfrog.step,
+    };
+    if (now->stage == GB_DIE_STAGES_PRESS && punch->carried > 0.0) {
+        /* at the pressure of the point, which is above the mean since the last one */
+        const double scale = report.carried * weight / punch->carried;
+        report.floor *= scale;
+        report.drag *= scale;
+    }
+    gb_die_cycle_springback(stages, bed, &report.axial, &report.radial);
+    report.progress = gb_die_cycle_progress(stages, bed);
+    return report;
+}
+
+bool gb_die_stages_record(struct gb_die_stages *stages, const struct gb_bed *bed,
+                          struct gb_record *record, struct gb_error *err)
+{
+#define AT(member) offsetof(struct gb_die_stages, member)
+    static const struct gb_record_member members[] = {
+        {"press/stage", GB_RECORD_INT32, 1, AT(now.stage), "1"},
+        {"press/time", GB_RECORD_DOUBLE, 1, AT(now.time), "T"},
+        {"press/stage_time", GB_RECORD_DOUBLE, 1, AT(now.stage_time), "T"},
+        {"press/steps", GB_RECORD_INT64, 1, AT(now.steps), "1"},
+        {"press/since_point", GB_RECORD_INT64, 1, AT(now.since_point), "1"},
+        {"press/height0", GB_RECORD_DOUBLE, 1, AT(now.height0), "d"},
+        {"press/next_record", GB_RECORD_DOUBLE, 1, AT(now.next_record), "E"},
+        {"press/halvings", GB_RECORD_INT32, 1, AT(halvings), "1"},
+        {"press/limit", GB_RECORD_DOUBLE, 1, AT(now.leapfrog.limit), "T"},
+        {"press/gravity", GB_RECORD_DOUBLE, 1, AT(now.leapfrog.gravity), "d/T^2"},
+        {"press/drag", GB_RECORD_DOUBLE, 1, AT(now.leapfrog.drag), "1/T"},
+        {"press/punch_mass", GB_RECORD_DOUBLE, 1, AT(now.leapfrog.punch_mass), "m"},
+        {"press/load", GB_RECORD_DOUBLE, 1, AT(now.leapfrog.load), "E d^2"},
+        {"press/step", GB_RECORD_DOUBLE, 1, AT(now.leapfrog.step), "T"},
+        {"press/fastest", GB_RECORD_DOUBLE, 1, AT(now.leapfrog.fastest), "d/T"},
+        {"press/area", GB_RECORD_DOUBLE, 1, AT(now.punch.area), "d^2"},
+        {"press/length", GB_RECORD_DOUBLE, 1, AT(now.punch.length), "T"},
+        {"press/pressure", GB_RECORD_DOUBLE, 1, AT(now.punch.pressure), "E"},
+        {"press/quadratic", GB_RECORD_BOOL, 1, AT(now.punch.quadratic), "1"},
+        {"press/pressed", GB_RECORD_DOUBLE, 1, AT(now.punch.time), "T"},
+        {"press/weight", GB_RECORD_DOUBLE, 1, AT(now.punch.weight), "T"},
+        {"press/carried", GB_RECORD_DOUBLE, 1, AT(now.punch.carried), "E T"},
+        {"press/wanted", GB_RECORD_DOUBLE, 1, AT(now.punch.wanted), "E T"},
+        {"press/floor", GB_RECORD_DOUBLE, 1, AT(now.punch.floor), "E T"},
+        {"press/side", GB_RECORD_DOUBLE, 2, AT(now.punch.side), "E T"},
+    };
+    /* Records of earlier versions have none of them. */
+    static const struct gb_record_member cycle_members[] = {
+        {"cycle/ramp", GB_RECORD_INT32, 1, AT(now.punch.ramp), "1"},
+        {"cycle/work", GB_RECORD_DOUBLE, 1, AT(now.punch.work), "E d^3"},
+        {"cycle/position", GB_RECORD_DOUBLE, 1, AT(now.punch.position), "d"},
+        {"cycle/force", GB_RECORD_DOUBLE, 1, AT(now.punch.force), "E d^2"},
+        {"cycle/drag", GB_RECORD_DOUBLE, 1, AT(now.punch.drag), "E d^2 T"},
+        {"cycle/peak", GB_RECORD_DOUBLE, 1, AT(now.peak), "d"},
+        {"cycle/height", GB_RECORD_DOUBLE, 1, AT(now.height), "d"},
+    };
+#undef AT
+    struct gb_die_progress *now = &stages->now;
+    const bool known = !record->loading || gb_record_find(record, "cycle/ramp");
+    if (!gb_record_members(record, members, sizeof members / sizeof members[0], stages,
+                           err) ||
+        (known && !gb_record_members(record, cycle_members,
+                                     sizeof cycle_members / sizeof cycle_members[0],
+                                     stages, err)) ||
+        !gb_die_surface_record(&stages->side, "cycle/side", bed->count, record, err) ||
+        !gb_die_surface_record(&stages->top, "cycle/top", bed->count, record, err)) {
+        return false;
+    }
+    if (now->stage != GB_DIE_STAGES_OVER && !gb_die_cycle_contains(now->stage)) {
+        return gb_error_set(err, GB_ERR_INPUT, "press/stage: is out of range");
+    }
+    now->at_point = true;
+    return true;
+}

@@ -1,0 +1,97 @@
+#include "tui/app/dialog/dialog.h"
+
+#include <glib.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "tui/app/dialog/dialog_forms.h"
+#include "tui/app/key_commands.h"
+
+void gb_dialog_set_note(struct gb_dialog *dialog, enum gb_dialog_note kind,
+                        const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    vsnprintf(dialog->note, sizeof dialog->note, format, list);
+    va_end(list);
+    dialog->kind = kind;
+}
+
+void gb_dialog_show(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                    const char *text)
+{
+    const char *content = text != NULL ? text : "";
+    gb_dialog_close(dialog);
+    dialog->type = type;
+    if (type->form == &gb_dialog_forms_command) {
+        dialog->text = g_strdup(content);
+    } else if (type->form == &gb_dialog_forms_question) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", content);
+    } else {
+        gb_prompt_set(&dialog->prompt, content);
+    }
+}
+
+void gb_dialog_show_presets(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const struct gb_params *current)
+{
+    gb_dialog_close(dialog);
+    dialog->type = type;
+    gb_preset_browser_init(&dialog->browser, current);
+}
+
+void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                         const struct gb_params *params, enum gb_plot_glyphs glyphs)
+{
+    gb_dialog_close(dialog);
+    dialog->type = type;
+    gb_leg_editor_init(&dialog->legs, params->path, params->dimension, glyphs);
+}
+
+void gb_dialog_close(struct gb_dialog *dialog)
+{
+    gb_preset_browser_finish(&dialog->browser);
+    gb_leg_editor_finish(&dialog->legs);
+    g_free(dialog->text);
+    memset(dialog, 0, sizeof *dialog);
+}
+
+void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    if (dialog->type != NULL) {
+        dialog->type->form->draw(dialog, screen);
+    }
+}
+
+/* Esc, q, and the key that opened the dialog. */
+static bool closes(const struct gb_dialog *dialog, int code)
+{
+    struct gb_key key;
+    return gb_keys_find(code, &key) &&
+           (key.action == GB_ACTION_BACK || key.command == gb_screen_commands_quit ||
+            key.command == dialog->type->opened_by);
+}
+
+enum gb_dialog_result gb_dialog_handle(struct gb_dialog *dialog,
+                                       const struct gb_term_event *event)
+{
+    const struct gb_dialog_form *form = dialog->type->form;
+    if (form->edit != NULL && form->edit(dialog, event)) {
+        return GB_DIALOG_OPEN;
+    }
+    const enum gb_dialog_result result = closes(dialog, event->code)
+                                             ? GB_DIALOG_CANCELLED
+                                             : form->key(dialog, event->code);
+    if (result == GB_DIALOG_CANCELLED) {
+        gb_dialog_close(dialog);
+    }
+    return result;
+}
+
+const char *gb_dialog_answer(struct gb_dialog *dialog)
+{
+    return dialog->type->form == &gb_dialog_forms_presets
+               ? gb_preset_browser_selected(&dialog->browser)
+               : gb_prompt_text(&dialog->prompt);
+}

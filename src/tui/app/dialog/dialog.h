@@ -1,0 +1,77 @@
+#ifndef GB_TUI_APP_DIALOG_DIALOG_H
+#define GB_TUI_APP_DIALOG_DIALOG_H
+
+#include "tui/app/keys.h"
+#include "tui/app/preset_browser.h"
+#include "tui/legs/leg_editor.h"
+#include "tui/panel/prompt.h"
+#include "tui/term/paint.h"
+
+struct gb_dialog;
+
+enum gb_dialog_result {
+    GB_DIALOG_OPEN,     /* incomplete */
+    GB_DIALOG_ACCEPTED, /* Enter, or y: the answer is in gb_dialog_answer */
+    GB_DIALOG_CANCELLED /* Esc, or n: closed */
+};
+
+/* How one kind of dialogs is drawn and takes keys (dialog_forms.c). */
+struct gb_dialog_form {
+    void (*draw)(struct gb_dialog *dialog, const struct gb_paint *screen);
+    /* Takes an event as input; false: the keys below apply. */
+    bool (*edit)(struct gb_dialog *dialog, const struct gb_term_event *event);
+    enum gb_dialog_result (*key)(struct gb_dialog *dialog, int code);
+};
+
+/* One row for each dialog (dialogs.c). */
+struct gb_dialog_type {
+    const struct gb_dialog_form *form;
+    const char *title;
+    const char *label;    /* of the input line */
+    const char *yes, *no; /* answers of a question */
+    bool completes_path;  /* Tab completes the line as a path */
+    int scope;            /* bit of the keys of the table that act in it; 0: none */
+    void (*opened_by)(struct gb_app *app,
+                      const struct gb_key *key); /* its key closes the dialog, too */
+    void (*accept)(struct gb_app *app);
+    void (*decline)(struct gb_app *app); /* NULL: nothing besides closing */
+};
+
+enum gb_dialog_note { GB_DIALOG_NOTE_ERROR, GB_DIALOG_NOTE_WARNING };
+
+/* The dialog over the panes, at most one at a time: help, list of presets, input line,
+ * shell command, question. */
+struct gb_dialog {
+    const struct gb_dialog_type *type; /* NULL: none is open */
+    int top, focus, page; /* first line, focused line and lines per page of a list */
+    struct gb_preset_browser browser;
+    struct gb_leg_editor legs;
+    char *text;               /* shell command shown; owned */
+    char note[400];           /* question, or why the last answer was refused */
+    enum gb_dialog_note kind; /* of the note; after a warning the same answer is taken */
+    struct gb_prompt prompt;
+};
+
+/* text: initial content of the line, the question or the command; may be NULL. */
+void gb_dialog_show(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                    const char *text);
+/* The list of presets, compared with the parameters `current`. */
+void gb_dialog_show_presets(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const struct gb_params *current);
+/* The legs of the loading path of these parameters. */
+void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                         const struct gb_params *params, enum gb_plot_glyphs glyphs);
+void gb_dialog_close(struct gb_dialog *dialog);
+
+void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);
+
+enum gb_dialog_result gb_dialog_handle(struct gb_dialog *dialog,
+                                       const struct gb_term_event *event);
+
+/* Selected preset, or the text of the line. */
+const char *gb_dialog_answer(struct gb_dialog *dialog);
+
+void gb_dialog_set_note(struct gb_dialog *dialog, enum gb_dialog_note kind,
+                        const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+#endif

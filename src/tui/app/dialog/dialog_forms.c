@@ -1,0 +1,278 @@
+#include "tui/app/dialog/dialog_forms.h"
+
+#include <glib.h>
+#include <stdio.h>
+
+#include "tui/panel/complete.h"
+
+enum {
+    HELP_COLS = 60,
+    PRESETS_ROWS = 34,
+    PRESETS_COLS = 84,
+    LEGS_ROWS = 40,
+    LEGS_COLS = 110,
+    LEGS_PAGE = 5,
+    FAR = 100000, /* beyond any list */
+    PROMPT_ROWS = 8,
+    PROMPT_COLS = 64,
+    NAME_COLS = 10,
+    NOTE_ROWS = 3
+};
+
+/* A centred box, at most as large as the screen. */
+static struct gb_paint box(const struct gb_paint *screen, int rows, int cols,
+                           const char *title)
+{
+    rows = MIN(rows, screen->rect.rows - 2);
+    cols = MIN(cols, screen->rect.cols - 2);
+    const struct gb_rect rect = {(screen->rect.rows - rows) / 2,
+                                 (screen->rect.cols - cols) / 2, rows, cols};
+    const struct gb_paint paint = gb_paint_at(screen->term, rect);
+    gb_paint_box(&paint, title);
+    return paint;
+}
+
+static struct gb_paint inside(const struct gb_paint *paint)
+{
+    const struct gb_rect rect = {paint->rect.row + 1, paint->rect.col + 2,
+                                 paint->rect.rows - 2, paint->rect.cols - 4};
+    return gb_paint_at(paint->term, rect);
+}
+
+static void draw_note(const struct gb_dialog *dialog, const struct gb_paint *paint,
+                      int row, int rows)
+{
+    if (dialog->note[0] != '\0') {
+        gb_paint_wrap(paint, row, rows,
+                      dialog->kind == GB_DIALOG_NOTE_WARNING ? GB_STYLE_WARN
+                                                             : GB_STYLE_BAD,
+                      dialog->note);
+    }
+}
+
+/* A note on the last answer no longer applies to an edited one. */
+static bool clear_note(struct gb_dialog *dialog, bool edited)
+{
+    if (edited) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", "");
+    }
+    return edited;
+}
+
+/* --- help ------------------------------------------------------------------------- */
+
+static void draw_help(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    const int count = (int)gb_keys_count();
+    const struct gb_paint frame = box(screen, count + 2, HELP_COLS, dialog->type->title);
+    const struct gb_paint paint = inside(&frame);
+    dialog->page = paint.rect.rows;
+    dialog->top = MAX(0, MIN(dialog->focus, count - dialog->page));
+    dialog->focus = dialog->top;
+    for (int i = 0; i < dialog->page && dialog->top + i < count; i++) {
+        const struct gb_key key = gb_keys_at((size_t)(dialog->top + i));
+        gb_paint_cell(&paint, i, 0, NAME_COLS, GB_STYLE_BOLD, key.name);
+        gb_paint_cell(&paint, i, NAME_COLS, paint.rect.cols - NAME_COLS, GB_STYLE_PLAIN,
+                      key.help);
+    }
+}
+
+/* Lines by which a key moves in a list with this many lines per page. */
+static int list_step(enum gb_action action, int page)
+{
+    switch (action) {
+    case GB_ACTION_UP:
+        return -1;
+    case GB_ACTION_DOWN:
+        return 1;
+    case GB_ACTION_PAGE_UP:
+        return -page;
+    case GB_ACTION_PAGE_DOWN:
+        return page;
+    case GB_ACTION_HOME:
+        return -FAR;
+    case GB_ACTION_END:
+        return FAR;
+    default:
+        return 0;
+    }
+}
+
+/* No upper limit here: draw_help limits the position. */
+static enum gb_dialog_result scroll_help(struct gb_dialog *dialog, int code)
+{
+    dialog->focus = MAX(dialog->focus + list_step(gb_keys_action(code), dialog->page), 0);
+    return GB_DIALOG_OPEN;
+}
+
+const struct gb_dialog_form gb_dialog_forms_help = {draw_help, NULL, scroll_help};
+
+/* --- presets ---------------------------------------------------------------------- */
+
+static void draw_presets(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    const int note = dialog->note[0] != '\0' ? NOTE_ROWS : 0;
+    const struct gb_paint frame =
+        box(screen, PRESETS_ROWS, PRESETS_COLS, dialog->type->title);
+    struct gb_paint paint = inside(&frame);
+    draw_note(dialog, &paint, paint.rect.rows - note, note);
+    paint.rect.rows -= note;
+    gb_preset_browser_draw(&dialog->browser, &paint);
+}
+
+static bool edit_presets(struct gb_dialog *dialog, const struct gb_term_event *event)
+{
+    return clear_note(dialog, gb_preset_browser_handle(&dialog->browser, event));
+}
+
+static enum gb_dialog_result accept_preset(struct gb_dialog *dialog, int code)
+{
+    return gb_keys_action(code) == GB_ACTION_ENTER &&
+                   gb_preset_browser_selected(&dialog->browser) != NULL
+               ? GB_DIALOG_ACCEPTED
+               : GB_DIALOG_OPEN;
+}
+
+const struct gb_dialog_form gb_dialog_forms_presets = {draw_presets, edit_presets,
+                                                       accept_preset};
+
+/* --- legs ------------------------------------------------------------------------- */
+
+static void draw_legs(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    const int note = dialog->note[0] != '\0' ? NOTE_ROWS : 0;
+    const struct gb_paint frame = box(screen, LEGS_ROWS, LEGS_COLS, dialog->type->title);
+    struct gb_paint paint = inside(&frame);
+    draw_note(dialog, &paint, paint.rect.rows - note, note);
+    paint.rect.rows -= note;
+    gb_leg_editor_draw(&dialog->legs, &paint);
+}
+
+static bool edit_legs(struct gb_dialog *dialog, const struct gb_term_event *event)
+{
+    gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", "");
+    return gb_leg_editor_type(&dialog->legs, event);
+}
+
+static enum gb_dialog_result go_in_legs(struct gb_dialog *dialog, int code)
+{
+    struct gb_leg_editor *legs = &dialog->legs;
+    const enum gb_action action = gb_keys_action(code);
+    if (action == GB_ACTION_ENTER) {
+        gb_leg_editor_change(legs);
+        return GB_DIALOG_OPEN;
+    }
+    gb_leg_editor_go(legs, list_step(action, LEGS_PAGE));
+    return GB_DIALOG_OPEN;
+}
+
+const struct gb_dialog_form gb_dialog_forms_legs = {draw_legs, edit_legs, go_in_legs};
+
+/* --- input line -------------------------------------------------------------------- */
+
+static void draw_prompt(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    const struct gb_paint frame =
+        box(screen, PROMPT_ROWS, PROMPT_COLS, dialog->type->title);
+    const struct gb_paint paint = inside(&frame);
+    gb_paint_text(&paint, 0, 1, GB_STYLE_PLAIN, dialog->type->label);
+    gb_prompt_draw(&dialog->prompt, &paint, 1, 1, paint.rect.cols - 2);
+    draw_note(dialog, &paint, 3, NOTE_ROWS);
+}
+
+static void complete(struct gb_dialog *dialog)
+{
+    int count = 0;
+    char *path = gb_complete_path(gb_prompt_text(&dialog->prompt), &count);
+    gb_prompt_set(&dialog->prompt, path);
+    if (count != 1) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_WARNING, "%d files match", count);
+    }
+    g_free(path);
+}
+
+static bool edit_prompt(struct gb_dialog *dialog, const struct gb_term_event *event)
+{
+    const bool edited = clear_note(dialog, gb_prompt_handle(&dialog->prompt, event));
+    if (dialog->type->completes_path && event->kind == GB_TERM_KEY &&
+        event->code == '\t') {
+        complete(dialog);
+        return true;
+    }
+    return edited;
+}
+
+static enum gb_dialog_result accept_prompt(struct gb_dialog *dialog, int code)
+{
+    (void)dialog;
+    return gb_keys_action(code) == GB_ACTION_ENTER ? GB_DIALOG_ACCEPTED : GB_DIALOG_OPEN;
+}
+
+const struct gb_dialog_form gb_dialog_forms_prompt = {draw_prompt, edit_prompt,
+                                                      accept_prompt};
+
+/* --- command ---------------------------------------------------------------------- */
+
+/* No frame at the sides, so that the mouse can select the text: the lines end in
+ * backslashes and are one shell command. */
+static void draw_command(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    char **lines = g_strsplit(dialog->text, "\n", -1);
+    const int count = (int)g_strv_length(lines);
+    const int rows = MIN(count + 2, screen->rect.rows - 2);
+    const struct gb_rect rect = {(screen->rect.rows - rows) / 2, 0, rows,
+                                 screen->rect.cols};
+    const struct gb_paint paint = gb_paint_at(screen->term, rect);
+    for (int row = 1; row < rows; row++) {
+        gb_paint_cell(&paint, row, 0, rect.cols, GB_STYLE_PLAIN,
+                      row <= count ? lines[row - 1] : "");
+    }
+    gb_paint_title(&paint, dialog->type->title, GB_PAINT_FOCUSED);
+    const struct gb_rect end = {rect.row + rows - 1, 0, 1, rect.cols};
+    const struct gb_paint last = gb_paint_at(screen->term, end);
+    gb_paint_title(&last, dialog->type->label, GB_PAINT_UNFOCUSED);
+    g_strfreev(lines);
+}
+
+static enum gb_dialog_result stay_open(struct gb_dialog *dialog, int code)
+{
+    (void)dialog;
+    (void)code;
+    return GB_DIALOG_OPEN;
+}
+
+const struct gb_dialog_form gb_dialog_forms_command = {draw_command, NULL, stay_open};
+
+/* --- question --------------------------------------------------------------------- */
+
+/* Both answers in one row. */
+static void draw_answers(const struct gb_dialog *dialog, const struct gb_paint *paint,
+                         int row)
+{
+    gb_paint_text(paint, row, 1, GB_STYLE_BOLD, "y");
+    const int col = gb_paint_text(paint, row, 3, GB_STYLE_PLAIN, dialog->type->yes) + 4;
+    gb_paint_text(paint, row, col, GB_STYLE_BOLD, "n");
+    gb_paint_text(paint, row, col + 2, GB_STYLE_PLAIN, dialog->type->no);
+}
+
+/* The height follows from the wrapped question. */
+static void draw_question(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    struct gb_paint probe = *screen;
+    probe.rect.cols = MIN(PROMPT_COLS, screen->rect.cols - 2) - 4;
+    const int rows = gb_paint_wrap_rows(&probe, screen->rect.rows - 5, dialog->note);
+    const struct gb_paint frame = box(screen, rows + 4, PROMPT_COLS, dialog->type->title);
+    const struct gb_paint paint = inside(&frame);
+    gb_paint_wrap(&paint, 0, paint.rect.rows - 2, GB_STYLE_PLAIN, dialog->note);
+    draw_answers(dialog, &paint, paint.rect.rows - 1);
+}
+
+static enum gb_dialog_result decide(struct gb_dialog *dialog, int code)
+{
+    (void)dialog;
+    return code == 'y' || code == 'Y'   ? GB_DIALOG_ACCEPTED
+           : code == 'n' || code == 'N' ? GB_DIALOG_CANCELLED
+                                        : GB_DIALOG_OPEN;
+}
+
+const struct gb_dialog_form gb_dialog_forms_question = {draw_question, NULL, decide};

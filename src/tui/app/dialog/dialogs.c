@@ -1,0 +1,99 @@
+#include "tui/app/dialog/dialogs.h"
+
+#include "tui/app/dialog/dialog_forms.h"
+#include "tui/app/key_commands.h"
+
+/* One row per dialog.  Accept functions are in the file of the command that opens it. */
+
+const struct gb_dialog_type gb_dialogs_help = {
+    .form = &gb_dialog_forms_help,
+    .title = "Keys (Up and Down scroll, Esc closes)",
+    .opened_by = gb_screen_commands_help,
+};
+
+const struct gb_dialog_type gb_dialogs_open = {
+    .form = &gb_dialog_forms_presets,
+    .title = "Open a preset (Enter opens, Tab compares, Esc)",
+    .opened_by = gb_file_commands_open,
+    .accept = gb_file_commands_accept_open,
+};
+
+const struct gb_dialog_type gb_dialogs_save = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "Save the parameters as a preset (Esc cancels)",
+    .label = "Name, or a path with a slash:",
+    .opened_by = gb_file_commands_save,
+    .accept = gb_file_commands_accept_save,
+};
+
+const struct gb_dialog_type gb_dialogs_data = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "Measured data over the plot (Esc cancels)",
+    .label = "CSV file (Tab completes; empty removes it):",
+    .completes_path = true,
+    .opened_by = gb_file_commands_data,
+    .accept = gb_file_commands_accept_data,
+};
+
+const struct gb_dialog_type gb_dialogs_what_if = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "What-if: continue with other values (Esc cancels)",
+    .label = "key=value; ... (legs of a path: leg then leg):",
+    .opened_by = gb_run_commands_what_if,
+    .accept = gb_run_commands_accept_what_if,
+};
+
+const struct gb_dialog_type gb_dialogs_find = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "Find a parameter (Esc cancels)",
+    .label = "Name or part of it:",
+    .opened_by = gb_pane_commands_find,
+    .accept = gb_pane_commands_accept_find,
+};
+
+const struct gb_dialog_type gb_dialogs_replicas = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "Replicas of this scene (Esc cancels)",
+    .label = "Number of cells; stop at standard error of density:",
+    .opened_by = gb_job_commands_replicas,
+    .accept = gb_job_commands_accept_replicas,
+};
+
+const struct gb_dialog_type gb_dialogs_calibrate = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "Calibration to the measured data (Esc cancels)",
+    .label = "Up to 4 parameters, comma-separated, each key[=LOW:HIGH]:",
+    .opened_by = gb_job_commands_calibrate,
+    .accept = gb_job_commands_accept_calibrate,
+};
+
+const struct gb_dialog_type gb_dialogs_legs = {
+    .form = &gb_dialog_forms_legs,
+    .title = "Legs of loading.path (y takes them, Esc restores)",
+    .scope = GB_KEY_LEGS,
+};
+
+const struct gb_dialog_type gb_dialogs_shell = {
+    .form = &gb_dialog_forms_command,
+    .title = "Shell command that repeats this run (Esc closes)",
+    .label = "c closes",
+    .opened_by = gb_file_commands_shell,
+};
+
+const struct gb_dialog_type gb_dialogs_quit = {
+    .form = &gb_dialog_forms_question,
+    .title = "Quit?",
+    .yes = "quit",
+    .no = "stay",
+    .opened_by = gb_screen_commands_quit,
+    .accept = gb_screen_commands_accept_quit,
+};
+
+const struct gb_dialog_type gb_dialogs_cost = {
+    .form = &gb_dialog_forms_question,
+    .title = "A long run: start it?",
+    .yes = "start",
+    .no = "cancel",
+    .accept = gb_run_commands_accept_cost,
+    .decline = gb_run_commands_decline_cost,
+};
