@@ -48,7 +48,7 @@ hides "Esc closes" 'Legs of loading.path'
 shows "and restores" '^ path  *isotropic'
 keys Enter Down D D y
 hides "y takes the legs" 'Legs of loading.path'
-shows "the value is marked" '^\*path  *isotropic'
+shows "the cell runs again, along that leg" 'leg  *1 of 1'
 leaves "quits"
 
 # --- a what-if of a long run, which began in single precision
