@@ -13,6 +13,8 @@ is 'densities ascend' refused "$greenbody" card p1-set2-9.7nm --densities 0.5,0.
 is 'and are numbers' refused "$greenbody" card p1-set2-9.7nm --densities 0.4,x --out card
 is 'few directions leave no failure line' refused "$greenbody" card p1-set2-9.7nm \
     --directions 8 --out card
+is 'ways of pressing are named' refused "$greenbody" card p1-set2-9.7nm --compacts up --out card
+is 'weights of flow are not negative' refused "$greenbody" card p1-set2-9.7nm --flow=-1 --out card
 is 'a die has no card' refused "$greenbody" card p3-hertz-mu0 --densities 0.5,0.6 --out card
 mkdir there
 is 'an existing folder is kept' refused "$greenbody" card p1-set2-9.7nm --out there

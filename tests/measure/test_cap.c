@@ -106,7 +106,7 @@ static void test_exact(void)
         struct gb_cap_fit fit;
         struct gb_error err = {0};
         make_points(&truth[i], point, 0.0, NULL);
-        if (!gb_cap_fit(&fit, point, POINTS, truth[i].a, &err)) {
+        if (!gb_cap_fit(&fit, point, POINTS, truth[i].a, 0.0, &err)) {
             g_error("%s", err.text);
         }
         expect(&fit.d, truth[i].d, 1e-8);
@@ -118,9 +118,41 @@ static void test_exact(void)
         /* a point of failure in tension does not count */
         point[0].q_pa = 0.0;
         point[0].flow_shear = 0.1;
-        g_assert_true(gb_cap_fit(&fit, point, POINTS, truth[i].a, &err));
+        g_assert_true(gb_cap_fit(&fit, point, POINTS, truth[i].a, 0.0, &err));
         expect(&fit.d, truth[i].d, 1e-8);
     }
+}
+
+/* Flow along the normal changes nothing; flow of a longer cap lengthens it, the more the
+ * more it weighs. */
+static void test_flow_counts(void)
+{
+    const struct gb_cap *cap = &truth[0];
+    struct gb_cap longer = *cap;
+    struct gb_yield_point point[POINTS];
+    struct gb_cap_fit fit[3];
+    struct gb_error err = {0};
+    longer.r = 1.5 * cap->r;
+    make_points(cap, point, 0.0, NULL);
+    for (int i = POINTS / 2; i < POINTS; i++) {
+        gb_cap_flow(cap, point[i].p_pa, fabs(point[i].q_pa), &point[i].flow_volume,
+                    &point[i].flow_shear);
+        point[i].flow_shear *= point[i].q_pa < 0.0 ? -1.0 : 1.0;
+    }
+    g_assert_true(gb_cap_fit(&fit[0], point, POINTS, cap->a, 1.0, &err));
+    expect(&fit[0].r, cap->r, 1e-6);
+    expect(&fit[0].p_a, cap->p_a, 1e-6);
+    for (int i = POINTS / 2; i < POINTS; i++) {
+        gb_cap_flow(&longer, point[i].p_pa, point[i].q_pa, &point[i].flow_volume,
+                    &point[i].flow_shear);
+    }
+    for (int k = 0; k < 3; k++) {
+        g_assert_true(
+            gb_cap_fit(&fit[k], point, POINTS, cap->a, k == 0 ? 0.0 : 0.1 * k * k, &err));
+    }
+    expect(&fit[0].r, cap->r, 1e-5);
+    g_assert_cmpfloat(fit[1].r.value, >, 1.001 * cap->r);
+    g_assert_cmpfloat(fit[2].r.value, >, 1.001 * fit[1].r.value);
 }
 
 /* The 95 % intervals cover the truth: of 300 samples 285 on average, standard deviation
@@ -136,7 +168,7 @@ static void test_coverage(void)
         struct gb_cap_fit fit;
         struct gb_error err = {0};
         make_points(cap, point, 0.01, random);
-        if (!gb_cap_fit(&fit, point, POINTS, cap->a, &err)) {
+        if (!gb_cap_fit(&fit, point, POINTS, cap->a, 0.0, &err)) {
             g_error("%s", err.text);
         }
         const struct gb_fit_value *const value[5] = {&fit.d, &fit.beta, &fit.r, &fit.p_a,
@@ -159,14 +191,14 @@ static void test_refused(void)
     struct gb_cap_fit fit;
     struct gb_error err = {0};
     make_points(&truth[0], point, 0.0, NULL);
-    g_assert_false(gb_cap_fit(&fit, point, POINTS / 2, 0.03, &err));
+    g_assert_false(gb_cap_fit(&fit, point, POINTS / 2, 0.03, 0.0, &err));
     g_assert_nonnull(strstr(err.text, "lie on the cap"));
-    g_assert_false(gb_cap_fit(&fit, point + POINTS / 2, POINTS / 2, 0.03, &err));
+    g_assert_false(gb_cap_fit(&fit, point + POINTS / 2, POINTS / 2, 0.03, 0.0, &err));
     g_assert_nonnull(strstr(err.text, "fail in shear"));
     for (int i = 0; i < POINTS / 2; i++) {
         point[i].q_pa = 1e8 - 0.5 * point[i].p_pa;
     }
-    g_assert_false(gb_cap_fit(&fit, point, POINTS, 0.03, &err));
+    g_assert_false(gb_cap_fit(&fit, point, POINTS, 0.03, 0.0, &err));
     g_assert_nonnull(strstr(err.text, "tan(beta)"));
 }
 
@@ -294,6 +326,7 @@ int main(int argc, char **argv)
     g_test_add_func("/cap/geometry", test_geometry);
     g_test_add_func("/cap/flow", test_flow);
     g_test_add_func("/cap/exact", test_exact);
+    g_test_add_func("/cap/flow-counts", test_flow_counts);
     g_test_add_func("/cap/coverage", test_coverage);
     g_test_add_func("/cap/refused", test_refused);
     g_test_add_func("/cap/elastic", test_elastic);

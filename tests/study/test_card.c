@@ -59,6 +59,7 @@ static struct gb_card_options options_of(void)
     struct gb_card_options options;
     gb_card_options_init(&options);
     options.levels = LEVELS;
+    options.path = GB_CARD_ISOTROPIC;
     options.replicas = CELLS;
     for (int k = 0; k < LEVELS; k++) {
         options.density[k] = 0.40 + 0.05 * k;
@@ -89,7 +90,9 @@ static void make_cells(struct gb_card_cell cell[CELLS],
     for (int c = 0; c < CELLS; c++) {
         memset(&cell[c], 0, sizeof cell[c]);
         cell[c].point = g_array_new(FALSE, FALSE, sizeof(struct gb_yield_point));
-        cell[c].uniaxial = g_array_new(FALSE, FALSE, sizeof(struct gb_card_uniaxial));
+        for (int k = 0; k < GB_CARD_PATHS; k++) {
+            cell[c].curve[k] = g_array_new(FALSE, FALSE, sizeof(struct gb_card_pressed));
+        }
         const double size = 1.0 + scatter * (c - 0.5 * (CELLS - 1));
         for (int k = 0; k < LEVELS; k++) {
             const struct gb_cap cap = cap_of(k);

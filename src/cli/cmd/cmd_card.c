@@ -12,8 +12,8 @@
 /* The options of the command line. */
 struct request {
     char **sets;
-    char *out, *densities;
-    double pressure_mpa, offset_percent, transition;
+    char *out, *densities, *compacts;
+    double pressure_mpa, offset_percent, transition, flow;
     gint replicas, directions, jobs;
     gboolean quiet;
 };
@@ -54,10 +54,11 @@ static bool take_options(struct gb_card_options *options, const struct request *
     options->directions = request->directions;
     options->offset = request->offset_percent / 100.0;
     options->transition = request->transition;
+    options->flow = request->flow;
     options->pressure_pa = request->pressure_mpa * 1e6;
     if (request->pressure_mpa == 0.0) {
         options->pressure_pa =
-            preset->until_pressure_pa > 0.0 ? preset->until_pressure_pa : 1e9;
+            0.5 * (preset->until_pressure_pa > 0.0 ? preset->until_pressure_pa : 1e9);
     }
     if (request->out == NULL || request->out[0] == '\0') {
         return gb_error_set(err, GB_ERR_INPUT, "card needs a preset and --out DIR");
@@ -67,18 +68,23 @@ static bool take_options(struct gb_card_options *options, const struct request *
                          request->pressure_mpa)) &&
            (request->densities == NULL ||
             read_densities(options, request->densities, err)) &&
+           (request->compacts == NULL ||
+            gb_card_options_path(&options->path, request->compacts, err)) &&
            gb_card_options_check(options, err) && gb_card_page_check(request->out, err);
 }
 
 static void print_result(const struct gb_card_study *study, const char *out)
 {
-    const struct gb_card_misfit *misfit = &study->misfit;
     printf("%d densities from %.3f to %.3f, %d cells, %.0f s\n", study->levels,
            study->card.density[0], study->card.density[study->levels - 1],
            study->options.replicas, study->seconds);
-    printf("uniaxial path, not fitted to: misfit of p_x/p_z %.3f, of p_z %.1f %%, of "
-           "density at the same p_z %.4f\n",
-           misfit->ratio, 100.0 * misfit->pressure, misfit->density);
+    for (int k = 0; k < GB_CARD_PATHS; k++) {
+        const struct gb_card_misfit *misfit = &study->misfit[k];
+        printf("%s path: misfit of p_x/p_z %.3f, of p_z %.1f %%, of density at the same "
+               "p_z %.4f\n",
+               gb_card_options_paths[k].name, misfit->ratio, 100.0 * misfit->pressure,
+               misfit->density);
+    }
     printf("%s: card.csv, card.inp, card.html\n", out);
 }
 
@@ -112,10 +118,10 @@ static bool perform(const struct request *request, char **words, const char *com
 static const struct gb_options_page page = {
     "PRESET --out DIR [group.key=value]...",
     "A Drucker-Prager cap card of the powder for finite elements.  Cells that differ by\n"
-    "their seed are pressed isotropically, probed on copies in directions of the (p, q)\n"
-    "plane at several densities, and the surface is fitted at each.  The card is tested "
-    "on\n"
-    "uniaxial pressing, to which nothing is fitted.",
+    "their seed are pressed, probed on copies in directions of the (p, q)\n"
+    "plane at several densities, and the surface is fitted at each.  The card is compared "
+    "with\n"
+    "uniaxial and isotropic pressing.",
     "DIR receives card.csv (d, beta, R, p_a, p_b, plastic volumetric strain, E, nu "
     "against\n"
     "density with 95 % intervals), card.inp (*ELASTIC, *CAP PLASTICITY and *CAP "
@@ -131,7 +137,8 @@ int gb_cmd_card(int argc, char **argv)
     struct request request = {.replicas = defaults.replicas,
                               .directions = defaults.directions,
                               .offset_percent = 100.0 * defaults.offset,
-                              .transition = defaults.transition};
+                              .transition = defaults.transition,
+                              .flow = defaults.flow};
     struct gb_error err = {0};
     char **words = NULL;
     int status = 0;
@@ -143,7 +150,9 @@ int gb_cmd_card(int argc, char **argv)
          "relative densities of the compacts (6, evenly spaced up to --pressure)",
          "A,B,..."},
         {"pressure", 0, 0, G_OPTION_ARG_DOUBLE, &request.pressure_mpa,
-         "isotropic pressure of the densest compact, MPa (loading.until)", "MPA"},
+         "mean pressure of the densest compact, MPa (half of loading.until)", "MPA"},
+        {"compacts", 0, 0, G_OPTION_ARG_STRING, &request.compacts,
+         "of the compacts: uniaxial, as in a die, or isotropic (uniaxial)", "PATH"},
         {"replicas", 0, 0, G_OPTION_ARG_INT, &request.replicas, "cells, 3 or more (8)",
          "N"},
         {"directions", 0, 0, G_OPTION_ARG_INT, &request.directions,
@@ -152,6 +161,9 @@ int gb_cmd_card(int argc, char **argv)
          "plastic strain at yield, % (1)", "PERCENT"},
         {"transition", 0, 0, G_OPTION_ARG_DOUBLE, &request.transition,
          "a of the transition surface, 0.01 to 0.05 (0.03)", "A"},
+        {"flow", 0, 0, G_OPTION_ARG_DOUBLE, &request.flow,
+         "weight of the directions of flow beside the positions of the points (1)",
+         "WEIGHT"},
         {"jobs", 'j', 0, G_OPTION_ARG_INT, &request.jobs,
          "cells at once (one per processor)", "N"},
         gb_options_quiet(&request.quiet),
@@ -169,5 +181,6 @@ int gb_cmd_card(int argc, char **argv)
     g_strfreev(request.sets);
     g_free(request.out);
     g_free(request.densities);
+    g_free(request.compacts);
     return status;
 }

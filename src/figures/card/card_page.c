@@ -89,17 +89,23 @@ static void add_parameters(struct gb_page *page, const struct gb_card_study *stu
 
 static void add_test(struct gb_page *page, const struct gb_card_study *study)
 {
-    const struct gb_card_misfit *misfit = &study->misfit;
-    static const char *const data[] = {"card_uniaxial.csv", NULL};
+    const struct gb_card_misfit *uniaxial = &study->misfit[GB_CARD_UNIAXIAL];
+    const struct gb_card_misfit *isotropic = &study->misfit[GB_CARD_ISOTROPIC];
+    static const char *const data[] = {"card_uniaxial.csv", "card_isotropic.csv", NULL};
+    const bool own = study->options.path == GB_CARD_UNIAXIAL;
     char *text = g_strdup_printf(
-        "The card as a material, strained uniaxially from the unloaded compact of the "
-        "lowest density on, against the simulated pressing of the loose powder, to which "
-        "nothing was fitted. Misfit (rms) between the densities %.3f and %.3f: p_x/p_z "
-        "%.3f (largest %.3f); p_z %.1f %%; density at the same p_z %.4f (largest %.4f).",
-        study->compared_from, study->card.density[study->levels - 1], misfit->ratio,
-        misfit->ratio_most, 100.0 * misfit->pressure, misfit->density,
-        misfit->density_most);
-    gb_page_heading(page, "Test on uniaxial pressing");
+        "The card as a material, strained from the unloaded compact of the lowest density "
+        "on, against the simulated pressing of the loose powder. Points of yield come from "
+        "%s pressed compacts; p_x/p_z and the %s path are not fitted to. Misfit (rms) "
+        "between the densities %.3f and %.3f. Uniaxial: p_x/p_z %.3f (largest %.3f), p_z "
+        "%.1f %%, density at the same p_z %.4f (largest %.4f). Isotropic: p %.1f %%, "
+        "density at the same p %.4f (largest %.4f).",
+        own ? "uniaxially" : "isotropically", own ? "isotropic" : "uniaxial",
+        study->compared_from, study->card.density[study->levels - 1], uniaxial->ratio,
+        uniaxial->ratio_most, 100.0 * uniaxial->pressure, uniaxial->density,
+        uniaxial->density_most, 100.0 * isotropic->pressure, isotropic->density,
+        isotropic->density_most);
+    gb_page_heading(page, "Test on uniaxial and isotropic pressing");
     gb_page_paragraph(page, text);
     gb_page_image(page, "uniaxial.png",
                   "p_x/p_z of uniaxial pressing, simulated and predicted.", data);
@@ -114,7 +120,7 @@ static bool write_page(const struct gb_card_study *study, const struct gb_params
     const struct gb_card_options *options = &study->options;
     char *title = g_strdup_printf("Card of %s", preset->title);
     char *how = g_strdup_printf(
-        "%d cells of %lld particles, pressed isotropically to %d densities, unloaded to "
+        "%d cells of %lld particles, pressed %s to %d densities, unloaded to "
         "%g of the pressure and probed on copies by strain in %d directions of the (p, "
         "q) "
         "plane. A point is where the plastic strain reaches %g %%. Points that lose "
@@ -122,9 +128,12 @@ static bool write_page(const struct gb_card_study *study, const struct gb_params
         "as they flow lie on the cap, those that gain it fail in shear; where the volume "
         "grows more than twice the shear it is failure in tension, which the surface "
         "does "
-        "not describe. Transition a = %g.",
-        options->replicas, (long long)preset->count, study->levels, options->inside,
-        options->directions, 100.0 * options->offset, options->transition);
+        "not describe. Transition a = %g; R and p_a follow positions and directions of flow "
+        "of the points of the cap, with weights 1 and %g.",
+        options->replicas, (long long)preset->count,
+        options->path == GB_CARD_UNIAXIAL ? "uniaxially" : "isotropically", study->levels,
+        options->inside, options->directions, 100.0 * options->offset,
+        options->transition, options->flow);
     gb_page_begin(&page, title, command);
     gb_page_paragraph(&page, how);
     gb_page_heading(&page, "Yield surfaces");
@@ -148,8 +157,10 @@ static bool fill(const struct gb_card_study *study, const struct gb_params *pres
     return write_text(folder, "card.csv", gb_card_files_card(study, command), err) &&
            write_text(folder, "card_points.csv", gb_card_files_points(study, command),
                       err) &&
-           write_text(folder, "card_uniaxial.csv", gb_card_files_uniaxial(study, command),
-                      err) &&
+           write_text(folder, "card_uniaxial.csv",
+                      gb_card_files_path(study, GB_CARD_UNIAXIAL, command), err) &&
+           write_text(folder, "card_isotropic.csv",
+                      gb_card_files_path(study, GB_CARD_ISOTROPIC, command), err) &&
            write_text(folder, "card.inp",
                       gb_card_files_abaqus(study, command, preset->density_kg_m3), err) &&
            write_figure(folder, "card", "surfaces.png", err) &&

@@ -162,8 +162,7 @@ bool gb_figures_card_uniaxial(struct gb_series *series,
         good = draw_compared(series, tables.uniaxial, simulated, "simulated", 0, err) &&
                draw_compared(series, tables.uniaxial, card, "card", 1, err);
         gb_series_caption(series,
-                          "Bands: 95 %% intervals. Nothing of the card was fitted "
-                          "to the uniaxial path.");
+                          "Bands: 95 %% intervals. The stress ratio was not fitted to.");
     }
     gb_table_destroy(tables.uniaxial);
     return good;

@@ -219,12 +219,14 @@ static bool fit_sides(struct gb_cap_fit *fit, const struct gb_cap_side side[2], 
 }
 
 bool gb_cap_fit(struct gb_cap_fit *fit, const struct gb_yield_point *points, size_t count,
-                double a, struct gb_error *err)
+                double a, double flow, struct gb_error *err)
 {
     struct gb_cap_side side[2] = {{.count = 0}, {.count = 0}};
-    const bool good = take_side(&side[0], points, count, GB_CAP_FIT_SHEAR, err) &&
-                      take_side(&side[1], points, count, GB_CAP_FIT_CAP, err) &&
-                      fit_sides(fit, side, a, err);
+    bool good = take_side(&side[0], points, count, GB_CAP_FIT_SHEAR, err) &&
+                take_side(&side[1], points, count, GB_CAP_FIT_CAP, err);
+    side[1].flow = flow;
+    side[1].weighted = side[1].weighted && !(flow > 0.0);
+    good = good && fit_sides(fit, side, a, err);
     gb_alloc_free(side[0].point);
     gb_alloc_free(side[1].point);
     return good;

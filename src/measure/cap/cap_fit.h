@@ -30,10 +30,13 @@ enum gb_cap_fit_side gb_cap_fit_side_of(const struct gb_yield_point *point);
  * weigh alike, and the residuals give the intervals.  Extension counts as compression
  * (K = 1).  The 95 % intervals hold for points that are independent; those of a set of
  * replicas are the caller's, by leaving out one at a time.
- * a: transition, 0 to 0.05.
+ * a     transition, 0 to 0.05
+ * flow  weight of the directions of flow in the fit of R and p_a: an angle of 1 rad between
+ *       flow and normal counts like a distance of flow times the largest pressure, and all
+ *       points of the cap weigh alike; 0: by position alone
  * Errors: GB_ERR_INPUT (fewer than two points of either side, beta not above 0, d not
  * above 0, a cap that does not close), GB_ERR_NOT_CONVERGED, GB_ERR_MEMORY. */
 bool gb_cap_fit(struct gb_cap_fit *fit, const struct gb_yield_point *points, size_t count,
-                double a, struct gb_error *err);
+                double a, double flow, struct gb_error *err);
 
 #endif

@@ -1,5 +1,6 @@
 #include "measure/cap/cap_side.h"
 
+#include <gsl/gsl_blas.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
 
@@ -28,10 +29,55 @@ double gb_cap_side_radius(const struct gb_cap *cap, const struct gb_yield_point 
     return hypot(point->p_pa - cap->p_a, cap->r * point->q_pa / gb_cap_flattening(cap));
 }
 
+static size_t residual_count(const struct gb_cap_side *side)
+{
+    return side->flow > 0.0 ? 2 * side->count : side->count;
+}
+
+/* The normal of the cap at a point, as gb_cap_flow has it. */
+struct normal {
+    double volume, shear;
+};
+
+static struct normal normal_at(const struct gb_cap *cap,
+                               const struct gb_yield_point *point)
+{
+    const double k = gb_cap_flattening(cap);
+    return (struct normal){point->p_pa - cap->p_a,
+                           cap->r * cap->r / (k * k) * fabs(point->q_pa)};
+}
+
+/* Residuals of the flow: its angle against the normal. */
+static void flow_residuals(const struct problem *problem, const struct gb_cap *cap,
+                           gsl_vector *f)
+{
+    for (size_t i = 0; i < problem->side->count && problem->side->flow > 0.0; i++) {
+        const struct gb_yield_point *point = problem->side->point[i];
+        const struct normal normal = normal_at(cap, point);
+        const double angle = atan2(normal.volume, normal.shear) -
+                             atan2(point->flow_volume, fabs(point->flow_shear));
+        gsl_vector_set(f, problem->side->count + i, problem->side->flow * angle);
+    }
+}
+
+static void flow_jacobian(const struct problem *problem, const struct gb_cap *cap,
+                          gsl_matrix *j)
+{
+    for (size_t i = 0; i < problem->side->count && problem->side->flow > 0.0; i++) {
+        const struct normal normal = normal_at(cap, problem->side->point[i]);
+        const double square = normal.volume * normal.volume + normal.shear * normal.shear;
+        const double scale = -problem->side->flow * normal.shear /
+                             fmax(square, 1e-24 * problem->unit * problem->unit);
+        gsl_matrix_set(j, problem->side->count + i, 0, 2.0 * scale * normal.volume);
+        gsl_matrix_set(j, problem->side->count + i, 1, scale * problem->unit);
+    }
+}
+
 static int residuals(const gsl_vector *x, void *data, gsl_vector *f)
 {
     const struct problem *problem = data;
     const struct gb_cap cap = at(problem, x);
+    flow_residuals(problem, &cap, f);
     for (size_t i = 0; i < problem->side->count; i++) {
         const double off = gb_cap_side_radius(&cap, problem->side->point[i]) -
                            cap.r * gb_cap_depth(&cap);
@@ -45,6 +91,7 @@ static int jacobian(const gsl_vector *x, void *data, gsl_matrix *j)
     const struct problem *problem = data;
     const struct gb_cap cap = at(problem, x);
     const double slope = tan(cap.beta), k = gb_cap_flattening(&cap);
+    flow_jacobian(problem, &cap, j);
     for (size_t i = 0; i < problem->side->count; i++) {
         const struct gb_yield_point *point = problem->side->point[i];
         const double s = fmax(gb_cap_side_radius(&cap, point), 1e-12 * problem->unit);
@@ -74,21 +121,12 @@ static void weigh(const struct problem *problem, const gsl_vector *x)
     }
 }
 
-static double sum_of_squares(const struct problem *problem, const gsl_vector *x)
+/* Best of a grid of R whose caps end at the largest pressure of the points.  f: room. */
+static void start(const struct problem *problem, gsl_vector *x, gsl_vector *f)
 {
-    double sum = 0.0;
-    const struct gb_cap cap = at(problem, x);
     for (size_t i = 0; i < problem->side->count; i++) {
-        const double off = gb_cap_side_radius(&cap, problem->side->point[i]) -
-                           cap.r * gb_cap_depth(&cap);
-        sum += off * off / (problem->unit * problem->unit);
+        problem->weight[i] = 1.0 / problem->unit;
     }
-    return sum;
-}
-
-/* Best of a grid of R whose caps end at the largest pressure of the points. */
-static void start(const struct problem *problem, gsl_vector *x)
-{
     double best = INFINITY, log_r = 0.0, p_a = 0.0;
     for (double log_of_r = log(0.05); log_of_r < log(20.0); log_of_r += 0.1) {
         struct gb_cap cap = problem->line;
@@ -96,7 +134,9 @@ static void start(const struct problem *problem, gsl_vector *x)
         cap = gb_cap_with_end(&cap, problem->unit);
         gsl_vector_set(x, 0, log_of_r);
         gsl_vector_set(x, 1, cap.p_a / problem->unit);
-        const double sum = sum_of_squares(problem, x);
+        double sum = INFINITY;
+        residuals(x, (void *)(size_t)problem, f);
+        gsl_blas_ddot(f, f, &sum);
         if (gb_cap_depth(&cap) > 0.0 && sum < best) {
             best = sum;
             log_r = log_of_r;
@@ -137,11 +177,11 @@ static bool solve(struct gb_cap_side_found *found, const struct problem *problem
 {
     gsl_multifit_nlinear_fdf system = {.f = residuals,
                                        .df = jacobian,
-                                       .n = problem->side->count,
+                                       .n = residual_count(problem->side),
                                        .p = SIZE,
                                        .params = (void *)(size_t)problem};
     int info = 0, status = GSL_SUCCESS;
-    start(problem, x);
+    start(problem, x, gsl_multifit_nlinear_residual(work));
     for (int round = 0; round < REWEIGHTINGS && status == GSL_SUCCESS; round++) {
         weigh(problem, x);
         gsl_multifit_nlinear_init(x, &system, work);
@@ -172,7 +212,7 @@ bool gb_cap_side_fit(struct gb_cap_side_found *found, const struct gb_cap_side *
     }
     problem.weight = gb_alloc_array(side->count, sizeof *problem.weight, err);
     gsl_multifit_nlinear_workspace *work = gsl_multifit_nlinear_alloc(
-        gsl_multifit_nlinear_trust, &options, side->count, SIZE);
+        gsl_multifit_nlinear_trust, &options, residual_count(side), SIZE);
     gsl_matrix *covariance = gsl_matrix_alloc(SIZE, SIZE);
     gsl_vector *x = gsl_vector_alloc(SIZE);
     bool good = problem.weight && work && covariance && x;

@@ -12,7 +12,9 @@
 struct gb_cap_side {
     const struct gb_yield_point **point;
     size_t count;
-    bool weighted; /* all points have errors */
+    bool weighted; /* all points have errors; not where flow counts, too */
+    double flow; /* an angle between flow and normal of 1 rad counts like a distance from
+                    * the surface of flow times the largest pressure; 0: it does not */
 };
 
 enum { GB_CAP_SIDE_FREE = 2 }; /* R and p_a */
@@ -23,7 +25,7 @@ struct gb_cap_side_found {
     double squares;                                 /* weighted */
 };
 
-/* R and p_a of the cap through points (2 or more) beside a given shear failure line, by
+/* R and p_a of the cap through points (2 or more), and normal to their flow, beside a given shear failure line, by
  * Levenberg and Marquardt.  line: d, beta and a.  Errors: GB_ERR_INPUT (no point at a
  * pressure above 0), GB_ERR_NOT_CONVERGED, GB_ERR_MEMORY. */
 bool gb_cap_side_fit(struct gb_cap_side_found *found, const struct gb_cap_side *side,

@@ -18,21 +18,21 @@ static const double unload_step = 5e-4;
 
 /* A walk that records and ends at a density or a pressure. */
 struct record {
-    GArray *uniaxial;                                   /* NULL: not recorded */
-    double density_most, pressure_most, pressure_least; /* that end it */
+    GArray *curve;                        /* NULL: not recorded */
+    double density_most, p_most, p_least; /* that end it */
 };
 
 static bool take(void *data, const struct gb_point *point)
 {
     const struct record *record = data;
     const double p = gb_compact_state_of(point).p;
-    if (record->uniaxial != NULL) {
-        const struct gb_card_uniaxial row = {
+    if (record->curve != NULL) {
+        const struct gb_card_pressed row = {
             point->density, 0.5 * (point->px_pa + point->py_pa), point->pz_pa};
-        g_array_append_val(record->uniaxial, row);
+        g_array_append_val(record->curve, row);
     }
-    return point->density < record->density_most && p < record->pressure_most &&
-           p > record->pressure_least;
+    return point->density < record->density_most && p < record->p_most &&
+           p > record->p_least;
 }
 
 static bool follow(struct gb_compact *from, const char *path, double step,
@@ -69,15 +69,35 @@ static bool start(struct gb_compact *loose, const struct gb_params *preset, int 
     return gb_compact_press(loose, &params, &at_once, callbacks, err);
 }
 
-static bool press_uniaxial(struct gb_card_cell *cell, struct gb_compact *loose,
-                           const struct gb_card_options *options,
-                           const struct gb_pool_callbacks *callbacks,
-                           struct gb_error *err)
+static bool record_curves(struct gb_card_cell *cell, struct gb_compact *loose,
+                          const struct gb_card_options *options,
+                          const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
-    struct record record = {cell->uniaxial, options->density[options->levels - 1],
-                            INFINITY, -INFINITY};
-    return follow(loose, "uniaxial to density 0.99", loose->params.strain_step, &record,
-                  callbacks, NULL, err);
+    bool good = true;
+    for (int k = 0; k < GB_CARD_PATHS && good; k++) {
+        struct record record = {cell->curve[k], options->density[options->levels - 1],
+                                INFINITY, -INFINITY};
+        good = follow(loose, gb_card_options_paths[k].leg, loose->params.strain_step,
+                      &record, callbacks, NULL, err);
+    }
+    return good;
+}
+
+/* A copy at `inside` of the pressure and q = 0.  An isotropic compact, which is nearly there,
+ * unloads by equal strains. */
+static bool unload(struct gb_compact *top, double inside_pa,
+                   const struct gb_card_options *options,
+                   const struct gb_pool_callbacks *callbacks, struct gb_compact *inside,
+                   struct gb_error *err)
+{
+    struct record record = {NULL, INFINITY, INFINITY, inside_pa};
+    char path[GB_LEG_TEXT];
+    if (options->path != GB_CARD_ISOTROPIC) {
+        return gb_compact_unload(top, inside_pa, callbacks, inside, err);
+    }
+    snprintf(path, sizeof path, "isotropic to %.9g MPa",
+             -1e-6 * gb_compact_state_of(&top->point).p);
+    return follow(top, path, unload_step, &record, callbacks, inside, err);
 }
 
 /* K and G by which directions of stress are translated, from two short probes: without
@@ -142,14 +162,12 @@ static bool measure_level(struct gb_card_cell *cell, int index, int replica,
 {
     struct gb_card_level *level = &cell->level[index];
     const struct gb_compact_state state = gb_compact_state_of(&top->point);
-    struct record record = {NULL, INFINITY, INFINITY, options->inside * state.p};
     struct gb_compact inside = {0};
-    char path[GB_LEG_TEXT];
     level->density = top->point.density;
     level->p_pa = state.p;
     level->q_pa = state.q;
-    snprintf(path, sizeof path, "isotropic to %.9g MPa", -1e-6 * state.p);
-    const bool good = follow(top, path, unload_step, &record, callbacks, &inside, err);
+    const bool good =
+        unload(top, options->inside * state.p, options, callbacks, &inside, err);
     if (good) {
         level->inside_pa = gb_compact_state_of(&inside.point).p;
     }
@@ -164,16 +182,18 @@ bool gb_card_cell_measure(struct gb_card_cell *cell, const struct gb_params *pre
                           int replica, const struct gb_card_options *options,
                           const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
+    const char *leg = gb_card_options_paths[options->path].leg;
     struct gb_compact now = {0};
     cell->point = g_array_new(FALSE, FALSE, sizeof(struct gb_yield_point));
-    cell->uniaxial = g_array_new(FALSE, FALSE, sizeof(struct gb_card_uniaxial));
+    for (int k = 0; k < GB_CARD_PATHS; k++) {
+        cell->curve[k] = g_array_new(FALSE, FALSE, sizeof(struct gb_card_pressed));
+    }
     bool good = start(&now, preset, replica, options, callbacks, err) &&
-                press_uniaxial(cell, &now, options, callbacks, err);
+                record_curves(cell, &now, options, callbacks, err);
     for (int k = 0; k < options->levels && good; k++) {
         struct gb_compact top = {0};
         struct record record = {NULL, options->density[k], INFINITY, -INFINITY};
-        good = follow(&now, "isotropic to density 0.99", now.params.strain_step, &record,
-                      callbacks, &top, err);
+        good = follow(&now, leg, now.params.strain_step, &record, callbacks, &top, err);
         gb_compact_finish(&now);
         now = top;
         good = good && measure_level(cell, k, replica, &now, options, callbacks, err);
@@ -186,7 +206,9 @@ void gb_card_cell_finish(struct gb_card_cell *cell)
 {
     if (cell->point != NULL) {
         g_array_free(cell->point, TRUE);
-        g_array_free(cell->uniaxial, TRUE);
+        for (int k = 0; k < GB_CARD_PATHS; k++) {
+            g_array_free(cell->curve[k], TRUE);
+        }
     }
     memset(cell, 0, sizeof *cell);
 }
@@ -198,7 +220,7 @@ bool gb_card_cell_scout(struct gb_card_options *options, const struct gb_params 
     struct gb_compact loose = {0}, low = {0}, high = {0};
     struct record first = {NULL, 0.99, lowest_share * options->pressure_pa, -INFINITY};
     struct record last = {NULL, 0.99, options->pressure_pa, -INFINITY};
-    const char *path = "isotropic to density 0.99";
+    const char *path = gb_card_options_paths[options->path].leg;
     bool good = start(&loose, preset, 1, options, callbacks, err);
     good = good &&
            follow(&loose, path, loose.params.strain_step, &first, callbacks, &low, err);

@@ -11,9 +11,9 @@
 #include "study/card/card_options.h"
 #include "study/compact/compact.h"
 
-/* What one cell (replica) gives a card: compacts pressed isotropically to a list of
- * densities, the yield points of each, their elastic constants, and the uniaxial curve of
- * the same powder. */
+/* What one cell (replica) gives a card: compacts pressed to a list of densities, the yield
+ * points of each, their elastic constants, and the curves of pressing the same powder along
+ * each path. */
 
 /* The compact of one density. */
 struct gb_card_level {
@@ -23,14 +23,14 @@ struct gb_card_level {
     double bulk, shear_modulus; /* K and G of the probes' first steps, Pa */
 };
 
-struct gb_card_uniaxial {
-    double density, px_pa, pz_pa; /* px: mean of the two held axes */
+struct gb_card_pressed {
+    double density, px_pa, pz_pa; /* px: mean of x and y */
 };
 
 struct gb_card_cell {
     struct gb_card_level level[GB_CARD_LEVELS_MAX];
-    GArray *point;    /* of struct gb_yield_point: density as in the options */
-    GArray *uniaxial; /* of struct gb_card_uniaxial, density ascending */
+    GArray *point; /* of struct gb_yield_point: density as in the options */
+    GArray *curve[GB_CARD_PATHS]; /* of struct gb_card_pressed, density ascending */
 };
 
 /* gb_card_cell_finish is due, also after an error.  A probe that a guard stops, or that does
@@ -42,7 +42,7 @@ bool gb_card_cell_measure(struct gb_card_cell *cell, const struct gb_params *pre
 void gb_card_cell_finish(struct gb_card_cell *cell); /* zeroed is fine */
 
 /* Fills densities, evenly spaced between those at 1/20 of and at pressure_pa, from the
- * isotropic curve of the first cell. */
+ * pressing of the first cell. */
 bool gb_card_cell_scout(struct gb_card_options *options, const struct gb_params *preset,
                         int levels, const struct gb_pool_callbacks *callbacks,
                         struct gb_error *err);

@@ -63,7 +63,8 @@ GString *gb_card_files_points(const struct gb_card_study *study, const char *com
     return text;
 }
 
-GString *gb_card_files_uniaxial(const struct gb_card_study *study, const char *comment)
+GString *gb_card_files_path(const struct gb_card_study *study, enum gb_card_path path,
+                            const char *comment)
 {
     static const char *const names[] = {"ratio", "card_ratio", "pz_MPa", "card_pz_MPa"};
     GString *text = begin(comment, "#");
@@ -73,8 +74,9 @@ GString *gb_card_files_uniaxial(const struct gb_card_study *study, const char *c
     }
     g_string_append_c(text, '\n');
     for (int i = 0; i < GB_CARD_CURVE_POINTS; i++) {
-        const struct gb_card_compared *at = &study->curve[i];
-        if (!isfinite(at->simulated_pz.value) || !isfinite(at->predicted_pz.value)) {
+        const struct gb_card_compared *at = &study->curve[path][i];
+        if (!isfinite(at->simulated_ratio.value) ||
+            !isfinite(at->predicted_ratio.value)) {
             continue;
         }
         g_string_append_printf(text, "%.6g", at->density);

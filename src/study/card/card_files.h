@@ -12,8 +12,10 @@ GString *gb_card_files_card(const struct gb_card_study *study, const char *comme
 /* card_points.csv: the yield points, means over the cells with standard errors; `side` is
  * shear, cap or tension. */
 GString *gb_card_files_points(const struct gb_card_study *study, const char *comment);
-/* card_uniaxial.csv: uniaxial pressing, simulated and predicted, with 95 % intervals. */
-GString *gb_card_files_uniaxial(const struct gb_card_study *study, const char *comment);
+/* card_uniaxial.csv, card_isotropic.csv: pressing along a path, simulated and predicted,
+ * with 95 % intervals. */
+GString *gb_card_files_path(const struct gb_card_study *study, enum gb_card_path path,
+                            const char *comment);
 /* card.inp: *MATERIAL with *ELASTIC, *CAP PLASTICITY and *CAP HARDENING for Abaqus, in mm,
  * N, MPa, tonne.  The first field variable is the relative density.
  *

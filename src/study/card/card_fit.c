@@ -101,8 +101,8 @@ static struct gb_card_level mean_level(const struct gb_card_cell *cells, int cou
 }
 
 static bool fit_level(struct gb_card_values *card, int level, double density,
-                      const struct gb_yield_point *points, size_t size, double transition,
-                      struct gb_error *err)
+                      const struct gb_yield_point *points, size_t size,
+                      const struct gb_card_options *options, struct gb_error *err)
 {
     struct gb_yield_point own[GB_CARD_DIRECTIONS_MAX];
     struct gb_cap_fit fit;
@@ -113,7 +113,7 @@ static bool fit_level(struct gb_card_values *card, int level, double density,
             own[count++] = points[i];
         }
     }
-    if (!gb_cap_fit(&fit, own, count, transition, &why)) {
+    if (!gb_cap_fit(&fit, own, count, options->transition, options->flow, &why)) {
         return gb_error_set(err, why.code, "card, density %.4f: %.300s", density,
                             why.text);
     }
@@ -154,8 +154,7 @@ bool gb_card_fit_values(struct gb_card_values *card, const struct gb_card_cell *
         value[GB_CARD_PLASTIC] =
             k == 0 ? 0.0
                    : card->value[k - 1][GB_CARD_PLASTIC] + plastic_growth(&last, &level);
-        if (!fit_level(card, k, options->density[k], points, size, options->transition,
-                       err)) {
+        if (!fit_level(card, k, options->density[k], points, size, options, err)) {
             return false;
         }
         if (k == 0) {
@@ -171,8 +170,8 @@ bool gb_card_fit_values(struct gb_card_values *card, const struct gb_card_cell *
 }
 
 bool gb_card_fit_predict(const struct gb_card_values *card, int levels, double transition,
-                         const double *density, size_t size, double *ratio, double *pz,
-                         struct gb_error *err)
+                         enum gb_card_path path, const double *density, size_t size,
+                         double *ratio, double *pz, struct gb_error *err)
 {
     struct gb_cap_row rows[GB_CARD_LEVELS_MAX];
     const struct gb_cap_material material =
@@ -184,7 +183,12 @@ bool gb_card_fit_predict(const struct gb_card_values *card, int levels, double t
         if (density[i] <= card->start_density) {
             continue;
         }
-        strain[2] = log(density[i] / state.density);
+        const double volume = log(density[i] / state.density);
+        if (path == GB_CARD_ISOTROPIC) {
+            strain[0] = strain[1] = strain[2] = volume / 3.0;
+        } else {
+            strain[2] = volume;
+        }
         if (!gb_cap_path_strain(&material, &state, strain, err)) {
             return false;
         }

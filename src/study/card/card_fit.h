@@ -17,11 +17,11 @@ bool gb_card_fit_values(struct gb_card_values *card, const struct gb_card_cell *
                         const struct gb_yield_point *points, size_t size,
                         struct gb_error *err);
 
-/* p_x/p_z and p_z (Pa) of uniaxial pressing of the unloaded first compact, at densities that
- * ascend; NaN below its start. */
+/* p_x/p_z and p_z (Pa) of pressing the unloaded first compact along a path, at densities
+ * that ascend; NaN below its start. */
 bool gb_card_fit_predict(const struct gb_card_values *card, int levels, double transition,
-                         const double *density, size_t size, double *ratio, double *pz,
-                         struct gb_error *err);
+                         enum gb_card_path path, const double *density, size_t size,
+                         double *ratio, double *pz, struct gb_error *err);
 
 /* The card as a material.  rows: room for GB_CARD_LEVELS_MAX. */
 struct gb_cap_material gb_card_fit_material(const struct gb_card_values *card, int levels,

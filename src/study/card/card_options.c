@@ -2,7 +2,29 @@
 
 #include <math.h>
 
+#include <string.h>
+
 #include "measure/cap/cap.h"
+
+/* Beyond 135 degrees it is tension.  The surface of a compact that was pressed uniaxially is
+ * not the same in extension: only compression counts. */
+const struct gb_card_path_row gb_card_options_paths[GB_CARD_PATHS] = {
+    [GB_CARD_UNIAXIAL] = {"uniaxial", "uniaxial to density 0.99", 0.0, 0.75 * M_PI},
+    [GB_CARD_ISOTROPIC] = {"isotropic", "isotropic to density 0.99", -0.75 * M_PI,
+                           0.75 * M_PI},
+};
+
+bool gb_card_options_path(enum gb_card_path *path, const char *name, struct gb_error *err)
+{
+    for (int k = 0; k < GB_CARD_PATHS; k++) {
+        if (strcmp(name, gb_card_options_paths[k].name) == 0) {
+            *path = (enum gb_card_path)k;
+            return true;
+        }
+    }
+    return gb_error_set(err, GB_ERR_INPUT,
+                        "--compacts '%.40s': accepted uniaxial, isotropic", name);
+}
 
 void gb_card_options_init(struct gb_card_options *options)
 {
@@ -13,12 +35,15 @@ void gb_card_options_init(struct gb_card_options *options)
                                         .step = 5e-4,
                                         .strain_most = 0.06,
                                         .tolerance = 5e-3,
-                                        .transition = GB_CAP_TRANSITION};
+                                        .transition = GB_CAP_TRANSITION,
+                                        .flow = 1.0};
 }
 
 double gb_card_options_direction(const struct gb_card_options *options, int index)
 {
-    return M_PI * (-0.75 + 1.5 * index / (options->directions - 1));
+    const struct gb_card_path_row *row = &gb_card_options_paths[options->path];
+    return row->direction_from +
+           (row->direction_to - row->direction_from) * index / (options->directions - 1);
 }
 
 static bool refuse(struct gb_error *err, const char *name, double value,
@@ -40,6 +65,9 @@ bool gb_card_options_check(const struct gb_card_options *options, struct gb_erro
     }
     if (!(options->transition >= 0.0 && options->transition <= 0.1)) {
         return refuse(err, "transition", options->transition, "0 to 0.1");
+    }
+    if (!(options->flow >= 0.0 && options->flow <= 10.0)) {
+        return refuse(err, "flow", options->flow, "0 to 10");
     }
     for (int k = 0; k < options->levels; k++) {
         const double density = options->density[k];

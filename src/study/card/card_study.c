@@ -43,16 +43,16 @@ static struct gb_fit_value with_error(const double *values, int count)
 /* Cards, and predictions on the grid of the curve, of all cells but one. */
 struct jackknife {
     struct gb_card_values *card;
-    double *ratio, *pz; /* replicas x GB_CARD_CURVE_POINTS */
+    double *ratio, *pz; /* paths x replicas x GB_CARD_CURVE_POINTS */
     double *room;       /* replicas */
 };
 
 static bool jackknife_init(struct jackknife *jack, int replicas, struct gb_error *err)
 {
-    const size_t n = (size_t)replicas;
+    const size_t n = (size_t)replicas, curves = GB_CARD_PATHS * n;
     jack->card = gb_alloc_array(n, sizeof *jack->card, err);
-    jack->ratio = gb_alloc_array(n * GB_CARD_CURVE_POINTS, sizeof *jack->ratio, err);
-    jack->pz = gb_alloc_array(n * GB_CARD_CURVE_POINTS, sizeof *jack->pz, err);
+    jack->ratio = gb_alloc_array(curves * GB_CARD_CURVE_POINTS, sizeof *jack->ratio, err);
+    jack->pz = gb_alloc_array(curves * GB_CARD_CURVE_POINTS, sizeof *jack->pz, err);
     jack->room = gb_alloc_array(n, sizeof *jack->room, err);
     return jack->card && jack->ratio && jack->pz && jack->room;
 }
@@ -63,6 +63,12 @@ static void jackknife_finish(struct jackknife *jack)
     gb_alloc_free(jack->ratio);
     gb_alloc_free(jack->pz);
     gb_alloc_free(jack->room);
+}
+
+/* Where the curve of all cells but one begins. */
+static size_t curve_of(const struct gb_card_study *study, int path, int cell)
+{
+    return GB_CARD_CURVE_POINTS * (size_t)(path * study->options.replicas + cell);
 }
 
 static void set_grid(const struct gb_card_study *study, double *density)
@@ -104,11 +110,14 @@ static bool fit_without(struct gb_card_study *study, struct jackknife *jack,
             gb_card_fit_points(cells, options->replicas, c, options, points);
         keep_sides(study, points, size);
         good = gb_card_fit_values(&jack->card[c], cells, options->replicas, c, options,
-                                  points, size, err) &&
-               gb_card_fit_predict(&jack->card[c], study->levels, options->transition,
-                                   grid, GB_CARD_CURVE_POINTS,
-                                   jack->ratio + c * GB_CARD_CURVE_POINTS,
-                                   jack->pz + c * GB_CARD_CURVE_POINTS, err);
+                                  points, size, err);
+        for (int path = 0; path < GB_CARD_PATHS && good; path++) {
+            const size_t at = curve_of(study, path, c);
+            good =
+                gb_card_fit_predict(&jack->card[c], study->levels, options->transition,
+                                    (enum gb_card_path)path, grid, GB_CARD_CURVE_POINTS,
+                                    jack->ratio + at, jack->pz + at, err);
+        }
     }
     gb_alloc_free(points);
     return good;
@@ -128,13 +137,12 @@ static void take_intervals(struct gb_card_study *study, const struct jackknife *
     }
 }
 
-/* The uniaxial curve of a cell at a density, linear between its points. */
-static bool curve_at(const struct gb_card_cell *cell, double density, double *px,
-                     double *pz)
+/* A curve of pressing at a density, linear between its points. */
+static bool curve_at(const GArray *curve, double density, double *px, double *pz)
 {
-    const struct gb_card_uniaxial *row =
-        (const struct gb_card_uniaxial *)(void *)cell->uniaxial->data;
-    for (guint i = 1; i < cell->uniaxial->len; i++) {
+    const struct gb_card_pressed *row =
+        (const struct gb_card_pressed *)(void *)curve->data;
+    for (guint i = 1; i < curve->len; i++) {
         if (row[i].density >= density && row[i - 1].density < density) {
             const double share =
                 (density - row[i - 1].density) / (row[i].density - row[i - 1].density);
@@ -148,43 +156,44 @@ static bool curve_at(const struct gb_card_cell *cell, double density, double *px
 
 /* Ratio of the mean pressures; its error by the jackknife. */
 static void simulate(struct gb_card_compared *at, const struct gb_card_cell *cells,
-                     int replicas, double *room)
+                     int replicas, int path, double *room)
 {
     double px = 0.0, pz = 0.0, one_x, one_z;
     for (int c = 0; c < replicas; c++) {
-        const bool there = curve_at(&cells[c], at->density, &one_x, &one_z);
+        const bool there = curve_at(cells[c].curve[path], at->density, &one_x, &one_z);
         room[c] = there ? one_z : (double)NAN;
         px += there ? one_x : (double)NAN;
         pz += room[c];
     }
     at->simulated_pz = with_error(room, replicas);
     for (int c = 0; c < replicas; c++) {
-        const bool there = curve_at(&cells[c], at->density, &one_x, &one_z);
+        const bool there = curve_at(cells[c].curve[path], at->density, &one_x, &one_z);
         room[c] = there ? (px - one_x) / (pz - one_z) : (double)NAN;
     }
     at->simulated_ratio = with_interval(px / pz, room, replicas);
 }
 
 static bool compare(struct gb_card_study *study, const struct jackknife *jack,
-                    const struct gb_card_cell *cells, const double *grid,
+                    const struct gb_card_cell *cells, int path, const double *grid,
                     struct gb_error *err)
 {
     const int replicas = study->options.replicas;
     double ratio[GB_CARD_CURVE_POINTS], pz[GB_CARD_CURVE_POINTS];
-    if (!gb_card_fit_predict(&study->card, study->levels, study->options.transition, grid,
-                             GB_CARD_CURVE_POINTS, ratio, pz, err)) {
+    if (!gb_card_fit_predict(&study->card, study->levels, study->options.transition,
+                             (enum gb_card_path)path, grid, GB_CARD_CURVE_POINTS, ratio,
+                             pz, err)) {
         return false;
     }
     for (int i = 0; i < GB_CARD_CURVE_POINTS; i++) {
-        struct gb_card_compared *at = &study->curve[i];
+        struct gb_card_compared *at = &study->curve[path][i];
         at->density = grid[i];
-        simulate(at, cells, replicas, jack->room);
+        simulate(at, cells, replicas, path, jack->room);
         for (int c = 0; c < replicas; c++) {
-            jack->room[c] = jack->ratio[c * GB_CARD_CURVE_POINTS + i];
+            jack->room[c] = jack->ratio[curve_of(study, path, c) + (size_t)i];
         }
         at->predicted_ratio = with_interval(ratio[i], jack->room, replicas);
         for (int c = 0; c < replicas; c++) {
-            jack->room[c] = jack->pz[c * GB_CARD_CURVE_POINTS + i];
+            jack->room[c] = jack->pz[curve_of(study, path, c) + (size_t)i];
         }
         at->predicted_pz = with_interval(pz[i], jack->room, replicas);
     }
@@ -192,30 +201,30 @@ static bool compare(struct gb_card_study *study, const struct jackknife *jack,
 }
 
 /* Density at which the predicted curve has the pressure; NaN outside. */
-static double predicted_density(const struct gb_card_study *study, double pz)
+static double predicted_density(const struct gb_card_compared *at, double pz)
 {
     double x[GB_CARD_CURVE_POINTS], y[GB_CARD_CURVE_POINTS];
     for (int i = 0; i < GB_CARD_CURVE_POINTS; i++) {
-        x[i] = study->curve[i].predicted_pz.value;
-        y[i] = study->curve[i].density;
+        x[i] = at[i].predicted_pz.value;
+        y[i] = at[i].density;
     }
     const struct gb_average_curve curve = {x, y, GB_CARD_CURVE_POINTS};
     return gb_average_crossing(&curve, pz, NULL);
 }
 
-static void measure_misfit(struct gb_card_study *study)
+static void measure_misfit(struct gb_card_study *study, int path)
 {
-    struct gb_card_misfit *misfit = &study->misfit;
+    struct gb_card_misfit *misfit = &study->misfit[path];
+    const struct gb_card_compared *curve = study->curve[path];
     int count = 0, densities = 0;
-    study->compared_from = study->card.density[1];
     for (int i = 0; i < GB_CARD_CURVE_POINTS; i++) {
-        const struct gb_card_compared *at = &study->curve[i];
+        const struct gb_card_compared *at = &curve[i];
         if (at->density < study->compared_from || !isfinite(at->simulated_pz.value)) {
             continue;
         }
         const double ratio = at->predicted_ratio.value - at->simulated_ratio.value;
         const double share = at->predicted_pz.value / at->simulated_pz.value - 1.0;
-        const double off = predicted_density(study, at->simulated_pz.value) - at->density;
+        const double off = predicted_density(curve, at->simulated_pz.value) - at->density;
         misfit->ratio += ratio * ratio;
         misfit->pressure += share * share;
         misfit->ratio_most = fmax(misfit->ratio_most, fabs(ratio));
@@ -248,10 +257,13 @@ static bool fit(struct gb_card_study *study, const struct gb_card_cell *cells,
     }
     if (good) {
         take_intervals(study, &jack);
-        good = compare(study, &jack, cells, grid, err);
+        study->compared_from = study->card.density[1];
     }
-    if (good) {
-        measure_misfit(study);
+    for (int path = 0; path < GB_CARD_PATHS && good; path++) {
+        good = compare(study, &jack, cells, path, grid, err);
+        if (good) {
+            measure_misfit(study, path);
+        }
     }
     jackknife_finish(&jack);
     return good;

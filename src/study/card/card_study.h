@@ -10,7 +10,7 @@
 
 /* A Drucker-Prager cap card of a powder: parameters against density from the yield points
  * of replicas, each with its 95 % interval (jackknife over the replicas, Student's t), and
- * the card's prediction of uniaxial pressing, to which nothing was fitted. */
+ * the card's prediction of both paths of pressing. */
 enum gb_card_quantity {
     GB_CARD_D,    /* Pa */
     GB_CARD_BETA, /* rad */
@@ -42,7 +42,7 @@ struct gb_card_values {
 
 enum { GB_CARD_CURVE_POINTS = 60 };
 
-/* Uniaxial pressing, simulated and predicted, at one density. */
+/* Pressing along a path, simulated and predicted, at one density. */
 struct gb_card_compared {
     double density;
     struct gb_fit_value simulated_ratio, simulated_pz; /* p_x/p_z; Pa */
@@ -63,9 +63,9 @@ struct gb_card_study {
     struct gb_fit_value quantity[GB_CARD_LEVELS_MAX][GB_CARD_QUANTITIES];
     struct gb_yield_point point[GB_CARD_POINTS_MAX]; /* means over the cells */
     size_t points;
-    struct gb_card_compared curve[GB_CARD_CURVE_POINTS];
+    struct gb_card_compared curve[GB_CARD_PATHS][GB_CARD_CURVE_POINTS];
     double compared_from; /* density at which the prediction has left its elastic start */
-    struct gb_card_misfit misfit;
+    struct gb_card_misfit misfit[GB_CARD_PATHS];
     double seconds;
 };
 
