@@ -24,6 +24,7 @@ struct gb_table {
     size_t columns, rows;
     char *name[GB_TABLE_COLUMNS_MAX]; /* into text */
     size_t words;                     /* column of words; columns: none */
+    size_t units;                     /* column of units beside it, which is skipped */
     double *value;                    /* columns x rows */
     char **word;                      /* rows, into text; NULL without words */
     int *line;                        /* rows */
@@ -164,7 +165,7 @@ static bool read_cell(const struct gb_table *table, const struct cursor *at,
 {
     const char *end = cell;
     *value = NAN;
-    if (*cell == '\0' || column == table->words) {
+    if (*cell == '\0' || column == table->words || column == table->units) {
         return true;
     }
     if (gb_units_number(cell, &end, value) && *end == '\0' && isfinite(*value)) {
@@ -225,6 +226,7 @@ static bool parse(struct gb_table *table, const char *words, struct gb_error *er
     }
     const size_t room = count_lines(&at);
     table->words = words ? find(table, words) : table->columns;
+    table->units = words ? find(table, "unit") : table->columns;
     if (room > GB_TABLE_CELLS_MAX / table->columns) {
         return gb_error_set(err, GB_ERR_INPUT, "%s: more than %d cells", table->path,
                             GB_TABLE_CELLS_MAX);

@@ -8,7 +8,7 @@
 
 /* A table of numbers as curve.csv has it: '#' comment lines, one header row of names,
  * rows of as many cells separated by commas; an empty cell is NaN.  One column may hold
- * words. */
+ * words, and a column `unit` beside it theirs. */
 struct gb_table;
 
 enum {
@@ -19,7 +19,7 @@ enum {
 
 /* Reads a regular file.
  *
- * words   name of the column that holds words; NULL: there is none
+ * words   name of the column that holds words; NULL: there is none, nor one of units
  * Errors are one line "path:line: what was read, what is accepted": GB_ERR_INPUT for
  * anything in the file, GB_ERR_MACHINE when it cannot be read, GB_ERR_MEMORY.  nan, inf,
  * quotes, NUL bytes and rows of another length are refused. */

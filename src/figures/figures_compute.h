@@ -37,8 +37,11 @@ gb_figures_compute gb_figures_relaxation;
 gb_figures_compute gb_figures_size_effect;
 gb_figures_compute gb_figures_sizes;
 gb_figures_compute gb_figures_sizes_volume;
+gb_figures_compute gb_figures_strength;
+gb_figures_compute gb_figures_strength_curves;
 gb_figures_compute gb_figures_sweep;
 gb_figures_compute gb_figures_time;
 gb_figures_compute gb_figures_unloading;
+gb_figures_compute gb_figures_yield;
 
 #endif

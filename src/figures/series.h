@@ -41,6 +41,7 @@ struct gb_series {
     GArray *annotations;           /* struct gb_figure_annotation */
     GString *caption;              /* Pango markup */
     double inset[2];               /* x range of the inset; NaN: none */
+    bool equal_scales;             /* of both axes */
     struct gb_figure_map *map;     /* NULL: none; its arrays belong to the series */
 };
 

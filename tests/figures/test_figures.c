@@ -212,6 +212,55 @@ static void write_card(void)
                "0.42,0.4,0.38,0.42,0.7,0.65,0.75\n0.5,0.5,0.48,0.52,0.8,0.75,0.85\n");
 }
 
+/* Four points on a circle about (30, 0) MPa of radius 20, at the chosen offset; another
+ * radius at half and double of it.  Flow along +p everywhere. */
+static void write_yield(void)
+{
+    GString *points =
+        g_string_new("density,offset_percent,direction_deg,cells,p_MPa,p_error_MPa,q_MPa,"
+                     "q_error_MPa,flow_volume,flow_shear\n");
+    GString *fit = g_string_new("quantity,density,offset_percent,value,error,unit\n");
+    for (int o = 0; o < 3; o++) {
+        const double offset = 0.05 * (1 << o), radius = 10.0 * (o == 1 ? 2 : 1);
+        for (int d = 0; d < 4; d++) {
+            g_string_append_printf(points, "0.5,%g,%d,8,%.9g,0.4,%.9g,0.3,0.002,0\n",
+                                   offset, 90 * d, 30.0 + radius * cos(M_PI_2 * d),
+                                   radius * sin(M_PI_2 * d));
+        }
+        g_string_append_printf(
+            fit,
+            "centre_p,0.5,%g,30,1,MPa\ncentre_q,0.5,%g,0,1,MPa\n"
+            "half_axis_p,0.5,%g,%g,1,MPa\nhalf_axis_q,0.5,%g,%g,1,MPa\n"
+            "shift,0.5,%g,2,1,1\n",
+            offset, offset, offset, radius, offset, radius, offset);
+    }
+    write_text("yield", "yield.csv", points->str);
+    write_text("yield", "yield_fit.csv", fit->str);
+    g_string_free(points, TRUE);
+    g_string_free(fit, TRUE);
+}
+
+static void write_strength(void)
+{
+    write_text(
+        "strength", "strength.csv",
+        "test,pressure_MPa,pressed_density,density,strength_MPa,strength_error_MPa\n"
+        "tension,100,,0.52,30,1\ncompression,100,,0.52,55,2\nshear,100,,0.52,25,\n"
+        "tension,50,,0.47,24,1\ncompression,50,,0.47,41,2\nshear,50,,0.47,18,\n");
+    write_text(
+        "strength-density", "strength.csv",
+        "test,pressure_MPa,pressed_density,density,strength_MPa,strength_error_MPa\n"
+        "tension,,0.5,0.49,27,1\n");
+    write_text("strength", "strength_curves.csv",
+               "test,pressure_MPa,pressed_density,cell,strain_percent,stress_MPa\n"
+               "tension,50,,1,0,0\ntension,50,,1,1,9\n"
+               "tension,100,,1,-0,0\ntension,100,,1,0,0.1\ntension,100,,1,2,20\n"
+               "tension,100,,2,0,0\ntension,100,,2,1,12\ntension,100,,2,2,24\n"
+               "tension,100,,2,3,10\n"
+               "compression,100,,1,0,0\ncompression,100,,1,1,40\n"
+               "shear,100,,1,0,0\nshear,100,,1,1,15\n");
+}
+
 /* Directories that a figure is drawn from, by what it takes, unless it has a row of its
  * own below. */
 static const char *const usual[][3] = {
@@ -248,6 +297,9 @@ static const struct source {
     {"die-map", {"cycle1", "cycle2"}},
     {"card", {"card"}},
     {"card-uniaxial", {"card"}},
+    {"yield", {"yield"}},
+    {"strength", {"strength"}},
+    {"strength-curves", {"strength"}},
 };
 
 static bool run_scene(const struct gb_figures_row *row, struct gb_series *series,
@@ -359,6 +411,109 @@ static void test_die_numbers(void)
     g_assert_cmpfloat_with_epsilon(column(&series, "travel_um")[100], 3.0, 1e-9);
     g_assert_cmpfloat_with_epsilon(column(&series, "force_mN_1")[67], 1.98, 1e-9);
     gb_series_finish(&series);
+}
+
+/* The ellipse and the points are those of the chosen offset; arrows of flow and normal have
+ * one length and their directions. */
+static void test_yield_numbers(void)
+{
+    static const char *const words[] = {"yield", NULL};
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(run_named("yield", words, &series, &err));
+    g_assert_true(series.equal_scales);
+    g_assert_cmpfloat_with_epsilon(column(&series, "ellipse_p_1_MPa")[0], 50.0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(column(&series, "ellipse_q_1_MPa")[45], 20.0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(column(&series, "q_1_MPa")[1], 20.0, 1e-6);
+    g_assert_true(isnan(column(&series, "q_1_MPa")[4]));
+    const double *flow[2] = {column(&series, "flow_p_1_MPa"),
+                             column(&series, "flow_q_1_MPa")};
+    const double *normal[2] = {column(&series, "normal_p_1_MPa"),
+                               column(&series, "normal_q_1_MPa")};
+    const double length = flow[0][1] - flow[0][0];
+    g_assert_cmpfloat(length, >, 1.0);
+    for (int d = 0; d < 4; d++) {
+        g_assert_cmpfloat_with_epsilon(flow[0][3 * d + 1] - flow[0][3 * d], length, 1e-9);
+        g_assert_cmpfloat_with_epsilon(flow[1][3 * d + 1] - flow[1][3 * d], 0.0, 1e-9);
+        g_assert_cmpfloat_with_epsilon(normal[0][3 * d + 1] - normal[0][3 * d],
+                                       length * cos(M_PI_2 * d), 1e-6);
+        g_assert_cmpfloat_with_epsilon(normal[1][3 * d + 1] - normal[1][3 * d],
+                                       length * sin(M_PI_2 * d), 1e-6);
+        g_assert_true(isnan(flow[0][3 * d + 2]));
+    }
+    gb_series_finish(&series);
+}
+
+/* Scales of both axes are equal where a figure asks for it. */
+static void test_equal_scales(void)
+{
+    static const char *const words[] = {"yield", NULL};
+    struct gb_figure figure;
+    struct gb_figure_layout layout;
+    struct gb_figure_curve *curves = NULL;
+    struct gb_image *image = NULL;
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(run_named("yield", words, &series, &err));
+    for (int width = 500; width <= 1500; width += 500) {
+        gb_series_figure(&series, &figure, &curves);
+        g_assert_true(gb_figure_render(&image, &figure, width, 600, &layout, &err));
+        const double x = (layout.x.to - layout.x.from) / (layout.x.high - layout.x.low);
+        const double y = (layout.y.from - layout.y.to) / (layout.y.high - layout.y.low);
+        g_assert_cmpfloat_with_epsilon(x / y, 1.0, 1e-6);
+        g_assert_cmpfloat(layout.x.low, <, 10.0);
+        g_assert_cmpfloat(layout.y.high, >, 20.0);
+        gb_image_destroy(image);
+        g_free(curves);
+    }
+    gb_series_finish(&series);
+}
+
+/* Strengths against rising pressure, or against density where a compact was pressed to one;
+ * means of curves over the strains that all cells have, of the compact of --at. */
+static void test_strength_numbers(void)
+{
+    static const char *const one[] = {"strength", NULL};
+    static const char *const two[] = {"strength", "strength-density", NULL};
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(run_named("strength", one, &series, &err));
+    g_assert_cmpstr(series.x.name, ==, "pressure_MPa");
+    g_assert_cmpfloat(column(&series, "pressure_MPa_1")[0], ==, 50.0);
+    g_assert_cmpfloat(column(&series, "tension_1_MPa")[0], ==, 24.0);
+    g_assert_cmpfloat(column(&series, "compression_error_1_MPa")[1], ==, 2.0);
+    gb_series_finish(&series);
+    g_assert_true(run_named("strength", two, &series, &err));
+    g_assert_cmpstr(series.x.name, ==, "density");
+    g_assert_cmpfloat(column(&series, "density_1")[1], ==, 0.52);
+    g_assert_cmpfloat(column(&series, "tension_2_MPa")[0], ==, 27.0);
+    gb_series_finish(&series);
+    g_assert_true(run_named("strength-curves", one, &series, &err));
+    const double *strain = column(&series, "tension_strain_percent");
+    const double *mean = column(&series, "tension_MPa");
+    g_assert_cmpfloat(strain[1], ==, 1.0);
+    g_assert_cmpfloat_with_epsilon(mean[1], 11.0, 1e-9); /* of 10 and 12 */
+    g_assert_cmpfloat_with_epsilon(mean[2], 22.0, 1e-9);
+    g_assert_true(isnan(mean[3])); /* one cell has broken */
+    gb_series_finish(&series);
+}
+
+static void test_strength_at(void)
+{
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    char *path = path_in("strength", NULL);
+    char *words[] = {path, NULL};
+    struct gb_figures_input input = {.words = words, .at = "50 MPa"};
+    const struct gb_figures_row *row = gb_figures_find("strength-curves");
+    g_assert_true(gb_figures_run(row, &series, &input, &err));
+    g_assert_cmpfloat(column(&series, "tension_1_MPa")[1], ==, 9.0);
+    gb_series_finish(&series);
+    input.at = "70 MPa";
+    g_assert_false(gb_figures_run(row, &series, &input, &err));
+    g_assert_nonnull(strstr(err.text, "accepted 50, 100"));
+    gb_series_finish(&series);
+    g_free(path);
 }
 
 /* Every row draws. */
@@ -625,12 +780,18 @@ int main(int argc, char **argv)
     write_cycle("cycle1", 1);
     write_cycle("cycle2", 2);
     write_card();
+    write_yield();
+    write_strength();
     write_chart();
     write_text("empty", "preset.ini", "[scene]\ntitle = empty\n");
     g_test_add_func("/figures/table", test_table);
     g_test_add_func("/figures/options", test_options);
     g_test_add_func("/figures/rows", test_rows);
     g_test_add_func("/figures/die_numbers", test_die_numbers);
+    g_test_add_func("/figures/yield_numbers", test_yield_numbers);
+    g_test_add_func("/figures/equal_scales", test_equal_scales);
+    g_test_add_func("/figures/strength_numbers", test_strength_numbers);
+    g_test_add_func("/figures/strength_at", test_strength_at);
     g_test_add_func("/figures/errors", test_errors);
     g_test_add_func("/figures/series", test_series);
     g_test_add_func("/figures/fit", test_fit);

@@ -273,8 +273,8 @@ static char *describe_figures(void)
               "loading branch: also those that differ in\nloading.hold).  The directory "
               "of a sweep stands for its runs.\nFigures of laws, from contact to "
               "critical-step, take a preset and group.key=value\nin place of runs; "
-              "chart takes the directory of greenbody chart.\nA figure has a twin "
-              "ending in .csv beside it;\n"
+              "card, yield, strength and chart the directory of the command of their name.\n"
+              "A figure has a twin ending in .csv beside it;\n"
               "the table of --data has the columns of its axes, and may have "
               "series (words) and\n<column>_error.");
     return g_string_free(text, FALSE);

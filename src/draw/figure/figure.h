@@ -18,6 +18,7 @@ enum gb_figure_kind {
     GB_FIGURE_BOTH,   /* markers joined by a line */
     GB_FIGURE_STEPS,  /* a histogram: y holds from each x to the next, filled */
     GB_FIGURE_FAINT,  /* thin and pale, without a label: one of many */
+    GB_FIGURE_ARROWS, /* pairs of points, tail and head, each followed by a gap */
 };
 
 struct gb_figure_curve {
@@ -67,6 +68,7 @@ struct gb_figure {
     const struct gb_figure_map *map; /* NULL: none */
     const char *title, *caption;     /* NULL: none */
     struct gb_figure_axis x, y;
+    bool equal_scales; /* of linear axes in one unit: directions keep their angles */
     const struct gb_figure_curve *curve;
     size_t count;
     const struct gb_figure_annotation *annotation;

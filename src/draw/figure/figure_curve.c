@@ -15,6 +15,8 @@ static const double dashes[GB_FIGURE_STYLES][7] = {
 static const double line_width = 1.35;
 static const double faint_width = 0.45;
 static const double bar_width = 0.75;
+static const double arrow_width = 1.0;
+static const double arrow_head[2] = {6.0, 2.1}; /* length and half width */
 static const double marker_distance = 46.0;
 
 static void set_pen(cairo_t *cairo, const struct gb_figure_curve *curve)
@@ -22,11 +24,12 @@ static void set_pen(cairo_t *cairo, const struct gb_figure_curve *curve)
     const double *dash =
         dashes[(curve->style + gb_figure_marker_round(curve->style)) % GB_FIGURE_STYLES];
     const bool faint = curve->kind == GB_FIGURE_FAINT;
+    const bool dashed = curve->kind == GB_FIGURE_LINE || curve->kind == GB_FIGURE_BOTH;
     int count = 0;
     while (dash[count] > 0.0) {
         count++;
     }
-    cairo_set_dash(cairo, dash, faint || curve->kind == GB_FIGURE_STEPS ? 0 : count, 0.0);
+    cairo_set_dash(cairo, dash, dashed ? count : 0, 0.0);
     cairo_set_line_width(cairo, faint ? faint_width : line_width);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     gb_figure_marker_set_colour(cairo, curve->style, faint ? 0.45 : 1.0);
@@ -210,6 +213,43 @@ static void draw_points(cairo_t *cairo, const struct gb_figure_layout *layout,
     }
 }
 
+/* An arrow shorter than its head is the head alone. */
+static void draw_arrow(cairo_t *cairo, const double from[2], const double to[2])
+{
+    const double length = hypot(to[0] - from[0], to[1] - from[1]);
+    if (!(length > 0.0)) {
+        return;
+    }
+    const double along[2] = {(to[0] - from[0]) / length, (to[1] - from[1]) / length};
+    const double neck[2] = {to[0] - arrow_head[0] * along[0],
+                            to[1] - arrow_head[0] * along[1]};
+    const double side[2] = {-arrow_head[1] * along[1], arrow_head[1] * along[0]};
+    if (length > arrow_head[0]) {
+        cairo_move_to(cairo, from[0], from[1]);
+        cairo_line_to(cairo, neck[0], neck[1]);
+        cairo_stroke(cairo);
+    }
+    cairo_move_to(cairo, to[0], to[1]);
+    cairo_line_to(cairo, neck[0] + side[0], neck[1] + side[1]);
+    cairo_line_to(cairo, neck[0] - side[0], neck[1] - side[1]);
+    cairo_close_path(cairo);
+    cairo_fill(cairo);
+}
+
+static void draw_arrows(cairo_t *cairo, const struct gb_figure_layout *layout,
+                        const struct gb_figure_curve *curve)
+{
+    set_pen(cairo, curve);
+    cairo_set_line_width(cairo, arrow_width);
+    for (size_t k = 0; k + 1 < curve->count; k++) {
+        double from[2], to[2];
+        if (gb_figure_curve_position(layout, curve, k, from) &&
+            gb_figure_curve_position(layout, curve, k + 1, to)) {
+            draw_arrow(cairo, from, to);
+        }
+    }
+}
+
 void gb_figure_curve_draw(cairo_t *cairo, const struct gb_figure_layout *layout,
                           const struct gb_figure_curve *curve)
 {
@@ -225,6 +265,9 @@ void gb_figure_curve_draw(cairo_t *cairo, const struct gb_figure_layout *layout,
     }
     if (curve->kind == GB_FIGURE_STEPS) {
         draw_steps(cairo, layout, curve);
+    }
+    if (curve->kind == GB_FIGURE_ARROWS) {
+        draw_arrows(cairo, layout, curve);
     }
     if (curve->kind == GB_FIGURE_POINTS || curve->kind == GB_FIGURE_BOTH) {
         draw_points(cairo, layout, curve);

@@ -148,12 +148,12 @@ static void draw_texts(const struct gb_figure_page *page)
     }
 }
 
-/* From back to front: faint curves, histograms, lines with bands, points. */
+/* From back to front: faint curves, histograms, lines with bands, arrows, points. */
 static void draw_curves(const struct gb_figure_page *page)
 {
-    static const enum gb_figure_kind order[] = {GB_FIGURE_FAINT, GB_FIGURE_STEPS,
-                                                GB_FIGURE_LINE, GB_FIGURE_BOTH,
-                                                GB_FIGURE_POINTS};
+    static const enum gb_figure_kind order[] = {GB_FIGURE_FAINT,  GB_FIGURE_STEPS,
+                                                GB_FIGURE_LINE,   GB_FIGURE_BOTH,
+                                                GB_FIGURE_ARROWS, GB_FIGURE_POINTS};
     cairo_t *cairo = page->text.cairo;
     const double *f = page->layout.frame;
     cairo_save(cairo);

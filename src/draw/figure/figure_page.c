@@ -26,6 +26,13 @@ double gb_figure_page_text_width(const struct gb_figure_page *page)
     return page->width - 2.0 * margin;
 }
 
+/* About so many ticks along an axis. */
+static int wanted_ticks(const struct gb_figure_page *page, bool along_x)
+{
+    return (int)fmax(
+        along_x ? (page->width - page->legend_width) / 62.0 : page->height / 48.0, 2.0);
+}
+
 static void fit_axes(struct gb_figure_page *page)
 {
     const struct gb_figure *figure = page->figure;
@@ -33,9 +40,7 @@ static void fit_axes(struct gb_figure_page *page)
     for (int k = 0; k < 2; k++) {
         const struct gb_figure_axis *axis = k == 0 ? &figure->x : &figure->y;
         const bool exact[2] = {isfinite(axis->low), isfinite(axis->high)};
-        const int wanted = (int)fmax(k == 0 ? (page->width - page->legend_width) / 62.0
-                                            : page->height / 48.0,
-                                     2.0);
+        const int wanted = wanted_ticks(page, k == 0);
         double low = 0.0;
         double high = 1.0;
         gb_figure_range_find(figure, k == 0 ? GB_FIGURE_RANGE_X : GB_FIGURE_RANGE_Y, &low,
@@ -44,6 +49,22 @@ static void fit_axes(struct gb_figure_page *page)
                            axis->log ? GB_FIGURE_AXIS_LOG : GB_FIGURE_AXIS_LINEAR, low,
                            high, wanted, exact);
     }
+}
+
+/* Widens the range of the axis with more points per unit about its middle. */
+static void equalise(struct gb_figure_page *page)
+{
+    static const bool exact[2] = {true, true};
+    struct gb_figure_layout *layout = &page->layout;
+    const double *frame = layout->frame;
+    const double x_scale = (frame[2] - frame[0]) / (layout->x.high - layout->x.low);
+    const double y_scale = (frame[3] - frame[1]) / (layout->y.high - layout->y.low);
+    const bool widen_x = x_scale > y_scale;
+    struct gb_figure_axis_scale *scale = widen_x ? &layout->x : &layout->y;
+    const double pad = 0.5 * (scale->high - scale->low) *
+                       (fmax(x_scale, y_scale) / fmin(x_scale, y_scale) - 1.0);
+    gb_figure_axis_fit(scale, GB_FIGURE_AXIS_LINEAR, scale->low - pad, scale->high + pad,
+                       wanted_ticks(page, widen_x), exact);
 }
 
 static double widest_label(const struct gb_figure_page *page)
@@ -137,6 +158,9 @@ static void set_frame(struct gb_figure_page *page)
     frame[3] = fmax(frame[3], frame[1] + 10.0);
     if (figure->below_count > 0) {
         split_frame(page);
+    }
+    if (figure->equal_scales) {
+        equalise(page);
     }
     set_axis_ends(layout);
 }
