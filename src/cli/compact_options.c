@@ -96,7 +96,7 @@ bool gb_compact_options_begin(struct gb_compact_options *options, char **words,
 bool gb_compact_options_keep_preset(struct gb_compact_options *options,
                                     struct gb_error *err)
 {
-    char *path = g_build_filename(options->directory, "preset.ini", NULL);
+    char *path = g_build_filename(options->directory, "scene.ini", NULL);
     const bool good = gb_preset_save(options->preset, path, GB_PRESET_ALL_KEYS, err);
     g_free(path);
     return good;

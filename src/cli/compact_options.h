@@ -31,7 +31,8 @@ void gb_compact_options_entries(struct gb_compact_options *options, GOptionEntry
 bool gb_compact_options_begin(struct gb_compact_options *options, char **words,
                               char **sets, struct gb_keep_points *marks,
                               struct gb_error *err);
-/* Writes preset.ini into the directory. */
+/* Writes scene.ini into the directory: preset.ini is the mark of a single run, in which many
+ * cells are refused. */
 bool gb_compact_options_keep_preset(struct gb_compact_options *options,
                                     struct gb_error *err);
 void gb_compact_options_finish(struct gb_compact_options *options);

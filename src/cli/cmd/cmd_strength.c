@@ -60,7 +60,7 @@ int gb_cmd_strength(int argc, char **argv)
         "stresses are taken away, and copies are stretched and compressed along z at\n"
         "p_x = p_y = 0, and sheared along xz at p_z = 0, to beyond the largest stress.",
         "DIR receives strength.csv (largest stress, strain, bridges broken, Weibull\n"
-        "modulus), strength_curves.csv, strength.md and preset.ini.  cells/ keeps what is\n"
+        "modulus), strength_curves.csv, strength.md and scene.ini.  cells/ keeps what is\n"
         "measured: repeated, the command continues."};
     struct gb_compact_options common = {.replicas = 8};
     struct gb_error err = {0};

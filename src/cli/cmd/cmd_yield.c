@@ -76,7 +76,7 @@ int gb_cmd_yield(int argc, char **argv)
         "(a share of p, q = 0), and copies are loaded from there along directions of the\n"
         "(p, q) plane until the plastic strain reaches an offset.",
         "DIR receives yield.csv (points, flow), yield_cells.csv, yield_fit.csv (ellipse,\n"
-        "dilatancy, angle between flow and normal), yield.md and preset.ini; half and\n"
+        "dilatancy, angle between flow and normal), yield.md and scene.ini; half and\n"
         "double offset are reported, too.  cells/ keeps what is measured: repeated, the\n"
         "command continues."};
     struct request request = {.offset_percent = 0.1};
