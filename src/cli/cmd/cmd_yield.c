@@ -18,7 +18,7 @@ struct request {
 static void print_summary(const struct gb_yield_study *study)
 {
     puts("density  offset %  centre p MPa     half axis p MPa  half axis q MPa  "
-         "dilatancy       angle deg");
+         "dilatancy       turn of flow deg");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
         const struct gb_fit_value *value = surface->quantity;
@@ -30,8 +30,8 @@ static void print_summary(const struct gb_yield_study *study)
                1e-6 * value[GB_YIELD_HALF_P].error, 1e-6 * value[GB_YIELD_HALF_Q].value,
                1e-6 * value[GB_YIELD_HALF_Q].error,
                value[GB_YIELD_DILATANCY_COMPRESSION].value,
-               value[GB_YIELD_DILATANCY_COMPRESSION].error,
-               value[GB_YIELD_ANGLE_RMS].value, value[GB_YIELD_ANGLE_RMS].error);
+               value[GB_YIELD_DILATANCY_COMPRESSION].error, value[GB_YIELD_TURN].value,
+               value[GB_YIELD_TURN].error);
     }
 }
 

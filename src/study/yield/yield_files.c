@@ -167,8 +167,14 @@ static void add_statements_on(GString *text, const struct gb_yield_surface *surf
     gb_study_text_value(text, "\n- angle of the flow from the normal: rms ",
                         quantity(surface, GB_YIELD_ANGLE_RMS), 1.0);
     g_string_append_printf(
-        text, " degrees; in %d of %d directions its 95 %% interval leaves out 0\n",
-        different, all);
+        text,
+        " degrees (flow along the normal would show %.1f by the errors); in %d of %d "
+        "directions its 95 %% interval leaves out 0\n",
+        quantity(surface, GB_YIELD_ANGLE_NOISE)->value, different, all);
+    gb_study_text_value(text, "- mean turn of the flow from the normal towards +p: ",
+                        quantity(surface, GB_YIELD_TURN), 1.0);
+    g_string_append_printf(text, " degrees, %s\n",
+                           verdict(quantity(surface, GB_YIELD_TURN)));
 }
 
 static void add_directions(GString *text, const struct gb_yield_study *study)

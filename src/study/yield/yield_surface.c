@@ -20,6 +20,8 @@ const struct gb_yield_surface_row gb_yield_surface_rows[GB_YIELD_QUANTITIES] = {
     [GB_YIELD_SHIFT] = {"shift", "1", 1.0},
     [GB_YIELD_MISFIT] = {"misfit", "1", 1.0},
     [GB_YIELD_ANGLE_RMS] = {"flow_angle_rms", "degrees", 1.0},
+    [GB_YIELD_ANGLE_NOISE] = {"flow_angle_noise", "degrees", 1.0},
+    [GB_YIELD_TURN] = {"flow_turn", "degrees", 1.0},
     [GB_YIELD_DILATANCY_COMPRESSION] = {"dilatancy_compression", "1", 1.0},
     [GB_YIELD_DILATANCY_EXTENSION] = {"dilatancy_extension", "1", 1.0},
 };
@@ -96,22 +98,33 @@ static void read_ellipse(struct summary *summary, const struct gb_ellipse *ellip
     quantity[GB_YIELD_MISFIT] = ellipse->misfit;
 }
 
+/* 1 or -1 for loading towards +q or -q; 0 along the p axis. */
+static double side_of(double direction)
+{
+    const double q = sin(direction);
+    return fabs(q) < 1e-9 ? 0.0 : copysign(1.0, q);
+}
+
 static void measure_angles(struct summary *summary,
                            const struct gb_yield_surface_data *data,
                            const struct gb_ellipse *ellipse)
 {
-    double squares = 0.0, count = 0.0;
+    double squares = 0.0, count = 0.0, turn = 0.0, turned = 0.0;
     for (int d = 0; d < data->directions; d++) {
         const struct gb_yield_point *mean = &summary->mean[d];
+        const double side = side_of(mean->direction);
         if (counts(data, d)) {
             summary->angle[d] =
                 difference(atan2(mean->flow_shear, mean->flow_volume),
                            gb_ellipse_normal(ellipse, mean->p_pa, mean->q_pa));
             squares += summary->angle[d] * summary->angle[d];
             count++;
+            turn -= side * summary->angle[d];
+            turned += fabs(side);
         }
     }
     summary->quantity[GB_YIELD_ANGLE_RMS] = sqrt(squares / count);
+    summary->quantity[GB_YIELD_TURN] = turn / turned;
 }
 
 static void fill_nan(double *value, size_t count)
@@ -209,6 +222,20 @@ static void fill_direction(struct gb_yield_surface_direction *direction, int d,
     direction->dilatancy = jackknife(all, without, cells, AT(dilatancy, d));
 }
 
+/* rms of the errors of the angles. */
+static double noise_of(const struct gb_yield_surface *surface)
+{
+    double squares = 0.0, count = 0.0;
+    for (int d = 0; d < surface->directions; d++) {
+        const double error = surface->direction[d].angle.error;
+        if (isfinite(error)) {
+            squares += error * error;
+            count++;
+        }
+    }
+    return sqrt(squares / count);
+}
+
 static struct gb_fit_value over_cells(const double *value, int cells)
 {
     double mean, error;
@@ -235,6 +262,8 @@ static void fill(struct gb_yield_surface *surface,
     for (int k = 0; k < GB_YIELD_QUANTITIES; k++) {
         surface->quantity[k] = jackknife(all, without, data->cells, AT(quantity, k));
     }
+    surface->quantity[GB_YIELD_ANGLE_NOISE] =
+        (struct gb_fit_value){noise_of(surface), NAN, NAN, NAN};
 }
 
 bool gb_yield_surface_measure(struct gb_yield_surface *surface,
