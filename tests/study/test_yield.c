@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "common/scene.h"
+#include "common/tree.h"
 #include "study/yield/yield_files.h"
 #include "study/yield/yield_probe.h"
 
@@ -96,10 +97,7 @@ int main(int argc, char **argv)
     g_test_add_func("/yield/workers", test_workers);
     g_test_add_func("/yield/refused", test_refused);
     const int status = g_test_run();
-    char rm[] = "rm", all[] = "-rf";
-    char *command[] = {rm, all, folder, NULL};
-    g_spawn_sync(NULL, command, NULL, G_SPAWN_SEARCH_PATH, NULL, NULL, NULL, NULL, NULL,
-                 NULL);
+    remove_tree(folder);
     g_free(folder);
     return status;
 }
