@@ -54,8 +54,8 @@ static void assert_statements(const struct gb_yield_surface *surface)
     g_assert_cmpfloat(surface->quantity[GB_YIELD_MISFIT].value, <, 0.1);
     assert_above(&surface->quantity[GB_YIELD_DILATANCY_COMPRESSION], 0.0);
     assert_above(&surface->quantity[GB_YIELD_DILATANCY_EXTENSION], 0.0);
-    /* flow is turned from the normal */
-    assert_above(&surface->quantity[GB_YIELD_TURN], 0.0);
+    /* flow deviates from the normal */
+    assert_above(&surface->quantity[GB_YIELD_FLOW_DEVIATION], 0.0);
     g_assert_cmpfloat(surface->quantity[GB_YIELD_ANGLE_RMS].value, >,
                       2.0 * surface->quantity[GB_YIELD_ANGLE_NOISE].value);
 }

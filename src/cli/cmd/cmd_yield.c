@@ -18,20 +18,20 @@ struct request {
 static void print_summary(const struct gb_yield_study *study)
 {
     puts("density  offset %  centre p MPa     half axis p MPa  half axis q MPa  "
-         "dilatancy       turn of flow deg");
+         "dilatancy       flow from normal");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
         const struct gb_fit_value *value = surface->quantity;
-        printf("%.4f   %7g  %7.2f +- %5.2f  %7.2f +- %5.2f  %7.2f +- %5.2f  "
-               "%5.3f +- %5.3f  %4.1f +- %3.1f\n",
-               surface->density.value, 100.0 * surface->offset,
-               1e-6 * value[GB_YIELD_CENTRE_P].value,
-               1e-6 * value[GB_YIELD_CENTRE_P].error, 1e-6 * value[GB_YIELD_HALF_P].value,
-               1e-6 * value[GB_YIELD_HALF_P].error, 1e-6 * value[GB_YIELD_HALF_Q].value,
-               1e-6 * value[GB_YIELD_HALF_Q].error,
-               value[GB_YIELD_DILATANCY_COMPRESSION].value,
-               value[GB_YIELD_DILATANCY_COMPRESSION].error, value[GB_YIELD_TURN].value,
-               value[GB_YIELD_TURN].error);
+        printf(
+            "%.4f   %7g  %7.2f +- %5.2f  %7.2f +- %5.2f  %7.2f +- %5.2f  "
+            "%5.3f +- %5.3f  %4.1f +- %3.1f\n",
+            surface->density.value, 100.0 * surface->offset,
+            1e-6 * value[GB_YIELD_CENTRE_P].value, 1e-6 * value[GB_YIELD_CENTRE_P].error,
+            1e-6 * value[GB_YIELD_HALF_P].value, 1e-6 * value[GB_YIELD_HALF_P].error,
+            1e-6 * value[GB_YIELD_HALF_Q].value, 1e-6 * value[GB_YIELD_HALF_Q].error,
+            value[GB_YIELD_DILATANCY_COMPRESSION].value,
+            value[GB_YIELD_DILATANCY_COMPRESSION].error,
+            value[GB_YIELD_FLOW_DEVIATION].value, value[GB_YIELD_FLOW_DEVIATION].error);
     }
 }
 

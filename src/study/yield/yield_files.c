@@ -171,10 +171,10 @@ static void add_statements_on(GString *text, const struct gb_yield_surface *surf
         " degrees (flow along the normal would show %.1f by the errors); in %d of %d "
         "directions its 95 %% interval leaves out 0\n",
         quantity(surface, GB_YIELD_ANGLE_NOISE)->value, different, all);
-    gb_study_text_value(text, "- mean turn of the flow from the normal towards +p: ",
-                        quantity(surface, GB_YIELD_TURN), 1.0);
+    gb_study_text_value(text, "- mean deviation of the flow from the normal towards +p: ",
+                        quantity(surface, GB_YIELD_FLOW_DEVIATION), 1.0);
     g_string_append_printf(text, " degrees, %s\n",
-                           verdict(quantity(surface, GB_YIELD_TURN)));
+                           verdict(quantity(surface, GB_YIELD_FLOW_DEVIATION)));
 }
 
 static void add_directions(GString *text, const struct gb_yield_study *study)

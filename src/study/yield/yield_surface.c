@@ -21,7 +21,7 @@ const struct gb_yield_surface_row gb_yield_surface_rows[GB_YIELD_QUANTITIES] = {
     [GB_YIELD_MISFIT] = {"misfit", "1", 1.0},
     [GB_YIELD_ANGLE_RMS] = {"flow_angle_rms", "degrees", 1.0},
     [GB_YIELD_ANGLE_NOISE] = {"flow_angle_noise", "degrees", 1.0},
-    [GB_YIELD_TURN] = {"flow_turn", "degrees", 1.0},
+    [GB_YIELD_FLOW_DEVIATION] = {"flow_deviation", "degrees", 1.0},
     [GB_YIELD_DILATANCY_COMPRESSION] = {"dilatancy_compression", "1", 1.0},
     [GB_YIELD_DILATANCY_EXTENSION] = {"dilatancy_extension", "1", 1.0},
 };
@@ -109,7 +109,7 @@ static void measure_angles(struct summary *summary,
                            const struct gb_yield_surface_data *data,
                            const struct gb_ellipse *ellipse)
 {
-    double squares = 0.0, count = 0.0, turn = 0.0, turned = 0.0;
+    double squares = 0.0, count = 0.0, deviation = 0.0, sided = 0.0;
     for (int d = 0; d < data->directions; d++) {
         const struct gb_yield_point *mean = &summary->mean[d];
         const double side = side_of(mean->direction);
@@ -119,12 +119,12 @@ static void measure_angles(struct summary *summary,
                            gb_ellipse_normal(ellipse, mean->p_pa, mean->q_pa));
             squares += summary->angle[d] * summary->angle[d];
             count++;
-            turn -= side * summary->angle[d];
-            turned += fabs(side);
+            deviation -= side * summary->angle[d];
+            sided += fabs(side);
         }
     }
     summary->quantity[GB_YIELD_ANGLE_RMS] = sqrt(squares / count);
-    summary->quantity[GB_YIELD_TURN] = turn / turned;
+    summary->quantity[GB_YIELD_FLOW_DEVIATION] = deviation / sided;
 }
 
 static void fill_nan(double *value, size_t count)

@@ -20,8 +20,9 @@ enum gb_yield_surface_quantity {
     GB_YIELD_ANGLE_RMS, /* between flow and normal, over all directions */
     GB_YIELD_ANGLE_NOISE, /* rms of the errors of these angles: what flow along the normal
                            * would show as rms */
-    GB_YIELD_TURN, /* mean angle from the normal to the flow, positive towards +p; without
-                    * the directions along the p axis.  0 for flow along the normal */
+    GB_YIELD_FLOW_DEVIATION, /* mean angle from the normal to the flow, positive towards
+                              * +p; without the directions along the p axis.  0 for flow
+                              * along the normal */
     GB_YIELD_DILATANCY_COMPRESSION, /* -dv/|dw| of plastic flow along +q at constant p */
     GB_YIELD_DILATANCY_EXTENSION,   /* the same along -q */
     GB_YIELD_QUANTITIES
