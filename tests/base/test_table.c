@@ -32,6 +32,14 @@ static void test_good(void)
     g_assert_nonnull(strstr(err.text, "no column time_ns; there are branch, density"));
     gb_table_destroy(table);
 
+    /* units beside the words are skipped, alone they are no numbers */
+    write_text("quantity,value,unit\ncentre,2,MPa\nshift,3,1\n", -1);
+    g_assert_true(gb_table_read(&table, path, "quantity", &err));
+    g_assert_cmpstr(gb_table_word(table, 1), ==, "shift");
+    g_assert_true(gb_table_column(table, "value", &err)[0] == 2.0);
+    gb_table_destroy(table);
+    g_assert_false(gb_table_read(&table, path, NULL, &err));
+
     write_text("a\n", -1);
     g_assert_true(gb_table_read(&table, path, NULL, &err));
     g_assert_cmpuint(gb_table_rows(table), ==, 0);
