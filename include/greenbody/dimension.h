@@ -14,8 +14,11 @@ enum gb_dimension {
     GB_DIM_MASS_DENSITY, /* kg/m3, g/cm3 */
     GB_DIM_ENERGY,       /* J, eV, kB (times one kelvin: "1224 kB") */
     GB_DIM_VISCOSITY,    /* Pa s, mPa s */
-    GB_DIM_FORCE,        /* N, mN, uN, nN */
-    GB_DIM_SPEED         /* m/s, mm/s */
+    GB_DIM_FORCE,        /* MN, kN, N, mN, uN, nN */
+    GB_DIM_SPEED,        /* m/s, mm/s */
+    GB_DIM_MASS,         /* kg, g, mg */
+    GB_DIM_AREA,         /* m2, cm2, mm2 */
+    GB_DIM_COMPLIANCE    /* m/N, mm/N, um/N, mm/kN, um/kN */
 };
 
 #endif

@@ -1,15 +1,13 @@
 #include "base/table.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "base/read_file.h"
+#include "base/table_private.h"
 #include "base/units.h"
 
 /* Written by editors of other systems in front of UTF-8. */
@@ -17,69 +15,11 @@ static const char byte_order_mark[] = "\xef\xbb\xbf";
 
 static const char blanks[] = " \t\r";
 
-struct gb_table {
-    char *path;
-    char *text; /* the file, cut into lines and cells in place */
-    size_t length;
-    size_t columns, rows;
-    char *name[GB_TABLE_COLUMNS_MAX]; /* into text */
-    size_t words;                     /* column of words; columns: none */
-    size_t units;                     /* column of units beside it, which is skipped */
-    double *value;                    /* columns x rows */
-    char **word;                      /* rows, into text; NULL without words */
-    int *line;                        /* rows */
-};
-
 /* Place in the file. */
 struct cursor {
     char *next, *end;
     int line;
 };
-
-static bool read_all(int file, char *text, size_t size, size_t *length)
-{
-    while (*length < size) {
-        const ssize_t got = read(file, text + *length, size - *length);
-        if (got == 0) {
-            return true;
-        }
-        if (got > 0) {
-            *length += (size_t)got;
-        } else if (errno != EINTR) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* Not blocking, so that a fifo is refused instead of waited for. */
-static bool load(struct gb_table *table, struct gb_error *err)
-{
-    struct stat info = {0};
-    const int file = open(table->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) {
-        const bool absent = errno == ENOENT || errno == ENOTDIR;
-        return gb_error_set(err, absent ? GB_ERR_INPUT : GB_ERR_MACHINE, "%s: %s",
-                            table->path, g_strerror(errno));
-    }
-    bool good = false;
-    if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode)) {
-        gb_error_set(err, GB_ERR_INPUT, "%s: is not a regular file", table->path);
-    } else if (info.st_size > GB_TABLE_BYTES_MAX) {
-        gb_error_set(err, GB_ERR_INPUT, "%s: must be at most %d bytes", table->path,
-                     GB_TABLE_BYTES_MAX);
-    } else {
-        const size_t size = (size_t)info.st_size;
-        table->text = gb_alloc_array(size + 1, 1, err);
-        good = table->text != NULL;
-        if (good && !read_all(file, table->text, size, &table->length)) {
-            good = gb_error_set(err, GB_ERR_MACHINE, "%s: %s", table->path,
-                                g_strerror(errno));
-        }
-    }
-    close(file);
-    return good;
-}
 
 /* The next line that is neither empty nor a comment, cut off in place; NULL at the end.
  */
@@ -254,7 +194,8 @@ bool gb_table_read(struct gb_table **out, const char *path, const char *words,
         return false;
     }
     table->path = g_strdup(path);
-    if (!load(table, err) || !parse(table, words, err)) {
+    if (!gb_read_file(path, GB_TABLE_BYTES_MAX, &table->text, &table->length, err) ||
+        !parse(table, words, err)) {
         gb_table_destroy(table);
         return false;
     }

@@ -64,8 +64,24 @@ static const struct unit units[] = {
     {GB_DIM_FORCE, "uN", -6, 1.0, true},
     {GB_DIM_FORCE, "mN", -3, 1.0, true},
     {GB_DIM_FORCE, "N", 0, 1.0, true},
+    {GB_DIM_FORCE, "kN", 3, 1.0, false},
+    {GB_DIM_FORCE, "MN", 6, 1.0, false},
     {GB_DIM_SPEED, "mm/s", -3, 1.0, true},
     {GB_DIM_SPEED, "m/s", 0, 1.0, true},
+    {GB_DIM_MASS, "mg", -6, 1.0, true},
+    {GB_DIM_MASS, "g", -3, 1.0, true},
+    {GB_DIM_MASS, "kg", 0, 1.0, true},
+    {GB_DIM_AREA, "mm2", -6, 1.0, true},
+    {GB_DIM_AREA, "mm^2", -6, 1.0, false},
+    {GB_DIM_AREA, "cm2", -4, 1.0, false},
+    {GB_DIM_AREA, "cm^2", -4, 1.0, false},
+    {GB_DIM_AREA, "m2", 0, 1.0, true},
+    {GB_DIM_AREA, "m^2", 0, 1.0, false},
+    {GB_DIM_COMPLIANCE, "um/kN", -9, 1.0, true},
+    {GB_DIM_COMPLIANCE, "mm/kN", -6, 1.0, true},
+    {GB_DIM_COMPLIANCE, "um/N", -6, 1.0, false},
+    {GB_DIM_COMPLIANCE, "mm/N", -3, 1.0, true},
+    {GB_DIM_COMPLIANCE, "m/N", 0, 1.0, true},
 };
 
 const char *gb_units_accepted(enum gb_dimension dimension)
@@ -90,9 +106,15 @@ const char *gb_units_accepted(enum gb_dimension dimension)
     case GB_DIM_VISCOSITY:
         return "Pa s, mPa s";
     case GB_DIM_FORCE:
-        return "nN, uN, mN, N";
+        return "nN, uN, mN, N, kN, MN";
     case GB_DIM_SPEED:
         return "m/s, mm/s";
+    case GB_DIM_MASS:
+        return "mg, g, kg";
+    case GB_DIM_AREA:
+        return "mm2, cm2, m2";
+    case GB_DIM_COMPLIANCE:
+        return "um/kN, mm/kN, um/N, mm/N, m/N";
     }
     return "none";
 }
