@@ -6,7 +6,7 @@
 /* Rows by which a column is taken for numbers. */
 enum { ROWS_SEEN = 200 };
 
-/* Whether most cells of a column that are not empty are numbers, and one is. */
+/* Whether half of the cells of a column that are not empty are numbers. */
 static bool has_numbers(const struct gb_lab_reading *reading, size_t column)
 {
     size_t numbers = 0;
@@ -19,7 +19,7 @@ static bool has_numbers(const struct gb_lab_reading *reading, size_t column)
         numbers += is;
         words += !is && *text != '\0';
     }
-    return numbers > words;
+    return numbers > 0 && numbers >= words;
 }
 
 /* How well a column suits a role, 0 if another role suits better. */

@@ -69,18 +69,24 @@ static size_t next_row(const struct gb_lab_grid *grid, size_t row)
     return next;
 }
 
-/* The first row of the data: one of data before another one, or the last of all. */
+/* The first row of the data: one of data before another one or at the end; without such
+ * a pair the first of all. */
 static bool find_first(const struct gb_lab_grid *grid, size_t *first)
 {
     const size_t rows = gb_lab_grid_rows(grid);
+    bool found = false;
     for (size_t r = 0; r < rows; r++) {
-        const size_t next = next_row(grid, r);
-        if (is_data(grid, r) && (next >= rows || is_data(grid, next))) {
-            *first = r;
-            return true;
+        if (is_data(grid, r)) {
+            const size_t next = next_row(grid, r);
+            *first = found ? *first : r;
+            found = true;
+            if (next >= rows || is_data(grid, next)) {
+                *first = r;
+                return true;
+            }
         }
     }
-    return false;
+    return found;
 }
 
 /* "12 0,41" between commas: two numbers that another separator parts. */
@@ -100,7 +106,8 @@ static bool holds_two_numbers(const char *text)
 static bool is_uncut(struct gb_lab_grid_cell cell, char separator)
 {
     struct gb_lab_number number;
-    if (cell.quoted || strpbrk(cell.text, "0123456789") == NULL ||
+    const bool bare = cell.text[0] != '\0' && cell.text[1] == '\0' && separator == ' ';
+    if (cell.quoted || (!bare && strpbrk(cell.text, "0123456789") == NULL) ||
         gb_lab_number_scan(cell.text, &number)) {
         return false;
     }
@@ -125,12 +132,13 @@ static bool suits(const char *path, const char *text, size_t length, char separa
     }
     const bool found = find_first(&grid, &first);
     for (size_t r = first; found && r < gb_lab_grid_rows(&grid); r++) {
+        const struct gb_lab_grid_row *row = gb_lab_grid_row(&grid, r);
         bool uncut = false;
-        for (size_t k = 0; k < gb_lab_grid_row(&grid, r)->count && !uncut; k++) {
+        for (size_t k = 0; k < row->count && !uncut; k++) {
             uncut = is_uncut(gb_lab_grid_cell(&grid, r, k), separator);
         }
-        good += !uncut;
-        bad += uncut;
+        good += !uncut && !row->comment;
+        bad += uncut && !row->comment;
     }
     gb_lab_grid_finish(&grid);
     return found && good > bad;
@@ -171,7 +179,8 @@ static enum gb_lab_outcome find_separator(struct gb_lab_reading *reading,
     char found[sizeof separators] = "";
     size_t count = 0;
     for (const char *s = separators; *s != '\0'; s++) {
-        if (suits(reading->path, text, length, *s)) {
+        const bool tabs = *s == ' ' && strchr(found, '\t') != NULL; /* blanks, too */
+        if (!tabs && suits(reading->path, text, length, *s)) {
             found[count++] = *s;
         }
     }

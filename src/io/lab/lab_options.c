@@ -157,7 +157,7 @@ static bool parse_column(const char **at, enum gb_lab_role role,
     guint64 index = 0;
     *column = (struct gb_lab_options_column){.given = true};
     if (!take_part(at, ":,", column->name, sizeof column->name, &quoted) ||
-        column->name[0] == '\0') {
+        column->name[0] == '\0' || (!quoted && strcmp(column->name, "?") == 0)) {
         return gb_error_set(
             err, GB_ERR_INPUT,
             "%.60s: accepted the number of a column or its head in quotes", column->name);

@@ -23,7 +23,8 @@ struct gb_lab_column {
     const struct gb_lab_unit *unit;
     bool guessed;   /* not given by an option */
     bool unit_said; /* the unit was taken for granted or read from the cells */
-    bool percent;   /* percent signs in the cells */
+    bool percent;   /* percent signs in the cells, which name the unit */
+    bool plain;     /* cells without one */
 };
 
 struct gb_lab_reading {

@@ -39,7 +39,7 @@ static void say_group(struct gb_lab_reading *reading, const struct gb_lab_number
     }
 }
 
-/* All cells of a column have a percent sign, or none of those that are not 0. */
+/* All cells of a column have a percent sign or none, unless the head says percent. */
 static bool check_percent(struct gb_lab_reading *reading, struct gb_lab_column *column,
                           bool percent, int line)
 {
@@ -48,18 +48,19 @@ static bool check_percent(struct gb_lab_reading *reading, struct gb_lab_column *
         column->percent = true;
         column->guessed = true;
     }
-    const bool fits = percent ? column->unit != NULL && column->unit->si == 0.01 &&
-                                    column->unit->dimension == GB_DIM_FRACTION
-                              : !column->percent;
-    if (!fits) {
+    column->plain = column->plain || !percent;
+    const bool is_unit = column->unit != NULL && column->unit->si == 0.01 &&
+                         column->unit->dimension == GB_DIM_FRACTION;
+    if ((percent && !is_unit) || (column->percent && column->plain)) {
         char shown[GB_LAB_LAYOUT_COLUMN];
         gb_lab_question_fail(reading,
                              "%.200s:%d: %s: accepted a percent sign in all cells, or in "
                              "none, and no other unit",
                              reading->path, line,
                              gb_lab_layout_column(reading, column->index, shown));
+        return false;
     }
-    return fits;
+    return true;
 }
 
 static bool read_cell(struct gb_lab_reading *reading, struct gb_lab_column *column,
@@ -84,8 +85,7 @@ static bool read_cell(struct gb_lab_reading *reading, struct gb_lab_column *colu
         return false;
     }
     say_group(reading, &number, text, line, *value);
-    return is_key || (!number.percent && !column->percent) ||
-           check_percent(reading, column, number.percent, line);
+    return is_key || check_percent(reading, column, number.percent, line);
 }
 
 static bool read_row(struct gb_lab_reading *reading, size_t row, struct row *out)
