@@ -253,6 +253,11 @@ const double *gb_table_column(const struct gb_table *table, const char *name,
     return NULL;
 }
 
+const char *gb_table_words(const struct gb_table *table)
+{
+    return table->words < table->columns ? table->name[table->words] : NULL;
+}
+
 const char *gb_table_word(const struct gb_table *table, size_t row)
 {
     return table->words < table->columns ? table->word[row] : "";

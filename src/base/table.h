@@ -41,6 +41,9 @@ int gb_table_line(const struct gb_table *table, size_t row);
 const double *gb_table_column(const struct gb_table *table, const char *name,
                               struct gb_error *err);
 
+/* The name of the column of words; NULL: there is none. */
+const char *gb_table_words(const struct gb_table *table);
+
 /* The word of a row; "" when the column of words is missing. */
 const char *gb_table_word(const struct gb_table *table, size_t row);
 

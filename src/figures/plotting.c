@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "base/table.h"
 #include "figures/output_formats.h"
 #include "figures/provenance.h"
 
@@ -113,7 +112,7 @@ static const double *find_error(const struct gb_table *table, const char *name)
     return column;
 }
 
-/* Rows of one word of the column "series" as columns and a curve. */
+/* Rows of one word of the column of words as columns and a curve. */
 static void draw_words(struct gb_series *series, const struct data *data,
                        const char *word, int style)
 {
@@ -159,14 +158,9 @@ static void draw_data(struct gb_series *series, const struct data *data)
     }
 }
 
-bool gb_plotting_data(struct gb_series *series, const char *path, struct gb_error *err)
+bool gb_plotting_data(struct gb_series *series, const struct gb_table *table,
+                      struct gb_error *err)
 {
-    struct gb_table *table = NULL;
-    /* in a curve.csv the branches are the series */
-    if (!gb_table_read(&table, path, "series", err) &&
-        !gb_table_read(&table, path, "branch", NULL)) {
-        return false;
-    }
     struct data data = {table, gb_table_column(table, series->x.name, err), NULL, NULL,
                         NULL};
     data.y = data.x != NULL ? gb_table_column(table, series->y.name, err) : NULL;
@@ -175,9 +169,8 @@ bool gb_plotting_data(struct gb_series *series, const char *path, struct gb_erro
         data.x_error = find_error(table, series->x.name);
         data.y_error = find_error(table, series->y.name);
         gb_series_grow(series, gb_table_rows(table));
-        gb_series_note(series, "data: %s", path);
+        gb_series_note(series, "data: %s", gb_table_path(table));
         draw_data(series, &data);
     }
-    gb_table_destroy(table);
     return good;
 }

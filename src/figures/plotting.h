@@ -1,6 +1,7 @@
 #ifndef GB_FIGURES_PLOTTING_H
 #define GB_FIGURES_PLOTTING_H
 
+#include "base/table.h"
 #include "figures/series.h"
 
 /* Page of a figure. */
@@ -23,8 +24,10 @@ bool gb_plotting_write(const struct gb_series *series,
                        const struct gb_plotting_page *page, const char *output,
                        struct gb_error *err);
 
-/* Adds measured points: a table with the columns of both axes, optionally "series" or
- * "branch" (one marker per word) and "<column>_error".  Errors: GB_ERR_INPUT. */
-bool gb_plotting_data(struct gb_series *series, const char *path, struct gb_error *err);
+/* Adds measured points: a table with the columns of both axes, optionally a column of
+ * words (one marker per word: series, or branches as in a curve.csv) and
+ * "<column>_error".  Errors: GB_ERR_INPUT. */
+bool gb_plotting_data(struct gb_series *series, const struct gb_table *table,
+                      struct gb_error *err);
 
 #endif

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/table.h"
 
 /* A column and what turns its numbers into SI. */
 struct quantity {
@@ -116,21 +115,10 @@ static bool reserve(struct gb_measured *measured, const char *path, size_t count
     return true;
 }
 
-/* The column of words is a series or a branch. */
-static bool read_table(struct gb_table **table, const char *path, struct gb_error *err)
+bool gb_measured_take(struct gb_measured **out, const struct gb_table *table,
+                      struct gb_error *err)
 {
-    struct gb_error why = {0};
-    return gb_table_read(table, path, "series", &why) ||
-           (why.code == GB_ERR_INPUT && gb_table_read(table, path, "branch", NULL)) ||
-           gb_error_set(err, why.code, "%s", why.text);
-}
-
-bool gb_measured_read(struct gb_measured **out, const char *path, struct gb_error *err)
-{
-    struct gb_table *table = NULL;
-    if (!read_table(&table, path, err)) {
-        return false;
-    }
+    const char *path = gb_table_path(table);
     const size_t count = gb_table_rows(table);
     struct gb_measured *measured = NULL;
     bool good = count > 0 || gb_error_set(err, GB_ERR_INPUT, "%.200s: has no rows", path);
@@ -139,7 +127,6 @@ bool gb_measured_read(struct gb_measured **out, const char *path, struct gb_erro
         good = measured != NULL && reserve(measured, path, count, err) &&
                fill(measured, table, err);
     }
-    gb_table_destroy(table);
     if (!good) {
         gb_measured_destroy(measured);
         return false;

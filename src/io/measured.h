@@ -3,12 +3,12 @@
 
 #include <stddef.h>
 
+#include "base/table.h"
 #include "greenbody/curve.h"
 
-/* An experiment beside a run: points of density and pressure from a CSV file whose header
+/* An experiment beside a run: points of density and pressure from a table whose header
  * names the units: density or density_percent, and p_MPa (or pressure_MPa; Pa, kPa, GPa
- * likewise); errors are optional and named <column>_error.  A column series or branch may
- * hold words. */
+ * likewise); errors are optional and named <column>_error. */
 struct gb_measured {
     char *path;
     size_t count;
@@ -16,9 +16,10 @@ struct gb_measured {
     double *density_error, *pressure_error_pa; /* NaN where none is given */
 };
 
-/* Errors are one line naming file, line and what is accepted (GB_ERR_INPUT, MACHINE,
- * MEMORY). */
-bool gb_measured_read(struct gb_measured **out, const char *path, struct gb_error *err);
+/* The points of a table, as gb_lab_reader_read gives it.  Errors are one line naming file,
+ * line and what is accepted (GB_ERR_INPUT, MEMORY). */
+bool gb_measured_take(struct gb_measured **out, const struct gb_table *table,
+                      struct gb_error *err);
 void gb_measured_destroy(struct gb_measured *measured); /* NULL is fine */
 
 /* How far a loading curve lies from it, along the density at the same pressure. */

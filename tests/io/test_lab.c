@@ -404,7 +404,7 @@ static void test_refusals(void)
         {"p (MPa);d (%)\n1,5;45\n", "pressure=\"q\":MPa", "pressure=q: accepted one of"},
         {"p (MPa);d (%)\n1,5;45\n", "pressure=1:mm", "the unit must be one of MPa"},
         {"p (MPa);d (%)\n1,5;45\n", "presure=1:MPa", "presure: accepted pressure, den"},
-        {"p (MPa);d (%)\n1,5;45\n", "pressure=?:MPa", "column ?: accepted its number"},
+        {"p (MPa);d (%)\n1,5;45\n", "pressure=?:MPa", "accepted the number of a column"},
         {"p (MPa);d (%)\n1,5;45\n", "die-area=1 cm2", "die-area has no use"},
         {"p (MPa);d (%)\n1,5;45\n", "die-area=-1 cm2",
          "accepted a number above 0 in mm2"},

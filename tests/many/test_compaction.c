@@ -6,6 +6,7 @@
 #include <glib/gstdio.h>
 #include <gsl/gsl_errno.h>
 
+#include "io/lab/lab_reader.h"
 #include "many/lab/compaction_file.h"
 #include "measure/fit/compaction/compaction_fits.h"
 
@@ -21,12 +22,30 @@ static char *write_file(const char *name, const char *text)
     return path;
 }
 
+static bool read_path(struct gb_compaction_data *data, const char *path,
+                      const char *series, const struct gb_compaction_window *window,
+                      struct gb_error *err)
+{
+    struct gb_table *table = NULL;
+    struct gb_lab_report report;
+    *data = (struct gb_compaction_data){0};
+    const enum gb_lab_outcome outcome =
+        gb_lab_reader_read(&table, path, NULL, NULL, &report, err);
+    if (outcome == GB_LAB_QUESTION) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, report.question);
+    }
+    const bool good =
+        outcome == GB_LAB_READ && gb_compaction_file(data, table, series, window, err);
+    gb_table_destroy(table);
+    return good;
+}
+
 static bool read_text(struct gb_compaction_data *data, const char *text,
                       const char *series, const struct gb_compaction_window *window,
                       struct gb_error *err)
 {
     char *path = write_file("lab.csv", text);
-    const bool good = gb_compaction_file(data, path, series, window, err);
+    const bool good = read_path(data, path, series, window, err);
     g_assert_true(good || g_strrstr(err->text, "lab.csv") != NULL);
     g_assert_null(strchr(err->text, '\n'));
     g_free(path);
@@ -115,8 +134,8 @@ static void test_hostile(void)
     }
     struct gb_compaction_data data;
     struct gb_error err = {0};
-    g_assert_false(gb_compaction_file(&data, folder, NULL, &whole, &err));
-    g_assert_false(gb_compaction_file(&data, "/nonexistent.csv", NULL, &whole, &err));
+    g_assert_false(read_path(&data, folder, NULL, &whole, &err));
+    g_assert_false(read_path(&data, "/nonexistent.csv", NULL, &whole, &err));
 }
 
 /* Many rows take seconds at most, too many are refused. */

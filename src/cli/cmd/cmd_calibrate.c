@@ -4,6 +4,7 @@
 
 #include "cli/batch_progress.h"
 #include "cli/commands.h"
+#include "cli/lab_input.h"
 #include "cli/options.h"
 #include "study/calibrate/calibration_table.h"
 
@@ -15,6 +16,7 @@ struct request {
     char *data, *free, *out;
     gint replicas, jobs;
     gboolean quiet;
+    struct gb_lab_input lab;
 };
 
 struct command {
@@ -65,6 +67,17 @@ static bool check_request(const struct request *request, struct gb_error *err)
                         request->replicas, REPLICAS_MIN, REPLICAS_MAX);
 }
 
+static bool read_lab(struct gb_labdata *lab, const struct request *request,
+                     const struct gb_params *params, struct gb_error *err)
+{
+    struct gb_table *table = NULL;
+    const bool good =
+        gb_lab_input_read(&table, &request->lab, request->data, NULL, err) &&
+        gb_labdata_take(lab, table, params, err);
+    gb_table_destroy(table);
+    return good;
+}
+
 /* All checks that are possible before anything is written. */
 static bool prepare(struct command *command, char **words, struct gb_error *err)
 {
@@ -82,7 +95,7 @@ static bool prepare(struct command *command, char **words, struct gb_error *err)
     calibration->progress = print_round;
     calibration->data = command;
     return gb_free_keys_parse(&calibration->keys, request->free, params, err) &&
-           gb_labdata_read(&calibration->lab, request->data, params, err) &&
+           read_lab(&calibration->lab, request, params, err) &&
            gb_ensemble_make_directory(request->out, err);
 }
 
@@ -100,19 +113,21 @@ static bool perform(struct command *command, char **words, struct gb_error *err)
     return written;
 }
 
-static const struct gb_options_page page = {
-    "PRESET [group.key=value]...",
+static const char usage[] = "PRESET [group.key=value]...";
+static const char summary[] =
     "Fits parameters of a preset to measured densities.  Cells of the same seeds are\n"
     "simulated at a design of values; a surrogate of each seed gives the best fit, its\n"
     "95 % intervals (errors of the data and scatter of the cells) and correlations.\n"
-    "Small cells come first, the full ones last.",
+    "Small cells come first, the full ones last.";
+static const char about_file[] =
     "FILE.csv has the columns p_MPa and density, and may have density_error, branch\n"
     "(load, or unload: the density left after unloading from p_MPa) and keys with\n"
     "their unit, as particles.diameter_nm, where several powders are fitted together.\n"
     "Repeated, the command continues an interrupted fit.  DIR receives rounds.csv\n"
-    "during the fit, then calibration.csv, fit.csv, calibrated.ini and the runs.\n\n"
-    "  greenbody calibrate p1-set1-uniaxial --data lab.csv \\\n"
-    "    --free contact.mu,contact.alpha --out fit"};
+    "during the fit, then calibration.csv, fit.csv, calibrated.ini and the runs.\n\n";
+static const char example[] =
+    "\n\n  greenbody calibrate p1-set1-uniaxial --data lab.csv \\\n"
+    "    --free contact.mu,contact.alpha --out fit";
 
 int gb_cmd_calibrate(int argc, char **argv)
 {
@@ -122,7 +137,7 @@ int gb_cmd_calibrate(int argc, char **argv)
     struct gb_error err = {0};
     char **words = NULL;
     int status = 0;
-    const GOptionEntry entries[] = {
+    const GOptionEntry own[] = {
         gb_options_set(&request.sets),
         {"data", 0, 0, G_OPTION_ARG_FILENAME, &request.data, "measured densities",
          "FILE.csv"},
@@ -137,6 +152,9 @@ int gb_cmd_calibrate(int argc, char **argv)
          "runs at once (one per processor)", "N"},
         gb_options_quiet(&request.quiet),
         {0}};
+    GOptionEntry *entries = gb_lab_input_entries(&request.lab, own);
+    char *description = g_strconcat(about_file, gb_lab_input_help, example, NULL);
+    const struct gb_options_page page = {usage, summary, description};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status) &&
         gb_batch_progress_join(&batch, request.jobs, &status) ==
             GB_BATCH_PROGRESS_FIRST) {
@@ -151,5 +169,8 @@ int gb_cmd_calibrate(int argc, char **argv)
     g_free(request.data);
     g_free(request.free);
     g_free(request.out);
+    gb_lab_input_finish(&request.lab);
+    g_free(entries);
+    g_free(description);
     return status;
 }

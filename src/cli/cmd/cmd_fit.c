@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/fit_output.h"
+#include "cli/lab_input.h"
 #include "cli/options.h"
 #include "figures/figures.h"
 #include "figures/plotting.h"
@@ -18,7 +19,8 @@ enum { DIRECTORIES_MAX = 1000 };
 
 /* The options of the command line. */
 struct request {
-    char *equation, *from, *to, *initial, *series, *output;
+    char *equation, *from, *to, *initial, *output;
+    struct gb_lab_input lab;
     gboolean csv, force;
     const struct gb_equation *only; /* NULL: all */
     struct gb_compaction_window window;
@@ -111,13 +113,25 @@ static bool read_runs(struct gb_compaction_data *data, const struct request *req
             gb_runset_first(&set, 1)->directory, gb_runset_first(&set, 0)->directory,
             field != NULL ? field->group : "", field != NULL ? field->key : "");
     }
-    if (good && request->series != NULL) {
-        good =
-            gb_error_set(err, GB_ERR_INPUT, "--series is for a file of measured points");
+    if (good && gb_lab_input_given(&request->lab)) {
+        good = gb_error_set(err, GB_ERR_INPUT,
+                            "--series, --columns and the like are for a file of measured "
+                            "points");
     }
     good = good && gb_compaction_data_runs(data, &set, 0, &request->window, err);
     gb_runset_finish(&set);
     g_ptr_array_unref(list);
+    return good;
+}
+
+static bool read_file(struct gb_compaction_data *data, const struct request *request,
+                      const char *path, struct gb_error *err)
+{
+    struct gb_table *table = NULL;
+    const bool good =
+        gb_lab_input_read(&table, &request->lab, path, NULL, err) &&
+        gb_compaction_file(data, table, request->lab.series, &request->window, err);
+    gb_table_destroy(table);
     return good;
 }
 
@@ -133,8 +147,7 @@ static bool read_data(struct gb_compaction_data *data, const struct request *req
         return read_runs(data, request, words, err);
     }
     return words[1] == NULL
-               ? gb_compaction_file(data, words[0], request->series, &request->window,
-                                    err)
+               ? read_file(data, request, words[0], err)
                : gb_error_set(err, GB_ERR_INPUT,
                               "%.200s: one file of measured points at a time", words[0]);
 }
@@ -214,9 +227,10 @@ static char *describe_equations(void)
         "all\nequations.  Runs of one scene are replicas: their mean at up to 48 "
         "pressures, weighted\nby its standard errors.  Heckel's parameters are those of "
         "the straightest stretch of\nthe Heckel plot, dAICc and rms those of all "
-        "points.  A file has the columns density\n(or density_percent) and p_MPa (or "
-        "pressure_MPa; Pa, kPa, GPa), and optionally\ndensity_error, branch (load, "
-        "unload), series.");
+        "points.  A file of this program has the\ncolumns density (or density_percent) "
+        "and p_MPa (or pressure_MPa; Pa, kPa, GPa), and\noptionally density_error, branch "
+        "(load, unload), series.\n\n");
+    g_string_append(text, gb_lab_input_help);
     return g_string_free(text, FALSE);
 }
 
@@ -226,7 +240,7 @@ int gb_cmd_fit(int argc, char **argv)
     struct gb_error err = {0};
     char **words = NULL;
     int status = 0;
-    const GOptionEntry entries[] = {
+    const GOptionEntry own[] = {
         {"equation", 0, 0, G_OPTION_ARG_STRING, &request.equation,
          "one of those below (all)", "NAME"},
         {"csv", 0, 0, G_OPTION_ARG_NONE, &request.csv,
@@ -237,14 +251,13 @@ int gb_cmd_fit(int argc, char **argv)
          "highest pressure (the highest that all runs reach)", "P"},
         {"initial", 0, 0, G_OPTION_ARG_STRING, &request.initial,
          "initial density, or fit (runs: that before loading; file: fit)", "D0"},
-        {"series", 0, 0, G_OPTION_ARG_STRING, &request.series,
-         "rows of a file with this word in its column series", "WORD"},
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output,
          "the figure fit of these points, too", "FILE.png|svg|pdf|csv"},
         {"force", 0, 0, G_OPTION_ARG_NONE, &request.force, "replace an existing file",
          NULL},
         {0},
     };
+    GOptionEntry *entries = gb_lab_input_entries(&request.lab, own);
     char *equations = describe_equations();
     const struct gb_options_page page = {
         .usage = "DIR... or FILE.csv",
@@ -257,11 +270,13 @@ int gb_cmd_fit(int argc, char **argv)
                SIG_IGN); /* a file beyond its size limit is an error of write() */
         status = fit(&request, words, &err) ? 0 : gb_options_fail(&err);
     }
-    char *const texts[] = {request.equation, request.from,   request.to, request.initial,
-                           request.series,   request.output, equations};
+    char *const texts[] = {request.equation, request.from,   request.to,
+                           request.initial,  request.output, equations};
     for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
         g_free(texts[k]);
     }
+    g_free(entries);
+    gb_lab_input_finish(&request.lab);
     g_strfreev(words);
     return status;
 }

@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/lab_input.h"
 #include "cli/options.h"
 #include "figures/figures.h"
 #include "figures/output_formats.h"
@@ -21,6 +22,7 @@ struct request {
         *inset;
     char *at;
     gboolean force;
+    struct gb_lab_input lab;
 };
 
 static void free_request(struct request *request)
@@ -32,6 +34,7 @@ static void free_request(struct request *request)
     for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
         g_free(texts[k]);
     }
+    gb_lab_input_finish(&request->lab);
 }
 
 static const struct gb_figures_row *find_figure(const char *name, struct gb_error *err)
@@ -177,6 +180,19 @@ static bool set_inset(struct gb_series *series, const char *text, struct gb_erro
     return true;
 }
 
+/* Points with other axes than pressure and density are in a table of this program. */
+static bool add_data(struct gb_series *series, const struct request *request,
+                     struct gb_error *err)
+{
+    struct gb_table *table = NULL;
+    const char *const axes[] = {series->x.name, series->y.name, NULL};
+    const bool good =
+        gb_lab_input_read(&table, &request->lab, request->data, axes, err) &&
+        gb_plotting_data(series, table, err);
+    gb_table_destroy(table);
+    return good;
+}
+
 static bool plot_series(const struct request *request,
                         const struct gb_figures_row *figure,
                         const struct gb_figures_input *input, struct gb_error *err)
@@ -184,7 +200,7 @@ static bool plot_series(const struct request *request,
     struct gb_series series = {0};
     bool good = gb_figures_run(figure, &series, input, err) &&
                 (request->inset == NULL || set_inset(&series, request->inset, err)) &&
-                (request->data == NULL || gb_plotting_data(&series, request->data, err));
+                (request->data == NULL || add_data(&series, request, err));
     if (good) {
         set_log(&series, request->log);
         good = write_series(&series, request, figure, input->set, err);
@@ -276,7 +292,8 @@ static char *describe_figures(void)
               "card, yield, strength and chart the directory of the command of their name.\n"
               "A figure has a twin ending in .csv beside it;\n"
               "the table of --data has the columns of its axes, and may have "
-              "series (words) and\n<column>_error.");
+              "series (words) and\n<column>_error.\n\n");
+    g_string_append(text, gb_lab_input_help);
     return g_string_free(text, FALSE);
 }
 
@@ -324,7 +341,7 @@ int gb_cmd_plot(int argc, char **argv)
     struct gb_error err = {0};
     char **words = NULL;
     int status = 0;
-    const GOptionEntry entries[] = {
+    const GOptionEntry own[] = {
         {"figure", 0, 0, G_OPTION_ARG_STRING, &request.figure, "one of those below",
          "NAME"},
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output,
@@ -348,6 +365,7 @@ int gb_cmd_plot(int argc, char **argv)
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at, texts.at, "POINT"},
         {0},
     };
+    GOptionEntry *entries = gb_lab_input_entries(&request.lab, own);
     char *figures = describe_figures();
     const struct gb_options_page page = {
         .usage = "DIR...",
@@ -359,6 +377,7 @@ int gb_cmd_plot(int argc, char **argv)
                SIG_IGN); /* a file beyond its size limit is an error of write() */
         status = plot(&request, words, &err) ? 0 : gb_options_fail(&err);
     }
+    g_free(entries);
     g_free(figures);
     free_texts(&texts);
     g_strfreev(words);

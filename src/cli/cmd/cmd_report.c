@@ -4,13 +4,44 @@
 #include <glib.h>
 
 #include "cli/commands.h"
+#include "cli/lab_input.h"
 #include "cli/options.h"
+#include "figures/figures.h"
 #include "figures/report/report.h"
 
 enum { DIRECTORIES_MAX = 1000 };
 
-static bool report_on(char **words, const char *data, char *output, struct gb_error *err)
+/* Measured points of a command line. */
+struct measured {
+    char *path;
+    struct gb_lab_input lab;
+};
+
+/* A table of this program may have the axes of any figure. */
+static bool read_data(struct gb_table **table, const struct measured *measured,
+                      struct gb_error *err)
 {
+    GPtrArray *axes = g_ptr_array_new();
+    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+        const char *const names[] = {row->x.name, row->y.name};
+        for (size_t k = 0; k < G_N_ELEMENTS(names); k++) {
+            if (names[k] != NULL) {
+                g_ptr_array_add(axes, (char *)(uintptr_t)names[k]);
+            }
+        }
+    }
+    g_ptr_array_add(axes, NULL);
+    const bool good = measured->path == NULL ||
+                      gb_lab_input_read(table, &measured->lab, measured->path,
+                                        (const char *const *)axes->pdata, err);
+    g_ptr_array_unref(axes);
+    return good;
+}
+
+static bool report_on(char **words, const struct measured *measured, char *output,
+                      struct gb_error *err)
+{
+    struct gb_table *data = NULL;
     struct gb_runset set = {0};
     const guint count = g_strv_length(words);
     if (count == 0 || count > DIRECTORIES_MAX || output == NULL || *output == '\0') {
@@ -22,8 +53,10 @@ static bool report_on(char **words, const char *data, char *output, struct gb_er
     while (strlen(output) > 1 && g_str_has_suffix(output, "/")) {
         output[strlen(output) - 1] = '\0';
     }
-    const bool good = gb_runset_read(&set, words, count, err) &&
+    const bool good = read_data(&data, measured, err) &&
+                      gb_runset_read(&set, words, count, err) &&
                       gb_report_write(&set, data, output, err);
+    gb_table_destroy(data);
     gb_runset_finish(&set);
     return good;
 }
@@ -31,13 +64,13 @@ static bool report_on(char **words, const char *data, char *output, struct gb_er
 int gb_cmd_report(int argc, char **argv)
 {
     char *output = NULL;
-    char *data = NULL;
+    struct measured measured = {.path = NULL};
     char **words = NULL;
     struct gb_error err = {0};
     int status = 0;
-    const GOptionEntry entries[] = {
+    const GOptionEntry own[] = {
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, "a new folder", "OUT"},
-        {"data", 0, 0, G_OPTION_ARG_FILENAME, &data,
+        {"data", 0, 0, G_OPTION_ARG_FILENAME, &measured.path,
          "measured points, for every figure with their columns", "FILE.csv"},
         {0},
     };
@@ -46,14 +79,18 @@ int gb_cmd_report(int argc, char **argv)
         .summary = "Figures with their data, pictures, tables, presets and checksums\n"
                    "in one folder with the pages index.html (for a browser) and\n"
                    "report.md.",
+        .description = gb_lab_input_help,
     };
+    GOptionEntry *entries = gb_lab_input_entries(&measured.lab, own);
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         signal(SIGXFSZ,
                SIG_IGN); /* a file beyond its size limit is an error of write() */
-        status = report_on(words, data, output, &err) ? 0 : gb_options_fail(&err);
+        status = report_on(words, &measured, output, &err) ? 0 : gb_options_fail(&err);
     }
     g_strfreev(words);
     g_free(output);
-    g_free(data);
+    g_free(measured.path);
+    gb_lab_input_finish(&measured.lab);
+    g_free(entries);
     return status;
 }

@@ -127,8 +127,8 @@ static bool cannot_make(const char *output, struct gb_error *err)
 }
 
 /* The folder is filled under another name beside its own and renamed when complete. */
-bool gb_report_write(const struct gb_runset *set, const char *data, const char *output,
-                     struct gb_error *err)
+bool gb_report_write(const struct gb_runset *set, const struct gb_table *data,
+                     const char *output, struct gb_error *err)
 {
     if (g_file_test(output, G_FILE_TEST_EXISTS)) {
         return gb_error_set(err, GB_ERR_INPUT,

@@ -1,6 +1,7 @@
 #ifndef GB_FIGURES_REPORT_REPORT_H
 #define GB_FIGURES_REPORT_REPORT_H
 
+#include "base/table.h"
 #include "figures/report/page.h"
 #include "many/runset.h"
 
@@ -9,7 +10,7 @@
 struct gb_report {
     const struct gb_runset *set;
     const char *folder;
-    const char *data; /* table of measured points; NULL: none */
+    const struct gb_table *data; /* measured points; NULL: none */
     struct gb_page page;
     GString *left_out; /* figures and pictures without data, with the reason */
 };
@@ -38,8 +39,8 @@ gb_report_part_function gb_report_preset;
 /* Creates the folder `output` with the report; no folder remains after an error.  What the
  * runs have no data for is left out and listed on the page.  Errors: GB_ERR_INPUT when the
  * folder exists, GB_ERR_MACHINE, GB_ERR_MEMORY. */
-bool gb_report_write(const struct gb_runset *set, const char *data, const char *output,
-                     struct gb_error *err);
+bool gb_report_write(const struct gb_runset *set, const struct gb_table *data,
+                     const char *output, struct gb_error *err);
 
 /* Notes what is left out and why. */
 void gb_report_leave_out(struct gb_report *report, const char *what, const char *reason);

@@ -21,21 +21,6 @@ static int compare_samples(const void *a, const void *b)
     return (one->pressure > other->pressure) - (one->pressure < other->pressure);
 }
 
-/* The words of the rows, by the column `series` or `branch`. */
-static bool read_words(struct gb_table **table, const char *path, const char **column,
-                       struct gb_error *err)
-{
-    *column = "series";
-    if (gb_table_read(table, path, *column, NULL) &&
-        gb_table_column(*table, *column, NULL) != NULL) {
-        return true;
-    }
-    gb_table_destroy(*table);
-    *table = NULL;
-    *column = "branch";
-    return gb_table_read(table, path, *column, err);
-}
-
 /* Rows of several powders in one file would be fitted as one curve. */
 static bool check_samples(const struct gb_table *table, struct gb_error *err)
 {
@@ -103,26 +88,22 @@ static bool check_branch(const struct gb_table *table, size_t row, struct gb_err
 }
 
 /* Marks the rows to be fitted. */
-static bool choose_rows(bool *chosen, size_t count, const char *path, const char *series,
+static bool choose_rows(bool *chosen, const struct gb_table *table, const char *series,
                         struct gb_error *err)
 {
-    struct gb_table *table = NULL;
-    const char *column = NULL;
-    if (!read_words(&table, path, &column, err)) {
-        return false;
-    }
-    const bool by_series = strcmp(column, "series") == 0;
+    const char *column = gb_table_words(table);
+    const bool by_series = column != NULL && strcmp(column, "series") == 0;
     const char *wanted = by_series ? choose_series(table, series, err) : "load";
     bool good = wanted != NULL && check_samples(table, err);
     if (good && series != NULL && !by_series) {
-        good = gb_error_set(err, GB_ERR_INPUT, "%.200s: has no column series", path);
+        good = gb_error_set(err, GB_ERR_INPUT, "%.200s: has no column series",
+                            gb_table_path(table));
     }
-    for (size_t i = 0; i < count && good; i++) {
+    for (size_t i = 0; i < gb_table_rows(table) && good; i++) {
         const char *word = gb_table_word(table, i);
         good = by_series || check_branch(table, i, err);
         chosen[i] = strcmp(word, wanted) == 0 || (!by_series && *word == '\0');
     }
-    gb_table_destroy(table);
     return good;
 }
 
@@ -175,13 +156,14 @@ static bool fill(struct gb_compaction_data *data, const struct sample *samples,
     return true;
 }
 
-bool gb_compaction_file(struct gb_compaction_data *data, const char *path,
+bool gb_compaction_file(struct gb_compaction_data *data, const struct gb_table *table,
                         const char *series, const struct gb_compaction_window *window,
                         struct gb_error *err)
 {
     struct gb_measured *measured = NULL;
+    const char *path = gb_table_path(table);
     *data = (struct gb_compaction_data){0};
-    if (!gb_measured_read(&measured, path, err)) {
+    if (!gb_measured_take(&measured, table, err)) {
         return false;
     }
     if (measured->count > ROWS_MAX) {
@@ -192,8 +174,8 @@ bool gb_compaction_file(struct gb_compaction_data *data, const char *path,
     }
     struct sample *samples = gb_alloc_array(measured->count, sizeof *samples, err);
     bool *chosen = gb_alloc_array(measured->count, sizeof *chosen, err);
-    bool good = samples != NULL && chosen != NULL &&
-                choose_rows(chosen, measured->count, path, series, err);
+    bool good =
+        samples != NULL && chosen != NULL && choose_rows(chosen, table, series, err);
     if (good) {
         const size_t count = select_samples(samples, measured, chosen, window);
         good = count > 0

@@ -41,7 +41,8 @@ static bool assign(struct gb_params *params, const char *column, double value,
 
 static bool is_known(const char *name)
 {
-    static const char *const known[] = {"p_MPa", "density", "density_error", "branch"};
+    static const char *const known[] = {"p_MPa",         "density", "p_MPa_error",
+                                        "density_error", "branch",  "series"};
     for (size_t i = 0; i < G_N_ELEMENTS(known); i++) {
         if (strcmp(name, known[i]) == 0) {
             return true;
@@ -56,8 +57,32 @@ static bool check_columns(const struct gb_table *table, struct gb_error *err)
         if (!is_known(gb_table_name(table, k))) {
             return gb_error_set(err, GB_ERR_INPUT,
                                 "%.200s: column %.80s; accepted p_MPa, density, "
-                                "density_error, branch and keys as particles.diameter_nm",
+                                "density_error, branch, series and keys as "
+                                "particles.diameter_nm",
                                 gb_table_path(table), gb_table_name(table, k));
+        }
+    }
+    return true;
+}
+
+static bool has_series(const struct gb_table *table)
+{
+    const char *words = gb_table_words(table);
+    return words != NULL && strcmp(words, "series") == 0;
+}
+
+/* Samples of one scene would be fitted as one curve. */
+static bool check_series(const struct gb_table *table, struct gb_error *err)
+{
+    for (size_t i = 1; i < gb_table_rows(table) && has_series(table); i++) {
+        const char *word = gb_table_word(table, i);
+        if (strcmp(word, gb_table_word(table, 0)) != 0) {
+            return gb_error_set(
+                err, GB_ERR_INPUT,
+                "%.200s:%d: series %.80s behind %.80s; accepted one, with "
+                "--series, or columns of keys as particles.diameter_nm",
+                gb_table_path(table), gb_table_line(table, i), word,
+                gb_table_word(table, 0));
         }
     }
     return true;
@@ -135,7 +160,7 @@ static bool take_row(struct gb_labdata *measured, const struct gb_table *table,
     const double *pressure = gb_table_column(table, "p_MPa", NULL);
     const double *density = gb_table_column(table, "density", NULL);
     const double *error = gb_table_column(table, "density_error", NULL);
-    const char *word = gb_table_word(table, row);
+    const char *word = has_series(table) ? "" : gb_table_word(table, row);
     struct gb_labdata_row *to = &measured->row[row];
     to->unloaded = strcmp(word, "unload") == 0;
     if (!(pressure[row] > 0.0 && density[row] > 0.0 && density[row] < 1.0) ||
@@ -177,12 +202,11 @@ static bool alloc_rows(struct gb_labdata *measured, const struct gb_table *table
            (measured->error || !errors);
 }
 
-bool gb_labdata_read(struct gb_labdata *measured, const char *path,
+bool gb_labdata_take(struct gb_labdata *measured, const struct gb_table *table,
                      const struct gb_params *params, struct gb_error *err)
 {
-    struct gb_table *table = NULL;
     *measured = (struct gb_labdata){0};
-    bool good = gb_table_read(&table, path, "branch", err) && check_columns(table, err) &&
+    bool good = check_columns(table, err) && check_series(table, err) &&
                 gb_table_column(table, "p_MPa", err) != NULL &&
                 gb_table_column(table, "density", err) != NULL &&
                 alloc_rows(measured, table, err);
@@ -192,7 +216,6 @@ bool gb_labdata_read(struct gb_labdata *measured, const char *path,
     for (size_t s = 0; s < measured->scenes && good; s++) {
         good = gb_params_check(&measured->scene[s], err);
     }
-    gb_table_destroy(table);
     if (!good) {
         gb_labdata_finish(measured);
     }

@@ -71,25 +71,70 @@ void gb_file_commands_data(struct gb_app *app, const struct gb_key *key)
                    measured != NULL ? measured->path : "");
 }
 
+/* The question of a file: a line of its own, with the first answer in it. */
+static void ask_reading(struct gb_dialog *dialog, const char *path,
+                        const struct gb_lab_report *report)
+{
+    gb_dialog_show(dialog, &gb_dialogs_reading,
+                   report->choices > 0 ? report->choice[0] : "");
+    dialog->text = g_strdup(path);
+    gb_dialog_set_note(dialog, GB_DIALOG_NOTE_WARNING, "%s", report->question);
+}
+
+/* Says how the file was read. */
+static void note_data(struct gb_session *session, const char *path, const char *told)
+{
+    if (*path == '\0') {
+        gb_session_note(session, "measured data removed");
+    } else if (*told == '\0') {
+        gb_session_note(session, "loaded %s", path);
+    } else {
+        char *name = g_path_get_basename(path);
+        gb_session_note(session, "%s: %s", name, told);
+        g_free(name);
+    }
+}
+
 /* Switches to the view that shows the data. */
-void gb_file_commands_accept_data(struct gb_app *app)
+static void load_data(struct gb_app *app, const char *path, const char *reading)
 {
     struct gb_screen *screen = &app->screen;
     struct gb_session *session = &screen->session;
+    struct gb_lab_report report;
     struct gb_error err = {0};
-    char *path = gb_complete_home(gb_dialog_answer(&screen->dialog));
     const struct gb_chart_csv *chart = session->chart;
-    if (!gb_session_load_data(session, path, &err)) {
+    switch (gb_session_load_data(session, path, reading, &report, &err)) {
+    case GB_LAB_FAILED:
         gb_dialog_set_note(&screen->dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
-    } else {
-        gb_session_note(session, *path != '\0' ? "loaded %s" : "measured data removed%s",
-                        path);
-        gb_dialog_close(&screen->dialog);
-        screen->plot.view =
-            session->chart != chart ? gb_views_with(GB_VIEW_NEEDS_CHART) : gb_views_at(0);
-        screen->focus = GB_PANE_PLOT;
+        return;
+    case GB_LAB_QUESTION:
+        ask_reading(&screen->dialog, path, &report);
+        return;
+    case GB_LAB_READ:
+        break;
     }
+    note_data(session, path, report.told);
+    gb_dialog_close(&screen->dialog);
+    screen->plot.view =
+        session->chart != chart ? gb_views_with(GB_VIEW_NEEDS_CHART) : gb_views_at(0);
+    screen->focus = GB_PANE_PLOT;
+}
+
+void gb_file_commands_accept_data(struct gb_app *app)
+{
+    char *path = gb_complete_home(gb_dialog_answer(&app->screen.dialog));
+    load_data(app, path, "");
     g_free(path);
+}
+
+void gb_file_commands_accept_reading(struct gb_app *app)
+{
+    struct gb_dialog *dialog = &app->screen.dialog;
+    char *path = g_strdup(dialog->text);
+    char *reading = g_strdup(gb_dialog_answer(dialog));
+    load_data(app, path, reading);
+    g_free(path);
+    g_free(reading);
 }
 
 /* A file that a child command makes from the run directory. */

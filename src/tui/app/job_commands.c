@@ -144,9 +144,18 @@ void gb_job_commands_accept_calibrate(struct gb_app *app)
         return;
     }
     char *keys = g_strdup(gb_dialog_answer(&app->screen.dialog));
-    const char *words[] = {"calibrate", NULL,     "-o",
-                           NULL,        "--data", session->measured->path,
-                           "--free",    keys,     NULL};
+    const bool read = *session->reading != '\0';
+    const char *words[] = {"calibrate",
+                           NULL,
+                           "-o",
+                           NULL,
+                           "--data",
+                           session->measured->path,
+                           "--free",
+                           keys,
+                           read ? "--columns" : NULL,
+                           read ? session->reading : NULL,
+                           NULL};
     if (start_job(app, "calibration", words, NULL)) {
         gb_screen_commands_message(app, GB_STYLE_PLAIN,
                                    "calibration started: progress among the events");

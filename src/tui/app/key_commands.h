@@ -61,6 +61,7 @@ void gb_file_commands_shell(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_accept_save(struct gb_app *app);
 void gb_file_commands_accept_open(struct gb_app *app);
 void gb_file_commands_accept_data(struct gb_app *app);
+void gb_file_commands_accept_reading(struct gb_app *app);
 
 /* job_commands.c: replicas and calibrations, computed by a child command. */
 void gb_job_commands_replicas(struct gb_app *app, const struct gb_key *key);

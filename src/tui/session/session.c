@@ -28,6 +28,7 @@ void gb_session_finish(struct gb_session *session)
     }
     gb_replica_band_finish(&session->replica_band);
     gb_measured_destroy(session->measured);
+    g_free(session->reading);
     gb_chart_csv_destroy(session->chart);
     gb_preset_destroy(session->opened);
     session->runner = NULL;
@@ -187,22 +188,47 @@ bool gb_session_open(struct gb_session *session, const char *name, struct gb_err
     return true;
 }
 
-bool gb_session_load_data(struct gb_session *session, const char *path,
-                          struct gb_error *err)
+static void set_measured(struct gb_session *session, struct gb_measured *measured,
+                         const char *reading)
+{
+    gb_measured_destroy(session->measured);
+    g_free(session->reading);
+    session->measured = measured;
+    session->reading = g_strdup(reading);
+}
+
+enum gb_lab_outcome gb_session_load_data(struct gb_session *session, const char *path,
+                                         const char *reading,
+                                         struct gb_lab_report *report,
+                                         struct gb_error *err)
 {
     struct gb_measured *measured = NULL;
     struct gb_chart_csv *chart = NULL;
-    if (*path != '\0' && gb_chart_csv_read(&chart, path, NULL)) {
+    struct gb_table *table = NULL;
+    struct gb_lab_options options;
+    *report = (struct gb_lab_report){.choices = 0};
+    if (*path == '\0') {
+        set_measured(session, NULL, "");
+        return GB_LAB_READ;
+    }
+    if (gb_chart_csv_read(&chart, path, NULL)) {
         gb_chart_csv_destroy(session->chart);
         session->chart = chart;
-        return true;
+        return GB_LAB_READ;
     }
-    if (*path != '\0' && !gb_measured_read(&measured, path, err)) {
-        return false;
+    gb_lab_options_init(&options);
+    if (!gb_lab_options_parse(&options, reading, err)) {
+        return GB_LAB_FAILED;
     }
-    gb_measured_destroy(session->measured);
-    session->measured = measured;
-    return true;
+    enum gb_lab_outcome outcome =
+        gb_lab_reader_read(&table, path, &options, NULL, report, err);
+    if (outcome == GB_LAB_READ && gb_measured_take(&measured, table, err)) {
+        set_measured(session, measured, reading);
+    } else if (outcome == GB_LAB_READ) {
+        outcome = GB_LAB_FAILED;
+    }
+    gb_table_destroy(table);
+    return outcome;
 }
 
 void gb_session_misfit(const struct gb_session *session, struct gb_measured_misfit *out)

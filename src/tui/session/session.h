@@ -1,14 +1,15 @@
 #ifndef GB_TUI_SESSION_SESSION_H
 #define GB_TUI_SESSION_SESSION_H
 
+#include "io/lab/lab_reader.h"
 #include "io/measured.h"
 #include "io/preset.h"
 #include "run/runner/runner.h"
-#include "tui/session/overlay/chart_csv.h"
 #include "tui/session/child_command.h"
+#include "tui/session/overlay/chart_csv.h"
 #include "tui/session/overlay/previous_curve.h"
-#include "tui/session/quick_cell.h"
 #include "tui/session/overlay/replica_band.h"
+#include "tui/session/quick_cell.h"
 
 /* State of the workbench without its screen: the parameters being edited, the current
  * run, its data on display and the previous curves. */
@@ -49,9 +50,10 @@ struct gb_session {
     struct gb_child_command child;       /* picture, report, replicas or calibration */
     struct gb_replica_band replica_band; /* mean of the replicas */
     struct gb_measured *measured;        /* measured data; NULL: none */
-    struct gb_chart_csv *chart;          /* chart of numerical settings; NULL: none */
-    int runs;                            /* number of started runs */
-    double particle_steps_per_s;         /* speed of the last dynamic run; 0: none yet */
+    char *reading; /* how its file was asked to be read, as --columns; owned */
+    struct gb_chart_csv *chart;  /* chart of numerical settings; NULL: none */
+    int runs;                    /* number of started runs */
+    double particle_steps_per_s; /* speed of the last dynamic run; 0: none yet */
     int64_t events_seen;
     char log[GB_SESSION_LOG][GB_EVENT_TEXT + 16];
     int64_t log_count; /* of all lines; the last GB_SESSION_LOG are kept */
@@ -98,9 +100,12 @@ void gb_session_describe_previous(struct gb_session *session,
 bool gb_session_open(struct gb_session *session, const char *name, struct gb_error *err);
 
 /* Loads measured data or a chart.csv, distinguished by the header of the file.  An empty
- * path removes the measured data.  After an error nothing is changed. */
-bool gb_session_load_data(struct gb_session *session, const char *path,
-                          struct gb_error *err);
+ * path removes the measured data.  reading: a list as gb_lab_options_parse takes it, "":
+ * nothing is given.  After a question or an error nothing is changed. */
+enum gb_lab_outcome gb_session_load_data(struct gb_session *session, const char *path,
+                                         const char *reading,
+                                         struct gb_lab_report *report,
+                                         struct gb_error *err);
 /* Misfit of the curve on display to the measured data; reached is 0 without data. */
 void gb_session_misfit(const struct gb_session *session, struct gb_measured_misfit *out);
 

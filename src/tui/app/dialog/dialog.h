@@ -46,7 +46,7 @@ struct gb_dialog {
     int top, focus, page; /* first line, focused line and lines per page of a list */
     struct gb_preset_browser browser;
     struct gb_leg_editor legs;
-    char *text;               /* shell command shown; owned */
+    char *text;               /* shell command shown, or file asked about; owned */
     char note[400];           /* question, or why the last answer was refused */
     enum gb_dialog_note kind; /* of the note; after a warning the same answer is taken */
     struct gb_prompt prompt;

@@ -35,6 +35,14 @@ const struct gb_dialog_type gb_dialogs_data = {
     .accept = gb_file_commands_accept_data,
 };
 
+const struct gb_dialog_type gb_dialogs_reading = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "How is this file read? (Esc cancels)",
+    .label = "quantity=column:unit,... and what is asked below:",
+    .opened_by = gb_file_commands_data,
+    .accept = gb_file_commands_accept_reading,
+};
+
 const struct gb_dialog_type gb_dialogs_what_if = {
     .form = &gb_dialog_forms_prompt,
     .title = "What-if: continue with other values (Esc cancels)",
