@@ -93,8 +93,8 @@ static bool refuse(const char *path, const struct gb_lab_report *report,
         g_string_append_printf(list, "%s--columns '%s'", k > 0 ? " or " : "",
                                report->choice[k]);
     }
-    gb_error_set(err, GB_ERR_INPUT, "%.120s: %s accepted %s", path, report->question,
-                 list->str);
+    gb_error_set(err, GB_ERR_INPUT, "%.120s: %s%s Give %s", path, report->question,
+                 g_str_has_suffix(report->question, "?") ? "" : ".", list->str);
     g_string_free(list, TRUE);
     return false;
 }

@@ -293,7 +293,7 @@ static const struct question questions[] = {
     {"no head",
      "100;0,5\n200;0,6\n",
      NULL,
-     "which column is the pressure, which the density? There are 1, 2",
+     "which column is the pressure, which the density? There are 1 '100', 2 '0,5'",
      {"pressure=?:MPa,density=?:%"},
      -1,
      0.0,

@@ -36,7 +36,9 @@ char *gb_lab_layout_list(const struct gb_lab_reading *reading)
             g_string_append_printf(list, ", ... %zu columns", reading->columns);
             break;
         }
-        gb_lab_text_show(gb_lab_layout_head(reading, k), shown);
+        const char *head = gb_lab_layout_head(reading, k);
+        const char *cell = gb_lab_grid_cell(&reading->grid, reading->first, k).text;
+        gb_lab_text_show(reading->names != GB_LAB_NONE ? head : cell, shown);
         g_string_append_printf(list, *shown != '\0' ? "%s%zu '%s'" : "%s%zu",
                                k > 0 ? ", " : "", k + 1, shown);
     }

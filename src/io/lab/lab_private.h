@@ -63,7 +63,7 @@ const char *gb_lab_layout_head(const struct gb_lab_reading *reading, size_t colu
 enum { GB_LAB_LAYOUT_COLUMN = GB_LAB_TEXT_SHOWN + 24 };
 const char *gb_lab_layout_column(const struct gb_lab_reading *reading, int column,
                                  char buffer[GB_LAB_LAYOUT_COLUMN]);
-/* All of them: "1 'Zeit', 2 'Druck', ..."; g_free. */
+/* All of them, by their heads or their first cells: "1 'Zeit', 2 'Druck', ..."; g_free. */
 char *gb_lab_layout_list(const struct gb_lab_reading *reading);
 
 /* Cuts the text into cells and finds the table in it. */
