@@ -1,5 +1,6 @@
 #include "cli/lab_input.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -58,11 +59,13 @@ GOptionEntry *gb_lab_input_entries(struct gb_lab_input *input, const GOptionEntr
     return all;
 }
 
-bool gb_lab_input_given(const struct gb_lab_input *input)
+const char *gb_lab_input_given(const struct gb_lab_input *input)
 {
-    bool given = input->columns != NULL || input->series != NULL;
+    const char *given = input->series != NULL    ? "series"
+                        : input->columns != NULL ? "columns"
+                                                 : NULL;
     for (size_t k = 0; k < GB_LAB_INPUT_KEYS; k++) {
-        given = given || input->value[k] != NULL;
+        given = given == NULL && input->value[k] != NULL ? keys[k].key : given;
     }
     return given;
 }
@@ -134,19 +137,20 @@ static bool keep_series(struct gb_table *table, const char *series, struct gb_er
                             gb_table_path(table));
     }
     GString *known = g_string_new(NULL);
-    bool found = false;
+    GHashTable *seen = g_hash_table_new(g_str_hash, g_str_equal);
     for (size_t i = 0; i < gb_table_rows(table); i++) {
         const char *word = gb_table_word(table, i);
-        const bool repeated = i > 0 && strcmp(word, gb_table_word(table, i - 1)) == 0;
-        if (known->len < 200 && !repeated) {
-            g_string_append_printf(known, "%s%.40s", i > 0 ? ", " : "", word);
+        if (g_hash_table_add(seen, (char *)(uintptr_t)word) && known->len < 200) {
+            g_string_append_printf(known, "%s%.40s", known->len > 0 ? ", " : "", word);
         }
-        found = found || strcmp(word, series) == 0;
     }
+    const bool found = g_hash_table_contains(seen, series);
+    g_hash_table_destroy(seen);
     if (found) {
         gb_table_build_keep(table, series);
     } else {
-        gb_error_set(err, GB_ERR_INPUT, "%.200s: --series %.80s: accepted one of %s",
+        gb_error_set(err, GB_ERR_INPUT,
+                     "%.200s: --series %.80s: accepted one series of %s",
                      gb_table_path(table), series, known->str);
     }
     g_string_free(known, TRUE);

@@ -20,8 +20,8 @@ struct gb_lab_input {
 /* The options of a command (`own` ends with a zeroed one) and these behind them; g_free. */
 GOptionEntry *gb_lab_input_entries(struct gb_lab_input *input, const GOptionEntry *own);
 
-/* Whether one of the options was given. */
-bool gb_lab_input_given(const struct gb_lab_input *input);
+/* One of the options that were given; NULL: none. */
+const char *gb_lab_input_given(const struct gb_lab_input *input);
 
 /* Reads a file (io/lab/lab_reader.h); `also` as there.  A question is asked on a terminal;
  * without one it is an error that says what to give.  Errors: GB_ERR_INPUT, GB_ERR_MACHINE,

@@ -234,10 +234,90 @@ static void test_figure(void)
     g_free(svg);
 }
 
+/* The points of lab.csv as a German spreadsheet has them: the same fit, and a line. */
+static void write_german(void)
+{
+    GString *text = g_string_new("Versuch;Al2O3\r\n\r\nNr.;Druck [MPa];rel. Dichte [%];"
+                                 "Fehler der Dichte [%]\r\n");
+    for (int i = 0; i < 24; i++) {
+        const double p = pow(1.3, i);
+        g_string_append_printf(text, "%d;%.6f;%.4f;0.1\r\n", i + 1, p,
+                               100.0 * kawakita(p, i));
+    }
+    for (char *c = text->str + strlen("Versuch"); *c != '\0'; c++) {
+        *c = *c == '.' && g_ascii_isdigit(c[-1]) ? ',' : *c;
+    }
+    write_file("german.csv", text->str);
+    g_string_free(text, TRUE);
+    write_file("thousands.csv", "p (MPa);d (%)\n1,125;45\n2,250;50\n");
+    write_file("press.csv", "Weg [mm];Kraft [kN]\n0,0;0,0\n2,0;10,5\n4,0;20,5\n5,0;40,5\n"
+                            "5,5;60,5\n4,9;5,5\n");
+    write_file("powders.csv", "Probe;p [MPa];TD [%]\nA;10,5;40\nB;10,5;45\nA;20,5;45\n"
+                              "A;40,5;50\nA;80,5;55\nA;160,5;60\n");
+}
+
+static void test_spreadsheet(void)
+{
+    struct result own = call("fit lab.csv --csv");
+    struct result result = call("fit german.csv --csv");
+    g_assert_cmpint(result.status, ==, 0);
+    static const char told[] =
+        "greenbody: german.csv: pressure from column 2 'Druck [MPa]' in MPa, density from "
+        "column 3 'rel. Dichte [%]' in percent, density_error from column 4 'Fehler der "
+        "Dichte [%]' in percent; between semicolons, decimal comma, heads in line 3; 24 "
+        "points, 1 to 417.5 MPa, relative density 0.3547 to 0.7143; not read: 'Nr.'\n";
+    g_assert_cmpstr(result.err, ==, told);
+    char **lines[2] = {g_strsplit(own.out, "\n", -1), g_strsplit(result.out, "\n", -1)};
+    for (int k = 0; k < 3; k++) {
+        static const char *const names[] = {"a", "b", "D0"};
+        double value[2][3];
+        g_assert_true(find_row(lines[0], "kawakita", names[k], value[0]));
+        g_assert_true(find_row(lines[1], "kawakita", names[k], value[1]));
+        g_assert_cmpfloat_with_epsilon(value[1][0], value[0][0], 1e-5 * value[0][0]);
+        g_assert_cmpfloat_with_epsilon(value[1][1], value[0][1], 1e-3 * value[0][0]);
+    }
+    g_strfreev(lines[0]);
+    g_strfreev(lines[1]);
+    program_finish(&own);
+    program_finish(&result);
+}
+
+/* All that is needed is given: not a word, but of rows that are left out. */
+static void test_given(void)
+{
+    struct result result =
+        call("fit thousands.csv --columns pressure=1:MPa,density=2:% --decimal , "
+             "--separator ';' --csv");
+    g_assert_null(strstr(result.err, "thousands.csv: pressure"));
+    program_finish(&result);
+    result = call("fit press.csv --die-area 1cm2 --powder-mass 2g --true-density 4g/cm3 "
+                  "--initial-height 13mm --compliance '5 um/kN' --csv");
+    g_assert_nonnull(strstr(result.err, "1 row without pressure (line 2), 1 row of "
+                                        "unloading (line 7); 4 points, 105 to 605 MPa"));
+    program_finish(&result);
+    result = call("fit powders.csv --series A --equation walker --csv");
+    g_assert_cmpint(result.status, ==, 0);
+    program_finish(&result);
+}
+
 /* Words, and a part of the one line on stderr; exit status 2, nothing on stdout. */
 static const char *const refused[][2] = {
     {"fit", "fit takes run directories of one scene, or one file"},
     {"fit --csv", "fit takes run directories"},
+    {"fit thousands.csv",
+     "thousands.csv: '1,125' in line 2: is it 1.125 (decimal comma) or 1125 (decimal "
+     "point)? Give --columns 'pressure=1:MPa,density=2:%,decimal=comma' or --columns "
+     "'pressure=1:MPa,density=2:%,decimal=point'"},
+    {"fit press.csv",
+     "punch travel needs die-area, powder-mass, true-density, initial-height"},
+    {"fit german.csv --columns density=9:%",
+     "density=9: accepted one of the columns 1 'Nr.'"},
+    {"fit german.csv --decimal x", "--decimal=x: accepted comma, point"},
+    {"fit german.csv --die-area 3", "accepted a number above 0 in mm2, cm2, m2"},
+    {"fit one --decimal ,", "--decimal is for a file of measured points"},
+    {"plot one --figure densification --data thousands.csv", "decimal=comma"},
+    {"report one --data thousands.csv -o report", "decimal=comma"},
+    {"calibrate default --data thousands.csv --free contact.mu -o fit", "decimal=comma"},
     {"fit nowhere", "nowhere: no run directory"},
     {"fit nowhere.csv", "nowhere.csv"},
     {"fit lab.csv few.csv", "one file of measured points at a time"},
@@ -278,6 +358,28 @@ static void test_refused(void)
     }
 }
 
+/* The line that says how the file was read, and behind it that of the error. */
+static void test_refused_behind(void)
+{
+    static const char *const cases[][2] = {
+        {"fit powders.csv", "powders.csv: accepted one series of A, B"},
+        {"fit powders.csv --series C", "--series C: accepted one series of A, B"},
+        {"calibrate default --data powders.csv --free contact.mu -o fit",
+         "powders.csv:3: series B behind A"}};
+    for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+        struct result result = call(cases[i][0]);
+        char **lines = g_strsplit(result.err, "\n", -1);
+        g_test_message("%s", result.err);
+        g_assert_cmpint(result.status, ==, 2);
+        g_assert_cmpstr(result.out, ==, "");
+        g_assert_cmpuint(g_strv_length(lines), ==, 3);
+        g_assert_nonnull(strstr(lines[0], "series from column 1 'Probe'"));
+        g_assert_nonnull(strstr(lines[1], cases[i][1]));
+        g_strfreev(lines);
+        program_finish(&result);
+    }
+}
+
 static void remove_all(const char *path)
 {
     GDir *dir = g_dir_open(path, 0, NULL);
@@ -300,6 +402,7 @@ int main(int argc, char **argv)
     program = argv[1];
     folder = g_dir_make_tmp("greenbody-fit-XXXXXX", NULL);
     write_lab();
+    write_german();
     write_run("one", 1, "0.1");
     write_run("two", 2, "0.1");
     write_run("three", 3, "0.1");
@@ -309,7 +412,10 @@ int main(int argc, char **argv)
     g_test_add_func("/fit/runs", test_runs);
     g_test_add_func("/fit/partly", test_partly);
     g_test_add_func("/fit/figure", test_figure);
+    g_test_add_func("/fit/spreadsheet", test_spreadsheet);
+    g_test_add_func("/fit/given", test_given);
     g_test_add_func("/fit/refused", test_refused);
+    g_test_add_func("/fit/refused-behind", test_refused_behind);
     const int status = g_test_run();
     remove_all(folder);
     g_free(folder);

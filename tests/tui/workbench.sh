@@ -124,9 +124,18 @@ printf 'density,force\n0.4,100\n' >"$here/other.csv"
 keys e "$here/exp" Tab Enter
 shows "an experiment is drawn" '▲ measured, RMS misfit'
 keys e C-u "$here/other.csv" Enter
-shows "another table is refused in one line" 'needs density'
+shows "a force without its unit is a question" 'in which unit'
 keys Escape
-hides "Esc leaves the experiment" 'Measured data over the plot'
+hides "Esc leaves the experiment" 'How is this file read'
+printf 'Druck (MPa);Dichte (%%)\n100;40,5\n500;55,5\n' >"$here/german.csv"
+keys e C-u "$here/german.csv" Enter
+shows "how a spreadsheet was read is an event" "column 2 'Dichte"
+printf 'Druck (MPa);Dichte (%%)\n1,125;40\n2,125;55\n' >"$here/thousands.csv"
+keys e C-u "$here/thousands.csv" Enter
+shows "1,125 is a question" 'is it 1.125 (decimal comma)'
+keys Enter
+hides "which its first answer settles" 'How is this file read'
+shows "by a decimal comma" '1.125 to 2.125 MPa'
 keys e C-u Enter
 hides "an empty name removes it" '▲ measured'
 keys q

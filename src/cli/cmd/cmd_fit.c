@@ -113,10 +113,10 @@ static bool read_runs(struct gb_compaction_data *data, const struct request *req
             gb_runset_first(&set, 1)->directory, gb_runset_first(&set, 0)->directory,
             field != NULL ? field->group : "", field != NULL ? field->key : "");
     }
-    if (good && gb_lab_input_given(&request->lab)) {
-        good = gb_error_set(err, GB_ERR_INPUT,
-                            "--series, --columns and the like are for a file of measured "
-                            "points");
+    const char *option = gb_lab_input_given(&request->lab);
+    if (good && option != NULL) {
+        good = gb_error_set(err, GB_ERR_INPUT, "--%s is for a file of measured points",
+                            option);
     }
     good = good && gb_compaction_data_runs(data, &set, 0, &request->window, err);
     gb_runset_finish(&set);

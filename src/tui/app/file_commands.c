@@ -81,7 +81,7 @@ static void ask_reading(struct gb_dialog *dialog, const char *path,
     gb_dialog_set_note(dialog, GB_DIALOG_NOTE_WARNING, "%s", report->question);
 }
 
-/* Says how the file was read. */
+/* Says how the file was read, a clause each: the pane shows short lines in full. */
 static void note_data(struct gb_session *session, const char *path, const char *told)
 {
     if (*path == '\0') {
@@ -90,7 +90,15 @@ static void note_data(struct gb_session *session, const char *path, const char *
         gb_session_note(session, "loaded %s", path);
     } else {
         char *name = g_path_get_basename(path);
-        gb_session_note(session, "%s: %s", name, told);
+        char **clauses = g_strsplit(told, "; ", -1);
+        for (size_t i = 0; clauses[i] != NULL; i++) {
+            char **parts = g_strsplit(clauses[i], ", ", i == 0 ? -1 : 1);
+            for (size_t k = 0; parts[k] != NULL; k++) {
+                gb_session_note(session, "%s: %s", name, parts[k]);
+            }
+            g_strfreev(parts);
+        }
+        g_strfreev(clauses);
         g_free(name);
     }
 }
