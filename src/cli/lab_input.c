@@ -163,6 +163,12 @@ bool gb_lab_input_read(struct gb_table **out, const struct gb_lab_input *input,
     struct gb_lab_options options;
     struct gb_lab_report report;
     enum gb_lab_outcome outcome = GB_LAB_QUESTION;
+    const char *option = gb_lab_input_given(input);
+    *out = NULL;
+    if (path == NULL) {
+        return option == NULL ||
+               gb_error_set(err, GB_ERR_INPUT, "--%s is for the file of --data", option);
+    }
     if (!parse(input, &options, err)) {
         return false;
     }

@@ -23,7 +23,8 @@ GOptionEntry *gb_lab_input_entries(struct gb_lab_input *input, const GOptionEntr
 /* One of the options that were given; NULL: none. */
 const char *gb_lab_input_given(const struct gb_lab_input *input);
 
-/* Reads a file (io/lab/lab_reader.h); `also` as there.  A question is asked on a terminal;
+/* Reads a file (io/lab/lab_reader.h; `also` as there); path NULL: *out is NULL, and options
+ * are an error.  A question is asked on a terminal;
  * without one it is an error that says what to give.  Errors: GB_ERR_INPUT, GB_ERR_MACHINE,
  * GB_ERR_MEMORY.  *out is for gb_table_destroy. */
 bool gb_lab_input_read(struct gb_table **out, const struct gb_lab_input *input,

@@ -188,7 +188,7 @@ static bool add_data(struct gb_series *series, const struct request *request,
     const char *const axes[] = {series->x.name, series->y.name, NULL};
     const bool good =
         gb_lab_input_read(&table, &request->lab, request->data, axes, err) &&
-        gb_plotting_data(series, table, err);
+        (table == NULL || gb_plotting_data(series, table, err));
     gb_table_destroy(table);
     return good;
 }
@@ -200,7 +200,7 @@ static bool plot_series(const struct request *request,
     struct gb_series series = {0};
     bool good = gb_figures_run(figure, &series, input, err) &&
                 (request->inset == NULL || set_inset(&series, request->inset, err)) &&
-                (request->data == NULL || add_data(&series, request, err));
+                add_data(&series, request, err);
     if (good) {
         set_log(&series, request->log);
         good = write_series(&series, request, figure, input->set, err);

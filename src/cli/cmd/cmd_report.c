@@ -31,8 +31,7 @@ static bool read_data(struct gb_table **table, const struct measured *measured,
         }
     }
     g_ptr_array_add(axes, NULL);
-    const bool good = measured->path == NULL ||
-                      gb_lab_input_read(table, &measured->lab, measured->path,
+    const bool good = gb_lab_input_read(table, &measured->lab, measured->path,
                                         (const char *const *)axes->pdata, err);
     g_ptr_array_unref(axes);
     return good;
