@@ -27,7 +27,7 @@ static const struct {
 const char gb_lab_input_help[] =
     "Measured points may come as a spreadsheet or a testing machine exports them: any\n"
     "separator, decimal mark, encoding and names.  One line on stderr says how the file\n"
-    "was read; what can be read in two ways is asked, or refused with the --columns to\n"
+    "was read; what can be read in two ways is questions, or refused with the --columns to\n"
     "give.  A list as pressure=2:MPa,density=4:% names columns by number or by their\n"
     "heads in double quotes, with units; quantities: pressure, density, porosity, force,\n"
     "travel, height, density_error, pressure_error, branch, series.  Keys of the options\n"
@@ -173,11 +173,11 @@ bool gb_lab_input_read(struct gb_table **out, const struct gb_lab_input *input,
         return false;
     }
     const bool terminal = isatty(STDIN_FILENO) && isatty(STDERR_FILENO);
-    for (int asked = 0; outcome == GB_LAB_QUESTION; asked++) {
+    for (int questions = 0; outcome == GB_LAB_QUESTION; questions++) {
         outcome = gb_lab_reader_read(out, path, &options, also, &report, err);
         if (outcome == GB_LAB_QUESTION &&
-            (terminal && asked < QUESTIONS_MAX ? !ask(path, &report, &options, err)
-                                               : !refuse(path, &report, err))) {
+            (terminal && questions < QUESTIONS_MAX ? !ask(path, &report, &options, err)
+                                                   : !refuse(path, &report, err))) {
             return false;
         }
     }

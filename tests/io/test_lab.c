@@ -1,4 +1,4 @@
-/* Laboratory files of different habits: what is read, what is said, what is asked. */
+/* Laboratory files of different habits: what is read, what is said, what is expected. */
 #include <math.h>
 #include <string.h>
 
@@ -225,7 +225,7 @@ static void test_habit(const void *data)
 /* What can be read in two ways: the question, its answers, and what an answer gives. */
 struct question {
     const char *name, *text, *given;
-    const char *asked;
+    const char *expected;
     const char *choice[3];
     int taken; /* index of the answer that is tried; -1: has gaps */
     double pressure, density;
@@ -362,8 +362,8 @@ static void test_question(const void *data)
     g_test_message("%s%s%s", err.text, report.told, report.question);
     g_assert_cmpint(outcome, ==, GB_LAB_QUESTION);
     g_assert_null(table);
-    if (strstr(report.question, question->asked) == NULL) {
-        g_error("\"%s\" does not ask \"%s\"", report.question, question->asked);
+    if (strstr(report.question, question->expected) == NULL) {
+        g_error("\"%s\" does not ask \"%s\"", report.question, question->expected);
     }
     for (int k = 0; k < 3 && question->choice[k] != NULL; k++) {
         g_assert_cmpint(k, <, report.choices);

@@ -60,11 +60,11 @@ static bool same_head(const struct gb_lab_reading *reading, size_t column,
                       const char *name)
 {
     const char *head = gb_lab_layout_head(reading, column);
-    struct gb_lab_heading asked;
-    gb_lab_role_heading(name, &asked);
+    struct gb_lab_heading wanted;
+    gb_lab_role_heading(name, &wanted);
     return *head != '\0' && (strcmp(head, name) == 0 ||
-                             (asked.name[0] != '\0' && asked.unit == NULL &&
-                              strcmp(reading->heading[column].name, asked.name) == 0));
+                             (wanted.name[0] != '\0' && wanted.unit == NULL &&
+                              strcmp(reading->heading[column].name, wanted.name) == 0));
 }
 
 /* The column that an option names. */
@@ -251,9 +251,9 @@ static enum gb_lab_outcome check_units(struct gb_lab_reading *reading)
 /* Heads that are keys, as particles.diameter_nm: lower case, one point. */
 static bool is_key(const char *head)
 {
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyz_";
-    const size_t group = strspn(head, letters);
-    return group > 1 && head[group] == '.' && strspn(head + group + 1, letters) > 1 &&
+    static const char lower[] = "abcdefghijklmnopqrstuvwxyz_";
+    const size_t group = strspn(head, lower);
+    return group > 1 && head[group] == '.' && strspn(head + group + 1, lower) > 1 &&
            strcspn(head + group + 1, ". ") == strlen(head + group + 1);
 }
 

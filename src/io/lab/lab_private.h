@@ -7,8 +7,8 @@
 #include "io/lab/lab_text.h"
 
 /* A file while it is read: the steps are lab_layout (separator, head), lab_columns (which
- * column is what), lab_decimal, lab_rows (numbers), lab_press (pressure and density),
- * lab_branch (unloading), lab_reader (all of them, and the line that says it). */
+ * column is what), lab_decimal, lab_rows (numbers), lab_needs (what they need), lab_press
+ * (pressure and density), lab_branch (unloading), lab_reader (all of them, and the line that says it). */
 enum { GB_LAB_NONE = -1, GB_LAB_REASONS = 8 };
 
 /* Rows that were left out for one reason. */
@@ -66,6 +66,14 @@ const char *gb_lab_layout_column(const struct gb_lab_reading *reading, int colum
 /* All of them, by their heads or their first cells: "1 'Zeit', 2 'Druck', ..."; g_free. */
 char *gb_lab_layout_list(const struct gb_lab_reading *reading);
 
+/* The separator that was given, that of a first line "sep=;", which *text then passes, or
+ * the one that makes a table of the text. */
+enum gb_lab_outcome gb_lab_separator_find(struct gb_lab_reading *reading,
+                                          const char **text);
+/* The first row of the data: one of two numbers or more before another one or at the end;
+ * without such a pair the first of all.  False: there is none. */
+bool gb_lab_separator_first(const struct gb_lab_grid *grid, size_t *first);
+
 /* Cuts the text into cells and finds the table in it. */
 enum gb_lab_outcome gb_lab_layout_find(struct gb_lab_reading *reading);
 
@@ -83,6 +91,9 @@ void gb_lab_rows_keep(struct gb_lab_reading *reading, const bool *kept);
 
 /* Puts the words of branches and series in order. */
 void gb_lab_words_settle(struct gb_lab_reading *reading);
+
+/* Units of densities, and the numbers that force, travel and mass densities need. */
+enum gb_lab_outcome gb_lab_needs_check(struct gb_lab_reading *reading);
 
 /* Fills pressure and density, and drops rows without pressure. */
 enum gb_lab_outcome gb_lab_press_convert(struct gb_lab_reading *reading);

@@ -8,13 +8,13 @@ static void copy(char *to, size_t size, const char *text)
 {
     size_t used = 0;
     for (const char *at = text; *at != '\0';) {
-        const size_t letter = (size_t)(g_utf8_next_char(at) - at);
-        if (used + letter >= size) {
+        const size_t bytes = (size_t)(g_utf8_next_char(at) - at);
+        if (used + bytes >= size) {
             break;
         }
-        memcpy(to + used, at, letter);
-        used += letter;
-        at += letter;
+        memcpy(to + used, at, bytes);
+        used += bytes;
+        at += bytes;
     }
     to[used] = '\0';
 }

@@ -126,7 +126,8 @@ static enum gb_lab_outcome interpret(struct gb_lab_reading *reading)
 {
     static enum gb_lab_outcome (*const steps[])(struct gb_lab_reading *) = {
         gb_lab_layout_find,  gb_lab_columns_assign, check_words,
-        gb_lab_decimal_find, gb_lab_rows_read,      gb_lab_press_convert};
+        gb_lab_decimal_find, gb_lab_rows_read,      gb_lab_needs_check,
+        gb_lab_press_convert};
     for (size_t i = 0; i < G_N_ELEMENTS(steps); i++) {
         const enum gb_lab_outcome outcome = steps[i](reading);
         if (outcome != GB_LAB_READ) {

@@ -170,11 +170,11 @@ static void set_name(struct gb_lab_heading *heading, const char *text)
     char *lower = g_utf8_strdown(text, -1);
     size_t used = 0;
     for (const char *at = lower; *at != '\0'; at = g_utf8_next_char(at)) {
-        const gunichar letter = g_utf8_get_char(at);
-        const bool part =
-            g_unichar_isalnum(letter) || g_unichar_ismark(letter) || letter == '%';
+        const gunichar character = g_utf8_get_char(at);
+        const bool part = g_unichar_isalnum(character) || g_unichar_ismark(character) ||
+                          character == '%';
         char utf8[8] = " ";
-        const int size = part ? g_unichar_to_utf8(letter, utf8) : 1;
+        const int size = part ? g_unichar_to_utf8(character, utf8) : 1;
         const bool doubled = !part && (used == 0 || heading->name[used - 1] == ' ');
         if (!doubled && used + (size_t)size < GB_LAB_ROLE_NAME) {
             memcpy(heading->name + used, utf8, (size_t)size);

@@ -38,7 +38,7 @@ static const struct mark *find_mark(const char *bytes, size_t length)
 
 /* UTF-16 without a mark: digits and separators have a zero beside them.  The share of
  * zeros among the even and the odd bytes of the beginning tells the order. */
-static const char *guess_utf16(const char *bytes, size_t length)
+static const char *recognise_utf16(const char *bytes, size_t length)
 {
     const size_t seen = MIN(length, 4096) / 2;
     size_t zeros[2] = {0, 0};
@@ -67,7 +67,7 @@ static bool decode(struct gb_lab_text *out, const char *path, const char *bytes,
     const size_t skipped = mark != NULL ? mark->length : 0;
     const char *from = bytes + skipped;
     const size_t left = length - skipped;
-    const char *encoding = mark != NULL ? mark->encoding : guess_utf16(from, left);
+    const char *encoding = mark != NULL ? mark->encoding : recognise_utf16(from, left);
     out->guessed = mark == NULL && encoding != NULL;
     bool good = false;
     if (encoding != NULL && strcmp(encoding, "UTF-8") != 0) {
@@ -126,9 +126,10 @@ const char *gb_lab_text_show(const char *text, char buffer[GB_LAB_TEXT_SHOWN])
     size_t used = 0;
     int shown = 0;
     for (const char *at = text; *at != '\0'; at = g_utf8_next_char(at)) {
-        const gunichar letter = g_utf8_get_char(at);
+        const gunichar character = g_utf8_get_char(at);
         char utf8[8] = " ";
-        const int size = g_unichar_isprint(letter) ? g_unichar_to_utf8(letter, utf8) : 1;
+        const int size =
+            g_unichar_isprint(character) ? g_unichar_to_utf8(character, utf8) : 1;
         if (shown++ == CHARACTERS || used + (size_t)size + 4 > GB_LAB_TEXT_SHOWN) {
             memcpy(buffer + used, "...", 3);
             used += 3;
