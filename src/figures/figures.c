@@ -14,6 +14,10 @@
     {                                                                                    \
         .name = "p_MPa", .label = "pressure <i>p</i> (MPa)"                              \
     }
+#define MODULUS_AXIS                                                                     \
+    {                                                                                    \
+        .name = "modulus_GPa", .label = "modulus (GPa)"                                  \
+    }
 #define HEIGHT_AXIS                                                                      \
     {                                                                                    \
         .name = "z", .label = "height over that of the powder <i>z</i> / <i>H</i>"       \
@@ -202,6 +206,12 @@ static const struct gb_figures_row table[] = {
      .x = {.name = "strain_percent", .label = "strain (%)"},
      .y = {.name = "stress_MPa", .label = "stress (MPa)"},
      .compute = gb_figures_strength_curves},
+    {"moduli", "Young's, bulk, shear modulus and Poisson's ratio, of greenbody moduli",
+     "", GB_FIGURES_TABLE, .x = DENSITY_AXIS, .y = MODULUS_AXIS,
+     .compute = gb_figures_moduli},
+    {"moduli-axial", "elastic constants of the axis z against density", "",
+     GB_FIGURES_TABLE, .x = DENSITY_AXIS, .y = MODULUS_AXIS,
+     .compute = gb_figures_moduli_axial},
     {"chart", "accuracy against cost of numerical settings, from greenbody chart", "",
      GB_FIGURES_TABLE,
      .x = {.name = "cpu_s", .label = "processor time of one cell (s)", .log = true},

@@ -17,7 +17,8 @@ enum gb_figures_takes {
     GB_FIGURES_RUNS,   /* run directories: their curve.csv */
     GB_FIGURES_STATES, /* run directories or packings: their states */
     GB_FIGURES_SCENE,  /* a preset and group.key=value: contact laws */
-    GB_FIGURES_TABLE, /* the directory of `greenbody chart`, `card`, `yield`, `strength` */
+    GB_FIGURES_TABLE,  /* the directory of a study: `greenbody chart`, `card`, `moduli`,
+                        * `yield`, `strength` */
 };
 
 /* Options of the command line that a figure reads. */

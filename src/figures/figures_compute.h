@@ -29,6 +29,8 @@ gb_figures_compute gb_figures_heckel;
 gb_figures_compute gb_figures_lateral;
 gb_figures_compute gb_figures_legs_path;
 gb_figures_compute gb_figures_legs_stress_strain;
+gb_figures_compute gb_figures_moduli;
+gb_figures_compute gb_figures_moduli_axial;
 gb_figures_compute gb_figures_pair_force;
 gb_figures_compute gb_figures_pair_step;
 gb_figures_compute gb_figures_rate;

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "measure/elastic.h"
+#include "run/checkpoint.h"
 #include "run/experiment.h"
 #include "run/record/run_recorder.h"
 #include "scene/loading_kind.h"
@@ -73,7 +74,8 @@ static const char *const names[] = {"density",
                                     "fallbacks",
                                     "pyz_MPa",
                                     "pxz_MPa",
-                                    "pxy_MPa"};
+                                    "pxy_MPa",
+                                    "step"};
 _Static_assert(sizeof names / sizeof names[0] == GB_MODULI_TABLE_COLUMNS,
                "a name for every column");
 
@@ -201,6 +203,7 @@ static bool probe(const struct gb_experiment *experiment,
         return false;
     }
     gb_moduli_table_fill(&row, &moduli, gb_experiment_params(experiment));
+    put(&row, "step", (double)gb_experiment_point(experiment)->step);
     return sink->row(sink->data, &row, err);
 }
 
@@ -285,10 +288,13 @@ bool gb_moduli_table_file(const char *directory, const char *name,
     struct gb_params params;
     struct gb_record record = {0};
     struct gb_experiment *experiment = NULL;
-    const bool done = gb_run_recorder_read(directory, name, &params, &record, err) &&
-                      gb_loading_kind_check_cell(&params, "moduli", err) &&
-                      gb_experiment_resume(&experiment, &params, &record, err) &&
-                      probe(experiment, sink, err);
+    bool done = gb_run_recorder_read(directory, name, &params, &record, err) &&
+                gb_loading_kind_check_cell(&params, "moduli", err);
+    if (done &&
+        (!sink->wanted || sink->wanted(sink->data, gb_checkpoint_step(&record) - 1))) {
+        done = gb_experiment_resume(&experiment, &params, &record, err) &&
+               probe(experiment, sink, err);
+    }
     gb_experiment_destroy(experiment);
     gb_record_finish(&record);
     return done;

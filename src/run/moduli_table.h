@@ -10,7 +10,7 @@
 
 /* Moduli of states as rows of numbers, and where the states come from: a run of a preset,
  * or the files of a run directory. */
-enum { GB_MODULI_TABLE_COLUMNS = 62 };
+enum { GB_MODULI_TABLE_COLUMNS = 63 };
 
 /* Name of a column, with its unit; the first twelve are density, p_MPa, probe_strain and
  * nine elements of C. */
@@ -23,7 +23,7 @@ struct gb_moduli_table_row {
     bool range_open; /* the elastic range is beyond its value */
 };
 
-/* In GPa, MPa, m/s. */
+/* In GPa, MPa, m/s; all columns but `step`, which is of the run. */
 void gb_moduli_table_fill(struct gb_moduli_table_row *row, const struct gb_moduli *moduli,
                           const struct gb_params *params);
 
@@ -31,6 +31,8 @@ void gb_moduli_table_fill(struct gb_moduli_table_row *row, const struct gb_modul
 struct gb_moduli_table_sink {
     bool (*row)(void *data, const struct gb_moduli_table_row *row, struct gb_error *err);
     void *data;
+    /* Whether the state of this step in a file is to be probed; NULL: it is. */
+    bool (*wanted)(void *data, int64_t step);
     bool (*cancelled)(void *data); /* polled; NULL is fine */
     void *cancel_data;
     bool range; /* with the elastic range */
@@ -46,7 +48,8 @@ bool gb_moduli_table_run(const struct gb_params *params,
                          struct gb_error *err);
 
 /* Probes the state in a file of a run directory, relative to it ("state.h5").  Errors:
- * GB_ERR_INPUT for a file without contact histories. */
+ * GB_ERR_INPUT for a file without contact histories, or of a scene without a periodic
+ * cell. */
 bool gb_moduli_table_file(const char *directory, const char *name,
                           const struct gb_moduli_table_sink *sink, struct gb_error *err);
 

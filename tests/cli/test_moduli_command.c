@@ -152,7 +152,7 @@ static void check_refused(const char *folder, const char *words, const char *sai
 
 static void remove_run(const char *folder)
 {
-    static const char *const inner[] = {"run/snapshots", "run"};
+    static const char *const inner[] = {"run/snapshots", "run", "other", "two"};
     for (size_t k = 0; k < G_N_ELEMENTS(inner); k++) {
         char *path = g_build_filename(folder, inner[k], NULL);
         GDir *dir = g_dir_open(path, 0, NULL);
@@ -201,6 +201,72 @@ static void test_directory(void)
     g_free(folder);
 }
 
+/* Lines of a file of the folder without comments. */
+static char **lines_of(const char *folder, const char *name)
+{
+    char *path = g_build_filename(folder, name, NULL);
+    char *text = NULL;
+    g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
+    const char *at = text;
+    while (*at == '#') {
+        at = strchr(at, '\n') + 1;
+    }
+    char **lines = g_strsplit(g_strchomp((char *)(size_t)at), "\n", -1);
+    g_free(text);
+    g_free(path);
+    return lines;
+}
+
+static void call(const char *folder, const char *words, const char *said)
+{
+    struct result result = program_call(program, folder, words);
+    g_test_message("%s: %d %s", words, result.status, result.err);
+    g_assert_cmpint(result.status, ==, 0);
+    g_assert_nonnull(strstr(result.err, said));
+    program_finish(&result);
+}
+
+/* The table of a run grows by the states that it lacks, in their order; that of a preset is
+ * new.  Both are drawn. */
+static void test_out(void)
+{
+    char *folder = g_dir_make_tmp("moduli-XXXXXX", NULL);
+    call(folder, "run " SMALL_RUN " output.snapshots_at=density=0.35 --out run --quiet",
+         "");
+    call(folder, "moduli run --at density=0.4 --no-range --out run", "1 of 1 states: ");
+    char **last = lines_of(folder, "run/moduli.csv");
+    call(folder, "moduli run/ --no-range --out run", "1 of 2 states: density 0.35");
+    char **all = lines_of(folder, "run/moduli.csv");
+    g_assert_cmpuint(g_strv_length(last), ==, 2);
+    g_assert_cmpuint(g_strv_length(all), ==, 3);
+    g_assert_cmpstr(all[2], ==, last[1]);
+    g_assert_cmpfloat(value_of(all, 0, "step"), <, value_of(all, 1, "step"));
+    call(folder, "moduli run --out run", "all states are in run/moduli.csv already");
+    call(folder, "moduli run --no-range --out other --quiet", "");
+    char **other = lines_of(folder, "other/moduli.csv");
+    g_assert_cmpstr(other[1], ==, all[1]);
+    g_assert_cmpstr(other[2], ==, all[2]);
+    check_refused(folder, "moduli run --out other", "other: holds moduli.csv already");
+    call(folder, "moduli " SMALL_RUN " --no-range --replicas 2 --out two --quiet", "");
+    check_refused(folder, "moduli " SMALL_RUN " --out two", "two: holds moduli.csv");
+    check_refused(folder, "moduli " SMALL_RUN " --out run", "run: holds moduli.csv");
+    call(folder, "plot run two --figure moduli -o run/figure.svg", "");
+    char **drawn = lines_of(folder, "run/figure.csv");
+    g_assert_cmpfloat(value_of(drawn, 0, "K_GPa_1"), ==, value_of(all, 0, "K_GPa"));
+    g_assert_cmpfloat(value_of(drawn, 0, "error_E_GPa_2"), >, 0.0);
+    /* a run again in the same folder takes the table away */
+    call(folder, "run " SMALL_RUN " --out other --quiet --force", "");
+    char *stale = g_build_filename(folder, "other", "moduli.csv", NULL);
+    g_assert_false(g_file_test(stale, G_FILE_TEST_EXISTS));
+    g_free(stale);
+    g_strfreev(last);
+    g_strfreev(all);
+    g_strfreev(other);
+    g_strfreev(drawn);
+    remove_run(folder);
+    g_free(folder);
+}
+
 static void test_refused(void)
 {
     static const char *const rows[][2] = {
@@ -239,6 +305,7 @@ int main(int argc, char **argv)
     g_test_add_func("/moduli-command/replicas", test_replicas);
     g_test_add_func("/moduli-command/missed", test_missed);
     g_test_add_func("/moduli-command/directory", test_directory);
+    g_test_add_func("/moduli-command/out", test_out);
     g_test_add_func("/moduli-command/refused", test_refused);
     return g_test_run();
 }

@@ -261,6 +261,20 @@ static void write_strength(void)
                "shear,100,,1,0,0\nshear,100,,1,1,15\n");
 }
 
+/* Two states with errors, and a plane, which has axial constants alone. */
+static void write_moduli(void)
+{
+    write_text("moduli", "moduli.csv",
+               "density,K_GPa,G_GPa,E_GPa,nu,axial_C11_GPa,axial_C12_GPa,axial_C13_GPa,"
+               "axial_C33_GPa,axial_C44_GPa,error_density,error_E_GPa,error_K_GPa\n"
+               "0.4,5,4,9,0.1,8,2,2,10,3,0.01,0.5,0.25\n"
+               "0.5,10,8,19,0.15,16,4,4,20,6,0.02,1,0.75\n");
+    write_text("plane", "moduli.csv",
+               "density,K_GPa,G_GPa,E_GPa,nu,axial_C11_GPa,axial_C12_GPa,axial_C13_GPa,"
+               "axial_C33_GPa,axial_C44_GPa\n0.8,,,,,8,,2,10,3\n");
+    write_text("nothing", "moduli.csv", "density,K_GPa\n");
+}
+
 /* Directories that a figure is drawn from, by what it takes, unless it has a row of its
  * own below. */
 static const char *const usual[][3] = {
@@ -300,6 +314,8 @@ static const struct source {
     {"yield", {"yield"}},
     {"strength", {"strength"}},
     {"strength-curves", {"strength"}},
+    {"moduli", {"moduli"}},
+    {"moduli-axial", {"moduli", "plane"}},
 };
 
 static bool run_scene(const struct gb_figures_row *row, struct gb_series *series,
@@ -671,6 +687,48 @@ static void test_fit(void)
     gb_series_finish(&series);
 }
 
+/* Values and their errors in the twin; tables that lack them. */
+static void test_moduli(void)
+{
+    static const char *const one[] = {"moduli", NULL};
+    static const char *const two[] = {"moduli", "plane", NULL};
+    static const char *const refused[][4] = {
+        {"plane"}, {"nothing"}, {"a1"}, {"moduli", "plane", "moduli"}};
+    static const char *const reason[] = {"planes have no averages", "no states",
+                                         "no moduli.csv", "take 1 to 2 folders"};
+    struct gb_series series = {0};
+    struct gb_error err = {0};
+    g_assert_true(run_named("moduli", one, &series, &err));
+    g_assert_cmpuint(series.curves->len, ==, 4);
+    g_assert_cmpfloat(csv_cell(&series, "density_1", 1), ==, 0.5);
+    g_assert_cmpfloat(csv_cell(&series, "error_density_1", 1), ==, 0.02);
+    g_assert_cmpfloat(csv_cell(&series, "E_GPa_1", 1), ==, 19.0);
+    g_assert_cmpfloat(csv_cell(&series, "error_E_GPa_1", 0), ==, 0.5);
+    g_assert_cmpfloat(csv_cell(&series, "error_K_GPa_1", 1), ==, 0.75);
+    g_assert_true(isnan(csv_cell(&series, "error_G_GPa_1", 0)));
+    g_assert_cmpfloat(csv_cell(&series, "nu_1", 0), ==, 0.1);
+    for (guint k = 0; k < series.curves->len; k++) {
+        const struct gb_series_curve *curve =
+            &g_array_index(series.curves, struct gb_series_curve, k);
+        g_assert_cmpstr(g_ptr_array_index(series.names, (guint)curve->x_error), ==,
+                        "error_density_1");
+        g_assert_true(curve->below == (k == 3));
+    }
+    gb_series_finish(&series);
+    g_assert_true(run_named("moduli-axial", two, &series, &err));
+    g_assert_cmpuint(series.curves->len, ==, 5 + 4);
+    g_assert_cmpfloat(csv_cell(&series, "axial_C33_GPa_1", 1), ==, 20.0);
+    g_assert_cmpfloat(csv_cell(&series, "axial_C33_GPa_2", 0), ==, 10.0);
+    gb_series_finish(&series);
+    for (size_t k = 0; k < G_N_ELEMENTS(refused); k++) {
+        g_assert_false(run_named("moduli", refused[k], &series, &err));
+        g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+        g_assert_nonnull(strstr(err.text, reason[k]));
+        gb_series_finish(&series);
+        series = (struct gb_series){0};
+    }
+}
+
 static void test_formats(void)
 {
     static const char *const runs[] = {"a1", NULL};
@@ -779,6 +837,7 @@ int main(int argc, char **argv)
     write_legs();
     write_cycle("cycle1", 1);
     write_cycle("cycle2", 2);
+    write_moduli();
     write_card();
     write_yield();
     write_strength();
@@ -795,6 +854,7 @@ int main(int argc, char **argv)
     g_test_add_func("/figures/errors", test_errors);
     g_test_add_func("/figures/series", test_series);
     g_test_add_func("/figures/fit", test_fit);
+    g_test_add_func("/figures/moduli", test_moduli);
     g_test_add_func("/figures/formats", test_formats);
     g_test_add_func("/figures/report", test_report);
     const int status = g_test_run();

@@ -284,15 +284,17 @@ static char *describe_figures(void)
         g_free(line);
     }
     g_string_append(
-        text, "\nRuns whose presets are equal but for seed, title, threads "
-              "and [output] are one\ngroup; means are over its runs (figures of the "
-              "loading branch: also those that differ in\nloading.hold).  The directory "
-              "of a sweep stands for its runs.\nFigures of laws, from contact to "
-              "critical-step, take a preset and group.key=value\nin place of runs; "
-              "card, yield, strength and chart the directory of the command of their name.\n"
-              "A figure has a twin ending in .csv beside it;\n"
-              "the table of --data has the columns of its axes, and may have "
-              "series (words) and\n<column>_error.\n\n");
+        text,
+        "\nRuns whose presets are equal but for seed, title, threads "
+        "and [output] are one\ngroup; means are over its runs (figures of the "
+        "loading branch: also those that differ in\nloading.hold).  The directory "
+        "of a sweep stands for its runs.\nFigures of laws, from contact to "
+        "critical-step, take a preset and group.key=value\nin place of runs; "
+        "card, moduli, yield, strength and chart the directory of the command of their\n"
+        "name; two of moduli are compared.\n"
+        "A figure has a twin ending in .csv beside it;\n"
+        "the table of --data has the columns of its axes, and may have "
+        "series (words) and\n<column>_error.\n\n");
     g_string_append(text, gb_lab_input_help);
     return g_string_free(text, FALSE);
 }

@@ -1,0 +1,149 @@
+#include "run/moduli_states.h"
+
+#include <math.h>
+
+#include "base/table.h"
+
+enum { COLUMNS = GB_MODULI_TABLE_COLUMNS };
+
+void gb_moduli_states_add(struct gb_moduli_state *state,
+                          const struct gb_moduli_table_row *row)
+{
+    state->count++;
+    state->range_open = state->range_open || row->range_open;
+    for (int k = 0; k < COLUMNS; k++) {
+        state->sum[k] += row->value[k];
+        state->squares[k] += row->value[k] * row->value[k];
+    }
+    for (int k = 0; k < 36; k++) {
+        state->c_gpa[k / 6][k % 6] += row->c_gpa[k / 6][k % 6];
+    }
+}
+
+double gb_moduli_states_mean(const struct gb_moduli_state *state, int column)
+{
+    return state->sum[column] / state->count;
+}
+
+double gb_moduli_states_error(const struct gb_moduli_state *state, int column)
+{
+    const double n = state->count, mean = gb_moduli_states_mean(state, column);
+    const double variance = (state->squares[column] - n * mean * mean) / (n - 1.0);
+    return n > 1.0 ? sqrt(fmax(variance, 0.0) / n) : (double)NAN;
+}
+
+static const struct gb_moduli_state *state_at(const GArray *states, guint k)
+{
+    return &g_array_index(states, struct gb_moduli_state, k);
+}
+
+static void append_number(GString *text, double value)
+{
+    if (isfinite(value)) {
+        g_string_append_printf(text, "%.10g", value);
+    }
+}
+
+static void append_head(GString *text, bool errors)
+{
+    for (int k = 0; k < COLUMNS; k++) {
+        g_string_append_printf(text, "%s%s", k > 0 ? "," : "", gb_moduli_table_name(k));
+    }
+    g_string_append(text, ",replicas");
+    for (int k = 0; k < COLUMNS && errors; k++) {
+        g_string_append_printf(text, ",error_%s", gb_moduli_table_name(k));
+    }
+    g_string_append_c(text, '\n');
+}
+
+GString *gb_moduli_states_csv(const GArray *states, const char *comment)
+{
+    const bool errors = states->len > 0 && state_at(states, 0)->count > 1;
+    GString *text = g_string_new(NULL);
+    char **lines = g_strsplit(comment != NULL ? comment : "", "\n", 0);
+    for (int i = 0; lines[i] != NULL; i++) {
+        g_string_append_printf(text, "# %s\n", lines[i]);
+    }
+    g_strfreev(lines);
+    append_head(text, errors);
+    for (guint s = 0; s < states->len; s++) {
+        const struct gb_moduli_state *state = state_at(states, s);
+        for (int k = 0; k < COLUMNS; k++) {
+            append_number(text, gb_moduli_states_mean(state, k));
+            g_string_append_c(text, ',');
+        }
+        g_string_append_printf(text, "%d", state->count);
+        for (int k = 0; k < COLUMNS && errors; k++) {
+            g_string_append_c(text, ',');
+            append_number(text, gb_moduli_states_error(state, k));
+        }
+        g_string_append_c(text, '\n');
+    }
+    return text;
+}
+
+static bool read_columns(const struct gb_table *table, const double *column[COLUMNS],
+                         struct gb_error *err)
+{
+    const double *replicas = gb_table_column(table, "replicas", err);
+    for (int k = 0; k < COLUMNS && replicas != NULL; k++) {
+        column[k] = gb_table_column(table, gb_moduli_table_name(k), err);
+        if (column[k] == NULL) {
+            return false;
+        }
+    }
+    for (size_t row = 0; replicas != NULL && row < gb_table_rows(table); row++) {
+        if (replicas[row] != 1.0) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "%s:%d: replicas %g: a table of one run has 1; choose "
+                                "another directory",
+                                gb_table_path(table), gb_table_line(table, row),
+                                replicas[row]);
+        }
+    }
+    return replicas != NULL;
+}
+
+bool gb_moduli_states_read(GArray *states, const char *path, struct gb_error *err)
+{
+    struct gb_table *table = NULL;
+    const double *column[COLUMNS];
+    const bool good =
+        gb_table_read(&table, path, NULL, err) && read_columns(table, column, err);
+    for (size_t row = 0; good && row < gb_table_rows(table); row++) {
+        struct gb_moduli_state state = {.count = 1};
+        for (int k = 0; k < COLUMNS; k++) {
+            state.sum[k] = column[k][row];
+            state.squares[k] = column[k][row] * column[k][row];
+        }
+        g_array_append_val(states, state);
+    }
+    gb_table_destroy(table);
+    return good;
+}
+
+static double step_of(const struct gb_moduli_state *state)
+{
+    return gb_moduli_states_mean(state, gb_moduli_table_find("step"));
+}
+
+bool gb_moduli_states_has(const GArray *states, int64_t step)
+{
+    for (guint k = 0; k < states->len; k++) {
+        if (step_of(state_at(states, k)) == (double)step) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static int by_step(const void *a, const void *b)
+{
+    const double x = step_of(a), y = step_of(b);
+    return (x > y) - (x < y);
+}
+
+void gb_moduli_states_sort(GArray *states)
+{
+    g_array_sort(states, by_step);
+}
