@@ -80,6 +80,12 @@ static bool check_cell(const struct gb_params *params, struct gb_error *err)
 static bool check_loading(const struct gb_params *params, struct gb_error *err)
 {
     const double start = gb_derived_structure_density(params);
+    if (params->geometry == GB_GEOMETRY_DIE) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "loading.geometry = die: must be uniaxial (a closed die), "
+                            "biaxial or isotropic with scene.kind = %s",
+                            gb_loading_kind_of(params)->name);
+    }
     if (gb_loading_kind_follows_path(params)) {
         struct gb_path path;
         return gb_path_parse(&path, params->path, params->dimension, err);

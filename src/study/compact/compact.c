@@ -60,6 +60,18 @@ static bool keep(struct gb_compact *to, struct gb_experiment *experiment,
     return gb_checkpoint_take(experiment, &to->record, err);
 }
 
+/* Neither attraction nor bridges: no strength, and no pressure below random packing. */
+static bool check_cohesion(const struct gb_params *params, struct gb_error *err)
+{
+    struct gb_model model;
+    return gb_model_init(&model, params, err) &&
+           (model.terms.attraction || model.terms.bridges ||
+            gb_error_set(err, GB_ERR_INPUT,
+                         "material.epsilon, contact.bridge_length: without attraction "
+                         "(rod law, epsilon above 0) and bridges (below 1 d) a compact "
+                         "does not hold together: must have one of them"));
+}
+
 bool gb_compact_params(struct gb_params *params, const struct gb_params *preset,
                        struct gb_error *err)
 {
@@ -67,6 +79,9 @@ bool gb_compact_params(struct gb_params *params, const struct gb_params *preset,
         return gb_error_set(err, GB_ERR_INPUT,
                             "scene.kind and scene.dimension: must be quasistatic and 3: "
                             "yield and strength are measured in a periodic cell");
+    }
+    if (!check_cohesion(preset, err)) {
+        return false;
     }
     *params = *preset;
     params->changes[0] = '\0';

@@ -40,7 +40,8 @@ struct gb_compact_walk {
 
 /* Parameters that press a packing to a mark: the preset's own path, or its geometry (axes
  * are strained alike, the others are fixed).  Unloading and changes of the preset are left
- * out.  Errors: GB_ERR_INPUT for scenes other than a quasi-static 3D cell. */
+ * out.  Errors: GB_ERR_INPUT for scenes other than a quasi-static 3D cell, and for
+ * powders that neither attraction nor bridges hold together. */
 bool gb_compact_params(struct gb_params *params, const struct gb_params *preset,
                        struct gb_error *err);
 
