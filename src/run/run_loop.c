@@ -166,6 +166,16 @@ void gb_run_loop_save(struct gb_run_loop *loop)
     write_status(loop);
 }
 
+void gb_run_loop_store(struct gb_run_loop *loop)
+{
+    struct gb_error err = {0};
+    if (records(loop)) {
+        check_record(
+            loop, gb_run_recorder_save(loop->recorder, gb_run_loop_seconds(loop), &err),
+            &err);
+    }
+}
+
 void gb_run_loop_inherit(struct gb_run_loop *loop, const struct gb_curve *curve)
 {
     const size_t points = gb_curve_count(curve);

@@ -96,5 +96,7 @@ void gb_run_loop_observe(struct gb_run_loop *loop, enum gb_run_state state);
 void gb_run_loop_event(struct gb_run_loop *loop, const char *text);
 /* Checkpoint and status now, the status as in the snapshot. */
 void gb_run_loop_save(struct gb_run_loop *loop);
+/* The checkpoint alone, and waits until it is written. */
+void gb_run_loop_store(struct gb_run_loop *loop);
 
 #endif

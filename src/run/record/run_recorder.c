@@ -284,13 +284,19 @@ void gb_run_recorder_fail(struct gb_run_recorder *recorder,
     (void)gb_store_status(recorder->store, snapshot, &ignored);
 }
 
+bool gb_run_recorder_save(struct gb_run_recorder *recorder, double seconds,
+                          struct gb_error *err)
+{
+    return !recorder->writer ||
+           (gb_writer_wait(recorder->writer, err) &&
+            gb_run_recorder_tick(recorder, seconds, GB_RUN_RECORDER_NOW, err) &&
+            gb_writer_wait(recorder->writer, err));
+}
+
 bool gb_run_recorder_conclude(struct gb_run_recorder *recorder,
                               const struct gb_snapshot *snapshot, struct gb_error *err)
 {
-    return (!recorder->writer || (gb_writer_wait(recorder->writer, err) &&
-                                  gb_run_recorder_tick(recorder, snapshot->seconds,
-                                                       GB_RUN_RECORDER_NOW, err) &&
-                                  gb_writer_wait(recorder->writer, err))) &&
+    return gb_run_recorder_save(recorder, snapshot->seconds, err) &&
            gb_store_sync(recorder->store, err) &&
            gb_store_status(recorder->store, snapshot, err);
 }

@@ -65,6 +65,10 @@ enum gb_run_recorder_when {
 bool gb_run_recorder_tick(struct gb_run_recorder *recorder, double seconds,
                           enum gb_run_recorder_when when, struct gb_error *err);
 
+/* The same now, and waits until it is there. */
+bool gb_run_recorder_save(struct gb_run_recorder *recorder, double seconds,
+                          struct gb_error *err);
+
 /* Writes the snapshot to status.json; returns before it is written. */
 bool gb_run_recorder_status(struct gb_run_recorder *recorder,
                             const struct gb_snapshot *snapshot, struct gb_error *err);

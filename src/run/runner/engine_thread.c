@@ -32,6 +32,9 @@ static void obey(struct gb_runner *runner, struct gb_command command)
     case GB_COMMAND_CONTINUE:
         runner->yielded = false;
         break;
+    case GB_COMMAND_STORE:
+        runner->store_wanted = true;
+        break;
     }
 }
 
@@ -46,6 +49,22 @@ void gb_engine_thread_drain(struct gb_runner *runner)
     pthread_mutex_unlock(&runner->mutex);
 }
 
+/* A run without a recorded point has no state to store yet. */
+static bool store_is_due(const struct gb_runner *runner)
+{
+    const struct gb_run_recorder *recorder = runner->loop.recorder;
+    return runner->store_wanted &&
+           (recorder == NULL || gb_run_recorder_points(recorder) > 0);
+}
+
+static void store_if_due(struct gb_runner *runner)
+{
+    if (store_is_due(runner)) {
+        gb_run_loop_store(&runner->loop);
+        gb_runner_publish_stored(runner);
+    }
+}
+
 /* Sleeps until a command clears the reason; the time does not count for the run. */
 static void sleep_while(struct gb_runner *runner, const bool *reason)
 {
@@ -55,6 +74,10 @@ static void sleep_while(struct gb_runner *runner, const bool *reason)
         struct gb_command command;
         if (runner->quit) {
             runner->stop = true;
+        } else if (store_is_due(runner)) {
+            pthread_mutex_unlock(&runner->mutex);
+            store_if_due(runner);
+            pthread_mutex_lock(&runner->mutex);
         } else if (gb_command_ring_pop(&runner->ring, &command)) {
             obey(runner, command);
         } else {
@@ -83,6 +106,7 @@ static bool may_continue(void *data, struct gb_error *err)
 {
     struct gb_runner *runner = data;
     gb_engine_thread_drain(runner);
+    store_if_due(runner);
     if (runner->yielded && !runner->stop) {
         sleep_while(runner, &runner->yielded);
     }

@@ -73,6 +73,9 @@ static void wait_for_next(struct gb_runner *runner)
     const double until = gb_clock_s() + follow_every_s;
     while (!runner->stop && gb_clock_s() < until) {
         gb_engine_thread_drain(runner);
+        if (runner->store_wanted) {
+            gb_runner_publish_stored(runner);
+        }
         g_usleep(100000);
     }
 }

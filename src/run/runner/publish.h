@@ -43,7 +43,8 @@ enum gb_command_kind {
     GB_COMMAND_WATCH, /* take view samples of the packing from now on */
     GB_COMMAND_FORK,  /* hand over the state at the next point of the loading */
     GB_COMMAND_YIELD, /* sleep while another engine computes: no event, no other state */
-    GB_COMMAND_CONTINUE /* ends YIELD */
+    GB_COMMAND_CONTINUE, /* ends YIELD */
+    GB_COMMAND_STORE     /* write the state of the last point to state.h5 */
 };
 
 struct gb_command {

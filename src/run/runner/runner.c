@@ -181,6 +181,14 @@ bool gb_runner_send(struct gb_runner *runner, enum gb_command_kind kind)
     return true;
 }
 
+int64_t gb_runner_stored(struct gb_runner *runner)
+{
+    pthread_mutex_lock(&runner->mutex);
+    const int64_t stored = runner->stored;
+    pthread_mutex_unlock(&runner->mutex);
+    return stored;
+}
+
 const struct gb_snapshot *gb_runner_snapshot(struct gb_runner *runner, bool *changed)
 {
     const bool fresh = gb_publish_take(&runner->publish);

@@ -51,6 +51,10 @@ void gb_runner_destroy(struct gb_runner *runner);
 /* Queues a command; false when the ring is full. */
 bool gb_runner_send(struct gb_runner *runner, enum gb_command_kind kind);
 
+/* How many GB_COMMAND_STORE are done: the state of the last recorded point is in state.h5.
+ * A run that is followed stores its own, and this one counts at once. */
+int64_t gb_runner_stored(struct gb_runner *runner);
+
 /* Newest snapshot; *changed (may be NULL) tells whether it is new since the last call. */
 const struct gb_snapshot *gb_runner_snapshot(struct gb_runner *runner, bool *changed);
 

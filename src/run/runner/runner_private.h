@@ -33,6 +33,7 @@ struct gb_runner {
     pthread_mutex_t mutex;
     pthread_cond_t wake;
     bool quit;
+    int64_t stored;          /* GB_COMMAND_STORE done so far */
     bool forked;             /* record holds the requested state */
     size_t forked_points;    /* of the curve, at that state */
     struct gb_record record; /* of the engine until forked, then of the screen */
@@ -44,6 +45,7 @@ struct gb_runner {
     bool paused, stop;
     bool yielded;             /* sleeps while another engine computes */
     bool view_wanted;         /* view samples are taken */
+    bool store_wanted;        /* state.h5 is written between two slices */
     bool fork_wanted;         /* the state of the next loading point is handed over */
     struct gb_record *origin; /* state that the run begins with; NULL: a new packing */
     double published_s, publish_cost_s; /* clock reading; seconds that filling took */
@@ -57,6 +59,8 @@ void *gb_follow_thread(void *data);
 /* Takes all commands from the ring. */
 void gb_engine_thread_drain(struct gb_runner *runner);
 
+/* GB_COMMAND_STORE is done. */
+void gb_runner_publish_stored(struct gb_runner *runner);
 /* Adds to the list of events that the screen reads. */
 void gb_runner_publish_event(struct gb_runner *runner, const char *text);
 /* Hands the loop's snapshot to the screen as it is. */

@@ -13,6 +13,14 @@ static const double publish_every_s = 0.05, publish_share = 0.1;
 /* The same for view samples, which change slowly and cost more. */
 static const double view_every_s = 0.25, view_share = 0.03;
 
+void gb_runner_publish_stored(struct gb_runner *runner)
+{
+    runner->store_wanted = false;
+    pthread_mutex_lock(&runner->mutex);
+    runner->stored++;
+    pthread_mutex_unlock(&runner->mutex);
+}
+
 void gb_runner_publish_event(struct gb_runner *runner, const char *text)
 {
     pthread_mutex_lock(&runner->mutex);

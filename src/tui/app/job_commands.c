@@ -5,9 +5,10 @@
 #include "io/store.h"
 #include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
+#include "tui/view/views.h"
 
-/* Replicas of the scene shown and its calibration to the measured data: the commands
- * `sweep` and `calibrate` as child processes. */
+/* Replicas of the scene shown, its calibration to the measured data, moduli of the run: the
+ * commands `sweep`, `calibrate` and `moduli` as child processes. */
 
 /* P1 averages ten cells; a standard error of 0.002 separates two powders of one study. */
 static const char default_replicas[] = "10 0.002@100MPa";
@@ -30,6 +31,27 @@ void gb_job_commands_calibrate(struct gb_app *app, const struct gb_key *key)
         return;
     }
     gb_dialog_show(&app->screen.dialog, &gb_dialogs_calibrate, default_keys);
+}
+
+/* The view of the moduli opens; where it is shown, a second key stops the measurement. */
+void gb_job_commands_moduli(struct gb_app *app, const struct gb_key *key)
+{
+    struct gb_session *session = &app->screen.session;
+    struct gb_error err = {0};
+    (void)key;
+    if (gb_moduli_job_runs(&session->moduli, &session->child)) {
+        gb_moduli_job_stop(&session->moduli, &session->child);
+        gb_screen_commands_message(app, GB_STYLE_PLAIN, "the measurement is stopped");
+        return;
+    }
+    if (!gb_moduli_job_start(&session->moduli, session->runner,
+                             gb_session_run_is_live(session), &session->child, &err)) {
+        gb_screen_commands_message(app, GB_STYLE_WARN, err.text);
+        return;
+    }
+    app->screen.plot.view = gb_views_find("S");
+    gb_screen_commands_message(app, GB_STYLE_PLAIN,
+                               "measuring the stored states; Y again stops");
 }
 
 /* The parameters shown as a preset file DIRECTORY/scene.ini (g_free). */

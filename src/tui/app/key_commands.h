@@ -63,9 +63,10 @@ void gb_file_commands_accept_open(struct gb_app *app);
 void gb_file_commands_accept_data(struct gb_app *app);
 void gb_file_commands_accept_reading(struct gb_app *app);
 
-/* job_commands.c: replicas and calibrations, computed by a child command. */
+/* job_commands.c: replicas, calibrations and moduli, computed by a child command. */
 void gb_job_commands_replicas(struct gb_app *app, const struct gb_key *key);
 void gb_job_commands_calibrate(struct gb_app *app, const struct gb_key *key);
+void gb_job_commands_moduli(struct gb_app *app, const struct gb_key *key);
 void gb_job_commands_accept_replicas(struct gb_app *app);
 void gb_job_commands_accept_calibrate(struct gb_app *app);
 

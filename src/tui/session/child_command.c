@@ -20,7 +20,7 @@ static void prepare_child(gpointer data)
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     (void)dup2(STDERR_FILENO, STDOUT_FILENO);
-    if (child->kind == GB_CHILD_COMMAND_LONG) {
+    if (child->kind != GB_CHILD_COMMAND_SHORT) {
         (void)setpriority(PRIO_PROCESS, 0, LOWER_PRIORITY);
     }
 }
@@ -82,11 +82,18 @@ static bool read_line(struct gb_child_command *child)
     return false;
 }
 
-/* "12 of 40 runs, 0 failed, 3 min left": replaced by the next one. */
+void gb_child_command_stop(const struct gb_child_command *child)
+{
+    if (child->pid != 0) {
+        (void)kill(child->pid, SIGTERM);
+    }
+}
+
+/* "12 of 40 runs, 0 failed, 3 min left", "1 of 3 states: ...": replaced by the next one. */
 static bool is_progress(const char *line)
 {
-    return strstr(line, " of ") != NULL && strstr(line, " runs, ") != NULL &&
-           g_ascii_isdigit(line[0]);
+    return g_ascii_isdigit(line[0]) && strstr(line, " of ") != NULL &&
+           (strstr(line, " runs, ") != NULL || strstr(line, " states: ") != NULL);
 }
 
 static void write_outcome(const struct gb_child_command *child, int status, char *text,
@@ -108,7 +115,7 @@ enum gb_child_command_event gb_child_command_poll(struct gb_child_command *child
         return GB_CHILD_COMMAND_NONE;
     }
     while (read_line(child)) {
-        if (child->kind == GB_CHILD_COMMAND_LONG && is_progress(child->line)) {
+        if (child->kind != GB_CHILD_COMMAND_SHORT && is_progress(child->line)) {
             g_strlcpy(child->progress, child->line, sizeof child->progress);
             return GB_CHILD_COMMAND_PROGRESS;
         }

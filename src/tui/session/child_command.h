@@ -10,7 +10,8 @@ enum { GB_CHILD_COMMAND_LINE = 256 };
 
 enum gb_child_command_kind {
     GB_CHILD_COMMAND_SHORT, /* its last line of output is shown if it fails */
-    GB_CHILD_COMMAND_LONG   /* all its output is shown; lower scheduling priority */
+    GB_CHILD_COMMAND_LONG,  /* all its output is shown; lower scheduling priority */
+    GB_CHILD_COMMAND_QUIET  /* its progress is shown, the rest as SHORT; lower priority */
 };
 
 /* A command of this program as a child process: picture, report, replicas, calibration.
@@ -21,7 +22,7 @@ struct gb_child_command {
     enum gb_child_command_kind kind;
     char name[16];                        /* "picture" */
     char path[512];                       /* of its result */
-    char progress[GB_CHILD_COMMAND_LINE]; /* "12 of 40 runs, ..."; "" without */
+    char progress[GB_CHILD_COMMAND_LINE]; /* "12 of 40 runs, ...", "1 of 3 states: ..." */
     char line[GB_CHILD_COMMAND_LINE];     /* incomplete line, or the last one */
     size_t length;
 };
@@ -31,6 +32,9 @@ struct gb_child_command {
 bool gb_child_command_start(struct gb_child_command *child, const char *name,
                             const char *path, enum gb_child_command_kind kind,
                             const char *const *words, struct gb_error *err);
+
+/* Asks the command to end; it is over with GB_CHILD_COMMAND_ENDED. */
+void gb_child_command_stop(const struct gb_child_command *child);
 
 enum gb_child_command_event {
     GB_CHILD_COMMAND_NONE,

@@ -27,6 +27,7 @@ void gb_session_finish(struct gb_session *session)
         gb_previous_curve_finish(&session->previous[i]);
     }
     gb_replica_band_finish(&session->replica_band);
+    gb_moduli_job_finish(&session->moduli);
     gb_measured_destroy(session->measured);
     g_free(session->reading);
     gb_chart_csv_destroy(session->chart);

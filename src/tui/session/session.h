@@ -6,6 +6,7 @@
 #include "io/preset.h"
 #include "run/runner/runner.h"
 #include "tui/session/child_command.h"
+#include "tui/session/moduli_job.h"
 #include "tui/session/overlay/chart_csv.h"
 #include "tui/session/overlay/previous_curve.h"
 #include "tui/session/overlay/replica_band.h"
@@ -47,8 +48,9 @@ struct gb_session {
         [GB_SESSION_WHATIF]; /* what-if that waits for the next point; "": none */
     size_t whatif_at[GB_SESSION_WHATIFS]; /* points of the curve where a what-if began */
     int whatifs;
-    struct gb_child_command child;       /* picture, report, replicas or calibration */
+    struct gb_child_command child; /* picture, report, replicas, calibration, moduli */
     struct gb_replica_band replica_band; /* mean of the replicas */
+    struct gb_moduli_job moduli;         /* elastic moduli of the run */
     struct gb_measured *measured;        /* measured data; NULL: none */
     char *reading; /* how its file was asked to be read, as --columns; owned */
     struct gb_chart_csv *chart;  /* chart of numerical settings; NULL: none */

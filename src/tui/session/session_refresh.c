@@ -82,8 +82,14 @@ bool gb_session_refresh(struct gb_session *session)
     const bool ran = refresh_run(session);
     gb_whatif_refresh(session);
     const bool made = refresh_child(session);
+    const bool measured =
+        gb_moduli_job_refresh(&session->moduli, session->runner, &session->child, made);
+    if (session->moduli.failed.code != GB_OK) {
+        gb_session_note(session, "moduli: %s", session->moduli.failed.text);
+        session->moduli.failed = (struct gb_error){0};
+    }
     if (news == GB_QUICK_CELL_ENDED) {
         gb_session_quick_finish(session);
     }
-    return news != GB_QUICK_CELL_SAME || ran || made;
+    return news != GB_QUICK_CELL_SAME || ran || made || measured;
 }

@@ -14,6 +14,11 @@ static bool has_tensors(const struct gb_params *params)
     return gb_loading_kind_of(params)->changes;
 }
 
+static bool has_cell(const struct gb_params *params)
+{
+    return gb_loading_kind_of(params)->periodic_cell;
+}
+
 static const struct gb_plot_view views[] = {
     {
         .key = "1",
@@ -115,6 +120,16 @@ static const struct gb_plot_view views[] = {
         .abscissa = GB_VIEW_DENSITY,
         .options = GB_VIEW_PRESSURE_AXIS,
         .draw = gb_view_fit_draw,
+    },
+    {
+        .key = "S",
+        .help = "stiffness: elastic moduli against density",
+        .title = "Elastic moduli",
+        .hint = "averages of Hill, constants of the axis z in GPa; Y measures the stored "
+                "states of the run, Y again stops",
+        .draw = gb_view_moduli_draw,
+        .applies = has_cell,
+        .excluded = "moduli need a periodic cell",
     },
     {
         .key = "P",

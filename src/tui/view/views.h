@@ -103,6 +103,9 @@ void gb_view_legs_stress_strain(struct gb_panel_plot *panel,
 void gb_view_legs_volume_strain(struct gb_panel_plot *panel,
                                 const struct gb_session *session);
 
+/* Elastic moduli of the run's states against density, numbers of the last one. */
+void gb_view_moduli_draw(struct gb_panel_plot *panel, const struct gb_session *session);
+
 /* Accuracy against cost of the numerical settings in the loaded chart. */
 void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *session);
 
