@@ -75,3 +75,13 @@ bool gb_file_replace(const char *path, const void *data, size_t size,
     g_error_free(error);
     return false;
 }
+
+bool gb_file_is_same(const char *a, const char *b)
+{
+    char *first = g_canonicalize_filename(a, NULL);
+    char *second = g_canonicalize_filename(b, NULL);
+    const bool same = strcmp(first, second) == 0;
+    g_free(first);
+    g_free(second);
+    return same;
+}

@@ -27,6 +27,9 @@ bool gb_file_check_target(const char *path, struct gb_error *err);
  * says so. */
 bool gb_file_may_write(void);
 
+/* Two names of one place, seen from the working directory; links are not followed. */
+bool gb_file_is_same(const char *a, const char *b);
+
 /* Test hook: the k-th write from now on fails as on a full disk (k = 1 is the next one);
  * 0 switches the hook off.  Returns how many were left before: 0 after the failure.
  * Thread-safe. */

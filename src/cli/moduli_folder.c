@@ -55,16 +55,6 @@ bool gb_moduli_folder_begin(const struct gb_moduli_folder *folder,
     return good;
 }
 
-static bool is_same(const char *a, const char *b)
-{
-    char *first = g_canonicalize_filename(a, NULL);
-    char *second = g_canonicalize_filename(b, NULL);
-    const bool same = strcmp(first, second) == 0;
-    g_free(first);
-    g_free(second);
-    return same;
-}
-
 bool gb_moduli_folder_open(struct gb_moduli_folder *folder, const char *directory,
                            struct gb_error *err)
 {
@@ -74,7 +64,7 @@ bool gb_moduli_folder_open(struct gb_moduli_folder *folder, const char *director
     char *path = g_build_filename(folder->path, GB_MODULI_STATES_FILE, NULL);
     bool good = make(folder, err);
     if (good && g_file_test(path, G_FILE_TEST_EXISTS)) {
-        good = is_same(directory, folder->path)
+        good = gb_file_is_same(directory, folder->path)
                    ? gb_moduli_states_read(folder->earlier, path, err)
                    : gb_error_set(err, GB_ERR_INPUT,
                                   "--out %.300s: holds %s already; choose another folder",

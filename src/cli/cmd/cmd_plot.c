@@ -5,6 +5,7 @@
 
 #include <glib.h>
 
+#include "base/file.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/lab_input.h"
@@ -107,16 +108,6 @@ static bool check_request(const struct request *request,
                               err));
 }
 
-static bool same_path(const char *a, const char *b)
-{
-    char *first = g_canonicalize_filename(a, NULL);
-    char *second = g_canonicalize_filename(b, NULL);
-    const bool same = strcmp(first, second) == 0;
-    g_free(first);
-    g_free(second);
-    return same;
-}
-
 /* The directories to read; the reference is added where it is none of them.  Returns its
  * index. */
 static size_t list_directories(char **words, const char *reference, GPtrArray *list)
@@ -125,7 +116,7 @@ static size_t list_directories(char **words, const char *reference, GPtrArray *l
         gb_runset_expand(list, words[i]);
     }
     for (guint i = 0; i < list->len; i++) {
-        if (reference == NULL || same_path(g_ptr_array_index(list, i), reference)) {
+        if (reference == NULL || gb_file_is_same(g_ptr_array_index(list, i), reference)) {
             return i;
         }
     }

@@ -144,8 +144,9 @@ static bool write_page(const struct gb_card_study *study, const struct gb_params
     gb_page_paragraph(&page, "The fragment for Abaqus is card.inp.");
     add_test(&page, study);
     gb_page_end(&page);
-    const bool good = write_text(folder, "card.html", page.html, err) &
-                      write_text(folder, "card.md", page.markdown, err);
+    /* each frees its text, whatever became of the other */
+    const bool html = write_text(folder, "card.html", page.html, err);
+    const bool good = write_text(folder, "card.md", page.markdown, err) && html;
     g_free(title);
     g_free(how);
     return good;
