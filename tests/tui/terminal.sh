@@ -86,7 +86,8 @@ density() {
 # Runs begin near the density of their structure, 0.24, and stay beyond this one once they
 # have passed it, so that a slow look at the screen misses nothing.
 is_pressed() {
-    [ -n "$(density)" ] && [ "$(density | cut -c 3-4)" -ge 30 ]
+    percent=$(density | cut -c 3-4)
+    [ -n "$percent" ] && [ "$percent" -ge 30 ]
 }
 
 grows() { # name: the density on the screen goes up
