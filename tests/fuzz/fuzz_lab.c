@@ -12,8 +12,8 @@ static const char *const given[] = {
     "",
     "pressure=1:MPa,density=2:%",
     "decimal=comma,die-area=1 cm2,powder-mass=2 g,true-density=4 g/cm3,initial-height=9 mm",
-    "separator=blank,force=2:kN,height=1:mm,die-area=1 cm2,powder-mass=2 g,"
-    "true-density=4 g/cm3,particles.diameter_nm=3",
+    ("separator=blank,force=2:kN,height=1:mm,die-area=1 cm2,powder-mass=2 g,"
+     "true-density=4 g/cm3,particles.diameter_nm=3"),
 };
 
 static void check_line(const char *text)
