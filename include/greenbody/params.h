@@ -32,6 +32,12 @@ enum gb_normal {
     GB_NORMAL_LAWS /* number of laws */
 };
 enum gb_storakers { GB_STORAKERS_CAPPED, GB_STORAKERS_PRINTED };
+/* Random numbers of an initial structure. */
+enum gb_generator {
+    GB_GENERATOR_PHILOX, /* philox4x32-10, all 64 bits of the seed */
+    GB_GENERATOR_MT19937 /* of version 0.1 */
+};
+
 enum gb_structure {
     GB_STRUCTURE_GROWN,
     GB_STRUCTURE_SC,
@@ -134,6 +140,7 @@ struct gb_params {
     double structure_density; /* NaN: auto, 0.24 in 3D, 0.5 in 2D */
     struct gb_relative base;  /* relative with value 0: auto, P1's aspect ratio */
     struct gb_relative r_meso;
+    int generator; /* enum gb_generator */
     uint64_t seed;
     /* [die] */
     double die_diameter_m;

@@ -277,7 +277,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .normal = params->normal,
         .dimension = params->dimension,
         .count = params->count,
-        .seed = params->seed,
+        .seed = gb_seed_of(params),
         .structure = params->structure,
         .r_meso =
             params->r_meso.relative ? params->r_meso.value : params->r_meso.value / d,

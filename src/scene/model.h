@@ -10,6 +10,7 @@
 #include "law/law_rod.h"
 #include "law/law_slip.h"
 #include "scene/path/path.h"
+#include "scene/seed.h"
 #include "scene/size/sizes.h"
 
 /* Which terms the force sweep of this scene carries.  The sweep contains
@@ -83,7 +84,7 @@ struct gb_model {
     int normal; /* enum gb_normal */
     int dimension;
     int64_t count;
-    uint64_t seed;
+    struct gb_seed seed;
     double edges[3]; /* initial cell, d */
     double start_density;
     int structure; /* enum gb_structure */

@@ -378,6 +378,26 @@ static void test_sizes(void)
     g_free(table);
 }
 
+/* Complete presets of version 0.1 have no generator and mean its own. */
+static void test_first_version(void)
+{
+    char *path = write_text("# greenbody 0.1.0\n[structure]\nseed = 4357\n");
+    struct gb_preset *preset = load(path);
+    g_assert_cmpint(gb_preset_params(preset)->generator, ==, GB_GENERATOR_MT19937);
+    set(preset, "structure.generator=philox");
+    g_assert_true(gb_preset_save(preset, path, GB_PRESET_CHANGED_KEYS, NULL));
+    gb_preset_destroy(preset);
+    preset = load(path);
+    g_assert_cmpint(gb_preset_params(preset)->generator, ==, GB_GENERATOR_PHILOX);
+    gb_preset_destroy(preset);
+    g_free(path);
+    path = write_text("# as greenbody 0.1.0\n[structure]\nseed = 4357\n");
+    preset = load(path);
+    g_assert_cmpint(gb_preset_params(preset)->generator, ==, GB_GENERATOR_PHILOX);
+    gb_preset_destroy(preset);
+    g_free(path);
+}
+
 int main(int argc, char **argv)
 {
     folder = g_dir_make_tmp("greenbody-XXXXXX", NULL);
@@ -388,6 +408,7 @@ int main(int argc, char **argv)
     g_test_add_func("/preset/untouched", test_untouched);
     g_test_add_func("/preset/changed", test_changed);
     g_test_add_func("/preset/complete", test_complete);
+    g_test_add_func("/preset/first-version", test_first_version);
     g_test_add_func("/preset/hostile", test_hostile);
     g_test_add_func("/preset/odd", test_odd);
     g_test_add_func("/preset/files", test_files);

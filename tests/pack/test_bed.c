@@ -205,22 +205,22 @@ static void test_pour(void)
     }
     struct gb_bed *bed = bed_create(N, radius, &die, &law);
     double first = 0.0;
-    for (uint64_t seed = 1; seed < 4; seed++) {
-        g_assert_true(
-            gb_random_insertion_fill(bed, seed < 3 ? 1 : 2, 0.2, NULL, NULL, &err));
-        g_assert_true(seed == 1 || (first == bed->position[7][0]) == (seed == 2));
+    const struct gb_seed seeds[] = {{.value = 1}, {.value = 1}, {.value = 2}};
+    for (int i = 0; i < 3; i++) {
+        g_assert_true(gb_random_insertion_fill(bed, &seeds[i], 0.2, NULL, NULL, &err));
+        g_assert_true(i == 0 || (first == bed->position[7][0]) == (i == 1));
         first = bed->position[7][0];
         bed_evaluate(bed, 0.0);
         g_assert_cmpfloat(bed->tally.stiffest, ==, 0.0); /* nothing touches */
         g_assert_cmpint(gb_bed_escaped(bed), ==, -1);
-        for (int i = 0; i < N; i++) {
-            g_assert_cmpfloat(bed->position[i][2], >, die.height);
+        for (int k = 0; k < N; k++) {
+            g_assert_cmpfloat(bed->position[k][2], >, die.height);
         }
     }
-    g_assert_false(gb_random_insertion_fill(bed, 1, 0.2, stop, NULL, &err));
+    g_assert_false(gb_random_insertion_fill(bed, &seeds[0], 0.2, stop, NULL, &err));
     g_assert_cmpint(err.code, ==, GB_ERR_CANCELLED);
     g_assert_false(
-        gb_random_insertion_fill(bed, 1, 0.7, NULL, NULL, &err)); /* too dense */
+        gb_random_insertion_fill(bed, &seeds[0], 0.7, NULL, NULL, &err)); /* too dense */
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     gb_bed_destroy(bed);
 }

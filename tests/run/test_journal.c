@@ -2,12 +2,13 @@
 #include <glib.h>
 
 #include "run/record/run_journal.h"
+#include "scene/field/first_defaults.h"
 
 static int64_t digest_with(const char *assignment)
 {
     struct gb_params params;
     struct gb_error err = {0};
-    gb_params_init(&params);
+    gb_first_defaults_init(&params);
     if (assignment != NULL && !gb_params_assign(&params, assignment, &err)) {
         g_error("%s", err.text);
     }
@@ -24,7 +25,8 @@ static void test_first_version(void)
 static void test_changes(void)
 {
     static const char *const other[] = {"contact.mu=0.3", "particles.count=1000",
-                                        "structure.seed=2", "loading.on_collapse=strain"};
+                                        "structure.seed=2", "structure.generator=philox",
+                                        "loading.on_collapse=strain"};
     static const char *const free_keys[] = {"scene.title=x", "numerics.threads=2",
                                             "output.checkpoint_every=5 s"};
     const int64_t defaults = digest_with(NULL);

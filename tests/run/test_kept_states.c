@@ -38,7 +38,7 @@ static void test_parse(void)
 static struct gb_params scene(const char *marks)
 {
     struct gb_params params =
-        scene_params("numerics.fidelity=fast", "loading.until=density=0.29", NULL);
+        scene_params("numerics.fidelity=fast", "loading.until=density=0.32", NULL);
     g_strlcpy(params.snapshots_at, marks, sizeof params.snapshots_at);
     return params;
 }

@@ -269,12 +269,12 @@ static void test_guards(void)
 /* Full relative motion at v2: at 1 T friction caps hide that the step is about to become
  * unstable; half a T passes.  The sliding contacts show it at about the density where the
  * estimate of the critical step says so: which guard is first is decided by rounding, in
- * each packing anew: this one in about a third of them (16 of 48), and in two or more of
+ * each packing anew: this one in about a third of them (27 of 88), and in two or more of
  * these six.  Either halves the step, and this one is seen at work. */
 static void test_sliding(void)
 {
     int slid = 0;
-    for (int seed = 11; seed <= 16; seed++) {
+    for (int seed = 5; seed <= 10; seed++) {
         char assignment[32];
         snprintf(assignment, sizeof assignment, "structure.seed=%d", seed);
         struct gb_params params = planar("numerics.time_step=0.5 T", assignment);

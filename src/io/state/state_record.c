@@ -103,7 +103,7 @@ static void fill_header(struct gb_state *state, const struct gb_params *params,
     state->dimension = model->dimension;
     state->metre_per_length = model->metre_per_length;
     state->pascal_per_stress = model->pascal_per_stress;
-    state->seed = model->seed;
+    state->seed = model->seed.value;
     snprintf(state->preset, sizeof state->preset, "%s", params->title);
     snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
 }

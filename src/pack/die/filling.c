@@ -40,9 +40,10 @@ struct gb_bed_law gb_filling_compaction_law(const struct gb_params *params)
 static bool draw_radii(const struct gb_params *params, double *radius, double *volume,
                        double *largest, struct gb_error *err)
 {
+    const struct gb_seed seed = gb_seed_of(params);
     struct gb_sizes sizes;
     if (!gb_sizes_init(&sizes, params, err) ||
-        !gb_assign_sizes(&sizes, params->count, params->seed, radius, err)) {
+        !gb_assign_sizes(&sizes, params->count, &seed, radius, err)) {
         return false;
     }
     *volume = *largest = 0.0;
@@ -109,8 +110,9 @@ bool gb_filling_create(struct gb_bed **out, const struct gb_params *params,
     if (!gb_filling_allocate(&bed, params, model, err)) {
         return false;
     }
-    if (!gb_random_insertion_fill(bed, params->seed, model->die.loose_density, cancelled,
-                                  data, err)) {
+    const struct gb_seed seed = gb_seed_of(params);
+    if (!gb_random_insertion_fill(bed, &seed, model->die.loose_density, cancelled, data,
+                                  err)) {
         gb_bed_destroy(bed);
         return false;
     }

@@ -148,15 +148,15 @@ static bool insert_all(struct pour *pour, bool (*cancelled)(void *data), void *d
     return true;
 }
 
-bool gb_random_insertion_fill(struct gb_bed *bed, uint64_t seed, double density,
-                              bool (*cancelled)(void *data), void *data,
+bool gb_random_insertion_fill(struct gb_bed *bed, const struct gb_seed *seed,
+                              double density, bool (*cancelled)(void *data), void *data,
                               struct gb_error *err)
 {
     struct pour pour = {.bed = bed};
     const size_t count = (size_t)bed->count;
     pour.top = cone_top(&bed->die, gb_bed_solid_volume(bed) / density);
     pour.order = gb_alloc_array(count, sizeof *pour.order, err);
-    bool done = pour.order && gb_random_open(&pour.rng, seed, err);
+    bool done = pour.order && gb_random_open(&pour.rng, seed, GB_RANDOM_POSITIONS, err);
     if (done) {
         gsl_sort_index(pour.order, bed->mass, 1, count);
         const double largest = bed->position[pour.order[count - 1]][3];

@@ -2,14 +2,11 @@
 
 #include "pack/structure/random.h"
 
-/* Sets the shuffle apart from other uses of the same seed. */
-static const uint64_t shuffle_stream = 0x73697a6573; /* "sizes" */
-
-static bool shuffle(int64_t count, uint64_t seed, double *diameter_m,
+static bool shuffle(int64_t count, const struct gb_seed *seed, double *diameter_m,
                     struct gb_error *err)
 {
     gsl_rng random;
-    if (!gb_random_open(&random, seed ^ shuffle_stream, err)) {
+    if (!gb_random_open(&random, seed, GB_RANDOM_SIZES, err)) {
         return false;
     }
     for (int64_t i = count - 1; i > 0; i--) {
@@ -22,8 +19,8 @@ static bool shuffle(int64_t count, uint64_t seed, double *diameter_m,
     return true;
 }
 
-bool gb_assign_sizes(const struct gb_sizes *sizes, int64_t count, uint64_t seed,
-                     double *diameter_m, struct gb_error *err)
+bool gb_assign_sizes(const struct gb_sizes *sizes, int64_t count,
+                     const struct gb_seed *seed, double *diameter_m, struct gb_error *err)
 {
     gb_sizes_fill(sizes, count, diameter_m);
     return sizes->distribution == GB_DISTRIBUTION_MONO ||
@@ -34,7 +31,7 @@ bool gb_assign_sizes_model(const struct gb_model *model, double *diameter,
                            struct gb_error *err)
 {
     if (model->polydisperse &&
-        !gb_assign_sizes(&model->sizes, model->count, model->seed, diameter, err)) {
+        !gb_assign_sizes(&model->sizes, model->count, &model->seed, diameter, err)) {
         return false;
     }
     for (int64_t i = 0; i < model->count; i++) {

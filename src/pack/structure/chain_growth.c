@@ -124,7 +124,7 @@ bool gb_chain_growth_run(const struct gb_chain_growth *grow, double *position,
     if (!check(grow, &cell, err)) {
         return false;
     }
-    if (!gb_random_open(&growth.rng, grow->seed, err)) {
+    if (!gb_random_open(&growth.rng, &grow->seed, GB_RANDOM_POSITIONS, err)) {
         return false;
     }
     if (!assign_diameters(&growth, err)) {

@@ -17,7 +17,7 @@ struct gb_chain_growth {
     double r_eq;     /* distance of touching particles, d: 1 - h_eq; of unequal sizes the
                       * longest that can be */
     double r_meso;   /* d */
-    uint64_t seed;
+    struct gb_seed seed;
     const struct gb_model *model;  /* of unequal sizes; else NULL */
     bool (*cancelled)(void *data); /* polled; NULL is fine */
     void *data;

@@ -1,16 +1,96 @@
 #include "pack/structure/random.h"
 
+#include <Random123/philox.h>
+
 #include "base/alloc.h"
 
-bool gb_random_open(gsl_rng *random, uint64_t seed, struct gb_error *err)
+/* A block of philox4x32 is two numbers of 64 bits. */
+enum { PER_BLOCK = 2 };
+
+struct philox {
+    philox4x32_key_t key;
+    philox4x32_ctr_t counter; /* index of the block in 0 and 1, stream in 2 and 3 */
+    uint64_t number[PER_BLOCK];
+    int used;
+};
+
+static void next_block(struct philox *philox)
 {
-    random->type = gsl_rng_mt19937;
+    const philox4x32_ctr_t block = philox4x32(philox->counter, philox->key);
+    for (int k = 0; k < PER_BLOCK; k++) {
+        philox->number[k] = (uint64_t)block.v[2 * k + 1] << 32 | block.v[2 * k];
+    }
+    philox->used = 0;
+    philox->counter.v[0]++;
+    philox->counter.v[1] += philox->counter.v[0] == 0;
+}
+
+static uint64_t next_number(void *state)
+{
+    struct philox *philox = state;
+    if (philox->used == PER_BLOCK) {
+        next_block(philox);
+    }
+    return philox->number[philox->used++];
+}
+
+static unsigned long next_integer(void *state)
+{
+    return (unsigned long)(next_number(state) >> 32);
+}
+
+/* 53 bits, [0, 1). */
+static double next_uniform(void *state)
+{
+    return (double)(next_number(state) >> 11) * 0x1p-53;
+}
+
+static void key_of(struct philox *philox, uint64_t seed, uint64_t stream)
+{
+    *philox = (struct philox){
+        .key = {{(uint32_t)seed, (uint32_t)(seed >> 32)}},
+        .counter = {{0, 0, (uint32_t)stream, (uint32_t)(stream >> 32)}},
+        .used = PER_BLOCK,
+    };
+}
+
+static void set_philox(void *state, unsigned long seed)
+{
+    key_of(state, seed, GB_RANDOM_POSITIONS);
+}
+
+static const gsl_rng_type philox_type = {
+    .name = "philox4x32-10",
+    .max = 0xffffffffu,
+    .min = 0,
+    .size = sizeof(struct philox),
+    .set = set_philox,
+    .get = next_integer,
+    .get_double = next_uniform,
+};
+
+/* Sets the sizes of version 0.1 apart from the positions of the same seed. */
+static uint32_t folded(uint64_t seed, enum gb_random_stream stream)
+{
+    const uint64_t mixed =
+        stream == GB_RANDOM_SIZES ? seed ^ 0x73697a6573 /* "sizes" */ : seed;
+    return (uint32_t)(mixed ^ (mixed >> 32));
+}
+
+bool gb_random_open(gsl_rng *random, const struct gb_seed *seed,
+                    enum gb_random_stream stream, struct gb_error *err)
+{
+    const bool is_philox = seed->generator == GB_GENERATOR_PHILOX;
+    random->type = is_philox ? &philox_type : gsl_rng_mt19937;
     random->state = gb_alloc_array(1, random->type->size, err);
     if (!random->state) {
         return false;
     }
-    /* The seed of mt19937 has 32 bits; the upper ones are combined with the lower. */
-    gsl_rng_set(random, (unsigned long)((seed ^ (seed >> 32)) & 0xffffffffu));
+    if (is_philox) {
+        key_of(random->state, seed->value, stream);
+    } else {
+        gsl_rng_set(random, folded(seed->value, stream));
+    }
     return true;
 }
 

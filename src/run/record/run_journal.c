@@ -5,6 +5,8 @@
 
 #include <glib.h>
 
+#include "scene/field/first_defaults.h"
+
 #define AT(member) offsetof(struct gb_run_journal, member)
 static const struct gb_record_member members[] = {
     {"journal/points", GB_RECORD_INT64, 1, AT(extent.points), "1"},
@@ -133,13 +135,13 @@ static void add_first(GChecksum *sum, const struct gb_params *params)
     }
 }
 
-/* Keys added since: where they have their default, the run is one of version 0.1. */
+/* Keys added since: where they have the default of version 0.1, the run is one of it. */
 static void add_later(GChecksum *sum, const struct gb_params *params)
 {
     struct gb_params defaults;
     size_t count = 0;
     const struct gb_field *fields = gb_params_fields(&count);
-    gb_params_init(&defaults);
+    gb_first_defaults_init(&defaults);
     for (size_t i = 0; i < count; i++) {
         const struct gb_field *field = &fields[i];
         char *name = g_strdup_printf("%s.%s", field->group, field->key);

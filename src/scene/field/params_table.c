@@ -14,6 +14,7 @@ static const char *const normals[] = {"rod", "hertz", "storakers", NULL};
 static const char *const storakers[] = {"capped", "printed", NULL};
 static const char *const structures[] = {"grown",   "sc",     "fcc",       "bcc",
                                          "diamond", "square", "hexagonal", NULL};
+static const char *const generators[] = {"philox", "mt19937", NULL};
 static const char *const radii[] = {"deepest", "current", NULL};
 static const char *const motions[] = {"half", "full", NULL};
 static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", "die", NULL};
@@ -190,8 +191,8 @@ static const struct gb_field rows[] = {
      .meaning = "initial structure: grown from chains, or a lattice of whole unit cells",
      .source = "P1 III; crystallography"},
     {"structure", "overlap", GB_FIELD_NUMBER, AT(overlap), RANGE(1e-6, 0.45),
-     .fallback = "0.01",
-     .meaning = "overlap of nearest neighbours in a lattice, h/d", .source = "user"},
+     .fallback = "0.01", .meaning = "overlap of nearest neighbours in a lattice, h/d",
+     .source = "user"},
     {"structure", "density", GB_FIELD_NUMBER, AT(structure_density), RANGE(0.01, 0.74),
      AUTO(NAN), .fallback = "auto",
      .meaning =
@@ -207,6 +208,11 @@ static const struct gb_field rows[] = {
      .source = "P1 III"},
     {"structure", "seed", GB_FIELD_SEED, AT(seed), .fallback = "1",
      .meaning = "seed of the random number generator", .source = "numerical"},
+    {"structure", "generator", GB_FIELD_CHOICE, AT(generator), .choices = generators,
+     .fallback = "philox",
+     .meaning = "random numbers of the structure; mt19937 is that of version 0.1, which "
+                "folds seeds to 32 bits",
+     .source = "Salmon et al. 2011"},
 
     {"die", "diameter", GB_FIELD_NUMBER, AT(die_diameter_m), .dimension = GB_DIM_LENGTH,
      RANGE(1e-9, 1.0), .fallback = "58 um", .meaning = "diameter of the cylinder",
