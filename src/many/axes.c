@@ -1,11 +1,15 @@
 #include "many/axes.h"
 
+#include <gsl/gsl_qrng.h>
 #include <math.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "base/units.h"
 #include "many/key_difference.h"
 #include "many/runset.h"
+
+enum { DESIGN_LEAST = 2 };
 
 static bool refuse(const char *text, struct gb_error *err)
 {
@@ -14,6 +18,29 @@ static bool refuse(const char *text, struct gb_error *err)
         "%.120s: accepted group.key=FROM:TO:COUNT, FROM:TO:COUNT:log or a "
         "list VALUE;VALUE;..., a unit at the end counts for all",
         text);
+}
+
+static bool refuse_range(const char *text, struct gb_error *err)
+{
+    return gb_error_set(err, GB_ERR_INPUT,
+                        "%.120s: accepted in a design: group.key=FROM:TO or FROM:TO:log, "
+                        "a unit at the end counts for both",
+                        text);
+}
+
+bool gb_axes_design(struct gb_axes *axes, const char *text, struct gb_error *err)
+{
+    guint64 points = 0;
+    if (!g_str_has_prefix(text, "sobol:") ||
+        !g_ascii_string_to_unsigned(text + strlen("sobol:"), 10, DESIGN_LEAST,
+                                    GB_AXES_VALUES_MOST, &points, NULL)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--design %.80s: accepted sobol:N, a Sobol sequence of %d to "
+                            "%d points",
+                            text, DESIGN_LEAST, GB_AXES_VALUES_MOST);
+    }
+    axes->design = (size_t)points;
+    return true;
 }
 
 /* The unit behind a number, "" when there is none; NULL for text that is no number. */
@@ -36,7 +63,7 @@ static bool add_value(struct gb_axis *axis, const char *text, struct gb_error *e
         return false;
     }
     gb_params_format(&params, axis->field, value, sizeof value);
-    for (guint i = 0; i < axis->values->len; i++) {
+    for (guint i = 0; i < axis->values->len && axis->share == NULL; i++) {
         if (strcmp(g_ptr_array_index(axis->values, i), value) == 0) {
             return gb_error_set(err, GB_ERR_INPUT, "%s.%s = %.80s is given twice",
                                 axis->field->group, axis->field->key, value);
@@ -113,9 +140,8 @@ static bool read_range(char **parts, struct range *range)
            (!range->logarithmic || (range->from > 0.0 && range->to > 0.0));
 }
 
-static double range_value(const struct range *range, guint i)
+static double range_value(const struct range *range, double share)
 {
-    const double share = (double)i / (range->count - 1.0);
     return range->logarithmic ? range->from * pow(range->to / range->from, share)
                               : range->from + share * (range->to - range->from);
 }
@@ -130,10 +156,71 @@ static bool add_range(struct gb_axis *axis, const char *text, const char *values
         char value[64];
         /* twelve digits: 0.1 and not 0.10000000000000001 */
         char *item = g_strconcat(
-            g_ascii_formatd(value, sizeof value, "%.12g", range_value(&range, i)),
+            g_ascii_formatd(value, sizeof value, "%.12g",
+                            range_value(&range, (double)i / (range.count - 1.0))),
             *range.unit ? " " : "", range.unit, NULL);
         good = add_value(axis, item, err);
         g_free(item);
+    }
+    g_strfreev(parts);
+    return good;
+}
+
+/* "0.05:0.4", "9.7:38 nm", "9.7 nm:38 nm:log": a range without its count. */
+static bool read_design_range(char **parts, struct range *range)
+{
+    const guint length = g_strv_length(parts);
+    if (length < 2 || length > 3) {
+        return false;
+    }
+    char count[] = "2";
+    char *with_count[] = {parts[0], parts[1], count, length == 3 ? parts[2] : NULL, NULL};
+    return read_range(with_count, range) && range->from != range->to;
+}
+
+/* Coordinate `axis` of the points of a Sobol sequence, [0, 1). */
+static bool sobol(size_t axis, size_t points, double *share, struct gb_error *err)
+{
+    const unsigned int dimension = (unsigned int)axis + 1;
+    double coordinate[GB_AXES_MOST];
+    void *state = gb_alloc_array(1, gsl_qrng_sobol->state_size(dimension), err);
+    if (state == NULL) {
+        return false;
+    }
+    gsl_qrng_sobol->init_state(state, dimension);
+    for (size_t p = 0; p < points; p++) {
+        gsl_qrng_sobol->get(state, dimension, coordinate);
+        share[p] = coordinate[axis];
+    }
+    gb_alloc_free(state);
+    return true;
+}
+
+static bool add_designed(struct gb_axis *axis, const struct range *range, double share,
+                         struct gb_error *err)
+{
+    const double at = range_value(range, share);
+    char value[64];
+    g_ascii_formatd(value, sizeof value, "%.12g",
+                    axis->field->type == GB_FIELD_INTEGER ? round(at) : at);
+    char *item = g_strconcat(value, *range->unit ? " " : "", range->unit, NULL);
+    const bool good = add_value(axis, item, err);
+    g_free(item);
+    return good;
+}
+
+static bool add_design(struct gb_axes *axes, const char *text, const char *values,
+                       struct gb_error *err)
+{
+    struct gb_axis *axis = &axes->axis[axes->count - 1];
+    char **parts = g_strsplit(values, ":", 5);
+    struct range range = {0};
+    axis->share = gb_alloc_array(axes->design, sizeof *axis->share, err);
+    bool good = axis->share != NULL &&
+                (read_design_range(parts, &range) || refuse_range(text, err)) &&
+                sobol(axes->count - 1, axes->design, axis->share, err);
+    for (size_t p = 0; good && p < axes->design; p++) {
+        good = add_designed(axis, &range, axis->share[p], err);
     }
     g_strfreev(parts);
     return good;
@@ -186,7 +273,10 @@ bool gb_axes_add(struct gb_axes *axes, const char *text, struct gb_error *err)
         return false;
     }
     struct gb_axis *axis = &axes->axis[axes->count++];
-    *axis = (struct gb_axis){field, g_ptr_array_new_with_free_func(g_free)};
+    *axis = (struct gb_axis){field, .values = g_ptr_array_new_with_free_func(g_free)};
+    if (axes->design > 0) {
+        return add_design(axes, text, equals + 1, err);
+    }
     return strchr(equals, ':') != NULL ? add_range(axis, text, equals + 1, err)
                                        : add_list(axis, text, equals + 1, err);
 }
@@ -195,6 +285,7 @@ void gb_axes_finish(struct gb_axes *axes)
 {
     for (size_t i = 0; i < axes->count; i++) {
         g_ptr_array_unref(axes->axis[i].values);
+        gb_alloc_free(axes->axis[i].share);
     }
     axes->count = 0;
 }
@@ -202,6 +293,9 @@ void gb_axes_finish(struct gb_axes *axes)
 size_t gb_axes_points(const struct gb_axes *axes)
 {
     size_t points = 1;
+    if (axes->design > 0 && axes->count > 0) {
+        return axes->design;
+    }
     for (size_t i = 0; i < axes->count; i++) {
         points *= axes->axis[i].values->len;
     }
@@ -210,7 +304,7 @@ size_t gb_axes_points(const struct gb_axes *axes)
 
 const char *gb_axes_value(const struct gb_axes *axes, size_t point, size_t axis)
 {
-    for (size_t i = axes->count - 1; i > axis; i--) {
+    for (size_t i = axes->count - 1; i > axis && axes->design == 0; i--) {
         point /= axes->axis[i].values->len;
     }
     const GPtrArray *values = axes->axis[axis].values;

@@ -8,22 +8,32 @@
 
 #include "greenbody/params.h"
 
-/* The grid of a sweep: keys and the values each of them takes. */
+/* The points of a sweep: keys and the values each of them takes, all combinations of them
+ * (a grid) or one of each at a point (a design). */
 enum { GB_AXES_MOST = 6, GB_AXES_VALUES_MOST = 10000 };
 
 struct gb_axis {
     const struct gb_field *field;
     GPtrArray *values; /* char *, as a preset would write them */
+    double *share;     /* of a design: place in the range at each point, 0 to 1 */
 };
 
 struct gb_axes {
     struct gb_axis axis[GB_AXES_MOST];
     size_t count;
+    size_t design; /* points of a Sobol sequence over the ranges; 0: a grid */
 };
+
+/* Reads "sobol:64" into axes without an axis.  Errors: GB_ERR_INPUT. */
+bool gb_axes_design(struct gb_axes *axes, const char *text, struct gb_error *err);
 
 /* Adds "contact.mu=0.05:0.4:8" (from, to, how many; ":log" behind it spaces them evenly
  * in the logarithm), or a list "particles.diameter=9.7;16;21;38 nm",
  * "loading.geometry=uniaxial;isotropic".  A number without a unit takes that at the end.
+ * In a design a range has no count, "contact.mu=0.05:0.4" or "...:log": coordinate k of the
+ * Sobol sequence (GSL; Antonov and Saleev, USSR Comput. Maths Math. Phys. 19, 252 (1980))
+ * is the share of axis k, evenly in the value or its logarithm, so that a longer design
+ * contains the shorter.
  *
  * Errors: GB_ERR_INPUT with what was given and what is accepted, for values that the key
  * refuses, values given twice, and keys that make no other experiment (seed, title,
@@ -31,10 +41,10 @@ struct gb_axes {
 bool gb_axes_add(struct gb_axes *axes, const char *text, struct gb_error *err);
 void gb_axes_finish(struct gb_axes *axes); /* zeroed is fine */
 
-/* Points of the grid; 1 without axes. */
+/* Points; 1 without axes. */
 size_t gb_axes_points(const struct gb_axes *axes);
 
-/* Value of one axis at a point; the last axis runs fastest. */
+/* Value of one axis at a point; the last axis of a grid runs fastest. */
 const char *gb_axes_value(const struct gb_axes *axes, size_t point, size_t axis);
 
 /* Gives params the values of a point and checks them. */

@@ -43,7 +43,7 @@ void gb_param_sweep_finish(struct gb_param_sweep *sweep)
     gb_axes_finish(&sweep->axes);
 }
 
-static bool write_table(const char *directory, const char *name, GString *text,
+bool gb_param_sweep_put(const char *directory, const char *name, GString *text,
                         struct gb_error *err)
 {
     char *path = g_build_filename(directory, name, NULL);
@@ -56,8 +56,9 @@ static bool write_table(const char *directory, const char *name, GString *text,
 bool gb_param_sweep_write(struct gb_param_sweep *sweep, const char *directory,
                           struct gb_error *err)
 {
-    return write_table(directory, "sweep.csv",
-                       gb_sweep_table_means(&sweep->ensemble, &sweep->axes, &sweep->at),
-                       err) &&
-           write_table(directory, "runs.csv", gb_sweep_table_runs(&sweep->ensemble), err);
+    return gb_param_sweep_put(
+               directory, "sweep.csv",
+               gb_sweep_table_means(&sweep->ensemble, &sweep->axes, &sweep->at), err) &&
+           gb_param_sweep_put(directory, "runs.csv",
+                              gb_sweep_table_runs(&sweep->ensemble), err);
 }

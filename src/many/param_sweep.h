@@ -25,4 +25,8 @@ void gb_param_sweep_finish(struct gb_param_sweep *sweep); /* zeroed is fine */
 bool gb_param_sweep_write(struct gb_param_sweep *sweep, const char *directory,
                           struct gb_error *err);
 
+/* Writes a further table of the sweep, and frees its text. */
+bool gb_param_sweep_put(const char *directory, const char *name, GString *text,
+                        struct gb_error *err);
+
 #endif

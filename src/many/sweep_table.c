@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/units.h"
-#include "many/reading.h"
+#include "many/sweep_readings.h"
 #include "measure/fit/average.h"
 
 /* Default pressures reach from the first to the second, MPa. */
@@ -84,46 +84,6 @@ void gb_sweep_table_default(struct gb_sweep_table_pressures *at,
     sort_pressures(at);
 }
 
-typedef bool read_figures(const struct gb_table *curve, double pressure_pa,
-                          double values[GB_READING_QUANTITIES]);
-
-static const struct branch {
-    const char *name;
-    read_figures *read;
-} branches[] = {{"load", gb_reading_loaded}, {"unload", gb_reading_unloaded}};
-
-/* All values of the runs of one point: [branch][pressure][quantity][run]. */
-struct readings {
-    double *value;
-    size_t pressures, runs;
-};
-
-static double *readings_at(const struct readings *readings, size_t branch,
-                           size_t pressure, size_t quantity)
-{
-    const size_t row = (branch * readings->pressures + pressure) * GB_READING_QUANTITIES;
-    return readings->value + (row + quantity) * readings->runs;
-}
-
-static void read_run(const struct readings *readings, size_t column,
-                     struct gb_ensemble_run *run,
-                     const struct gb_sweep_table_pressures *at)
-{
-    struct gb_table *curve = NULL;
-    const bool good = run->ended && run->error.code == GB_OK &&
-                      gb_reading_open(&curve, run->directory, &run->error);
-    for (size_t b = 0; b < G_N_ELEMENTS(branches); b++) {
-        for (size_t p = 0; p < at->count; p++) {
-            double values[GB_READING_QUANTITIES];
-            const bool there = good && branches[b].read(curve, at->pa[p], values);
-            for (size_t q = 0; q < GB_READING_QUANTITIES; q++) {
-                readings_at(readings, b, p, q)[column] = there ? values[q] : (double)NAN;
-            }
-        }
-    }
-    gb_table_destroy(curve);
-}
-
 static void append_number(GString *text, double value)
 {
     g_string_append_c(text, ',');
@@ -142,27 +102,27 @@ static void append_values(GString *text, const struct gb_axes *axes, size_t poin
     }
 }
 
-static void append_rows(GString *text, const struct readings *readings,
+static void append_rows(GString *text, const struct gb_sweep_readings *readings,
                         const struct gb_axes *axes, size_t point,
                         const struct gb_sweep_table_pressures *at)
 {
-    for (size_t b = 0; b < G_N_ELEMENTS(branches); b++) {
+    for (size_t b = 0; b < GB_SWEEP_BRANCHES; b++) {
         for (size_t p = 0; p < at->count; p++) {
             double mean = NAN;
             double error = NAN;
-            const size_t runs =
-                gb_average_values(readings_at(readings, b, p, GB_READING_DENSITY),
-                                  readings->runs, &mean, &error);
+            const size_t runs = gb_average_values(
+                gb_sweep_readings_at(readings, b, p, GB_READING_DENSITY), readings->runs,
+                &mean, &error);
             if (runs == 0) {
                 continue;
             }
             g_string_append_printf(text, "%zu", point + 1);
             append_values(text, axes, point);
-            g_string_append_printf(text, ",%s,%.12g,%zu", branches[b].name,
+            g_string_append_printf(text, ",%s,%.12g,%zu", gb_sweep_readings_branch(b),
                                    at->pa[p] / 1e6, runs);
             for (size_t q = 0; q < GB_READING_QUANTITIES; q++) {
-                gb_average_values(readings_at(readings, b, p, q), readings->runs, &mean,
-                                  &error);
+                gb_average_values(gb_sweep_readings_at(readings, b, p, q), readings->runs,
+                                  &mean, &error);
                 append_number(text, mean);
                 append_number(text, error);
             }
@@ -198,15 +158,10 @@ GString *gb_sweep_table_means(struct gb_ensemble *ensemble, const struct gb_axes
     GString *text = g_string_new(NULL);
     append_header(text, axes);
     for (size_t point = 0; point < ensemble->points; point++) {
-        struct readings readings = {.pressures = at->count};
-        readings.runs = gb_ensemble_used(ensemble, point);
-        readings.value = g_new(double, G_N_ELEMENTS(branches) * at->count *
-                                           GB_READING_QUANTITIES * readings.runs);
-        for (size_t r = 0; r < readings.runs; r++) {
-            read_run(&readings, r, gb_ensemble_at(ensemble, point, r), at);
-        }
+        struct gb_sweep_readings readings;
+        gb_sweep_readings_init(&readings, ensemble, point, at);
         append_rows(text, &readings, axes, point, at);
-        g_free(readings.value);
+        gb_sweep_readings_finish(&readings);
     }
     return text;
 }

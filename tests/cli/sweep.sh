@@ -43,6 +43,31 @@ sweep --replicas 9 --until-se 0.9@5MPa --jobs 1 --out one
 is 'replicas end when the error is small enough' \
     [ "$(find one -name curve.csv | wc -l)" -eq 8 ]
 
+# --- designs and sensitivities -----------------------------------------------------------
+design() {
+    "$greenbody" sweep p1-nobridge-38nm particles.count=100 structure.base=auto \
+        'loading.until=5 MPa' numerics.fidelity=fast loading.unload_from= \
+        --design "$1" --vary contact.mu=0.1:0.4 --vary contact.alpha=0.2:0.5 \
+        --replicas 3 --at '5 MPa' --out design >stdout 2>stderr
+}
+design sobol:8
+is 'a design ends with status 0' [ $? -eq 0 ]
+is 'and has its points' [ "$(grep -c ',load,5,3,' design/sweep.csv)" -eq 8 ]
+is 'a row of sensitivities per key' \
+    [ "$(grep -c '^load,5,density,contact\.\(mu\|alpha\),' design/sensitivity.csv)" -eq 2 ]
+is 'with an error each' awk -F, '/^load,5,density/ && !($6 > 0 && $8 > 0) { exit 1 }' \
+    design/sensitivity.csv
+is 'said to people' grep -q '^  contact.alpha  .* +- ' stdout
+touch -d 2001-01-01 design/*/curve.csv
+design sobol:10
+is 'a longer design adds points' \
+    [ "$(find design -name curve.csv -newermt 2002-01-01 | wc -l)" -eq 6 ]
+refused 'too few points for a quadratic' "$greenbody" sweep default --design sobol:5 \
+    --vary contact.mu=0.1:0.4 --vary contact.alpha=0.2:0.5 --out out
+refused 'a design without ranges' "$greenbody" sweep default --design sobol:8 --out out
+refused 'a range with a count in a design' "$greenbody" sweep default --design sobol:8 \
+    --vary contact.mu=0.1:0.4:3 --out out
+
 # --- figures over a sweep ----------------------------------------------------------------
 plot() {
     "$greenbody" plot "$@" >stdout 2>stderr

@@ -191,6 +191,56 @@ static void test_axes(void)
     gb_axes_finish(&axes);
 }
 
+/* Points of a Sobol sequence: one value of each key at a point, a longer design contains
+ * the shorter, whole numbers for keys that count. */
+static void test_axes_design(void)
+{
+    struct gb_axes axes = {0}, longer = {0};
+    struct gb_error err = {0};
+    g_assert_true(gb_axes_design(&axes, "sobol:8", &err));
+    g_assert_true(gb_axes_design(&longer, "sobol:16", &err));
+    static const char *const keys[] = {"contact.mu=0.05:0.45",
+                                       "particles.diameter=10:1000:log nm",
+                                       "particles.count=100:200"};
+    for (size_t k = 0; k < G_N_ELEMENTS(keys); k++) {
+        add(&axes, keys[k]);
+        add(&longer, keys[k]);
+    }
+    g_assert_cmpuint(gb_axes_points(&axes), ==, 8);
+    g_assert_cmpstr(gb_axes_value(&axes, 0, 0), ==, "0.25");
+    g_assert_cmpstr(gb_axes_value(&axes, 0, 1), ==, "100 nm");
+    g_assert_cmpstr(gb_axes_value(&axes, 0, 2), ==, "150");
+    bool low[3] = {false}, high[3] = {false};
+    for (size_t p = 0; p < 8; p++) {
+        for (size_t k = 0; k < 3; k++) {
+            g_assert_cmpstr(gb_axes_value(&axes, p, k), ==, gb_axes_value(&longer, p, k));
+            low[k] = low[k] || axes.axis[k].share[p] < 0.25;
+            high[k] = high[k] || axes.axis[k].share[p] > 0.75;
+        }
+    }
+    for (size_t k = 0; k < 3; k++) { /* spread over each range */
+        g_assert_true(low[k] && high[k]);
+    }
+    struct gb_params params = scene_params(NULL, NULL);
+    g_assert_true(gb_axes_apply(&axes, 0, &params, NULL));
+    g_assert_cmpfloat(params.mu, ==, 0.25);
+    g_assert_cmpint(params.count, ==, 150);
+    gb_axes_finish(&axes);
+    gb_axes_finish(&longer);
+    static const char *const bad[] = {"contact.mu=0.1:0.2:3", "contact.mu=0.1;0.2",
+                                      "contact.mu=0.1", "loading.geometry=0:1",
+                                      "contact.mu=0.1:0.1"};
+    for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+        struct gb_axes refused = {.design = 8};
+        g_assert_false(gb_axes_add(&refused, bad[i], &err));
+        g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+        gb_axes_finish(&refused);
+    }
+    g_assert_false(gb_axes_design(&axes, "sobol:1", &err));
+    g_assert_false(gb_axes_design(&axes, "grid:8", &err));
+    g_assert_nonnull(strstr(err.text, "accepted sobol:N"));
+}
+
 static void test_axes_refuse(void)
 {
     static const char *const bad[] = {"",
@@ -513,6 +563,7 @@ int main(int argc, char **argv)
     g_assert_nonnull(folder);
     g_test_add_func("/axes/values", test_axes);
     g_test_add_func("/axes/refuse", test_axes_refuse);
+    g_test_add_func("/ensemble/design", test_axes_design);
     g_test_add_func("/sweeptable/pressures", test_pressures);
     g_test_add_func("/sweeptable/means", test_table);
     g_test_add_func("/ensemble/failures", test_failures);

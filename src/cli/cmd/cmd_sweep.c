@@ -8,13 +8,14 @@
 #include "cli/options.h"
 #include "many/param_sweep.h"
 #include "run/cost.h"
+#include "study/sensitivity/sensitivity_text.h"
 
 enum { REPLICAS_MAX = 100000 };
 
 /* The options of the command line. */
 struct request {
     char **sets, **vary;
-    char *out, *at, *target;
+    char *out, *at, *target, *design;
     gint replicas, jobs;
     gboolean quiet, yes;
 };
@@ -40,6 +41,14 @@ static bool check_request(const struct request *request, struct gb_error *err)
 static bool add_axes(struct command *command, struct gb_error *err)
 {
     char **vary = command->request->vary;
+    const char *design = command->request->design;
+    if (design != NULL && vary == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT, "--design %.80s needs --vary KEY=FROM:TO",
+                            design);
+    }
+    if (design != NULL && !gb_axes_design(&command->sweep.axes, design, err)) {
+        return false;
+    }
     for (size_t i = 0; vary != NULL && vary[i] != NULL; i++) {
         if (!gb_axes_add(&command->sweep.axes, vary[i], err)) {
             return false;
@@ -83,7 +92,8 @@ static bool prepare(struct command *command, char **words, struct gb_error *err)
     if (!check_request(request, err) ||
         !gb_options_scene(&command->preset, words, request->sets,
                           GB_OPTIONS_PRESET_NEEDED, err) ||
-        !add_axes(command, err)) {
+        !add_axes(command, err) ||
+        (request->design != NULL && !gb_sensitivity_check(&sweep->axes, err))) {
         return false;
     }
     const struct gb_params *params = gb_preset_params(command->preset);
@@ -94,6 +104,23 @@ static bool prepare(struct command *command, char **words, struct gb_error *err)
            gb_param_sweep_fill(sweep, params, (size_t)request->replicas, request->out,
                                err) &&
            estimate(command, err) && gb_ensemble_make_directory(request->out, err);
+}
+
+/* sensitivity.csv of a design, and its last densities for people. */
+static bool write_sensitivities(struct command *command, struct gb_error *err)
+{
+    struct gb_sensitivity sensitivity = {0};
+    bool good = gb_sensitivity_init(&sensitivity, &command->sweep, err);
+    if (good) {
+        GString *text = gb_sensitivity_text_lines(&sensitivity, &command->sweep);
+        good = gb_param_sweep_put(
+            command->request->out, "sensitivity.csv",
+            gb_sensitivity_text_table(&sensitivity, &command->sweep), err);
+        fputs(text->str, stdout);
+        g_string_free(text, TRUE);
+    }
+    gb_sensitivity_finish(&sensitivity);
+    return good;
 }
 
 static void print_missed(const struct command *command)
@@ -131,7 +158,9 @@ static bool perform(struct command *command, char **words, struct gb_error *err)
     }
     const bool worked = gb_batch_progress_work(&command->batch, &command->sweep.ensemble,
                                                request->jobs, &stopped);
-    if (!gb_param_sweep_write(&command->sweep, request->out, err)) {
+    if (!gb_param_sweep_write(&command->sweep, request->out, err) ||
+        (worked && command->sweep.axes.design > 0 &&
+         !write_sensitivities(command, err))) {
         return false;
     }
     if (!worked) {
@@ -148,6 +177,7 @@ static void free_request(struct request *request)
     g_free(request->out);
     g_free(request->at);
     g_free(request->target);
+    g_free(request->design);
 }
 
 static const struct gb_options_page page = {
@@ -184,6 +214,10 @@ int gb_cmd_sweep(int argc, char **argv)
         gb_options_set(&request.sets),
         {"vary", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.vary,
          "key=FROM:TO:COUNT[:log] or key=VALUE;VALUE...; may be repeated", "KEY=VALUES"},
+        {"design", 0, 0, G_OPTION_ARG_STRING, &request.design,
+         "points of a Sobol sequence in the ranges key=FROM:TO[:log] of --vary in place of "
+         "a grid; sensitivities go to DIR/sensitivity.csv",
+         "sobol:N"},
         {"replicas", 0, 0, G_OPTION_ARG_INT, &request.replicas,
          "runs per point, seeds counted up from that of the preset (1)", "N"},
         {"until-se", 0, 0, G_OPTION_ARG_STRING, &request.target,

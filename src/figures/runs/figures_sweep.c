@@ -14,6 +14,8 @@
 static const double default_mpa = 100.0;
 
 enum { UNIT_MAX = 16, NAME_MAX_BYTES = 96 };
+/* More lines of one point each are the points of a design. */
+enum { LINES_MOST = 8 };
 
 /* Value of a key in a group as a preset writes it: number and unit.  False for words and
  * auto. */
@@ -139,6 +141,34 @@ static void draw_family(struct gb_series *series, const struct gb_runset *set,
     g_free(label);
 }
 
+static size_t count_families(const struct gb_runset *set, const char *key)
+{
+    size_t count = 0;
+    for (size_t g = 0; g < set->groups; g++) {
+        count += family_of(set, g, key) == g;
+    }
+    return count;
+}
+
+/* A line for each value of the other keys, or the points of a design as one series. */
+static void draw_families(struct gb_series *series, const struct gb_runset *set,
+                          const struct point *point, const char *key,
+                          const double *const from[3])
+{
+    const size_t families = count_families(set, key);
+    int style = 0;
+    if (families == set->groups && families > LINES_MOST) {
+        gb_series_draw(series, from[0], from[1], from[2], GB_FIGURE_POINTS, 0, NULL);
+        gb_series_caption(series, "Other keys differ from point to point.");
+        return;
+    }
+    for (size_t g = 0; g < set->groups; g++) {
+        if (family_of(set, g, key) == g) {
+            draw_family(series, set, point, g, key, style++, from);
+        }
+    }
+}
+
 /* Density where loading first reaches a pressure, against the key with the most values; a
  * line for each value of the others. */
 bool gb_figures_sweep(struct gb_series *series, const struct gb_figures_input *input,
@@ -165,12 +195,9 @@ bool gb_figures_sweep(struct gb_series *series, const struct gb_figures_input *i
         good =
             gb_density_at_pressure(set, point[k].group, mpa, &density[k], &error[k], err);
     }
-    int style = 0;
     const double *const columns[3] = {x, density, error};
-    for (size_t g = 0; g < set->groups && good; g++) {
-        if (family_of(set, g, key) == g) {
-            draw_family(series, set, point, g, key, style++, columns);
-        }
+    if (good) {
+        draw_families(series, set, point, key, columns);
     }
     g_free(point);
     gb_series_note(series, "density where loading first reaches %g MPa", mpa);

@@ -8,7 +8,7 @@
 
 /* A polynomial of first or second order in a few variables for each of many outputs: an
  * approximation of the simulation near a point. */
-enum { GB_SURROGATE_VARIABLES = 4, GB_SURROGATE_TERMS = 15 };
+enum { GB_SURROGATE_VARIABLES = 6, GB_SURROGATE_TERMS = 28 };
 
 enum gb_surrogate_order { GB_SURROGATE_LINEAR, GB_SURROGATE_QUADRATIC };
 

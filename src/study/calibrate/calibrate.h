@@ -16,7 +16,7 @@
  * beside the errors of the data.  A coarse stage (small cells) finds the region for the
  * full one. */
 
-enum { GB_CALIBRATE_FREE = GB_SURROGATE_VARIABLES };
+enum { GB_CALIBRATE_FREE = 4 };
 
 enum gb_calibrate_stage { GB_CALIBRATE_COARSE, GB_CALIBRATE_FULL };
 
