@@ -99,3 +99,23 @@ bool gb_reading_unloaded(const struct gb_table *curve, double pressure_pa,
     }
     return false;
 }
+
+double gb_reading_unloading_modulus(const struct gb_table *curve, double pressure_pa)
+{
+    const double *pressure = gb_table_column(curve, "p_MPa", NULL);
+    const double *density = gb_table_column(curve, names[GB_READING_DENSITY], NULL);
+    const double half = 0.5 * pressure_pa / 1e6;
+    for (size_t i = 1; i < gb_table_rows(curve); i++) {
+        if (!is_unloading(gb_table_word(curve, i), pressure_pa) || pressure[i] > half) {
+            continue;
+        }
+        /* the row before is of the same branch, or the last of loading */
+        double from[GB_READING_QUANTITIES];
+        const double share = (pressure[i - 1] - half) / (pressure[i - 1] - pressure[i]);
+        const double at = density[i - 1] + share * (density[i] - density[i - 1]);
+        return gb_reading_loaded(curve, pressure_pa, from)
+                   ? 0.5 * pressure_pa / log(from[GB_READING_DENSITY] / at)
+                   : (double)NAN;
+    }
+    return NAN;
+}

@@ -34,4 +34,9 @@ bool gb_reading_loaded(const struct gb_table *curve, double pressure_pa,
 bool gb_reading_unloaded(const struct gb_table *curve, double pressure_pa,
                          double values[GB_READING_QUANTITIES]);
 
+/* Secant modulus of unloading from pressure_pa to half of it, Pa: the fall of the pressure
+ * over the logarithm of the ratio of densities, which with fixed side walls is the axial
+ * strain.  NaN where the branch is missing. */
+double gb_reading_unloading_modulus(const struct gb_table *curve, double pressure_pa);
+
 #endif

@@ -54,6 +54,27 @@ is 'a finished fit is found again' cmp first.csv fit/calibration.csv
 is 'and told again' cmp first stdout
 is 'without a new run' [ -z "$(find fit/runs -name curve.csv -newermt 2002-01-01)" ]
 
+# --- more than densities -----------------------------------------------------------------
+# One row of each: those of the same cells at several pressures are correlated.
+awk -F, 'BEGIN { print "p_MPa,density,density_error,lateral_ratio,lateral_ratio_error," \
+                       "coordination,coordination_error,branch,weight" }
+    /^1/ { print $3 "," $5 "," $6 ",,,,," $2 ",2" }
+    /^1,load,200/ { print $3 ",,," $13 / $17 "," $14 / $17 "," $7 "," $8 ",load," }' \
+    truth/sweep.csv >more.csv
+# shellcheck disable=SC2086
+"$greenbody" calibrate $scene contact.mu=0.2 contact.alpha=0.3 --data more.csv \
+    --free contact.mu=0.04:0.4,contact.alpha=0.2:0.8 --replicas 4 --out fit >stdout 2>stderr
+is 'three quantities are fitted together' [ $? -eq 0 ]
+is 'each has its rows' awk -F, '
+    { n[$8]++ } END { exit !(n["density"] == 7 && n["lateral_ratio"] == 1 &&
+                             n["coordination"] == 1) }' fit/fit.csv
+is 'mu and alpha lie in narrower intervals' awk -F, '
+    NR == FNR { wide[$1] = $6 - $5; next }
+    $1 == "contact.mu" { mu = $5 <= 0.13 && 0.13 <= $6 && $6 - $5 < wide[$1] }
+    $1 == "contact.alpha" { alpha = $5 <= 0.37 && 0.37 <= $6 && $6 - $5 < wide[$1] }
+    END { exit !(mu && alpha) }' first.csv fit/calibration.csv
+is 'the residuals of each are told' grep -q 'in density, .* in lateral ratio, .* in coord' stdout
+
 # --- wrong input -------------------------------------------------------------------------
 set -- "$greenbody" calibrate p1-set1-uniaxial --out out
 refused 'no data' "$@" --free contact.mu

@@ -229,6 +229,42 @@ static void test_confused(void)
     gb_calibrate_finish(&result);
 }
 
+/* Equal weights change nothing, errors included; of data that contradict each other those
+ * of more weight are met better. */
+static void test_weights(void)
+{
+    struct bench bench = {.seed = 4};
+    double value[DATA], error[DATA], equal[DATA], first[DATA];
+    struct gb_calibrate_problem problem = problem_of(&bench, value, error);
+    for (size_t i = 0; i < DATA; i++) {
+        equal[i] = 5.0;
+        first[i] = i < DATA / 2 ? 100.0 : 1.0;
+        value[i] += i < DATA / 2 ? 0.02 : -0.02;
+    }
+    struct gb_calibrate_result plain = fit(&problem);
+    problem.weight = equal;
+    struct gb_calibrate_result scaled = fit(&problem);
+    problem.weight = first;
+    struct gb_calibrate_result weighted = fit(&problem);
+    for (size_t k = 0; k < 2; k++) {
+        g_assert_cmpfloat_with_epsilon(plain.value[k], scaled.value[k], 1e-4);
+        g_assert_cmpfloat_with_epsilon(plain.error[k], scaled.error[k],
+                                       1e-3 * plain.error[k]);
+    }
+    g_assert_cmpfloat_with_epsilon(plain.chi_squared, scaled.chi_squared,
+                                   1e-3 * plain.chi_squared);
+    double off[2][2] = {{0.0}};
+    for (size_t i = 0; i < DATA; i++) {
+        off[0][i >= DATA / 2] += fabs(plain.fitted[i] - value[i]);
+        off[1][i >= DATA / 2] += fabs(weighted.fitted[i] - value[i]);
+    }
+    g_assert_cmpfloat(off[1][0], <, 0.7 * off[0][0]);
+    g_assert_cmpfloat(off[1][1], >, off[0][1]);
+    gb_calibrate_finish(&plain);
+    gb_calibrate_finish(&scaled);
+    gb_calibrate_finish(&weighted);
+}
+
 /* The best value lies beyond what is allowed. */
 static void test_limit(void)
 {
@@ -271,6 +307,7 @@ int main(int argc, char **argv)
     g_test_add_func("/calibrate/failures", test_failures);
     g_test_add_func("/calibrate/confused", test_confused);
     g_test_add_func("/calibrate/limit", test_limit);
+    g_test_add_func("/calibrate/weights", test_weights);
     g_test_add_func("/calibrate/refuse", test_refuse);
     return g_test_run();
 }

@@ -71,9 +71,9 @@ static bool read_lab(struct gb_labdata *lab, const struct request *request,
                      const struct gb_params *params, struct gb_error *err)
 {
     struct gb_table *table = NULL;
-    const bool good =
-        gb_lab_input_read(&table, &request->lab, request->data, NULL, err) &&
-        gb_labdata_take(lab, table, params, err);
+    const bool good = gb_lab_input_read(&table, &request->lab, request->data,
+                                        gb_lab_quantity_columns, err) &&
+                      gb_labdata_take(lab, table, params, err);
     gb_table_destroy(table);
     return good;
 }
@@ -115,7 +115,8 @@ static bool perform(struct command *command, char **words, struct gb_error *err)
 
 static const char usage[] = "PRESET [group.key=value]...";
 static const char summary[] =
-    "Fits parameters of a preset to measured densities.  Cells of the same seeds are\n"
+    "Fits parameters of a preset to measured densities, pressure ratios, coordination\n"
+    "and moduli of unloading.  Cells of the same seeds are\n"
     "simulated at a design of values; a surrogate of each seed gives the best fit, its\n"
     "95 % intervals (errors of the data and scatter of the cells) and correlations.\n"
     "Small cells come first, the full ones last.";
@@ -123,6 +124,9 @@ static const char about_file[] =
     "FILE.csv has the columns p_MPa and density, and may have density_error, branch\n"
     "(load, or unload: the density left after unloading from p_MPa) and keys with\n"
     "their unit, as particles.diameter_nm, where several powders are fitted together.\n"
+    "Instead of density or beside it: lateral_ratio (px/pz), coordination and\n"
+    "unloading_modulus_GPa (secant from p to p/2); several quantities need their\n"
+    "errors, lateral_ratio_error ...; weight counts a row more or less than its error.\n"
     "Repeated, the command continues an interrupted fit.  DIR receives rounds.csv\n"
     "during the fit, then calibration.csv, fit.csv, calibrated.ini and the runs.\n\n";
 static const char example[] =
@@ -139,7 +143,7 @@ int gb_cmd_calibrate(int argc, char **argv)
     int status = 0;
     const GOptionEntry own[] = {
         gb_options_set(&request.sets),
-        {"data", 0, 0, G_OPTION_ARG_FILENAME, &request.data, "measured densities",
+        {"data", 0, 0, G_OPTION_ARG_FILENAME, &request.data, "measured values",
          "FILE.csv"},
         {"free", 0, 0, G_OPTION_ARG_STRING, &request.free,
          "up to 4 parameters to be fitted, each with its limits LOW:HIGH or without",

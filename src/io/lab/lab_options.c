@@ -6,6 +6,7 @@
 
 #include "base/table.h"
 #include "base/units.h"
+#include "io/lab/lab_quantity.h"
 
 /* Keys with a number and a unit. */
 struct quantity {
@@ -222,7 +223,7 @@ static bool parse_item(struct gb_lab_options *options, const char **at,
     if (role < GB_LAB_ROLES) {
         return parse_column(at, role, &options->column[role], err);
     }
-    if (strchr(key, '.') != NULL) {
+    if (strchr(key, '.') != NULL || gb_lab_quantity_is_further(key)) {
         return add_key(options, key, at, err);
     }
     return (take_part(at, ",", value, sizeof value, &quoted) ||

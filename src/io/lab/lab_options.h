@@ -23,7 +23,8 @@ struct gb_lab_options_column {
     const struct gb_lab_unit *unit; /* NULL: that of the head */
 };
 
-/* A further column, of a key of a preset: particles.diameter_nm=5. */
+/* A further column, of a key of a preset or of another quantity: particles.diameter_nm=5,
+ * lateral_ratio=6. */
 struct gb_lab_options_key {
     char key[GB_LAB_OPTIONS_NAME];
     struct gb_lab_options_column column;

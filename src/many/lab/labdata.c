@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/table.h"
 #include "base/units.h"
+#include "many/reading.h"
 #include "many/runset.h"
 
 /* Pressures that differ by less are one. */
@@ -43,6 +44,9 @@ static bool is_known(const char *name)
 {
     static const char *const known[] = {"p_MPa",         "density", "p_MPa_error",
                                         "density_error", "branch",  "series"};
+    if (gb_lab_quantity_is_further(name)) {
+        return true;
+    }
     for (size_t i = 0; i < G_N_ELEMENTS(known); i++) {
         if (strcmp(name, known[i]) == 0) {
             return true;
@@ -57,7 +61,8 @@ static bool check_columns(const struct gb_table *table, struct gb_error *err)
         if (!is_known(gb_table_name(table, k))) {
             return gb_error_set(err, GB_ERR_INPUT,
                                 "%.200s: column %.80s; accepted p_MPa, density, "
-                                "density_error, branch, series and keys as "
+                                "lateral_ratio, coordination, unloading_modulus_GPa, "
+                                "their _error, weight, branch, series and keys as "
                                 "particles.diameter_nm",
                                 gb_table_path(table), gb_table_name(table, k));
         }
@@ -146,60 +151,146 @@ static bool find_scene(struct gb_labdata *measured, const struct gb_table *table
     return true;
 }
 
-static bool refuse_row(const struct gb_table *table, size_t row, struct gb_error *err)
+static bool refuse_row(const struct gb_table *table, size_t row, const char *what,
+                       struct gb_error *err)
 {
-    return gb_error_set(err, GB_ERR_INPUT,
-                        "%.200s:%d: accepted a pressure above 0, a density between 0 "
-                        "and 1, an error above 0, and load or unload",
-                        gb_table_path(table), gb_table_line(table, row));
+    return gb_error_set(err, GB_ERR_INPUT, "%.200s:%d: %s", gb_table_path(table),
+                        gb_table_line(table, row), what);
 }
 
-static bool take_row(struct gb_labdata *measured, const struct gb_table *table,
-                     size_t row, const struct gb_params *base, struct gb_error *err)
+/* Cell of a column that a table may lack, or NaN. */
+static double cell(const struct gb_table *table, const char *column, size_t row)
 {
-    const double *pressure = gb_table_column(table, "p_MPa", NULL);
-    const double *density = gb_table_column(table, "density", NULL);
-    const double *error = gb_table_column(table, "density_error", NULL);
-    const char *word = has_series(table) ? "" : gb_table_word(table, row);
-    struct gb_labdata_row *to = &measured->row[row];
-    to->unloaded = strcmp(word, "unload") == 0;
-    if (!(pressure[row] > 0.0 && density[row] > 0.0 && density[row] < 1.0) ||
-        (error != NULL && !(error[row] > 0.0)) ||
-        !(to->unloaded || *word == '\0' || strcmp(word, "load") == 0)) {
-        return refuse_row(table, row, err);
-    }
-    if (!find_scene(measured, table, row, base, &to->scene, err)) {
-        return false;
-    }
-    struct gb_params *scene = &measured->scene[to->scene];
-    to->pressure_pa = 1e6 * pressure[row];
-    to->density = measured->density[row] = density[row];
-    if (error != NULL) {
-        measured->error[row] = error[row];
-    }
-    scene->until_pressure_pa = fmax(scene->until_pressure_pa, to->pressure_pa);
-    return !to->unloaded || add_unloading(scene, to->pressure_pa) ||
+    const double *values = gb_table_column(table, column, NULL);
+    return values != NULL ? values[row] : (double)NAN;
+}
+
+static bool refuse_value(const struct gb_table *table, size_t row,
+                         const struct gb_lab_quantity_row *quantity, struct gb_error *err)
+{
+    char what[200];
+    g_snprintf(what, sizeof what,
+               isfinite(quantity->most) ? "%s: accepted a value between %g and %g"
+                                        : "%s: accepted a value above %g",
+               quantity->name, quantity->least, quantity->most);
+    return refuse_row(table, row, what, err);
+}
+
+/* What has to be simulated for a row. */
+static bool extend_scene(struct gb_labdata *measured, const struct gb_table *table,
+                         const struct gb_labdata_row *row, struct gb_error *err)
+{
+    struct gb_params *scene = &measured->scene[row->scene];
+    const bool unloads =
+        row->unloaded || row->quantity == GB_LAB_QUANTITY_UNLOADING_MODULUS;
+    scene->until_pressure_pa = fmax(scene->until_pressure_pa, row->pressure_pa);
+    return !unloads || add_unloading(scene, row->pressure_pa) ||
            gb_error_set(err, GB_ERR_INPUT,
                         "%.200s: more than %d pressures of unloading in one scene",
                         gb_table_path(table), GB_UNLOAD_MAX);
 }
 
+/* One quantity of a row of the table, unless the row lacks it. */
+static bool take_quantity(struct gb_labdata *measured, const struct gb_table *table,
+                          size_t at, struct gb_labdata_row row, struct gb_error *err)
+{
+    const struct gb_lab_quantity_row *quantity = &gb_lab_quantity_rows[row.quantity];
+    const double value = cell(table, quantity->name, at);
+    const double error = cell(table, quantity->error, at);
+    if (isnan(value)) {
+        return true;
+    }
+    if (!(value > quantity->least && value < quantity->most)) {
+        return refuse_value(table, at, quantity, err);
+    }
+    if (measured->error != NULL && !(error > 0.0)) {
+        return refuse_row(table, at,
+                          "accepted an error above 0 for each value (of several "
+                          "quantities, or where one row has an error)",
+                          err);
+    }
+    if (row.unloaded && row.quantity == GB_LAB_QUANTITY_LATERAL_RATIO) {
+        return refuse_row(table, at, "a lateral ratio: accepted on branch load", err);
+    }
+    const double weight = cell(table, "weight", at);
+    if (measured->weight != NULL && weight <= 0.0) {
+        return refuse_row(table, at, "weight: accepted a value above 0", err);
+    }
+    measured->row[measured->count] = row;
+    measured->value[measured->count] = value;
+    if (measured->error != NULL) {
+        measured->error[measured->count] = error;
+    }
+    if (measured->weight != NULL) {
+        measured->weight[measured->count] = isnan(weight) ? 1.0 : weight;
+    }
+    measured->count++;
+    return extend_scene(measured, table, &row, err);
+}
+
+static bool take_row(struct gb_labdata *measured, const struct gb_table *table, size_t at,
+                     const struct gb_params *base, struct gb_error *err)
+{
+    const double *pressure = gb_table_column(table, "p_MPa", NULL);
+    const char *word = has_series(table) ? "" : gb_table_word(table, at);
+    const size_t before = measured->count;
+    struct gb_labdata_row row = {.unloaded = strcmp(word, "unload") == 0};
+    if (!(pressure[at] > 0.0)) {
+        return refuse_row(table, at, "p_MPa: accepted a pressure above 0", err);
+    }
+    if (!(row.unloaded || *word == '\0' || strcmp(word, "load") == 0)) {
+        return refuse_row(table, at, "branch: accepted load or unload", err);
+    }
+    if (!find_scene(measured, table, at, base, &row.scene, err)) {
+        return false;
+    }
+    row.pressure_pa = 1e6 * pressure[at];
+    for (int q = 0; q < GB_LAB_QUANTITIES; q++) {
+        row.quantity = (enum gb_lab_quantity)q;
+        if (!take_quantity(measured, table, at, row, err)) {
+            return false;
+        }
+    }
+    return measured->count > before ||
+           refuse_row(table, at, "accepted one measured value at least", err);
+}
+
+/* Quantities that have a column, and whether any has errors. */
+static size_t count_quantities(const struct gb_table *table, bool *errors)
+{
+    size_t count = 0;
+    *errors = false;
+    for (int q = 0; q < GB_LAB_QUANTITIES; q++) {
+        const struct gb_lab_quantity_row *row = &gb_lab_quantity_rows[q];
+        count += gb_table_column(table, row->name, NULL) != NULL;
+        *errors = *errors || gb_table_column(table, row->error, NULL) != NULL;
+    }
+    return count;
+}
+
 static bool alloc_rows(struct gb_labdata *measured, const struct gb_table *table,
                        struct gb_error *err)
 {
-    measured->count = gb_table_rows(table);
-    if (measured->count == 0 || measured->count > GB_LABDATA_ROWS) {
+    bool errors = false;
+    const size_t rows = gb_table_rows(table);
+    const size_t quantities = count_quantities(table, &errors);
+    const bool weights = gb_table_column(table, "weight", NULL) != NULL;
+    if (rows == 0 || rows > GB_LABDATA_ROWS) {
         return gb_error_set(err, GB_ERR_INPUT, "%.200s: %zu rows; accepted 1 to %d",
-                            gb_table_path(table), measured->count, GB_LABDATA_ROWS);
+                            gb_table_path(table), rows, GB_LABDATA_ROWS);
     }
-    const bool errors = gb_table_column(table, "density_error", NULL) != NULL;
-    measured->row = gb_alloc_array(measured->count, sizeof *measured->row, err);
-    measured->density = gb_alloc_array(measured->count, sizeof(double), err);
-    measured->error =
-        errors ? gb_alloc_array(measured->count, sizeof(double), err) : NULL;
+    if (quantities == 0) {
+        return gb_table_column(table, gb_lab_quantity_rows[0].name, err) != NULL;
+    }
+    errors = errors || quantities > 1;
+    const size_t most = rows * quantities;
+    measured->row = gb_alloc_array(most, sizeof *measured->row, err);
+    measured->value = gb_alloc_array(most, sizeof(double), err);
+    measured->error = errors ? gb_alloc_array(most, sizeof(double), err) : NULL;
+    measured->weight = weights ? gb_alloc_array(most, sizeof(double), err) : NULL;
     measured->scene = gb_alloc_array(GB_LABDATA_SCENES, sizeof *measured->scene, err);
-    return measured->row && measured->density && measured->scene &&
-           (measured->error || !errors);
+    return measured->row && measured->value && measured->scene &&
+           (measured->error || !errors) && (measured->weight || !weights);
 }
 
 bool gb_labdata_take(struct gb_labdata *measured, const struct gb_table *table,
@@ -208,9 +299,8 @@ bool gb_labdata_take(struct gb_labdata *measured, const struct gb_table *table,
     *measured = (struct gb_labdata){0};
     bool good = check_columns(table, err) && check_series(table, err) &&
                 gb_table_column(table, "p_MPa", err) != NULL &&
-                gb_table_column(table, "density", err) != NULL &&
                 alloc_rows(measured, table, err);
-    for (size_t i = 0; i < measured->count && good; i++) {
+    for (size_t i = 0; i < gb_table_rows(table) && good; i++) {
         good = take_row(measured, table, i, params, err);
     }
     for (size_t s = 0; s < measured->scenes && good; s++) {
@@ -222,11 +312,33 @@ bool gb_labdata_take(struct gb_labdata *measured, const struct gb_table *table,
     return good;
 }
 
+double gb_labdata_simulated(const struct gb_labdata_row *row,
+                            const struct gb_table *curve)
+{
+    double values[GB_READING_QUANTITIES] = {NAN};
+    if (row->quantity == GB_LAB_QUANTITY_UNLOADING_MODULUS) {
+        return gb_reading_unloading_modulus(curve, row->pressure_pa) / 1e9;
+    }
+    if (!(row->unloaded ? gb_reading_unloaded
+                        : gb_reading_loaded)(curve, row->pressure_pa, values)) {
+        return NAN;
+    }
+    switch (row->quantity) {
+    case GB_LAB_QUANTITY_LATERAL_RATIO:
+        return values[GB_READING_PX] / values[GB_READING_PZ];
+    case GB_LAB_QUANTITY_COORDINATION:
+        return values[GB_READING_COORDINATION];
+    default:
+        return values[GB_READING_DENSITY];
+    }
+}
+
 void gb_labdata_finish(struct gb_labdata *measured)
 {
     gb_alloc_free(measured->row);
-    gb_alloc_free(measured->density);
+    gb_alloc_free(measured->value);
     gb_alloc_free(measured->error);
+    gb_alloc_free(measured->weight);
     gb_alloc_free(measured->scene);
     *measured = (struct gb_labdata){0};
 }

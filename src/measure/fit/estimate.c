@@ -65,7 +65,21 @@ static void set_weights(const struct fit *fit)
             fit->weight[i] =
                 1.0 / (problem->error[i] * problem->error[i] + noise(fit, i));
         }
+        if (problem->weight != NULL) {
+            fit->weight[i] *= problem->weight[i];
+        }
     }
+}
+
+/* By the errors alone, at the mean that was looked at last. */
+static double chi_squared(const struct fit *fit)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < fit->problem->data; i++) {
+        const double off = fit->mean[i] - fit->problem->value[i];
+        sum += fit->weight[i] / fit->problem->weight[i] * off * off;
+    }
+    return sum;
 }
 
 static double misfit(const struct fit *fit, const double *at)
@@ -342,7 +356,8 @@ bool gb_estimate_fit(const struct gb_estimate_problem *problem,
     const bool good = minimise(&fit, estimate->at, err) &&
                       set_slope(&fit, estimate->at, err) && set_gain(&fit, effect, err);
     if (good) {
-        const double weighted = misfit(&fit, estimate->at); /* also sets fit.mean */
+        double weighted = misfit(&fit, estimate->at); /* also sets fit.mean */
+        weighted = problem->weight != NULL ? chi_squared(&fit) : weighted;
         double squares = 0.0;
         for (size_t i = 0; i < problem->data; i++) {
             const double off = fit.mean[i] - problem->value[i];

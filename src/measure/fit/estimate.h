@@ -12,7 +12,9 @@
  * model's own noise. */
 struct gb_estimate_problem {
     size_t variables, data, seeds;
-    const double *value, *error;     /* of the data; error NULL: from the scatter */
+    const double *value, *error; /* of the data; error NULL: from the scatter */
+    const double *weight;        /* beside the errors; NULL: 1.  The fit follows it, the
+                                        errors of the variables contain what it costs */
     const struct gb_surrogate *seed; /* seeds of them, 2 or more */
     double low[GB_SURROGATE_VARIABLES], high[GB_SURROGATE_VARIABLES]; /* box of the fit */
 };

@@ -126,6 +126,7 @@ static bool fit_data(const struct fit *fit, const struct gb_surrogate *seeds,
                                        .seeds = count,
                                        .value = problem->value,
                                        .error = problem->error,
+                                       .weight = problem->weight,
                                        .seed = seeds};
     for (size_t k = 0; k < problem->free; k++) {
         data.low[k] = fmax(-1.0, (problem->low[k] - region->centre[k]) / region->half[k]);

@@ -28,9 +28,10 @@ struct gb_calibrate_problem {
     double to[GB_CALIBRATE_FREE];
     size_t data; /* measured values, not fewer than free; more without errors */
     const double *value;
-    const double *error; /* standard errors; NULL: from the scatter of the fit */
-    size_t replicas;     /* seeds, 3 or more */
-    bool coarse_stage;   /* false: the full stage only */
+    const double *error;  /* standard errors; NULL: from the scatter of the fit */
+    const double *weight; /* what a value counts in the fit beside its error; NULL: 1 */
+    size_t replicas;      /* seeds, 3 or more */
+    bool coarse_stage;    /* false: the full stage only */
 
     /* Simulates points x free parameters; out[points x replicas x data] gets the values,
      * NaN where a run failed. */

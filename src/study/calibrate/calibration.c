@@ -67,7 +67,7 @@ static bool fill(const struct gb_calibration *calibration, const double *paramet
     return true;
 }
 
-/* Densities of one run for the rows of its scene; NaN where it failed. */
+/* Values of one run for the rows of its scene; NaN where it failed. */
 static void read_values(const struct gb_calibration *calibration,
                         const struct gb_ensemble_run *run, double *out)
 {
@@ -77,15 +77,10 @@ static void read_values(const struct gb_calibration *calibration,
         run->error.code == GB_OK && gb_reading_open(&curve, run->directory, NULL);
     for (size_t i = 0; i < lab->count; i++) {
         const struct gb_labdata_row *row = &lab->row[i];
-        double values[GB_READING_QUANTITIES] = {NAN};
         if (row->scene != run->point % lab->scenes) {
             continue;
         }
-        if (good) {
-            (void)(row->unloaded ? gb_reading_unloaded
-                                 : gb_reading_loaded)(curve, row->pressure_pa, values);
-        }
-        out[i] = values[GB_READING_DENSITY];
+        out[i] = good ? gb_labdata_simulated(row, curve) : (double)NAN;
     }
     gb_table_destroy(curve);
 }
@@ -153,8 +148,9 @@ static struct gb_calibrate_problem problem_of(struct gb_calibration *calibration
 {
     struct gb_calibrate_problem problem = {.free = calibration->keys.count,
                                            .data = calibration->lab.count,
-                                           .value = calibration->lab.density,
+                                           .value = calibration->lab.value,
                                            .error = calibration->lab.error,
+                                           .weight = calibration->lab.weight,
                                            .replicas = calibration->replicas,
                                            .coarse_stage = true,
                                            .simulate = simulate,

@@ -40,24 +40,49 @@ static GString *parameter_table(const struct gb_calibration *calibration)
     return text;
 }
 
-/* fit.csv: measured densities beside those simulated with the best fit. */
+/* fit.csv: measured values beside those simulated with the best fit. */
 static GString *fit_table(const struct gb_calibration *calibration)
 {
     const struct gb_labdata *lab = &calibration->lab;
-    GString *text = g_string_new("scene,branch,p_MPa,density,density_error,simulated,"
-                                 "se_simulated\n");
+    GString *text = g_string_new("scene,branch,p_MPa,measured,measured_error,simulated,"
+                                 "se_simulated,quantity,weight\n");
     for (size_t i = 0; i < lab->count; i++) {
         const struct gb_labdata_row *row = &lab->row[i];
         g_string_append_printf(text, "%zu,%s,%.12g,%.12g,", row->scene + 1,
                                row->unloaded ? "unload" : "load", row->pressure_pa / 1e6,
-                               row->density);
+                               lab->value[i]);
         if (lab->error != NULL) {
             g_string_append_printf(text, "%.12g", lab->error[i]);
         }
-        g_string_append_printf(text, ",%.8g,%.3g\n", calibration->result.fitted[i],
-                               calibration->result.fitted_error[i]);
+        g_string_append_printf(
+            text, ",%.8g,%.3g,%s,%.12g\n", calibration->result.fitted[i],
+            calibration->result.fitted_error[i], gb_lab_quantity_rows[row->quantity].name,
+            lab->weight != NULL ? lab->weight[i] : 1.0);
     }
     return text;
+}
+
+/* Root mean square of the residuals of each quantity. */
+static void add_residuals(GString *text, const struct gb_calibration *calibration)
+{
+    const struct gb_labdata *lab = &calibration->lab;
+    const char *between = "residuals: rms";
+    for (int q = 0; q < GB_LAB_QUANTITIES; q++) {
+        double squares = 0.0;
+        size_t count = 0;
+        for (size_t i = 0; i < lab->count; i++) {
+            const double off = calibration->result.fitted[i] - lab->value[i];
+            const bool is_own = lab->row[i].quantity == (enum gb_lab_quantity)q;
+            squares += is_own ? off * off : 0.0;
+            count += is_own;
+        }
+        if (count > 0) {
+            g_string_append_printf(text, "%s %.2g in %s", between,
+                                   sqrt(squares / (double)count),
+                                   gb_lab_quantity_rows[q].label);
+            between = ",";
+        }
+    }
 }
 
 static bool write_table(const struct gb_calibration *calibration, const char *name,
@@ -145,7 +170,7 @@ GString *gb_calibration_table_text(const struct gb_calibration *calibration)
             add_correlation(text, calibration, i, j);
         }
     }
-    g_string_append_printf(text, "residuals: rms %.2g in density", result->rms);
+    add_residuals(text, calibration);
     if (isfinite(result->chi_squared) && result->degrees > 0) {
         g_string_append_printf(text, ", chi-squared %.3g for %zu degrees of freedom",
                                result->chi_squared, result->degrees);
