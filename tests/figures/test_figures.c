@@ -1,5 +1,5 @@
 /* The figure table, the formats and the report on small run directories made here. */
-#include "figures/figures.h"
+#include "figure_folder.h"
 
 #include <glib/gstdio.h>
 #include <gsl/gsl_errno.h>
@@ -13,29 +13,12 @@
 #include "io/state/state.h"
 #include "pack/die/die.h"
 
-static char *folder;
-
-static char *path_in(const char *directory, const char *file)
-{
-    return g_build_filename(folder, directory, file, NULL);
-}
-
-static void write_text(const char *directory, const char *file, const char *text)
-{
-    char *path = path_in(directory, NULL);
-    char *full = path_in(directory, file);
-    g_mkdir_with_parents(path, 0700);
-    g_assert_true(g_file_set_contents(full, text, -1, NULL));
-    g_free(full);
-    g_free(path);
-}
-
 /* Sixty-four particles of two sizes on a grid, neighbours along z in contact. */
 static void write_state(const char *directory, uint64_t seed)
 {
     struct gb_state *state = NULL;
     struct gb_error err = {0};
-    char *path = path_in(directory, "state.h5");
+    char *path = figure_folder_path(directory, "state.h5");
     g_assert_true(gb_state_create(&state, 64, 64, &err));
     state->dimension = 3;
     state->seed = seed;
@@ -80,7 +63,7 @@ static void write_curve(const char *directory, double offset, const char *more)
                                0.6 - 0.001 * i, 4000.0 - 400.0 * i, 41 + i);
     }
     g_string_append(text, more);
-    write_text(directory, "curve.csv", text->str);
+    figure_folder_write(directory, "curve.csv", text->str);
     g_string_free(text, TRUE);
 }
 
@@ -91,7 +74,7 @@ static void write_quasistatic(const char *directory, int seed, const char *diame
         "[scene]\ntitle = %s\n[particles]\ncount = 1000\ndiameter = %s\n[structure]\n"
         "seed = %d\n[loading]\ngeometry = uniaxial\n",
         directory, diameter, seed);
-    write_text(directory, "preset.ini", preset);
+    figure_folder_write(directory, "preset.ini", preset);
     write_curve(directory, offset, "");
     write_state(directory, (uint64_t)seed);
     g_free(preset);
@@ -110,7 +93,7 @@ static void write_dynamic(const char *directory, const char *rate)
             3000.0 + 800.0 * exp(-t / 0.7) + 200.0 * exp(-t / 9.0) + 1e-3 * sin(1e4 * i);
         g_string_append_printf(hold, "hold,%d,0.6,%.9f,,,,,,%.6f\n", 52 + i, p, 40.0 + t);
     }
-    write_text(directory, "preset.ini", preset);
+    figure_folder_write(directory, "preset.ini", preset);
     write_curve(directory, 0.0, hold->str);
     write_state(directory, 1);
     g_string_free(hold, TRUE);
@@ -119,12 +102,12 @@ static void write_dynamic(const char *directory, const char *rate)
 
 static void write_die(void)
 {
-    write_text("die", "preset.ini",
-               "[scene]\nkind = die\n[contact]\nnormal = hertz\n"
-               "[loading]\ngeometry = die\n");
-    write_text("die", "curve.csv",
-               "branch,p_MPa,wanted_MPa,density,central_density,height_change\n"
-               "load,1.1,1,0.6,0.65,-0.01\nload,2.1,2,0.62,0.67,-0.02\n");
+    figure_folder_write("die", "preset.ini",
+                        "[scene]\nkind = die\n[contact]\nnormal = hertz\n"
+                        "[loading]\ngeometry = die\n");
+    figure_folder_write("die", "curve.csv",
+                        "branch,p_MPa,wanted_MPa,density,central_density,height_change\n"
+                        "load,1.1,1,0.6,0.65,-0.01\nload,2.1,2,0.62,0.67,-0.02\n");
 }
 
 /* A full cycle, with a state of four stacked spheres on the axis, one of them on the wall. */
@@ -136,14 +119,15 @@ static void write_cycle(const char *directory, uint64_t seed)
                                    "[structure]\nseed = %d\n[die]\ncycle = full\n"
                                    "[loading]\ngeometry = die\n",
                                    (int)seed);
-    char *path = path_in(directory, "state.h5");
-    write_text(directory, "preset.ini", preset);
-    write_text(directory, "curve.csv",
-               "branch,time_ns,p_MPa,density,wall_friction_mN,axial_springback_percent\n"
-               "load,1000,50,0.65,-2,\nunload,2000,20,0.64,-1,0.5\n"
-               "in-die,3000,0,0.63,0.1,1\neject,4000,0,0.63,3,1.1\n"
-               "eject,5000,0,0.63,2,1.2\neject,6000,0,0.63,0,1.3\n"
-               "ejected,7000,0,0.625,0,1.5\n");
+    char *path = figure_folder_path(directory, "state.h5");
+    figure_folder_write(directory, "preset.ini", preset);
+    figure_folder_write(
+        directory, "curve.csv",
+        "branch,time_ns,p_MPa,density,wall_friction_mN,axial_springback_percent\n"
+        "load,1000,50,0.65,-2,\nunload,2000,20,0.64,-1,0.5\n"
+        "in-die,3000,0,0.63,0.1,1\neject,4000,0,0.63,3,1.1\n"
+        "eject,5000,0,0.63,2,1.2\neject,6000,0,0.63,0,1.3\n"
+        "ejected,7000,0,0.625,0,1.5\n");
     g_assert_true(gb_state_create(&state, 4, 0, &err));
     g_assert_true(gb_state_allocate_walls(state, 1, &err));
     state->seed = seed;
@@ -181,35 +165,38 @@ static void write_legs(void)
         g_string_append_printf(text, "leg:2,%d,0.4,47,53,50,50,%d,0,0,0,0,%g,0\n", 10 + i,
                                MIN(8 * i, 40), 0.02 * i);
     }
-    write_text("legs", "preset.ini",
-               "[loading]\npath = isotropic to 50 MPa; shear xz to 20 % at z = 50 MPa\n");
-    write_text("legs", "curve.csv", text->str);
+    figure_folder_write(
+        "legs", "preset.ini",
+        "[loading]\npath = isotropic to 50 MPa; shear xz to 20 % at z = 50 MPa\n");
+    figure_folder_write("legs", "curve.csv", text->str);
     write_state("legs", 1);
     g_string_free(text, TRUE);
 }
 
 static void write_chart(void)
 {
-    write_text("chart", "chart.csv",
-               "relaxer,particles,reference,seeds,evaluations,cpu_s,bound,front,chosen,"
-               "error_5MPa,error_se_5MPa,scatter_5MPa\n"
-               "fire,1000,1,3,900,9,,0,0,0,0,0.003\n"
-               "fire,1000,0,3,200,2,0.01,1,0,0.008,0.002,0.005\n"
-               "fire,1000,0,3,100,1,0.02,1,1,-0.02,0.001,0.004\n");
+    figure_folder_write(
+        "chart", "chart.csv",
+        "relaxer,particles,reference,seeds,evaluations,cpu_s,bound,front,chosen,"
+        "error_5MPa,error_se_5MPa,scatter_5MPa\n"
+        "fire,1000,1,3,900,9,,0,0,0,0,0.003\n"
+        "fire,1000,0,3,200,2,0.01,1,0,0.008,0.002,0.005\n"
+        "fire,1000,0,3,100,1,0.02,1,1,-0.02,0.001,0.004\n");
 }
 
 static void write_card(void)
 {
-    write_text("card", "card.csv",
-               "density,d_MPa,beta_deg,R,p_a_MPa,transition\n"
-               "0.4,40,45,1,10,0.03\n0.5,60,40,1.3,50,0.03\n");
-    write_text("card", "card_points.csv",
-               "density,p_MPa,q_MPa,q_MPa_error,side\n"
-               "0.4,10,48,2,cap\n0.4,-5,-36,2,shear\n0.5,60,110,3,cap\n");
-    write_text("card", "card_uniaxial.csv",
-               "density,ratio,ratio_low,ratio_high,card_ratio,card_ratio_low,"
-               "card_ratio_high\n"
-               "0.42,0.4,0.38,0.42,0.7,0.65,0.75\n0.5,0.5,0.48,0.52,0.8,0.75,0.85\n");
+    figure_folder_write("card", "card.csv",
+                        "density,d_MPa,beta_deg,R,p_a_MPa,transition\n"
+                        "0.4,40,45,1,10,0.03\n0.5,60,40,1.3,50,0.03\n");
+    figure_folder_write("card", "card_points.csv",
+                        "density,p_MPa,q_MPa,q_MPa_error,side\n"
+                        "0.4,10,48,2,cap\n0.4,-5,-36,2,shear\n0.5,60,110,3,cap\n");
+    figure_folder_write(
+        "card", "card_uniaxial.csv",
+        "density,ratio,ratio_low,ratio_high,card_ratio,card_ratio_low,"
+        "card_ratio_high\n"
+        "0.42,0.4,0.38,0.42,0.7,0.65,0.75\n0.5,0.5,0.48,0.52,0.8,0.75,0.85\n");
 }
 
 /* Four points on a circle about (30, 0) MPa of radius 20, at the chosen offset; another
@@ -234,45 +221,48 @@ static void write_yield(void)
             "shift,0.5,%g,2,1,1\n",
             offset, offset, offset, radius, offset, radius, offset);
     }
-    write_text("yield", "yield.csv", points->str);
-    write_text("yield", "yield_fit.csv", fit->str);
+    figure_folder_write("yield", "yield.csv", points->str);
+    figure_folder_write("yield", "yield_fit.csv", fit->str);
     g_string_free(points, TRUE);
     g_string_free(fit, TRUE);
 }
 
 static void write_strength(void)
 {
-    write_text(
+    figure_folder_write(
         "strength", "strength.csv",
         "test,pressure_MPa,pressed_density,density,strength_MPa,strength_error_MPa\n"
         "tension,100,,0.52,30,1\ncompression,100,,0.52,55,2\nshear,100,,0.52,25,\n"
         "tension,50,,0.47,24,1\ncompression,50,,0.47,41,2\nshear,50,,0.47,18,\n");
-    write_text(
+    figure_folder_write(
         "strength-density", "strength.csv",
         "test,pressure_MPa,pressed_density,density,strength_MPa,strength_error_MPa\n"
         "tension,,0.5,0.49,27,1\n");
-    write_text("strength", "strength_curves.csv",
-               "test,pressure_MPa,pressed_density,cell,strain_percent,stress_MPa\n"
-               "tension,50,,1,0,0\ntension,50,,1,1,9\n"
-               "tension,100,,1,-0,0\ntension,100,,1,0,0.1\ntension,100,,1,2,20\n"
-               "tension,100,,2,0,0\ntension,100,,2,1,12\ntension,100,,2,2,24\n"
-               "tension,100,,2,3,10\n"
-               "compression,100,,1,0,0\ncompression,100,,1,1,40\n"
-               "shear,100,,1,0,0\nshear,100,,1,1,15\n");
+    figure_folder_write(
+        "strength", "strength_curves.csv",
+        "test,pressure_MPa,pressed_density,cell,strain_percent,stress_MPa\n"
+        "tension,50,,1,0,0\ntension,50,,1,1,9\n"
+        "tension,100,,1,-0,0\ntension,100,,1,0,0.1\ntension,100,,1,2,20\n"
+        "tension,100,,2,0,0\ntension,100,,2,1,12\ntension,100,,2,2,24\n"
+        "tension,100,,2,3,10\n"
+        "compression,100,,1,0,0\ncompression,100,,1,1,40\n"
+        "shear,100,,1,0,0\nshear,100,,1,1,15\n");
 }
 
 /* Two states with errors, and a plane, which has axial constants alone. */
 static void write_moduli(void)
 {
-    write_text("moduli", "moduli.csv",
-               "density,K_GPa,G_GPa,E_GPa,nu,axial_C11_GPa,axial_C12_GPa,axial_C13_GPa,"
-               "axial_C33_GPa,axial_C44_GPa,error_density,error_E_GPa,error_K_GPa\n"
-               "0.4,5,4,9,0.1,8,2,2,10,3,0.01,0.5,0.25\n"
-               "0.5,10,8,19,0.15,16,4,4,20,6,0.02,1,0.75\n");
-    write_text("plane", "moduli.csv",
-               "density,K_GPa,G_GPa,E_GPa,nu,axial_C11_GPa,axial_C12_GPa,axial_C13_GPa,"
-               "axial_C33_GPa,axial_C44_GPa\n0.8,,,,,8,,2,10,3\n");
-    write_text("nothing", "moduli.csv", "density,K_GPa\n");
+    figure_folder_write(
+        "moduli", "moduli.csv",
+        "density,K_GPa,G_GPa,E_GPa,nu,axial_C11_GPa,axial_C12_GPa,axial_C13_GPa,"
+        "axial_C33_GPa,axial_C44_GPa,error_density,error_E_GPa,error_K_GPa\n"
+        "0.4,5,4,9,0.1,8,2,2,10,3,0.01,0.5,0.25\n"
+        "0.5,10,8,19,0.15,16,4,4,20,6,0.02,1,0.75\n");
+    figure_folder_write(
+        "plane", "moduli.csv",
+        "density,K_GPa,G_GPa,E_GPa,nu,axial_C11_GPa,axial_C12_GPa,axial_C13_GPa,"
+        "axial_C33_GPa,axial_C44_GPa\n0.8,,,,,8,,2,10,3\n");
+    figure_folder_write("nothing", "moduli.csv", "density,K_GPa\n");
 }
 
 /* Directories that a figure is drawn from, by what it takes, unless it has a row of its
@@ -291,7 +281,9 @@ static const struct source {
     {"densification", {"a1", "a2", "b1"}},
     {"difference", {"a1", "a2", "b1"}},
     {"rate", {"fast", "slow"}},
+    {"rate-difference", {"fast", "slow"}},
     {"relaxation", {"fast", "slow"}},
+    {"relaxation-amplitude", {"fast", "slow"}},
     {"decay", {"fast", "slow"}},
     {"fit", {"a1", "a2", "b1"}},
     {"heckel", {"a1", "a2", "b1"}},
@@ -318,48 +310,6 @@ static const struct source {
     {"moduli-axial", {"moduli", "plane"}},
 };
 
-static bool run_scene(const struct gb_figures_row *row, struct gb_series *series,
-                      struct gb_error *err)
-{
-    struct gb_preset *preset = NULL;
-    g_assert_true(gb_preset_load(&preset, row->preset, err));
-    const struct gb_figures_input input = {.scene = gb_preset_params(preset)};
-    const bool done = gb_figures_run(row, series, &input, err);
-    gb_preset_destroy(preset);
-    return done;
-}
-
-/* Computes a figure from directories of the folder. */
-static bool run_words(const struct gb_figures_row *row, const char *const *words,
-                      struct gb_series *series, struct gb_error *err)
-{
-    struct gb_runset set = {0};
-    char *paths[6] = {NULL};
-    size_t count = 0;
-    for (; words[count] != NULL; count++) {
-        paths[count] = path_in(words[count], NULL);
-    }
-    struct gb_figures_input input = {.words = paths};
-    bool done = row->takes == GB_FIGURES_TABLE || gb_runset_read(&set, paths, count, err);
-    if (done) {
-        input.set = &set;
-        input.reference = set.groups > 1 ? 1 : 0;
-        gb_figures_group(row, &set);
-        done = gb_figures_run(row, series, &input, err);
-    }
-    gb_runset_finish(&set);
-    for (size_t k = 0; k < count; k++) {
-        g_free(paths[k]);
-    }
-    return done;
-}
-
-static bool run_named(const char *name, const char *const *words,
-                      struct gb_series *series, struct gb_error *err)
-{
-    return run_words(gb_figures_find(name), words, series, err);
-}
-
 static const char *const *words_of(const struct gb_figures_row *row)
 {
     for (size_t k = 0; k < G_N_ELEMENTS(sources); k++) {
@@ -370,36 +320,6 @@ static const char *const *words_of(const struct gb_figures_row *row)
     return usual[row->takes];
 }
 
-static void assert_drawn(const struct gb_figures_row *row, const struct gb_series *series)
-{
-    struct gb_figure figure;
-    struct gb_figure_layout layout;
-    struct gb_figure_curve *curves = NULL;
-    struct gb_image *image = NULL;
-    struct gb_error err = {0};
-    g_assert_nonnull(series->x.name);
-    g_assert_nonnull(series->x.label);
-    g_assert_nonnull(series->y.name);
-    g_assert_nonnull(series->y.label);
-    g_assert_true(series->curves->len > 0 || series->map != NULL);
-    gb_series_figure(series, &figure, &curves);
-    g_assert_true(gb_figure_render(&image, &figure, 640, 480, &layout, &err));
-    g_assert_cmpstr(err.text, ==, "");
-    g_test_message("%s: %u curves", row->name, series->curves->len);
-    gb_image_destroy(image);
-    g_free(curves);
-}
-
-static const double *column(const struct gb_series *series, const char *name)
-{
-    for (guint k = 0; k < series->names->len; k++) {
-        if (strcmp(g_ptr_array_index(series->names, k), name) == 0) {
-            return g_ptr_array_index(series->columns, k);
-        }
-    }
-    g_error("no column %s", name);
-}
-
 /* A column of spheres has density 2/3 in every band; one force on one band of the wall; the
  * force of ejection at its travel. */
 static void test_die_numbers(void)
@@ -407,25 +327,27 @@ static void test_die_numbers(void)
     static const char *const words[] = {"cycle1", "cycle2", NULL};
     struct gb_error err = {0};
     struct gb_series series = {0};
-    g_assert_true(run_named("die-axial", words, &series, &err));
+    g_assert_true(figure_folder_named("die-axial", words, &series, &err));
     for (int k = 4; k < 16; k += 4) {
         double sum = 0.0;
         for (int i = 0; i < 4; i++) {
-            sum += 0.25 * column(&series, "density_1")[k + i];
+            sum += 0.25 * figure_folder_column(&series, "density_1")[k + i];
         }
         g_assert_cmpfloat_with_epsilon(sum, 2.0 / 3.0, k == 4 ? 0.02 : 1e-6);
     }
     gb_series_finish(&series);
-    g_assert_true(run_named("die-wall", words, &series, &err));
+    g_assert_true(figure_folder_named("die-wall", words, &series, &err));
     const double area = 2.0 * M_PI * 0.5 * 4.0 / 12.0;
     for (int k = 0; k < 12; k++) {
-        g_assert_cmpfloat_with_epsilon(column(&series, "wall_MPa_1")[k],
+        g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, "wall_MPa_1")[k],
                                        k == 4 ? 1e3 * 0.002 / area : 0.0, 1e-9);
     }
     gb_series_finish(&series);
-    g_assert_true(run_named("die-ejection", words, &series, &err));
-    g_assert_cmpfloat_with_epsilon(column(&series, "travel_um")[100], 3.0, 1e-9);
-    g_assert_cmpfloat_with_epsilon(column(&series, "force_mN_1")[67], 1.98, 1e-9);
+    g_assert_true(figure_folder_named("die-ejection", words, &series, &err));
+    g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, "travel_um")[100], 3.0,
+                                   1e-9);
+    g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, "force_mN_1")[67], 1.98,
+                                   1e-9);
     gb_series_finish(&series);
 }
 
@@ -436,16 +358,19 @@ static void test_yield_numbers(void)
     static const char *const words[] = {"yield", NULL};
     struct gb_error err = {0};
     struct gb_series series = {0};
-    g_assert_true(run_named("yield", words, &series, &err));
+    g_assert_true(figure_folder_named("yield", words, &series, &err));
     g_assert_true(series.equal_scales);
-    g_assert_cmpfloat_with_epsilon(column(&series, "ellipse_p_1_MPa")[0], 50.0, 1e-6);
-    g_assert_cmpfloat_with_epsilon(column(&series, "ellipse_q_1_MPa")[45], 20.0, 1e-6);
-    g_assert_cmpfloat_with_epsilon(column(&series, "q_1_MPa")[1], 20.0, 1e-6);
-    g_assert_true(isnan(column(&series, "q_1_MPa")[4]));
-    const double *flow[2] = {column(&series, "flow_p_1_MPa"),
-                             column(&series, "flow_q_1_MPa")};
-    const double *normal[2] = {column(&series, "normal_p_1_MPa"),
-                               column(&series, "normal_q_1_MPa")};
+    g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, "ellipse_p_1_MPa")[0],
+                                   50.0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, "ellipse_q_1_MPa")[45],
+                                   20.0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, "q_1_MPa")[1], 20.0,
+                                   1e-6);
+    g_assert_true(isnan(figure_folder_column(&series, "q_1_MPa")[4]));
+    const double *flow[2] = {figure_folder_column(&series, "flow_p_1_MPa"),
+                             figure_folder_column(&series, "flow_q_1_MPa")};
+    const double *normal[2] = {figure_folder_column(&series, "normal_p_1_MPa"),
+                               figure_folder_column(&series, "normal_q_1_MPa")};
     const double length = flow[0][1] - flow[0][0];
     g_assert_cmpfloat(length, >, 1.0);
     for (int d = 0; d < 4; d++) {
@@ -470,7 +395,7 @@ static void test_equal_scales(void)
     struct gb_image *image = NULL;
     struct gb_error err = {0};
     struct gb_series series = {0};
-    g_assert_true(run_named("yield", words, &series, &err));
+    g_assert_true(figure_folder_named("yield", words, &series, &err));
     for (int width = 500; width <= 1500; width += 500) {
         gb_series_figure(&series, &figure, &curves);
         g_assert_true(gb_figure_render(&image, &figure, width, 600, &layout, &err));
@@ -493,20 +418,21 @@ static void test_strength_numbers(void)
     static const char *const two[] = {"strength", "strength-density", NULL};
     struct gb_error err = {0};
     struct gb_series series = {0};
-    g_assert_true(run_named("strength", one, &series, &err));
+    g_assert_true(figure_folder_named("strength", one, &series, &err));
     g_assert_cmpstr(series.x.name, ==, "pressure_MPa");
-    g_assert_cmpfloat(column(&series, "pressure_MPa_1")[0], ==, 50.0);
-    g_assert_cmpfloat(column(&series, "tension_1_MPa")[0], ==, 24.0);
-    g_assert_cmpfloat(column(&series, "compression_error_1_MPa")[1], ==, 2.0);
+    g_assert_cmpfloat(figure_folder_column(&series, "pressure_MPa_1")[0], ==, 50.0);
+    g_assert_cmpfloat(figure_folder_column(&series, "tension_1_MPa")[0], ==, 24.0);
+    g_assert_cmpfloat(figure_folder_column(&series, "compression_error_1_MPa")[1], ==,
+                      2.0);
     gb_series_finish(&series);
-    g_assert_true(run_named("strength", two, &series, &err));
+    g_assert_true(figure_folder_named("strength", two, &series, &err));
     g_assert_cmpstr(series.x.name, ==, "density");
-    g_assert_cmpfloat(column(&series, "density_1")[1], ==, 0.52);
-    g_assert_cmpfloat(column(&series, "tension_2_MPa")[0], ==, 27.0);
+    g_assert_cmpfloat(figure_folder_column(&series, "density_1")[1], ==, 0.52);
+    g_assert_cmpfloat(figure_folder_column(&series, "tension_2_MPa")[0], ==, 27.0);
     gb_series_finish(&series);
-    g_assert_true(run_named("strength-curves", one, &series, &err));
-    const double *strain = column(&series, "tension_strain_percent");
-    const double *mean = column(&series, "tension_MPa");
+    g_assert_true(figure_folder_named("strength-curves", one, &series, &err));
+    const double *strain = figure_folder_column(&series, "tension_strain_percent");
+    const double *mean = figure_folder_column(&series, "tension_MPa");
     g_assert_cmpfloat(strain[1], ==, 1.0);
     g_assert_cmpfloat_with_epsilon(mean[1], 11.0, 1e-9); /* of 10 and 12 */
     g_assert_cmpfloat_with_epsilon(mean[2], 22.0, 1e-9);
@@ -518,12 +444,12 @@ static void test_strength_at(void)
 {
     struct gb_error err = {0};
     struct gb_series series = {0};
-    char *path = path_in("strength", NULL);
+    char *path = figure_folder_path("strength", NULL);
     char *words[] = {path, NULL};
     struct gb_figures_input input = {.words = words, .at = "50 MPa"};
     const struct gb_figures_row *row = gb_figures_find("strength-curves");
     g_assert_true(gb_figures_run(row, &series, &input, &err));
-    g_assert_cmpfloat(column(&series, "tension_1_MPa")[1], ==, 9.0);
+    g_assert_cmpfloat(figure_folder_column(&series, "tension_1_MPa")[1], ==, 9.0);
     gb_series_finish(&series);
     input.at = "70 MPa";
     g_assert_false(gb_figures_run(row, &series, &input, &err));
@@ -539,11 +465,11 @@ static void test_rows(void)
         struct gb_series series = {0};
         struct gb_error err = {0};
         const bool done = row->takes == GB_FIGURES_SCENE
-                              ? run_scene(row, &series, &err)
-                              : run_words(row, words_of(row), &series, &err);
+                              ? figure_folder_scene(row, &series, &err)
+                              : figure_folder_run(row, words_of(row), &series, &err);
         g_test_message("%s: %s", row->name, err.text);
         g_assert_true(done);
-        assert_drawn(row, &series);
+        figure_folder_assert_drawn(row, &series);
         gb_series_finish(&series);
     }
 }
@@ -558,7 +484,7 @@ static void test_errors(void)
         if (row->takes == GB_FIGURES_SCENE) {
             continue;
         }
-        g_assert_false(run_words(row, empty, &series, &err));
+        g_assert_false(figure_folder_run(row, empty, &series, &err));
         g_test_message("%s: %s", row->name, err.text);
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
         g_assert_cmpstr(err.text, !=, "");
@@ -587,7 +513,7 @@ static void test_options(void)
     struct gb_error err = {0};
     const struct gb_figures_row *time = gb_figures_find("time");
     g_assert_false(gb_figures_check_options(time, GB_FIGURES_DENSITY, &err));
-    g_assert_cmpstr(err.text, ==, "--density is for the figure rate");
+    g_assert_cmpstr(err.text, ==, "--density is for the figures rate, rate-difference");
     g_assert_false(gb_figures_check_options(time, GB_FIGURES_PRESSURE, &err));
     char *names = gb_figures_names(GB_FIGURES_PRESSURE);
     g_assert_true(g_str_has_prefix(names, "size-effect, sweep"));
@@ -628,21 +554,21 @@ static void test_series(void)
     static const char *const runs[] = {"a1", "a2", "b1", NULL};
     struct gb_series series = {0};
     struct gb_error err = {0};
-    g_assert_true(run_named("densification", runs, &series, &err));
+    g_assert_true(figure_folder_named("densification", runs, &series, &err));
     g_assert_cmpfloat_with_epsilon(csv_cell(&series, "density", 20), 0.5, 1e-9);
     /* offsets 0 and 2 MPa: mean 1, standard error 1 */
     g_assert_cmpfloat_with_epsilon(csv_cell(&series, "mean_1_MPa", 20), 1001.0, 1e-6);
     g_assert_cmpfloat_with_epsilon(csv_cell(&series, "se_1_MPa", 20), 1.0, 1e-6);
     gb_series_finish(&series);
-    g_assert_true(run_named("lateral", runs, &series, &err));
+    g_assert_true(figure_folder_named("lateral", runs, &series, &err));
     g_assert_cmpfloat_with_epsilon(csv_cell(&series, "ratio_1", 20), 0.5, 1e-6);
     g_assert_true(isnan(csv_cell(&series, "ratio_1", 0)));
     gb_series_finish(&series);
-    g_assert_true(run_named("unloading", runs, &series, &err));
+    g_assert_true(figure_folder_named("unloading", runs, &series, &err));
     g_assert_cmpfloat_with_epsilon(csv_cell(&series, "density_1_unload_1", 0), 0.59,
                                    1e-9);
     gb_series_finish(&series);
-    g_assert_true(run_named("force-angle", runs, &series, &err));
+    g_assert_true(figure_folder_named("force-angle", runs, &series, &err));
     /* all contacts along z: 0.01 E d^2 = 0.01 * 1e9 Pa * (1e-8 m)^2 = 1 nN */
     g_assert_cmpfloat_with_epsilon(csv_cell(&series, "force_nN_1", 0), 1.0, 1e-9);
     g_assert_true(isnan(csv_cell(&series, "force_nN_1", 17)));
@@ -659,7 +585,7 @@ static void test_fit(void)
     struct gb_figure_curve *curves = NULL;
     struct gb_image *image = NULL;
     struct gb_error err = {0};
-    g_assert_true(run_named("fit", runs, &series, &err));
+    g_assert_true(figure_folder_named("fit", runs, &series, &err));
     for (int row = 0; row < 30; row += 10) {
         const double p = csv_cell(&series, "p_1_MPa", row);
         const double rho = csv_cell(&series, "density_1", row);
@@ -680,7 +606,7 @@ static void test_fit(void)
     gb_image_destroy(image);
     g_free(curves);
     gb_series_finish(&series);
-    g_assert_true(run_named("heckel", runs, &series, &err));
+    g_assert_true(figure_folder_named("heckel", runs, &series, &err));
     g_assert_cmpfloat_with_epsilon(
         csv_cell(&series, "log_1", 9),
         -log(1.0 - 0.4 - sqrt((csv_cell(&series, "p_1_MPa", 9) - 1.0) / 1e5)), 2e-3);
@@ -698,7 +624,7 @@ static void test_moduli(void)
                                          "no moduli.csv", "take 1 to 2 folders"};
     struct gb_series series = {0};
     struct gb_error err = {0};
-    g_assert_true(run_named("moduli", one, &series, &err));
+    g_assert_true(figure_folder_named("moduli", one, &series, &err));
     g_assert_cmpuint(series.curves->len, ==, 4);
     g_assert_cmpfloat(csv_cell(&series, "density_1", 1), ==, 0.5);
     g_assert_cmpfloat(csv_cell(&series, "error_density_1", 1), ==, 0.02);
@@ -715,13 +641,13 @@ static void test_moduli(void)
         g_assert_true(curve->below == (k == 3));
     }
     gb_series_finish(&series);
-    g_assert_true(run_named("moduli-axial", two, &series, &err));
+    g_assert_true(figure_folder_named("moduli-axial", two, &series, &err));
     g_assert_cmpuint(series.curves->len, ==, 5 + 4);
     g_assert_cmpfloat(csv_cell(&series, "axial_C33_GPa_1", 1), ==, 20.0);
     g_assert_cmpfloat(csv_cell(&series, "axial_C33_GPa_2", 0), ==, 10.0);
     gb_series_finish(&series);
     for (size_t k = 0; k < G_N_ELEMENTS(refused); k++) {
-        g_assert_false(run_named("moduli", refused[k], &series, &err));
+        g_assert_false(figure_folder_named("moduli", refused[k], &series, &err));
         g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
         g_assert_nonnull(strstr(err.text, reason[k]));
         gb_series_finish(&series);
@@ -735,11 +661,11 @@ static void test_formats(void)
     struct gb_series series = {0};
     struct gb_error err = {0};
     const struct gb_plotting_page page = {400, 300, "time", NULL, NULL};
-    g_assert_true(run_named("time", runs, &series, &err));
+    g_assert_true(figure_folder_named("time", runs, &series, &err));
     for (const struct gb_output_formats_row *row = gb_output_formats_table();
          row->extension; row++) {
         char *name = g_strconcat("out", row->extension, NULL);
-        char *path = g_build_filename(folder, name, NULL);
+        char *path = figure_folder_path(name, NULL);
         const bool figure = (row->uses & GB_OUTPUT_FORMATS_FIGURE) != 0;
         g_assert_true(gb_plotting_check(path, GB_PLOTTING_REPLACE, &err) == figure);
         if (figure) {
@@ -770,21 +696,6 @@ static void test_formats(void)
     g_free(pictures);
 }
 
-static void remove_tree(const char *path)
-{
-    GDir *dir = g_dir_open(path, 0, NULL);
-    for (const char *name = dir ? g_dir_read_name(dir) : NULL; name;
-         name = g_dir_read_name(dir)) {
-        char *inner = g_build_filename(path, name, NULL);
-        remove_tree(inner);
-        g_free(inner);
-    }
-    if (dir) {
-        g_dir_close(dir);
-    }
-    g_remove(path);
-}
-
 /* Every part of the report has its heading and its files. */
 static void test_report(void)
 {
@@ -794,8 +705,8 @@ static void test_report(void)
         "runs/2-curve.csv", "tables/fits.csv", "figures/fit.svg",  "figures/heckel.csv"};
     struct gb_runset set = {0};
     struct gb_error err = {0};
-    char *paths[] = {path_in("a1", NULL), path_in("b1", NULL)};
-    char *output = path_in("report", NULL);
+    char *paths[] = {figure_folder_path("a1", NULL), figure_folder_path("b1", NULL)};
+    char *output = figure_folder_path("report", NULL);
     char *page = NULL;
     g_assert_true(gb_runset_read(&set, paths, 2, &err));
     g_assert_true(gb_report_write(&set, NULL, output, &err));
@@ -826,8 +737,7 @@ static void test_report(void)
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    gsl_set_error_handler_off(); /* as main does */
-    folder = g_dir_make_tmp("figures-XXXXXX", NULL);
+    figure_folder_init();
     write_quasistatic("a1", 1, "10 nm", 0.0);
     write_quasistatic("a2", 2, "10 nm", 2.0);
     write_quasistatic("b1", 1, "20 nm", 5.0);
@@ -842,7 +752,7 @@ int main(int argc, char **argv)
     write_yield();
     write_strength();
     write_chart();
-    write_text("empty", "preset.ini", "[scene]\ntitle = empty\n");
+    figure_folder_write("empty", "preset.ini", "[scene]\ntitle = empty\n");
     g_test_add_func("/figures/table", test_table);
     g_test_add_func("/figures/options", test_options);
     g_test_add_func("/figures/rows", test_rows);
@@ -858,7 +768,6 @@ int main(int argc, char **argv)
     g_test_add_func("/figures/formats", test_formats);
     g_test_add_func("/figures/report", test_report);
     const int status = g_test_run();
-    remove_tree(folder);
-    g_free(folder);
+    figure_folder_finish();
     return status;
 }

@@ -271,7 +271,7 @@ static char *describe_figures(void)
     GString *text = g_string_new("Figures:\n");
     for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
         char *line = gb_figures_describe(row);
-        g_string_append_printf(text, "  %-15s %s\n", row->name, line);
+        g_string_append_printf(text, "  %-20s %s\n", row->name, line);
         g_free(line);
     }
     g_string_append(

@@ -11,6 +11,7 @@
 struct group_fit {
     struct gb_fit_decay decay;
     double fall_error, efold_error;
+    bool fitted;
 };
 
 static bool fit_mean(struct gb_fit_decay *fit, const struct gb_average_curve *curves,
@@ -49,21 +50,29 @@ static void jackknife(struct group_fit *fit, struct gb_average_curve *curves,
     g_free(fall);
 }
 
+static struct gb_fit_decay unfitted(void)
+{
+    const struct gb_fit_value none = {NAN, NAN, NAN, NAN};
+    return (struct gb_fit_decay){
+        .p0 = none, .amplitude = {none, none}, .tau = {none, none}, .scatter = NAN};
+}
+
+/* A mean that no fit describes leaves NaN, and the reason in cause. */
 static bool fit_group(struct group_fit *fit, const struct gb_runset *set, size_t group,
-                      struct gb_error *err)
+                      struct gb_error *cause, struct gb_error *err)
 {
     struct gb_relaxation_curves curves;
-    struct gb_error cause = {0};
-    bool good = gb_relaxation_curves_read(&curves, set, group, err);
-    if (good && !fit_mean(&fit->decay, curves.curve, curves.count, &cause)) {
-        good = gb_error_set(err, cause.code, "%.300s: relaxation: %s",
-                            gb_runset_first(set, group)->directory, cause.text);
+    if (!gb_relaxation_curves_read(&curves, set, group, err)) {
+        return false;
     }
-    if (good) {
+    fit->fitted = fit_mean(&fit->decay, curves.curve, curves.count, cause);
+    if (fit->fitted) {
         jackknife(fit, curves.curve, curves.count);
+    } else {
+        *fit = (struct group_fit){.decay = unfitted(), NAN, NAN, false};
     }
     gb_relaxation_curves_finish(&curves);
-    return good;
+    return true;
 }
 
 /* Columns of one parameter: value and interval. */
@@ -99,27 +108,39 @@ static void fall_columns(struct gb_series *series, const struct group_fit *fits)
     }
 }
 
-/* The two times against the rate; bars: half of the 95 % interval. */
-static void draw_times(struct gb_series *series, const double *rate,
-                       const struct group_fit *fits)
+/* What is drawn of both exponentials. */
+enum drawn { TIMES, AMPLITUDES };
+
+/* One parameter of both exponentials against the rate; bars: half of the 95 % interval. */
+static void draw_parameter(struct gb_series *series, const double *rate,
+                           const struct group_fit *fits, enum drawn drawn)
 {
-    static const char *const names[] = {"fast, <i>\xcf\x84</i><sub>1</sub>",
-                                        "slow, <i>\xcf\x84</i><sub>2</sub>"};
+    static const char *const names[][GB_FIT_TERMS] = {
+        [TIMES] = {"fast, <i>\xcf\x84</i><sub>1</sub>",
+                   "slow, <i>\xcf\x84</i><sub>2</sub>"},
+        [AMPLITUDES] = {"fast, <i>p</i><sub>1</sub>", "slow, <i>p</i><sub>2</sub>"}};
+    const char *unit = drawn == TIMES ? "ns" : "MPa";
     for (int k = 0; k < GB_FIT_TERMS; k++) {
-        double *time = gb_series_column(series, "drawn_%d_ns", k + 1);
-        double *half = gb_series_column(series, "half_%d_ns", k + 1);
+        double *value = gb_series_column(series, "drawn_%d_%s", k + 1, unit);
+        double *half = gb_series_column(series, "half_%d_%s", k + 1, unit);
         for (size_t g = 0; g < series->rows; g++) {
-            time[g] = fits[g].decay.tau[k].value;
-            half[g] = 0.5 * (fits[g].decay.tau[k].high - fits[g].decay.tau[k].low);
+            const struct gb_fit_decay *decay = &fits[g].decay;
+            const struct gb_fit_value *from =
+                drawn == TIMES ? &decay->tau[k] : &decay->amplitude[k];
+            value[g] = from->value;
+            half[g] = 0.5 * (from->high - from->low);
         }
-        gb_series_draw(series, rate, time, half, GB_FIGURE_POINTS, k, names[k]);
+        gb_series_draw(series, rate, value, half, GB_FIGURE_POINTS, k, names[drawn][k]);
     }
-    gb_series_caption(series, "Times of the two exponentials of P2 (4); bars: 95 %% "
-                              "confidence intervals.");
+    gb_series_caption(series,
+                      "%s of the two exponentials of P2 (4); bars: 95 %% "
+                      "confidence intervals.",
+                      drawn == TIMES ? "Times" : "Amplitudes");
 }
 
 static void relaxation_columns(struct gb_series *series, const struct gb_runset *set,
-                               const struct group_fit *fits)
+                               const struct group_fit *fits,
+                               const struct gb_error *causes, enum drawn drawn)
 {
     static const char *const reasons[] = {
         "the number of P2 (4)", "no more by the F test",
@@ -135,9 +156,14 @@ static void relaxation_columns(struct gb_series *series, const struct gb_runset 
         rate[g] = gb_runset_first(set, g)->params.rate_per_s;
         runs[g] = (double)gb_runset_members(set, g);
         terms[g] = fits[g].decay.terms;
-        gb_series_note(series, "group %zu: %s%s%d exponentials, %s", g + 1, label,
-                       *label ? "; " : "", fits[g].decay.terms,
-                       reasons[fits[g].decay.reason]);
+        if (fits[g].fitted) {
+            gb_series_note(series, "group %zu: %s%s%d exponentials, %s", g + 1, label,
+                           *label ? "; " : "", fits[g].decay.terms,
+                           reasons[fits[g].decay.reason]);
+        } else {
+            gb_series_note(series, "group %zu: %s%s%s", g + 1, label, *label ? "; " : "",
+                           causes[g].text);
+        }
         g_free(label);
     }
     value_columns(series, "p0", "MPa", fits, offsetof(struct gb_fit_decay, p0));
@@ -146,21 +172,29 @@ static void relaxation_columns(struct gb_series *series, const struct gb_runset 
     value_columns(series, "p2", "MPa", fits, offsetof(struct gb_fit_decay, amplitude[1]));
     value_columns(series, "tau2", "ns", fits, offsetof(struct gb_fit_decay, tau[1]));
     fall_columns(series, fits);
-    draw_times(series, rate, fits);
+    draw_parameter(series, rate, fits, drawn);
 }
 
-bool gb_figures_relaxation(struct gb_series *series, const struct gb_figures_input *input,
-                           struct gb_error *err)
+static bool fit_groups(struct group_fit *fits, struct gb_error *causes,
+                       const struct gb_runset *set, struct gb_error *err)
 {
-    const struct gb_runset *set = input->set;
-    if (!gb_runs_check_dynamic(set, "relaxation", err)) {
-        return false;
+    size_t fitted = 0;
+    for (size_t g = 0; g < set->groups; g++) {
+        if (!fit_group(&fits[g], set, g, &causes[g], err)) {
+            return false;
+        }
+        fitted += fits[g].fitted;
     }
+    return fitted > 0 || gb_error_set(err, causes[0].code, "%.300s: relaxation: %s",
+                                      gb_runset_first(set, 0)->directory, causes[0].text);
+}
+
+static bool draw_table(struct gb_series *series, const struct gb_runset *set,
+                       enum drawn drawn, struct gb_error *err)
+{
     struct group_fit *fits = g_new0(struct group_fit, set->groups);
-    bool good = true;
-    for (size_t g = 0; g < set->groups && good; g++) {
-        good = fit_group(&fits[g], set, g, err);
-    }
+    struct gb_error *causes = g_new0(struct gb_error, set->groups);
+    const bool good = fit_groups(fits, causes, set, err);
     if (good) {
         gb_series_init(series, set->groups);
         gb_series_note(series,
@@ -172,8 +206,26 @@ bool gb_figures_relaxation(struct gb_series *series, const struct gb_figures_inp
         gb_series_note(series,
                        "fall: total decrease of p; efold: time after which 1/e of it "
                        "remains; standard errors by the jackknife over the runs");
-        relaxation_columns(series, set, fits);
+        relaxation_columns(series, set, fits, causes, drawn);
     }
+    g_free(causes);
     g_free(fits);
     return good;
+}
+
+/* P2 (4) and table 1: times. */
+bool gb_figures_relaxation(struct gb_series *series, const struct gb_figures_input *input,
+                           struct gb_error *err)
+{
+    return gb_runs_check_dynamic(input->set, "relaxation", err) &&
+           draw_table(series, input->set, TIMES, err);
+}
+
+/* The same table: amplitudes. */
+bool gb_figures_relaxation_amplitude(struct gb_series *series,
+                                     const struct gb_figures_input *input,
+                                     struct gb_error *err)
+{
+    return gb_runs_check_dynamic(input->set, "relaxation-amplitude", err) &&
+           draw_table(series, input->set, AMPLITUDES, err);
 }

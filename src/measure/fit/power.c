@@ -284,6 +284,22 @@ bool gb_power_rate(struct gb_power_rate *fit, const struct gb_power_law *law,
     return true;
 }
 
+double gb_power_static(const struct gb_power_law *law, double k_v,
+                       const struct gb_power_point *points, size_t count, double rho)
+{
+    const struct within within = {law, points, count, count > 0 && points[0].error > 0.0};
+    double sum = 0.0;
+    double weights = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        if (points[i].rho == rho) {
+            const double w = weight_of(&within, i);
+            weights += w;
+            sum += w * (points[i].p - k_v * factor_of(law, &points[i], law->exponent));
+        }
+    }
+    return sum / weights;
+}
+
 bool gb_power_exponent(struct gb_fit_value *exponent, const struct gb_power_law *law,
                        const struct gb_power_point *points, size_t count,
                        struct gb_error *err)

@@ -51,7 +51,12 @@ bool gb_power_rate(struct gb_power_rate *fit, const struct gb_power_law *law,
                    const struct gb_power_point *points, size_t count,
                    struct gb_error *err);
 
-/* The same with the exponent free in (0, 4), too: its 95 % interval is where chi2 stays
+/* p_stat of a density for a given k_v: the mean of p - k_v v^exponent (rho - rho0)^power
+ * over its points, weighted by their errors where the first has one.  NaN: no point. */
+double gb_power_static(const struct gb_power_law *law, double k_v,
+                       const struct gb_power_point *points, size_t count, double rho);
+
+/* As gb_power_rate with the exponent free in (0, 4), too: its 95 % interval is where chi2 stays
  * below its least value by the F (or chi2) quantile of one parameter. */
 bool gb_power_exponent(struct gb_fit_value *exponent, const struct gb_power_law *law,
                        const struct gb_power_point *points, size_t count,

@@ -1,0 +1,201 @@
+/* Figures and tables of the papers, from runs made here whose laws are known. */
+#include "figure_folder.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Rates of P2, 1/s. */
+static const double rates[5] = {6.8e8, 6.8e7, 6.8e6, 6.8e5, 6.8e4};
+static const char *const rate_runs[] = {"v1", "v2", "v3", "v4", "v5", NULL};
+static const double k_v = 21.5, rho0 = 0.5;
+
+static double static_pressure(double rho)
+{
+    return 9000.0 * pow(rho - rho0, 2.0) + 100.0;
+}
+
+/* A run at a rate that obeys P2 (9) and (8); table 1: p1 e^(-t/tau1) + p2 e^(-t/tau2). */
+static void write_rate(const char *directory, double rate, const double decay[4])
+{
+    GString *text = g_string_new("branch,step,density,p_MPa,coordination,time_ns\n");
+    for (int i = 0; i <= 90; i++) {
+        const double rho = 0.5 + 0.005 * i;
+        g_string_append_printf(text, "load,%d,%.6f,%.9f,%.6f,%.6f\n", i, rho,
+                               static_pressure(rho) +
+                                   k_v * pow(rate, 0.25) * pow(rho - rho0, 3.0),
+                               2.3 + 3.0 * rho * rho, 0.1 * i);
+    }
+    for (int i = 1; i <= 1500; i++) {
+        const double t = 0.02 * i;
+        g_string_append_printf(text, "hold,%d,0.95,%.9f,,%.6f\n", 90 + i,
+                               2800.0 + decay[0] * exp(-t / decay[1]) +
+                                   decay[2] * exp(-t / decay[3]) + 1e-3 * sin(1e4 * i),
+                               9.0 + t);
+    }
+    figure_folder_write(directory, "curve.csv", text->str);
+    g_string_printf(text,
+                    "[scene]\nkind = dynamic\ndimension = 2\n[structure]\ndensity = 0.5\n"
+                    "[loading]\ngeometry = isotropic\nuntil = density = 0.95\n"
+                    "rate = %.9g 1/s\n",
+                    rate);
+    figure_folder_write(directory, "preset.ini", text->str);
+    g_string_free(text, TRUE);
+}
+
+/* P2 table 1, but v5, whose slow fall alone is left. */
+static void write_rates(void)
+{
+    static const double decay[5][4] = {{441.1, 0.0719, 35.3, 4.9304},
+                                       {109.7, 0.1977, 72.0, 4.335},
+                                       {13.3, 0.4486, 84.1, 9.2157},
+                                       {49.8, 0.1515, 29.0, 10.0},
+                                       {0.0, 1.0, 1.31, 10.0}};
+    for (int k = 0; k < 5; k++) {
+        write_rate(rate_runs[k], rates[k], decay[k]);
+    }
+    write_rate("still", 6.8e3, (const double[4]){0.0, 1.0, 0.0, 1.0});
+}
+
+/* What is left of the static pressure is k_v v^(1/4) (rho - rho0)^3: 200 MPa more at 1e8/s
+ * and 0.95, as P2 says. */
+static void test_rate_difference(void)
+{
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(figure_folder_named("rate-difference", rate_runs, &series, &err));
+    const double *density = figure_folder_column(&series, "density");
+    const double *rate = figure_folder_column(&series, "rate_per_s");
+    const double *difference = figure_folder_column(&series, "difference_MPa");
+    const double *p_stat = figure_folder_column(&series, "p_stat_MPa");
+    for (int i = 0; i < 5 * 5; i++) {
+        g_assert_cmpfloat_with_epsilon(
+            difference[i], k_v * pow(rate[i], 0.25) * pow(density[i] - rho0, 3.0), 1e-3);
+        g_assert_cmpfloat_with_epsilon(p_stat[i], static_pressure(density[i]), 1e-3);
+    }
+    const double *line_rate = figure_folder_column(&series, "line_rate_per_s");
+    const double *line = figure_folder_column(&series, "P2_0.95_MPa");
+    g_assert_cmpfloat_with_epsilon(line_rate[80], 1e8, 1.0);
+    g_assert_cmpfloat_with_epsilon(line[80], 195.9, 0.1);
+    g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, "fit_0.95_MPa")[80],
+                                   line[80], 1e-3);
+    g_assert_nonnull(strstr(series.notes->str, "k_v = 21.5 ("));
+    gb_series_finish(&series);
+}
+
+static void test_rate_difference_refusals(void)
+{
+    static const char *const one[] = {"v1", NULL};
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_false(figure_folder_named("rate-difference", one, &series, &err));
+    g_assert_nonnull(strstr(err.text, "two rates at one density"));
+    gb_series_finish(&series);
+}
+
+/* Curves that obey (9) lie on its lines; the quasi-static line is the lowest. */
+static void test_difference(void)
+{
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(figure_folder_named("difference", rate_runs, &series, &err));
+    const double *density = figure_folder_column(&series, "density");
+    const double *still = figure_folder_column(&series, "P2_quasistatic_MPa");
+    for (int g = 1; g <= 5; g++) {
+        if (g == 2) { /* the reference */
+            continue;
+        }
+        char *names[] = {g_strdup_printf("difference_%d_MPa", g),
+                         g_strdup_printf("P2_%d_MPa", g)};
+        const double *difference = figure_folder_column(&series, names[0]);
+        const double *law = figure_folder_column(&series, names[1]);
+        for (size_t i = 0; i < series.rows; i++) {
+            g_assert_cmpfloat_with_epsilon(difference[i], law[i], 1e-5);
+            g_assert_cmpfloat(still[i], <=, law[i]);
+        }
+        g_free(names[0]);
+        g_free(names[1]);
+    }
+    const size_t last = series.rows - 1;
+    g_assert_cmpfloat_with_epsilon(density[last], 0.95, 1e-9);
+    g_assert_cmpfloat_with_epsilon(still[last],
+                                   -k_v * pow(rates[1], 0.25) * pow(0.45, 3.0), 1e-6);
+    gb_series_finish(&series);
+}
+
+/* P2 (8) is drawn once, over the coordination of discs at a rate. */
+static void test_coordination(void)
+{
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(figure_folder_named("coordination", rate_runs, &series, &err));
+    const double *law = figure_folder_column(&series, "P2_8");
+    const double *here = figure_folder_column(&series, "coordination_3");
+    for (size_t i = 0; i < series.rows; i++) {
+        g_assert_cmpfloat_with_epsilon(here[i], law[i], 1e-5);
+    }
+    g_assert_cmpuint(series.curves->len, ==, 5 + 1);
+    gb_series_finish(&series);
+}
+
+/* The asymptote once, and one curve for each of five rates. */
+static void test_densification(void)
+{
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(figure_folder_named("densification", rate_runs, &series, &err));
+    g_assert_cmpuint(series.curves->len, ==, 5 + 1);
+    gb_series_finish(&series);
+}
+
+/* Table 1, as times and as amplitudes; a rate whose pressure does not fall leaves empty cells
+ * and the others their values. */
+static void test_relaxation(void)
+{
+    static const char *const runs[] = {"v1", "v2", "v3", "v5", "still", NULL};
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(figure_folder_named("relaxation", runs, &series, &err));
+    const struct {
+        const char *name;
+        double value[3], share;
+    } table[] = {{"p0_MPa", {2800.0, 2800.0, 2800.0}, 1e-3},
+                 {"p1_MPa", {441.1, 109.7, 13.3}, 0.02},
+                 {"tau1_ns", {0.0719, 0.1977, 0.4486}, 0.02},
+                 {"p2_MPa", {35.3, 72.0, 84.1}, 0.02},
+                 {"tau2_ns", {4.9304, 4.335, 9.2157}, 0.02}};
+    for (size_t k = 0; k < G_N_ELEMENTS(table); k++) {
+        for (int g = 0; g < 3; g++) {
+            g_assert_cmpfloat_with_epsilon(
+                figure_folder_column(&series, table[k].name)[g], table[k].value[g],
+                table[k].share * table[k].value[g]);
+        }
+    }
+    const double *terms = figure_folder_column(&series, "exponentials");
+    g_assert_cmpfloat(terms[0], ==, 2.0);
+    g_assert_cmpfloat(terms[3], ==, 1.0);
+    g_assert_true(isnan(figure_folder_column(&series, "tau1_ns")[4]));
+    g_assert_true(isnan(figure_folder_column(&series, "p2_MPa")[3]));
+    g_assert_cmpfloat(figure_folder_column(&series, "drawn_1_ns")[1], ==,
+                      figure_folder_column(&series, "tau1_ns")[1]);
+    gb_series_finish(&series);
+    g_assert_true(figure_folder_named("relaxation-amplitude", runs, &series, &err));
+    g_assert_cmpfloat(figure_folder_column(&series, "drawn_2_MPa")[1], ==,
+                      figure_folder_column(&series, "p2_MPa")[1]);
+    gb_series_finish(&series);
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    figure_folder_init();
+    write_rates();
+    g_test_add_func("/papers/rate_difference", test_rate_difference);
+    g_test_add_func("/papers/rate_difference_refusals", test_rate_difference_refusals);
+    g_test_add_func("/papers/difference", test_difference);
+    g_test_add_func("/papers/coordination", test_coordination);
+    g_test_add_func("/papers/densification", test_densification);
+    g_test_add_func("/papers/relaxation", test_relaxation);
+    const int status = g_test_run();
+    figure_folder_finish();
+    return status;
+}
