@@ -26,6 +26,7 @@ gb_figures_compute gb_figures_difference;
 gb_figures_compute gb_figures_fit;
 gb_figures_compute gb_figures_force_angle;
 gb_figures_compute gb_figures_heckel;
+gb_figures_compute gb_figures_hollomon;
 gb_figures_compute gb_figures_lateral;
 gb_figures_compute gb_figures_legs_path;
 gb_figures_compute gb_figures_legs_stress_strain;

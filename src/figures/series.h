@@ -37,12 +37,13 @@ struct gb_series {
     size_t rows;
     struct gb_series_axis x, y;
     struct gb_series_axis below_y; /* of the panel below; label NULL: there is none */
-    GArray *curves;                /* struct gb_series_curve */
-    GArray *annotations;           /* struct gb_figure_annotation */
-    GString *caption;              /* Pango markup */
-    double inset[2];               /* x range of the inset; NaN: none */
-    bool equal_scales;             /* of both axes */
-    struct gb_figure_map *map;     /* NULL: none; its arrays belong to the series */
+    struct gb_figure_second_axis top, right; /* labels are not copied */
+    GArray *curves;                          /* struct gb_series_curve */
+    GArray *annotations;                     /* struct gb_figure_annotation */
+    GString *caption;                        /* Pango markup */
+    double inset[2];                         /* x range of the inset; NaN: none */
+    bool equal_scales;                       /* of both axes */
+    struct gb_figure_map *map; /* NULL: none; its arrays belong to the series */
 };
 
 void gb_series_init(struct gb_series *series, size_t rows);

@@ -237,6 +237,41 @@ static void test_inset(void)
     gb_image_destroy(image);
 }
 
+static int ink_in(const struct gb_image *image, int left, int top, int right, int bottom)
+{
+    int ink = 0;
+    for (int y = top; y < bottom; y++) {
+        for (int x = left; x < right; x++) {
+            ink += !is_white(image, x, y);
+        }
+    }
+    return ink;
+}
+
+/* Axes on the top and on the right make the frame smaller and write beside it. */
+static void test_second_axes(void)
+{
+    struct page page;
+    struct gb_figure_layout with;
+    struct gb_figure_layout without;
+    make(&page);
+    struct gb_image *plain = paint(&page.figure, &without);
+    page.figure.top = (struct gb_figure_second_axis){"top (%)", 100.0};
+    page.figure.right = (struct gb_figure_second_axis){"right (MPa)", 1e-9};
+    struct gb_image *image = paint(&page.figure, &with);
+    const double *f = with.frame;
+    g_assert_cmpfloat(f[1], >, without.frame[1] + 20.0);
+    g_assert_cmpfloat(f[2], <, without.frame[2] - 20.0);
+    g_assert_cmpfloat(f[0], ==, without.frame[0]);
+    g_assert_cmpfloat(f[3], ==, without.frame[3]);
+    g_assert_cmpint(ink_in(image, (int)f[0], 0, (int)f[2], (int)f[1] - 2), >, 100);
+    g_assert_cmpint(ink_in(image, (int)f[2] + 3, (int)f[1], WIDE, (int)f[3]), >, 100);
+    const double *g = without.frame;
+    g_assert_cmpint(ink_in(plain, (int)g[2] + 3, 0, WIDE, HIGH / 2), ==, 0);
+    gb_image_destroy(plain);
+    gb_image_destroy(image);
+}
+
 /* After as many curves as there are colours, lines carry marks: with a colour and a dash
  * alone they would be those of others without colours. */
 static void test_rounds(void)
@@ -372,6 +407,7 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/figure/ink", test_ink);
     g_test_add_func("/draw/figure/legend", test_legend);
     g_test_add_func("/draw/figure/inset", test_inset);
+    g_test_add_func("/draw/figure/second-axes", test_second_axes);
     g_test_add_func("/draw/figure/rounds", test_rounds);
     g_test_add_func("/draw/figure/full", test_full);
     g_test_add_func("/draw/figure/nothing", test_nothing);

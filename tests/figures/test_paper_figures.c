@@ -184,6 +184,64 @@ static void test_relaxation(void)
     gb_series_finish(&series);
 }
 
+static double first(const struct gb_series *series, const char *name)
+{
+    return figure_folder_column(series, name)[0];
+}
+
+/* P3 Fig. 9: curves by the rule of P3 meet at the yield point, that of the printed 1480 MPa
+ * passes 1480 (1/225)^0.05 = 1129 MPa there. */
+static void test_hollomon(void)
+{
+    static const char *const curves[] = {"stress_m0_MPa", "stress_m0.05_MPa",
+                                         "stress_m0.1_MPa", "stress_m0.2_MPa",
+                                         "elastic_MPa"};
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(figure_folder_scene(gb_figures_find("hollomon"), &series, &err));
+    int at = 0;
+    while (figure_folder_column(&series, "strain_percent")[at] < 80.0 / 180.0 - 1e-9) {
+        at++;
+    }
+    for (size_t k = 0; k < G_N_ELEMENTS(curves); k++) {
+        g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, curves[k])[at],
+                                       800.0, 1e-3);
+    }
+    g_assert_cmpfloat_with_epsilon(
+        figure_folder_column(&series, "stress_m0.05_printed_MPa")[at],
+        1480.0 * pow(1.0 / 225.0, 0.05), 1e-6);
+    g_assert_cmpfloat_with_epsilon(first(&series, "yield_strain_percent"), 80.0 / 180.0,
+                                   1e-9);
+    gb_series_finish(&series);
+}
+
+/* P3 Fig. 10: yield at 2.09 nm and 2.822e-5 N; 0.02 N is 50 MPa of F/4R^2, 0.83 % of h/2R by
+ * Hertz; 1480 MPa are 1480/1049 of the force for m = 0.05. */
+static void test_pair(void)
+{
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    g_assert_true(figure_folder_scene(gb_figures_find("pair"), &series, &err));
+    g_assert_cmpfloat_with_epsilon(first(&series, "yield_h_nm"), 2.09, 0.005);
+    g_assert_cmpfloat_with_epsilon(first(&series, "yield_force_mN"), 0.02822, 5e-6);
+    g_assert_cmpfloat_with_epsilon(series.right.factor * 20.0, 50.0, 1e-9);
+    int at = 0;
+    while (figure_folder_column(&series, "force_mN_0")[at] < 20.0) {
+        at++;
+    }
+    g_assert_cmpfloat_with_epsilon(
+        series.top.factor * figure_folder_column(&series, "h_nm")[at], 0.83, 0.01);
+    g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, "force_mN_5")[at] /
+                                       figure_folder_column(&series, "force_mN_2")[at],
+                                   1480.0 / (800.0 * pow(225.0, 0.05)), 1e-9);
+    figure_folder_assert_drawn(gb_figures_find("pair"), &series);
+    gb_series_finish(&series);
+    g_assert_true(figure_folder_scene(gb_figures_find("line"), &series, &err));
+    g_assert_null(series.right.label);
+    g_assert_cmpfloat_with_epsilon(series.top.factor * 400.0, 10.0, 1e-9);
+    gb_series_finish(&series);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -195,6 +253,8 @@ int main(int argc, char **argv)
     g_test_add_func("/papers/coordination", test_coordination);
     g_test_add_func("/papers/densification", test_densification);
     g_test_add_func("/papers/relaxation", test_relaxation);
+    g_test_add_func("/papers/hollomon", test_hollomon);
+    g_test_add_func("/papers/pair", test_pair);
     const int status = g_test_run();
     figure_folder_finish();
     return status;

@@ -40,6 +40,12 @@ struct gb_figure_axis {
     double low, high; /* given ends; NaN: from the data */
 };
 
+/* An axis opposite to another one, with its values times a factor above 0. */
+struct gb_figure_second_axis {
+    const char *label; /* with its unit; NULL: none */
+    double factor;
+};
+
 /* Side of a point on which its text stands. */
 enum gb_figure_corner {
     GB_FIGURE_ABOVE_RIGHT,
@@ -68,6 +74,7 @@ struct gb_figure {
     const struct gb_figure_map *map; /* NULL: none */
     const char *title, *caption;     /* NULL: none */
     struct gb_figure_axis x, y;
+    struct gb_figure_second_axis top, right;
     bool equal_scales; /* of linear axes in one unit: directions keep their angles */
     const struct gb_figure_curve *curve;
     size_t count;

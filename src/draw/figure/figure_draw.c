@@ -5,6 +5,7 @@
 
 #include "draw/figure/figure_curve.h"
 #include "draw/figure/figure_map.h"
+#include "draw/figure/figure_second.h"
 
 /* Lengths in points. */
 static const double rule_width = 0.6; /* frame and ticks */
@@ -38,21 +39,22 @@ static void add_rule(cairo_t *cairo, double x0, double y0, double x1, double y1)
 
 enum direction { ALONG_X, ALONG_Y };
 
-/* Ticks inside the frame, on both sides. */
+/* Ticks inside the frame, on both sides unless a second axis has one. */
 static void draw_ticks(const struct gb_figure_page *page, enum direction direction,
                        const double *values, int count, double length)
 {
     cairo_t *cairo = page->text.cairo;
     const double *f = page->layout.frame;
+    const struct gb_figure *figure = page->figure;
     for (int k = 0; k < count; k++) {
         const double at = gb_figure_axis_position(
             direction == ALONG_X ? &page->layout.x : &page->layout.y, values[k]);
         if (direction == ALONG_X) {
             add_rule(cairo, at, f[3], at, f[3] - length);
-            add_rule(cairo, at, f[1], at, f[1] + length);
+            add_rule(cairo, at, f[1], at, f[1] + (figure->top.label ? 0.0 : length));
         } else {
             add_rule(cairo, f[0], at, f[0] + length, at);
-            add_rule(cairo, f[2], at, f[2] - length, at);
+            add_rule(cairo, f[2], at, f[2] - (figure->right.label ? 0.0 : length), at);
         }
     }
     cairo_stroke(cairo);
@@ -203,6 +205,7 @@ void gb_figure_draw_page(const struct gb_figure_page *page)
     gb_figure_map_draw(page);
     draw_curves(page);
     draw_axes(page);
+    gb_figure_second_draw(page);
     draw_inset(page);
     draw_below(page);
     draw_annotations(page);

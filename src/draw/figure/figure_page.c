@@ -7,6 +7,7 @@
 #include "draw/figure/figure_map.h"
 #include "draw/figure/figure_occupancy.h"
 #include "draw/figure/figure_range.h"
+#include "draw/figure/figure_second.h"
 
 const double gb_figure_page_label_size = 10.0;
 const double gb_figure_page_tick_size = 8.8;
@@ -110,6 +111,7 @@ static void fit_below(const struct gb_figure_page *page, struct gb_figure *part,
     part->count = page->figure->below_count;
     part->y = page->figure->below_y;
     part->annotations = 0;
+    part->top.label = part->right.label = NULL;
     part->below_count = 0;
     *below = *page;
     below->figure = part;
@@ -149,8 +151,8 @@ static void set_frame(struct gb_figure_page *page)
     double *frame = layout->frame;
     frame[0] = 10.0 + 1.5 * gb_figure_page_label_size + widest_of_panels(page) +
                2.0 * gb_figure_page_gap;
-    frame[1] = 8.0 + (title > 0.0 ? title + 5.0 : 0.0);
-    frame[2] = page->width - 14.0 - page->legend_width;
+    frame[1] = 8.0 + (title > 0.0 ? title + 5.0 : 0.0) + gb_figure_second_height(figure);
+    frame[2] = page->width - 14.0 - page->legend_width - gb_figure_second_width(page);
     frame[3] = page->height - 6.0 - (caption > 0.0 ? caption + 6.0 : 0.0) -
                1.7 * gb_figure_page_label_size - 1.5 * gb_figure_page_tick_size -
                gb_figure_page_gap;
@@ -203,7 +205,8 @@ static void set_labels(struct gb_figure_page *page)
     gb_figure_labels_finish(&page->labels);
     gb_figure_labels_arrange(&page->labels, page->figure, &page->layout, &page->text);
     if (page->labels.outside) {
-        const double left = page->layout.frame[2] + gb_figure_page_gap;
+        const double left =
+            page->layout.frame[2] + gb_figure_second_width(page) + gb_figure_page_gap;
         const double top = page->layout.frame[1];
         const double box[4] = {left, top, left + wide, top + high};
         memcpy(page->labels.legend, box, sizeof box);
@@ -224,6 +227,7 @@ void gb_figure_page_inset(const struct gb_figure_page *page, struct gb_figure *p
 {
     const double *box = page->layout.inset;
     *part = *page->figure;
+    part->top.label = part->right.label = NULL;
     part->x.low = page->figure->inset[0];
     part->x.high = page->figure->inset[1];
     gb_figure_range_inset(page->figure, &part->y.low, &part->y.high);
