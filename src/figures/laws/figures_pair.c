@@ -1,7 +1,6 @@
 #include "figures/figures_compute.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "figures/laws/hardening_models.h"
 #include "scene/contact_pair.h"
@@ -53,13 +52,8 @@ static bool add_model(struct gb_series *series, const struct gb_figures_input *i
     const struct gb_params params =
         model > 0 ? gb_hardening_models_scene(input->scene, model - 1) : *input->scene;
     struct gb_contact_pair pair;
-    char label[96] = "Hertz, elastic";
     if (!gb_contact_pair_init(&pair, &params, err)) {
         return false;
-    }
-    if (model > 0) {
-        snprintf(label, sizeof label, "Stor\xc3\xa5kers, %s",
-                 gb_hardening_models[model - 1].label);
     }
     const double indentation =
         is_equal(&params) ? max_indentation_equal : max_indentation_unequal;
@@ -69,7 +63,8 @@ static bool add_model(struct gb_series *series, const struct gb_figures_input *i
         h[k] = 1e9 * at;
         column[k] = value(&pair, branch_at(&pair, model, at));
     }
-    gb_series_draw(series, h, column, NULL, GB_FIGURE_LINE, model, label);
+    gb_series_draw(series, h, column, NULL, GB_FIGURE_LINE, model,
+                   model > 0 ? gb_hardening_models[model - 1].label : "Hertz, elastic");
     return true;
 }
 
@@ -85,11 +80,12 @@ static bool draw_models(struct gb_series *series, const struct gb_figures_input 
     for (int model = 0; model < MODELS && good; model++) {
         good = add_model(series, input, model, h, name, value, err);
     }
-    gb_series_caption(series,
-                      "Radii %g and %g \xce\xbcm. Stor\xc3\xa5kers as printed, P3 (16); "
-                      "scenes take the smaller of it and Hertz. 1480 MPa: as printed for "
-                      "<i>m</i> = 0.05; the rule of P3 gives 1049.",
-                      1e6 * input->scene->radius_i_m, 1e6 * input->scene->radius_j_m);
+    gb_series_caption(
+        series,
+        "Radii %g and %g \xce\xbcm. <i>m</i>: Stor\xc3\xa5kers as printed, P3 "
+        "(16); scenes take the smaller of it and Hertz. 1480 MPa: as printed "
+        "for <i>m</i> = 0.05; the rule of P3 gives 1049.",
+        1e6 * input->scene->radius_i_m, 1e6 * input->scene->radius_j_m);
     return good;
 }
 
