@@ -105,9 +105,11 @@ static void write_die(void)
     figure_folder_write("die", "preset.ini",
                         "[scene]\nkind = die\n[contact]\nnormal = hertz\n"
                         "[loading]\ngeometry = die\n");
-    figure_folder_write("die", "curve.csv",
-                        "branch,p_MPa,wanted_MPa,density,central_density,height_change\n"
-                        "load,1.1,1,0.6,0.65,-0.01\nload,2.1,2,0.62,0.67,-0.02\n");
+    figure_folder_write(
+        "die", "curve.csv",
+        "branch,step,p_MPa,wanted_MPa,density,central_density,height_change\n"
+        "relax,0,0,0,0.59,0.64,0\n"
+        "load,1,1.1,1,0.6,0.65,-0.01\nload,2,2.1,2,0.62,0.67,-0.02\n");
 }
 
 /* A full cycle, with a state of four stacked spheres on the axis, one of them on the wall. */
@@ -115,10 +117,11 @@ static void write_cycle(const char *directory, uint64_t seed)
 {
     struct gb_state *state = NULL;
     struct gb_error err = {0};
-    char *preset = g_strdup_printf("[scene]\nkind = die\n[contact]\nnormal = hertz\n"
-                                   "[structure]\nseed = %d\n[die]\ncycle = full\n"
-                                   "[loading]\ngeometry = die\n",
-                                   (int)seed);
+    char *preset =
+        g_strdup_printf("[scene]\nkind = die\n[contact]\nnormal = hertz\n"
+                        "[structure]\nseed = %d\n[die]\ncycle = full\ncentral = 1 um\n"
+                        "[loading]\ngeometry = die\n",
+                        (int)seed);
     char *path = figure_folder_path(directory, "state.h5");
     figure_folder_write(directory, "preset.ini", preset);
     figure_folder_write(
@@ -293,6 +296,8 @@ static const struct source {
     {"size-effect", {"a1", "a2", "b1"}},
     {"sweep", {"a1", "a2", "b1"}},
     {"rdf", {"a1", "a2"}},
+    {"poured-density", {"die"}},
+    {"die-section", {"cycle1"}},
     {"die-height", {"die"}},
     {"die-density", {"die"}},
     {"die-cycle", {"cycle1", "cycle2"}},

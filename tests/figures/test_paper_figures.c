@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "io/state/state.h"
+
 /* Rates of P2, 1/s. */
 static const double rates[5] = {6.8e8, 6.8e7, 6.8e6, 6.8e5, 6.8e4};
 static const char *const rate_runs[] = {"v1", "v2", "v3", "v4", "v5", NULL};
@@ -242,6 +244,100 @@ static void test_pair(void)
     gb_series_finish(&series);
 }
 
+/* A poured and pressed bed: densities at rest, then under pressure. */
+static void write_bed(const char *directory, int seed, double mu, double density,
+                      double central)
+{
+    char *text =
+        g_strdup_printf("branch,step,p_MPa,density,central_density\nrelax,0,0,0.1,0.1\n"
+                        "relax,0,0,%.6f,%.6f\nload,1,50,0.7,0.7\n",
+                        density, central);
+    figure_folder_write(directory, "curve.csv", text);
+    g_free(text);
+    text = g_strdup_printf(
+        "[scene]\nkind = die\n[contact]\nnormal = hertz\nmu = %g\n[loading]\n"
+        "geometry = die\n[structure]\nseed = %d\n[die]\n"
+        "central = 1 um\n",
+        mu, seed);
+    figure_folder_write(directory, "preset.ini", text);
+    g_free(text);
+}
+
+/* P3 table 1: mean and standard deviation over different beds; one seed pressed by two
+ * laws is one bed. */
+static void test_poured_density(void)
+{
+    static const char *const beds[] = {"bed1", "bed2", "bed3", "bed3-again", NULL};
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    write_bed("bed1", 1, 0.0, 0.62, 0.66);
+    write_bed("bed2", 2, 0.0, 0.63, 0.66);
+    write_bed("bed3", 3, 0.0, 0.61, 0.69);
+    write_bed("bed3-again", 3, 0.05, 0.61, 0.69);
+    g_assert_true(figure_folder_named("poured-density", beds, &series, &err));
+    g_assert_cmpfloat_with_epsilon(first(&series, "density_mean"), 0.62, 1e-12);
+    g_assert_cmpfloat_with_epsilon(first(&series, "density_standard_deviation"), 0.01,
+                                   1e-12);
+    g_assert_cmpfloat_with_epsilon(first(&series, "density_standard_error"),
+                                   0.01 / sqrt(3.0), 1e-12);
+    g_assert_cmpfloat(first(&series, "density_least"), ==, 0.61);
+    g_assert_cmpfloat(first(&series, "density_largest"), ==, 0.63);
+    g_assert_cmpfloat_with_epsilon(first(&series, "central_density_mean"), 0.67, 1e-12);
+    g_assert_cmpfloat(figure_folder_column(&series, "bed")[2], ==, 3.0);
+    g_assert_cmpuint(series.rows, ==, 3);
+    gb_series_finish(&series);
+}
+
+/* Spheres of 1 um stacked on the axis of a bore as wide: a sphere as wide in the middle of
+ * the stack holds two caps, 5/16 of its volume each; the plane cuts three particles of 1 um
+ * and one beside it in a circle of 0.8 um. */
+static void test_die_section(void)
+{
+    static const char *const words[] = {"section", NULL};
+    static const char *const two[] = {"section", "bed2", NULL};
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    write_bed("section", 1, 0.0, 0.6, 0.6);
+    char *path = figure_folder_path("section", "state.h5");
+    g_assert_true(gb_state_create(&state, 4, 0, &err));
+    state->metre_per_length = 1e-6;
+    state->pascal_per_stress = 1e9;
+    state->die_radius = 0.5;
+    state->cell[0] = state->cell[1] = 1.0;
+    state->cell[2] = 4.0;
+    for (int i = 0; i < 4; i++) {
+        state->position[3 * i] = 0.5;
+        state->position[3 * i + 1] = i == 3 ? 0.8 : 0.5;
+        state->position[3 * i + 2] = 0.5 + i;
+        state->radius[i] = 0.5;
+    }
+    g_assert_true(gb_state_write(state, NULL, path, &err));
+    g_assert_true(figure_folder_named("die-section", words, &series, &err));
+    g_assert_cmpfloat_with_epsilon(first(&series, "density"), 2.0 / 3.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(first(&series, "central_density"), 5.0 / 8.0, 1e-12);
+    const double *x = figure_folder_column(&series, "particle_x_um");
+    double widest[4] = {0.0};
+    for (size_t k = 0, circle = 0; k < series.rows && circle < 4; k++) {
+        widest[circle] = fmax(widest[circle], isnan(x[k]) ? 0.0 : x[k]);
+        circle += isnan(x[k]) ? 1 : 0;
+    }
+    g_assert_cmpfloat_with_epsilon(widest[0], 0.5, 1e-12);
+    g_assert_cmpfloat_with_epsilon(widest[3], 0.4, 1e-12);
+    g_assert_true(series.equal_scales);
+    gb_series_finish(&series);
+    /* a recorded density counts up to the punch, which particles enter */
+    state->point.density = 0.7;
+    g_assert_true(gb_state_write(state, NULL, path, &err));
+    g_assert_true(figure_folder_named("die-section", words, &series, &err));
+    g_assert_cmpfloat_with_epsilon(first(&series, "density"), 0.7, 1e-12);
+    gb_series_finish(&series);
+    g_assert_false(figure_folder_named("die-section", two, &series, &err));
+    g_assert_nonnull(strstr(err.text, "accepted one run"));
+    gb_state_destroy(state);
+    g_free(path);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -255,6 +351,8 @@ int main(int argc, char **argv)
     g_test_add_func("/papers/relaxation", test_relaxation);
     g_test_add_func("/papers/hollomon", test_hollomon);
     g_test_add_func("/papers/pair", test_pair);
+    g_test_add_func("/papers/poured_density", test_poured_density);
+    g_test_add_func("/papers/die_section", test_die_section);
     const int status = g_test_run();
     figure_folder_finish();
     return status;
