@@ -10,6 +10,7 @@ gb_figures_compute gb_figures_card_uniaxial;
 gb_figures_compute gb_figures_chart;
 gb_figures_compute gb_figures_chart_error;
 gb_figures_compute gb_figures_contact;
+gb_figures_compute gb_figures_contacts;
 gb_figures_compute gb_figures_continuum;
 gb_figures_compute gb_figures_coordination;
 gb_figures_compute gb_figures_decay;

@@ -338,6 +338,53 @@ static void test_die_section(void)
     g_free(path);
 }
 
+/* Twenty particles, of which `tens` have 10 contacts, one 20, the others 6. */
+static void write_contacts(const char *directory, int seed, int tens)
+{
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    char *preset =
+        g_strdup_printf("[particles]\ncount = 1000\n[structure]\nseed = %d\n", seed);
+    figure_folder_write(directory, "preset.ini", preset);
+    figure_folder_write(directory, "curve.csv",
+                        "branch,step,density,p_MPa\nload,0,0.5,1\n");
+    char *path = figure_folder_path(directory, "state.h5");
+    g_assert_true(gb_state_create(&state, 20, 0, &err));
+    state->dimension = 3;
+    state->metre_per_length = 1e-8;
+    state->pascal_per_stress = 1e9;
+    for (int i = 0; i < 20; i++) {
+        state->radius[i] = 0.5;
+        state->contacts[i] = i < tens ? 10 : i == 19 ? 20 : 6;
+    }
+    for (int k = 0; k < 3; k++) {
+        state->cell[k] = 5.0;
+    }
+    g_assert_true(gb_state_write(state, NULL, path, &err));
+    gb_state_destroy(state);
+    g_free(path);
+    g_free(preset);
+}
+
+/* Shares of each packing, then their mean and standard error. */
+static void test_contacts(void)
+{
+    static const char *const words[] = {"contacts1", "contacts2", NULL};
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    write_contacts("contacts1", 1, 1);
+    write_contacts("contacts2", 2, 3);
+    g_assert_true(figure_folder_named("contacts", words, &series, &err));
+    const double *share = figure_folder_column(&series, "share_percent_1");
+    g_assert_cmpfloat_with_epsilon(share[10], 10.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(share[6], 85.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(share[15], 5.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(share[12], 0.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, "se_1")[10], 5.0, 1e-12);
+    g_assert_nonnull(strstr(series.notes->str, "group 1: 10 contacts: 10 +- 5 %\n"));
+    gb_series_finish(&series);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -353,6 +400,7 @@ int main(int argc, char **argv)
     g_test_add_func("/papers/pair", test_pair);
     g_test_add_func("/papers/poured_density", test_poured_density);
     g_test_add_func("/papers/die_section", test_die_section);
+    g_test_add_func("/papers/contacts", test_contacts);
     const int status = g_test_run();
     figure_folder_finish();
     return status;
