@@ -36,6 +36,49 @@ is 'says where it stopped' grep -q 'structure.density = 0.7: not reached' stderr
 is 'and leaves nothing' [ ! -e dense ]
 is 'in the plane' pack scene.dimension=2 structure.density=0.5 --out plane
 is 'y is 0' awk -F, '/^[0-9]/ && $2 != 0 { bad = 1 } END { exit bad }' plane/packing.csv
+percolation() { # more arguments: P1 Fig. 3
+    "$greenbody" pack p1-fig3 "$@" >stdout 2>stderr
+}
+
+spans_both() { # particles, density: the structure of P1 Fig. 3 with so many discs
+    percolation particles.count="$1" structure.density="$2" --out fig3 --force &&
+        grep -qx 'spans along    x z ' stdout
+}
+
+no_both() {
+    ! spans_both "$@"
+}
+
+is 'the number at which it percolates' percolation --percolation 2
+is 'a row for each cell' grep -qx '5,599,0.522726' stdout
+is 'and their mean' grep -q '^# mean [0-9.]* particles, density 0\.' stdout
+is 'at that number the structure spans both axes' spans_both 599 0.5227261
+is 'one disc less does not' no_both 598 0.5218535
+is 'a table is no packing' refused --percolation 2 --out table
+is 'cells are counted' refused --percolation -1
+is 'and it says so' grep -q 'accepted 1 to' stderr
+is 'a lattice does not grow' refused structure.kind=fcc particles.count=256 --percolation 1
+
+die() { # more arguments: a small bed
+    "$greenbody" pack p3-hertz-mu0 particles.count=40 die.diameter='24 um' \
+        die.central='12 um' "$@" >stdout 2>stderr
+}
+
+die_refused() { # status 2, one line on stderr
+    die "$@"
+    [ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ]
+}
+
+is 'a bed is poured' die --every '10 us' --out bed
+is 'its density is told' grep -q '^density        0\.[45]' stdout
+is 'the stages are told' grep -q 'at rest after' stderr
+is 'with radii' grep -qx 'x_d,y_d,z_d,radius_d' bed/packing.csv
+is 'states of the filling are kept' [ -f bed/snapshots/filling-000002.h5 ]
+is 'it can be drawn' sh -c '"$0" plot bed --figure die-section >stdout' "$greenbody"
+is '--every is for dies' refused --every '1 us' --out cell
+is 'a time above 0' die_refused --every 0us --out no
+is 'a die does not percolate' die_refused --percolation 1
+
 is 'a run may follow in the same place' "$greenbody" run default particles.count=200 \
     "loading.until=density = 0.25" loading.unload_from= --quiet --out out --force
 is 'the packing is gone' [ ! -e out/packing.csv ]

@@ -26,6 +26,11 @@ static void append_title(GString *text, const char *title)
     g_string_append_c(text, '\n');
 }
 
+static bool is_bed(const struct gb_packing *packing)
+{
+    return packing->state->die_radius > 0.0;
+}
+
 static GString *packing_text(const struct gb_packing *packing)
 {
     const struct gb_state *state = packing->state;
@@ -33,15 +38,19 @@ static GString *packing_text(const struct gb_packing *packing)
     append_title(text, state->preset);
     g_string_append_printf(text, "# seed: %" PRIu64 "\n# diameter d, m: ", state->seed);
     append_number(text, state->metre_per_length, '\n');
-    g_string_append(text, "# periodic cell, d: ");
+    g_string_append(text,
+                    is_bed(packing) ? "# box of the die, d: " : "# periodic cell, d: ");
     append_number(text, state->cell[0], ' ');
     append_number(text, state->cell[1], ' ');
     append_number(text, state->cell[2], '\n');
-    g_string_append(text, "x_d,y_d,z_d\n");
+    g_string_append(text, is_bed(packing) ? "x_d,y_d,z_d,radius_d\n" : "x_d,y_d,z_d\n");
     for (int64_t i = 0; i < state->count; i++) {
         append_number(text, state->position[3 * i], ',');
         append_number(text, state->position[3 * i + 1], ',');
-        append_number(text, state->position[3 * i + 2], '\n');
+        append_number(text, state->position[3 * i + 2], is_bed(packing) ? ',' : '\n');
+        if (is_bed(packing)) {
+            append_number(text, state->radius[i], '\n');
+        }
     }
     return text;
 }
@@ -158,8 +167,9 @@ bool gb_packing_write(const struct gb_packing *packing, const char *directory,
     const bool written =
         write_preset(packing, directory, err) &&
         write_file(directory, "packing.csv", packing_text(packing), err) &&
-        write_file(directory, "g.csv", g_text(packing), err) &&
-        write_file(directory, "structure.json", structure_text(packing), err) &&
+        (is_bed(packing) ||
+         (write_file(directory, "g.csv", g_text(packing), err) &&
+          write_file(directory, "structure.json", structure_text(packing), err))) &&
         gb_state_write(packing->state, NULL, state, err);
     g_free(state);
     return written;

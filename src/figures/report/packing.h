@@ -21,7 +21,8 @@ struct gb_packing {
 };
 
 /* Writes preset.ini, packing.csv, g.csv, structure.json and state.h5 into a directory
- * that is there; each file atomically.  Errors: GB_ERR_MACHINE. */
+ * that is there; each file atomically.  A bed in a die, whose packing.csv has radii, is
+ * without the third and fourth.  Errors: GB_ERR_MACHINE. */
 bool gb_packing_write(const struct gb_packing *packing, const char *directory,
                       struct gb_error *err);
 
