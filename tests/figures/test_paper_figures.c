@@ -17,13 +17,14 @@ static double static_pressure(double rho)
 }
 
 /* A run at a rate that obeys P2 (9) and (8); table 1: p1 e^(-t/tau1) + p2 e^(-t/tau2). */
-static void write_rate(const char *directory, double rate, const double decay[4])
+static void write_rate(const char *directory, double rate, int seed, double offset,
+                       const double decay[4])
 {
     GString *text = g_string_new("branch,step,density,p_MPa,coordination,time_ns\n");
     for (int i = 0; i <= 90; i++) {
         const double rho = 0.5 + 0.005 * i;
         g_string_append_printf(text, "load,%d,%.6f,%.9f,%.6f,%.6f\n", i, rho,
-                               static_pressure(rho) +
+                               offset + static_pressure(rho) +
                                    k_v * pow(rate, 0.25) * pow(rho - rho0, 3.0),
                                2.3 + 3.0 * rho * rho, 0.1 * i);
     }
@@ -35,11 +36,12 @@ static void write_rate(const char *directory, double rate, const double decay[4]
                                9.0 + t);
     }
     figure_folder_write(directory, "curve.csv", text->str);
-    g_string_printf(text,
-                    "[scene]\nkind = dynamic\ndimension = 2\n[structure]\ndensity = 0.5\n"
-                    "[loading]\ngeometry = isotropic\nuntil = density = 0.95\n"
-                    "rate = %.9g 1/s\n",
-                    rate);
+    g_string_printf(
+        text,
+        "[scene]\nkind = dynamic\ndimension = 2\n[structure]\ndensity = 0.5\nseed = %d\n"
+        "[loading]\ngeometry = isotropic\nuntil = density = 0.95\n"
+        "rate = %.9g 1/s\n",
+        seed, rate);
     figure_folder_write(directory, "preset.ini", text->str);
     g_string_free(text, TRUE);
 }
@@ -53,9 +55,9 @@ static void write_rates(void)
                                        {49.8, 0.1515, 29.0, 10.0},
                                        {0.0, 1.0, 1.31, 10.0}};
     for (int k = 0; k < 5; k++) {
-        write_rate(rate_runs[k], rates[k], decay[k]);
+        write_rate(rate_runs[k], rates[k], 1, 0.0, decay[k]);
     }
-    write_rate("still", 6.8e3, (const double[4]){0.0, 1.0, 0.0, 1.0});
+    write_rate("still", 6.8e3, 1, 0.0, (const double[4]){0.0, 1.0, 0.0, 1.0});
 }
 
 /* What is left of the static pressure is k_v v^(1/4) (rho - rho0)^3: 200 MPa more at 1e8/s
@@ -81,6 +83,23 @@ static void test_rate_difference(void)
     g_assert_cmpfloat_with_epsilon(figure_folder_column(&series, "fit_0.95_MPa")[80],
                                    line[80], 1e-3);
     g_assert_nonnull(strstr(series.notes->str, "k_v = 21.5 ("));
+    gb_series_finish(&series);
+}
+
+/* A rate with one run takes the scatter of the others: of pressures 10 MPa above and below
+ * those of v1, 10 sqrt 2 MPa for one run, 10 for the mean of two. */
+static void test_rate_errors(void)
+{
+    static const char *const runs[] = {"high", "low", "v2", "v3", NULL};
+    struct gb_error err = {0};
+    struct gb_series series = {0};
+    write_rate("high", rates[0], 1, 10.0, (const double[4]){0.0, 1.0, 0.0, 1.0});
+    write_rate("low", rates[0], 2, -10.0, (const double[4]){0.0, 1.0, 0.0, 1.0});
+    g_assert_true(figure_folder_named("rate-difference", runs, &series, &err));
+    const double *error = figure_folder_column(&series, "se_MPa");
+    g_assert_cmpfloat_with_epsilon(error[0], 10.0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(error[1], 10.0 * sqrt(2.0), 1e-6);
+    g_assert_cmpfloat_with_epsilon(error[2], 10.0 * sqrt(2.0), 1e-6);
     gb_series_finish(&series);
 }
 
@@ -391,6 +410,7 @@ int main(int argc, char **argv)
     figure_folder_init();
     write_rates();
     g_test_add_func("/papers/rate_difference", test_rate_difference);
+    g_test_add_func("/papers/rate_errors", test_rate_errors);
     g_test_add_func("/papers/rate_difference_refusals", test_rate_difference_refusals);
     g_test_add_func("/papers/difference", test_difference);
     g_test_add_func("/papers/coordination", test_coordination);

@@ -42,10 +42,11 @@ static const struct gb_figures_row *find_figure(const char *name, struct gb_erro
 {
     const struct gb_figures_row *found = name ? gb_figures_find(name) : NULL;
     if (found == NULL) {
-        char *names = gb_figures_names(0);
-        gb_error_set(err, GB_ERR_INPUT, "--figure %.80s: accepted %s", name ? name : "",
-                     names);
-        g_free(names);
+        gb_error_set(
+            err, GB_ERR_INPUT,
+            "--figure %.80s: accepted a name that greenbody plot --help lists, as "
+            "time or densification",
+            name ? name : "");
     }
     return found;
 }

@@ -27,7 +27,7 @@ static void point_columns(struct gb_series *series, const struct gb_rate_points 
     for (size_t i = 0; i < points->count; i++) {
         const struct gb_power_point *point = &points->point[i];
         const double p_stat =
-            gb_power_static(&points->law, k_v, points->point, points->count, point->rho);
+            gb_power_static(&points->law, k_v, points->fitted, points->count, point->rho);
         const double row[] = {point->rho, point->v, point->p - p_stat, point->error,
                               point->p,   p_stat,   points->runs[i]};
         for (size_t k = 0; k < G_N_ELEMENTS(row); k++) {

@@ -100,6 +100,26 @@ static size_t collect_points(struct gb_power_point *points, const struct gb_runs
     return found;
 }
 
+/* A rate with one run takes the standard deviation of the others at its density: one cell
+ * scatters alike at all rates. */
+static void estimate_errors(struct gb_power_point *points, const double *runs,
+                            size_t count)
+{
+    double squares = 0.0;
+    double degrees = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        if (points[i].error > 0.0) {
+            squares += (runs[i] - 1.0) * runs[i] * points[i].error * points[i].error;
+            degrees += runs[i] - 1.0;
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!(points[i].error > 0.0) && degrees > 0.0) {
+            points[i].error = sqrt(squares / degrees / runs[i]);
+        }
+    }
+}
+
 bool gb_rate_points_have_errors(const struct gb_power_point *points, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -117,9 +137,17 @@ static void collect_densities(struct gb_rate_points *points, const struct gb_run
     points->point = g_new0(struct gb_power_point, set->groups * densities + 1);
     points->runs = g_new0(double, set->groups *densities + 1);
     for (size_t k = 0; k < densities; k++) {
-        points->count +=
-            collect_points(points->point + points->count, set, pressure + k * set->count,
-                           density[k], points->runs + points->count);
+        struct gb_power_point *point = points->point + points->count;
+        double *runs = points->runs + points->count;
+        const size_t found =
+            collect_points(point, set, pressure + k * set->count, density[k], runs);
+        estimate_errors(point, runs, found);
+        points->count += found;
+    }
+    points->fitted = g_memdup2(points->point, points->count * sizeof *points->point);
+    const bool given = gb_rate_points_have_errors(points->point, points->count);
+    for (size_t i = 0; i < points->count && !given; i++) {
+        points->fitted[i].error = 0.0;
     }
 }
 
@@ -156,6 +184,7 @@ bool gb_rate_points_find(struct gb_rate_points *points,
 void gb_rate_points_finish(struct gb_rate_points *points)
 {
     g_free(points->point);
+    g_free(points->fitted);
     g_free(points->runs);
     *points = (struct gb_rate_points){0};
 }
@@ -171,23 +200,19 @@ static void note_k_v(struct gb_series *series, const struct gb_power_law *law,
                    rate->degrees, gb_rate_points_printed_k_v);
 }
 
-bool gb_rate_points_fit(struct gb_power_rate *rate, struct gb_rate_points *points,
+bool gb_rate_points_fit(struct gb_power_rate *rate, const struct gb_rate_points *points,
                         struct gb_series *series)
 {
     struct gb_fit_value exponent;
     struct gb_error cause = {0};
-    const bool given = gb_rate_points_have_errors(points->point, points->count);
-    for (size_t i = 0; i < points->count && !given; i++) {
-        points->point[i].error = 0.0;
-    }
     const bool good =
-        gb_power_rate(rate, &points->law, points->point, points->count, &cause);
+        gb_power_rate(rate, &points->law, points->fitted, points->count, &cause);
     if (good) {
         note_k_v(series, &points->law, rate);
     } else {
         gb_series_note(series, "P2 (9): no k_v: %s", cause.text);
     }
-    if (gb_power_exponent(&exponent, &points->law, points->point, points->count,
+    if (gb_power_exponent(&exponent, &points->law, points->fitted, points->count,
                           &cause)) {
         gb_series_note(series,
                        "P2 (9) with a free exponent of the rate: %.4g (%.4g to %.4g)",
@@ -197,7 +222,8 @@ bool gb_rate_points_fit(struct gb_power_rate *rate, struct gb_rate_points *point
     }
     gb_series_note(series,
                    "95 %% confidence intervals for independent errors; densities of "
-                   "one run are not independent");
+                   "one run are not independent; a rate with one run has the scatter of "
+                   "the others as its error");
     return good;
 }
 
