@@ -4,7 +4,8 @@
 Usage: pages.py SOURCE_DIR GREENBODY
 
 Every command has a line of the table of commands, and every line a command.  Every key of the
-table of keys, which is a selection, is a key of the workbench.
+table of keys, which is a selection, is a key of the workbench.  Figures, commands and presets that
+the pages name exist, and docs/papers.md has every figure whose source is one of the papers.
 """
 import pathlib
 import re
@@ -26,6 +27,44 @@ def rows(text, header):
         yield line.split('|')[1]
 
 
+# "  rdf   radial distribution function (P1 Fig. 4, 7)"
+FIGURE = re.compile(r'^  ([a-z-]+) +\S.*?(?: \((P[123] [^)]*)\))?$')
+
+
+def figures(greenbody):
+    """Names of the figures, each with its source in the papers, or ''."""
+    done = subprocess.run([greenbody, 'plot', '--help'], capture_output=True, text=True, check=True)
+    lines = done.stdout.splitlines()
+    found = {}
+    for line in lines[lines.index('Figures:') + 1:]:
+        match = FIGURE.match(line)
+        if match is None:
+            return found
+        found[match.group(1)] = match.group(2) or ''
+    return found
+
+
+def wrong_pages(source, known, commands):
+    """One line for each name on the pages that does not exist."""
+    presets = {path.stem for path in (source / 'presets').glob('*.ini')}
+    for page in sorted(source.glob('docs/*.md')):
+        text = page.read_text(encoding='utf-8')
+        for name in re.findall(r'--figure ([a-z-]+)', text):
+            if name not in known:
+                yield f'{page.name}: there is no figure {name}'
+        for name in re.findall(r'^\|[^|]*\| `greenbody ([a-z]+)', text, re.MULTILINE):
+            if name not in commands:
+                yield f'{page.name}: there is no command {name}'
+        for name in re.findall(r'greenbody (?:run|pack|sweep) (p[123]-[\w.-]+)', text):
+            if name not in presets and not name.startswith('p3-$'):
+                yield f'{page.name}: there is no preset {name}'
+    drawn = set(re.findall(r'--figure ([a-z-]+)',
+                           (source / 'docs/papers.md').read_text(encoding='utf-8')))
+    for name, paper in known.items():
+        if paper and not paper.startswith('P2 sec.') and name not in drawn:
+            yield f'papers.md: no line for the figure {name}, {paper}'
+
+
 def main():
     text = (pathlib.Path(sys.argv[1]) / 'docs/manual.md').read_text(encoding='utf-8')
     commands = {line.split()[0] for line in asked(sys.argv[2], '--commands')}
@@ -39,9 +78,15 @@ def main():
     wrong += [f'there is no key {key}' for key in sorted(pressed - keys)]
     if not named or not pressed:
         wrong.append('a table is empty')
+    wrong = [f'docs/manual.md: {line}' for line in wrong]
+    known = figures(sys.argv[2])
+    wrong += [f'docs/{line}' for line in wrong_pages(pathlib.Path(sys.argv[1]), known, commands)]
+    if not known:
+        wrong.append('plot --help: no list of figures')
     for line in wrong:
-        print(f'docs/manual.md: {line}')
-    print(f'pages: {len(named)} commands, {len(pressed)} keys, {len(wrong)} errors')
+        print(line)
+    print(f'pages: {len(named)} commands, {len(pressed)} keys, {len(known)} figures, '
+          f'{len(wrong)} errors')
     return bool(wrong)
 
 
