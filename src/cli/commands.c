@@ -21,6 +21,8 @@ static const struct gb_commands_row rows[] = {
      gb_cmd_strength},
     {many, "card", "Drucker-Prager cap card for finite elements, with intervals",
      gb_cmd_card},
+    {many, "papers", "the numbers and figures of the three papers, with verdicts",
+     gb_cmd_papers},
     {packings, "pack", "the initial structure alone", gb_cmd_pack},
     {packings, "sizes", "log-normal law fitted to measured particle sizes", gb_cmd_sizes},
     {packings, "snapshot", "picture of a packing", gb_cmd_snapshot},

@@ -32,6 +32,7 @@ int gb_cmd_fit(int argc, char **argv);
 int gb_cmd_law(int argc, char **argv);
 int gb_cmd_moduli(int argc, char **argv);
 int gb_cmd_pack(int argc, char **argv);
+int gb_cmd_papers(int argc, char **argv);
 int gb_cmd_params(int argc, char **argv);
 int gb_cmd_plot(int argc, char **argv);
 int gb_cmd_report(int argc, char **argv);

@@ -5,6 +5,21 @@
 
 #include <glib.h>
 
+/* A program run from its build folder finds what belongs to it in its source tree. */
+static void add_source_tree(GPtrArray *list, const char *name)
+{
+    char *program = g_file_read_link("/proc/self/exe", NULL);
+    char *folder = program ? g_path_get_dirname(program) : NULL;
+    for (int up = 0; folder && up < 3; up++) {
+        char *parent = g_path_get_dirname(folder);
+        g_ptr_array_add(list, g_build_filename(parent, name, NULL));
+        g_free(folder);
+        folder = parent;
+    }
+    g_free(folder);
+    g_free(program);
+}
+
 /* Folders that hold presets, first match wins; NULL-terminated, g_strfreev. */
 static char **folders(void)
 {
@@ -16,17 +31,7 @@ static char **folders(void)
         g_ptr_array_add(list, g_strdup(given));
     }
     g_ptr_array_add(list, g_strdup(GB_PRESET_INSTALL_DIR));
-    /* A program run from its build folder finds the presets of its source tree. */
-    char *program = g_file_read_link("/proc/self/exe", NULL);
-    char *folder = program ? g_path_get_dirname(program) : NULL;
-    for (int up = 0; folder && up < 3; up++) {
-        char *parent = g_path_get_dirname(folder);
-        g_ptr_array_add(list, g_build_filename(parent, "presets", NULL));
-        g_free(folder);
-        folder = parent;
-    }
-    g_free(folder);
-    g_free(program);
+    add_source_tree(list, "presets");
     g_ptr_array_add(list, NULL);
     return (char **)g_ptr_array_free(list, FALSE);
 }
@@ -57,6 +62,19 @@ char *gb_preset_folders_find(const char *name)
         path = find_in(list[i], name);
     }
     g_strfreev(list);
+    return path;
+}
+
+char *gb_preset_folders_find_data(const char *file)
+{
+    GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
+    char *path = NULL;
+    g_ptr_array_add(list, g_strdup(GB_DATA_INSTALL_DIR));
+    add_source_tree(list, "assets/data");
+    for (guint i = 0; i < list->len && path == NULL; i++) {
+        path = find_in(g_ptr_array_index(list, i), file);
+    }
+    g_ptr_array_unref(list);
     return path;
 }
 

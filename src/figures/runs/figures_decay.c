@@ -4,8 +4,8 @@
 
 #include "base/alloc.h"
 #include "figures/figures_label.h"
-#include "figures/runs/relaxation_curves.h"
 #include "figures/runs/runs_check.h"
+#include "many/relaxation_curves.h"
 #include "measure/fit/fit.h"
 
 /* Points of a curve. */
@@ -35,23 +35,24 @@ static bool draw_group(struct gb_series *series, const struct gb_runset *set,
     double *t = NULL;
     double *p = NULL;
     size_t count = 0;
-    struct gb_relaxation_curves curves;
+    struct gb_mean_curves curves;
     struct gb_fit_decay fit;
     if (!gb_relaxation_curves_read(&curves, set, group, err)) {
+        gb_mean_curves_finish(&curves);
         return false;
     }
     double *const column[3] = {gb_series_column(series, "t_%zu_ns", group + 1),
                                gb_series_column(series, "p_%zu_MPa", group + 1),
                                gb_series_column(series, "fit_%zu_MPa", group + 1)};
     const bool good =
-        gb_relaxation_curves_mean(curves.curve, curves.count, &t, &p, &count, err);
+        gb_mean_curves_mean(curves.curve, curves.count, &t, &p, &count, err);
     if (good) {
         const bool fitted = gb_fit_decay(&fit, t, p, count, NULL);
         fill_columns(t, p, count, fitted ? &fit : NULL, column);
     }
     gb_alloc_free(t);
     gb_alloc_free(p);
-    gb_relaxation_curves_finish(&curves);
+    gb_mean_curves_finish(&curves);
     char *label = gb_figures_label(set, group, NULL);
     gb_series_draw(series, column[0], column[1], NULL, GB_FIGURE_LINE, (int)group, label);
     gb_series_draw(series, column[0], column[2], NULL, GB_FIGURE_FAINT, 3, NULL);

@@ -2,10 +2,8 @@
 
 #include <math.h>
 
-#include "base/alloc.h"
-#include "figures/runs/relaxation_curves.h"
 #include "figures/runs/runs_check.h"
-#include "measure/fit/fit.h"
+#include "many/relaxation_curves.h"
 
 /* Fit of the mean curve of a group. */
 struct group_fit {
@@ -13,19 +11,6 @@ struct group_fit {
     double fall_error, efold_error;
     bool fitted;
 };
-
-static bool fit_mean(struct gb_fit_decay *fit, const struct gb_average_curve *curves,
-                     size_t members, struct gb_error *err)
-{
-    double *t = NULL;
-    double *p = NULL;
-    size_t count = 0;
-    const bool good = gb_relaxation_curves_mean(curves, members, &t, &p, &count, err) &&
-                      gb_fit_decay(fit, t, p, count, err);
-    gb_alloc_free(t);
-    gb_alloc_free(p);
-    return good;
-}
 
 /* Standard errors by the jackknife: fits without one run each; a fit that fails is left
  * out. */
@@ -39,8 +24,8 @@ static void jackknife(struct group_fit *fit, struct gb_average_curve *curves,
         struct gb_error ignored = {0};
         const struct gb_average_curve removed = curves[i];
         curves[i] = curves[members - 1]; /* the order does not affect a mean */
-        const bool good =
-            members > 1 && fit_mean(&without, curves, members - 1, &ignored);
+        const bool good = members > 1 && gb_relaxation_curves_fit(&without, curves,
+                                                                  members - 1, &ignored);
         curves[i] = removed;
         fall[i] = good ? gb_fit_decay_fall(&without) : (double)NAN;
         efold[i] = good ? gb_fit_decay_efold(&without) : (double)NAN;
@@ -61,17 +46,18 @@ static struct gb_fit_decay unfitted(void)
 static bool fit_group(struct group_fit *fit, const struct gb_runset *set, size_t group,
                       struct gb_error *cause, struct gb_error *err)
 {
-    struct gb_relaxation_curves curves;
+    struct gb_mean_curves curves;
     if (!gb_relaxation_curves_read(&curves, set, group, err)) {
         return false;
     }
-    fit->fitted = fit_mean(&fit->decay, curves.curve, curves.count, cause);
+    fit->fitted =
+        gb_relaxation_curves_fit(&fit->decay, curves.curve, curves.count, cause);
     if (fit->fitted) {
         jackknife(fit, curves.curve, curves.count);
     } else {
         *fit = (struct group_fit){.decay = unfitted(), NAN, NAN, false};
     }
-    gb_relaxation_curves_finish(&curves);
+    gb_mean_curves_finish(&curves);
     return true;
 }
 

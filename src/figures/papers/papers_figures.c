@@ -1,0 +1,146 @@
+#include "figures/papers/papers_figures.h"
+
+#include <string.h>
+
+#include "figures/figures.h"
+#include "figures/papers/paper_points.h"
+#include "figures/plotting.h"
+
+enum { WIDTH = 1600, HEIGHT = 1200, EXPERIMENTS = 6 }; /* pixels */
+
+#define RATES "P2-v1", "P2-v2", "P2-v3", "P2-v4", "P2-v5"
+
+static const struct figure {
+    const char *file, *title;
+    const char *experiment[EXPERIMENTS]; /* those without runs are left out */
+    const char *figure;                  /* a row of figures.c */
+    const char *reference;               /* experiment that is subtracted; NULL: none */
+} table[] = {
+    {"P1-fig5.png", "P1 Fig. 5", {"P1-fig5"}, "densification", NULL},
+    {"P1-fig6.png", "P1 Fig. 6", {"P1-fig5", "P1-fig6"}, "size-effect", NULL},
+    {"P1-fig7.png", "P1 Fig. 7", {"P1-fig5"}, "rdf", NULL},
+    {"P1-fig8.png", "P1 Fig. 8", {"P1-fig5"}, "coordination", NULL},
+    {"P1-fig11.png", "P1 Figs. 11 and 12", {"P1-fig12"}, "unloading", NULL},
+    {"P1-fig12.png", "P1 Fig. 12, continuum theory", {"P1-fig12"}, "continuum", NULL},
+    {"P1-fig13.png", "P1 Fig. 13", {"P1-fig12"}, "lateral", NULL},
+    {"P1-fig14.png", "P1 Fig. 14", {"P1-fig12"}, "force-angle", NULL},
+    {"P2-fig1.png", "P2 Fig. 1", {"P2-v3"}, "time", NULL},
+    {"P2-fig2.png", "P2 Fig. 2", {RATES}, "densification", NULL},
+    {"P2-fig3.png", "P2 Fig. 3", {RATES}, "difference", "P2-v3"},
+    {"P2-fig4.png", "P2 Fig. 4", {RATES}, "rate", NULL},
+    {"P2-table1.png", "P2 Table 1", {RATES}, "relaxation", NULL},
+    {"P2-eq8.png", "P2 (8)", {RATES}, "coordination", NULL},
+    {"P3-fig17.png", "P3 Fig. 17", {"P3-hertz", "P3-storakers"}, "die-height", NULL},
+    {"P3-fig18.png", "P3 Fig. 18", {"P3-hertz", "P3-storakers"}, "die-density", NULL},
+    {"P3-fig19.png", "P3 Fig. 19", {"P3-hertz", "P3-friction"}, "die-density", NULL},
+};
+
+/* Directories of the runs of an experiment that are done. */
+static guint list_runs(const struct gb_papers_plan *plan, const char *name,
+                       GPtrArray *list)
+{
+    const size_t experiment = gb_papers_experiments_index(name);
+    const guint before = list->len;
+    for (size_t k = 0; k < plan->count; k++) {
+        const struct gb_ensemble_run *run = &plan->ensemble.run[k];
+        if (plan->run[k].experiment == experiment && run->ended &&
+            run->error.code == GB_OK) {
+            g_ptr_array_add(list, run->directory);
+        }
+    }
+    return list->len - before;
+}
+
+/* The runs of a figure; *reference: the first one that is subtracted. */
+static GPtrArray *runs_of(const struct figure *row, const struct gb_papers_plan *plan,
+                          size_t *reference, GString *names)
+{
+    GPtrArray *list = g_ptr_array_new();
+    *reference = 0;
+    for (int e = 0; e < EXPERIMENTS && row->experiment[e] != NULL; e++) {
+        const guint first = list->len;
+        if (list_runs(plan, row->experiment[e], list) > 0) {
+            g_string_append_printf(names, " %s", row->experiment[e]);
+        }
+        if (row->reference != NULL && strcmp(row->reference, row->experiment[e]) == 0) {
+            *reference = first;
+        }
+    }
+    return list;
+}
+
+static bool is_selected(const struct figure *row, const struct gb_papers_plan *plan)
+{
+    return plan->selected[gb_papers_experiments_index(row->experiment[0])];
+}
+
+/* The files; *cause: why there is no data. */
+static bool write_files(const struct figure *row, const struct gb_papers_plan *plan,
+                        struct gb_runset *set, size_t reference, struct gb_error *cause,
+                        struct gb_error *err)
+{
+    const struct gb_figures_row *figure = gb_figures_find(row->figure);
+    struct gb_series series = {0};
+    gb_figures_group(figure, set);
+    const struct gb_figures_input input = {.set = set,
+                                           .reference = set->run[reference].group};
+    const struct gb_plotting_page page = {WIDTH, HEIGHT, figure->name, NULL, set};
+    bool good = gb_figures_run(figure, &series, &input, cause);
+    if (good) {
+        char *path = g_build_filename(plan->directory, row->file, NULL);
+        good = gb_paper_points_add(&series, figure, set, NULL, err) &&
+               gb_plotting_write(&series, &page, path, err);
+        g_free(path);
+    }
+    gb_series_finish(&series);
+    return good;
+}
+
+static bool draw(const struct figure *row, const struct gb_papers_plan *plan,
+                 struct gb_papers_figure *out, struct gb_error *err)
+{
+    struct gb_runset set = {0};
+    struct gb_error cause = {0};
+    GString *names = g_string_new(NULL);
+    size_t reference = 0;
+    GPtrArray *list = runs_of(row, plan, &reference, names);
+    const bool good = list->len > reference &&
+                      gb_runset_read(&set, (char *const *)list->pdata, list->len, &cause);
+    const bool drawn = good && write_files(row, plan, &set, reference, &cause, err);
+    out->title = row->title;
+    out->file = drawn ? row->file : NULL;
+    out->why = g_strdup(list->len > reference ? cause.text : "no run is done");
+    out->command =
+        g_strdup_printf("greenbody plot%s --figure %s --paper%s%s -o %s", names->str,
+                        row->figure, row->reference != NULL ? " --reference " : "",
+                        row->reference != NULL ? row->reference : "", row->file);
+    gb_runset_finish(&set);
+    g_ptr_array_unref(list);
+    g_string_free(names, TRUE);
+    return drawn || err->code == GB_OK;
+}
+
+bool gb_papers_figures_draw(const struct gb_papers_plan *plan,
+                            struct gb_papers_figure **figures, size_t *count,
+                            struct gb_error *err)
+{
+    struct gb_error failure = {0};
+    bool good = true;
+    *figures = g_new0(struct gb_papers_figure, G_N_ELEMENTS(table) + 1);
+    *count = 0;
+    for (size_t k = 0; k < G_N_ELEMENTS(table) && good; k++) {
+        if (is_selected(&table[k], plan)) {
+            good = draw(&table[k], plan, &(*figures)[(*count)++], &failure);
+        }
+    }
+    return good || gb_error_set(err, failure.code, "%s", failure.text);
+}
+
+void gb_papers_figures_finish(struct gb_papers_figure *figures, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        g_free(figures[k].command);
+        g_free(figures[k].why);
+    }
+    g_free(figures);
+}

@@ -1,0 +1,16 @@
+#ifndef GB_FIGURES_PAPERS_PAPERS_FIGURES_H
+#define GB_FIGURES_PAPERS_PAPERS_FIGURES_H
+
+#include "study/papers/papers_page.h"
+
+/* Figures of the papers over the runs of a plan, with the printed numbers. */
+
+/* Draws those whose experiments are selected as PNG, with its CSV, into the directory of
+ * the plan.  *figures: count of them, for gb_papers_figures_finish.  A figure without data
+ * says why and is no error.  Errors: GB_ERR_MACHINE. */
+bool gb_papers_figures_draw(const struct gb_papers_plan *plan,
+                            struct gb_papers_figure **figures, size_t *count,
+                            struct gb_error *err);
+void gb_papers_figures_finish(struct gb_papers_figure *figures, size_t count);
+
+#endif

@@ -1,0 +1,28 @@
+#ifndef GB_MANY_MEAN_CURVES_H
+#define GB_MANY_MEAN_CURVES_H
+
+#include "many/runset.h"
+#include "measure/fit/average.h"
+
+/* One branch of the runs of a group and its mean. */
+struct gb_mean_curves {
+    struct gb_average_curve *curve; /* one per run */
+    size_t count;
+};
+
+enum { GB_MEAN_CURVES_GRID = 4000 }; /* most points of a mean */
+
+/* Columns x and y of curve.csv; gb_mean_curves_finish is due in any case.  Errors: those of
+ * gb_runset_points. */
+bool gb_mean_curves_read(struct gb_mean_curves *curves, const struct gb_runset *set,
+                         size_t group, const char *branch, const char *x, const char *y,
+                         struct gb_error *err);
+void gb_mean_curves_finish(struct gb_mean_curves *curves); /* zeroed is fine */
+
+/* Mean of the first `members` curves where all have a value, on the x of all of them.
+ * Arrays for gb_alloc_free, also on error.  Errors: GB_ERR_INPUT where x falls,
+ * GB_ERR_MEMORY. */
+bool gb_mean_curves_mean(const struct gb_average_curve *curves, size_t members,
+                         double **x, double **y, size_t *count, struct gb_error *err);
+
+#endif

@@ -1,0 +1,54 @@
+#ifndef GB_STUDY_PAPERS_PAPERS_MEASURES_H
+#define GB_STUDY_PAPERS_PAPERS_MEASURES_H
+
+#include "study/papers/papers_comparisons.h"
+
+/* --- readings of one run ----------------------------------------------------------------- */
+
+gb_papers_read gb_papers_measures_loaded;   /* quantity where loading reaches `at` MPa */
+gb_papers_read gb_papers_measures_unloaded; /* quantity unloaded from `at` MPa */
+gb_papers_read gb_papers_measures_lost;     /* loaded less unloaded */
+gb_papers_read gb_papers_measures_lateral;  /* px/pz where loading reaches `at` MPa */
+gb_papers_read gb_papers_measures_first;    /* column in the first row of the run */
+gb_papers_read gb_papers_measures_last;     /* column in the last row of loading */
+gb_papers_read
+    gb_papers_measures_at_density; /* column where loading reaches density `at` */
+
+/* --- measures of all runs of the first experiment ---------------------------------------- */
+
+gb_papers_measure gb_papers_measures_mean;       /* of the reading, at a point */
+gb_papers_measure gb_papers_measures_difference; /* of the means at `point` and `other` */
+
+/* Density at `at` MPa by continuum theory, P1 (18)-(23): isotropic less uniaxial, with the
+ * hardening law of the mean curve of `point`, which is uniaxial. */
+gb_papers_measure gb_papers_measures_continuum;
+
+/* --- dynamic runs: papers_rates.c -------------------------------------------------------- */
+
+/* Parameters of P2 (4), fitted to the mean curve of holding: p0, fall (all amplitudes, MPa),
+ * the shorter and the longer time, ns; a single time is the shorter one up to 1 ns. */
+gb_papers_measure gb_papers_rates_p0, gb_papers_rates_fall, gb_papers_rates_fast,
+    gb_papers_rates_slow;
+
+/* P2 (9) fitted to the mean pressures of all its experiments: k_v with the printed
+ * exponents, MPa s^(1/4), and the exponent of the rate where it is free. */
+gb_papers_measure gb_papers_rates_kv, gb_papers_rates_exponent;
+
+/* |density of the asymptote (5)-(8) at the pressure of the mean curve where it reaches
+ * density `at`, over that density, less 1|. */
+gb_papers_measure gb_papers_rates_asymptote;
+
+/* --- laws alone: papers_laws.c ----------------------------------------------------------- */
+
+gb_papers_measure gb_papers_laws_surface_energy; /* J/m2 */
+gb_papers_measure gb_papers_laws_peel;           /* GPa, bridges of length `at` d */
+gb_papers_measure gb_papers_laws_unit_time;      /* s, of P2's discs */
+gb_papers_measure gb_papers_laws_rate;           /* 1/s, cells shortened by `at` a step */
+gb_papers_measure gb_papers_laws_hollomon;       /* Pa, exponent `at` */
+gb_papers_measure gb_papers_laws_yield_force;    /* N */
+gb_papers_measure gb_papers_laws_yield_overlap;  /* m */
+gb_papers_measure gb_papers_laws_pair_hertz;     /* h/2R at F/4R^2 = `at` MPa */
+gb_papers_measure gb_papers_laws_pair_storakers; /* the same, P3 (16), m = 0 */
+gb_papers_measure gb_papers_laws_unequal;        /* m, spheres of 10 and 2 um at `at` N */
+
+#endif
