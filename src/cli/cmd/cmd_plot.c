@@ -12,6 +12,7 @@
 #include "cli/options.h"
 #include "figures/figures.h"
 #include "figures/output_formats.h"
+#include "figures/papers/paper_points.h"
 #include "figures/plotting.h"
 #include "many/runset.h"
 
@@ -22,7 +23,7 @@ struct request {
     char *figure, *reference, *densities, *pressure, *output, *size, *log, *data, *title,
         *inset;
     char *at;
-    gboolean force;
+    gboolean force, paper;
     struct gb_lab_input lab;
 };
 
@@ -185,6 +186,23 @@ static bool add_data(struct gb_series *series, const struct request *request,
     return good;
 }
 
+/* The printed numbers of the scenes of these runs. */
+static bool add_paper(struct gb_series *series, const struct request *request,
+                      const struct gb_figures_row *figure, const struct gb_runset *set,
+                      struct gb_error *err)
+{
+    size_t drawn = 0;
+    if (!request->paper) {
+        return true;
+    }
+    return (set == NULL || gb_paper_points_add(series, figure, set, &drawn, err)) &&
+           (drawn > 0 ||
+            gb_error_set(err, GB_ERR_INPUT,
+                         "--paper: the papers print no number for the figure %s of these "
+                         "scenes; accepted without it",
+                         figure->name));
+}
+
 static bool plot_series(const struct request *request,
                         const struct gb_figures_row *figure,
                         const struct gb_figures_input *input, struct gb_error *err)
@@ -192,7 +210,8 @@ static bool plot_series(const struct request *request,
     struct gb_series series = {0};
     bool good = gb_figures_run(figure, &series, input, err) &&
                 (request->inset == NULL || set_inset(&series, request->inset, err)) &&
-                add_data(&series, request, err);
+                add_data(&series, request, err) &&
+                add_paper(&series, request, figure, input->set, err);
     if (good) {
         set_log(&series, request->log);
         good = write_series(&series, request, figure, input->set, err);
@@ -346,6 +365,8 @@ int gb_cmd_plot(int argc, char **argv)
          "x|y|xy"},
         {"data", 0, 0, G_OPTION_ARG_FILENAME, &request.data,
          "measured points, drawn as marks", "FILE.csv"},
+        {"paper", 0, 0, G_OPTION_ARG_NONE, &request.paper,
+         "numbers that the papers print for the scenes of the runs, as marks", NULL},
         {"inset", 0, 0, G_OPTION_ARG_STRING, &request.inset,
          "enlarges a part of the x axis in a free corner; or none", "FROM:TO"},
         {"title", 0, 0, G_OPTION_ARG_STRING, &request.title, "above the figure", "TEXT"},

@@ -34,6 +34,8 @@ static const char printed_radius[] =
     "pressures are P2's; `docs/validation.md`";
 static const char own_rule[] =
     "the paper's own rule, a curve through the yield point, gives 1049 MPa";
+static const char softest[] =
+    "the printed range is that of m = 0.1 and 0.2; m = 0 is softer";
 static const char own_law[] = "the hardening law is that of the curve here";
 static const char bed[] = "one bed of the paper; beds scatter, `docs/die.md`";
 
@@ -142,8 +144,18 @@ static const struct gb_papers_comparison table[] = {
     {"P3-yield-force", .measure = gb_papers_laws_yield_force, .scale = 1e5},
     {"P3-yield-overlap", .measure = gb_papers_laws_yield_overlap, .scale = 1e9},
     {"P3-pair-hertz", .measure = gb_papers_laws_pair_hertz, .at = 50, POINTS},
-    {"P3-pair-storakers", .measure = gb_papers_laws_pair_storakers, .at = 50, POINTS},
-    {"P3-three-spheres", .measure = gb_papers_laws_unequal, .at = 0.02, .scale = 1e6},
+    {"P3-pair-storakers", "m = 0", .measure = gb_papers_laws_pair_storakers, .at = 50,
+     .hardening = 0, POINTS},
+    {"P3-pair-storakers", "m = 0.1", .measure = gb_papers_laws_pair_storakers, .at = 50,
+     .hardening = 0.1, POINTS},
+    {"P3-pair-storakers", "m = 0.2", .measure = gb_papers_laws_pair_storakers, .at = 50,
+     .hardening = 0.2, POINTS},
+    {"P3-three-spheres", "m = 0", .measure = gb_papers_laws_unequal, .at = 0.02,
+     .hardening = 0, .scale = 1e6, .why = softest},
+    {"P3-three-spheres", "m = 0.1", .measure = gb_papers_laws_unequal, .at = 0.02,
+     .hardening = 0.1, .scale = 1e6},
+    {"P3-three-spheres", "m = 0.2", .measure = gb_papers_laws_unequal, .at = 0.02,
+     .hardening = 0.2, .scale = 1e6},
     {"P3-H0",
      NULL,
      {"P3-hertz"},

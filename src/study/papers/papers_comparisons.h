@@ -31,6 +31,7 @@ struct gb_papers_comparison {
     enum gb_reading_quantity quantity;
     const char *column;  /* of curve.csv, where no quantity is meant */
     double at;           /* MPa, relative density, exponent: the measure says which */
+    double hardening;    /* Hollomon's exponent, of laws of a pair */
     size_t point, other; /* indices on the axis of the experiment */
     double scale;        /* of the result; 0: 1 */
     const char *why;     /* the reason of a deviation, Markdown; NULL: not known */

@@ -149,7 +149,7 @@ double gb_papers_laws_pair_storakers(const struct gb_papers_view *view,
     struct gb_contact_pair pair;
     struct gb_params params;
     (void)view;
-    return load_pair("p3-pair", 0.0, &pair, &params)
+    return load_pair("p3-pair", row->hardening, &pair, &params)
                ? plastic_overlap(&pair, pair_force(&pair, row->at)) / pair.diameter
                : (double)NAN;
 }
@@ -160,6 +160,7 @@ double gb_papers_laws_unequal(const struct gb_papers_view *view,
     struct gb_contact_pair pair;
     struct gb_params params;
     (void)view;
-    return load_pair("p3-line", 0.0, &pair, &params) ? plastic_overlap(&pair, row->at)
-                                                     : (double)NAN;
+    return load_pair("p3-line", row->hardening, &pair, &params)
+               ? plastic_overlap(&pair, row->at)
+               : (double)NAN;
 }

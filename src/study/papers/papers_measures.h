@@ -48,7 +48,7 @@ gb_papers_measure gb_papers_laws_hollomon;       /* Pa, exponent `at` */
 gb_papers_measure gb_papers_laws_yield_force;    /* N */
 gb_papers_measure gb_papers_laws_yield_overlap;  /* m */
 gb_papers_measure gb_papers_laws_pair_hertz;     /* h/2R at F/4R^2 = `at` MPa */
-gb_papers_measure gb_papers_laws_pair_storakers; /* the same, P3 (16), m = 0 */
+gb_papers_measure gb_papers_laws_pair_storakers; /* the same, P3 (16) */
 gb_papers_measure gb_papers_laws_unequal;        /* m, spheres of 10 and 2 um at `at` N */
 
 #endif
