@@ -74,10 +74,10 @@ static bool is_selected(const struct figure *row, const struct gb_papers_plan *p
     return plan->selected[gb_papers_experiments_index(row->experiment[0])];
 }
 
-/* The files; *cause: why there is no data. */
+/* The files; *printed: printed numbers on them; *cause: why there is no data. */
 static bool write_files(const struct figure *row, const struct gb_papers_plan *plan,
-                        struct gb_runset *set, size_t reference, struct gb_error *cause,
-                        struct gb_error *err)
+                        struct gb_runset *set, size_t reference, size_t *printed,
+                        struct gb_error *cause, struct gb_error *err)
 {
     const struct gb_figures_row *figure = gb_figures_find(row->figure);
     struct gb_series series = {0};
@@ -88,7 +88,7 @@ static bool write_files(const struct figure *row, const struct gb_papers_plan *p
     bool good = gb_figures_run(figure, &series, &input, cause);
     if (good) {
         char *path = g_build_filename(plan->directory, row->file, NULL);
-        good = gb_paper_points_add(&series, figure, set, NULL, err) &&
+        good = gb_paper_points_add(&series, figure, set, printed, err) &&
                gb_plotting_write(&series, &page, path, err);
         g_free(path);
     }
@@ -103,10 +103,12 @@ static bool draw(const struct figure *row, const struct gb_papers_plan *plan,
     struct gb_error cause = {0};
     GString *names = g_string_new(NULL);
     size_t reference = 0;
+    size_t printed = 0;
     GPtrArray *list = runs_of(row, plan, &reference, names);
     const bool good = list->len > reference &&
                       gb_runset_read(&set, (char *const *)list->pdata, list->len, &cause);
-    const bool drawn = good && write_files(row, plan, &set, reference, &cause, err);
+    const bool drawn =
+        good && write_files(row, plan, &set, reference, &printed, &cause, err);
     out->title = row->title;
     out->file = drawn ? row->file : NULL;
     out->why = g_strdup(list->len > reference ? cause.text : "no run is done");

@@ -87,6 +87,10 @@ static const struct gb_papers_comparison table[] = {
      .point = UNIAXIAL},
     {"P1-fig13-biaxial", FIG12, MEAN, .read = gb_papers_measures_lateral, .at = 100,
      .point = BIAXIAL},
+    {"P1-fig14", "uniaxial", FIG12, MEAN, .read = gb_papers_measures_across,
+     .point = UNIAXIAL},
+    {"P1-fig14", "biaxial", FIG12, MEAN, .read = gb_papers_measures_across,
+     .point = BIAXIAL},
     {"P2-T", .measure = gb_papers_laws_unit_time, .scale = 1e12},
     {"P2-v1", .measure = gb_papers_laws_rate, .at = 1e-5, .scale = 1e-8},
     {"P2-asymptote", .experiment = {"P2-v1"}, .measure = gb_papers_rates_asymptote,
@@ -185,14 +189,30 @@ const struct gb_papers_comparison *gb_papers_comparisons_table(void)
     return table;
 }
 
+/* What a row reads from every run of its first experiment; NULL: it reads none. */
+static double *read_runs(const struct gb_papers_comparison *row,
+                         const struct gb_papers_data *data)
+{
+    if (row->read == NULL) {
+        return NULL;
+    }
+    const struct gb_runset *set =
+        &data->experiment[gb_papers_experiments_index(row->experiment[0])].set;
+    double *reading = g_new(double, set->count + 1);
+    for (size_t i = 0; i < set->count; i++) {
+        reading[i] = row->read(&set->run[i], row);
+    }
+    return reading;
+}
+
 /* Variance by the jackknife over the cells of one experiment; NaN with fewer than two. */
 static double variance(const struct gb_papers_comparison *row,
-                       const struct gb_papers_data *data, size_t experiment)
+                       const struct gb_papers_view *all, size_t experiment)
 {
-    const size_t cells = data->experiment[experiment].most;
+    const size_t cells = all->data->experiment[experiment].most;
     double *without = g_new(double, cells + 1);
     for (size_t k = 0; k < cells; k++) {
-        const struct gb_papers_view view = {data, experiment, k};
+        const struct gb_papers_view view = {all->data, experiment, k, all->reading};
         without[k] = row->measure(&view, row);
     }
     const double error = gb_average_jackknife(without, cells);
@@ -204,7 +224,8 @@ size_t gb_papers_comparisons_value(const struct gb_papers_comparison *row,
                                    const struct gb_papers_data *data, double *value,
                                    double *error)
 {
-    const struct gb_papers_view all = {data, GB_PAPERS_EXPERIMENTS_MOST, 0};
+    double *reading = read_runs(row, data);
+    const struct gb_papers_view all = {data, GB_PAPERS_EXPERIMENTS_MOST, 0, reading};
     const double scale = row->scale != 0.0 ? row->scale : 1.0;
     double sum = row->experiment[0] != NULL ? 0.0 : (double)NAN;
     size_t first = 0;
@@ -214,9 +235,10 @@ size_t gb_papers_comparisons_value(const struct gb_papers_comparison *row,
         const size_t cells = data->experiment[index].most;
         first = e == 0 ? cells : first;
         if (cells > 1 || e == 0) { /* one cell alone weighs nothing in a fit of several */
-            sum += isfinite(*value) ? variance(row, data, index) : (double)NAN;
+            sum += isfinite(*value) ? variance(row, &all, index) : (double)NAN;
         }
     }
     *error = scale * sqrt(sum);
+    g_free(reading);
     return first;
 }

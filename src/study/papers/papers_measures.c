@@ -6,6 +6,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "io/state/state_forces.h"
 #include "many/mean_curves.h"
 #include "measure/hardening.h"
 
@@ -77,21 +78,51 @@ double gb_papers_measures_at_density(const struct gb_runset_run *run,
     return value;
 }
 
+/* Mean over bins of the angle to z, from..to-1. */
+static double mean_of(const double *force, int from, int to)
+{
+    double sum = 0.0;
+    for (int k = from; k < to; k++) {
+        sum += force[k] / (to - from);
+    }
+    return sum;
+}
+
+double gb_papers_measures_across(const struct gb_runset_run *run,
+                                 const struct gb_papers_comparison *row)
+{
+    enum { ANGLES = GB_STATE_FORCES_ANGLES, SIDE = 5 }; /* 25 degrees */
+    double force[ANGLES];
+    double ratio = NAN;
+    struct gb_state *state = NULL;
+    char *path = g_build_filename(run->directory, "state.h5", NULL);
+    (void)row;
+    if (gb_state_read(&state, path, NULL)) {
+        gb_state_forces_by_angle(state, force);
+        ratio = mean_of(force, ANGLES - SIDE, ANGLES) / mean_of(force, 0, SIDE);
+    }
+    gb_state_destroy(state);
+    g_free(path);
+    return ratio;
+}
+
+/* Mean of the readings at a point. */
 static double mean_at(const struct gb_papers_view *view,
                       const struct gb_papers_comparison *row, size_t point)
 {
-    struct gb_runset set;
+    const size_t experiment = gb_papers_experiments_index(row->experiment[0]);
+    const struct gb_papers_cells *cells = &view->data->experiment[experiment];
+    double *values = g_new(double, cells->set.count + 1);
+    size_t count = 0;
     double mean = NAN;
     double error = NAN;
-    const size_t count = gb_papers_sample_point(
-        view, gb_papers_experiments_index(row->experiment[0]), point, &set);
-    double *values = g_new(double, count + 1);
-    for (size_t i = 0; i < count; i++) {
-        values[i] = row->read(&set.run[i], row);
+    for (size_t i = 0; i < cells->set.count; i++) {
+        if (cells->point[i] == point && !gb_papers_sample_lacks(view, experiment, i)) {
+            values[count++] = view->reading[i];
+        }
     }
     gb_average_values(values, count, &mean, &error);
     g_free(values);
-    g_free(set.run);
     return mean;
 }
 

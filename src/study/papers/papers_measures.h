@@ -14,6 +14,10 @@ gb_papers_read gb_papers_measures_last;     /* column in the last row of loading
 gb_papers_read
     gb_papers_measures_at_density; /* column where loading reaches density `at` */
 
+/* Mean normal force of contacts within 25 degrees of the plane across z over that within 25
+ * degrees of z, in the last state. */
+gb_papers_read gb_papers_measures_across;
+
 /* --- measures of all runs of the first experiment ---------------------------------------- */
 
 gb_papers_measure gb_papers_measures_mean;       /* of the reading, at a point */

@@ -165,7 +165,9 @@ static void add_figures(GString *text, const struct gb_papers_figure *figures,
                         size_t count)
 {
     if (count > 0) {
-        g_string_append(text, "\n## Figures\n");
+        g_string_append(text,
+                        "\n## Figures\n\nHollow marks are printed numbers. Commands are "
+                        "for the directory of this page.\n");
     }
     for (size_t k = 0; k < count; k++) {
         g_string_append_printf(text, "\n%s: `%s`\n\n", figures[k].title,

@@ -46,6 +46,13 @@ void gb_papers_sample_finish(struct gb_papers_data *data)
     *data = (struct gb_papers_data){0};
 }
 
+bool gb_papers_sample_lacks(const struct gb_papers_view *view, size_t experiment,
+                            size_t i)
+{
+    return view->experiment == experiment &&
+           view->cell == view->data->experiment[experiment].cell[i];
+}
+
 size_t gb_papers_sample_point(const struct gb_papers_view *view, size_t experiment,
                               size_t point, struct gb_runset *set)
 {
@@ -53,9 +60,7 @@ size_t gb_papers_sample_point(const struct gb_papers_view *view, size_t experime
     *set = (struct gb_runset){.run = g_new(struct gb_runset_run, cells->set.count + 1),
                               .groups = 1};
     for (size_t i = 0; i < cells->set.count; i++) {
-        const bool left_out =
-            view->experiment == experiment && view->cell == cells->cell[i];
-        if (cells->point[i] == point && !left_out) {
+        if (cells->point[i] == point && !gb_papers_sample_lacks(view, experiment, i)) {
             set->run[set->count] = cells->set.run[i];
             set->run[set->count++].group = 0;
         }

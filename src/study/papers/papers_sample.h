@@ -26,7 +26,12 @@ struct gb_papers_view {
     const struct gb_papers_data *data;
     size_t experiment; /* that lacks a cell; beyond the table: none does */
     size_t cell;
+    const double *reading; /* of every run of a row's first experiment; NULL: none made */
 };
+
+/* Does the view lack run i of an experiment? */
+bool gb_papers_sample_lacks(const struct gb_papers_view *view, size_t experiment,
+                            size_t i);
 
 /* Runs of one point as a set of one group; its runs belong to the data, run of the set is
  * for g_free.  Returns their number. */
