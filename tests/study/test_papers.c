@@ -37,9 +37,9 @@ static void test_within(void)
     verdict = judge(printed, (struct gb_papers_here){4.8999, 0.03, 10, false});
     g_assert_cmpint(verdict.outcome, ==, GB_PAPERS_OFF);
     g_assert_cmpfloat_with_epsilon(verdict.error, 0.05, 1e-15);
-    check_text(&verdict, "off by -0.1 (2.0 standard errors)");
+    check_text(&verdict, "off by -0.100 (2.0 standard errors)");
     verdict = judge(printed, (struct gb_papers_here){5.5, 0.03, 10, false});
-    check_text(&verdict, "off by 0.5 (10.0 standard errors)");
+    check_text(&verdict, "off by 0.500 (10.0 standard errors)");
 }
 
 /* The paper's mean of four cells scatters as those of here: 0.1 sqrt(16 / 4) = 0.2. */

@@ -16,33 +16,40 @@ static const char *const accepted[] = {"particles.count",     "structure.base",
                                        "loading.record_time", "loading.record_pressure",
                                        "numerics.",           NULL};
 
-/* Does the set hold a run of the scene of a comparison? */
-static bool has_scene(const struct gb_papers_comparison *comparison,
+/* The figures whose lines are groups of runs with a number of their own each: the mark has
+ * the colour of the line. */
+static const char *const coloured[] = {"densification", "unloading"};
+
+/* The group of runs with the scene of a comparison; -1: the set holds none. */
+static int find_scene(const struct gb_papers_comparison *comparison,
                       const struct gb_runset *set)
 {
     struct gb_params params;
-    bool found = false;
+    int found = -1;
     if (comparison->experiment[0] == NULL ||
         !gb_papers_experiments_params(
             &gb_papers_experiments_table()[gb_papers_experiments_index(
                 comparison->experiment[0])],
             GB_PAPERS_SIZES, comparison->point, &params, NULL)) {
-        return false;
+        return -1;
     }
-    for (size_t i = 0; i < set->count && !found; i++) {
-        found = gb_key_difference_find(&params, &set->run[i].params, accepted) == NULL;
+    for (size_t i = 0; i < set->count && found < 0; i++) {
+        if (gb_key_difference_find(&params, &set->run[i].params, accepted) == NULL) {
+            found = (int)set->run[i].group;
+        }
     }
     return found;
 }
 
-static bool belongs(const struct gb_papers_printed *printed, const char *figure,
-                    const struct gb_runset *set)
+/* The group that a printed number belongs to in a figure; -1: it is not of it. */
+static int find_group(const struct gb_papers_printed *printed, const char *figure,
+                      const struct gb_runset *set)
 {
-    bool found = false;
+    int found = -1;
     if (strcmp(printed->figure, figure) == 0) {
         const struct gb_papers_comparison *row = gb_papers_comparisons_table();
-        for (; row->id != NULL && !found; row++) {
-            found = strcmp(row->id, printed->id) == 0 && has_scene(row, set);
+        for (; row->id != NULL && found < 0; row++) {
+            found = strcmp(row->id, printed->id) == 0 ? find_scene(row, set) : -1;
         }
     }
     return found;
@@ -53,6 +60,7 @@ struct points {
     double *column[4]; /* x, y and their errors */
     const char **word;
     int *line;
+    int *group;
     size_t count;
 };
 
@@ -64,15 +72,18 @@ static void collect(struct points *points, const struct gb_papers_numbers *numbe
     }
     points->word = g_new(const char *, numbers->count + 1);
     points->line = g_new(int, numbers->count + 1);
+    points->group = g_new(int, numbers->count + 1);
     for (size_t k = 0; k < numbers->count; k++) {
         const struct gb_papers_printed *printed = &numbers->row[k];
-        if (belongs(printed, figure, set)) {
+        const int group = find_group(printed, figure, set);
+        if (group >= 0) {
             const double row[] = {printed->x, printed->y, printed->x_error,
                                   printed->y_error};
             for (size_t c = 0; c < G_N_ELEMENTS(row); c++) {
                 points->column[c][points->count] = row[c];
             }
             points->word[points->count] = printed->series;
+            points->group[points->count] = group;
             points->line[points->count++] = printed->line;
         }
     }
@@ -85,6 +96,31 @@ static void finish(struct points *points)
     }
     g_free(points->word);
     g_free(points->line);
+    g_free(points->group);
+}
+
+/* The curves from `first` on, one for each word in the order of the rows. */
+static void colour(struct gb_series *series, guint first, const struct points *points)
+{
+    for (size_t k = 0; k < points->count; k++) {
+        bool seen = false;
+        for (size_t i = 0; i < k && !seen; i++) {
+            seen = strcmp(points->word[i], points->word[k]) == 0;
+        }
+        if (!seen && first < series->curves->len) {
+            g_array_index(series->curves, struct gb_series_curve, first++).style =
+                points->group[k];
+        }
+    }
+}
+
+static bool is_coloured(const char *figure)
+{
+    bool found = false;
+    for (size_t k = 0; k < G_N_ELEMENTS(coloured); k++) {
+        found = found || strcmp(coloured[k], figure) == 0;
+    }
+    return found;
 }
 
 static bool draw(struct gb_series *series, const struct gb_figures_row *figure,
@@ -104,8 +140,12 @@ static bool draw(struct gb_series *series, const struct gb_figures_row *figure,
                                              .value = values,
                                              .word = points->word,
                                              .line = points->line};
+    const guint first = series->curves->len;
     const bool good =
         gb_table_build(&table, &content, err) && gb_plotting_data(series, table, err);
+    if (good && is_coloured(figure->name)) {
+        colour(series, first, points);
+    }
     gb_table_destroy(table);
     g_free(x_error);
     g_free(y_error);

@@ -112,10 +112,10 @@ static bool draw(const struct figure *row, const struct gb_papers_plan *plan,
     out->title = row->title;
     out->file = drawn ? row->file : NULL;
     out->why = g_strdup(list->len > reference ? cause.text : "no run is done");
-    out->command =
-        g_strdup_printf("greenbody plot%s --figure %s --paper%s%s -o %s", names->str,
-                        row->figure, row->reference != NULL ? " --reference " : "",
-                        row->reference != NULL ? row->reference : "", row->file);
+    out->command = g_strdup_printf(
+        "greenbody plot%s --figure %s%s%s%s -o %s", names->str, row->figure,
+        printed > 0 ? " --paper" : "", row->reference != NULL ? " --reference " : "",
+        row->reference != NULL ? row->reference : "", row->file);
     gb_runset_finish(&set);
     g_ptr_array_unref(list);
     g_string_free(names, TRUE);

@@ -32,6 +32,8 @@ static const char slow_stage[] =
 static const char printed_radius[] =
     "with `contact.bridge_radius = current` and `contact.relative_motion = full` the "
     "pressures are P2's; `docs/validation.md`";
+static const char contacts[] =
+    "higher at the slower rates; the cause is open, `docs/validation.md`";
 static const char own_rule[] =
     "the paper's own rule, a curve through the yield point, gives 1049 MPa";
 static const char softest[] =
@@ -95,12 +97,12 @@ static const struct gb_papers_comparison table[] = {
     {"P2-v1", .measure = gb_papers_laws_rate, .at = 1e-5, .scale = 1e-8},
     {"P2-asymptote", .experiment = {"P2-v1"}, .measure = gb_papers_rates_asymptote,
      .at = 0.95, POINTS},
-    {"P2-eq8-0.8", "v1", {"P2-v1"}, MEAN, CONTACTS, .at = 0.8, .why = slow_stage},
-    {"P2-eq8-0.8", "v3", {"P2-v3"}, MEAN, CONTACTS, .at = 0.8, .why = slow_stage},
-    {"P2-eq8-0.9", "v1", {"P2-v1"}, MEAN, CONTACTS, .at = 0.9},
-    {"P2-eq8-0.9", "v3", {"P2-v3"}, MEAN, CONTACTS, .at = 0.9},
-    {"P2-eq8-0.95", "v1", {"P2-v1"}, MEAN, CONTACTS, .at = 0.95},
-    {"P2-eq8-0.95", "v3", {"P2-v3"}, MEAN, CONTACTS, .at = 0.95},
+    {"P2-eq8-0.8", "v1", {"P2-v1"}, MEAN, CONTACTS, .at = 0.8, .why = contacts},
+    {"P2-eq8-0.8", "v3", {"P2-v3"}, MEAN, CONTACTS, .at = 0.8, .why = contacts},
+    {"P2-eq8-0.9", "v1", {"P2-v1"}, MEAN, CONTACTS, .at = 0.9, .why = contacts},
+    {"P2-eq8-0.9", "v3", {"P2-v3"}, MEAN, CONTACTS, .at = 0.9, .why = contacts},
+    {"P2-eq8-0.95", "v1", {"P2-v1"}, MEAN, CONTACTS, .at = 0.95, .why = contacts},
+    {"P2-eq8-0.95", "v3", {"P2-v3"}, MEAN, CONTACTS, .at = 0.95, .why = contacts},
     {"P2-table1-v1-p", NULL, {"P2-v1"}, MEAN, PRESSURE, .why = printed_radius},
     {"P2-table1-v2-p", NULL, {"P2-v2"}, MEAN, PRESSURE, .why = printed_radius},
     {"P2-table1-v3-p", NULL, {"P2-v3"}, MEAN, PRESSURE, .why = printed_radius},

@@ -29,8 +29,8 @@ gb_papers_measure gb_papers_measures_continuum;
 
 /* --- dynamic runs: papers_rates.c -------------------------------------------------------- */
 
-/* Parameters of P2 (4), fitted to the mean curve of holding: p0, fall (all amplitudes, MPa),
- * the shorter and the longer time, ns; a single time is the shorter one up to 1 ns. */
+/* Parameters of P2 (4), fitted to the mean curve of holding: p0, the fall to it from
+ * the mean pressure at density 0.95, MPa, the shorter and the longer time, ns; a single time is the shorter one up to 1 ns. */
 gb_papers_measure gb_papers_rates_p0, gb_papers_rates_fall, gb_papers_rates_fast,
     gb_papers_rates_slow;
 

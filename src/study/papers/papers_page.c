@@ -13,12 +13,11 @@ static const struct {
     {"P3", "P3: powder in a die"},
 };
 
-/* Digits of a number here: two of its error, or those of the printed number. */
+/* Decimals of a number here: by its error, or by that of the printed number. */
 static int digits_of(const struct gb_papers_result *result)
 {
-    const double error =
-        result->here.error > 0.0 ? result->here.error : result->printed->error;
-    return error > 0.0 ? (int)fmin(fmax(1.0 - floor(log10(error)), 0.0), 9.0) : 4;
+    return gb_papers_verdict_digits(result->here.error > 0.0 ? result->here.error
+                                                             : result->printed->error);
 }
 
 static void add_number(GString *text, double value, int digits)
@@ -94,7 +93,7 @@ static void add_count(GString *text, const struct gb_papers_results *results)
         const char *words;
     } outcomes[] = {{GB_PAPERS_WITHIN, "within error"},
                     {GB_PAPERS_OFF, "off"},
-                    {GB_PAPERS_UNJUDGED, "of one cell, without an error"},
+                    {GB_PAPERS_UNJUDGED, "without an error"},
                     {GB_PAPERS_ABSENT, "not found in the runs"},
                     {GB_PAPERS_NOT_COMPUTED, "not computed"}};
     g_string_append_printf(text, "%zu comparisons: ", results->count);

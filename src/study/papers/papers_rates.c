@@ -13,6 +13,7 @@
 static const double stages_ns = 1.0;
 
 /* P2 (9), and the densities at which the curves are compared. */
+static const double end_density = 0.95;
 static const double exponent = 0.25, power = 3.0;
 static const double densities[] = {0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95};
 
@@ -29,47 +30,6 @@ static bool fit_decay(const struct gb_papers_view *view,
     gb_mean_curves_finish(&curves);
     g_free(set.run);
     return good;
-}
-
-double gb_papers_rates_p0(const struct gb_papers_view *view,
-                          const struct gb_papers_comparison *row)
-{
-    struct gb_fit_decay fit;
-    return fit_decay(view, row, &fit) ? fit.p0.value : (double)NAN;
-}
-
-double gb_papers_rates_fall(const struct gb_papers_view *view,
-                            const struct gb_papers_comparison *row)
-{
-    struct gb_fit_decay fit;
-    double fall = 0.0;
-    if (!fit_decay(view, row, &fit)) {
-        return NAN;
-    }
-    for (int k = 0; k < fit.terms; k++) {
-        fall += fit.amplitude[k].value;
-    }
-    return fall;
-}
-
-double gb_papers_rates_fast(const struct gb_papers_view *view,
-                            const struct gb_papers_comparison *row)
-{
-    struct gb_fit_decay fit;
-    return fit_decay(view, row, &fit) && fit.terms > 0 && fit.tau[0].value < stages_ns
-               ? fit.tau[0].value
-               : (double)NAN;
-}
-
-double gb_papers_rates_slow(const struct gb_papers_view *view,
-                            const struct gb_papers_comparison *row)
-{
-    struct gb_fit_decay fit;
-    if (!fit_decay(view, row, &fit) || fit.terms == 0) {
-        return NAN;
-    }
-    const double slowest = fit.tau[fit.terms - 1].value;
-    return slowest >= stages_ns ? slowest : (double)NAN;
 }
 
 /* Mean pressure of an experiment at a density; false with fewer than two cells. */
@@ -90,6 +50,43 @@ static bool mean_pressure(const struct gb_papers_view *view, const char *experim
     g_free(values);
     g_free(set.run);
     return used > 1 && point->error > 0.0;
+}
+
+double gb_papers_rates_p0(const struct gb_papers_view *view,
+                          const struct gb_papers_comparison *row)
+{
+    struct gb_fit_decay fit;
+    return fit_decay(view, row, &fit) ? fit.p0.value : (double)NAN;
+}
+
+/* Of the mean curve, so that it is there without exponentials, too. */
+double gb_papers_rates_fall(const struct gb_papers_view *view,
+                            const struct gb_papers_comparison *row)
+{
+    const double end = gb_papers_rates_p0(view, row);
+    struct gb_power_point point;
+    (void)mean_pressure(view, row->experiment[0], end_density, &point);
+    return point.p - end;
+}
+
+double gb_papers_rates_fast(const struct gb_papers_view *view,
+                            const struct gb_papers_comparison *row)
+{
+    struct gb_fit_decay fit;
+    return fit_decay(view, row, &fit) && fit.terms > 0 && fit.tau[0].value < stages_ns
+               ? fit.tau[0].value
+               : (double)NAN;
+}
+
+double gb_papers_rates_slow(const struct gb_papers_view *view,
+                            const struct gb_papers_comparison *row)
+{
+    struct gb_fit_decay fit;
+    if (!fit_decay(view, row, &fit) || fit.terms == 0) {
+        return NAN;
+    }
+    const double slowest = fit.tau[fit.terms - 1].value;
+    return slowest >= stages_ns ? slowest : (double)NAN;
 }
 
 enum { POINTS = GB_PAPERS_USED * G_N_ELEMENTS(densities) };

@@ -44,17 +44,23 @@ struct gb_papers_verdict gb_papers_verdict_of(const struct gb_papers_printed *pr
     return verdict;
 }
 
+int gb_papers_verdict_digits(double error)
+{
+    return error > 0.0 ? (int)fmin(fmax(1.0 - floor(log10(error)), 0.0), 9.0) : 4;
+}
+
 char *gb_papers_verdict_text(const struct gb_papers_verdict *verdict)
 {
     switch (verdict->outcome) {
     case GB_PAPERS_WITHIN:
         return g_strdup("within error");
     case GB_PAPERS_OFF:
-        return g_strdup_printf("off by %.2g (%.1f standard errors)", verdict->difference,
+        return g_strdup_printf("off by %.*f (%.1f standard errors)",
+                               gb_papers_verdict_digits(verdict->error),
+                               verdict->difference,
                                fabs(verdict->difference) / verdict->error);
     case GB_PAPERS_UNJUDGED:
-        return g_strdup_printf("differs by %.2g, one cell without an error",
-                               verdict->difference);
+        return g_strdup_printf("differs by %.2g, without an error", verdict->difference);
     case GB_PAPERS_ABSENT:
         return g_strdup("not found in the runs");
     default:

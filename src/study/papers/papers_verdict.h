@@ -6,10 +6,10 @@
 #include "study/papers/papers_printed.h"
 
 enum gb_papers_outcome {
-    GB_PAPERS_WITHIN,      /* within error */
-    GB_PAPERS_OFF,         /* off by `difference` */
-    GB_PAPERS_UNJUDGED,    /* a single cell: no error here */
-    GB_PAPERS_ABSENT,      /* the runs have no such value */
+    GB_PAPERS_WITHIN,   /* within error */
+    GB_PAPERS_OFF,      /* off by `difference` */
+    GB_PAPERS_UNJUDGED, /* no error here: a single cell, or a fit that needs all cells */
+    GB_PAPERS_ABSENT,   /* the runs have no such value */
     GB_PAPERS_NOT_COMPUTED /* there are no runs */
 };
 
@@ -37,6 +37,9 @@ struct gb_papers_here {
  * printed->cells).  Upper bounds are for the magnitude. */
 struct gb_papers_verdict gb_papers_verdict_of(const struct gb_papers_printed *printed,
                                               const struct gb_papers_here *here);
+
+/* Decimals that show two digits of an error. */
+int gb_papers_verdict_digits(double error);
 
 /* "within error", "off by 0.02 (5.3 standard errors)", ...; g_free. */
 char *gb_papers_verdict_text(const struct gb_papers_verdict *verdict);
