@@ -26,6 +26,8 @@ enum { UNIAXIAL, BIAXIAL, ISOTROPIC };
 
 static const char stopping[] =
     "P1 states no stopping rule of its relaxation; `docs/p1-densities.md`";
+static const char first_contacts[] =
+    "in a small cell the first particles, which touch fewer others, weigh more";
 static const char slow_stage[] =
     "no slow stage of relaxation is found in the printed model; "
     "`docs/validation.md`";
@@ -44,9 +46,8 @@ static const char bed[] = "one bed of the paper; beds scatter, `docs/die.md`";
 static const struct gb_papers_comparison table[] = {
     {"P1-gamma", .measure = gb_papers_laws_surface_energy},
     {"P1-fig2-bound", .measure = gb_papers_laws_peel, .at = 0.01},
-    {"P1-k-initial", FIG5, MEAN, .read = gb_papers_measures_first,
-     .column = "coordination", .point = NM_9,
-     .why = "here after relaxation at the initial density, which closes a few contacts"},
+    {"P1-k-initial", FIG5, MEAN, .read = gb_papers_measures_initial, .point = NM_9,
+     .why = first_contacts},
     {"P1-fig5-9.7nm", FIG5, MEAN, LOADED, .at = 100, .point = NM_9, .why = stopping},
     {"P1-fig5-38nm", FIG5, MEAN, LOADED, .at = 100, .point = NM_38, .why = stopping},
     {"P1-fig5-difference", FIG5, DIFFERENCE, LOADED, POINTS, .at = 100, .point = NM_38,
@@ -191,18 +192,20 @@ const struct gb_papers_comparison *gb_papers_comparisons_table(void)
     return table;
 }
 
-/* What a row reads from every run of its first experiment; NULL: it reads none. */
+/* What a row reads from the runs of its points in its first experiment, NaN for the others;
+ * NULL: it reads none. */
 static double *read_runs(const struct gb_papers_comparison *row,
                          const struct gb_papers_data *data)
 {
     if (row->read == NULL) {
         return NULL;
     }
-    const struct gb_runset *set =
-        &data->experiment[gb_papers_experiments_index(row->experiment[0])].set;
-    double *reading = g_new(double, set->count + 1);
-    for (size_t i = 0; i < set->count; i++) {
-        reading[i] = row->read(&set->run[i], row);
+    const struct gb_papers_cells *cells =
+        &data->experiment[gb_papers_experiments_index(row->experiment[0])];
+    double *reading = g_new(double, cells->set.count + 1);
+    for (size_t i = 0; i < cells->set.count; i++) {
+        const bool used = cells->point[i] == row->point || cells->point[i] == row->other;
+        reading[i] = used ? row->read(&cells->set.run[i], row) : (double)NAN;
     }
     return reading;
 }

@@ -9,6 +9,7 @@
 #include "io/state/state_forces.h"
 #include "many/mean_curves.h"
 #include "measure/hardening.h"
+#include "run/experiment.h"
 
 double gb_papers_measures_loaded(const struct gb_runset_run *run,
                                  const struct gb_papers_comparison *row)
@@ -38,6 +39,23 @@ double gb_papers_measures_lateral(const struct gb_runset_run *run,
     double values[GB_READING_QUANTITIES];
     gb_reading_loaded(run->table, 1e6 * row->at, values);
     return values[GB_READING_PX] / values[GB_READING_PZ];
+}
+
+/* The structure is grown again: a run records it relaxed. */
+double gb_papers_measures_initial(const struct gb_runset_run *run,
+                                  const struct gb_papers_comparison *row)
+{
+    struct gb_experiment *experiment = NULL;
+    struct gb_state *state = NULL;
+    double coordination = NAN;
+    (void)row;
+    if (gb_experiment_create(&experiment, &run->params, NULL, NULL, NULL) &&
+        gb_experiment_state(experiment, &state, NULL)) {
+        coordination = state->point.coordination;
+    }
+    gb_state_destroy(state);
+    gb_experiment_destroy(experiment);
+    return coordination;
 }
 
 double gb_papers_measures_first(const struct gb_runset_run *run,

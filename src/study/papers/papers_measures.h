@@ -9,6 +9,7 @@ gb_papers_read gb_papers_measures_loaded;   /* quantity where loading reaches `a
 gb_papers_read gb_papers_measures_unloaded; /* quantity unloaded from `at` MPa */
 gb_papers_read gb_papers_measures_lost;     /* loaded less unloaded */
 gb_papers_read gb_papers_measures_lateral;  /* px/pz where loading reaches `at` MPa */
+gb_papers_read gb_papers_measures_initial;  /* coordination of the initial structure */
 gb_papers_read gb_papers_measures_first;    /* column in the first row of the run */
 gb_papers_read gb_papers_measures_last;     /* column in the last row of loading */
 gb_papers_read
