@@ -8,10 +8,10 @@
 
 #include "common/scene.h"
 #include "io/store.h"
-#include "many/axes.h"
 #include "many/ensemble.h"
 #include "many/reading.h"
-#include "many/sweep_table.h"
+#include "many/sweep/axes.h"
+#include "many/sweep/sweep_table.h"
 
 /* Grids, workers and tables of many runs.  The runs are stand-ins with known curves:
  * density = 0.3 + mu p / GPa + the seed's part, unloaded from 100 MPa by one point. */

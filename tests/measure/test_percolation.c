@@ -15,7 +15,7 @@ static struct gb_chain_growth growth(int dimension, double edge, int64_t count,
                                     .edges = {edge, dimension == 2 ? 1.0 : edge, edge},
                                     .r_eq = 0.99,
                                     .r_meso = 2.0,
-                                    .seed = seed};
+                                    .seed = {.value = seed}};
 }
 
 /* Whether a structure of `count` particles, grown for itself, spans every axis. */
@@ -29,9 +29,8 @@ static bool spans(const struct gb_chain_growth *from, int64_t count)
     double *position = g_new(double, (gsize)(3 * count));
     gb_cell_init(&cell, grow.dimension, grow.edges);
     g_assert_true(gb_chain_growth_run(&grow, position, &err));
-    g_assert_true(gb_structure_connectivity(&cell, count, position, NULL,
-                                            gb_percolation_reach(grow.r_eq), &found,
-                                            &err));
+    g_assert_true(gb_structure_connectivity(
+        &cell, count, position, NULL, gb_percolation_reach(grow.r_eq), &found, &err));
     g_free(position);
     return found.percolates[0] && found.percolates[2] &&
            (grow.dimension == 2 || found.percolates[1]);
@@ -47,7 +46,8 @@ static void test_least(void)
             struct gb_error err = {0};
             int64_t found = 0;
             g_assert_true(gb_percolation_find(&grow, &found, &err));
-            g_test_message("%d dimensions, seed %d: %d", dimension, (int)seed, (int)found);
+            g_test_message("%d dimensions, seed %d: %d", dimension, (int)seed,
+                           (int)found);
             g_assert_true(spans(&grow, found));
             g_assert_false(spans(&grow, found - 1));
         }

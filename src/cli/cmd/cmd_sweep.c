@@ -6,7 +6,7 @@
 #include "cli/batch_progress.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "many/param_sweep.h"
+#include "many/sweep/param_sweep.h"
 #include "run/cost.h"
 #include "study/sensitivity/sensitivity_text.h"
 

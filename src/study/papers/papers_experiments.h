@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "many/axes.h"
+#include "many/sweep/axes.h"
 
 /* The simulations that the printed numbers of the papers need: a preset with changes, an
  * axis, and how many cells at each of its values. */

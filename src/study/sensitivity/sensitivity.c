@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "many/sweep_readings.h"
+#include "many/sweep/sweep_readings.h"
 
 /* A range of values that is rounding beside their mean. */
 static const double least_range = 1e-9;

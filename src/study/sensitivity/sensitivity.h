@@ -3,7 +3,7 @@
 
 #include <glib.h>
 
-#include "many/param_sweep.h"
+#include "many/sweep/param_sweep.h"
 #include "measure/fit/sobol_indices.h"
 
 /* Sensitivities of what a sweep by a design measures: which varied key its figures depend
@@ -11,7 +11,7 @@
 
 /* One figure at one pressure. */
 struct gb_sensitivity_item {
-    size_t branch, pressure, quantity; /* indices as in many/sweep_readings.h */
+    size_t branch, pressure, quantity; /* indices as in many/sweep/sweep_readings.h */
     struct gb_sobol_indices indices;
 };
 

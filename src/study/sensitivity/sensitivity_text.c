@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "many/sweep_readings.h"
+#include "many/sweep/sweep_readings.h"
 
 static void add_number(GString *text, double value)
 {

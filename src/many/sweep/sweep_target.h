@@ -1,5 +1,5 @@
-#ifndef GB_MANY_SWEEP_TARGET_H
-#define GB_MANY_SWEEP_TARGET_H
+#ifndef GB_MANY_SWEEP_SWEEP_TARGET_H
+#define GB_MANY_SWEEP_SWEEP_TARGET_H
 
 #include <stdbool.h>
 #include <stddef.h>

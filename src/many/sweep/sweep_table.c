@@ -1,4 +1,4 @@
-#include "many/sweep_table.h"
+#include "many/sweep/sweep_table.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/units.h"
-#include "many/sweep_readings.h"
+#include "many/sweep/sweep_readings.h"
 #include "measure/fit/average.h"
 
 /* Default pressures reach from the first to the second, MPa. */

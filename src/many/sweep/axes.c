@@ -1,4 +1,4 @@
-#include "many/axes.h"
+#include "many/sweep/axes.h"
 
 #include <gsl/gsl_qrng.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "many/sweep_target.h"
+#include "many/sweep/sweep_target.h"
 
 #include <math.h>
 

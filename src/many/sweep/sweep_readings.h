@@ -1,9 +1,9 @@
-#ifndef GB_MANY_SWEEP_READINGS_H
-#define GB_MANY_SWEEP_READINGS_H
+#ifndef GB_MANY_SWEEP_SWEEP_READINGS_H
+#define GB_MANY_SWEEP_SWEEP_READINGS_H
 
 #include "many/ensemble.h"
 #include "many/reading.h"
-#include "many/sweep_table.h"
+#include "many/sweep/sweep_table.h"
 
 /* Branches of a curve on which a sweep reads its figures: loading, and unloading from a
  * pressure. */

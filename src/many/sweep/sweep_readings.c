@@ -1,4 +1,4 @@
-#include "many/sweep_readings.h"
+#include "many/sweep/sweep_readings.h"
 
 #include <math.h>
 

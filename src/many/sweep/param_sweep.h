@@ -1,10 +1,10 @@
-#ifndef GB_MANY_PARAM_SWEEP_H
-#define GB_MANY_PARAM_SWEEP_H
+#ifndef GB_MANY_SWEEP_PARAM_SWEEP_H
+#define GB_MANY_SWEEP_PARAM_SWEEP_H
 
-#include "many/axes.h"
 #include "many/ensemble.h"
-#include "many/sweep_table.h"
-#include "many/sweep_target.h"
+#include "many/sweep/axes.h"
+#include "many/sweep/sweep_table.h"
+#include "many/sweep/sweep_target.h"
 
 /* A grid of parameters with replicas, a directory for each run, and its tables. */
 struct gb_param_sweep {

@@ -1,4 +1,4 @@
-#include "many/param_sweep.h"
+#include "many/sweep/param_sweep.h"
 
 #include <glib.h>
 

@@ -1,13 +1,13 @@
-#ifndef GB_MANY_SWEEP_TABLE_H
-#define GB_MANY_SWEEP_TABLE_H
+#ifndef GB_MANY_SWEEP_SWEEP_TABLE_H
+#define GB_MANY_SWEEP_SWEEP_TABLE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 #include <glib.h>
 
-#include "many/axes.h"
 #include "many/ensemble.h"
+#include "many/sweep/axes.h"
 
 /* The tables of a sweep.  Both depend on the run directories alone: they are the same for
  * any number of workers and restarts. */

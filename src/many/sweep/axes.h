@@ -1,5 +1,5 @@
-#ifndef GB_MANY_AXES_H
-#define GB_MANY_AXES_H
+#ifndef GB_MANY_SWEEP_AXES_H
+#define GB_MANY_SWEEP_AXES_H
 
 #include <stdbool.h>
 #include <stddef.h>
