@@ -23,6 +23,19 @@ static void share_contacts(const struct gb_state *state, double *share)
     }
 }
 
+/* Groups whose share the caption gives. */
+enum { CAPTION_GROUPS = 4 };
+
+static void caption_share(struct gb_series *series, const struct gb_runset *set,
+                          size_t group, GString *share)
+{
+    char *label = set->groups > 1 ? gb_figures_label(set, group, NULL) : NULL;
+    g_string_replace(share, "+-", "\xc2\xb1", 0);
+    gb_series_caption(series, "%d contacts%s%s: %s %%.", published[0],
+                      label != NULL ? ", " : "", label != NULL ? label : "", share->str);
+    g_free(label);
+}
+
 /* Columns of the means follow that of the number of contacts, two to a group. */
 static void note_published(struct gb_series *series, const struct gb_runset *set)
 {
@@ -38,6 +51,9 @@ static void note_published(struct gb_series *series, const struct gb_runset *set
             }
             gb_series_note(series, "group %zu: %d contacts: %s %%", g + 1, contacts,
                            text->str);
+            if (k == 0 && set->groups <= CAPTION_GROUPS) {
+                caption_share(series, set, g, text);
+            }
             g_string_free(text, TRUE);
         }
     }
@@ -73,7 +89,7 @@ bool gb_figures_contacts(struct gb_series *series, const struct gb_figures_input
     note_published(series, set);
     join_points(series);
     gb_state_set_caption(series, &states);
-    series->x.low = 0.0;
+    series->x.low = series->y.low = 0.0;
     series->x.high = CONTACTS - 1;
     g_free(rows);
     gb_state_set_finish(&states);

@@ -109,14 +109,17 @@ static void draw_parameter(struct gb_series *series, const double *rate,
     for (int k = 0; k < GB_FIT_TERMS; k++) {
         double *value = gb_series_column(series, "drawn_%d_%s", k + 1, unit);
         double *half = gb_series_column(series, "half_%d_%s", k + 1, unit);
+        bool shown = false; /* on the logarithmic axis */
         for (size_t g = 0; g < series->rows; g++) {
             const struct gb_fit_decay *decay = &fits[g].decay;
             const struct gb_fit_value *from =
                 drawn == TIMES ? &decay->tau[k] : &decay->amplitude[k];
             value[g] = from->value;
             half[g] = 0.5 * (from->high - from->low);
+            shown = shown || from->value > 0.0;
         }
-        gb_series_draw(series, rate, value, half, GB_FIGURE_POINTS, k, names[drawn][k]);
+        gb_series_draw(series, rate, value, half, GB_FIGURE_POINTS, k,
+                       shown ? names[drawn][k] : NULL);
     }
     gb_series_caption(series,
                       "%s of the two exponentials of P2 (4); bars: 95 %% "
