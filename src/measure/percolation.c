@@ -50,11 +50,38 @@ static bool find_least(const struct gb_chain_growth *grow, const double *positio
     return true;
 }
 
+/* What became of a structure of a length. */
+enum growth { FULL, LOOSE, SPANNING, FAILED };
+
+/* Grows a structure and, where it spans the cell, finds the least number. */
+static enum growth grow_once(const struct gb_chain_growth *grow, int64_t *particles,
+                             struct gb_error *err)
+{
+    struct gb_error cause = {0};
+    bool spans = false;
+    double *position = gb_alloc_array((size_t)grow->count * 3, sizeof *position, err);
+    if (position == NULL) {
+        return FAILED;
+    }
+    enum growth outcome = FAILED;
+    if (!gb_chain_growth_run(grow, position, &cause)) {
+        outcome = cause.code == GB_ERR_INPUT ? FULL : FAILED;
+        gb_error_set(err, cause.code, "%s", cause.text);
+    } else if (percolates(grow, position, grow->count, &spans, err) &&
+               (!spans || find_least(grow, position, particles, err))) {
+        outcome = spans ? SPANNING : LOOSE;
+    }
+    gb_alloc_free(position);
+    return outcome;
+}
+
+/* Longer and longer structures; below a length that finds no room, by bisection. */
 bool gb_percolation_find(const struct gb_chain_growth *grow, int64_t *particles,
                          struct gb_error *err)
 {
     struct gb_chain_growth longer = *grow;
-    bool spans = false;
+    int64_t loose = 0; /* longest that does not span */
+    int64_t full = 0;  /* shortest that finds no room; 0: none yet */
     if (grow->model != NULL) {
         return gb_error_set(
             err, GB_ERR_INPUT,
@@ -62,17 +89,15 @@ bool gb_percolation_find(const struct gb_chain_growth *grow, int64_t *particles,
             "is sought for mono");
     }
     for (;;) {
-        double *position =
-            gb_alloc_array((size_t)longer.count * 3, sizeof *position, err);
-        const bool grown = position != NULL &&
-                           gb_chain_growth_run(&longer, position, err) &&
-                           percolates(&longer, position, longer.count, &spans, err);
-        const bool done =
-            grown && (!spans || find_least(&longer, position, particles, err));
-        gb_alloc_free(position);
-        if (!done || spans) {
-            return done;
+        const enum growth outcome = grow_once(&longer, particles, err);
+        if (outcome == SPANNING || outcome == FAILED) {
+            return outcome == SPANNING;
         }
-        longer.count = (int64_t)((double)longer.count * growth_factor) + 1;
+        *(outcome == FULL ? &full : &loose) = longer.count;
+        if (full > 0 && full - loose <= 1) {
+            return false; /* err says where it was full */
+        }
+        longer.count = full > 0 ? loose + (full - loose) / 2
+                                : (int64_t)((double)loose * growth_factor) + 1;
     }
 }

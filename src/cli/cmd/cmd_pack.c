@@ -235,7 +235,7 @@ int gb_cmd_pack(int argc, char **argv)
         "Structure of P1 Fig. 3, and the number of particles at which it percolates:\n"
         "  greenbody pack p1-fig3 --out fig3\n"
         "  greenbody snapshot fig3 -o fig3.png\n"
-        "  greenbody pack p1-fig3 structure.seed=1 --percolation 20\n"
+        "  greenbody pack p1-fig3 structure.seed=1 --percolation 400\n"
         "Powder that falls into the die, P3 Fig. 13:\n"
         "  greenbody pack p3-hertz-mu0 --every '5 us' --out bed\n"
         "  greenbody snapshot bed/snapshots/filling-000003.h5 -o fig13a.png"};
