@@ -24,7 +24,7 @@ is 'it ends with status 0' [ $? -eq 0 ]
 is 'an estimate comes first' grep -q '^estimated: about .* 8 runs' stderr
 is 'a directory per experiment and run' [ -f one/P1-fig5/diameter-38nm_seed-2/curve.csv ]
 is 'every run is done' [ "$(grep -c ',done,$' one/runs.csv)" -eq 8 ]
-is 'the page counts them' grep -q '^8 of 8 runs are done' one/papers.md
+is 'the page counts them' grep -q '^Runs done: 8 of 8' one/papers.md
 is 'a row has the number here, the printed one and a verdict' grep -qE \
     '^\| Fig. 5 \| density at 100 MPa \| 38 nm \| 0\.[45][0-9]* ± 0\.[0-9]* \| 0.496 \|  \| 2 \| (within|off)' \
     one/papers.md

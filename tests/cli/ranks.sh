@@ -28,6 +28,19 @@ sweep --out two
 is 'two ranks end with status 0' [ $? -eq 0 ]
 is 'and give the tables of one process' cmp one/sweep.csv two/sweep.csv
 is 'and its list of runs' cmp one/runs.csv two/runs.csv
+
+papers() { # directory
+    $start "$greenbody" papers --fast --only P1-fig6 --count 100 --cells 2 --out "$1" \
+        >stdout 2>stderr
+}
+
+start=
+papers three
+start="$ranks -np 2"
+papers four
+is 'the numbers of the papers are those of one process' cmp three/papers.csv four/papers.csv
+is 'and their list of runs' cmp three/runs.csv four/runs.csv
+
 start='mpirun --oversubscribe -np 2'
 sweep --at 5 --out out
 is 'wrong input ends all ranks with its status' [ $? -eq 2 ]

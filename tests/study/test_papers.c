@@ -31,14 +31,14 @@ static void test_within(void)
 {
     const struct gb_papers_printed printed = {.value = 5.0, .error = 0.04, .cells = NAN};
     struct gb_papers_verdict verdict =
-        judge(printed, (struct gb_papers_here){5.0999, 0.03, 10, false});
+        judge(printed, (struct gb_papers_here){5.0999, 0.03, 10, false, 0.0});
     g_assert_cmpint(verdict.outcome, ==, GB_PAPERS_WITHIN);
     check_text(&verdict, "within error");
-    verdict = judge(printed, (struct gb_papers_here){4.8999, 0.03, 10, false});
+    verdict = judge(printed, (struct gb_papers_here){4.8999, 0.03, 10, false, 0.0});
     g_assert_cmpint(verdict.outcome, ==, GB_PAPERS_OFF);
     g_assert_cmpfloat_with_epsilon(verdict.error, 0.05, 1e-15);
     check_text(&verdict, "off by -0.100 (2.0 standard errors)");
-    verdict = judge(printed, (struct gb_papers_here){5.5, 0.03, 10, false});
+    verdict = judge(printed, (struct gb_papers_here){5.5, 0.03, 10, false, 0.0});
     check_text(&verdict, "off by 0.500 (10.0 standard errors)");
 }
 
@@ -47,37 +47,49 @@ static void test_scatter_of_the_paper(void)
 {
     const struct gb_papers_printed printed = {.value = 1.0, .error = 0.0, .cells = 4};
     const struct gb_papers_verdict verdict =
-        judge(printed, (struct gb_papers_here){1.4, 0.1, 16, false});
+        judge(printed, (struct gb_papers_here){1.4, 0.1, 16, false, 0.0});
     g_assert_cmpfloat_with_epsilon(verdict.error, hypot(0.1, 0.2), 1e-15);
     g_assert_cmpint(verdict.outcome, ==, GB_PAPERS_WITHIN);
+    /* cells of an eighth of the paper's particles scatter sqrt 8 times as much */
+    g_assert_cmpfloat_with_epsilon(
+        judge(printed, (struct gb_papers_here){1.4, 0.1, 16, false, 0.125}).error,
+        hypot(0.1, 0.2 / sqrt(8.0)), 1e-15);
 }
 
 static void test_bound(void)
 {
     const struct gb_papers_printed printed = {
         .value = 1.0, .cells = NAN, .relation = GB_PAPERS_BELOW};
-    g_assert_cmpint(judge(printed, (struct gb_papers_here){-0.7, 0.1, 9, false}).outcome,
-                    ==, GB_PAPERS_WITHIN);
-    g_assert_cmpint(judge(printed, (struct gb_papers_here){1.1, 0.1, 9, false}).outcome,
-                    ==, GB_PAPERS_WITHIN);
-    g_assert_cmpint(judge(printed, (struct gb_papers_here){-1.5, 0.1, 9, false}).outcome,
-                    ==, GB_PAPERS_OFF);
+    g_assert_cmpint(
+        judge(printed, (struct gb_papers_here){-0.7, 0.1, 9, false, 0.0}).outcome, ==,
+        GB_PAPERS_WITHIN);
+    g_assert_cmpint(
+        judge(printed, (struct gb_papers_here){1.1, 0.1, 9, false, 0.0}).outcome, ==,
+        GB_PAPERS_WITHIN);
+    g_assert_cmpint(
+        judge(printed, (struct gb_papers_here){-1.5, 0.1, 9, false, 0.0}).outcome, ==,
+        GB_PAPERS_OFF);
 }
 
 static void test_no_verdict(void)
 {
     const struct gb_papers_printed printed = {.value = 1.0, .error = 0.1, .cells = 1};
-    g_assert_cmpint(judge(printed, (struct gb_papers_here){1.0, NAN, 1, false}).outcome,
-                    ==, GB_PAPERS_UNJUDGED);
-    g_assert_cmpint(judge(printed, (struct gb_papers_here){NAN, NAN, 3, false}).outcome,
-                    ==, GB_PAPERS_ABSENT);
-    g_assert_cmpint(judge(printed, (struct gb_papers_here){NAN, NAN, 0, false}).outcome,
-                    ==, GB_PAPERS_NOT_COMPUTED);
+    g_assert_cmpint(
+        judge(printed, (struct gb_papers_here){1.0, NAN, 1, false, 0.0}).outcome, ==,
+        GB_PAPERS_UNJUDGED);
+    g_assert_cmpint(
+        judge(printed, (struct gb_papers_here){NAN, NAN, 3, false, 0.0}).outcome, ==,
+        GB_PAPERS_ABSENT);
+    g_assert_cmpint(
+        judge(printed, (struct gb_papers_here){NAN, NAN, 0, false, 0.0}).outcome, ==,
+        GB_PAPERS_NOT_COMPUTED);
     /* a law has no error of its own */
-    g_assert_cmpint(judge(printed, (struct gb_papers_here){1.15, NAN, 0, true}).outcome,
-                    ==, GB_PAPERS_WITHIN);
-    g_assert_cmpint(judge(printed, (struct gb_papers_here){1.25, NAN, 0, true}).outcome,
-                    ==, GB_PAPERS_OFF);
+    g_assert_cmpint(
+        judge(printed, (struct gb_papers_here){1.15, NAN, 0, true, 0.0}).outcome, ==,
+        GB_PAPERS_WITHIN);
+    g_assert_cmpint(
+        judge(printed, (struct gb_papers_here){1.25, NAN, 0, true, 0.0}).outcome, ==,
+        GB_PAPERS_OFF);
 }
 
 /* --- the file of printed numbers --------------------------------------------------------- */

@@ -26,6 +26,23 @@ bool gb_papers_selected(const struct gb_papers_comparison *comparison,
     return false;
 }
 
+/* Particles of a cell over those of the full experiment, which are the paper's. */
+static double size_of(const struct gb_papers_comparison *comparison,
+                      const struct gb_papers_data *data)
+{
+    struct gb_params full;
+    if (comparison->experiment[0] == NULL) {
+        return 1.0;
+    }
+    const size_t index = gb_papers_experiments_index(comparison->experiment[0]);
+    const struct gb_runset *set = &data->experiment[index].set;
+    return set->count > 0 &&
+                   gb_papers_experiments_params(&gb_papers_experiments_table()[index],
+                                                GB_PAPERS_SIZES, 0, &full, NULL)
+               ? (double)set->run[0].params.count / (double)full.count
+               : 1.0;
+}
+
 static bool evaluate(struct gb_papers_result *result,
                      const struct gb_papers_comparison *comparison,
                      const struct gb_papers_numbers *numbers,
@@ -41,6 +58,7 @@ static bool evaluate(struct gb_papers_result *result,
     result->here.exact = comparison->experiment[0] == NULL;
     result->here.cells = gb_papers_comparisons_value(
         comparison, data, &result->here.value, &result->here.error);
+    result->here.size = size_of(comparison, data);
     result->verdict = gb_papers_verdict_of(result->printed, &result->here);
     return true;
 }

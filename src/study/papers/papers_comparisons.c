@@ -225,6 +225,31 @@ static double variance(const struct gb_papers_comparison *row,
     return error * error;
 }
 
+static size_t count_cells(const struct gb_papers_data *data, const char *experiment,
+                          size_t point)
+{
+    const struct gb_papers_cells *cells =
+        &data->experiment[gb_papers_experiments_index(experiment)];
+    size_t count = 0;
+    for (size_t i = 0; i < cells->set.count; i++) {
+        count += cells->point[i] == point;
+    }
+    return count;
+}
+
+/* Cells of the first experiment at the point of a row, of a difference the fewer ones. */
+static size_t cells_of(const struct gb_papers_comparison *row,
+                       const struct gb_papers_data *data)
+{
+    if (row->experiment[0] == NULL) {
+        return 0;
+    }
+    const size_t count = count_cells(data, row->experiment[0], row->point);
+    return row->measure == gb_papers_measures_difference
+               ? MIN(count, count_cells(data, row->experiment[0], row->other))
+               : count;
+}
+
 size_t gb_papers_comparisons_value(const struct gb_papers_comparison *row,
                                    const struct gb_papers_data *data, double *value,
                                    double *error)
@@ -233,17 +258,15 @@ size_t gb_papers_comparisons_value(const struct gb_papers_comparison *row,
     const struct gb_papers_view all = {data, GB_PAPERS_EXPERIMENTS_MOST, 0, reading};
     const double scale = row->scale != 0.0 ? row->scale : 1.0;
     double sum = row->experiment[0] != NULL ? 0.0 : (double)NAN;
-    size_t first = 0;
     *value = scale * row->measure(&all, row);
     for (int e = 0; e < GB_PAPERS_USED && row->experiment[e] != NULL; e++) {
         const size_t index = gb_papers_experiments_index(row->experiment[e]);
         const size_t cells = data->experiment[index].most;
-        first = e == 0 ? cells : first;
         if (cells > 1 || e == 0) { /* one cell alone weighs nothing in a fit of several */
             sum += isfinite(*value) ? variance(row, &all, index) : (double)NAN;
         }
     }
     *error = scale * sqrt(sum);
     g_free(reading);
-    return first;
+    return cells_of(row, data);
 }

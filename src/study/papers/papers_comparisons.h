@@ -42,8 +42,8 @@ const struct gb_papers_comparison *gb_papers_comparisons_table(void);
 
 /* Value of a row and its standard error by the jackknife over the cells of each experiment
  * that it uses; cells of equal seed at different points of one experiment are left out
- * together.  error NaN: fewer than two cells, or no runs at all (laws).  Returns the number
- * of cells of the first experiment. */
+ * together.  error NaN: fewer than two cells, or no runs at all (laws).  Returns the cells of
+ * the first experiment at the point, of a difference the fewer ones. */
 size_t gb_papers_comparisons_value(const struct gb_papers_comparison *row,
                                    const struct gb_papers_data *data, double *value,
                                    double *error);

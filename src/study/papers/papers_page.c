@@ -96,7 +96,7 @@ static void add_count(GString *text, const struct gb_papers_results *results)
                     {GB_PAPERS_UNJUDGED, "without an error"},
                     {GB_PAPERS_ABSENT, "not found in the runs"},
                     {GB_PAPERS_NOT_COMPUTED, "not computed"}};
-    g_string_append_printf(text, "%zu comparisons: ", results->count);
+    g_string_append_printf(text, "Comparisons: %zu, ", results->count);
     bool first = true;
     for (size_t o = 0; o < G_N_ELEMENTS(outcomes); o++) {
         size_t count = 0;
@@ -186,7 +186,7 @@ static void add_runs(GString *text, const struct gb_papers_plan *plan)
     for (size_t k = 0; k < plan->count; k++) {
         done += plan->ensemble.run[k].ended && plan->ensemble.run[k].error.code == GB_OK;
     }
-    g_string_append_printf(text, "%zu of %zu runs are done. ", done, plan->count);
+    g_string_append_printf(text, "Runs done: %zu of %zu. ", done, plan->count);
 }
 
 GString *gb_papers_page_text(const struct gb_papers_results *results,

@@ -15,8 +15,9 @@ static double error_of(const struct gb_papers_printed *printed,
                        const struct gb_papers_here *here)
 {
     const double own = here->exact ? 0.0 : here->error;
+    const double size = here->size > 0.0 ? here->size : 1.0;
     const double sampled = isfinite(printed->cells) && !here->exact
-                               ? own * sqrt((double)here->cells / printed->cells)
+                               ? own * sqrt(size * (double)here->cells / printed->cells)
                                : 0.0;
     return hypot(hypot(own, sampled), printed->error);
 }

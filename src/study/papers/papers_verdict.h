@@ -26,6 +26,7 @@ struct gb_papers_here {
     double error; /* standard error; NaN: unknown */
     size_t cells; /* 0: no runs */
     bool exact;   /* from the laws alone, without runs and error */
+    double size;  /* of a cell over the paper's, by particles; 0: 1 */
 };
 
 /* Differences up to so many standard errors are within error. */
@@ -33,8 +34,8 @@ struct gb_papers_here {
 
 /* The standard error of the difference is the root of the summed squares of the error here,
  * of the printed error with the rounding of its digits, and, where the paper says how many
- * cells it averages, of the error of its mean, here->error sqrt(here->cells /
- * printed->cells).  Upper bounds are for the magnitude. */
+ * cells it averages, of the error of its mean, here->error sqrt(here->size
+ * here->cells / printed->cells): as many particles scatter as much.  Upper bounds are for the magnitude. */
 struct gb_papers_verdict gb_papers_verdict_of(const struct gb_papers_printed *printed,
                                               const struct gb_papers_here *here);
 
