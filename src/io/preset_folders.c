@@ -69,6 +69,10 @@ char *gb_preset_folders_find_data(const char *file)
 {
     GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
     char *path = NULL;
+    const char *given = g_getenv("GB_DATA_DIR");
+    if (given != NULL && *given != '\0') {
+        g_ptr_array_add(list, g_strdup(given));
+    }
     g_ptr_array_add(list, g_strdup(GB_DATA_INSTALL_DIR));
     add_source_tree(list, "assets/data");
     for (guint i = 0; i < list->len && path == NULL; i++) {

@@ -7,8 +7,8 @@
 /* Path of a preset by name in newly allocated memory (g_free), or NULL. */
 char *gb_preset_folders_find(const char *name);
 
-/* Path of a file of data that belongs to the program, in the installed folder or in
- * assets/data beside the source tree (g_free), or NULL. */
+/* Path of a file of data that belongs to the program, in GB_DATA_DIR, the installed folder
+ * or assets/data beside the source tree (g_free), or NULL. */
 char *gb_preset_folders_find_data(const char *file);
 
 /* Names of all presets that can be found, sorted, NULL-terminated (g_strfreev). */

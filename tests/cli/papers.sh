@@ -3,6 +3,7 @@
 # printed numbers in figures, wrong input.
 # Usage: papers.sh GREENBODY PRESET_FOLDER
 . "$(dirname "$0")/folder.sh"
+export GB_DATA_DIR="$presets/../assets/data"
 
 papers() { # more arguments: eight tiny runs of P1 Fig. 5
     "$greenbody" papers --fast --only P1-fig5 --count 100 --cells 2 "$@" >stdout 2>stderr

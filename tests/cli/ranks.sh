@@ -2,6 +2,7 @@
 # `greenbody sweep` under mpirun: the tables of one process, also when a rank is killed.
 # Usage: ranks.sh GREENBODY PRESET_FOLDER
 . "$(dirname "$0")/folder.sh"
+export GB_DATA_DIR="$presets/../assets/data"
 
 # for this test only: a container's root may start ranks
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
