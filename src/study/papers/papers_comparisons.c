@@ -22,6 +22,7 @@ enum { UNIAXIAL, BIAXIAL, ISOTROPIC };
 #define POINTS     .scale = 100.0
 #define ALL_RATES  .experiment = {"P2-v1", "P2-v2", "P2-v3", "P2-v4", "P2-v5"}
 #define PRESSURE   .read = gb_papers_measures_at_density, .column = "p_MPa", .at = 0.95
+#define OPTIONS    "radius current, motion full", {"P2-full"}, MEAN
 #define CONTACTS   .read = gb_papers_measures_at_density, .column = "coordination"
 
 static const char stopping[] =
@@ -109,6 +110,9 @@ static const struct gb_papers_comparison table[] = {
     {"P2-table1-v3-p", NULL, {"P2-v3"}, MEAN, PRESSURE, .why = printed_radius},
     {"P2-table1-v4-p", NULL, {"P2-v4"}, MEAN, PRESSURE, .why = printed_radius},
     {"P2-table1-v5-p", NULL, {"P2-v5"}, MEAN, PRESSURE, .why = printed_radius},
+    {"P2-table1-v1-p", OPTIONS, PRESSURE, .point = 0},
+    {"P2-table1-v2-p", OPTIONS, PRESSURE, .point = 1},
+    {"P2-table1-v3-p", OPTIONS, PRESSURE, .point = 2},
     {"P2-table1-v1-p0", .experiment = {"P2-v1"}, .measure = gb_papers_rates_p0,
      .why = printed_radius},
     {"P2-table1-v2-p0", .experiment = {"P2-v2"}, .measure = gb_papers_rates_p0,
