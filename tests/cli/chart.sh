@@ -25,6 +25,8 @@ is 'without --out nothing is done' refused "$greenbody" chart mine.ini
 is 'a key that is no setting' refused "$greenbody" chart mine.ini --vary contact.mu=0.1 \
     --out out
 is 'a budget that is no time' refused "$greenbody" chart mine.ini --budget 10 --out out
+is 'a seed that a table of numbers cannot keep' refused "$greenbody" chart mine.ini \
+    structure.seed=9007199254740993 --out out
 is 'one seed says nothing' refused "$greenbody" chart mine.ini --seeds 1 --out out
 is 'and nothing is made' [ ! -e out ]
 

@@ -1,5 +1,6 @@
 #include "study/chart/chart_plan.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -310,6 +311,17 @@ static bool given(const char *const *list)
     return list != NULL && list[0] != NULL;
 }
 
+/* chart.csv is read with numbers of 53 bits. */
+static bool check_seeds(const struct gb_params *params, int seeds, struct gb_error *err)
+{
+    const uint64_t most = (UINT64_C(1) << 53) - (uint64_t)seeds;
+    return params->seed <= most ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "structure.seed = %" PRIu64 ": accepted up to %" PRIu64
+                        " in a chart of %d seeds",
+                        params->seed, most, seeds);
+}
+
 bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *params,
                         const char *const *vary, const char *const *reference,
                         const char *pressures, int seeds, struct gb_error *err)
@@ -317,7 +329,7 @@ bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *para
     *plan = (struct gb_chart_plan){.params = *params, .seeds = seeds};
     GArray *settings = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_setting));
     bool good = gb_loading_kind_check_cell(params, "a chart", err) &&
-                plan_pressures(plan, pressures, err) &&
+                check_seeds(params, seeds, err) && plan_pressures(plan, pressures, err) &&
                 add_reference(settings, params, reference, err) &&
                 add(settings, params, err);
     if (good && given(vary)) {
