@@ -26,6 +26,7 @@ static const struct gb_commands_row rows[] = {
     {packings, "pack", "the initial structure alone", gb_cmd_pack},
     {packings, "sizes", "log-normal law fitted to measured particle sizes", gb_cmd_sizes},
     {packings, "snapshot", "picture of a packing", gb_cmd_snapshot},
+    {packings, "export", "states for OVITO, LAMMPS, ASE, ParaView", gb_cmd_export},
     {results, "moduli", "elastic moduli at states of a run, or of a lattice",
      gb_cmd_moduli},
     {results, "plot", "figures over one or more runs, and of contact laws", gb_cmd_plot},

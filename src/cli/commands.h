@@ -40,6 +40,7 @@ int gb_cmd_resume(int argc, char **argv);
 int gb_cmd_run(int argc, char **argv);
 int gb_cmd_sizes(int argc, char **argv);
 int gb_cmd_snapshot(int argc, char **argv);
+int gb_cmd_export(int argc, char **argv);
 int gb_cmd_stability(int argc, char **argv);
 int gb_cmd_strength(int argc, char **argv);
 int gb_cmd_sweep(int argc, char **argv);

@@ -9,7 +9,7 @@
 #include "base/alloc.h"
 #include "base/mat.h"
 #include "draw/image/palette.h"
-#include "draw/particle_stress.h"
+#include "io/state/state_stress.h"
 #include "pack/cell/cell.h"
 
 /* Quantiles at the ends of the scale: outliers would extend it. */
@@ -123,7 +123,7 @@ static bool colour_pressure(struct gb_picture_style *style, const struct gb_stat
     if (value == NULL) {
         return false;
     }
-    gb_particle_stress_mean(state, value);
+    gb_state_stress_mean(state, value);
     for (size_t i = 0; i < style->count; i++) {
         value[i] *= 1e-6;
     }

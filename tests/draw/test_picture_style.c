@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "draw/image/palette.h"
-#include "draw/particle_stress.h"
+#include "io/state/state_stress.h"
 #include "draw/picture_colours.h"
 #include "draw/picture_style_parse.h"
 
@@ -80,7 +80,7 @@ static void test_pressure(void)
     double pressure[4];
     double sum = 0.0;
     double solid = 0.0;
-    gb_particle_stress_mean(state, pressure);
+    gb_state_stress_mean(state, pressure);
     for (int i = 0; i < 4; i++) {
         sum += pressure[i] * pow(state->radius[i], 3.0);
         solid += pow(state->radius[i], 3.0);

@@ -1,0 +1,186 @@
+#include <math.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/file.h"
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "figures/states.h"
+#include "io/export/export.h"
+#include "io/follow.h"
+
+/* The options of the command line. */
+struct request {
+    char *format, *at, *output, *contacts;
+    gboolean all, force;
+};
+
+struct export
+{
+    const struct gb_export_format *format;
+    const char *source;
+    double density_kg_m3; /* NaN: the source is a file */
+    GString *particles, *contacts;
+};
+
+static bool check_request(const struct request *request, char **words, struct export *job,
+                          struct gb_error *err)
+{
+    if (words == NULL || words[0] == NULL || words[1] != NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "export: one run directory or state file is accepted");
+    }
+    if (request->output == NULL || request->format == NULL) {
+        return gb_error_set(err, GB_ERR_INPUT, "export needs --format NAME and -o FILE");
+    }
+    if (request->all && request->at != NULL) {
+        return gb_error_set(err, GB_ERR_INPUT, "--all and --at: one of them is accepted");
+    }
+    job->source = words[0];
+    job->format = gb_export_find(request->format, err);
+    if (job->format == NULL) {
+        return false;
+    }
+    return !request->all || job->format->trajectory ||
+           gb_error_set(err, GB_ERR_INPUT, "--all: %s has one state; accepted --at",
+                        job->format->name);
+}
+
+static bool check_target(const char *path, gboolean force, struct gb_error *err)
+{
+    if (path == NULL) {
+        return true;
+    }
+    if (!force && g_file_test(path, G_FILE_TEST_EXISTS)) {
+        return gb_error_set(err, GB_ERR_INPUT, "%.300s exists; accepted with --force",
+                            path);
+    }
+    return gb_file_check_target(path, err);
+}
+
+static bool add(struct export *job, struct gb_state *state, int64_t index,
+                struct gb_error *err)
+{
+    const bool good = gb_export_add(job->format, state, job->density_kg_m3, index,
+                                    job->particles, job->contacts, err);
+    gb_state_destroy(state);
+    return good;
+}
+
+/* All kept states, or one. */
+static bool collect(struct export *job, const struct request *request,
+                    struct gb_error *err)
+{
+    struct gb_state *state = NULL;
+    if (!request->all) {
+        return gb_states_read(&state, job->source, request->at, err) &&
+               add(job, state, 0, err);
+    }
+    GPtrArray *paths = gb_states_along(job->source, err);
+    bool good = paths != NULL;
+    for (guint i = 0; good && i < paths->len; i++) {
+        good = gb_state_read(&state, g_ptr_array_index(paths, i), err) &&
+               add(job, state, i, err);
+    }
+    if (paths != NULL) {
+        g_ptr_array_unref(paths);
+    }
+    return good;
+}
+
+/* A state file alone does not say what the particles weigh. */
+static double solid_density(const char *source)
+{
+    struct gb_params params;
+    return g_file_test(source, G_FILE_TEST_IS_DIR) &&
+                   gb_follow_params(source, &params, NULL)
+               ? params.density_kg_m3
+               : (double)NAN;
+}
+
+static bool write_text(const char *path, const GString *text, struct gb_error *err)
+{
+    return path == NULL || gb_file_replace(path, text->str, text->len, err);
+}
+
+static bool perform(const struct request *request, char **words, struct gb_error *err)
+{
+    struct export job = {0};
+    if (!check_request(request, words, &job, err) ||
+        !check_target(request->output, request->force, err) ||
+        !check_target(request->contacts, request->force, err)) {
+        return false;
+    }
+    if (request->contacts != NULL &&
+        gb_file_is_same(request->contacts, request->output)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--contacts %.300s: accepted a name other than that of -o",
+                            request->contacts);
+    }
+    job.density_kg_m3 = solid_density(job.source);
+    job.particles = g_string_new(NULL);
+    job.contacts = request->contacts != NULL ? g_string_new(NULL) : NULL;
+    const bool good = collect(&job, request, err) &&
+                      write_text(request->contacts, job.contacts, err) &&
+                      write_text(request->output, job.particles, err);
+    g_string_free(job.particles, TRUE);
+    if (job.contacts != NULL) {
+        g_string_free(job.contacts, TRUE);
+    }
+    return good;
+}
+
+/* The formats for the help page; g_free. */
+static char *describe(void)
+{
+    GString *text = g_string_new("Formats:\n");
+    const struct gb_export_format *format;
+    for (size_t i = 0; (format = gb_export_at(i)) != NULL; i++) {
+        g_string_append_printf(text, "  %-13s %s\n", format->name, format->doc);
+    }
+    g_string_append(text,
+                    "\nLengths in nm, forces in nN, stresses in MPa, positive in "
+                    "compression.  Contacts\nare a dump of LAMMPS beside its formats, "
+                    "else a table.\n\n"
+                    "  greenbody export run --format extxyz --all -o run.xyz\n"
+                    "  greenbody export run --format lammps-dump --at 'p=100 MPa' \\\n"
+                    "    --contacts contacts.dump -o run.dump");
+    return g_string_free(text, FALSE);
+}
+
+int gb_cmd_export(int argc, char **argv)
+{
+    struct request request = {0};
+    struct gb_error err = {0};
+    char **words = NULL;
+    int status = 0;
+    char *description = describe();
+    const struct gb_options_page page = {
+        "DIR or STATE.h5", "Packings and contacts of a run as files of other programs.",
+        description};
+    const GOptionEntry entries[] = {
+        {"format", 0, 0, G_OPTION_ARG_STRING, &request.format, "one of those below",
+         "NAME"},
+        {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
+         "a kept state, as \"p=100 MPa\" or \"density=0.5\" (the last)", "POINT"},
+        {"all", 0, 0, G_OPTION_ARG_NONE, &request.all,
+         "all kept states in the order of the run (output.snapshots_at)", NULL},
+        {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, "the particles",
+         "FILE"},
+        {"contacts", 0, 0, G_OPTION_ARG_FILENAME, &request.contacts,
+         "the contacts, with forces and bridges", "FILE"},
+        {"force", 0, 0, G_OPTION_ARG_NONE, &request.force, "replace existing files",
+         NULL},
+        {0}};
+    if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
+        status = perform(&request, words, &err) ? 0 : gb_options_fail(&err);
+    }
+    g_free(request.format);
+    g_free(request.at);
+    g_free(request.output);
+    g_free(request.contacts);
+    g_strfreev(words);
+    g_free(description);
+    return status;
+}

@@ -1,0 +1,59 @@
+#include "io/export/export.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+#include "io/export/export_formats.h"
+#include "io/state/state_stress.h"
+
+static const struct gb_export_format formats[] = {
+    {"extxyz", "extended XYZ (OVITO, ASE)", true, gb_export_extxyz_write},
+    {"lammps-dump", "dump of LAMMPS, contacts as a local dump (OVITO)", true,
+     gb_export_lammps_dump},
+    {"lammps-data", "data file of LAMMPS, atom_style sphere, units nano", false,
+     gb_export_lammps_data},
+    {"csv", "tables of particles and contacts (ParaView, spreadsheets)", false,
+     gb_export_csv_write},
+};
+
+const struct gb_export_format *gb_export_at(size_t index)
+{
+    return index < G_N_ELEMENTS(formats) ? &formats[index] : NULL;
+}
+
+const struct gb_export_format *gb_export_find(const char *name, struct gb_error *err)
+{
+    GString *names = g_string_new(NULL);
+    const struct gb_export_format *found = NULL;
+    for (size_t i = 0; i < G_N_ELEMENTS(formats); i++) {
+        g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", formats[i].name);
+        found = strcmp(formats[i].name, name) == 0 ? &formats[i] : found;
+    }
+    if (found == NULL) {
+        gb_error_set(err, GB_ERR_INPUT, "--format %.60s: accepted %s", name, names->str);
+    }
+    g_string_free(names, TRUE);
+    return found;
+}
+
+bool gb_export_add(const struct gb_export_format *format, const struct gb_state *state,
+                   double density_kg_m3, int64_t index, GString *particles,
+                   GString *contacts, struct gb_error *err)
+{
+    const double metre = state->metre_per_length;
+    struct gb_export_frame frame = {
+        .state = state,
+        .density_kg_m3 = density_kg_m3,
+        .index = index,
+        .nm = metre * 1e9,
+        .nn = state->pascal_per_stress * metre * metre * 1e9,
+        .stress = gb_alloc_array((size_t)state->count * 6, sizeof(double), err),
+    };
+    if (frame.stress == NULL) {
+        return false;
+    }
+    gb_state_stress_tensor(state, frame.stress);
+    format->write(&frame, particles, contacts);
+    gb_alloc_free(frame.stress);
+    return true;
+}

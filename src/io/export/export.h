@@ -1,0 +1,41 @@
+#ifndef GB_IO_EXPORT_EXPORT_H
+#define GB_IO_EXPORT_EXPORT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <glib.h>
+
+#include "io/state/state.h"
+
+/* States as files of other programs.  Lengths in nm, forces in nN, stresses in MPa, positive
+ * in compression unless a format says otherwise; the file names its units and the run. */
+/* A state in the units of a file. */
+struct gb_export_frame {
+    const struct gb_state *state;
+    double density_kg_m3; /* of the solid; NaN: unknown */
+    int64_t index;        /* of the frame, from 0 */
+    double *stress;       /* count x 6, Pa: xx, yy, zz, xy, xz, yz */
+    double nm;            /* of a reduced length */
+    double nn;            /* of a reduced force */
+};
+
+struct gb_export_format {
+    const char *name, *doc;
+    bool trajectory; /* several states in one file */
+    /* Appends a frame; contacts NULL: none are wanted. */
+    void (*write)(const struct gb_export_frame *frame, GString *particles,
+                  GString *contacts);
+};
+
+/* By name; NULL and err, which lists the names. */
+const struct gb_export_format *gb_export_find(const char *name, struct gb_error *err);
+/* Row by row; NULL behind the last. */
+const struct gb_export_format *gb_export_at(size_t index);
+
+/* Appends a state to the texts of a format.  Errors: GB_ERR_MEMORY. */
+bool gb_export_add(const struct gb_export_format *format, const struct gb_state *state,
+                   double density_kg_m3, int64_t index, GString *particles,
+                   GString *contacts, struct gb_error *err);
+
+#endif

@@ -1,0 +1,72 @@
+#include <inttypes.h>
+#include <math.h>
+
+#include "io/export/export_formats.h"
+#include "io/export/export_text.h"
+
+enum { STRESSES = 6 };
+
+void gb_export_csv_contacts(const struct gb_export_frame *frame, GString *text)
+{
+    if (frame->index == 0) {
+        g_string_append(text, "# ");
+        gb_export_text_provenance(text, frame);
+        g_string_append(text,
+                        "\n# force on particle i, branch vector from j to the nearest "
+                        "image of i\nframe,i,j,fx_nN,fy_nN,fz_nN,normal_nN,bx_nm,by_nm,"
+                        "bz_nm,overlap_nm,bridged\n");
+    }
+    for (int64_t k = 0; k < frame->state->pair_count; k++) {
+        const struct gb_export_contact contact = gb_export_text_contact(frame, k);
+        g_string_append_printf(text, "%" PRId64 ",%" PRId64 ",%" PRId64 ",", frame->index,
+                               contact.first + 1, contact.second + 1);
+        for (int c = 0; c < 3; c++) {
+            gb_export_text_number(text, contact.force[c], ',');
+        }
+        gb_export_text_number(text, contact.normal, ',');
+        for (int c = 0; c < 3; c++) {
+            gb_export_text_number(text, contact.branch[c], ',');
+        }
+        gb_export_text_number(text, contact.overlap, ',');
+        g_string_append(text, contact.bridged ? "1\n" : "0\n");
+    }
+}
+
+static void add_head(const struct gb_export_frame *frame, GString *text)
+{
+    const struct gb_state *state = frame->state;
+    g_string_append(text, "# ");
+    gb_export_text_provenance(text, frame);
+    g_string_append(text, "\n# cell, nm: ");
+    for (int k = 0; k < 3; k++) {
+        gb_export_text_number(text, frame->nm * state->cell[k], ' ');
+    }
+    g_string_append(text, "tilt xy xz yz, nm: ");
+    for (int k = 0; k < 3; k++) {
+        gb_export_text_number(text, frame->nm * state->tilt[k], k < 2 ? ' ' : '\n');
+    }
+    g_string_append(text, "id,x_nm,y_nm,z_nm,diameter_nm,coordination,sxx_MPa,syy_MPa,"
+                          "szz_MPa,sxy_MPa,sxz_MPa,syz_MPa\n");
+}
+
+void gb_export_csv_write(const struct gb_export_frame *frame, GString *particles,
+                         GString *contacts)
+{
+    const struct gb_state *state = frame->state;
+    add_head(frame, particles);
+    for (int64_t i = 0; i < state->count; i++) {
+        g_string_append_printf(particles, "%" PRId64 ",", i + 1);
+        for (int c = 0; c < 3; c++) {
+            gb_export_text_number(particles, frame->nm * state->position[3 * i + c], ',');
+        }
+        gb_export_text_number(particles, 2.0 * frame->nm * state->radius[i], ',');
+        g_string_append_printf(particles, "%" PRId32 ",", state->contacts[i]);
+        for (int c = 0; c < STRESSES; c++) {
+            gb_export_text_number(particles, frame->stress[STRESSES * i + c] / 1e6,
+                                  c < STRESSES - 1 ? ',' : '\n');
+        }
+    }
+    if (contacts != NULL) {
+        gb_export_csv_contacts(frame, contacts);
+    }
+}

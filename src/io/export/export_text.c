@@ -1,0 +1,56 @@
+#include "io/export/export_text.h"
+
+#include <inttypes.h>
+
+#include "base/vec.h"
+#include "pack/cell/cell.h"
+
+void gb_export_text_number(GString *text, double value, char end)
+{
+    char digits[G_ASCII_DTOSTR_BUF_SIZE];
+    g_ascii_formatd(digits, sizeof digits, "%.15g", value);
+    g_string_append(text, digits);
+    g_string_append_c(text, end);
+}
+
+void gb_export_text_title(GString *text, const struct gb_state *state)
+{
+    for (const char *c = state->preset; *c != '\0'; c++) {
+        g_string_append_c(text,
+                          *c == '"' || *c == '\\' || g_ascii_iscntrl(*c) ? '?' : *c);
+    }
+}
+
+void gb_export_text_provenance(GString *text, const struct gb_export_frame *frame)
+{
+    const struct gb_state *state = frame->state;
+    g_string_append(text, "greenbody " GB_VERSION "; preset ");
+    gb_export_text_title(text, state);
+    g_string_append_printf(text, "; seed %" PRIu64 "; density ", state->seed);
+    gb_export_text_number(text, state->point.density, ';');
+    g_string_append(text, " p ");
+    gb_export_text_number(text, state->point.p_pa / 1e6, ' ');
+    g_string_append(text, "MPa; units nm, nN, MPa; stress positive in compression");
+}
+
+struct gb_export_contact gb_export_text_contact(const struct gb_export_frame *frame,
+                                                int64_t k)
+{
+    const struct gb_state *state = frame->state;
+    const struct gb_cell cell = gb_state_cell(state);
+    struct gb_export_contact contact = {.first = state->pair[2 * k],
+                                        .second = state->pair[2 * k + 1],
+                                        .normal = frame->nn * state->pair_normal[k],
+                                        .bridged = state->pair_bridged[k] != 0};
+    const double *a = &state->position[3 * contact.first];
+    const double *b = &state->position[3 * contact.second];
+    double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    gb_cell_nearest(&cell, r);
+    contact.overlap = frame->nm * (state->radius[contact.first] +
+                                   state->radius[contact.second] - gb_vec_length(r));
+    for (int c = 0; c < 3; c++) {
+        contact.force[c] = frame->nn * state->pair_force[3 * k + c];
+        contact.branch[c] = frame->nm * r[c];
+    }
+    return contact;
+}

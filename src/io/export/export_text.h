@@ -1,0 +1,30 @@
+#ifndef GB_IO_EXPORT_EXPORT_TEXT_H
+#define GB_IO_EXPORT_EXPORT_TEXT_H
+
+#include "io/export/export.h"
+
+/* Shared by the formats: numbers, and what a contact is. */
+
+/* A number with up to 15 digits, '.' in every locale, and a character behind it. */
+void gb_export_text_number(GString *text, double value, char end);
+
+/* The title of the preset without quotes, control characters and line ends. */
+void gb_export_text_title(GString *text, const struct gb_state *state);
+
+/* "greenbody 0.2.0; preset ...; seed ...; density ...; p ... MPa; units ...". */
+void gb_export_text_provenance(GString *text, const struct gb_export_frame *frame);
+
+struct gb_export_contact {
+    int64_t first, second; /* particles, from 0 */
+    double force[3];       /* on the first, nN */
+    double normal;         /* normal force, nN, positive when pressed */
+    double branch[3];      /* from the second to the first, the nearest image, nm */
+    double overlap;        /* nm */
+    bool bridged;
+};
+
+/* Contact k of the pairs of a state. */
+struct gb_export_contact gb_export_text_contact(const struct gb_export_frame *frame,
+                                                int64_t k);
+
+#endif

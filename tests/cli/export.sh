@@ -1,0 +1,70 @@
+#!/bin/sh
+# `greenbody export` as a user meets it: kept states as a trajectory, one state, files that
+# LAMMPS reads where it is installed, wrong input.
+# Usage: export.sh GREENBODY PRESET_FOLDER
+. "$(dirname "$0")/folder.sh"
+
+refused() { # name, command: status 2, one line on stderr, nothing left behind
+    name=$1
+    shift
+    in_patience "$@" >stdout 2>stderr
+    [ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && [ ! -s stdout ] && [ ! -e out ]
+    result "$name" $?
+}
+
+"$greenbody" run default particles.count=200 numerics.fidelity=fast loading.unload_from= \
+    'loading.until=10 MPa' 'output.snapshots_at=2 MPa; 5 MPa' --quiet --out run \
+    >stdout 2>stderr
+is 'a run with two kept states' [ $? -eq 0 ]
+export_run() {
+    "$greenbody" export run "$@" >stdout 2>stderr
+}
+
+is 'all states' export_run --format extxyz --all -o all.xyz
+is 'are frames of one file' [ "$(grep -c '^Lattice=' all.xyz)" -eq 3 ]
+is 'of all particles' [ "$(grep -c '^X ' all.xyz)" -eq 600 ]
+is 'one state' export_run --format csv --at 'p=5 MPa' --contacts contacts.csv -o one.csv
+is 'has a row per particle' [ "$(grep -c '^[0-9]' one.csv)" -eq 200 ]
+is 'contacts are of its particles' awk -F, '
+    /^[0-9]/ { n++; if ($2 < 1 || $2 > 200 || $3 < 1 || $3 > 200) bad = 1 }
+    END { exit bad || n < 200 }' contacts.csv
+# the mean of equal particles is the contact pressure of the cell; half of it is enough to
+# tell units: attraction without contact counts in the pressure only
+is 'its stress is that of the cell' awk -F, '
+    /^[0-9]/ { n++; s += $9 } END { s /= n; exit !(s > 2.5 && s < 15) }' one.csv
+is 'a dump with contacts' export_run --format lammps-dump --all --contacts c.dump -o p.dump
+is 'has the frames of both' sh -c \
+    '[ "$(grep -c "^ITEM: TIMESTEP" p.dump)" -eq 3 ] && [ "$(grep -c "^ITEM: TIMESTEP" c.dump)" -eq 3 ]'
+is 'a data file' export_run --format lammps-data -o p.data
+is 'a state file alone' "$greenbody" export run/state.h5 --format lammps-data -o alone.data
+if command -v lmp >/dev/null; then
+    printf '%s\n' 'units nano' 'atom_style sphere' 'boundary p p p' 'read_data p.data' \
+        'compute all all property/atom diameter' 'compute d all reduce ave c_all' 'pair_style zero 1.0' \
+        'pair_coeff * *' 'thermo_style custom step atoms lx lz c_d' \
+        'thermo_modify format float %.12g' 'run 0' >in.lmp
+    is 'LAMMPS reads it' sh -c 'lmp -in in.lmp -log none >lmp.out 2>&1'
+    is 'with count, edges and diameters' awk '
+        /xlo xhi/ { x = $2 } /zlo zhi/ { z = $2 }
+        NR != FNR && $2 == 200 && NF == 5 {
+            good = ($3 - x) ^ 2 < 1e-10 && ($4 - z) ^ 2 < 1e-10 && ($5 - 10) ^ 2 < 1e-10 }
+        END { exit !good }' p.data lmp.out
+else
+    echo '# no LAMMPS here: its reading of the files is not tested'
+fi
+
+# --- wrong input -------------------------------------------------------------------------
+refused 'no run' "$greenbody" export --format csv -o out
+refused 'no format' "$greenbody" export run -o out
+refused 'an unknown format' "$greenbody" export run --format xyz -o out
+is 'which lists the others' grep -q 'accepted extxyz, lammps-dump' stderr
+refused 'no file' "$greenbody" export run --format csv
+refused 'no such state' "$greenbody" export run --format csv --at 'p=1 GPa' -o out
+refused 'several states in a format of one' "$greenbody" export run --format csv --all -o out
+refused 'a directory without a run' "$greenbody" export . --format csv -o out
+refused 'a file that exists' "$greenbody" export run --format csv -o one.csv
+is 'is left as it was' [ "$(grep -c '^[0-9]' one.csv)" -eq 200 ]
+refused 'one name for both' "$greenbody" export run --format csv --contacts out -o out
+is '--force replaces it' export_run --format csv --force -o one.csv
+
+echo "1..$tests"
+exit $bad

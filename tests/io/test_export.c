@@ -1,0 +1,178 @@
+/* States as files of other programs, read back and compared. */
+#include "io/export/export.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "io/state/state_stress.h"
+
+/* Two pairs of particles in a tilted cell; the second touches across a boundary. */
+static struct gb_state *make_state(void)
+{
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    static const double position[4][3] = {
+        {1.0, 1.0, 1.0}, {1.0, 1.0, 1.9}, {3.0, 0.2, 2.0}, {3.5, 3.9, 2.0}};
+    static const double force[2][3] = {{0.0, 0.0, -2e-3}, {1e-4, 1e-3, 0.0}};
+    static const int32_t pair[4] = {0, 1, 2, 3};
+    if (!gb_state_create(&state, 4, 2, &err)) {
+        g_error("%s", err.text);
+    }
+    state->dimension = 3;
+    for (int k = 0; k < 3; k++) {
+        state->cell[k] = 4.0;
+    }
+    state->tilt[0] = 0.5; /* xy */
+    memcpy(state->position, position, sizeof position);
+    memcpy(state->pair_force, force, sizeof force);
+    memcpy(state->pair, pair, sizeof pair);
+    for (int i = 0; i < 4; i++) {
+        state->radius[i] = 0.5;
+        state->contacts[i] = 1;
+    }
+    state->pair_normal[0] = 2e-3;
+    state->pair_normal[1] = -1e-3;
+    state->pair_bridged[1] = 1;
+    state->metre_per_length = 10e-9;
+    state->pascal_per_stress = 400e9;
+    state->point.step = 7;
+    state->point.density = 0.25;
+    state->point.p_pa = 20e6;
+    state->seed = 3;
+    g_strlcpy(state->preset, "a \"quoted\"\ntitle", sizeof state->preset);
+    return state;
+}
+
+struct texts {
+    GString *particles, *contacts;
+};
+
+static struct texts export_frames(const char *name, int frames)
+{
+    struct gb_error err = {0};
+    struct texts texts = {g_string_new(NULL), g_string_new(NULL)};
+    const struct gb_export_format *format = gb_export_find(name, &err);
+    struct gb_state *state = make_state();
+    for (int i = 0; i < frames; i++) {
+        g_assert_true(gb_export_add(format, state, 3990.0, i, texts.particles,
+                                    texts.contacts, &err));
+    }
+    gb_state_destroy(state);
+    return texts;
+}
+
+static void finish(struct texts *texts)
+{
+    g_string_free(texts->particles, TRUE);
+    g_string_free(texts->contacts, TRUE);
+}
+
+/* Word `word` of line `line`, both from 0. */
+static double number_at(const char *text, const char *separator, int line, int word)
+{
+    char **lines = g_strsplit(text, "\n", 0);
+    char **words = g_strsplit(lines[line], separator, 0);
+    const double value = g_ascii_strtod(words[word], NULL);
+    g_strfreev(words);
+    g_strfreev(lines);
+    return value;
+}
+
+/* Force and branch of the contact across the boundary, by hand: from the image of the
+ * fourth particle at (3.5 - 0.5, 3.9 - 4, 2) to the third at (3, 0.2, 2). */
+static void test_contacts(void)
+{
+    struct texts texts = export_frames("csv", 1);
+    const char *row = texts.contacts->str;
+    const double nn = 400e9 * 1e-16 * 1e9;
+    static const double branch_nm[3] = {0.0, 3.0, 0.0};
+    g_assert_cmpfloat(number_at(row, ",", 4, 1), ==, 3.0);
+    g_assert_cmpfloat(number_at(row, ",", 4, 2), ==, 4.0);
+    g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 4), nn * 1e-3, 1e-9);
+    g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 6), -nn * 1e-3, 1e-9);
+    for (int k = 0; k < 3; k++) {
+        g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 7 + k), branch_nm[k], 1e-9);
+    }
+    g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 10), 7.0, 1e-9); /* overlap */
+    g_assert_cmpfloat(number_at(row, ",", 4, 11), ==, 1.0);
+    finish(&texts);
+}
+
+/* The mean of the particle stresses, weighted by volume, is the sum of f r over the cell;
+ * the mean stress is a third of the trace. */
+static void test_stress(void)
+{
+    struct gb_state *state = make_state();
+    double stress[4 * 6], mean[4], sum[6] = {0.0};
+    gb_state_stress_tensor(state, stress);
+    gb_state_stress_mean(state, mean);
+    for (int i = 0; i < 4; i++) {
+        for (int c = 0; c < 6; c++) {
+            sum[c] += stress[6 * i + c] / 4.0;
+        }
+        g_assert_cmpfloat_with_epsilon(
+            mean[i], (stress[6 * i] + stress[6 * i + 1] + stress[6 * i + 2]) / 3.0, 1e-3);
+    }
+    /* -2e-3 * -0.9 along z; 1e-3 * 0.3 along y; xy: 1e-4 * 0.3 / 2 */
+    const double want[6] = {0.0, 3e-4, 1.8e-3, 1.5e-5, 0.0, 0.0};
+    for (int c = 0; c < 6; c++) {
+        g_assert_cmpfloat_with_epsilon(sum[c], 400e9 * want[c] / 64.0, 1e-2);
+    }
+    gb_state_destroy(state);
+}
+
+static void test_extxyz(void)
+{
+    struct texts texts = export_frames("extxyz", 2);
+    const char *text = texts.particles->str;
+    g_assert_true(g_str_has_prefix(text, "4\nLattice=\"40 0 0 5 40 0 0 0 40\" "));
+    g_assert_nonnull(strstr(text, "pbc=\"T T T\""));
+    g_assert_nonnull(strstr(text, "preset a ?quoted??title"));
+    g_assert_cmpfloat(number_at(text, " ", 5, 2), ==, 39.0); /* y of the fourth, nm */
+    g_assert_cmpfloat(number_at(text, " ", 5, 4), ==, 4.0);  /* id */
+    g_assert_cmpfloat(number_at(text, " ", 5, 5), ==, 5.0);  /* radius */
+    g_assert_cmpfloat(number_at(text, " ", 6, 0), ==, 4.0);  /* the second frame */
+    g_assert_cmpfloat(number_at(text, " ", 11, 2), ==, 39.0);
+    finish(&texts);
+}
+
+static void test_lammps(void)
+{
+    struct texts texts = export_frames("lammps-dump", 2);
+    const char *text = texts.particles->str;
+    g_assert_nonnull(
+        strstr(text, "ITEM: BOX BOUNDS xy xz yz pp pp pp\n0 45 5\n0 40 0\n"));
+    g_assert_cmpfloat(number_at(text, " ", 11, 5), ==, 5.0); /* radius of the first */
+    g_assert_cmpfloat(number_at(text, " ", 14, 3), ==, 39.0);
+    char **frames = g_strsplit(text, "ITEM: TIMESTEP\n7\n", 0);
+    g_assert_cmpuint(g_strv_length(frames), ==, 3); /* one head, two frames */
+    g_strfreev(frames);
+    g_assert_nonnull(strstr(texts.contacts->str, "ITEM: NUMBER OF ENTRIES\n2\n"));
+    finish(&texts);
+    texts = export_frames("lammps-data", 1);
+    g_assert_nonnull(strstr(texts.particles->str, "\n4 atoms\n1 atom types\n"));
+    g_assert_nonnull(strstr(texts.particles->str, "\n5 0 0 xy xz yz\n"));
+    g_assert_nonnull(strstr(texts.particles->str, "\n4 1 10 0.00399 35 39 20\n"));
+    finish(&texts);
+}
+
+static void test_unknown(void)
+{
+    struct gb_error err = {0};
+    g_assert_null(gb_export_find("xyz", &err));
+    g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+    g_assert_nonnull(strstr(err.text, "accepted extxyz, lammps-dump"));
+}
+
+int main(int argc, char **argv)
+{
+    g_test_init(&argc, &argv, NULL);
+    g_test_add_func("/export/contacts", test_contacts);
+    g_test_add_func("/export/stress", test_stress);
+    g_test_add_func("/export/extxyz", test_extxyz);
+    g_test_add_func("/export/lammps", test_lammps);
+    g_test_add_func("/export/unknown", test_unknown);
+    return g_test_run();
+}
