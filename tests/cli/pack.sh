@@ -55,8 +55,11 @@ is 'and their mean' grep -q '^# mean [0-9.]* particles, density 0\.' stdout
 is 'at that number the structure spans both axes' spans_both 599 0.5227261
 is 'one disc less does not' no_both 598 0.5218535
 is 'a table is no packing' refused --percolation 2 --out table
-is 'cells are counted' refused --percolation -1
+is 'cells are counted' refused --percolation 0
 is 'and it says so' grep -q 'accepted 1 to' stderr
+is 'one size is needed' refused particles.distribution=lognormal particles.count=2000 \
+    --percolation 1
+is 'and that is said' grep -q 'sought for mono' stderr
 is 'a lattice does not grow' refused structure.kind=fcc particles.count=256 --percolation 1
 
 die() { # more arguments: a small bed

@@ -1,4 +1,5 @@
 #include <inttypes.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -27,10 +28,12 @@ static const double bin_width = 0.05;
 /* Beyond this distance (d) g(r) is 1, and would cost more than the packing itself. */
 static const double r_limit = 12.0;
 
+enum { NOT_GIVEN = INT_MIN };
+
 struct pack {
     char *directory;
     enum gb_rundir_mode mode;
-    int percolation; /* cells; 0: one packing */
+    int percolation; /* cells; NOT_GIVEN: one packing */
     char *every;
     double every_s;
     struct gb_preset *preset;
@@ -45,16 +48,18 @@ static bool is_bed(const struct pack *pack)
 
 static bool check_options(const struct pack *pack, struct gb_error *err)
 {
-    if (pack->percolation < 0 || pack->percolation > GB_PACK_PERCOLATION_CELLS) {
+    const bool searches = pack->percolation != NOT_GIVEN;
+    if (searches &&
+        (pack->percolation < 1 || pack->percolation > GB_PACK_PERCOLATION_CELLS)) {
         return gb_error_set(err, GB_ERR_INPUT, "--percolation %d: accepted 1 to %d cells",
                             pack->percolation, GB_PACK_PERCOLATION_CELLS);
     }
-    if (pack->percolation > 0 && (pack->directory != NULL || pack->every != NULL)) {
+    if (searches && (pack->directory != NULL || pack->every != NULL)) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "--percolation writes a table to standard output; accepted "
                             "without --out and --every");
     }
-    return pack->percolation > 0 || pack->directory != NULL ||
+    return searches || pack->directory != NULL ||
            gb_error_set(err, GB_ERR_INPUT,
                         "pack needs --out DIR, a directory for the packing");
 }
@@ -74,7 +79,7 @@ static bool check_scene(struct pack *pack, struct gb_error *err)
                             "--every %.80s: accepted a time above 0, as in '5 us'",
                             pack->every);
     }
-    return pack->percolation == 0 ||
+    return pack->percolation == NOT_GIVEN ||
            gb_loading_kind_check_cell(&pack->packing.params, "--percolation", err);
 }
 
@@ -209,7 +214,7 @@ static bool pack_cell(struct pack *pack, struct gb_error *err)
 
 static bool run(struct pack *pack, struct gb_error *err)
 {
-    if (pack->percolation > 0) {
+    if (pack->percolation != NOT_GIVEN) {
         return gb_pack_percolation(&pack->packing.params, pack->percolation, err);
     }
     return is_bed(pack) ? pack_bed(pack, err) : pack_cell(pack, err);
@@ -239,7 +244,7 @@ int gb_cmd_pack(int argc, char **argv)
         "Powder that falls into the die, P3 Fig. 13:\n"
         "  greenbody pack p3-hertz-mu0 --every '5 us' --out bed\n"
         "  greenbody snapshot bed/snapshots/filling-000003.h5 -o fig13a.png"};
-    struct pack pack = {0};
+    struct pack pack = {.percolation = NOT_GIVEN};
     struct gb_error err = {0};
     char **sets = NULL;
     char **words = NULL;

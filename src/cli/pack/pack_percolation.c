@@ -33,9 +33,12 @@ static bool find(const struct gb_params *params, struct gb_model *model, double 
         return false;
     }
     *count = (double)particles;
-    printf("%" PRIu64 ",%" PRId64 ",%.6f\n", params->seed, particles,
-           density_of(model, *count));
     return true;
+}
+
+static void print_row(const struct gb_model *model, double count)
+{
+    printf("%" PRIu64 ",%.0f,%.6f\n", model->seed.value, count, density_of(model, count));
 }
 
 static void print_mean(const struct gb_model *model, const double *count, int cells)
@@ -64,13 +67,16 @@ bool gb_pack_percolation(const struct gb_params *params, int cells, struct gb_er
                 gb_error_set(err, GB_ERR_INPUT,
                              "structure.kind: a lattice does not grow; --percolation is "
                              "for structure.kind = grown");
-    if (good) {
-        puts("# particles at which the growing cluster joins its images along all axes, "
-             "P1 section III\nseed,particles,density");
-    }
     for (int k = 0; k < cells && good; k++) {
         scene.seed = params->seed + (uint64_t)k;
         good = find(&scene, &model, &count[k], err);
+        if (good && k == 0) {
+            puts("# particles at which the growing cluster joins its images along all "
+                 "axes, P1 section III\nseed,particles,density");
+        }
+        if (good) {
+            print_row(&model, count[k]);
+        }
     }
     if (good) {
         print_mean(&model, count, cells);
