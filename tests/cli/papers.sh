@@ -32,7 +32,7 @@ is 'a row has the number here, the printed one and a verdict' grep -qE \
 is 'laws of the paper are compared, too' grep -q '^| section II.B .*within error' one/papers.md
 is 'other papers are not' sh -c '! grep -q "^| .*P2-\|^## P2" one/papers.md'
 is 'numbers without a comparison say why' grep -q '12 contacts.* no column' one/papers.md
-is 'figures are there' [ "$(grep -c '^!\[P1 Fig' one/papers.md)" -eq "$(find one -name '*.png' | wc -l)" ]
+is 'figures are there' [ "$(grep -c '^!\[P1 ' one/papers.md)" -eq "$(find one -name '*.png' | wc -l)" ]
 is 'with the printed numbers' grep -q '0\.387' one/P1-fig5.csv
 is 'the table has a row per comparison' [ "$(wc -l <one/papers.csv)" -gt 12 ]
 is 'the densities of the table are those of the runs' awk -F, '
