@@ -34,10 +34,14 @@ gb_papers_measure gb_papers_measures_continuum;
  * the mean pressure at density 0.95, MPa, the shorter and the longer time, ns; a single time is the shorter one up to 1 ns. */
 gb_papers_measure gb_papers_rates_p0, gb_papers_rates_fall, gb_papers_rates_fast,
     gb_papers_rates_slow;
+/* Their amplitudes, MPa. */
+gb_papers_measure gb_papers_rates_fast_amplitude, gb_papers_rates_slow_amplitude;
 
 /* P2 (9) fitted to the mean pressures of all its experiments: k_v with the printed
  * exponents, MPa s^(1/4), and the exponent of the rate where it is free. */
 gb_papers_measure gb_papers_rates_kv, gb_papers_rates_exponent;
+/* k_v v^(1/4) (rho - rho0)^3 at the rate `at`, 1/s, and density 0.95, with that k_v, MPa. */
+gb_papers_measure gb_papers_rates_excess;
 
 /* |density of the asymptote (5)-(8) at the pressure of the mean curve where it reaches
  * density `at`, over that density, less 1|. */

@@ -69,24 +69,51 @@ double gb_papers_rates_fall(const struct gb_papers_view *view,
     return point.p - end;
 }
 
+/* Index of the exponential of a stage; -1: the fit has none. */
+static int find_stage(const struct gb_fit_decay *fit, bool slow)
+{
+    const int term = slow ? fit->terms - 1 : 0;
+    return fit->terms > 0 && (fit->tau[term].value >= stages_ns) == slow ? term : -1;
+}
+
+static double amplitude_of(const struct gb_papers_view *view,
+                           const struct gb_papers_comparison *row, bool slow)
+{
+    struct gb_fit_decay fit;
+    const int term = fit_decay(view, row, &fit) ? find_stage(&fit, slow) : -1;
+    return term >= 0 ? fit.amplitude[term].value : (double)NAN;
+}
+
+double gb_papers_rates_fast_amplitude(const struct gb_papers_view *view,
+                                      const struct gb_papers_comparison *row)
+{
+    return amplitude_of(view, row, false);
+}
+
+double gb_papers_rates_slow_amplitude(const struct gb_papers_view *view,
+                                      const struct gb_papers_comparison *row)
+{
+    return amplitude_of(view, row, true);
+}
+
+static double time_of(const struct gb_papers_view *view,
+                      const struct gb_papers_comparison *row, bool slow)
+{
+    struct gb_fit_decay fit;
+    const int term = fit_decay(view, row, &fit) ? find_stage(&fit, slow) : -1;
+    return term >= 0 ? fit.tau[term].value : (double)NAN;
+}
+
 double gb_papers_rates_fast(const struct gb_papers_view *view,
                             const struct gb_papers_comparison *row)
 {
-    struct gb_fit_decay fit;
-    return fit_decay(view, row, &fit) && fit.terms > 0 && fit.tau[0].value < stages_ns
-               ? fit.tau[0].value
-               : (double)NAN;
+    return time_of(view, row, false);
 }
 
 double gb_papers_rates_slow(const struct gb_papers_view *view,
                             const struct gb_papers_comparison *row)
 {
-    struct gb_fit_decay fit;
-    if (!fit_decay(view, row, &fit) || fit.terms == 0) {
-        return NAN;
-    }
-    const double slowest = fit.tau[fit.terms - 1].value;
-    return slowest >= stages_ns ? slowest : (double)NAN;
+    return time_of(view, row, true);
 }
 
 enum { POINTS = GB_PAPERS_USED * G_N_ELEMENTS(densities) };
@@ -127,6 +154,16 @@ double gb_papers_rates_kv(const struct gb_papers_view *view,
     return law_of(view, row, &law) &&
                    gb_power_rate(&fit, &law, points, collect(view, row, points), NULL)
                ? fit.k_v.value
+               : (double)NAN;
+}
+
+double gb_papers_rates_excess(const struct gb_papers_view *view,
+                              const struct gb_papers_comparison *row)
+{
+    struct gb_power_law law;
+    return law_of(view, row, &law)
+               ? gb_papers_rates_kv(view, row) * pow(row->at, law.exponent) *
+                     pow(end_density - law.rho0, law.power)
                : (double)NAN;
 }
 
