@@ -25,14 +25,15 @@ static double spring_energy(const struct gb_model *model,
 {
     const struct gb_law_slip *slip = &model->slip;
     double shear2 = 0.0, roll2 = 0.0;
-    for (int c = 0; c < (model->dimension == 3 ? 3 : 1); c++) {
+    for (int c = 0; c < (model->record_dimension == 3 ? 3 : 1); c++) {
         const double shear = gb_contacts_value(contacts, contacts->shear[c], k);
         const double roll = gb_contacts_value(contacts, contacts->roll[c], k);
         shear2 += shear * shear;
         roll2 += roll * roll;
     }
-    const double pivot =
-        model->dimension == 3 ? gb_contacts_value(contacts, contacts->pivot, k) : 0.0;
+    const double pivot = model->record_dimension == 3
+                             ? gb_contacts_value(contacts, contacts->pivot, k)
+                             : 0.0;
     return 0.5 / slip->motion *
            (gb_law_slip_shear_stiffness(slip, a) * shear2 +
             gb_law_slip_roll_stiffness(slip, a) * roll2 +

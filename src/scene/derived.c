@@ -64,7 +64,7 @@ double gb_derived_structure_density(const struct gb_params *params)
 
 double gb_derived_unit_time_s(const struct gb_params *params)
 {
-    return params->diameter_m *
+    return gb_derived_reference_m(params) *
            sqrt(M_PI * params->density_kg_m3 / (6.0 * params->young_pa));
 }
 
@@ -81,12 +81,14 @@ double gb_derived_reference_m(const struct gb_params *params)
                : params->diameter_m;
 }
 
-/* Mean of (diameter/d)^3. */
-static double mean_cube(const struct gb_params *params)
+/* Mean of (diameter/d)^3, or squared in 2D: what the relative density counts. */
+static double mean_power(const struct gb_params *params)
 {
     struct gb_sizes sizes;
+    const int power = params->dimension;
     return gb_sizes_polydisperse(params) && gb_sizes_init(&sizes, params, NULL)
-               ? gb_sizes_moment(&sizes, 3) / pow(gb_sizes_moment(&sizes, 1), 3.0)
+               ? gb_sizes_moment(&sizes, power) /
+                     pow(gb_sizes_moment(&sizes, 1), (double)power)
                : 1.0;
 }
 
@@ -95,7 +97,7 @@ static double mean_cube(const struct gb_params *params)
 static double base_edge(const struct gb_params *params, double volume)
 {
     if (params->base.relative && params->base.value == 0.0) {
-        const double share = (double)params->count * mean_cube(params) / 8000.0 *
+        const double share = (double)params->count * mean_power(params) / 8000.0 *
                              (0.24 / gb_derived_structure_density(params));
         return params->dimension == 2 ? sqrt(volume) : 18.0 * cbrt(share);
     }
@@ -111,7 +113,7 @@ void gb_derived_cell(const struct gb_params *params, double edges[3])
         return;
     }
     const double particle = params->dimension == 2 ? M_PI / 4.0 : M_PI / 6.0;
-    const double volume = (double)params->count * mean_cube(params) * particle /
+    const double volume = (double)params->count * mean_power(params) * particle /
                           gb_derived_structure_density(params);
     const double base = base_edge(params, volume);
     edges[0] = base;

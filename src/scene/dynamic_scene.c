@@ -36,13 +36,6 @@ static bool check_end(const struct gb_params *params, struct gb_error *err)
 
 bool gb_dynamic_scene_check(const struct gb_params *params, struct gb_error *err)
 {
-    if (params->dimension == 2 && params->geometry != GB_GEOMETRY_ISOTROPIC) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "loading.geometry = %s: must be isotropic with scene.kind = "
-                            "dynamic and scene.dimension = 2",
-                            params->geometry == GB_GEOMETRY_UNIAXIAL ? "uniaxial"
-                                                                     : "biaxial");
-    }
     const double lag =
         gb_law_viscous_time(params->viscosity_pa_s, params->young_pa, params->poisson);
     if (!isfinite(lag)) {

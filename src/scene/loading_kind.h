@@ -30,7 +30,6 @@ struct gb_loading_kind {
     enum gb_curve_columns columns;
     bool periodic_cell;      /* a periodic cell; else a die with walls */
     bool plane;              /* also discs in the plane, scene.dimension = 2 */
-    bool many_sizes;         /* also particles of more than one size */
     bool single_precision;   /* the force sweep exists in single precision */
     bool viscous_contacts;   /* contacts resist their rate of deformation (the cell's) */
     bool follows_time;       /* Newton's equations; else a sequence of equilibria */

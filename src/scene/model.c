@@ -240,15 +240,17 @@ static bool freeze_sizes(struct gb_model *model, const struct gb_params *params,
                          struct gb_error *err)
 {
     const double d = model->metre_per_length;
-    model->diameter_min = model->diameter_max = model->mean_cube = 1.0;
+    model->diameter_min = model->diameter_max = model->mean_power = 1.0;
     model->polydisperse = gb_sizes_polydisperse(params);
+    model->record_dimension = model->polydisperse ? 3 : params->dimension;
     if (!model->polydisperse) {
         return true;
     }
     if (!gb_sizes_init(&model->sizes, params, err)) {
         return false;
     }
-    model->mean_cube = gb_sizes_moment(&model->sizes, 3) / (d * d * d);
+    model->mean_power = gb_sizes_moment(&model->sizes, params->dimension) /
+                        (d * d * (params->dimension == 3 ? d : 1.0));
     gb_sizes_range(&model->sizes, params->count, &model->diameter_min,
                    &model->diameter_max);
     model->diameter_min /= d;
@@ -302,7 +304,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
     }
     gb_derived_cell(params, model->edges);
     const double shape = params->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
-    model->start_density = (double)params->count * model->mean_cube * shape /
+    model->start_density = (double)params->count * model->mean_power * shape /
                            (model->edges[0] * model->edges[1] * model->edges[2]);
     freeze_loading(model, params);
     model->h_eq = largest_equilibrium(model);

@@ -92,7 +92,10 @@ struct gb_model {
     bool polydisperse;     /* more than one size; else the next four are 0 or 1 */
     struct gb_sizes sizes; /* in m */
     double diameter_min, diameter_max; /* d; 1 */
-    double mean_cube;                  /* of diameters, d^3; 1 */
+    double mean_power;                 /* of diameters, d^3, or d^2 in 2D; 1 */
+    /* Components of contact records: 3, or 2 of discs of one size, whose laws have a sweep
+     * of their own; discs of unequal sizes take the laws of spheres with y = 0. */
+    int record_dimension;
     struct gb_terms terms;
     bool cohesionless; /* no attraction, bridges or rods: contact.normal = hertz */
     struct gb_law_rod rod;

@@ -8,12 +8,16 @@
 #include "pack/cell/world.h"
 
 /* Newton's equations for translation and rotation, P2 (1), by velocity Verlet. Velocities
- * are those beside the affine motion of the cell.  Reduced units: m = 1, J = 0.1.  In 2D
- * only x, z and the rotation about y move. */
+ * are those beside the affine motion of the cell.  Reduced units: a particle of the
+ * reference diameter has m = 1, J = 0.1; one of diameter d has m = d^3, J = m d^2/10, and
+ * its rotations are arcs, d times the angle (pack/kernel/sweep_sized.h), whose inertia is
+ * m/10.  In 2D only x, z and the rotation about y move; discs have the masses of spheres,
+ * P2 (1). */
 struct gb_verlet {
     int64_t count;
-    double inertia;
+    double inertia;          /* over the mass, d = 1 */
     double *velocity, *spin; /* count x 3 */
+    double *inverse_mass;    /* count x 3, each mass three times; NULL: all are 1 */
     double work;             /* done by the moving cell on the packing */
     double absorbed;         /* taken up by the contacts */
 };

@@ -125,7 +125,7 @@ static void test_packing(void)
         g_assert_cmpfloat(d, <=, model.diameter_max);
     }
     unequal_close(sum / (double)model.count, 1.0, 1e-3);
-    unequal_close(cube / (double)model.count, model.mean_cube, 1e-9);
+    unequal_close(cube / (double)model.count, model.mean_power, 1e-9);
     /* no force at the start: every contact is at its equilibrium */
     g_assert_cmpfloat(gb_world_residual(world), <, 1.0);
     for (int i = 0; i < 5; i++) {

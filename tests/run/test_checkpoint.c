@@ -253,6 +253,35 @@ static void test_dynamic_solid(void)
     check(collapse("contact.mu=0.5", "loading.rate=3e9 1/s"), 2, 15);
 }
 
+/* Unequal sizes in motion: spheres, and discs compressed along z alone. */
+static void test_dynamic_sizes(void)
+{
+    check(scene_params("scene.kind=dynamic", "particles.distribution=lognormal",
+                       "particles.sigma=0.25", "particles.largest=20 nm",
+                       "loading.geometry=biaxial", "contact.mu=0.5",
+                       "loading.rate=6.8e9 1/s", "loading.relax=0.004 ns",
+                       "loading.hold=0.004 ns", "loading.record_time=0.001 ns",
+                       "loading.record=1 %", "loading.until=density = 0.28", NULL),
+          2, 15);
+    check(scene_params(
+              "scene.kind=dynamic", "scene.dimension=2", "particles.distribution=table",
+              "particles.table=number: 6 nm 0.5; 17 nm 0.5", "loading.geometry=uniaxial",
+              "contact.mu=0.5", "loading.rate=6.8e9 1/s", "loading.relax=0.004 ns",
+              "loading.hold=0.004 ns", "loading.record_time=0.001 ns",
+              "loading.record=1 %", "loading.until=density = 0.58", NULL),
+          3, 15);
+}
+
+/* Discs of unequal sizes, quasi-static. */
+static void test_planar_sizes(void)
+{
+    check(scene_params("scene.dimension=2", "particles.count=200",
+                       "particles.distribution=lognormal", "particles.sigma=0.25",
+                       "particles.largest=20 nm", "loading.until=density = 0.56",
+                       "numerics.tolerance=1e-2", "loading.step=0.5 %", NULL),
+          2, 10);
+}
+
 /* A guard that halves the time step again and again, and gives up. */
 static void test_guard(void)
 {
@@ -346,6 +375,8 @@ int main(int argc, char **argv)
     g_test_add_func("/checkpoint/planar", test_planar);
     g_test_add_func("/checkpoint/dynamic", test_dynamic);
     g_test_add_func("/checkpoint/dynamic solid", test_dynamic_solid);
+    g_test_add_func("/checkpoint/dynamic sizes", test_dynamic_sizes);
+    g_test_add_func("/checkpoint/planar sizes", test_planar_sizes);
     g_test_add_func("/checkpoint/guard", test_guard);
     g_test_add_func("/checkpoint/foreign", test_foreign);
     g_test_add_func("/checkpoint/memory", test_memory);

@@ -6,6 +6,7 @@
 #include "measure/theory.h"
 #include "scene/loading_kind.h"
 #include "scene/model.h"
+#include "scene/size/sizes.h"
 
 /* Whether two models have the same asymptote. */
 static bool same_asymptote(const struct gb_model *a, const struct gb_model *b)
@@ -23,7 +24,8 @@ static bool asymptote_columns(struct gb_series *series, const double *density,
     bool good = true;
     for (size_t g = 0; g < set->groups && good; g++) {
         const struct gb_params *params = &gb_runset_first(set, g)->params;
-        if (!gb_loading_kind_of(params)->given_rate || params->dimension != 2) {
+        if (!gb_loading_kind_of(params)->given_rate || params->dimension != 2 ||
+            gb_sizes_polydisperse(params)) {
             continue;
         }
         struct gb_model *model = &models[known];

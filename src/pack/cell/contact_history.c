@@ -187,7 +187,7 @@ static void restore_contact(const struct gb_contact_history *history, int64_t in
     struct gb_contacts *contacts = &engine->contacts;
     gb_contact_history_apply(history, index, contacts, k);
     if (history->planes < contacts->planes) {
-        const bool solid = engine->model->dimension == 3;
+        const bool solid = engine->model->record_dimension == 3;
         double branch[3];
         branch_of(engine, i, k, branch);
         gb_contacts_put(contacts, contacts->branch[0], k, branch[0]);

@@ -12,7 +12,7 @@ static bool reserve(struct gb_engine *engine, struct gb_error *err)
     const enum gb_real real = engine->state.real;
     const bool viscous = gb_loading_kind_at(model->kind)->viscous_contacts;
     if (near > engine->contacts.capacity) {
-        const struct gb_contacts_shape shape = {model->dimension, viscous, real};
+        const struct gb_contacts_shape shape = {model->record_dimension, viscous, real};
         gb_contacts_finish(&engine->contacts);
         if ((real == GB_REAL_F64 &&
              !gb_pair_results_resize_near(&engine->pair, near, err)) ||

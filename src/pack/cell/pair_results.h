@@ -12,7 +12,7 @@
  * pair_results.c.  A world in single precision keeps none. */
 struct gb_pair_results {
     double *wrench; /* rows per near pair: force on i, torque on j */
-    int width;      /* doubles in a row: 6; in 2D 3 (x, z, about y); unequal sizes 12 */
+    int width;      /* doubles in a row: 6; in 2D 3 (x, z, about y); unequal sizes 13 */
     double *pull;   /* three per far pair: attraction on i */
     int64_t far_capacity;
     /* Dynamic scenes, per far pair: distance and attraction at the last evaluation. */
@@ -20,7 +20,7 @@ struct gb_pair_results {
 };
 
 /* Doubles in a row of a pair of unequal sizes: forces and what it adds to the tally. */
-enum { GB_PAIR_RESULTS_SIZED = 12 };
+enum { GB_PAIR_RESULTS_SIZED = 13 };
 
 void gb_pair_results_init(struct gb_pair_results *results, const struct gb_model *model);
 void gb_pair_results_finish(struct gb_pair_results *results);

@@ -9,7 +9,7 @@ double gb_world_measure_density(const struct gb_world *world)
 {
     const struct gb_model *model = gb_world_model(world);
     const double shape = model->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
-    return shape * model->mean_cube * (double)model->count /
+    return shape * model->mean_power * (double)model->count /
            gb_cell_volume(gb_world_cell(world));
 }
 

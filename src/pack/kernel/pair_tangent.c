@@ -240,7 +240,7 @@ bool gb_pair_tangent_list(const struct gb_world *world,
 {
     const struct gb_engine *engine = &world->engine;
     const struct gb_contacts_shape shape = {
-        engine->model->dimension,
+        engine->model->record_dimension,
         gb_loading_kind_at(engine->model->kind)->viscous_contacts, GB_REAL_F64};
     struct gb_contacts scratch;
     struct gb_pair_tangent *pair = gb_alloc_array(GB_BATCH, sizeof *pair, err);

@@ -20,7 +20,7 @@ static double density(const struct gb_chain_ray *growth, int64_t count)
 {
     const struct gb_chain_growth *grow = growth->grow;
     const double one = grow->dimension == 3 ? M_PI / 6.0 : M_PI / 4.0;
-    const double mean = grow->model ? grow->model->mean_cube : 1.0;
+    const double mean = grow->model ? grow->model->mean_power : 1.0;
     return one * mean * (double)count / gb_cell_volume(&growth->grid->cell);
 }
 

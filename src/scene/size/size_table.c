@@ -233,19 +233,6 @@ char *gb_size_table_write(const struct gb_sizetable *table, char *buffer, size_t
     return buffer;
 }
 
-/* 2D scenes and dynamic scenes have one diameter. */
-static bool check_scene(const struct gb_params *params, struct gb_error *err)
-{
-    const struct gb_loading_kind *kind = gb_loading_kind_of(params);
-    const bool one_size = !kind->many_sizes || (kind->plane && params->dimension == 2);
-    return !one_size || params->distribution == GB_DISTRIBUTION_MONO ||
-           gb_error_set(err, GB_ERR_INPUT,
-                        "particles.distribution = %s: must be mono with scene.kind = "
-                        "dynamic or scene.dimension = 2",
-                        params->distribution == GB_DISTRIBUTION_TABLE ? "table"
-                                                                      : "lognormal");
-}
-
 /* A cut on the wrong side of the median would leave almost no particles. */
 static bool check_lognormal(const struct gb_params *params, struct gb_error *err)
 {
@@ -270,7 +257,6 @@ bool gb_size_table_check_params(const struct gb_params *params, struct gb_error 
                             "particles.table: must not be empty with "
                             "particles.distribution = table");
     }
-    return (params->distribution != GB_DISTRIBUTION_LOGNORMAL ||
-            check_lognormal(params, err)) &&
-           check_scene(params, err);
+    return params->distribution != GB_DISTRIBUTION_LOGNORMAL ||
+           check_lognormal(params, err);
 }

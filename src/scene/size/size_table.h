@@ -34,8 +34,7 @@ bool gb_size_table_is_path(const char *text);
 bool gb_size_table_check(const struct gb_sizetable *table, int *row,
                          struct gb_error *err);
 
-/* The part of gb_params_check that is about sizes: each distribution has what it needs,
- * and the scene can take it. */
+/* The part of gb_params_check that is about sizes: each distribution has what it needs. */
 bool gb_size_table_check_params(const struct gb_params *params, struct gb_error *err);
 
 #endif

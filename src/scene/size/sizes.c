@@ -39,8 +39,7 @@ static double cut_at(const struct gb_sizes *sizes, double diameter_m, double unc
 
 bool gb_sizes_polydisperse(const struct gb_params *params)
 {
-    const struct gb_loading_kind *kind = gb_loading_kind_of(params);
-    return kind->periodic_cell && kind->many_sizes &&
+    return gb_loading_kind_of(params)->periodic_cell &&
            params->distribution != GB_DISTRIBUTION_MONO;
 }
 
