@@ -49,6 +49,12 @@ enum gb_structure {
 };
 enum gb_bridge_radius { GB_BRIDGE_RADIUS_DEEPEST, GB_BRIDGE_RADIUS_CURRENT };
 enum gb_relative_motion { GB_MOTION_HALF, GB_MOTION_FULL };
+/* Forces with a viscous partner. */
+enum gb_viscous_forces {
+    GB_VISCOUS_ALL,
+    GB_VISCOUS_TRANSLATION, /* not rolling and pivoting */
+    GB_VISCOUS_NORMAL
+};
 enum gb_geometry {
     GB_GEOMETRY_UNIAXIAL,
     GB_GEOMETRY_BIAXIAL,
@@ -130,6 +136,7 @@ struct gb_params {
     int bridge_radius;                 /* enum gb_bridge_radius */
     int relative_motion;               /* enum gb_relative_motion */
     double viscosity_pa_s;             /* dynamic scenes */
+    int viscous_forces;                /* enum gb_viscous_forces */
     double damping;                    /* xi, share of the critical damping */
     double shear_ratio;                /* k_t/k_n of plastic contacts */
     int storakers;                     /* enum gb_storakers */

@@ -55,6 +55,8 @@ void gb_dynamic_scene_freeze(struct gb_model *model, const struct gb_params *par
     const double step = gb_derived_time_step_s(params);
     model->dynamics = (struct gb_dynamics){
         .viscous = lag / unit,
+        .viscous_shear = params->viscous_forces == GB_VISCOUS_NORMAL ? 0.0 : 1.0,
+        .viscous_rolling = params->viscous_forces == GB_VISCOUS_ALL ? 1.0 : 0.0,
         .rate = params->rate_per_s * unit,
         .relax = params->relax_s / unit,
         .hold = params->hold_s / unit,
@@ -96,11 +98,16 @@ static void note_step(const struct gb_dynamics *dynamics, char *buffer, size_t s
 static void note_viscous(const struct gb_dynamics *dynamics, char *buffer, size_t size)
 {
     char lag[48];
+    const char *without = dynamics->viscous_rolling > 0.0 ? ""
+                          : dynamics->viscous_shear > 0.0
+                              ? "; none in rolling and pivoting"
+                              : "; none in shear, rolling and pivoting";
     write_time(dynamics, dynamics->viscous, lag, sizeof lag);
-    snprintf(buffer, size,
-             dynamics->viscous > 0.0 ? "viscous forces: carried, A = %s"
-                                     : "viscous forces: left out (contact.viscosity = 0)",
-             lag);
+    if (dynamics->viscous > 0.0) {
+        snprintf(buffer, size, "viscous forces: carried, A = %s%s", lag, without);
+        return;
+    }
+    snprintf(buffer, size, "viscous forces: left out (contact.viscosity = 0)");
 }
 
 static void note_stages(const struct gb_model *model, char *buffer, size_t size)

@@ -29,14 +29,23 @@ static const char *const quasistatic_fields[] = {
 };
 
 static const char *const dynamic_fields[] = {
-    "scene.dimension",     "material.density",
-    "contact.viscosity",   "structure.kind",
-    "structure.overlap",   "structure.density",
-    "structure.base",      "structure.r_meso",
-    "loading.rate",        "loading.relax",
-    "loading.hold",        "loading.record",
-    "loading.record_time", "numerics.time_step",
-    "numerics.step_error", NULL,
+    "scene.dimension",
+    "material.density",
+    "contact.viscosity",
+    "contact.viscous_forces",
+    "structure.kind",
+    "structure.overlap",
+    "structure.density",
+    "structure.base",
+    "structure.r_meso",
+    "loading.rate",
+    "loading.relax",
+    "loading.hold",
+    "loading.record",
+    "loading.record_time",
+    "numerics.time_step",
+    "numerics.step_error",
+    NULL,
 };
 
 static const char *const die_fields[] = {

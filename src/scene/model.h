@@ -38,6 +38,8 @@ struct gb_numerics {
  * sqrt(m/(E d)) is P2's T. */
 struct gb_dynamics {
     double viscous;         /* A over T; 0: no viscous forces */
+    double viscous_shear;   /* 1, or 0 where shear, */
+    double viscous_rolling; /* or rolling and pivoting, have no viscous partner */
     double rate;            /* (1/rho) d rho/dt per reduced time */
     double relax, hold;     /* reduced times */
     double time_step;       /* reduced; 0: auto */

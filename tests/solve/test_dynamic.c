@@ -125,6 +125,54 @@ static void test_restitution(void)
     }
 }
 
+/* Energy that two bridged particles lose in 200 steps of shear or of rolling, over what
+ * they began with. */
+static double lost(const char *forces, bool rolling)
+{
+    const struct gb_params params =
+        dynamic_params("contact.bridge_length=0.008 d", "contact.mu=2", forces);
+    struct duo duo;
+    static const double apart[3] = {1.02, 0.0, 0.0};
+    meet(&duo, &params, apart);
+    const struct gb_bodies b = gb_world_bodies(duo.world);
+    b.position[3] = b.position[0] + 1.0 - duo.model.h_eq;
+    scene_evaluate(duo.world);
+    scene_evaluate(duo.world); /* at rest: no viscous force */
+    duo.verlet.velocity[1] = rolling ? 0.0 : 1e-6;
+    duo.verlet.velocity[4] = rolling ? 0.0 : -1e-6;
+    duo.verlet.spin[2] = rolling ? 1e-6 : 0.0;
+    duo.verlet.spin[5] = rolling ? -1e-6 : 0.0;
+    const double before = gb_verlet_kinetic(&duo.verlet);
+    const double stored = gb_observe_elastic(duo.world);
+    gb_world_set_step(duo.world, 0.01);
+    for (int i = 0; i < 200; i++) {
+        step(&duo, 0.01);
+    }
+    const double after = gb_verlet_kinetic(&duo.verlet);
+    const double loss = before - after - (gb_observe_elastic(duo.world) - stored);
+    part(&duo);
+    return loss / before;
+}
+
+/* contact.viscous_forces names the springs that lose energy: shear, rolling. */
+static void test_viscous_forces(void)
+{
+    static const struct {
+        const char *set;
+        bool shear, rolling;
+    } cases[] = {{"contact.viscous_forces=all", true, true},
+                 {"contact.viscous_forces=translation", true, false},
+                 {"contact.viscous_forces=normal", false, false}};
+    for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+        const double shear = lost(cases[i].set, false);
+        const double rolling = lost(cases[i].set, true);
+        g_test_message("%s: lost %.3e in shear, %.3e in rolling", cases[i].set, shear,
+                       rolling);
+        g_assert_true(cases[i].shear ? shear > 1e-4 : fabs(shear) < 1e-5);
+        g_assert_true(cases[i].rolling ? rolling > 1e-5 : fabs(rolling) < 1e-7);
+    }
+}
+
 /* An oblique blow with friction, bridge and attraction keeps linear and angular momentum.
  */
 static void test_momentum(void)
@@ -348,6 +396,7 @@ int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/motion/restitution", test_restitution);
+    g_test_add_func("/motion/viscous-forces", test_viscous_forces);
     g_test_add_func("/motion/momentum", test_momentum);
     g_test_add_func("/motion/energy", test_energy);
     g_test_add_func("/motion/repeat", test_repeat);

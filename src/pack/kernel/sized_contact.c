@@ -192,27 +192,23 @@ static double cut(const struct gb_sized_contact *contact, double load, double ca
     return load > cap ? (contact->viscous ? 1.0 : below_cap) * cap / load : 1.0;
 }
 
-/* Viscous part of a spring's load over its stiffness, P2 (3), where the spring is not
- * cut; the work of the whole load over the step: mean of the elastic loads before and
- * after, and the viscous one.  components: 3, or 1 of pivoting.  The load then has the
- * spring + *lag times the increment. */
-static double spring_work(const struct gb_sized_contact *contact, const double *spring,
-                          const double *by, int components, double before,
-                          double stiffness, bool cut_back, double *last, double *lag)
+/* Work of a spring's load over the step: mean of the elastic loads before and after, and
+ * the viscous one, P2 (3), which is `lag` times the increment.  components: 3, or 1 of
+ * pivoting; before: product of the spring before and the increment. */
+static double spring_work(const double *spring, const double *by, int components,
+                          double before, double stiffness, double lag, double *last)
 {
     double after = 0.0, square = 0.0;
     for (int c = 0; c < components; c++) {
         after += spring[c] * by[c];
         square += by[c] * by[c];
     }
-    *lag = cut_back ? 0.0 : contact->damp;
-    const double work =
-        0.5 * (*last * before + stiffness * after) + *lag * stiffness * square;
+    const double work = 0.5 * (*last * before + stiffness * after);
     *last = stiffness;
-    return work;
+    return work + lag * stiffness * square;
 }
 
-/* Viscous parts of the loads of the springs, and their work. */
+/* Increments that the viscous loads add to the springs: none where a spring is cut. */
 struct lags {
     double shear, roll, pivot;
 };
@@ -221,18 +217,20 @@ static struct lags spring_lags(const struct gb_model *model,
                                struct gb_sized_contact *contact,
                                const double stiffness[3], const bool cut_back[3])
 {
-    struct lags lag = {0.0, 0.0, 0.0};
     const struct gb_sized_contact_increments *by = &contact->by;
-    double work = 0.0;
+    const double shear = contact->damp * model->dynamics.viscous_shear;
+    const double roll = contact->damp * model->dynamics.viscous_rolling;
+    const struct lags lag = {cut_back[0] ? 0.0 : shear, cut_back[1] ? 0.0 : roll,
+                             cut_back[2] ? 0.0 : roll};
     if (!contact->viscous) {
-        return lag;
+        return (struct lags){0.0, 0.0, 0.0};
     }
-    work += spring_work(contact, contact->shear, by->shear, 3, by->shear_before,
-                        stiffness[0], cut_back[0], &contact->last[1], &lag.shear);
-    work += spring_work(contact, contact->roll, by->roll, 3, by->roll_before,
-                        stiffness[1], cut_back[1], &contact->last[2], &lag.roll);
-    work += spring_work(contact, &contact->pivot, &by->pivot, 1, by->pivot_before,
-                        stiffness[2], cut_back[2], &contact->last[3], &lag.pivot);
+    double work = spring_work(contact->shear, by->shear, 3, by->shear_before,
+                              stiffness[0], lag.shear, &contact->last[1]);
+    work += spring_work(contact->roll, by->roll, 3, by->roll_before, stiffness[1],
+                        lag.roll, &contact->last[2]);
+    work += spring_work(&contact->pivot, &by->pivot, 1, by->pivot_before, stiffness[2],
+                        lag.pivot, &contact->last[3]);
     contact->absorbed += work / model->slip.motion; /* loads act over the whole motion */
     return lag;
 }

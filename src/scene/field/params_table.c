@@ -17,6 +17,7 @@ static const char *const structures[] = {"grown",   "sc",     "fcc",       "bcc"
 static const char *const generators[] = {"philox", "mt19937", NULL};
 static const char *const radii[] = {"deepest", "current", NULL};
 static const char *const motions[] = {"half", "full", NULL};
+static const char *const viscous[] = {"all", "translation", "normal", NULL};
 static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", "die", NULL};
 static const char *const cycles[] = {"press", "full", NULL};
 static const char *const ramps[] = {"auto", "linear", "quadratic", NULL};
@@ -165,6 +166,12 @@ static const struct gb_field rows[] = {
      .dimension = GB_DIM_VISCOSITY, RANGE(0.0, 1e3), .fallback = "1 mPa s",
      .meaning =
          "shear viscosity eta of the solid in dynamic scenes; 0: no viscous forces",
+     .source = "P2 (3)"},
+    {"contact", "viscous_forces", GB_FIELD_CHOICE, AT(viscous_forces), .choices = viscous,
+     .fallback = "all",
+     .meaning =
+         "forces with a viscous partner: all, all but rolling and pivoting, or the "
+         "normal one",
      .source = "P2 (3)"},
     {"contact", "damping", GB_FIELD_NUMBER, AT(damping), RANGE(0.0, 10.0),
      .fallback = "0.9",

@@ -57,6 +57,8 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
     const double m = slip.motion, inverse_motion = 1.0 / m, length = model->bridge.length;
     const struct normal_law law = normal_law(model, b->cutoff2);
     const double damp = b->damp, adhesion = model->adhesion;
+    const double shear_damp = damp * model->dynamics.viscous_shear;
+    const double roll_damp = damp * model->dynamics.viscous_rolling;
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
         const double rx = b->r[0][k], rz = b->r[1][k], before = deepest[k];
@@ -115,7 +117,7 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
             slides = mask(!sticks);
             tangent = ks * cut;
             if (t.viscous) {
-                const double lag = where(sticks, damp * (ks * u));
+                const double lag = where(sticks, shear_damp * (ks * u));
                 work = u * (last_shear[k] * (v - u) + tangent + (lag + lag));
                 last_shear[k] = ks;
                 tangent += lag;
@@ -130,7 +132,7 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
                 roll[k] = rolled_to;
                 opposed = kr * rolled_to;
                 if (t.viscous) {
-                    const double lag = where(fabs(p) <= limit, damp * (kr * g));
+                    const double lag = where(fabs(p) <= limit, roll_damp * (kr * g));
                     work += g * (last_roll[k] * (p - g) + opposed + (lag + lag));
                     last_roll[k] = where(held, kr);
                     opposed += lag;

@@ -169,6 +169,8 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
     const real half = 0.5, quarter = 0.25, third = (real)(1.0 / 3.0);
     const real inverse_motion = (real)(1.0 / model->slip.motion);
     const real damp = b->damp, length = (real)model->bridge.length;
+    const real shear_damp = damp * (real)model->dynamics.viscous_shear;
+    const real roll_damp = damp * (real)model->dynamics.viscous_rolling;
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
         const real nx = b->unit[0][k], ny = b->unit[1][k], nz = b->unit[2][k];
@@ -223,7 +225,8 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
                 const real ux = b->rate[0][k], uy = b->rate[1][k], uz = b->rate[2][k];
                 const real up = b->rate[3][k];
                 const real was = last_shear[k], pivot_was = last_pivot[k];
-                const real lag = damp * mask(!cut), pivot_lag = damp * mask(!pivots);
+                const real lag = shear_damp * mask(!cut);
+                const real pivot_lag = roll_damp * mask(!pivots);
                 const real fore = (ox - ux) * ux + (oy - uy) * uy + (oz - uz) * uz;
                 const real aft = vx * ux + vy * uy + vz * uz;
                 const real u2 = ux * ux + uy * uy + uz * uz;
@@ -259,7 +262,7 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
                 qz[k] = pz;
                 if (t.viscous) {
                     const real gx = b->rate[4][k], gy = b->rate[5][k], gz = b->rate[6][k];
-                    const real lag = damp * mask(!rolls & held);
+                    const real lag = roll_damp * mask(!rolls & held);
                     const real fore = (qox - gx) * gx + (qoy - gy) * gy + (qoz - gz) * gz;
                     const real aft = px * gx + py * gy + pz * gz;
                     absorbed +=
