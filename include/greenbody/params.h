@@ -147,7 +147,8 @@ struct gb_params {
     double structure_density; /* NaN: auto, 0.24 in 3D, 0.5 in 2D */
     struct gb_relative base;  /* relative with value 0: auto, P1's aspect ratio */
     struct gb_relative r_meso;
-    int generator; /* enum gb_generator */
+    double single_contact; /* share of particles placed in contact with one other */
+    int generator;         /* enum gb_generator */
     uint64_t seed;
     /* [die] */
     double die_diameter_m;

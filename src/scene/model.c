@@ -281,6 +281,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .count = params->count,
         .seed = gb_seed_of(params),
         .structure = params->structure,
+        .single_contact = params->single_contact,
         .r_meso =
             params->r_meso.relative ? params->r_meso.value : params->r_meso.value / d,
         .pascal_per_stress = params->young_pa,

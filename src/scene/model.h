@@ -91,6 +91,7 @@ struct gb_model {
     double start_density;
     int structure; /* enum gb_structure */
     double r_meso;
+    double single_contact; /* share of particles that begin with one contact */
     bool polydisperse;     /* more than one size; else the next four are 0 or 1 */
     struct gb_sizes sizes; /* in m */
     double diameter_min, diameter_max; /* d; 1 */

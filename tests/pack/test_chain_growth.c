@@ -22,6 +22,35 @@ static void test_contacts_exact(void)
     }
 }
 
+/* With single contacts fewer: each particle brings one at least, and none overlaps. */
+static void test_single_contacts(void)
+{
+    const int64_t count = 400;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        double before = INFINITY;
+        for (double share = 0.0; share <= 1.0; share += 0.25) {
+            struct packing packing;
+            packing_init(&packing, dimension, count, 7.0, dimension == 3 ? 0.24 : 0.4,
+                         0.0, 3);
+            packing.grow.single_contact = share;
+            g_assert_true(gb_chain_growth_run(&packing.grow, packing.position, NULL));
+            const struct gb_connectivity found = packing_contacts(&packing);
+            const double expected = 2.0 * (2.0 - share);
+            g_test_message("%dD, share %g: coordination %.3f", dimension, share,
+                           found.coordination);
+            g_assert_cmpint(found.clusters, ==, 1);
+            g_assert_cmpint(contact_ends(&found, count), >=, 2 * (count - 1));
+            g_assert_cmpfloat(found.coordination, <, before);
+            /* in the plane hexagons close */
+            g_assert_cmpfloat(found.coordination, >, expected - 0.15);
+            g_assert_cmpfloat(found.coordination, <,
+                              expected + (dimension == 3 ? 0.15 : 0.6));
+            before = found.coordination;
+            packing_finish(&packing);
+        }
+    }
+}
+
 /* Shortest distance of two particles, images included. */
 static double nearest(const struct packing *packing)
 {
@@ -155,6 +184,7 @@ int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/grow/contacts-exact", test_contacts_exact);
+    g_test_add_func("/grow/single-contacts", test_single_contacts);
     g_test_add_func("/grow/no-overlap", test_no_overlap);
     g_test_add_func("/grow/seed", test_seed);
     g_test_add_func("/grow/too-dense", test_too_dense);

@@ -99,6 +99,7 @@ struct gb_chain_growth gb_chain_growth_from_model(const struct gb_model *model)
         .r_eq = model->polydisperse ? model->diameter_max : 1.0 - model->h_eq,
         .model = model->polydisperse ? model : NULL,
         .r_meso = model->r_meso,
+        .single_contact = model->single_contact,
         .seed = model->seed,
     };
 }

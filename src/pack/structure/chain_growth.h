@@ -17,6 +17,9 @@ struct gb_chain_growth {
     double r_eq;     /* distance of touching particles, d: 1 - h_eq; of unequal sizes the
                       * longest that can be */
     double r_meso;   /* d */
+    /* Share of the particles that stay where the ray meets one other, instead of going on
+     * to the closest position that touches two; P1: 0. */
+    double single_contact;
     struct gb_seed seed;
     const struct gb_model *model;  /* of unequal sizes; else NULL */
     bool (*cancelled)(void *data); /* polled; NULL is fine */

@@ -141,6 +141,13 @@ choose_candidate(const struct gb_chain_ray *growth, const struct gb_roll *roll, 
     return best;
 }
 
+/* True for a particle that keeps one contact. */
+static bool stays(struct gb_chain_ray *growth)
+{
+    const double share = growth->grow->single_contact;
+    return share > 0.0 && gsl_rng_uniform(&growth->rng) >= 1.0 - share;
+}
+
 bool gb_chain_ray_try(struct gb_chain_ray *growth, int64_t origin)
 {
     const struct gb_roll roll = next_one(growth);
@@ -158,7 +165,12 @@ bool gb_chain_ray_try(struct gb_chain_ray *growth, int64_t origin)
     }
     const int count = collect_candidates(growth, &roll, start, direction);
     const struct gb_chain_ray_candidate *best = choose_candidate(growth, &roll, count);
-    if (!best || !gb_roll_onto(&roll, best->j, best->offset, position)) {
+    if (!best) {
+        return false;
+    }
+    if (stays(growth)) {
+        position_of(growth, best, position);
+    } else if (!gb_roll_onto(&roll, best->j, best->offset, position)) {
         return false;
     }
     gb_grid_insert(growth->grid, position);

@@ -74,6 +74,7 @@ static const struct {
     {"structure", "density", grown},
     {"structure", "base", grown},
     {"structure", "r_meso", grown},
+    {"structure", "single_contact", grown},
 };
 
 bool gb_applies_field(const struct gb_params *params, const struct gb_field *field)

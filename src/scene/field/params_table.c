@@ -213,6 +213,11 @@ static const struct gb_field rows[] = {
      .relative = "d", RANGE(1.0, 10.0), .fallback = "2 d",
      .meaning = "radius within which neighbours are counted in aggregate growth",
      .source = "P1 III"},
+    {"structure", "single_contact", GB_FIELD_NUMBER, AT(single_contact), RANGE(0.0, 1.0),
+     .fallback = "0",
+     .meaning = "share of the particles that growth places in contact with one other "
+                "particle, not two",
+     .source = "P1 III: 0"},
     {"structure", "seed", GB_FIELD_SEED, AT(seed), .fallback = "1",
      .meaning = "seed of the random number generator", .source = "numerical"},
     {"structure", "generator", GB_FIELD_CHOICE, AT(generator), .choices = generators,
