@@ -345,6 +345,34 @@ static void test_power_choice(void)
     gsl_rng_free(random);
 }
 
+/* Four rates with errors that leave the exponent open; a quasi-static point, from which (9)
+ * counts, decides it. */
+static void test_power_choice_static(void)
+{
+    static const double with_v[] = {6.8e8, 6.8e7, 6.8e6, 6.8e5, 0.0};
+    const struct gb_power_law law = {0.0, 3.0, 0.5};
+    struct gb_power_choice open[] = {{.exponent = 0.25}, {.exponent = 0.125}};
+    struct gb_power_choice closed[] = {{.exponent = 0.25}, {.exponent = 0.125}};
+    struct gb_power_point points[5];
+    struct gb_error err = {0};
+    for (int i = 0; i < 5; i++) {
+        const double power = i < 4 ? pow(with_v[i], 0.25) : 0.0;
+        points[i] = (struct gb_power_point){with_v[i], 0.95,
+                                            2700.0 + 21.5 * power * pow(0.45, 3.0), 12.0};
+    }
+    g_assert_true(gb_power_choice_fit(open, 2, &law, points, 4, &err));
+    g_assert_true(gb_power_choice_fit(closed, 2, &law, points, 5, &err));
+    g_test_message("weight of 1/4: %.3f, with the quasi-static point %.3f",
+                   open[0].weight, closed[0].weight);
+    g_assert_cmpfloat_with_epsilon(closed[0].rate.chi2, 0.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(closed[0].rate.k_v.value, 21.5, 1e-9);
+    g_assert_cmpfloat(open[0].weight, <, 0.95);
+    g_assert_cmpfloat(closed[0].weight, >, 0.99);
+    points[4].v = -1.0;
+    g_assert_false(gb_power_choice_fit(closed, 2, &law, points, 5, &err));
+    g_assert_nonnull(strstr(err.text, "a rate of 0 or more"));
+}
+
 /* Without errors the scatter decides; an exact law leaves nothing to compare. */
 static void test_power_choice_scatter(void)
 {
@@ -433,6 +461,7 @@ int main(int argc, char **argv)
     g_test_add_func("/power/exact", test_power_exact);
     g_test_add_func("/power/coverage", test_power_coverage);
     g_test_add_func("/power/choice", test_power_choice);
+    g_test_add_func("/power/choice-static", test_power_choice_static);
     g_test_add_func("/power/choice-scatter", test_power_choice_scatter);
     g_test_add_func("/power/input", test_power_input);
     g_test_add_func("/fit/efold", test_efold);

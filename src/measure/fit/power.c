@@ -242,12 +242,12 @@ static bool check_within(struct within *within, struct gb_error *err)
     size_t known = 0;
     for (size_t i = 0; i < within->count; i++) {
         const struct gb_power_point *point = &within->points[i];
-        if (!isfinite(point->v) || point->v <= 0.0 || !isfinite(point->p) ||
+        if (!isfinite(point->v) || point->v < 0.0 || !isfinite(point->p) ||
             !isfinite(point->rho) || !(point->rho > within->law->rho0) ||
             !isfinite(point->error) || point->error < 0.0) {
             return gb_error_set(err, GB_ERR_INPUT,
                                 "rate %g, density %g, pressure %g, error %g: a fit needs "
-                                "finite numbers, a rate above 0, a density above %g",
+                                "finite numbers, a rate of 0 or more, a density above %g",
                                 point->v, point->rho, point->p, point->error,
                                 within->law->rho0);
         }

@@ -30,8 +30,8 @@ bool gb_power_fit(struct gb_power *fit, const double *v, const double *p,
 
 /* One measured pressure. */
 struct gb_power_point {
-    double v, rho, p;
-    double error; /* of p; 0 everywhere: unknown and equal */
+    double v, rho, p; /* v = 0: quasi-static, only for P2 (9) */
+    double error;     /* of p; 0 everywhere: unknown and equal */
 };
 
 /* p = p_stat(rho) + k_v v^exponent (rho - rho0)^power, P2 (9) with 1/4 and 3; each
