@@ -63,6 +63,13 @@ enum gb_geometry {
 };
 enum gb_die_cycle { GB_DIE_CYCLE_PRESS, GB_DIE_CYCLE_FULL };
 enum gb_ramp { GB_RAMP_AUTO, GB_RAMP_LINEAR, GB_RAMP_QUADRATIC };
+/* Unit of numerics.tolerance: mean contact forces; attractions at contact; equilibrium
+ * overlaps d - r_eq that the largest displacement of P1 (15) is measured in. */
+enum gb_tolerance_scale {
+    GB_TOLERANCE_CONTACT,
+    GB_TOLERANCE_ATTRACTION,
+    GB_TOLERANCE_DISPLACEMENT
+};
 enum gb_precision { GB_PRECISION_AUTO, GB_PRECISION_DOUBLE, GB_PRECISION_SINGLE };
 enum gb_fidelity { GB_FIDELITY_FAST, GB_FIDELITY_BALANCED, GB_FIDELITY_REFERENCE };
 /* What a loading path does where no equilibrium of a stress exists. */
@@ -188,7 +195,8 @@ struct gb_params {
     int fidelity;     /* enum gb_fidelity */
     char relaxer[24]; /* name in the relaxer table, or "auto" */
     double tolerance;
-    double strain_part; /* largest strain relaxed at once */
+    int tolerance_scale; /* enum gb_tolerance_scale */
+    double strain_part;  /* largest strain relaxed at once */
     struct gb_relative cutoff;
     int precision; /* enum gb_precision */
     int64_t threads;

@@ -110,11 +110,12 @@ GString *gb_curve_csv_head(const struct gb_params *params)
     GString *head = g_string_new("# greenbody " GB_VERSION "\n# preset: ");
     gb_line_file_add_text(head, params->title);
     g_string_append_printf(head, "# seed: %" PRIu64 "\n", params->seed);
-    g_string_append(head,
-                    "# units: pressures in MPa; density is the share of the volume "
-                    "that is solid; bridged is a share of the contacts, rattlers of "
-                    "the particles; residual is relative to the force scale; seconds "
-                    "of wall time since the start\n");
+    g_string_append(
+        head, "# units: pressures in MPa; density is the share of the volume "
+              "that is solid; bridged is a share of the contacts, rattlers of "
+              "the particles; residual is the rms force over the mean contact force or "
+              "f_a(d), whichever is larger, in every numerics.tolerance_scale; seconds "
+              "of wall time since the start\n");
     g_string_append_printf(
         head,
         "# p_MPa: mean pressure over the compressed axes (%s), positive "

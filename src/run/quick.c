@@ -47,6 +47,7 @@ bool gb_quick_params(const struct gb_params *full, struct gb_params *quick)
     quick->changes[0] = '\0'; /* they refer to other steps */
     quick->fidelity = GB_FIDELITY_FAST;
     quick->tolerance = NAN;
+    quick->tolerance_scale = GB_TOLERANCE_CONTACT;
     quick->strain_part = NAN;
     snprintf(quick->relaxer, sizeof quick->relaxer, "auto");
     const struct gb_loading_kind *kind = gb_loading_kind_of(full);

@@ -11,14 +11,23 @@
 #include "scene/quasistatic_scene.h"
 
 static const char *const quasistatic_fields[] = {
-    "scene.dimension",          "structure.kind",
-    "structure.overlap",        "structure.density",
-    "structure.base",           "structure.r_meso",
-    "structure.single_contact", "loading.step",
-    "loading.unload_from",      "loading.path",
-    "loading.on_collapse",      "numerics.relaxer",
-    "numerics.tolerance",       "numerics.max_evaluations",
-    "numerics.precision",       NULL,
+    "scene.dimension",
+    "structure.kind",
+    "structure.overlap",
+    "structure.density",
+    "structure.base",
+    "structure.r_meso",
+    "structure.single_contact",
+    "loading.step",
+    "loading.unload_from",
+    "loading.path",
+    "loading.on_collapse",
+    "numerics.relaxer",
+    "numerics.tolerance",
+    "numerics.tolerance_scale",
+    "numerics.max_evaluations",
+    "numerics.precision",
+    NULL,
 };
 
 static const char *const dynamic_fields[] = {

@@ -98,6 +98,7 @@ static void pick_relaxation(struct gb_model *model, const struct gb_params *para
     }
     numerics->tolerance =
         isfinite(params->tolerance) ? params->tolerance : numerics->tolerance;
+    numerics->tolerance_scale = params->tolerance_scale;
     const double most = isfinite(params->strain_part) ? params->strain_part : part;
     numerics->parts = (int)fmax(1.0, ceil(params->strain_step / most - 1e-9));
 }

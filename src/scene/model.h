@@ -25,10 +25,11 @@ struct gb_terms {
 /* Numbers under [numerics] after fidelity has filled what the preset left open. */
 struct gb_numerics {
     char relaxer[24];
-    double tolerance; /* rms residual over force scale at which a step is relaxed */
-    int parts;        /* equal ones in which a strain step is taken */
-    double cutoff;    /* d; attraction is dropped beyond */
-    double skin;      /* d; margin of the neighbour list */
+    double tolerance;    /* residual, in units of tolerance_scale, of a relaxed step */
+    int tolerance_scale; /* enum gb_tolerance_scale */
+    int parts;           /* equal ones in which a strain step is taken */
+    double cutoff;       /* d; attraction is dropped beyond */
+    double skin;         /* d; margin of the neighbour list */
     int threads;
     bool single;             /* single precision in the sweep */
     int64_t max_evaluations; /* per strain step */

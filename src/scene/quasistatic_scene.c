@@ -1,13 +1,43 @@
 #include "scene/quasistatic_scene.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/size/sizes.h"
+
+static bool attracts(const struct gb_params *params)
+{
+    return params->normal == GB_NORMAL_ROD && params->epsilon_j > 0.0 &&
+           params->n_d0_cubed > 0.0;
+}
+
+/* Neither attraction nor d - r_eq without adhesion; the stiffness that turns forces into
+ * displacements is that of equal spheres; the tolerances of fidelity are in mean contact
+ * forces. */
 bool gb_quasistatic_scene_check(const struct gb_params *params, struct gb_error *err)
 {
-    (void)params;
-    (void)err;
-    return true;
+    if (params->tolerance_scale == GB_TOLERANCE_CONTACT) {
+        return true;
+    }
+    const bool displacement = params->tolerance_scale == GB_TOLERANCE_DISPLACEMENT;
+    const char *name = displacement ? "displacement" : "attraction";
+    if (!attracts(params)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "numerics.tolerance_scale = %s: must be contact in a powder "
+                            "without attraction",
+                            name);
+    }
+    if (displacement && gb_sizes_polydisperse(params)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "numerics.tolerance_scale = displacement: must be contact or "
+                            "attraction with more than one particle size");
+    }
+    return isfinite(params->tolerance) ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "numerics.tolerance = auto: must be a number with "
+                        "numerics.tolerance_scale = %s",
+                        name);
 }
 
 void gb_quasistatic_scene_freeze(struct gb_model *model, const struct gb_params *params)
@@ -19,17 +49,23 @@ void gb_quasistatic_scene_freeze(struct gb_model *model, const struct gb_params 
 const char *gb_quasistatic_scene_note(const struct gb_model *model, int index,
                                       char *buffer, size_t size)
 {
+    static const char *const unit[] = {
+        [GB_TOLERANCE_CONTACT] = "of the mean contact force",
+        [GB_TOLERANCE_ATTRACTION] = "of the attraction at contact",
+        [GB_TOLERANCE_DISPLACEMENT] = "of d - r_eq for the largest displacement",
+    };
     const struct gb_numerics *numerics = &model->numerics;
+    const bool lighter = numerics->tolerance_scale == GB_TOLERANCE_CONTACT &&
+                         strcmp(numerics->relaxer, "predict") == 0;
     if (index != 0) {
         return NULL;
     }
-    snprintf(buffer, size,
-             "relaxer %s, strain steps in %d part%s, tolerance %g of the mean contact "
-             "force%s, at most %lld evaluations per part, %s precision",
-             numerics->relaxer, numerics->parts, numerics->parts == 1 ? "" : "s",
-             numerics->tolerance,
-             strcmp(numerics->relaxer, "predict") == 0 ? " (less under light loads)" : "",
-             (long long)numerics->max_evaluations,
-             numerics->single ? "single" : "double");
+    snprintf(
+        buffer, size,
+        "relaxer %s, strain steps in %d part%s, tolerance %g %s%s, at most %lld evaluations per part, %s precision",
+        numerics->relaxer, numerics->parts, numerics->parts == 1 ? "" : "s",
+        numerics->tolerance, unit[numerics->tolerance_scale],
+        lighter ? " (less under light loads)" : "", (long long)numerics->max_evaluations,
+        numerics->single ? "single" : "double");
     return buffer;
 }

@@ -221,6 +221,21 @@ static void test_steepest(void)
     check(params, 2, 5);
 }
 
+/* The stiffness that the rule measures displacements with is not part of the state. */
+static void test_scales(void)
+{
+    check(scene_params("particles.count=100", "loading.until=density = 0.28",
+                       "loading.unload_from=4 MPa", "numerics.tolerance=1e-2",
+                       "loading.step=0.5 %", "numerics.relaxer=steepest",
+                       "structure.base=6 d", "numerics.tolerance_scale=displacement",
+                       NULL),
+          2, 25);
+    check(scene_params("loading.until=60 MPa", "loading.unload_from=30 MPa",
+                       "numerics.tolerance=3e-2", "loading.step=0.4 %",
+                       "numerics.tolerance_scale=attraction", NULL),
+          2, 25);
+}
+
 static void test_planar(void)
 {
     check(scene_params("scene.dimension=2", "particles.count=300",
@@ -372,6 +387,7 @@ int main(int argc, char **argv)
     g_test_add_func("/checkpoint/no bridges", test_no_bridges);
     g_test_add_func("/checkpoint/predict", test_predict);
     g_test_add_func("/checkpoint/steepest", test_steepest);
+    g_test_add_func("/checkpoint/tolerance-scales", test_scales);
     g_test_add_func("/checkpoint/planar", test_planar);
     g_test_add_func("/checkpoint/dynamic", test_dynamic);
     g_test_add_func("/checkpoint/dynamic solid", test_dynamic_solid);

@@ -58,6 +58,12 @@ static void test_plan(void)
     g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
     g_assert_nonnull(strstr(err.text, "loading.step"));
     gb_chart_plan_finish(&plan);
+    struct gb_params scaled = params;
+    scaled.tolerance = 0.1;
+    scaled.tolerance_scale = GB_TOLERANCE_ATTRACTION;
+    g_assert_false(gb_chart_plan_init(&plan, &scaled, NULL, NULL, NULL, 3, &err));
+    g_assert_nonnull(strstr(err.text, "tolerance_scale: must be contact"));
+    gb_chart_plan_finish(&plan);
     g_assert_false(gb_chart_plan_init(&plan, &params, NULL, NULL, "many", 3, &err));
     gb_chart_plan_finish(&plan);
 }

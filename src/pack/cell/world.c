@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/vec.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_convert.h"
 #include "pack/list/blocks.h"
@@ -176,6 +177,11 @@ double gb_world_diameter(const struct gb_world *world, int64_t i)
     return diameter ? diameter[i] : 1.0;
 }
 
+double gb_world_imbalance(const struct gb_world *world)
+{
+    return fmax(world->engine.force_rms, world->engine.torque_rms);
+}
+
 double gb_world_residual(const struct gb_world *world)
 {
     const struct gb_engine *engine = &world->engine;
@@ -183,8 +189,34 @@ double gb_world_residual(const struct gb_world *world)
     const double mean =
         tally->contacts > 0 ? tally->normal_sum / (double)tally->contacts : 0.0;
     const double scale = fmax(mean, engine->model->force_floor);
-    const double rms = fmax(engine->force_rms, engine->torque_rms);
-    return rms / scale;
+    return gb_world_imbalance(world) / scale;
+}
+
+/* Force and torque on particle i, from where the last evaluation left them. */
+static void wrench_of(const struct gb_engine *engine, int64_t i, double wrench[6])
+{
+    for (int c = 0; c < 3; c++) {
+        if (engine->state.forces == GB_ENGINE_FORCES_F32) {
+            wrench[c] = (double)engine->f32.wrench[i][c];
+            wrench[3 + c] = (double)engine->f32.wrench[i][GB_F32_STATE_TORQUE + c];
+        } else {
+            wrench[c] = engine->particles.force[3 * i + c];
+            wrench[3 + c] = engine->particles.torque[3 * i + c];
+        }
+    }
+}
+
+void gb_world_largest(const struct gb_world *world, double *force, double *torque)
+{
+    double force2 = 0.0, torque2 = 0.0;
+    for (int64_t i = 0; i < world->engine.particles.count; i++) {
+        double wrench[6];
+        wrench_of(&world->engine, i, wrench);
+        force2 = fmax(force2, gb_vec_dot(wrench, wrench));
+        torque2 = fmax(torque2, gb_vec_dot(wrench + 3, wrench + 3));
+    }
+    *force = sqrt(force2);
+    *torque = sqrt(torque2);
 }
 
 const struct gb_neighbour_list *gb_world_pairs(const struct gb_world *world)

@@ -78,9 +78,15 @@ const double *gb_world_position(const struct gb_world *world);
 /* Diameter of particle i, d. */
 double gb_world_diameter(const struct gb_world *world, int64_t i);
 
-/* rms force (and torque over d, whichever is larger) over the force scale: the mean |f_n|
- * of the contacts or f_a(d), whichever is larger (without adhesion: a small floor). */
+/* rms force, E d^2, or rms torque over d, whichever is larger. */
+double gb_world_imbalance(const struct gb_world *world);
+
+/* The imbalance over the force scale: the mean |f_n| of the contacts or f_a(d), whichever
+ * is larger (without adhesion: a small floor). */
 double gb_world_residual(const struct gb_world *world);
+
+/* Largest force, and largest torque, on a particle: E d^2, E d^3. */
+void gb_world_largest(const struct gb_world *world, double *force, double *torque);
 
 /* For measurements: the neighbour lists, and the contact records of their `near` pairs.
  * Forces of pairs: pack/kernel/pair_forces.h. */

@@ -5,7 +5,7 @@
 #include "pack/list/blocks.h"
 
 /* Where the torque begins in a row of force and torque. */
-enum { TORQUE = 4 };
+enum { TORQUE = GB_F32_STATE_TORQUE };
 
 void gb_f32_convert_particles(struct gb_engine *engine, int64_t begin, int64_t end)
 {

@@ -15,9 +15,9 @@ struct gb_f32_particle {
     float rotation[4];   /* increment since the last evaluation, rad */
 };
 
-/* Numbers in a row: force and torque on a particle, each with a fourth number that is 0;
- * an attraction. */
-enum { GB_F32_STATE_WRENCH = 8, GB_F32_STATE_PULL = 4 };
+/* Numbers in a row: force and torque on a particle, each with a fourth number that is 0,
+ * and where the torque begins; an attraction. */
+enum { GB_F32_STATE_WRENCH = 8, GB_F32_STATE_TORQUE = 4, GB_F32_STATE_PULL = 4 };
 
 /* Neighbours in memory that share one bound of their displacements; divides a block. */
 enum { GB_F32_STATE_GROUP = 32 };

@@ -10,7 +10,11 @@
 #include "pack/list/blocks.h"
 
 /* Widths of rows, and where the torque begins in a row of force and torque. */
-enum { WRENCH = GB_F32_STATE_WRENCH, PULL = GB_F32_STATE_PULL, TORQUE = 4 };
+enum {
+    WRENCH = GB_F32_STATE_WRENCH,
+    PULL = GB_F32_STATE_PULL,
+    TORQUE = GB_F32_STATE_TORQUE
+};
 
 /* Rows of one particle that are summed without a branch: few particles have more, and the
  * unused ones cost little. */

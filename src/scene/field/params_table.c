@@ -25,6 +25,8 @@ static const char *const hangups[] = {"detach", "stop", NULL};
 static const char *const collapses[] = {"stop", "strain", NULL};
 static const char *const fidelities[] = {"fast", "balanced", "reference", NULL};
 static const char *const precisions[] = {"auto", "double", "single", NULL};
+static const char *const tolerance_scales[] = {"contact", "attraction", "displacement",
+                                               NULL};
 static const char *const relaxers[] = {"auto", "predict", "fire", "steepest", NULL};
 
 /* Member of gb_params, as offset and size. */
@@ -357,9 +359,14 @@ static const struct gb_field rows[] = {
      .source = "P1 (15); numerical"},
     {"numerics", "tolerance", GB_FIELD_NUMBER, AT(tolerance), RANGE(1e-12, 0.1),
      AUTO(NAN), .fallback = "auto",
-     .meaning = "rms residual force over the force scale at which a step is relaxed; "
+     .meaning = "residual, in units of tolerance_scale, at which a step is relaxed; "
                 "predict: a share of it under light loads",
      .source = "numerical"},
+    {"numerics", "tolerance_scale", GB_FIELD_CHOICE, AT(tolerance_scale),
+     .choices = tolerance_scales, .fallback = "contact",
+     .meaning = "unit of numerics.tolerance: the mean contact force; the attraction at "
+                "contact; d - r_eq, for the largest displacement of P1 (15)",
+     .source = "P1 (15); numerical"},
     {"numerics", "strain_part", GB_FIELD_NUMBER, AT(strain_part),
      .dimension = GB_DIM_FRACTION, RANGE(1e-6, 0.02), AUTO(NAN), .fallback = "auto",
      .meaning =

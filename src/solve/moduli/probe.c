@@ -280,6 +280,7 @@ bool gb_probe_create(struct gb_probe **out, const struct gb_world *world,
     probe->model = *gb_world_model(world);
     probe->model.kind = GB_KIND_QUASISTATIC;
     probe->model.numerics.single = false;
+    probe->model.numerics.tolerance_scale = GB_TOLERANCE_CONTACT;
     snprintf(probe->model.numerics.relaxer, sizeof probe->model.numerics.relaxer, "fire");
     probe->model.numerics.max_evaluations = GB_PROBE_EVALUATIONS_MAX;
     probe->cancelled = cancelled;

@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "pack/f32/integrate_f32.h"
 #include "scene/tolerances.h"
+#include "solve/relax/stopping_rule.h"
 
 static const struct gb_relaxer *const table[] = {&gb_relax_predict, &gb_relax_fire,
                                                  &gb_relax_steepest, NULL};
@@ -72,9 +73,11 @@ bool gb_relax_create(struct gb_relax **out, const struct gb_model *model,
     relax->method = method;
     relax->sheared = model->sheared;
     relax->tolerance = model->numerics.tolerance;
+    relax->scale = model->numerics.tolerance_scale;
     relax->max_evaluations = model->numerics.max_evaluations;
     relax->state = gb_alloc_array(1, method->state_size, err);
-    if (!relax->state || !take_vectors(relax, model, err)) {
+    if (!relax->state || !take_vectors(relax, model, err) ||
+        !gb_stopping_rule_init(relax, model, err)) {
         gb_relax_destroy(relax);
         return false;
     }
@@ -87,6 +90,7 @@ void gb_relax_destroy(struct gb_relax *relax)
     if (!relax) {
         return;
     }
+    gb_alloc_free(relax->sum);
     gb_alloc_free(relax->state);
     gb_alloc_free(relax->rotation_sum);
     for (int v = 0; v < 4; v++) {
@@ -103,6 +107,7 @@ static void reset(struct gb_relax *relax)
     relax->best_at = 0;
     relax->restarts = 0;
     relax->stalled = false;
+    relax->stiffness = 0.0;
 }
 
 void gb_relax_start(struct gb_relax *relax, struct gb_world *world)
@@ -141,17 +146,6 @@ static bool stalls(struct gb_relax *relax, struct gb_world *world)
     return relax->stalled;
 }
 
-/* Residual at which a relaxation is done.  Under light loads the residual is relative
- * to the attraction, which does not bound the error of the pressure. */
-static double allowed(const struct gb_relax *relax, const struct gb_world *world)
-{
-    const struct gb_tally *tally = gb_world_tally(world);
-    const double carried = tally->normal_sum / (fmax(1.0, (double)tally->contacts) *
-                                                gb_world_model(world)->force_floor);
-    const double share = GB_PREDICT_TOLERANCE_SLOPE * carried;
-    return relax->tolerance * fmin(1.0, fmax(relax->method->light, share));
-}
-
 bool gb_relax_evaluate(struct gb_relax *relax, struct gb_world *world,
                        struct gb_error *err)
 {
@@ -173,8 +167,7 @@ static enum gb_relax_outcome advance(struct gb_relax *relax, struct gb_world *wo
             return GB_RELAX_FAILED;
         }
         relax->evaluations++;
-        relax->residual = gb_world_residual(world);
-        if (relax->residual <= allowed(relax, world)) {
+        if (gb_stopping_rule_met(relax, world)) {
             return GB_RELAX_DONE;
         }
         if (relax->evaluations >= relax->max_evaluations || stalls(relax, world)) {

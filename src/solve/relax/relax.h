@@ -10,10 +10,8 @@
 
 /* Relaxation of a world to equilibrium: one table of methods, one stopping rule.
  *
- * The rule: gb_world_residual (rms force and torque over the mean contact force or
- * f_a(d)) at or below the tolerance, or below a fraction of it where contacts carry less
- * than their attraction (struct gb_relaxer, light).  A method only moves the particles after
- * each evaluation. */
+ * The rule (stopping_rule.h): the residual at or below the tolerance, in units of
+ * numerics.tolerance_scale.  A method only moves the particles after each evaluation. */
 struct gb_relax;
 struct gb_record;
 
@@ -55,6 +53,9 @@ struct gb_relax {
     float *rotation_sum; /* with an f32 state, instead of vector[method->rotation_sum] */
     bool sheared;        /* the cell may be tilted */
     double tolerance;
+    int scale;        /* enum gb_tolerance_scale: unit of tolerance and residual */
+    double stiffness; /* of the most strongly held particle, E d; 0: not yet known */
+    double *sum;      /* count: scratch; NULL unless scale = displacement */
     int64_t max_evaluations;         /* per relaxation */
     int64_t iterations, evaluations; /* of the relaxation under way */
     double residual;

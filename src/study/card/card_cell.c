@@ -65,6 +65,7 @@ static bool start(struct gb_compact *loose, const struct gb_params *preset, int 
     params.seed += (uint64_t)(replica - 1);
     params.threads = 1;
     params.tolerance = options->tolerance;
+    params.tolerance_scale = GB_TOLERANCE_CONTACT;
     g_strlcpy(params.path, "isotropic to density 0.99", sizeof params.path);
     return gb_compact_press(loose, &params, &at_once, callbacks, err);
 }

@@ -322,6 +322,15 @@ static bool check_seeds(const struct gb_params *params, int seeds, struct gb_err
                         params->seed, most, seeds);
 }
 
+/* Settings are compared by tolerances in one unit. */
+static bool check_scale(const struct gb_params *params, struct gb_error *err)
+{
+    return params->tolerance_scale == GB_TOLERANCE_CONTACT ||
+           gb_loading_kind_of(params)->follows_time ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "numerics.tolerance_scale: must be contact in a chart");
+}
+
 bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *params,
                         const char *const *vary, const char *const *reference,
                         const char *pressures, int seeds, struct gb_error *err)
@@ -329,7 +338,8 @@ bool gb_chart_plan_init(struct gb_chart_plan *plan, const struct gb_params *para
     *plan = (struct gb_chart_plan){.params = *params, .seeds = seeds};
     GArray *settings = g_array_new(FALSE, FALSE, sizeof(struct gb_chart_setting));
     bool good = gb_loading_kind_check_cell(params, "a chart", err) &&
-                check_seeds(params, seeds, err) && plan_pressures(plan, pressures, err) &&
+                check_seeds(params, seeds, err) && check_scale(params, err) &&
+                plan_pressures(plan, pressures, err) &&
                 add_reference(settings, params, reference, err) &&
                 add(settings, params, err);
     if (good && given(vary)) {

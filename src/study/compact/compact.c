@@ -161,7 +161,10 @@ static bool set_legs(struct gb_params *params, const struct gb_compact *from,
     char text[sizeof params->changes];
     gb_changes_effective(&from->params, from->point.step, params);
     params->changes[0] = '\0';
-    params->tolerance = isfinite(from->tolerance) ? from->tolerance : params->tolerance;
+    if (isfinite(from->tolerance)) {
+        params->tolerance = from->tolerance;
+        params->tolerance_scale = GB_TOLERANCE_CONTACT;
+    }
     snprintf(text, sizeof text, "loading.path=%s%s; loading.step=%.9g", path,
              from->sheared ? " then shear xz to 1 %" : "", step);
     return gb_changes_add(params, from->point.step, text, err);

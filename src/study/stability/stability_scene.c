@@ -166,6 +166,7 @@ static bool settle(struct gb_stability_scene *scene, struct gb_error *err)
     bool done = gb_relax_create(&relax, &scene->model, err);
     if (done) {
         relax->tolerance = rest;
+        relax->scale = GB_TOLERANCE_CONTACT;
         relax->max_evaluations = EVALUATIONS_MOST;
         gb_relax_start(relax, scene->world);
         const enum gb_relax_outcome outcome =
