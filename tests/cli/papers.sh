@@ -31,7 +31,7 @@ is 'a row has the number here, the printed one and a verdict' grep -qE \
     one/papers.md
 is 'laws of the paper are compared, too' grep -q '^| section II.B .*within error' one/papers.md
 is 'other papers are not' sh -c '! grep -q "^| .*P2-\|^## P2" one/papers.md'
-is 'numbers without a comparison say why' grep -q '12 contacts.* no column' one/papers.md
+is 'kept states are read' grep -q '^| .*share of particles with 12 contacts.*within error' one/papers.md
 is 'figures are there' [ "$(grep -c '^!\[P1 ' one/papers.md)" -eq "$(find one -name '*.png' | wc -l)" ]
 is 'with the printed numbers' grep -q '0\.387' one/P1-fig5.csv
 is 'the table has a row per comparison' [ "$(wc -l <one/papers.csv)" -gt 12 ]

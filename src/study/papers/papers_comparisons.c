@@ -11,19 +11,20 @@
 enum { NM_9, NM_16, NM_21, NM_38 };
 enum { UNIAXIAL, BIAXIAL, ISOTROPIC };
 
-#define MEAN       .measure = gb_papers_measures_mean
-#define DIFFERENCE .measure = gb_papers_measures_difference
-#define LOADED     .read = gb_papers_measures_loaded
-#define UNLOADED   .read = gb_papers_measures_unloaded
-#define LOST       .read = gb_papers_measures_lost
-#define K          .quantity = GB_READING_COORDINATION
-#define FIG5       .experiment = {"P1-fig5"}
-#define FIG12      .experiment = {"P1-fig12"}
-#define POINTS     .scale = 100.0
-#define ALL_RATES  .experiment = {"P2-v1", "P2-v2", "P2-v3", "P2-v4", "P2-v5"}
-#define PRESSURE   .read = gb_papers_measures_at_density, .column = "p_MPa", .at = 0.95
-#define OPTIONS    "radius current, motion full", {"P2-full"}, MEAN
-#define CONTACTS   .read = gb_papers_measures_at_density, .column = "coordination"
+#define MEAN         .measure = gb_papers_measures_mean
+#define DIFFERENCE   .measure = gb_papers_measures_difference
+#define LOADED       .read = gb_papers_measures_loaded
+#define UNLOADED     .read = gb_papers_measures_unloaded
+#define LOST         .read = gb_papers_measures_lost
+#define K            .quantity = GB_READING_COORDINATION
+#define FIG5         .experiment = {"P1-fig5"}
+#define FIG12        .experiment = {"P1-fig12"}
+#define POINTS       .scale = 100.0
+#define ALL_RATES    .experiment = {"P2-v1", "P2-v2", "P2-v3", "P2-v4", "P2-v5"}
+#define PRESSURE     .read = gb_papers_measures_at_density, .column = "p_MPa", .at = 0.95
+#define OPTIONS      "radius current, motion full", {"P2-full"}, MEAN
+#define LOADED_STATE .read = gb_papers_measures_share, .column = "p-1GPa"
+#define CONTACTS     .read = gb_papers_measures_at_density, .column = "coordination"
 
 static const char stopping[] =
     "P1 states no stopping rule of its relaxation; `docs/p1-densities.md`";
@@ -77,6 +78,12 @@ static const struct gb_papers_comparison table[] = {
      .why = stopping},
     {"P1-fig8-unloaded-38nm", FIG5, MEAN, UNLOADED, K, .at = 1000, .point = NM_38,
      .why = stopping},
+    {"P1-ten-9.7nm", FIG5, MEAN, LOADED_STATE, POINTS, .contacts = 10, .point = NM_9},
+    {"P1-ten-38nm", FIG5, MEAN, LOADED_STATE, POINTS, .contacts = 10, .point = NM_38},
+    {"P1-twelve", "9.7 nm", FIG5, MEAN, LOADED_STATE, POINTS, .contacts = 12,
+     .point = NM_9},
+    {"P1-twelve", "38 nm", FIG5, MEAN, LOADED_STATE, POINTS, .contacts = 12,
+     .point = NM_38},
     {"P1-fig11-100", FIG12, MEAN, UNLOADED, .at = 100, .point = UNIAXIAL,
      .why = stopping},
     {"P1-fig12-100", FIG12, DIFFERENCE, UNLOADED, POINTS, .at = 100, .point = ISOTROPIC,

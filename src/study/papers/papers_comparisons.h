@@ -29,7 +29,8 @@ struct gb_papers_comparison {
     gb_papers_measure *measure;
     gb_papers_read *read; /* of the means; NULL for other measures */
     enum gb_reading_quantity quantity;
-    const char *column;  /* of curve.csv, where no quantity is meant */
+    const char *column;  /* of curve.csv, where no quantity is meant; or a kept state */
+    int contacts;        /* of a particle */
     double at;           /* MPa, relative density, exponent: the measure says which */
     double hardening;    /* Hollomon's exponent, of laws of a pair */
     size_t point, other; /* indices on the axis of the experiment */

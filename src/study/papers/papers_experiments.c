@@ -11,6 +11,7 @@
 
 static const struct gb_papers_experiment table[] = {
     {"P1-fig5", "four powders with bridges, P1 Figs. 5, 6, 8", "p1-set2-9.7nm",
+     .change = {"output.snapshots_at=1 GPa"},
      .axis = "particles.diameter=9.7;16;21;38 nm",
      .extent = {{.cells = 10}, {.cells = 16, .change = {SMALL_CELL}}}},
     {"P1-fig6", "four powders by friction alone, P1 Fig. 6", "p1-nobridge-9.7nm",

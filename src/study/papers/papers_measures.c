@@ -124,6 +124,24 @@ double gb_papers_measures_across(const struct gb_runset_run *run,
     return ratio;
 }
 
+double gb_papers_measures_share(const struct gb_runset_run *run,
+                                const struct gb_papers_comparison *row)
+{
+    struct gb_state *state = NULL;
+    int64_t found = 0;
+    double share = NAN;
+    char *path = g_strdup_printf("%s/snapshots/%s.h5", run->directory, row->column);
+    if (gb_state_read(&state, path, NULL)) {
+        for (int64_t i = 0; i < state->count; i++) {
+            found += state->contacts[i] == row->contacts;
+        }
+        share = (double)found / (double)state->count;
+    }
+    gb_state_destroy(state);
+    g_free(path);
+    return share;
+}
+
 /* Mean of the readings at a point. */
 static double mean_at(const struct gb_papers_view *view,
                       const struct gb_papers_comparison *row, size_t point)

@@ -19,6 +19,9 @@ gb_papers_read
  * degrees of z, in the last state. */
 gb_papers_read gb_papers_measures_across;
 
+/* Share of the particles with `contacts` contacts in the kept state snapshots/`column`.h5. */
+gb_papers_read gb_papers_measures_share;
+
 /* --- measures of all runs of the first experiment ---------------------------------------- */
 
 gb_papers_measure gb_papers_measures_mean;       /* of the reading, at a point */
