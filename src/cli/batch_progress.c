@@ -61,14 +61,14 @@ static void clear_line(struct gb_batch_progress *batch)
 static void format_remaining(const struct gb_batch_progress *batch, char *text,
                              size_t size)
 {
-    const size_t done = batch->ended - batch->before;
-    if (done == 0) {
+    const double done = batch->cost_ended - batch->cost_before;
+    if (!(done > 0.0)) {
         g_strlcpy(text, "time left unknown", size);
         return;
     }
     char duration[48];
-    const double each_s = (gb_clock_s() - batch->started_s) / (double)done;
-    gb_cost_duration(each_s * (double)(batch->total - batch->ended), duration,
+    const double each_s = (gb_clock_s() - batch->started_s) / done;
+    gb_cost_duration(each_s * (batch->cost_total - batch->cost_ended), duration,
                      sizeof duration);
     g_snprintf(text, (gulong)size, "%s left", duration);
 }
@@ -89,13 +89,20 @@ static void print_line(struct gb_batch_progress *batch)
     batch->columns = MAX(length, batch->columns);
 }
 
+static double cost_of(const struct gb_batch_progress *batch,
+                      const struct gb_ensemble *ensemble,
+                      const struct gb_ensemble_run *run)
+{
+    return batch->cost != NULL ? batch->cost[run - ensemble->run] : 1.0;
+}
+
 static void on_progress(const struct gb_ensemble *ensemble,
                         const struct gb_ensemble_run *run, void *data)
 {
     struct gb_batch_progress *batch = data;
-    (void)ensemble;
     if (run != NULL) {
         batch->ended++;
+        batch->cost_ended += cost_of(batch, ensemble, run);
         batch->failed += run->error.code != GB_OK;
     }
     if (batch->output == GB_BATCH_PROGRESS_QUIET) {
@@ -116,10 +123,16 @@ static void begin(struct gb_batch_progress *batch, const struct gb_ensemble *ens
     batch->total = ensemble->points * ensemble->replicas;
     batch->ended = 0;
     batch->failed = 0;
+    batch->cost_total = 0.0;
+    batch->cost_ended = 0.0;
     for (size_t i = 0; i < batch->total; i++) {
+        const double cost = cost_of(batch, ensemble, &ensemble->run[i]);
         batch->ended += ensemble->run[i].ended;
+        batch->cost_total += cost;
+        batch->cost_ended += ensemble->run[i].ended ? cost : 0.0;
     }
     batch->before = batch->ended;
+    batch->cost_before = batch->cost_ended;
     batch->started_s = gb_clock_s();
     batch->printed_s = batch->started_s;
 }

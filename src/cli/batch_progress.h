@@ -18,6 +18,8 @@ enum gb_batch_progress_output {
 struct gb_batch_progress {
     struct gb_mpi_pool *mpi; /* ranks started by mpirun or srun; NULL: one process */
     enum gb_batch_progress_output output;
+    const double *cost; /* of each run, for the time left; NULL: all cost the same */
+    double cost_total, cost_before, cost_ended;
     size_t total, before, ended, failed; /* runs; before: done by an earlier command */
     double started_s, printed_s;         /* clock of the begin, and of the last line */
     int columns;                         /* occupied by the line that is rewritten */

@@ -133,6 +133,7 @@ static bool perform(struct command *command, char **words, const char *line,
     if (!prepare(command, words, err)) {
         return false;
     }
+    command->batch.cost = command->plan.cost;
     print_estimate(command);
     const bool worked = gb_batch_progress_work(&command->batch, &command->plan.ensemble,
                                                request->jobs, &stopped);

@@ -130,11 +130,13 @@ static void sort_into(struct gb_papers_plan *plan, struct list *list)
     }
     g_qsort_with_data(order, (gint)plan->count, sizeof *order, compare_costs, cost);
     plan->run = g_new(struct gb_papers_run, plan->count + 1);
+    plan->cost = g_new(double, plan->count + 1);
     for (size_t k = 0; k < plan->count; k++) {
         struct gb_ensemble_run *run = &plan->ensemble.run[k];
         plan->run[k] = g_array_index(list->run, struct gb_papers_run, order[k]);
         run->params = g_array_index(list->params, struct gb_params, order[k]);
         run->directory = g_strdup(g_ptr_array_index(list->folder, order[k]));
+        plan->cost[k] = cost[order[k]];
     }
     g_free(order);
     g_free(cost);
@@ -182,6 +184,7 @@ void gb_papers_plan_finish(struct gb_papers_plan *plan)
 {
     gb_ensemble_finish(&plan->ensemble);
     g_free(plan->run);
+    g_free(plan->cost);
     g_free(plan->directory);
     *plan = (struct gb_papers_plan){0};
 }
@@ -198,7 +201,7 @@ double gb_papers_plan_remaining_s(const struct gb_papers_plan *plan, size_t *run
     *runs = 0;
     for (size_t k = 0; k < plan->count; k++) {
         if (!plan->ensemble.run[k].ended) {
-            seconds += cost_s(&plan->ensemble.run[k].params);
+            seconds += plan->cost[k];
             (*runs)++;
         }
     }

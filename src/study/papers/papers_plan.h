@@ -25,6 +25,7 @@ struct gb_papers_plan {
     bool selected[GB_PAPERS_EXPERIMENTS_MOST];
     struct gb_papers_run *run;   /* count of them, run k is ensemble.run[k] */
     struct gb_ensemble ensemble; /* a point for each run */
+    double *cost;                /* estimated processor time of each, s */
     size_t count;
 };
 
