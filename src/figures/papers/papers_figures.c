@@ -5,6 +5,7 @@
 #include "figures/figures.h"
 #include "figures/papers/paper_points.h"
 #include "figures/plotting.h"
+#include "io/preset.h"
 
 enum { WIDTH = 1600, HEIGHT = 1200, EXPERIMENTS = 6 }; /* pixels */
 
@@ -12,34 +13,65 @@ enum { WIDTH = 1600, HEIGHT = 1200, EXPERIMENTS = 6 }; /* pixels */
 
 static const struct figure {
     const char *file, *title;
-    const char *experiment[EXPERIMENTS]; /* those without runs are left out */
-    const char *figure;                  /* a row of figures.c */
-    const char *reference;               /* experiment that is subtracted; NULL: none */
+    const char
+        *experiment[EXPERIMENTS]; /* those without runs are left out; none: a law */
+    const char *figure;           /* a row of figures.c */
+    const char *reference;        /* experiment that is subtracted; NULL: none */
+    const char *at;               /* kept state; NULL: the last */
 } table[] = {
-    {"P1-fig5.png", "P1 Fig. 5", {"P1-fig5"}, "densification", NULL},
-    {"P1-fig6.png", "P1 Fig. 6", {"P1-fig5", "P1-fig6"}, "size-effect", NULL},
-    {"P1-fig7.png", "P1 Fig. 7", {"P1-fig5"}, "rdf", NULL},
-    {"P1-fig8.png", "P1 Fig. 8", {"P1-fig5"}, "coordination", NULL},
+    {"P1-fig1.png", "P1 Fig. 1", {NULL}, "contact", NULL, NULL},
+    {"P1-fig2.png", "P1 Fig. 2", {NULL}, "bridge-strength", NULL, NULL},
+    {"P1-fig5.png", "P1 Fig. 5", {"P1-fig5"}, "densification", NULL, NULL},
+    {"P1-fig6.png", "P1 Fig. 6", {"P1-fig5", "P1-fig6"}, "size-effect", NULL, NULL},
+    {"P1-fig7.png", "P1 Fig. 7", {"P1-fig5"}, "rdf", NULL, "p=1 GPa"},
+    {"P1-fig8.png", "P1 Fig. 8", {"P1-fig5"}, "coordination", NULL, NULL},
     {"P1-contacts.png",
      "P1 section V, shares of contact numbers",
      {"P1-fig5"},
      "contacts",
+     NULL,
+     "p=1 GPa"},
+    {"P1-fig11.png", "P1 Figs. 11 and 12", {"P1-fig12"}, "unloading", NULL, NULL},
+    {"P1-fig12.png", "P1 Fig. 12, theory", {"P1-fig12"}, "continuum", NULL, NULL},
+    {"P1-fig13.png", "P1 Fig. 13", {"P1-fig12"}, "lateral", NULL, NULL},
+    {"P1-fig14.png", "P1 Fig. 14", {"P1-fig12"}, "force-angle", NULL, NULL},
+    {"P2-fig1.png", "P2 Fig. 1", {"P2-v3"}, "time", NULL, NULL},
+    {"P2-fig2.png", "P2 Fig. 2", {RATES}, "densification", NULL, NULL},
+    {"P2-fig3.png", "P2 Fig. 3", {RATES}, "difference", "P2-v3", NULL},
+    {"P2-fig4.png", "P2 Fig. 4", {RATES}, "rate-difference", NULL, NULL},
+    {"P2-table1.png", "P2 Table 1, times", {RATES}, "relaxation", NULL, NULL},
+    {"P2-table1-p.png",
+     "P2 Table 1, amplitudes",
+     {RATES},
+     "relaxation-amplitude",
+     NULL,
      NULL},
-    {"P1-fig11.png", "P1 Figs. 11 and 12", {"P1-fig12"}, "unloading", NULL},
-    {"P1-fig12.png", "P1 Fig. 12, continuum theory", {"P1-fig12"}, "continuum", NULL},
-    {"P1-fig13.png", "P1 Fig. 13", {"P1-fig12"}, "lateral", NULL},
-    {"P1-fig14.png", "P1 Fig. 14", {"P1-fig12"}, "force-angle", NULL},
-    {"P2-fig1.png", "P2 Fig. 1", {"P2-v3"}, "time", NULL},
-    {"P2-fig2.png", "P2 Fig. 2", {RATES}, "densification", NULL},
-    {"P2-fig3.png", "P2 Fig. 3", {RATES}, "difference", "P2-v3"},
-    {"P2-fig4.png", "P2 Fig. 4", {RATES}, "rate-difference", NULL},
-    {"P2-table1.png", "P2 Table 1, times", {RATES}, "relaxation", NULL},
-    {"P2-table1-p.png", "P2 Table 1, amplitudes", {RATES}, "relaxation-amplitude", NULL},
-    {"P2-eq8.png", "P2 (8)", {RATES}, "coordination", NULL},
-    {"P3-fig4.png", "P3 Fig. 4 and Table 1", {"P3-hertz"}, "poured-density", NULL},
-    {"P3-fig17.png", "P3 Fig. 17", {"P3-hertz", "P3-storakers"}, "die-height", NULL},
-    {"P3-fig18.png", "P3 Fig. 18", {"P3-hertz", "P3-storakers"}, "die-density", NULL},
-    {"P3-fig19.png", "P3 Fig. 19", {"P3-hertz", "P3-friction"}, "die-density", NULL},
+    {"P2-eq4.png", "P2 (4)", {RATES}, "decay", NULL, NULL},
+    {"P2-eq8.png", "P2 (8)", {RATES}, "coordination", NULL, NULL},
+    {"P3-fig4.png", "P3 Fig. 4 and Table 1", {"P3-hertz"}, "poured-density", NULL, NULL},
+    {"P3-fig9.png", "P3 Fig. 9", {NULL}, "hollomon", NULL, NULL},
+    {"P3-fig10.png", "P3 Fig. 10", {NULL}, "pair", NULL, NULL},
+    {"P3-fig11.png", "P3 Fig. 11", {NULL}, "line", NULL, NULL},
+    {"P3-fig12.png", "P3 Fig. 12", {NULL}, "critical-step", NULL, NULL},
+    {"P3-fig15.png", "P3 Fig. 15", {"P3-hertz"}, "die-section", NULL, NULL},
+    {"P3-fig17.png",
+     "P3 Fig. 17",
+     {"P3-hertz", "P3-storakers"},
+     "die-height",
+     NULL,
+     NULL},
+    {"P3-fig18.png",
+     "P3 Fig. 18",
+     {"P3-hertz", "P3-storakers"},
+     "die-density",
+     NULL,
+     NULL},
+    {"P3-fig19.png",
+     "P3 Fig. 19",
+     {"P3-hertz", "P3-friction"},
+     "die-density",
+     NULL,
+     NULL},
 };
 
 /* Directories of the runs of an experiment that are done. */
@@ -78,24 +110,24 @@ static GPtrArray *runs_of(const struct figure *row, const struct gb_papers_plan 
 
 static bool is_selected(const struct figure *row, const struct gb_papers_plan *plan)
 {
-    return plan->selected[gb_papers_experiments_index(row->experiment[0])];
+    return row->experiment[0] != NULL
+               ? plan->selected[gb_papers_experiments_index(row->experiment[0])]
+               : gb_papers_selected_paper(row->file, plan);
 }
 
 /* The files; *printed: printed numbers on them; *cause: why there is no data. */
 static bool write_files(const struct figure *row, const struct gb_papers_plan *plan,
-                        struct gb_runset *set, size_t reference, size_t *printed,
+                        const struct gb_figures_input *input, size_t *printed,
                         struct gb_error *cause, struct gb_error *err)
 {
     const struct gb_figures_row *figure = gb_figures_find(row->figure);
+    const struct gb_plotting_page page = {WIDTH, HEIGHT, figure->name, NULL, input->set};
     struct gb_series series = {0};
-    gb_figures_group(figure, set);
-    const struct gb_figures_input input = {.set = set,
-                                           .reference = set->run[reference].group};
-    const struct gb_plotting_page page = {WIDTH, HEIGHT, figure->name, NULL, set};
-    bool good = gb_figures_run(figure, &series, &input, cause);
+    bool good = gb_figures_run(figure, &series, input, cause);
     if (good) {
         char *path = g_build_filename(plan->directory, row->file, NULL);
-        good = gb_paper_points_add(&series, figure, set, printed, err) &&
+        good = (input->set == NULL ||
+                gb_paper_points_add(&series, figure, input->set, printed, err)) &&
                gb_plotting_write(&series, &page, path, err);
         g_free(path);
     }
@@ -103,28 +135,69 @@ static bool write_files(const struct figure *row, const struct gb_papers_plan *p
     return good;
 }
 
+static bool draw_runs(const struct figure *row, const struct gb_papers_plan *plan,
+                      GString *names, size_t *printed, struct gb_error *cause,
+                      struct gb_error *err)
+{
+    struct gb_runset set = {0};
+    size_t reference = 0;
+    GPtrArray *list = runs_of(row, plan, &reference, names);
+    bool good =
+        list->len > reference || gb_error_set(cause, GB_ERR_INPUT, "no run is done");
+    good = good && gb_runset_read(&set, (char *const *)list->pdata, list->len, cause);
+    if (good) {
+        gb_figures_group(gb_figures_find(row->figure), &set);
+        const struct gb_figures_input input = {
+            .set = &set, .reference = set.run[reference].group, .at = row->at};
+        good = write_files(row, plan, &input, printed, cause, err);
+    }
+    gb_runset_finish(&set);
+    g_ptr_array_unref(list);
+    return good;
+}
+
+static bool draw_law(const struct figure *row, const struct gb_papers_plan *plan,
+                     struct gb_error *cause, struct gb_error *err)
+{
+    struct gb_preset *preset = NULL;
+    bool good = gb_preset_load(&preset, gb_figures_find(row->figure)->preset, cause);
+    if (good) {
+        const struct gb_figures_input input = {.scene = gb_preset_params(preset)};
+        good = write_files(row, plan, &input, NULL, cause, err);
+    }
+    gb_preset_destroy(preset);
+    return good;
+}
+
+/* As typed in the directory of the page. */
+static char *command_of(const struct figure *row, const char *names, size_t printed)
+{
+    GString *text = g_string_new("greenbody plot");
+    g_string_append_printf(text, "%s --figure %s%s", names, row->figure,
+                           printed > 0 ? " --paper" : "");
+    if (row->reference != NULL) {
+        g_string_append_printf(text, " --reference %s/scene_seed-1", row->reference);
+    }
+    if (row->at != NULL) {
+        g_string_append_printf(text, " --at '%s'", row->at);
+    }
+    g_string_append_printf(text, " -o %s", row->file);
+    return g_string_free(text, FALSE);
+}
+
 static bool draw(const struct figure *row, const struct gb_papers_plan *plan,
                  struct gb_papers_figure *out, struct gb_error *err)
 {
-    struct gb_runset set = {0};
     struct gb_error cause = {0};
     GString *names = g_string_new(NULL);
-    size_t reference = 0;
     size_t printed = 0;
-    GPtrArray *list = runs_of(row, plan, &reference, names);
-    const bool good = list->len > reference &&
-                      gb_runset_read(&set, (char *const *)list->pdata, list->len, &cause);
-    const bool drawn =
-        good && write_files(row, plan, &set, reference, &printed, &cause, err);
+    const bool drawn = row->experiment[0] == NULL
+                           ? draw_law(row, plan, &cause, err)
+                           : draw_runs(row, plan, names, &printed, &cause, err);
     out->title = row->title;
     out->file = drawn ? row->file : NULL;
-    out->why = g_strdup(list->len > reference ? cause.text : "no run is done");
-    out->command = g_strdup_printf(
-        "greenbody plot%s --figure %s%s%s%s -o %s", names->str, row->figure,
-        printed > 0 ? " --paper" : "", row->reference != NULL ? " --reference " : "",
-        row->reference != NULL ? row->reference : "", row->file);
-    gb_runset_finish(&set);
-    g_ptr_array_unref(list);
+    out->why = g_strdup(cause.text);
+    out->command = command_of(row, names->str, printed);
     g_string_free(names, TRUE);
     return drawn || err->code == GB_OK;
 }

@@ -11,19 +11,23 @@ static bool is_of_paper(const char *name, const char *id)
     return strncmp(name, id, length) == 0 && name[length] == '-';
 }
 
-bool gb_papers_selected(const struct gb_papers_comparison *comparison,
-                        const struct gb_papers_plan *plan)
+bool gb_papers_selected_paper(const char *id, const struct gb_papers_plan *plan)
 {
     const struct gb_papers_experiment *table = gb_papers_experiments_table();
-    if (comparison->experiment[0] != NULL) {
-        return plan->selected[gb_papers_experiments_index(comparison->experiment[0])];
-    }
     for (size_t e = 0; table[e].name != NULL; e++) {
-        if (plan->selected[e] && is_of_paper(table[e].name, comparison->id)) {
+        if (plan->selected[e] && is_of_paper(table[e].name, id)) {
             return true;
         }
     }
     return false;
+}
+
+bool gb_papers_selected(const struct gb_papers_comparison *comparison,
+                        const struct gb_papers_plan *plan)
+{
+    const char *experiment = comparison->experiment[0];
+    return experiment != NULL ? plan->selected[gb_papers_experiments_index(experiment)]
+                              : gb_papers_selected_paper(comparison->id, plan);
 }
 
 /* Particles of a cell over those of the full experiment, which are the paper's. */

@@ -30,4 +30,7 @@ void gb_papers_finish(struct gb_papers_results *results); /* zeroed is fine */
 bool gb_papers_selected(const struct gb_papers_comparison *comparison,
                         const struct gb_papers_plan *plan);
 
+/* Is an experiment of the paper that an id, "P1-...", belongs to? */
+bool gb_papers_selected_paper(const char *id, const struct gb_papers_plan *plan);
+
 #endif
