@@ -33,11 +33,12 @@ gb_papers_measure gb_papers_measures_continuum;
 
 /* --- dynamic runs: papers_rates.c -------------------------------------------------------- */
 
-/* Parameters of P2 (4), fitted to the mean curve of holding: p0, the fall to it from
- * the mean pressure at density 0.95, MPa, the shorter and the longer time, ns; a single time is the shorter one up to 1 ns. */
+/* Parameters of P2 (4), fitted to the mean curve of holding: p0 and the fall to it from the
+ * mean pressure at density 0.95, MPa; the time after which 1/e of that fall remains, where
+ * it is below 1 ns, and the longest time constant, where it is above, ns. */
 gb_papers_measure gb_papers_rates_p0, gb_papers_rates_fall, gb_papers_rates_fast,
     gb_papers_rates_slow;
-/* Their amplitudes, MPa. */
+/* Amplitudes of both stages, MPa; of the fast one, what the slow one leaves of the fall. */
 gb_papers_measure gb_papers_rates_fast_amplitude, gb_papers_rates_slow_amplitude;
 
 /* P2 (9) fitted to the mean pressures of all its experiments: k_v with the printed

@@ -2,6 +2,7 @@
 
 #include <glib.h>
 
+#include "base/alloc.h"
 #include "many/relaxation_curves.h"
 #include "measure/fit/power.h"
 #include "measure/theory.h"
@@ -69,51 +70,78 @@ double gb_papers_rates_fall(const struct gb_papers_view *view,
     return point.p - end;
 }
 
-/* Index of the exponential of a stage; -1: the fit has none. */
-static int find_stage(const struct gb_fit_decay *fit, bool slow)
+/* The slow exponential of a fit; -1: it has none. */
+static int find_slow(const struct gb_fit_decay *fit)
 {
-    const int term = slow ? fit->terms - 1 : 0;
-    return fit->terms > 0 && (fit->tau[term].value >= stages_ns) == slow ? term : -1;
-}
-
-static double amplitude_of(const struct gb_papers_view *view,
-                           const struct gb_papers_comparison *row, bool slow)
-{
-    struct gb_fit_decay fit;
-    const int term = fit_decay(view, row, &fit) ? find_stage(&fit, slow) : -1;
-    return term >= 0 ? fit.amplitude[term].value : (double)NAN;
-}
-
-double gb_papers_rates_fast_amplitude(const struct gb_papers_view *view,
-                                      const struct gb_papers_comparison *row)
-{
-    return amplitude_of(view, row, false);
+    const int term = fit->terms - 1;
+    return term >= 0 && fit->tau[term].value >= stages_ns ? term : -1;
 }
 
 double gb_papers_rates_slow_amplitude(const struct gb_papers_view *view,
                                       const struct gb_papers_comparison *row)
 {
-    return amplitude_of(view, row, true);
-}
-
-static double time_of(const struct gb_papers_view *view,
-                      const struct gb_papers_comparison *row, bool slow)
-{
     struct gb_fit_decay fit;
-    const int term = fit_decay(view, row, &fit) ? find_stage(&fit, slow) : -1;
-    return term >= 0 ? fit.tau[term].value : (double)NAN;
+    const int term = fit_decay(view, row, &fit) ? find_slow(&fit) : -1;
+    return term >= 0 ? fit.amplitude[term].value : (double)NAN;
 }
 
+/* What the slow stage leaves of the fall: a fit extrapolates to times before its first
+ * point. */
+double gb_papers_rates_fast_amplitude(const struct gb_papers_view *view,
+                                      const struct gb_papers_comparison *row)
+{
+    const double slow = gb_papers_rates_slow_amplitude(view, row);
+    return gb_papers_rates_fall(view, row) - (isnan(slow) ? 0.0 : slow);
+}
+
+/* Where a falling curve that begins at (0, from) first reaches a level; NaN: nowhere. */
+static double reach(const double *t, const double *p, size_t count, double from,
+                    double level)
+{
+    double t0 = 0.0;
+    double p0 = from;
+    for (size_t k = 0; k < count; k++) {
+        if (t[k] > t0 && p[k] <= level && p0 > level) {
+            return t0 + (p0 - level) / (p0 - p[k]) * (t[k] - t0);
+        }
+        t0 = t[k];
+        p0 = p[k];
+    }
+    return NAN;
+}
+
+/* On the mean curve itself, for the same reason. */
 double gb_papers_rates_fast(const struct gb_papers_view *view,
                             const struct gb_papers_comparison *row)
 {
-    return time_of(view, row, false);
+    struct gb_runset set;
+    struct gb_mean_curves curves = {0};
+    struct gb_power_point start;
+    double *t = NULL;
+    double *p = NULL;
+    size_t count = 0;
+    double efold = NAN;
+    const double end = gb_papers_rates_p0(view, row);
+    (void)mean_pressure(view, row->experiment[0], end_density, &start);
+    if (gb_papers_sample_point(view, gb_papers_experiments_index(row->experiment[0]),
+                               row->point, &set) > 0 &&
+        gb_relaxation_curves_read(&curves, &set, 0, NULL) &&
+        gb_mean_curves_mean(curves.curve, curves.count, &t, &p, &count, NULL)) {
+        efold = reach(t, p, count, start.p, end + (start.p - end) / M_E);
+    }
+    gb_alloc_free(t);
+    gb_alloc_free(p);
+    gb_mean_curves_finish(&curves);
+    g_free(set.run);
+    return efold < stages_ns ? efold : (double)NAN;
 }
 
 double gb_papers_rates_slow(const struct gb_papers_view *view,
                             const struct gb_papers_comparison *row)
 {
-    return time_of(view, row, true);
+    struct gb_fit_decay fit;
+    const int term = fit_decay(view, row, &fit) ? find_slow(&fit) : -1;
+    return term >= 0 ? fit.tau[term].value : (double)NAN;
 }
 
 enum { POINTS = GB_PAPERS_USED * G_N_ELEMENTS(densities) };
