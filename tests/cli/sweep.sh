@@ -116,10 +116,6 @@ two_work() { # directory
     [ "$(find . -path "./$1/*/status.json" | wc -l)" -ge 2 ]
 }
 
-none_works() { # directory
-    ! grep -q '"state" : "running"' "$1"/*/status.json
-}
-
 # shellcheck disable=SC2086  # a list of words
 "$greenbody" sweep $endless --replicas 4 --jobs 2 --yes --out long >stdout 2>stderr &
 pid=$!
