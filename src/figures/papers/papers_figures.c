@@ -18,61 +18,82 @@ static const struct figure {
     const char *figure;           /* a row of figures.c */
     const char *reference;        /* experiment that is subtracted; NULL: none */
     const char *at;               /* kept state; NULL: the last */
+    bool one;                     /* shows the first run alone */
 } table[] = {
-    {"P1-fig1.png", "P1 Fig. 1", {NULL}, "contact", NULL, NULL},
-    {"P1-fig2.png", "P1 Fig. 2", {NULL}, "bridge-strength", NULL, NULL},
-    {"P1-fig5.png", "P1 Fig. 5", {"P1-fig5"}, "densification", NULL, NULL},
-    {"P1-fig6.png", "P1 Fig. 6", {"P1-fig5", "P1-fig6"}, "size-effect", NULL, NULL},
-    {"P1-fig7.png", "P1 Fig. 7", {"P1-fig5"}, "rdf", NULL, "p=1 GPa"},
-    {"P1-fig8.png", "P1 Fig. 8", {"P1-fig5"}, "coordination", NULL, NULL},
+    {"P1-fig1.png", "P1 Fig. 1", {NULL}, "contact", NULL, NULL, false},
+    {"P1-fig2.png", "P1 Fig. 2", {NULL}, "bridge-strength", NULL, NULL, false},
+    {"P1-fig5.png", "P1 Fig. 5", {"P1-fig5"}, "densification", NULL, NULL, false},
+    {"P1-fig6.png",
+     "P1 Fig. 6",
+     {"P1-fig5", "P1-fig6"},
+     "size-effect",
+     NULL,
+     NULL,
+     false},
+    {"P1-fig7.png", "P1 Fig. 7", {"P1-fig5"}, "rdf", NULL, "p=1 GPa", false},
+    {"P1-fig8.png", "P1 Fig. 8", {"P1-fig5"}, "coordination", NULL, NULL, false},
     {"P1-contacts.png",
      "P1 section V, shares of contact numbers",
      {"P1-fig5"},
      "contacts",
      NULL,
-     "p=1 GPa"},
-    {"P1-fig11.png", "P1 Figs. 11 and 12", {"P1-fig12"}, "unloading", NULL, NULL},
-    {"P1-fig12.png", "P1 Fig. 12, theory", {"P1-fig12"}, "continuum", NULL, NULL},
-    {"P1-fig13.png", "P1 Fig. 13", {"P1-fig12"}, "lateral", NULL, NULL},
-    {"P1-fig14.png", "P1 Fig. 14", {"P1-fig12"}, "force-angle", NULL, NULL},
-    {"P2-fig1.png", "P2 Fig. 1", {"P2-v3"}, "time", NULL, NULL},
-    {"P2-fig2.png", "P2 Fig. 2", {RATES}, "densification", NULL, NULL},
-    {"P2-fig3.png", "P2 Fig. 3", {RATES}, "difference", "P2-v3", NULL},
-    {"P2-fig4.png", "P2 Fig. 4", {RATES}, "rate-difference", NULL, NULL},
-    {"P2-table1.png", "P2 Table 1, times", {RATES}, "relaxation", NULL, NULL},
+     "p=1 GPa",
+     false},
+    {"P1-fig11.png", "P1 Figs. 11 and 12", {"P1-fig12"}, "unloading", NULL, NULL, false},
+    {"P1-fig12.png", "P1 Fig. 12, theory", {"P1-fig12"}, "continuum", NULL, NULL, false},
+    {"P1-fig13.png", "P1 Fig. 13", {"P1-fig12"}, "lateral", NULL, NULL, false},
+    {"P1-fig14.png", "P1 Fig. 14", {"P1-fig12"}, "force-angle", NULL, NULL, false},
+    {"P2-fig1.png", "P2 Fig. 1", {"P2-v3"}, "time", NULL, NULL, false},
+    {"P2-fig2.png", "P2 Fig. 2", {RATES}, "densification", NULL, NULL, false},
+    {"P2-fig3.png", "P2 Fig. 3", {RATES}, "difference", "P2-v3", NULL, false},
+    {"P2-fig4.png", "P2 Fig. 4", {RATES}, "rate-difference", NULL, NULL, false},
+    {"P2-table1.png", "P2 Table 1, times", {RATES}, "relaxation", NULL, NULL, false},
     {"P2-table1-p.png",
      "P2 Table 1, amplitudes",
      {RATES},
      "relaxation-amplitude",
      NULL,
-     NULL},
-    {"P2-eq4.png", "P2 (4)", {RATES}, "decay", NULL, NULL},
-    {"P2-eq8.png", "P2 (8)", {RATES}, "coordination", NULL, NULL},
-    {"P3-fig4.png", "P3 Fig. 4 and Table 1", {"P3-hertz"}, "poured-density", NULL, NULL},
-    {"P3-fig9.png", "P3 Fig. 9", {NULL}, "hollomon", NULL, NULL},
-    {"P3-fig10.png", "P3 Fig. 10", {NULL}, "pair", NULL, NULL},
-    {"P3-fig11.png", "P3 Fig. 11", {NULL}, "line", NULL, NULL},
-    {"P3-fig12.png", "P3 Fig. 12", {NULL}, "critical-step", NULL, NULL},
-    {"P3-fig15.png", "P3 Fig. 15", {"P3-hertz"}, "die-section", NULL, NULL},
+     NULL,
+     false},
+    {"P2-eq4.png", "P2 (4)", {RATES}, "decay", NULL, NULL, false},
+    {"P2-eq8.png", "P2 (8)", {RATES}, "coordination", NULL, NULL, false},
+    {"P3-fig4.png",
+     "P3 Fig. 4 and Table 1",
+     {"P3-hertz"},
+     "poured-density",
+     NULL,
+     NULL,
+     false},
+    {"P3-fig9.png", "P3 Fig. 9", {NULL}, "hollomon", NULL, NULL, false},
+    {"P3-fig10.png", "P3 Fig. 10", {NULL}, "pair", NULL, NULL, false},
+    {"P3-fig11.png", "P3 Fig. 11", {NULL}, "line", NULL, NULL, false},
+    {"P3-fig12.png", "P3 Fig. 12", {NULL}, "critical-step", NULL, NULL, false},
+    {"P3-fig15.png", "P3 Fig. 15", {"P3-hertz"}, "die-section", NULL, NULL, true},
     {"P3-fig17.png",
      "P3 Fig. 17",
      {"P3-hertz", "P3-storakers"},
      "die-height",
      NULL,
-     NULL},
+     NULL,
+     false},
     {"P3-fig18.png",
      "P3 Fig. 18",
      {"P3-hertz", "P3-storakers"},
      "die-density",
      NULL,
-     NULL},
+     NULL,
+     false},
     {"P3-fig19.png",
      "P3 Fig. 19",
      {"P3-hertz", "P3-friction"},
      "die-density",
      NULL,
-     NULL},
+     NULL,
+     false},
 };
+
+/* Of an experiment without an axis. */
+static const char first_run[] = "/scene_seed-1";
 
 /* Directories of the runs of an experiment that are done. */
 static guint list_runs(const struct gb_papers_plan *plan, const char *name,
@@ -99,7 +120,8 @@ static GPtrArray *runs_of(const struct figure *row, const struct gb_papers_plan 
     for (int e = 0; e < EXPERIMENTS && row->experiment[e] != NULL; e++) {
         const guint first = list->len;
         if (list_runs(plan, row->experiment[e], list) > 0) {
-            g_string_append_printf(names, " %s", row->experiment[e]);
+            g_string_append_printf(names, " %s%s", row->experiment[e],
+                                   row->one ? first_run : "");
         }
         if (row->reference != NULL && strcmp(row->reference, row->experiment[e]) == 0) {
             *reference = first;
@@ -142,6 +164,9 @@ static bool draw_runs(const struct figure *row, const struct gb_papers_plan *pla
     struct gb_runset set = {0};
     size_t reference = 0;
     GPtrArray *list = runs_of(row, plan, &reference, names);
+    if (row->one && list->len > 1) {
+        g_ptr_array_set_size(list, 1);
+    }
     bool good =
         list->len > reference || gb_error_set(cause, GB_ERR_INPUT, "no run is done");
     good = good && gb_runset_read(&set, (char *const *)list->pdata, list->len, cause);
@@ -176,7 +201,7 @@ static char *command_of(const struct figure *row, const char *names, size_t prin
     g_string_append_printf(text, "%s --figure %s%s", names, row->figure,
                            printed > 0 ? " --paper" : "");
     if (row->reference != NULL) {
-        g_string_append_printf(text, " --reference %s/scene_seed-1", row->reference);
+        g_string_append_printf(text, " --reference %s%s", row->reference, first_run);
     }
     if (row->at != NULL) {
         g_string_append_printf(text, " --at '%s'", row->at);
