@@ -31,8 +31,9 @@ TEXTS = """
 FILE_NAMES = re.compile(r'^(world|relax|bed|die|motion|load|programme|run)?/?'
                         r'(amended|place|places|turned|arm|turn)$')
 
-# The same names where pages describe the contents of a checkpoint.
-ITEMS_IN_PAGES = re.compile(r'`world/amended`|^\.RI \( ?amended :')
+# The same names where pages describe the contents of a checkpoint, and the command of
+# util-linux.
+ITEMS_IN_PAGES = re.compile(r'`world/amended`|^\.RI \( ?amended :|\bflock -n\b')
 
 # Identifiers of other libraries, and of the system: flock(2) locks a file.
 FOREIGN = re.compile(r'^(flock$|gsl_|GSL_|H5|g_|G_|cairo_|pango_|PANGO_|png_|GL_|gl[A-Z]|MPI_|A_)')
