@@ -9,7 +9,7 @@
 #include "study/strength/strength_study.h"
 #include "study/yield/yield_study.h"
 
-enum { CELLS = 6 };
+enum { CELLS = 16 };
 
 /* Standard errors by which a number has to differ. */
 static const double several = 3.0;
