@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 
 #include <glib.h>
-#include <json-glib/json-glib.h>
 
 #include "base/table.h"
 #include "io/point_columns.h"
@@ -186,23 +185,14 @@ bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
                       struct gb_follow_engine *engine, struct gb_error *err)
 {
     char *path = g_build_filename(directory, "status.json", NULL);
-    JsonParser *parser = json_parser_new();
-    GError *failure = NULL;
-    bool done = json_parser_load_from_file(parser, path, &failure);
-    if (!done) {
-        gb_error_set(err, GB_ERR_INPUT, "%s: cannot be read: %s", path, failure->message);
-        g_error_free(failure);
-    } else {
-        JsonNode *root = json_parser_get_root(parser);
-        done = (root != NULL && JSON_NODE_HOLDS_OBJECT(root)) ||
-               gb_error_set(err, GB_ERR_INPUT, "%s: is no status of a run", path);
-        if (done) {
-            fill_status(json_node_get_object(root), snapshot, engine);
-        }
-    }
-    g_object_unref(parser);
+    JsonParser *parser = gb_status_json_open(path, err);
     g_free(path);
-    return done;
+    if (parser == NULL) {
+        return false;
+    }
+    fill_status(json_node_get_object(json_parser_get_root(parser)), snapshot, engine);
+    g_object_unref(parser);
+    return true;
 }
 
 /* Has the process that directory open?  Every engine has, for its lock.  The number in a

@@ -4,8 +4,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/alloc.h"
+#include "base/read_file.h"
 #include <glib.h>
-#include <json-glib/json-glib.h>
+
+enum { BYTES_MOST = 1 << 20, DEPTH_MOST = 8 };
 
 static const char *const state_words[] = {
     [GB_RUN_PACKING] = "packing", [GB_RUN_RUNNING] = "running",
@@ -15,6 +18,58 @@ static const char *const state_words[] = {
 static const char *state_word(enum gb_run_state state)
 {
     return (size_t)state < G_N_ELEMENTS(state_words) ? state_words[state] : "unknown";
+}
+
+/* Brackets outside of strings. */
+static bool is_shallow(const char *text, size_t length)
+{
+    int depth = 0, deepest = 0;
+    bool quoted = false;
+    for (size_t i = 0; i < length; i++) {
+        if (quoted) {
+            quoted = text[i] != '"';
+            i += text[i] == '\\'; /* and the character that it escapes */
+        } else if (text[i] == '"') {
+            quoted = true;
+        } else if (text[i] == '{' || text[i] == '[') {
+            deepest = MAX(deepest, ++depth);
+        } else if (text[i] == '}' || text[i] == ']') {
+            depth--;
+        }
+    }
+    return deepest <= DEPTH_MOST;
+}
+
+static bool parse(JsonParser *parser, const char *path, const char *text, size_t length,
+                  struct gb_error *err)
+{
+    GError *failure = NULL;
+    if (!is_shallow(text, length)) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: is no status of a run", path);
+    }
+    if (!json_parser_load_from_data(parser, text, (gssize)length, &failure)) {
+        gb_error_set(err, GB_ERR_INPUT, "%s: cannot be read: %s", path, failure->message);
+        g_error_free(failure);
+        return false;
+    }
+    JsonNode *root = json_parser_get_root(parser);
+    return (root != NULL && JSON_NODE_HOLDS_OBJECT(root)) ||
+           gb_error_set(err, GB_ERR_INPUT, "%s: is no status of a run", path);
+}
+
+JsonParser *gb_status_json_open(const char *path, struct gb_error *err)
+{
+    char *text = NULL;
+    size_t length = 0;
+    if (!gb_read_file(path, BYTES_MOST, &text, &length, err)) {
+        return NULL;
+    }
+    JsonParser *parser = json_parser_new_immutable();
+    if (!parse(parser, path, text, length, err)) {
+        g_clear_object(&parser);
+    }
+    gb_alloc_free(text);
+    return parser;
 }
 
 enum gb_run_state gb_status_json_state(const char *word)

@@ -1,12 +1,20 @@
 #ifndef GB_IO_STATUS_JSON_H
 #define GB_IO_STATUS_JSON_H
 
+#include <json-glib/json-glib.h>
+
 #include "greenbody/snapshot.h"
+#include "greenbody/status.h"
 
 /* Text of status.json; g_free.
  *
  * points   recorded so far */
 char *gb_status_json_text(const struct gb_snapshot *snapshot, int64_t points);
+
+/* Reads a status.json, which is not trusted: at most a megabyte, an object, and brackets no
+ * deeper than a status has (json-glib calls itself at each).  g_object_unref; NULL and err:
+ * GB_ERR_INPUT with path and reason, GB_ERR_MACHINE, GB_ERR_MEMORY. */
+JsonParser *gb_status_json_open(const char *path, struct gb_error *err);
 
 /* State of a run by its word in status.json; stopped for other words. */
 enum gb_run_state gb_status_json_state(const char *word);

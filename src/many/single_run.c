@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include <glib.h>
-#include <json-glib/json-glib.h>
 
 #include "io/preset.h"
+#include "io/status_json.h"
 #include "many/runset.h"
 #include "run/run_loop.h"
 
@@ -65,16 +65,14 @@ bool gb_single_run(const struct gb_params *params, const char *directory,
 
 bool gb_single_run_status_is_done(const char *path)
 {
-    JsonParser *parser = json_parser_new_immutable();
-    bool done = false;
-    if (json_parser_load_from_file(parser, path, NULL)) {
-        JsonNode *root = json_parser_get_root(parser);
-        if (root != NULL && JSON_NODE_HOLDS_OBJECT(root)) {
-            done = strcmp(json_object_get_string_member_with_default(
-                              json_node_get_object(root), "state", ""),
-                          "done") == 0;
-        }
+    JsonParser *parser = gb_status_json_open(path, NULL);
+    if (parser == NULL) {
+        return false;
     }
+    JsonObject *status = json_node_get_object(json_parser_get_root(parser));
+    const bool done =
+        strcmp(json_object_get_string_member_with_default(status, "state", ""), "done") ==
+        0;
     g_object_unref(parser);
     return done;
 }

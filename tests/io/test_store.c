@@ -10,6 +10,7 @@
 
 #include "io/preset.h"
 #include "io/rundir.h"
+#include "io/status_json.h"
 #include "io/store.h"
 
 static char *base; /* a folder of its own for each test */
@@ -359,6 +360,35 @@ static void remove_tree(const char *path)
     g_remove(path);
 }
 
+/* Files in place of status.json: brackets without end, which json-glib would follow into a
+ * stack overflow, too long, no object; and one with brackets in a text. */
+static void test_foreign_status(void)
+{
+    struct gb_error err = {0};
+    char *path = g_build_filename(base, "status.json", NULL);
+    char *nested = g_strnfill(100000, '[');
+    char *wide = g_strnfill(2 << 20, ' ');
+    const char *const bad[] = {nested, wide, "[]", "{\"state\" : ", ""};
+    g_assert_null(gb_status_json_open(path, &err)); /* absent */
+    g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+    for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+        g_assert_true(g_file_set_contents(path, bad[i], -1, NULL));
+        g_assert_null(gb_status_json_open(path, &err));
+        g_test_message("%s", err.text);
+        g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+        g_assert_true(g_str_has_prefix(err.text, path));
+    }
+    static const char text[] =
+        "{\"event\" : \"[[[[[[[[[[\\\"[[[[\", \"state\" : \"done\"}";
+    g_assert_true(g_file_set_contents(path, text, -1, NULL));
+    JsonParser *parser = gb_status_json_open(path, &err);
+    g_assert_nonnull(parser);
+    g_object_unref(parser);
+    g_free(nested);
+    g_free(wide);
+    g_free(path);
+}
+
 static void in_folder(gconstpointer data)
 {
     void (*const *test)(void) = data;
@@ -379,6 +409,7 @@ int main(int argc, char **argv)
         {"/store/dynamic-rows", test_dynamic_rows},
         {"/store/preset", test_preset},
         {"/store/status", test_status},
+        {"/store/foreign-status", test_foreign_status},
         {"/store/existing", test_existing},
         {"/store/foreign", test_foreign},
         {"/store/discard", test_discard},
