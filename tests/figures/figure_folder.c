@@ -1,4 +1,5 @@
 #include "figure_folder.h"
+#include "common/tree.h"
 
 #include <glib/gstdio.h>
 #include <gsl/gsl_errno.h>
@@ -94,21 +95,6 @@ const double *figure_folder_column(const struct gb_series *series, const char *n
         }
     }
     g_error("no column %s", name);
-}
-
-static void remove_tree(const char *path)
-{
-    GDir *dir = g_dir_open(path, 0, NULL);
-    for (const char *name = dir ? g_dir_read_name(dir) : NULL; name;
-         name = g_dir_read_name(dir)) {
-        char *inner = g_build_filename(path, name, NULL);
-        remove_tree(inner);
-        g_free(inner);
-    }
-    if (dir) {
-        g_dir_close(dir);
-    }
-    g_remove(path);
 }
 
 void figure_folder_init(void)

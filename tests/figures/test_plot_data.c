@@ -6,6 +6,7 @@
 #include <glib/gstdio.h>
 
 #include "common/program.h"
+#include "common/tree.h"
 
 /* `greenbody plot` on run directories with known curves. */
 
@@ -371,7 +372,8 @@ static const char *const refused[][2] = {
     {"a1 --figure time -o y.png --size 0x100", "16 to 16384 a side"},
     {"a1 --figure time -o y.png --size 100000x100000", "16 to 16384 a side"},
     {"a1 --figure time --log z", "--log z: accepted x, y or xy"},
-    {"a1 --figure time --at p=1MPa", "--at is for the figures rdf, contacts, force-angle, sizes"},
+    {"a1 --figure time --at p=1MPa",
+     "--at is for the figures rdf, contacts, force-angle, sizes"},
     {"a1 --figure time --pressure 1MPa", "--pressure is for the figures size-effect"},
     {"a1 --figure time --data nodata.csv", "nodata.csv: No such file"},
     {"a1 --figure time --data a1/curve.csv --log y --data nocolumn/curve.csv",
@@ -383,7 +385,8 @@ static const char *const refused[][2] = {
     {"a1 --figure time -o .csv/x.csv", ".csv/x.csv"},
     {"a1 b1 --figure difference", "needs --reference DIR"},
     {"a1 --figure time --reference a1", "--reference is for the figure difference"},
-    {"a1 --figure time --density 0.9", "--density is for the figures rate, rate-difference"},
+    {"a1 --figure time --density 0.9",
+     "--density is for the figures rate, rate-difference"},
     {"a1 --figure rate --density x", "--density x: accepted"},
     {"a1 --figure rate --density 0.9,", "accepted"},
     {"a1 --figure rate --density 5", "between 0 and 2"},
@@ -452,21 +455,6 @@ static void test_refused(void)
         g_assert_true(newline && newline[1] == '\0'); /* one line */
         program_finish(&result);
     }
-}
-
-static void remove_tree(const char *path)
-{
-    GDir *dir = g_dir_open(path, 0, NULL);
-    for (const char *name = dir ? g_dir_read_name(dir) : NULL; name;
-         name = g_dir_read_name(dir)) {
-        char *inner = g_build_filename(path, name, NULL);
-        remove_tree(inner);
-        g_free(inner);
-    }
-    if (dir) {
-        g_dir_close(dir);
-    }
-    g_remove(path);
 }
 
 /* Usage: test_plot_data PROGRAM */

@@ -3,8 +3,6 @@
 #include "io/export/export_formats.h"
 #include "io/export/export_text.h"
 
-enum { STRESSES = 6 };
-
 /* Edges of the cell as rows: a = (x, 0, 0), b = (xy, y, 0), c = (xz, yz, z). */
 static void add_lattice(const struct gb_export_frame *frame, GString *text)
 {
@@ -46,16 +44,11 @@ void gb_export_extxyz_write(const struct gb_export_frame *frame, GString *partic
     add_comment(frame, particles);
     for (int64_t i = 0; i < state->count; i++) {
         g_string_append(particles, "X ");
-        for (int c = 0; c < 3; c++) {
-            gb_export_text_number(particles, frame->nm * state->position[3 * i + c], ' ');
-        }
+        gb_export_text_numbers(particles, frame->nm, &state->position[3 * i], 3, ' ',
+                               ' ');
         g_string_append_printf(particles, "%" PRId64 " ", i + 1);
         gb_export_text_number(particles, frame->nm * state->radius[i], ' ');
-        g_string_append_printf(particles, "%" PRId32 " ", state->contacts[i]);
-        for (int c = 0; c < STRESSES; c++) {
-            gb_export_text_number(particles, frame->stress[STRESSES * i + c] / 1e6,
-                                  c < STRESSES - 1 ? ' ' : '\n');
-        }
+        gb_export_text_stress(particles, frame, i, ' ');
     }
     if (contacts != NULL) {
         gb_export_csv_contacts(frame, contacts);

@@ -4,8 +4,6 @@
 #include "io/export/export_formats.h"
 #include "io/export/export_text.h"
 
-enum { STRESSES = 6 };
-
 static bool is_tilted(const struct gb_state *state)
 {
     return state->tilt[0] != 0.0 || state->tilt[1] != 0.0 || state->tilt[2] != 0.0;
@@ -54,13 +52,9 @@ static void add_contacts(const struct gb_export_frame *frame, GString *text)
         const struct gb_export_contact contact = gb_export_text_contact(frame, k);
         g_string_append_printf(text, "%" PRId64 " %" PRId64 " %" PRId64 " ", k + 1,
                                contact.first + 1, contact.second + 1);
-        for (int c = 0; c < 3; c++) {
-            gb_export_text_number(text, contact.force[c], ' ');
-        }
+        gb_export_text_numbers(text, 1.0, contact.force, 3, ' ', ' ');
         gb_export_text_number(text, contact.normal, ' ');
-        for (int c = 0; c < 3; c++) {
-            gb_export_text_number(text, contact.branch[c], ' ');
-        }
+        gb_export_text_numbers(text, 1.0, contact.branch, 3, ' ', ' ');
         gb_export_text_number(text, contact.overlap, ' ');
         g_string_append(text, contact.bridged ? "1\n" : "0\n");
     }
@@ -76,15 +70,10 @@ void gb_export_lammps_dump(const struct gb_export_frame *frame, GString *particl
                     "sxy sxz syz\n");
     for (int64_t i = 0; i < state->count; i++) {
         g_string_append_printf(particles, "%" PRId64 " 1 ", i + 1);
-        for (int c = 0; c < 3; c++) {
-            gb_export_text_number(particles, frame->nm * state->position[3 * i + c], ' ');
-        }
+        gb_export_text_numbers(particles, frame->nm, &state->position[3 * i], 3, ' ',
+                               ' ');
         gb_export_text_number(particles, frame->nm * state->radius[i], ' ');
-        g_string_append_printf(particles, "%" PRId32 " ", state->contacts[i]);
-        for (int c = 0; c < STRESSES; c++) {
-            gb_export_text_number(particles, frame->stress[STRESSES * i + c] / 1e6,
-                                  c < STRESSES - 1 ? ' ' : '\n');
-        }
+        gb_export_text_stress(particles, frame, i, ' ');
     }
     if (contacts != NULL) {
         add_contacts(frame, contacts);
@@ -122,10 +111,8 @@ void gb_export_lammps_data(const struct gb_export_frame *frame, GString *particl
         g_string_append_printf(particles, "%" PRId64 " 1 ", i + 1);
         gb_export_text_number(particles, 2.0 * frame->nm * state->radius[i], ' ');
         gb_export_text_number(particles, density, ' ');
-        for (int c = 0; c < 3; c++) {
-            gb_export_text_number(particles, frame->nm * state->position[3 * i + c],
-                                  c < 2 ? ' ' : '\n');
-        }
+        gb_export_text_numbers(particles, frame->nm, &state->position[3 * i], 3, ' ',
+                               '\n');
     }
     if (contacts != NULL) {
         add_contacts(frame, contacts);

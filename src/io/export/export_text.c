@@ -5,12 +5,30 @@
 #include "base/vec.h"
 #include "pack/cell/cell.h"
 
+enum { STRESSES = 6 };
+
 void gb_export_text_number(GString *text, double value, char end)
 {
     char digits[G_ASCII_DTOSTR_BUF_SIZE];
     g_ascii_formatd(digits, sizeof digits, "%.15g", value);
     g_string_append(text, digits);
     g_string_append_c(text, end);
+}
+
+void gb_export_text_numbers(GString *text, double factor, const double *values, int count,
+                            char between, char end)
+{
+    for (int c = 0; c < count; c++) {
+        gb_export_text_number(text, factor * values[c], c < count - 1 ? between : end);
+    }
+}
+
+void gb_export_text_stress(GString *text, const struct gb_export_frame *frame, int64_t i,
+                           char between)
+{
+    g_string_append_printf(text, "%" PRId32 "%c", frame->state->contacts[i], between);
+    gb_export_text_numbers(text, 1e-6, &frame->stress[STRESSES * i], STRESSES, between,
+                           '\n');
 }
 
 void gb_export_text_title(GString *text, const struct gb_state *state)

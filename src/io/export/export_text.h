@@ -8,6 +8,14 @@
 /* A number with up to 15 digits, '.' in every locale, and a character behind it. */
 void gb_export_text_number(GString *text, double value, char end);
 
+/* Numbers times a factor, a character behind each and another behind the last. */
+void gb_export_text_numbers(GString *text, double factor, const double *values, int count,
+                            char between, char end);
+
+/* "coordination sxx ... syz" of a particle, MPa, at the end of its line. */
+void gb_export_text_stress(GString *text, const struct gb_export_frame *frame, int64_t i,
+                           char between);
+
 /* The title of the preset without quotes, control characters and line ends. */
 void gb_export_text_title(GString *text, const struct gb_state *state);
 
