@@ -44,6 +44,12 @@ is 'the densities of the table are those of the runs' awk -F, '
     END { d = sum / n - want; exit !(n == 2 && d < 1e-12 && d > -1e-12) }' \
     one/papers.csv one/P1-fig5/diameter-9.7nm_seed-*/curve.csv
 
+# --- structures alone --------------------------------------------------------------------
+"$greenbody" papers --fast --only P1-fig3 --out grown >stdout 2>stderr
+is 'structures are grown for their number' [ $? -eq 0 ]
+is 'where they percolate, beside the one of the paper' grep -qE \
+    '^\| Fig. 3 .* 6[0-9]{2} ± [0-9]+ \| 600 .*\| 20 \| within error' grown/papers.md
+
 # --- killed, and called again ------------------------------------------------------------
 "$greenbody" papers --fast --only P1-fig5 --count 100 --cells 2 --jobs 1 --out two \
     >stdout 2>stderr &

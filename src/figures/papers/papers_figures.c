@@ -90,6 +90,13 @@ static const struct figure {
      NULL,
      NULL,
      false},
+    {"P3-fig20.png",
+     "P3 Fig. 20",
+     {"P3-storakers", "P3-storakers-friction"},
+     "die-density",
+     NULL,
+     NULL,
+     false},
 };
 
 /* Of an experiment without an axis. */

@@ -56,6 +56,7 @@ static const struct gb_papers_comparison table[] = {
     {"P1-fig2-bound", .measure = gb_papers_laws_peel, .at = 0.01},
     {"P1-k-initial", FIG5, MEAN, .read = gb_papers_measures_initial, .point = NM_9,
      .why = first_contacts},
+    {"P1-fig3", .experiment = {"P1-fig3"}, MEAN, .read = gb_papers_measures_percolation},
     {"P1-fig5-9.7nm", FIG5, MEAN, LOADED, .at = 100, .point = NM_9, .why = stopping},
     {"P1-fig5-38nm", FIG5, MEAN, LOADED, .at = 100, .point = NM_38, .why = stopping},
     {"P1-fig5-difference", FIG5, DIFFERENCE, LOADED, POINTS, .at = 100, .point = NM_38,

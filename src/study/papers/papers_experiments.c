@@ -21,6 +21,9 @@ static const struct gb_papers_experiment table[] = {
     {"P1-fig12", "three geometries of loading, P1 Figs. 11 to 14", "p1-set1-uniaxial",
      .axis = "loading.geometry=uniaxial;biaxial;isotropic",
      .extent = {{.cells = 10}, {.cells = 16, .change = {SMALL_CELL}}}},
+    {"P1-fig3", "structure of 600 discs on 30 d, P1 Fig. 3", "p1-fig3",
+     .change = {"structure.seed=1", "loading.until=density=0.53", "loading.unload_from="},
+     .extent = {{.cells = 100}, {.cells = 20}}},
     {"P2-v1", "discs at 6.8e8 1/s, P2 Figs. 2 to 4, Table 1", "p2-v1",
      .extent = {{.cells = 30}, {.cells = 16, .change = {SHORT_HOLD}}}},
     {"P2-v2", "discs at 6.8e7 1/s", "p2-v2",
@@ -39,6 +42,9 @@ static const struct gb_papers_experiment table[] = {
      .axis = "material.hardening=0;0.1;0.2", .extent = {{.cells = 3}, {.cells = 0}}},
     {"P3-friction", "Hertz with friction, P3 Fig. 19", "p3-hertz-mu0.01",
      .axis = "contact.mu=0.01;0.02;0.05", .extent = {{.cells = 3}, {.cells = 0}}},
+    {"P3-storakers-friction", "Storakers with friction, P3 Fig. 20",
+     "p3-storakers-m0.2-mu0.01", .axis = "contact.mu=0.01;0.02;0.05",
+     .extent = {{.cells = 3}, {.cells = 0}}},
     {0},
 };
 

@@ -9,6 +9,7 @@
 #include "io/state/state_forces.h"
 #include "many/mean_curves.h"
 #include "measure/hardening.h"
+#include "measure/percolation.h"
 #include "run/experiment.h"
 
 double gb_papers_measures_loaded(const struct gb_runset_run *run,
@@ -56,6 +57,19 @@ double gb_papers_measures_initial(const struct gb_runset_run *run,
     gb_state_destroy(state);
     gb_experiment_destroy(experiment);
     return coordination;
+}
+
+double gb_papers_measures_percolation(const struct gb_runset_run *run,
+                                      const struct gb_papers_comparison *row)
+{
+    struct gb_model model;
+    int64_t particles = 0;
+    (void)row;
+    if (!gb_model_init(&model, &run->params, NULL)) {
+        return NAN;
+    }
+    const struct gb_chain_growth grow = gb_chain_growth_from_model(&model);
+    return gb_percolation_find(&grow, &particles, NULL) ? (double)particles : (double)NAN;
 }
 
 double gb_papers_measures_first(const struct gb_runset_run *run,

@@ -10,8 +10,11 @@ gb_papers_read gb_papers_measures_unloaded; /* quantity unloaded from `at` MPa *
 gb_papers_read gb_papers_measures_lost;     /* loaded less unloaded */
 gb_papers_read gb_papers_measures_lateral;  /* px/pz where loading reaches `at` MPa */
 gb_papers_read gb_papers_measures_initial;  /* coordination of the initial structure */
-gb_papers_read gb_papers_measures_first;    /* column in the first row of the run */
-gb_papers_read gb_papers_measures_last;     /* column in the last row of loading */
+/* Particles at which the structure, grown again with the parameters of the run, joins its
+ * images along all axes: N_1 of P1 section III. */
+gb_papers_read gb_papers_measures_percolation;
+gb_papers_read gb_papers_measures_first; /* column in the first row of the run */
+gb_papers_read gb_papers_measures_last;  /* column in the last row of loading */
 gb_papers_read
     gb_papers_measures_at_density; /* column where loading reaches density `at` */
 
