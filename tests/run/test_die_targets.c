@@ -192,13 +192,12 @@ static struct bed_result study(int seed, size_t models_pressed)
 
 static void check_bed(const struct bed_result *bed)
 {
-    const struct result *balanced = &bed->model[BALANCED], *fast = &bed->model[FAST];
+    const struct result *balanced = &bed->model[BALANCED];
     g_assert_cmpfloat_with_epsilon(bed->height_um, 95.0, 2.0);
     g_assert_cmpfloat_with_epsilon(bed->whole, 0.62, 0.015);
     g_assert_cmpfloat_with_epsilon(balanced->whole[3], 0.66, 0.01);
     g_assert_cmpfloat_with_epsilon(balanced->central[3], 0.70, 0.015);
     for (int k = 0; k < MARKS; k++) {
-        g_assert_cmpfloat_with_epsilon(fast->whole[k], balanced->whole[k], 0.003);
         g_assert_cmpfloat(balanced->central[k] - balanced->whole[k], >, 0.04);
         g_assert_cmpfloat(balanced->central[k] - balanced->whole[k], <, 0.07);
     }
@@ -237,6 +236,17 @@ static void check_central(const struct bed_result *bed)
     g_assert_cmpfloat(sum, <, 0.69);
 }
 
+/* Presses of one bed at two fidelities part by 0.001 to 0.003, their means do not. */
+static void check_fidelity(const struct bed_result *bed)
+{
+    for (int k = 0; k < MARKS; k++) {
+        const double bias =
+            mean_of(bed, COMPARED, FAST, k) - mean_of(bed, COMPARED, BALANCED, k);
+        g_test_message("fast less balanced at %g MPa: %+.4f", marks_mpa[k], bias);
+        g_assert_cmpfloat_with_epsilon(bias, 0.0, 0.002);
+    }
+}
+
 static void check_means(const struct bed_result *bed)
 {
     for (int k = 0; k < MARKS; k++) {
@@ -270,6 +280,7 @@ static void test_targets(void)
         check_bed(&bed[b]);
     }
     check_central(bed);
+    check_fidelity(bed);
     check_means(bed);
 }
 
