@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <sched.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -12,15 +13,35 @@
 
 #include "io/rundir_files.h"
 
-/* Opens path and locks it; -1 with errno when either fails.  File systems without such
- * locks (some network ones) lose only the protection against two writers. */
+static int open_directory(const char *path)
+{
+    return open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
+/* Does another process hold the lock?  Whoever asks shares the lock for a moment, which
+ * is no writer to anybody else who asks.  File systems without such locks (some network
+ * ones) lose only the protection against two writers. */
+static bool has_writer(int fd)
+{
+    const bool writer = flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!writer) {
+        (void)flock(fd, LOCK_UN);
+    }
+    return writer;
+}
+
+/* Opens path and locks it; -1 with errno, EWOULDBLOCK when another process holds the lock.
+ * Those that only ask hold it for a moment, and are waited for. */
 static int lock_directory(const char *path)
 {
-    const int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        close(fd);
-        errno = EWOULDBLOCK;
-        return -1;
+    const int fd = open_directory(path);
+    while (fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        if (has_writer(fd)) {
+            close(fd);
+            errno = EWOULDBLOCK;
+            return -1;
+        }
+        (void)sched_yield();
     }
     return fd;
 }
@@ -111,12 +132,8 @@ static bool check_existing(const char *path, enum gb_rundir_mode mode,
         return gb_error_set(err, GB_ERR_INPUT,
                             "%s: is a file; a run needs a directory of its own", path);
     }
-    const int lock = lock_directory(path);
-    if (lock < 0 && errno == EWOULDBLOCK) {
+    if (gb_rundir_busy(path)) {
         return busy_error(path, err);
-    }
-    if (lock >= 0) {
-        close(lock);
     }
     if (access(path, W_OK | X_OK) != 0) {
         return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be written: %s", path,
@@ -203,10 +220,10 @@ fail:
 
 bool gb_rundir_busy(const char *path)
 {
-    const int lock = lock_directory(path);
-    const bool busy = lock < 0 && errno == EWOULDBLOCK;
-    if (lock >= 0) {
-        close(lock);
+    const int fd = open_directory(path);
+    const bool busy = fd >= 0 && has_writer(fd);
+    if (fd >= 0) {
+        close(fd);
     }
     return busy;
 }

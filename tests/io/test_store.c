@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <glib.h>
@@ -389,6 +390,40 @@ static void test_foreign_status(void)
     g_free(path);
 }
 
+/* The process that asks all the time whether a run is under way. */
+static pid_t ask_for_ever(void)
+{
+    const pid_t asks = fork();
+    while (asks == 0) {
+        (void)gb_rundir_busy(base);
+    }
+    g_assert_cmpint(asks, >, 0);
+    return asks;
+}
+
+/* To ask is no writing: nobody who takes the lock meanwhile is refused. */
+static void test_asked(void)
+{
+    struct gb_error err = {0};
+    struct gb_rundir dir;
+    put(base, "preset.ini");
+    const pid_t asks[] = {ask_for_ever(), ask_for_ever()};
+    int refusals = 0;
+    for (int k = 0; k < 20000; k++) {
+        if (gb_rundir_open(&dir, base, &err)) {
+            gb_rundir_finish(&dir);
+        } else {
+            refusals++;
+        }
+    }
+    for (size_t k = 0; k < G_N_ELEMENTS(asks); k++) {
+        g_assert_cmpint(kill(asks[k], SIGKILL), ==, 0);
+        g_assert_cmpint(waitpid(asks[k], NULL, 0), ==, asks[k]);
+    }
+    g_test_message("%d refusals, the last: %s", refusals, err.text);
+    g_assert_cmpint(refusals, ==, 0);
+}
+
 static void in_folder(gconstpointer data)
 {
     void (*const *test)(void) = data;
@@ -411,6 +446,7 @@ int main(int argc, char **argv)
         {"/store/status", test_status},
         {"/store/foreign-status", test_foreign_status},
         {"/store/existing", test_existing},
+        {"/store/asked", test_asked},
         {"/store/foreign", test_foreign},
         {"/store/discard", test_discard},
         {"/store/full", test_full},
