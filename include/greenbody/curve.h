@@ -75,6 +75,9 @@ struct gb_point {
      * contacts, of bridged ones, of those in tension, and weighted by normal force. */
     double anisotropy[4];
     double leg; /* of loading.path, from 1; NaN without one */
+    /* Quasi-static scenes, else NaN.  1: the relaxation ended above its tolerance, and the
+     * guards accepted it; the point is not in equilibrium.  0 else. */
+    double unrelaxed;
 };
 
 /* Append-only list of points.  One writer; any number of readers may read every point

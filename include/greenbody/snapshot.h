@@ -43,7 +43,9 @@ struct gb_snapshot {
     double time_step_s;           /* of a dynamic run, last used; else 0 */
     int64_t events;               /* how many events so far */
     char event[GB_EVENT_TEXT];    /* the last one */
-    struct gb_error error;        /* why it failed or stopped */
+    struct gb_error
+        error; /* why it failed or stopped; of a run that is done, goals that it
+                              has not reached */
 };
 
 enum { GB_VIEW_SAMPLE_POINTS = 4096, GB_VIEW_SAMPLE_RDF = 160 };

@@ -3,6 +3,8 @@
 #include <pango/pango.h>
 #include <string.h>
 
+#include "base/alloc.h"
+
 /* Keys with a symbol or phrase of their own; others are written "key = value". */
 static const struct {
     const char *key, *format;
@@ -203,6 +205,71 @@ bool gb_figures_label_means(struct gb_series *series,
         if (!gb_series_mean(sample, set, g, mean, error, err)) {
             return false;
         }
+    }
+    return true;
+}
+
+/* Points of a run that are not in equilibrium, behind those of earlier runs of its group.
+ * Columns, two from `column` on, are made with the first. */
+static bool append_unrelaxed(struct gb_series *series, const struct gb_runset_run *run,
+                             const struct gb_figures_label_axes *axes, guint column,
+                             size_t *used, struct gb_error *err)
+{
+    double *x = NULL, *y = NULL;
+    size_t count = 0;
+    const bool good =
+        gb_runset_unrelaxed(run, axes->branch, axes->x, axes->y, &x, &y, &count, err);
+    if (good && count > 0 && *used == 0) {
+        (void)gb_series_column(series, "unrelaxed_%zu_%s", run->group + 1, axes->x);
+        (void)gb_series_column(series, "unrelaxed_%zu_%s", run->group + 1, axes->y);
+    }
+    gb_series_grow(series, *used + count);
+    for (size_t i = 0; good && i < count; i++) {
+        ((double *)g_ptr_array_index(series->columns, column))[*used] = x[i];
+        ((double *)g_ptr_array_index(series->columns, column + 1))[(*used)++] = y[i];
+    }
+    gb_alloc_free(x);
+    gb_alloc_free(y);
+    return good;
+}
+
+static bool draw_unrelaxed(struct gb_series *series, const struct gb_runset *set,
+                           size_t group, const struct gb_figures_label_axes *axes,
+                           size_t *all, struct gb_error *err)
+{
+    const guint column = series->columns->len;
+    size_t used = 0;
+    for (size_t i = 0; i < set->count; i++) {
+        if (set->run[i].group == group &&
+            !append_unrelaxed(series, &set->run[i], axes, column, &used, err)) {
+            return false;
+        }
+    }
+    if (used > 0) {
+        gb_series_draw(series, g_ptr_array_index(series->columns, column),
+                       g_ptr_array_index(series->columns, column + 1), NULL,
+                       GB_FIGURE_POINTS, (int)group, NULL)
+            ->open = true;
+    }
+    *all += used;
+    return true;
+}
+
+bool gb_figures_label_unrelaxed(struct gb_series *series, const struct gb_runset *set,
+                                const struct gb_figures_label_axes *axes,
+                                struct gb_error *err)
+{
+    size_t all = 0;
+    for (size_t g = 0; g < set->groups; g++) {
+        if (!draw_unrelaxed(series, set, g, axes, &all, err)) {
+            return false;
+        }
+    }
+    if (all > 0) {
+        gb_series_caption(series,
+                          "Hollow: points that are not in equilibrium (%zu); the "
+                          "means leave them out.",
+                          all);
     }
     return true;
 }

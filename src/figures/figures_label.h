@@ -26,4 +26,16 @@ bool gb_figures_label_means(struct gb_series *series,
                             const struct gb_runset *set, const double *grid,
                             const char *name, const char *unit, struct gb_error *err);
 
+/* What a curve of means is made from: a branch and two columns of curve.csv. */
+struct gb_figures_label_axes {
+    const char *branch, *x, *y;
+};
+
+/* The points that are not in equilibrium, with hollow markers, columns and a sentence in
+ * the caption; nothing where there is none.  The columns may move: after everything that
+ * holds pointers to them. */
+bool gb_figures_label_unrelaxed(struct gb_series *series, const struct gb_runset *set,
+                                const struct gb_figures_label_axes *axes,
+                                struct gb_error *err);
+
 #endif

@@ -40,9 +40,10 @@ static void append_columns(GString *row, const struct gb_point *point, size_t fr
     }
 }
 
-static void append_tensors(GString *row, const struct gb_point *point)
+static void append_nothing(GString *row, const struct gb_point *point)
 {
-    append_columns(row, point, 0, GB_POINT_COLUMNS);
+    (void)row;
+    (void)point;
 }
 
 static void append_energies(GString *row, const struct gb_point *point)
@@ -53,7 +54,6 @@ static void append_energies(GString *row, const struct gb_point *point)
     for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
         append_number(row, values[k]);
     }
-    append_tensors(row, point);
 }
 
 static void append_die(GString *row, const struct gb_point *point)
@@ -64,29 +64,7 @@ static void append_die(GString *row, const struct gb_point *point)
     for (size_t k = 0; k < G_N_ELEMENTS(values); k++) {
         append_number(row, values[k]);
     }
-    append_columns(row, point, GB_POINT_COLUMNS, GB_POINT_ALL_COLUMNS);
 }
-
-/* By enum gb_curve_columns: a comment of the head of curve.csv, names of the columns, and
- * their values. */
-static const struct column_set {
-    const char *note, *names;
-    void (*append)(GString *row, const struct gb_point *point);
-} column_sets[] = {
-    [GB_COLUMNS_COMMON] = {"", "", append_tensors},
-    [GB_COLUMNS_ENERGY] =
-        {"# dynamic: time_ns is simulated time; kinetic, work (done by the moving cell), "
-         "elastic and dissipated energy in J; energy_residual is relative to the work\n",
-         ",time_ns,kinetic,work,elastic,dissipated,energy_residual", append_energies},
-    [GB_COLUMNS_DIE] =
-        {"# die: p and pz are what the powder carries under the punch, px and py the "
-         "mean on the side wall; density is that of the whole specimen, central_density "
-         "that of a ball in its middle; height_change is relative to the height before "
-         "pressing; time_ns is simulated time, wanted_MPa the scheduled pressure, "
-         "floor_over_punch a ratio of forces: not quasi-static outside 0.95 to 1.05\n",
-         ",time_ns,central_density,height_um,height_change,wanted_MPa,floor_over_punch",
-         append_die},
-};
 
 static const char die_note[] =
     "# die: floor_MPa and wall_friction_mN are means since the last point, while loading "
@@ -104,6 +82,42 @@ static const char tensor_note[] =
     "strains, positive in compression, gxy, gxz, gyz engineering shears, all since the start; fxx "
     "to fyz fabric of the contacts; anisotropies of the fabric of all, bridged, tensile "
     "contacts and weighted by force; leg of loading.path\n";
+
+/* By enum gb_curve_columns: comments of the head of curve.csv, names of own columns, their
+ * values, and the ranges of the table of columns that follow. */
+static const struct column_set {
+    const char *note, *names;
+    void (*append)(GString *row, const struct gb_point *point);
+    const char *table_note;
+    struct {
+        size_t from, to;
+    } range[2];
+} column_sets[] = {
+    [GB_COLUMNS_COMMON] =
+        {"# unrelaxed: 1 where the relaxation ended above its tolerance and was accepted: "
+         "no equilibrium\n",
+         "",
+         append_nothing,
+         tensor_note,
+         {{0, GB_POINT_COLUMNS}, {GB_POINT_DIE_END, GB_POINT_ALL_COLUMNS}}},
+    [GB_COLUMNS_ENERGY] =
+        {"# dynamic: time_ns is simulated time; kinetic, work (done by the moving cell), "
+         "elastic and dissipated energy in J; energy_residual is relative to the work\n",
+         ",time_ns,kinetic,work,elastic,dissipated,energy_residual",
+         append_energies,
+         tensor_note,
+         {{0, GB_POINT_COLUMNS}}},
+    [GB_COLUMNS_DIE] =
+        {"# die: p and pz are what the powder carries under the punch, px and py the "
+         "mean on the side wall; density is that of the whole specimen, central_density "
+         "that of a ball in its middle; height_change is relative to the height before "
+         "pressing; time_ns is simulated time, wanted_MPa the scheduled pressure, "
+         "floor_over_punch a ratio of forces: not quasi-static outside 0.95 to 1.05\n",
+         ",time_ns,central_density,height_um,height_change,wanted_MPa,floor_over_punch",
+         append_die,
+         die_note,
+         {{GB_POINT_COLUMNS, GB_POINT_DIE_END}}},
+};
 
 GString *gb_curve_csv_head(const struct gb_params *params)
 {
@@ -123,14 +137,14 @@ GString *gb_curve_csv_head(const struct gb_params *params)
         compressed_axes(params));
     const struct column_set *set = &column_sets[gb_loading_kind_of(params)->columns];
     g_string_append(head, set->note);
-    const bool die = set->append == append_die;
-    g_string_append(head, die ? die_note : tensor_note);
+    g_string_append(head, set->table_note);
     g_string_append(head, "branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,"
                           "bridged,rattlers,residual,iterations,evaluations,seconds");
     g_string_append(head, set->names);
-    for (size_t k = die ? GB_POINT_COLUMNS : 0;
-         k < (die ? GB_POINT_ALL_COLUMNS : GB_POINT_COLUMNS); k++) {
-        g_string_append_printf(head, ",%s", gb_point_columns_name(k));
+    for (size_t r = 0; r < G_N_ELEMENTS(set->range); r++) {
+        for (size_t k = set->range[r].from; k < set->range[r].to; k++) {
+            g_string_append_printf(head, ",%s", gb_point_columns_name(k));
+        }
     }
     g_string_append_c(head, '\n');
     return head;
@@ -151,7 +165,11 @@ GString *gb_curve_csv_row(const struct gb_point *point, enum gb_curve_columns co
     g_string_append_printf(
         row, ",%" PRId64 ",%" PRId64 ",%s", point->iterations, point->evaluations,
         g_ascii_formatd(seconds, sizeof seconds, "%.3f", point->seconds));
-    column_sets[columns].append(row, point);
+    const struct column_set *set = &column_sets[columns];
+    set->append(row, point);
+    for (size_t r = 0; r < G_N_ELEMENTS(set->range); r++) {
+        append_columns(row, point, set->range[r].from, set->range[r].to);
+    }
     g_string_append_c(row, '\n');
     return row;
 }

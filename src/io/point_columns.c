@@ -42,6 +42,7 @@ static const struct column table[GB_POINT_ALL_COLUMNS] = {
     {"axial_springback_percent", AT(axial_springback), 1e-2},
     {"radial_springback_percent", AT(radial_springback), 1e-2},
     {"welded", AT(welded), 1.0},
+    {"unrelaxed", AT(unrelaxed), 1.0},
 };
 #undef AT
 
@@ -87,6 +88,12 @@ bool gb_point_columns_record_die(struct gb_point *point, const char *name,
                                  struct gb_record *record, struct gb_error *err)
 {
     return exchange(point, GB_POINT_COLUMNS, GB_POINT_DIE_COLUMNS, name, record, err);
+}
+
+bool gb_point_columns_record_step(struct gb_point *point, const char *name,
+                                  struct gb_record *record, struct gb_error *err)
+{
+    return exchange(point, GB_POINT_DIE_END, GB_POINT_STEP_COLUMNS, name, record, err);
 }
 
 double gb_point_columns_value(const struct gb_point *point, size_t k)

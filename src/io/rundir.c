@@ -18,8 +18,8 @@ static int open_directory(const char *path)
     return open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 }
 
-/* Does another process hold the lock?  Whoever asks shares the lock for a moment, which
- * is no writer to anybody else who asks.  File systems without such locks (some network
+/* Does another process hold the lock?  Those that ask share the lock for a moment, which
+ * is no writer to others that ask.  File systems without such locks (some network
  * ones) lose only the protection against two writers. */
 static bool has_writer(int fd)
 {

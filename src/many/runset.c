@@ -244,18 +244,16 @@ const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t 
                                   &gb_runset_first(set, b)->params, accepted);
 }
 
-bool gb_runset_points(const struct gb_runset_run *run, const char *branch, const char *x,
-                      const char *y, double **xs, double **ys, size_t *count,
-                      struct gb_error *err)
+/* Points of a branch (NULL: of all) where x is there; of those that are in equilibrium, or
+ * of the others.  The arrays are allocated also when there is no point. */
+static bool select_points(const struct gb_runset_run *run, const char *branch,
+                          const char *x, const char *y, bool unrelaxed, double **xs,
+                          double **ys, size_t *count, struct gb_error *err)
 {
-    if (run->table == NULL) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "%.300s: a packing has no curve.csv; accepted runs",
-                            run->directory);
-    }
     const size_t rows = gb_table_rows(run->table);
     const double *from_x = gb_table_column(run->table, x, err);
     const double *from_y = from_x ? gb_table_column(run->table, y, err) : NULL;
+    const double *above = gb_table_column(run->table, "unrelaxed", NULL);
     if (from_y == NULL || !gb_table_column(run->table, "branch", err)) {
         return false;
     }
@@ -265,18 +263,47 @@ bool gb_runset_points(const struct gb_runset_run *run, const char *branch, const
     const bool made = *xs != NULL && *ys != NULL;
     for (size_t i = 0; made && i < rows; i++) {
         const bool here = !branch || strcmp(gb_table_word(run->table, i), branch) == 0;
-        if (here && !isnan(from_x[i])) {
+        if (here && !isnan(from_x[i]) && (above && above[i] > 0.0) == unrelaxed) {
             (*xs)[*count] = from_x[i];
             (*ys)[(*count)++] = from_y[i];
         }
     }
+    return made;
+}
+
+static bool has_curve(const struct gb_runset_run *run, struct gb_error *err)
+{
+    return run->table != NULL ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "%.300s: a packing has no curve.csv; accepted runs",
+                        run->directory);
+}
+
+bool gb_runset_points(const struct gb_runset_run *run, const char *branch, const char *x,
+                      const char *y, double **xs, double **ys, size_t *count,
+                      struct gb_error *err)
+{
+    *xs = *ys = NULL;
+    if (!has_curve(run, err)) {
+        return false;
+    }
+    const bool made = select_points(run, branch, x, y, false, xs, ys, count, err);
     if (made && *count > 0) {
         return true;
     }
     gb_alloc_free(*xs);
     gb_alloc_free(*ys);
-    *xs = NULL;
-    *ys = NULL;
-    return made && gb_error_set(err, GB_ERR_INPUT, "%s: no point of branch %s",
+    *xs = *ys = NULL;
+    return made && gb_error_set(err, GB_ERR_INPUT,
+                                "%s: no point of branch %s that is in equilibrium",
                                 gb_table_path(run->table), branch ? branch : "any");
+}
+
+bool gb_runset_unrelaxed(const struct gb_runset_run *run, const char *branch,
+                         const char *x, const char *y, double **xs, double **ys,
+                         size_t *count, struct gb_error *err)
+{
+    *xs = *ys = NULL;
+    return has_curve(run, err) &&
+           select_points(run, branch, x, y, true, xs, ys, count, err);
 }

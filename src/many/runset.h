@@ -64,10 +64,15 @@ char *gb_runset_label_of_title(const struct gb_runset *set, size_t group);
 const struct gb_field *gb_runset_difference(const struct gb_runset *set, size_t a,
                                             size_t b, const char *const *accepted);
 
-/* Points (x, y) of one branch of a run (NULL: of all) where x is there; arrays to be
- * given to gb_alloc_free. Errors: GB_ERR_INPUT for a missing column or no such points. */
+/* Points (x, y) of one branch of a run (NULL: of all) where x is there, without those that
+ * are not in equilibrium (column unrelaxed); arrays to be given to gb_alloc_free.  Errors:
+ * GB_ERR_INPUT for a missing column or no such points. */
 bool gb_runset_points(const struct gb_runset_run *run, const char *branch, const char *x,
                       const char *y, double **xs, double **ys, size_t *count,
                       struct gb_error *err);
+/* Those that are not; count may be 0. */
+bool gb_runset_unrelaxed(const struct gb_runset_run *run, const char *branch,
+                         const char *x, const char *y, double **xs, double **ys,
+                         size_t *count, struct gb_error *err);
 
 #endif

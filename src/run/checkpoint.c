@@ -59,9 +59,23 @@ static bool record_points(struct gb_experiment *experiment, struct gb_record *re
     return gb_record_members(record, members, MEMBERS, experiment, err) &&
            gb_point_columns_record(&experiment->point, "point/tensors", record, err) &&
            gb_point_columns_record(&experiment->shown, "shown/tensors", record, err) &&
+           (gb_loading_kind_of(&experiment->params)->columns != GB_COLUMNS_COMMON ||
+            (gb_point_columns_record_step(&experiment->point, "point/unrelaxed", record,
+                                          err) &&
+             gb_point_columns_record_step(&experiment->shown, "shown/unrelaxed", record,
+                                          err))) &&
            (gb_loading_kind_of(&experiment->params)->periodic_cell ||
             (gb_point_columns_record_die(&experiment->point, "point/die", record, err) &&
              gb_point_columns_record_die(&experiment->shown, "shown/die", record, err)));
+}
+
+/* Checkpoints of earlier versions have not counted them. */
+static bool record_unrelaxed(struct gb_experiment *experiment, struct gb_record *record,
+                             struct gb_error *err)
+{
+    const bool missing = record->loading && !gb_record_find(record, "run/unrelaxed");
+    return missing || gb_record_array(record, "run/unrelaxed", GB_RECORD_INT64, 1, 1, "1",
+                                      &experiment->unrelaxed, err);
 }
 
 bool gb_checkpoint_take(struct gb_experiment *experiment, struct gb_record *record,
@@ -69,6 +83,7 @@ bool gb_checkpoint_take(struct gb_experiment *experiment, struct gb_record *reco
 {
     gb_record_clear(record);
     return record_points(experiment, record, err) &&
+           record_unrelaxed(experiment, record, err) &&
            gb_loading_record(experiment->loading, record, err);
 }
 
@@ -76,7 +91,8 @@ bool gb_checkpoint_load(struct gb_experiment *experiment, struct gb_record *reco
                         struct gb_error *err)
 {
     record->loading = true;
-    if (!record_points(experiment, record, err)) {
+    if (!record_points(experiment, record, err) ||
+        !record_unrelaxed(experiment, record, err)) {
         return false;
     }
     if (experiment->step < 0 || experiment->step > step_max) {

@@ -1,6 +1,7 @@
 #include "run/experiment.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -120,6 +121,7 @@ static void measure_restored(struct gb_experiment *experiment)
     experiment->shown.branch = GB_BRANCH_LOAD;
     experiment->shown.branch_from_pa = 0.0;
     experiment->shown.step = experiment->step;
+    experiment->shown.unrelaxed = (double)NAN;
 }
 
 static enum gb_step_outcome record(struct gb_experiment *experiment, struct gb_error *err)
@@ -127,6 +129,7 @@ static enum gb_step_outcome record(struct gb_experiment *experiment, struct gb_e
     struct gb_loading *loading = experiment->loading;
     gb_point_measure_step(loading, experiment->elastic_start, &experiment->point);
     experiment->point.step = experiment->step++;
+    experiment->unrelaxed += experiment->point.unrelaxed > 0.0;
     experiment->shown = experiment->point;
     const enum gb_step_outcome next =
         loading->mode->after_point(loading, &experiment->events, err);
@@ -174,6 +177,23 @@ enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
     const enum gb_step_outcome outcome = advance(experiment, max_evaluations, err);
     gb_event_queue_set_step(&experiment->events, step);
     return outcome;
+}
+
+/* Goals of a path's legs are events of their own. */
+bool gb_experiment_missed(const struct gb_experiment *experiment, char *text, size_t size)
+{
+    const struct gb_loading *loading = experiment->loading;
+    char goals[GB_EVENT_TEXT] = "", points[64] = "";
+    if (experiment->over && !experiment->stopped && loading->mode->missed != NULL) {
+        (void)loading->mode->missed(loading, goals, sizeof goals);
+    }
+    if (experiment->unrelaxed > 0) {
+        snprintf(points, sizeof points, "%" PRId64 " of %" PRId64 " points %s",
+                 experiment->unrelaxed, experiment->step, "are not in equilibrium");
+    }
+    snprintf(text, size, "%s%s%s", goals,
+             goals[0] != '\0' && points[0] != '\0' ? "; " : "", points);
+    return text[0] != '\0';
 }
 
 const struct gb_point *gb_experiment_point(const struct gb_experiment *experiment)

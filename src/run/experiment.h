@@ -31,6 +31,11 @@ void gb_experiment_destroy(struct gb_experiment *experiment); /* NULL is fine */
 enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
                                            int64_t max_evaluations, struct gb_error *err);
 
+/* What a run that has come to its end leaves undone, as one line into text: goals of the
+ * loading never reached, points that are not in equilibrium.  False: nothing. */
+bool gb_experiment_missed(const struct gb_experiment *experiment, char *text,
+                          size_t size);
+
 /* The last recorded point; its seconds field is the caller's to fill. */
 const struct gb_point *gb_experiment_point(const struct gb_experiment *experiment);
 

@@ -13,6 +13,7 @@ struct gb_experiment {
     struct gb_loading *loading;
     double elastic_start;  /* elastic energy at the start; only in scenes with energies */
     int64_t step;          /* points recorded */
+    int64_t unrelaxed;     /* of them above the tolerance */
     bool over, stopped;    /* nothing follows; a guard ended it */
     struct gb_point point; /* the last recorded one */
     struct gb_point shown; /* of the packing as it is: after an unloading branch, where

@@ -114,6 +114,7 @@ static void measure_cell(const struct gb_loading *loading, struct gb_point *poin
     };
     leave_empty(point);
     measure_tensors(loading, (const double(*)[3])tensor, &fabric, point);
+    point->unrelaxed = report.unrelaxed;
     point->leg = report.leg > 0 ? report.leg : (double)NAN;
 }
 

@@ -309,9 +309,16 @@ enum gb_run_outcome gb_run_loop_fail(struct gb_run_loop *loop, const struct gb_e
     return GB_RUN_OUTCOME_FAILED;
 }
 
-/* The final snapshot.  Guards have reported themselves as events already. */
+/* The final snapshot.  Guards have reported themselves as events already; a run that is
+ * done tells what it has not reached. */
 static void observe_end(struct gb_run_loop *loop, enum gb_run_outcome outcome)
 {
+    char missed[sizeof loop->error.text];
+    if (outcome == GB_RUN_OUTCOME_DONE &&
+        gb_experiment_missed(loop->experiment, missed, sizeof missed)) {
+        (void)gb_error_set(&loop->error, GB_ERR_GUARD, "%s", missed);
+        gb_run_loop_event(loop, missed);
+    }
     if (outcome == GB_RUN_OUTCOME_CANCELLED ||
         (outcome == GB_RUN_OUTCOME_FAILED && !loop->record_failed)) {
         gb_run_loop_event(loop, loop->error.text);

@@ -46,7 +46,7 @@ struct gb_run_loop {
     struct gb_experiment *experiment; /* owned; NULL before gb_run_loop_attach */
     struct gb_run_recorder *recorder; /* owned, set by the caller; NULL: not recorded */
     struct gb_snapshot snapshot;      /* as of the last gb_run_loop_observe */
-    struct gb_error error;            /* why the run ended early */
+    struct gb_error error; /* why the run ended early, or what it has not reached */
     struct gb_pace pace;
     enum gb_step_outcome last; /* result of the last slice */
     bool record_failed;        /* the run directory could not be written */
@@ -79,7 +79,8 @@ enum gb_step_outcome gb_run_loop_slice(struct gb_run_loop *loop);
 bool gb_run_loop_ended(const struct gb_run_loop *loop);
 
 /* Runs to the end and writes the last files; never GB_RUN_OUTCOME_NONE.  The reason of an
- * early end is loop->error, and an event. */
+ * early end is loop->error, and an event; so are goals that a run which is done has not
+ * reached (GB_ERR_GUARD). */
 enum gb_run_outcome gb_run_loop_run(struct gb_run_loop *loop);
 
 /* For a run that fails before its loop: status.json says so where there is one. */

@@ -25,7 +25,7 @@ refused() {
 header=branch,step,density,px_MPa,py_MPa,pz_MPa,p_MPa,coordination,bridged,rattlers,
 header=${header}residual,iterations,evaluations,seconds,pxy_MPa,pxz_MPa,pyz_MPa,q_MPa,
 header=${header}asymmetry,exx,eyy,ezz,gxy,gxz,gyz,fxx,fyy,fzz,fxy,fxz,fyz,anisotropy,
-header=${header}anisotropy_bridged,anisotropy_tension,anisotropy_force,leg
+header=${header}anisotropy_bridged,anisotropy_tension,anisotropy_force,leg,unrelaxed
 
 # --- a run ------------------------------------------------------------------------------
 run --out out
@@ -36,8 +36,8 @@ done
 is 'header of the curve' grep -qx "$header" out/curve.csv
 is 'the curve names the seed' grep -q '^# seed: 1$' out/curve.csv
 is 'several points' [ "$(grep -c '^load,' out/curve.csv)" -gt 1 ]
-is '36 columns everywhere' \
-    awk -F, '!/^#/ && NF != 36 { bad = 1 } END { exit bad }' out/curve.csv
+is '37 columns everywhere' \
+    awk -F, '!/^#/ && NF != 37 { bad = 1 } END { exit bad }' out/curve.csv
 is 'no nan or inf' sh -c '! grep -v "^#" out/curve.csv | grep -qiE "nan|inf"'
 is 'the pressure was reached' \
     awk -F, '/^load/ { p = $7 } END { exit !(p >= 5) }' out/curve.csv
@@ -99,6 +99,40 @@ for signal in INT:130 TERM:143; do
     is 'status says stopped' grep -q '"state" : "stopped"' out/status.json
     rm -rf out
 done
+
+# --- goals that are not reached ----------------------------------------------------------
+# name, text of the event, keys...
+misses() {
+    name=$1
+    text=$2
+    shift 2
+    "$greenbody" run default particles.count=200 "$@" --out out >stdout 2>stderr
+    is "$name: status 1" [ $? -eq 1 ]
+    is "$name: an event" grep -q "$text" out/events.log
+    is "$name: on the screen" grep -q "$text" stderr
+    is "$name: in the status" grep -q "\"error\" : \"$text" out/status.json
+    is "$name: which is done" grep -q '"state" : "done"' out/status.json
+}
+
+misses 'a soft powder' 'not reached: loading.until = 1 GPa, loading.unload_from = 1 GPa; ended' \
+    'material.young=10 GPa' 'particles.diameter=1 um'
+"$greenbody" resume out >stdout 2>stderr
+is 'resumed, it says so again' [ $? -eq 1 ]
+rm -rf out
+misses 'a low density' 'not reached: loading.unload_from = 100 MPa; 1 GPa; ended' \
+    loading.until=density=0.3
+rm -rf out
+misses 'no equilibrium' '[1-9][0-9]* of [0-9]* points are not in equilibrium' \
+    numerics.max_evaluations=10 loading.unload_from=
+points=$(awk -F, '$37 == 1' out/curve.csv | wc -l)
+loaded=$(awk -F, '/^load/ && $37 == 1' out/curve.csv | wc -l)
+is 'as many are marked' grep -q "error.*\"$points of" out/status.json
+"$greenbody" plot --figure densification out -o hollow.csv
+is 'a figure shows as many apart' [ "$(grep -v '^#' hollow.csv | tail -n +2 | cut -d, -f4 |
+    grep -c .)" -eq "$loaded" ]
+mean=$(grep -v '^#' hollow.csv | tail -n +2 | cut -d, -f2 | grep -c .)
+is 'and leaves them out of the mean' [ "$mean" -le "$(grep -c '^load.*,0$' out/curve.csv)" ]
+rm -rf out hollow.csv
 
 # --- a size limit, as a full disk -------------------------------------------------------
 (

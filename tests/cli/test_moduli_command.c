@@ -17,7 +17,8 @@ static const char *const head =
 
 /* A run of a second: 100 particles to a density of 0.4. */
 #define SMALL_RUN                                                                        \
-    "default particles.count=100 numerics.fidelity=fast loading.until=density=0.4"
+    "default particles.count=100 numerics.fidelity=fast loading.until=density=0.4 "      \
+    "loading.unload_from="
 
 /* Lines of a table on stdout; status: exit status. */
 static char **table_of(const char *folder, const char *words, int status)

@@ -387,7 +387,7 @@ static int count_lines(const char *folder, const char *name)
 }
 
 /* Lines of a curve from which on the run has results. */
-enum { POINTS = 8 };
+enum { POINTS = 9 };
 
 /* A second request to end, while the engine is being stopped, does not lose the run.  Its
  * strain steps are so small that points are recorded soon and the run does not end; r

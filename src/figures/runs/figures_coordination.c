@@ -38,11 +38,13 @@ bool gb_figures_coordination(struct gb_series *series,
     gb_series_init(series, sample.size);
     gb_figures_label_note(series, set);
     const double *grid = gb_series_sample_grid(series, &sample, "density");
-    const bool good =
+    static const struct gb_figures_label_axes axes = {"load", "density", "coordination"};
+    bool good =
         gb_figures_label_means(series, &sample, set, grid, "coordination", "", err);
     if (good && any_planar_dynamic(set)) {
         draw_published(series, set, grid);
     }
+    good = good && gb_figures_label_unrelaxed(series, set, &axes, err);
     gb_series_sample_finish(&sample);
     return good;
 }

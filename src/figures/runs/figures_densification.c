@@ -102,12 +102,13 @@ bool gb_figures_densification(struct gb_series *series,
     gb_series_init(series, sample.size);
     gb_figures_label_note(series, set);
     const double *grid = gb_series_sample_grid(series, &sample, "density");
-    const bool good =
-        gb_figures_label_means(series, &sample, set, grid, "mean", "_MPa", err) &&
-        asymptote_columns(series, grid, set, err);
+    static const struct gb_figures_label_axes axes = {"load", "density", "p_MPa"};
+    bool good = gb_figures_label_means(series, &sample, set, grid, "mean", "_MPa", err) &&
+                asymptote_columns(series, grid, set, err);
     if (good && all_quasistatic(set)) {
         set_inset(series, set->groups);
     }
+    good = good && gb_figures_label_unrelaxed(series, set, &axes, err);
     gb_series_sample_finish(&sample);
     return good;
 }

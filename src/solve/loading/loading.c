@@ -100,6 +100,7 @@ struct gb_loading_report gb_loading_empty_report(void)
     const double none = (double)NAN;
     return (struct gb_loading_report){
         .residual = none,
+        .unrelaxed = none,
         .time = none,
         .kinetic = none,
         .work = none,

@@ -54,6 +54,7 @@ struct gb_loading_report {
     int unloading; /* k-th unloading branch; 0: none */
     int64_t iterations, evaluations; /* since the last point */
     double residual;                 /* of the force balance */
+    double unrelaxed;                /* 1: above its tolerance; 0 else */
     double time_step;                /* last used, T */
     double time;                     /* simulated, T */
     double kinetic, work, absorbed;  /* E d^3 */
@@ -101,6 +102,9 @@ struct gb_loading_mode {
     /* Share of the loading that is done, 0 to 1; pressure (E) and density of the last
      * recorded point. */
     double (*progress)(const struct gb_loading *loading, double pressure, double density);
+    /* Goals that a loading which has ended never reached, as one line into text; false:
+     * none.  NULL where a mode ends by its goals or stops. */
+    bool (*missed)(const struct gb_loading *loading, char *text, size_t size);
 };
 
 /* THE table, by enum gb_kind. */

@@ -294,6 +294,7 @@ static struct gb_loading_report report(const struct gb_loading *loading)
     report.iterations = gb_strain_step_iterations(&run->step);
     report.evaluations = gb_strain_step_evaluations(&run->step);
     report.residual = gb_world_residual(loading->world);
+    report.unrelaxed = run->step.unrelaxed;
     return report;
 }
 
@@ -301,6 +302,17 @@ static double progress(const struct gb_loading *loading, double pressure, double
 {
     return gb_quasistatic_progress(&view(loading)->schedule, pressure, density,
                                    loading->model->start_density);
+}
+
+static bool missed(const struct gb_loading *loading, char *text, size_t size)
+{
+    double pressure[3];
+    gb_world_measure_normal_pressures(loading->world, pressure);
+    return gb_quasistatic_missed(
+        &view(loading)->schedule, loading->params,
+        gb_quasistatic_pressure(&view(loading)->schedule, pressure) *
+            loading->model->pascal_per_stress,
+        gb_world_measure_density(loading->world), text, size);
 }
 
 const struct gb_loading_mode gb_loading_quasistatic = {
@@ -315,4 +327,5 @@ const struct gb_loading_mode gb_loading_quasistatic = {
     .record = record_schedule,
     .report = report,
     .progress = progress,
+    .missed = missed,
 };

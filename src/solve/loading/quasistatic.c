@@ -1,6 +1,10 @@
 #include "solve/loading/quasistatic.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/units.h"
 
 #include "scene/tolerances.h"
 
@@ -126,6 +130,44 @@ void gb_quasistatic_halve(struct gb_quasistatic *load, double factor[3])
 void gb_quasistatic_recover(struct gb_quasistatic *load)
 {
     load->step = fmin(2.0 * load->step, load->step_most);
+}
+
+/* Appends "loading.unload_from = 100 MPa; 1 GPa", of those pressures not reached. */
+static void name_unloadings(const struct gb_quasistatic *load,
+                            const struct gb_params *params, char *text, size_t size)
+{
+    const char *before = "loading.unload_from = ";
+    for (int k = load->next_unload; k < load->unload_count; k++) {
+        char pressure[64];
+        const size_t used = strlen(text);
+        gb_units_format_short(params->unload_from_pa[k], GB_DIM_PRESSURE, 6, pressure,
+                              sizeof pressure);
+        snprintf(text + used, size - used, "%s%s", before, pressure);
+        before = "; ";
+    }
+}
+
+bool gb_quasistatic_missed(const struct gb_quasistatic *load,
+                           const struct gb_params *params, double pressure_pa,
+                           double density, char *text, size_t size)
+{
+    char goals[256] = "", at[64];
+    const bool until = params->until_pressure_pa > pressure_pa;
+    if (until) {
+        gb_units_format_short(params->until_pressure_pa, GB_DIM_PRESSURE, 6, at,
+                              sizeof at);
+        snprintf(goals, sizeof goals, "loading.until = %s%s", at,
+                 load->next_unload < load->unload_count ? ", " : "");
+    }
+    name_unloadings(load, params, goals, sizeof goals);
+    text[0] = '\0';
+    if (goals[0] == '\0') {
+        return false;
+    }
+    gb_units_format_short(pressure_pa, GB_DIM_PRESSURE, 4, at, sizeof at);
+    snprintf(text, size, "not reached: %s; ended at %s, density %.4f%s", goals, at,
+             density, until ? " (all space is filled)" : "");
+    return true;
 }
 
 double gb_quasistatic_progress(const struct gb_quasistatic *load, double pressure,

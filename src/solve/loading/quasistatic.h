@@ -55,6 +55,13 @@ void gb_quasistatic_recover(struct gb_quasistatic *load);
 double gb_quasistatic_pressure(const struct gb_quasistatic *load,
                                const double pressure[3]);
 
+/* The goals of params that a schedule which has ended, at this pressure (Pa) and density,
+ * never reached: loading.until, pressures of loading.unload_from.  One line into text;
+ * false: none. */
+bool gb_quasistatic_missed(const struct gb_quasistatic *load,
+                           const struct gb_params *params, double pressure_pa,
+                           double density, char *text, size_t size);
+
 /* Share of the schedule that is done, 0..1, by the logarithm of density towards
  * until_density, or of the pressure (loading branch only). */
 double gb_quasistatic_progress(const struct gb_quasistatic *load, double pressure,

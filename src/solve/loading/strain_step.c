@@ -102,6 +102,7 @@ enum gb_strain_step_outcome gb_strain_step_advance(struct gb_strain_step *step,
     }
     switch (gb_guard_judge(&step->guard, outcome, step->relax, text, sizeof text, err)) {
     case GB_GUARD_ACCEPT:
+        step->unrelaxed = outcome == GB_RELAX_EXHAUSTED;
         gb_event_queue_add(events, text);
         return begin_next_part(step) ? GB_STRAIN_STEP_MORE : GB_STRAIN_STEP_RELAXED;
     case GB_GUARD_RETRY:

@@ -21,6 +21,7 @@ struct gb_strain_step {
     struct gb_guard guard;
     struct gb_deformation deformation; /* of a part */
     int part, parts; /* from 1; 0: the first relaxation, without a strain step */
+    bool unrelaxed;  /* the last relaxation ended above its tolerance, and was accepted */
     int64_t spent_iterations, spent_evaluations; /* by attempts that were taken back and
                                                   * by parts before this one */
 };

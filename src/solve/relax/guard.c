@@ -13,7 +13,7 @@ static enum gb_guard_action judge_exhausted(const struct gb_relax *relax, char *
         gb_error_set(
             err, GB_ERR_NOT_CONVERGED,
             "no equilibrium after %lld evaluations: residual %.2e, tolerance %.2e",
-            (long long)relax->evaluations, relax->residual, relax->tolerance);
+            (long long)relax->evaluations, relax->residual, relax->allowed);
         return GB_GUARD_STOP;
     }
     if (relax->stalled) {
@@ -21,12 +21,12 @@ static enum gb_guard_action judge_exhausted(const struct gb_relax *relax, char *
                  "guard: the relaxation stalls: residual %.2e, at best %.2e, after "
                  "%lld evaluations and a restart, tolerance %.2e; accepted",
                  relax->residual, relax->best, (long long)relax->evaluations,
-                 relax->tolerance);
+                 relax->allowed);
         return GB_GUARD_ACCEPT;
     }
     snprintf(text, size,
              "not fully relaxed: residual %.2e after %lld evaluations, tolerance %.2e",
-             relax->residual, (long long)relax->evaluations, relax->tolerance);
+             relax->residual, (long long)relax->evaluations, relax->allowed);
     return GB_GUARD_ACCEPT;
 }
 

@@ -53,7 +53,9 @@ struct gb_relax {
     float *rotation_sum; /* with an f32 state, instead of vector[method->rotation_sum] */
     bool sheared;        /* the cell may be tilted */
     double tolerance;
-    int scale;        /* enum gb_tolerance_scale: unit of tolerance and residual */
+    double
+        allowed; /* residual at which this relaxation is done: less under light loads */
+    int scale;   /* enum gb_tolerance_scale: unit of tolerance and residual */
     double stiffness; /* of the most strongly held particle, E d; 0: not yet known */
     double *sum;      /* count: scratch; NULL unless scale = displacement */
     int64_t max_evaluations;         /* per relaxation */

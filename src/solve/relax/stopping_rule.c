@@ -63,6 +63,7 @@ static bool still(struct gb_relax *relax, const struct gb_world *world)
 
 bool gb_stopping_rule_met(struct gb_relax *relax, struct gb_world *world)
 {
+    relax->allowed = relax->tolerance;
     switch (relax->scale) {
     case GB_TOLERANCE_ATTRACTION:
         relax->residual = gb_world_imbalance(world) / gb_world_model(world)->adhesion;
@@ -71,6 +72,7 @@ bool gb_stopping_rule_met(struct gb_relax *relax, struct gb_world *world)
         return still(relax, world);
     default:
         relax->residual = gb_world_residual(world);
-        return relax->residual <= allowed(relax, world);
+        relax->allowed = allowed(relax, world);
+        return relax->residual <= relax->allowed;
     }
 }

@@ -25,7 +25,7 @@ static void draw_header(struct gb_screen *screen)
         word = gb_quick_cell_live(&session->quick_cell) ? "\u25b6 quick cell"
                                                         : "\u2713 quick cell";
     } else if (shown.curve != NULL) {
-        word = gb_panel_state_word(session->run_state, &style);
+        word = gb_panel_state_word(session->run_state, session->now.error.text, &style);
     }
     char right[64];
     snprintf(right, sizeof right, "%s%s", session->frozen ? "view frozen  " : "", word);

@@ -8,7 +8,8 @@
 /* Width of a column from which on names are not abbreviated; least width of the bar. */
 enum { FULL_NAME_COLS = 30, BAR_MIN = 4 };
 
-const char *gb_panel_state_word(enum gb_run_state state, enum gb_style *style)
+const char *gb_panel_state_word(enum gb_run_state state, const char *error,
+                                enum gb_style *style)
 {
     static const struct {
         const char *word;
@@ -21,6 +22,10 @@ const char *gb_panel_state_word(enum gb_run_state state, enum gb_style *style)
         [GB_RUN_STOPPED] = {"\u25a0 stopped", GB_STYLE_WARN},
         [GB_RUN_FAILED] = {"\u2717 failed", GB_STYLE_BAD},
     };
+    if (state == GB_RUN_DONE && error[0] != '\0') {
+        *style = GB_STYLE_WARN;
+        return "! done";
+    }
     *style = words[state].style;
     return words[state].word;
 }
@@ -60,7 +65,8 @@ static void draw_progress(const struct gb_paint *paint, const struct gb_session 
     const struct gb_session_shown shown = gb_session_shown(session);
     const struct gb_snapshot *now = shown.now;
     if (shown.curve != NULL) {
-        write_state(now, gb_panel_state_word(now->state, &style), state, sizeof state);
+        write_state(now, gb_panel_state_word(now->state, now->error.text, &style), state,
+                    sizeof state);
     }
     /* the last time step of a dynamic run ends slightly before or after its end time */
     const bool done = shown.curve != NULL && now->state == GB_RUN_DONE;

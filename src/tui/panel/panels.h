@@ -138,8 +138,10 @@ void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
 
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
                          enum gb_paint_focus focus);
-/* "running" with a symbol; *style repeats the meaning as colour. */
-const char *gb_panel_state_word(enum gb_run_state state, enum gb_style *style);
+/* "running" with a symbol; *style repeats the meaning as colour.  error: that of the
+ * snapshot; a run that is done has not reached a goal where it is not empty. */
+const char *gb_panel_state_word(enum gb_run_state state, const char *error,
+                                enum gb_style *style);
 
 /* --- events ------------------------------------------------------------------------- */
 

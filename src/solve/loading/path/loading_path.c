@@ -313,6 +313,7 @@ static struct gb_loading_report report(const struct gb_loading *loading)
     report.iterations = gb_strain_step_iterations(&run->step);
     report.evaluations = gb_strain_step_evaluations(&run->step);
     report.residual = gb_world_residual(loading->world);
+    report.unrelaxed = run->step.unrelaxed;
     return report;
 }
 
