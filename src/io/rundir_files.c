@@ -42,6 +42,20 @@ static bool is_known_name(const char *name)
     return false;
 }
 
+/* Of the files that an engine alone replaces. */
+static bool is_engine_leftover(const char *name)
+{
+    static const char *const replaced[] = {"state.h5", "status.json", "curve.csv",
+                                           "events.log"};
+    for (size_t k = 0; k < G_N_ELEMENTS(replaced); k++) {
+        const size_t length = strlen(replaced[k]);
+        if (strncmp(name, replaced[k], length) == 0 && is_leftover(name + length)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool is_snapshot_name(const char *name)
 {
     return g_str_has_suffix(name, ".h5") || g_str_has_suffix(name, ".png");
@@ -122,4 +136,10 @@ bool gb_rundir_files_remove(const char *path, struct gb_error *err)
     }
     g_free(snapshots);
     return ok && clear_files(path, is_known_name, err);
+}
+
+void gb_rundir_files_tidy(const char *path)
+{
+    struct gb_error ignored;
+    (void)clear_files(path, is_engine_leftover, &ignored);
 }

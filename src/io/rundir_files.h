@@ -14,4 +14,7 @@ char *gb_rundir_files_foreign(const char *path, int *entries, GError **failure);
 /* Removes the files of a run; entries of other names stay. */
 bool gb_rundir_files_remove(const char *path, struct gb_error *err);
 
+/* Removes temporary files that a killed engine has left; the caller holds the lock. */
+void gb_rundir_files_tidy(const char *path);
+
 #endif

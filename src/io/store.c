@@ -101,7 +101,45 @@ void gb_store_destroy(struct gb_store *store)
 struct gb_store_extent gb_store_extent(const struct gb_store *store)
 {
     return (struct gb_store_extent){store->points, store->curve.length,
-                                    store->events.length};
+                                    store->events.length, (int64_t)store->curve.sum};
+}
+
+static bool check_sum(const struct gb_line_file *curve,
+                      const struct gb_store_extent *extent, struct gb_error *err)
+{
+    return extent->curve_sum == 0 || extent->curve_sum == (int64_t)curve->sum ||
+           gb_error_set(
+               err, GB_ERR_INPUT,
+               "%s: was changed since the checkpoint: put the file back that the "
+               "run has written, or start a new run",
+               curve->path);
+}
+
+bool gb_store_check_curve(const char *directory, const struct gb_store_extent *extent,
+                          struct gb_error *err)
+{
+    struct gb_line_file curve;
+    const bool same = gb_line_file_reopen(&curve, directory, "curve.csv",
+                                          (off_t)extent->curve_bytes, err) &&
+                      check_sum(&curve, extent, err);
+    gb_line_file_close(&curve);
+    return same;
+}
+
+bool gb_store_check_rows(struct gb_store *store, struct gb_error *err)
+{
+    return gb_rundir_check_identity(&store->dir, err) &&
+           gb_line_file_check(&store->curve, true, err) &&
+           gb_line_file_check(&store->events, true, err);
+}
+
+const char *gb_store_restored(struct gb_store *store)
+{
+    struct gb_line_file *rows = store->curve.restored ? &store->curve : &store->events;
+    const char *name = rows == &store->curve ? "curve.csv" : "events.log";
+    const bool restored = rows->restored;
+    rows->restored = false;
+    return restored ? name : NULL;
 }
 
 /* Empty files as after gb_store_create: rows without a checkpoint are dropped. */
@@ -138,8 +176,11 @@ bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
         store->points = extent->points;
         done = gb_line_file_reopen(&store->curve, store->dir.path, "curve.csv",
                                    (off_t)extent->curve_bytes, err) &&
+               check_sum(&store->curve, extent, err) &&
                gb_line_file_reopen(&store->events, store->dir.path, "events.log",
-                                   (off_t)extent->events_bytes, err);
+                                   (off_t)extent->events_bytes, err) &&
+               gb_line_file_cut(&store->curve, err) &&
+               gb_line_file_cut(&store->events, err);
     }
     if (!done) {
         gb_store_destroy(store);
@@ -174,7 +215,8 @@ bool gb_store_event(struct gb_store *store, int64_t step, const char *text,
     GString *line = g_string_new(NULL);
     g_string_append_printf(line, "step %" PRId64 ": ", step);
     gb_line_file_add_text(line, text);
-    const bool ok = gb_line_file_append(&store->events, line->str, err);
+    const bool ok = gb_rundir_check_identity(&store->dir, err) &&
+                    gb_line_file_append(&store->events, line->str, err);
     g_string_free(line, TRUE);
     return ok;
 }

@@ -23,15 +23,17 @@ bool gb_store_create(struct gb_store **out, const char *directory,
                      const struct gb_params *params, enum gb_rundir_mode mode,
                      struct gb_error *err);
 
-/* How much of the files belongs to a checkpoint: points, and bytes of whole lines. */
+/* How much of the files belongs to a checkpoint: points, bytes of whole lines, and a
+ * checksum of those of curve.csv; 0: not known. */
 struct gb_store_extent {
-    int64_t points, curve_bytes, events_bytes;
+    int64_t points, curve_bytes, events_bytes, curve_sum;
 };
 struct gb_store_extent gb_store_extent(const struct gb_store *store);
 
 /* The store of a run that is continued in dir, which is locked and owned by the store from
  * now on, also on error.  Truncates curve.csv and events.log to the extent; NULL: to
- * nothing.  Errors: GB_ERR_INPUT for files that are shorter. */
+ * nothing.  Errors: GB_ERR_INPUT for files that are shorter, and for a curve that was
+ * changed. */
 bool gb_store_reopen(struct gb_store **out, struct gb_rundir *dir,
                      const struct gb_params *params, const struct gb_store_extent *extent,
                      struct gb_error *err);
@@ -47,6 +49,14 @@ bool gb_store_point(struct gb_store *store, const struct gb_point *point,
                     struct gb_error *err);
 bool gb_store_event(struct gb_store *store, int64_t step, const char *text,
                     struct gb_error *err);
+/* Both files compared to what was written, byte by byte; one that another program has
+ * changed is written again. */
+bool gb_store_check_rows(struct gb_store *store, struct gb_error *err);
+/* The name of a file that was written again, once; NULL: none. */
+const char *gb_store_restored(struct gb_store *store);
+/* Is the curve of a run directory that of its checkpoint?  Errors: GB_ERR_INPUT. */
+bool gb_store_check_curve(const char *directory, const struct gb_store_extent *extent,
+                          struct gb_error *err);
 /* Rewrites status.json. */
 bool gb_store_status(struct gb_store *store, const struct gb_snapshot *snapshot,
                      struct gb_error *err);

@@ -125,6 +125,24 @@ static void publish_event(struct gb_run_loop *loop, int64_t step, const char *te
     }
 }
 
+/* What the recorder has to tell: a file that another program has changed. */
+static void take_restored(struct gb_run_loop *loop)
+{
+    char text[GB_EVENT_TEXT];
+    while (records(loop) && gb_run_recorder_restored(loop->recorder, text, sizeof text)) {
+        publish_event(loop, gb_experiment_point(loop->experiment)->step, text);
+    }
+}
+
+static void check_rows(struct gb_run_loop *loop)
+{
+    struct gb_error err = {0};
+    if (records(loop)) {
+        check_record(loop, gb_run_recorder_check(loop->recorder, &err), &err);
+    }
+    take_restored(loop);
+}
+
 void gb_run_loop_event(struct gb_run_loop *loop, const char *text)
 {
     publish_event(loop, gb_experiment_point(loop->experiment)->step, text);
@@ -217,6 +235,7 @@ static enum gb_run_outcome record_point(struct gb_run_loop *loop)
             loop, gb_run_recorder_point(loop->recorder, loop->experiment, &point, &err),
             &err);
     }
+    take_restored(loop);
     return hooks->on_point == NULL || hooks->on_point(hooks->data, &point, &loop->error)
                ? GB_RUN_OUTCOME_NONE
                : GB_RUN_OUTCOME_FAILED;
@@ -332,6 +351,7 @@ static enum gb_run_outcome conclude(struct gb_run_loop *loop, enum gb_run_outcom
 {
     const struct gb_run_loop_hooks *hooks = &loop->hooks;
     struct gb_error err = {0};
+    check_rows(loop);
     observe_end(loop, outcome);
     if (hooks->on_end != NULL) {
         hooks->on_end(hooks->data);

@@ -8,6 +8,7 @@
 #include "io/rundir.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
+#include "run/record/run_journal.h"
 #include "run/record/run_recorder.h"
 
 /* Force evaluations between two calls of cancelled. */
@@ -71,6 +72,15 @@ static void compare(struct gb_verify *verify, struct pair *pair)
     snprintf(verify->name, sizeof verify->name, "%s", name ? name : "");
 }
 
+/* A curve that another program has changed is no result of the run. */
+static bool check_curve(const char *directory, const struct gb_params *params,
+                        struct gb_record *kept, struct gb_error *err)
+{
+    struct gb_run_journal journal = {.preset = gb_run_journal_digest(params)};
+    return gb_run_journal_load(&journal, kept, directory, err) &&
+           gb_store_check_curve(directory, &journal.extent, err);
+}
+
 static bool verify_locked(struct gb_verify *verify, const char *directory,
                           struct pair *pair, bool (*cancelled)(void *data), void *data,
                           struct gb_error *err)
@@ -81,7 +91,8 @@ static bool verify_locked(struct gb_verify *verify, const char *directory,
         return false;
     }
     verify->to = gb_checkpoint_step(&pair->kept);
-    const bool done = begin(&experiment, verify, directory, &params, &pair->other,
+    const bool done = check_curve(directory, &params, &pair->kept, err) &&
+                      begin(&experiment, verify, directory, &params, &pair->other,
                             cancelled, data, err) &&
                       repeat(experiment, verify, cancelled, data, err) &&
                       gb_checkpoint_take(experiment, &pair->other, err);

@@ -105,7 +105,8 @@ static inline void run_directory_continue(const struct run_directory *dir)
     struct gb_experiment *experiment = NULL;
     struct gb_error err = {0};
     struct gb_snapshot shot = {0};
-    if (!gb_run_recorder_resume(&recorder, &experiment, dir->directory, &err)) {
+    if (!gb_run_recorder_resume(&recorder, &experiment, dir->directory,
+                                GB_RUN_RECORDER_LAST, &err)) {
         g_error("%s", err.text);
     }
     if (experiment == NULL &&

@@ -200,7 +200,8 @@ static void test_resume(void)
     gb_experiment_destroy(experiment);
     char *first = g_build_filename(directory, "snapshots", "point-000051.h5", NULL);
     g_assert_cmpint(g_remove(first), ==, 0);
-    g_assert_true(gb_run_recorder_resume(&keep, &experiment, directory, &err));
+    g_assert_true(gb_run_recorder_resume(&keep, &experiment, directory,
+                                         GB_RUN_RECORDER_LAST, &err));
     press(keep, experiment, 10000);
     gb_run_recorder_destroy(keep);
     gb_experiment_destroy(experiment);

@@ -31,11 +31,13 @@ static void resume(struct gb_foreground *run, struct gb_experiment *experiment)
     gb_run_loop_event(&run->loop, text);
 }
 
-static int perform(struct gb_foreground *run, const char *directory)
+static int perform(struct gb_foreground *run, const char *directory,
+                   enum gb_run_recorder_from from)
 {
     struct gb_experiment *experiment = NULL;
     struct gb_error err = {0};
-    bool good = gb_run_recorder_resume(&run->loop.recorder, &experiment, directory, &err);
+    bool good =
+        gb_run_recorder_resume(&run->loop.recorder, &experiment, directory, from, &err);
     if (experiment != NULL) {
         resume(run, experiment);
     } else {
@@ -54,9 +56,13 @@ int gb_cmd_resume(int argc, char **argv)
         "have changed in [output], title and threads only."};
     struct gb_foreground run = {0};
     char **words = NULL;
-    gboolean quiet = FALSE;
+    gboolean quiet = FALSE, before = FALSE;
     int status = 0;
-    const GOptionEntry entries[] = {gb_options_quiet(&quiet), {0}};
+    const GOptionEntry entries[] = {
+        {"before", 0, 0, G_OPTION_ARG_NONE, &before,
+         "from state-before.h5, where the last checkpoint is damaged", NULL},
+        gb_options_quiet(&quiet),
+        {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         struct gb_error err = {0};
         const char *directory = gb_options_directory(words, "resume", &err);
@@ -64,7 +70,8 @@ int gb_cmd_resume(int argc, char **argv)
             status = gb_options_fail(&err);
         } else {
             gb_foreground_init(&run, quiet);
-            status = perform(&run, directory);
+            status = perform(&run, directory,
+                             before ? GB_RUN_RECORDER_BEFORE : GB_RUN_RECORDER_LAST);
         }
     }
     gb_foreground_finish(&run);

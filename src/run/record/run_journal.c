@@ -169,10 +169,21 @@ int64_t gb_run_journal_digest(const struct gb_params *params)
     return number;
 }
 
+/* Checkpoints of version 0.1 have no checksum. */
+static bool record_members(struct gb_run_journal *journal, struct gb_record *record,
+                           struct gb_error *err)
+{
+    static const char sum[] = "journal/curve_sum";
+    const bool missing = record->loading && !gb_record_find(record, sum);
+    return gb_record_members(record, members, MEMBERS, journal, err) &&
+           (missing || gb_record_array(record, sum, GB_RECORD_INT64, 1, 1, "1",
+                                       &journal->extent.curve_sum, err));
+}
+
 bool gb_run_journal_record(struct gb_run_journal *journal, struct gb_record *record,
                            struct gb_error *err)
 {
-    return gb_record_members(record, members, MEMBERS, journal, err);
+    return record_members(journal, record, err);
 }
 
 bool gb_run_journal_load(struct gb_run_journal *journal, struct gb_record *record,
@@ -181,7 +192,7 @@ bool gb_run_journal_load(struct gb_run_journal *journal, struct gb_record *recor
     const int64_t preset = journal->preset;
     struct gb_error why = {0};
     record->loading = true;
-    if (!gb_record_members(record, members, MEMBERS, journal, &why)) {
+    if (!record_members(journal, record, &why)) {
         return gb_error_set(err, why.code, "%s/state.h5: %s", directory, why.text);
     }
     if (journal->preset != preset) {

@@ -1,4 +1,5 @@
 #include "run/record/run_recorder.h"
+#include <stdio.h>
 
 #include <string.h>
 
@@ -7,6 +8,7 @@
 #include "base/alloc.h"
 #include "io/follow.h"
 #include "io/hdf/hdf_record.h"
+#include "io/rundir_files.h"
 #include "run/checkpoint.h"
 #include "run/record/kept_states.h"
 #include "run/record/run_journal.h"
@@ -82,10 +84,10 @@ bool gb_run_recorder_read(const char *directory, const char *name,
 /* Builds the experiment from the checkpoint; errors name the file. */
 static bool load_experiment(struct gb_run_recorder *recorder,
                             struct gb_experiment **experiment, const char *directory,
-                            struct gb_error *err)
+                            const char *name, struct gb_error *err)
 {
     struct gb_error why = {0};
-    char *path = g_build_filename(directory, "state.h5", NULL);
+    char *path = g_build_filename(directory, name, NULL);
     struct gb_record *record = gb_alloc_array(1, sizeof *record, err);
     bool done = record && gb_hdf_record_read(record, path, err) &&
                 gb_run_journal_load(&recorder->journal, record, directory, err);
@@ -100,28 +102,71 @@ static bool load_experiment(struct gb_run_recorder *recorder,
     return done;
 }
 
-static bool has_checkpoint(const char *directory)
+static bool has_checkpoint(const char *directory, const char *name)
 {
-    char *path = g_build_filename(directory, "state.h5", NULL);
+    char *path = g_build_filename(directory, name, NULL);
     const bool exists = g_file_test(path, G_FILE_TEST_EXISTS);
     g_free(path);
     return exists;
 }
 
+/* Where the last checkpoint cannot be read: says what the one before would do. */
+static void offer_before(const char *directory, struct gb_error *err)
+{
+    struct gb_params params;
+    struct gb_error ignored, why = *err;
+    struct gb_record *record = gb_alloc_array(1, sizeof *record, &ignored);
+    if (record &&
+        gb_run_recorder_read(directory, "state-before.h5", &params, record, &ignored)) {
+        (void)gb_error_set(
+            err, why.code,
+            "%.300s; state-before.h5 is whole: resume --before goes on from "
+            "step %lld and computes the points after it again",
+            why.text, (long long)gb_checkpoint_step(record) - 1);
+    }
+    if (record) {
+        gb_record_finish(record);
+    }
+    gb_alloc_free(record);
+}
+
+/* The checkpoint that is asked for; without one the run begins anew, unless that before
+ * was asked for. */
+static bool load_checkpoint(struct gb_run_recorder *recorder,
+                            struct gb_experiment **experiment, const char *directory,
+                            enum gb_run_recorder_from from, bool *begun,
+                            struct gb_error *err)
+{
+    static const char *const names[] = {"state.h5", "state-before.h5"};
+    *begun = has_checkpoint(directory, names[from]);
+    if (!*begun) {
+        return from == GB_RUN_RECORDER_LAST ||
+               gb_error_set(err, GB_ERR_INPUT, "%s: has no state-before.h5", directory);
+    }
+    if (load_experiment(recorder, experiment, directory, names[from], err)) {
+        return true;
+    }
+    if (from == GB_RUN_RECORDER_LAST && err != NULL && err->code == GB_ERR_INPUT) {
+        offer_before(directory, err);
+    }
+    return false;
+}
+
 bool gb_run_recorder_resume(struct gb_run_recorder **out,
                             struct gb_experiment **experiment, const char *directory,
-                            struct gb_error *err)
+                            enum gb_run_recorder_from from, struct gb_error *err)
 {
     struct gb_rundir dir = {.lock = -1};
     struct gb_params params;
     struct gb_run_recorder *recorder = NULL;
+    bool begun = false;
     *experiment = NULL;
     if (!gb_rundir_open(&dir, directory, err)) {
         return false;
     }
-    const bool begun = has_checkpoint(directory);
+    gb_rundir_files_tidy(directory);
     if (!gb_follow_params(directory, &params, err) || !create(&recorder, &params, err) ||
-        (begun && !load_experiment(recorder, experiment, directory, err)) ||
+        !load_checkpoint(recorder, experiment, directory, from, &begun, err) ||
         !gb_store_reopen(&recorder->store, &dir, &params,
                          begun ? &recorder->journal.extent : NULL, err) ||
         !start_writer(recorder, err)) {
@@ -291,6 +336,23 @@ bool gb_run_recorder_save(struct gb_run_recorder *recorder, double seconds,
            (gb_writer_wait(recorder->writer, err) &&
             gb_run_recorder_tick(recorder, seconds, GB_RUN_RECORDER_NOW, err) &&
             gb_writer_wait(recorder->writer, err));
+}
+
+bool gb_run_recorder_check(struct gb_run_recorder *recorder, struct gb_error *err)
+{
+    return gb_store_check_rows(recorder->store, err);
+}
+
+bool gb_run_recorder_restored(struct gb_run_recorder *recorder, char *text, size_t size)
+{
+    const char *name = gb_store_restored(recorder->store);
+    if (name == NULL) {
+        return false;
+    }
+    snprintf(text, size,
+             "%s was changed or removed by another program: written again from memory",
+             name);
+    return true;
 }
 
 bool gb_run_recorder_conclude(struct gb_run_recorder *recorder,

@@ -17,15 +17,21 @@ bool gb_run_recorder_create(struct gb_run_recorder **out, const char *directory,
                             const struct gb_params *params, enum gb_rundir_mode mode,
                             struct gb_error *err);
 
+enum gb_run_recorder_from {
+    GB_RUN_RECORDER_LAST,  /* state.h5 */
+    GB_RUN_RECORDER_BEFORE /* state-before.h5: the checkpoint before the last */
+};
+
 /* For a run that is resumed: locks the directory, reads its preset and its checkpoint,
  * truncates curve.csv and events.log to it and creates the experiment.  *experiment stays
  * NULL when there is no checkpoint yet: the run starts again with
  * gb_run_recorder_params.  Errors: GB_ERR_INPUT (no run, a run under way, a preset that
- * was changed since, a checkpoint of another layout or damaged), GB_ERR_MACHINE,
- * GB_ERR_MEMORY. */
+ * was changed since, a checkpoint of another layout or damaged: with what the one before
+ * would do), GB_ERR_MACHINE, GB_ERR_MEMORY.  Temporary files that a killed writer has left
+ * are removed. */
 bool gb_run_recorder_resume(struct gb_run_recorder **out,
                             struct gb_experiment **experiment, const char *directory,
-                            struct gb_error *err);
+                            enum gb_run_recorder_from from, struct gb_error *err);
 
 /* Waits for the last checkpoint.  NULL is fine. */
 void gb_run_recorder_destroy(struct gb_run_recorder *recorder);
@@ -52,6 +58,12 @@ bool gb_run_recorder_adopt(struct gb_run_recorder *recorder,
                            struct gb_record *record, struct gb_error *err);
 bool gb_run_recorder_event(struct gb_run_recorder *recorder, int64_t step,
                            const char *text, struct gb_error *err);
+
+/* Compares curve.csv and events.log to what was recorded, before the end of a run; what
+ * another program has changed is written again.  Errors: GB_ERR_MACHINE. */
+bool gb_run_recorder_check(struct gb_run_recorder *recorder, struct gb_error *err);
+/* An event about a file that was written again, once; false: none. */
+bool gb_run_recorder_restored(struct gb_run_recorder *recorder, char *text, size_t size);
 
 enum gb_run_recorder_when {
     GB_RUN_RECORDER_DUE, /* when output.checkpoint_every has passed */

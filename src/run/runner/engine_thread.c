@@ -250,7 +250,8 @@ static bool resume(struct gb_runner *runner, struct gb_error *err)
     struct gb_run_loop *loop = &runner->loop;
     struct gb_experiment *experiment = NULL;
     if (!wait_for_lock(runner, err) ||
-        !gb_run_recorder_resume(&loop->recorder, &experiment, runner->directory, err)) {
+        !gb_run_recorder_resume(&loop->recorder, &experiment, runner->directory,
+                                GB_RUN_RECORDER_LAST, err)) {
         return false;
     }
     if (experiment == NULL) {

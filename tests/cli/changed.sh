@@ -1,0 +1,101 @@
+#!/bin/bash
+# Files of a run that another program changes: while it runs, they are written again and an
+# event says so; afterwards neither verify nor resume takes them for the run's own.  A
+# damaged checkpoint, and the one before it.
+# Usage: changed.sh GREENBODY PRESET_FOLDER
+. "$(dirname "$0")/folder.sh"
+
+scene=(default particles.count=300 loading.step=0.02% "loading.until=60 MPa" loading.unload_from=
+    output.checkpoint_every=0.1s)
+
+# The rows without their times; seconds are the 14th column.
+rows() {
+    grep -v '^#' "$1/curve.csv" | cut -d, -f1-13,15-
+}
+
+has_rows() { # directory
+    [ "$(grep -c '^load' "$1/curve.csv" 2>/dev/null || :)" -gt 5 ] 2>/dev/null
+}
+
+"$greenbody" run "${scene[@]}" --out whole --quiet
+is 'the undisturbed run' [ $? -eq 0 ]
+rows whole >whole.rows
+
+# name, file, command...: what is done to a run under way
+changes() {
+    name=$1
+    file=$2
+    shift 2
+    rm -rf out
+    "$greenbody" run "${scene[@]}" --out out >stdout 2>stderr &
+    pid=$!
+    until_true has_rows out
+    kill -STOP $pid # so that it happens between two points
+    "$@"
+    kill -CONT $pid
+    wait $pid
+    is "$name: status 0" [ $? -eq 0 ]
+    rows out | cmp -s - whole.rows
+    result "$name: the curve is whole" $?
+    is "$name: an event" grep -q "$file was changed or removed by another program" out/events.log
+    "$greenbody" verify out >stdout 2>stderr
+    is "$name: verify repeats it" grep -qx equal stdout
+}
+
+replaced() {
+    sed -i 's/^load/LOAD/' out/curve.csv
+}
+removed() {
+    rm out/curve.csv
+}
+cut_off() {
+    truncate -s 100 out/curve.csv
+}
+overwritten() { # the same file, the same length
+    printf 'x' | dd of=out/curve.csv bs=1 seek=300 conv=notrunc 2>/dev/null
+}
+events_removed() {
+    rm out/events.log
+}
+changes 'an editor' curve.csv replaced
+changes 'rm' curve.csv removed
+changes 'truncate' curve.csv cut_off
+changes 'one byte' curve.csv overwritten
+changes 'rm of events' events.log events_removed
+
+# --- a curve that was changed afterwards ------------------------------------------------
+sed -i '300y/3/4/' out/curve.csv # digits of one row
+cp out/curve.csv changed.csv
+for command in verify resume; do
+    "$greenbody" $command out >stdout 2>stderr
+    is "$command refuses another curve" [ $? -eq 2 ]
+    is 'with one line' [ "$(wc -l <stderr)" -eq 1 ]
+    is 'that says why' grep -q 'curve.csv: was changed since the checkpoint' stderr
+    is 'and leaves it alone' cmp -s out/curve.csv changed.csv
+done
+
+# --- a damaged checkpoint ---------------------------------------------------------------
+# stopped under way, with two checkpoints
+rm -rf out
+"$greenbody" run "${scene[@]}" --out out >stdout 2>stderr &
+pid=$!
+until_true [ -e out/state-before.h5 ]
+kill -TERM $pid
+wait $pid
+cp out/state.h5 out/state.h5.AB12cd # of a writer that was killed
+truncate -s 3000 out/state.h5
+"$greenbody" resume out >stdout 2>stderr
+is 'a damaged checkpoint is refused' [ $? -eq 2 ]
+is 'with one line' [ "$(wc -l <stderr)" -eq 1 ]
+is 'that names the one before' grep -q 'state-before.h5 is whole: resume --before' stderr
+is 'what a killed writer left is gone' [ ! -e out/state.h5.AB12cd ]
+"$greenbody" resume --before out >stdout 2>stderr
+is 'from there it goes on' [ $? -eq 0 ]
+rows out | cmp -s - whole.rows
+result 'to the same curve' $?
+rm -f out/state-before.h5
+"$greenbody" resume --before out >stdout 2>stderr
+is 'without one it says so' grep -q 'has no state-before.h5' stderr
+
+echo "1..$tests"
+exit $bad
