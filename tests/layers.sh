@@ -12,7 +12,7 @@ set -u
 source=$1
 shift
 bad=0
-layers="base law scene pack solve measure io run many study draw figures tui cli"
+layers="base law scene pack solve measure io run many study api draw figures tui cli"
 
 # What each layer sees besides itself.  `draw`, `study` and `tui` stand beside each other.
 below() {
@@ -22,7 +22,8 @@ below() {
     study) echo "$core many" ;;
     tui) echo "$core many study" ;;
     figures) echo "$core many study draw" ;;
-    cli) echo "$core many study draw figures tui" ;;
+    api) echo "$core many study" ;;
+    cli) echo "$core many study api draw figures tui" ;;
     *) echo "${core%%"$1"*}" ;;
     esac
 }
@@ -32,7 +33,10 @@ layer_of_public() {
     case $1 in
     dimension.h | status.h) echo base ;;
     params.h) echo scene ;;
-    curve.h | snapshot.h) echo io ;;
+    curve.h | point.h | snapshot.h) echo io ;;
+    outcome.h) echo run ;;
+    array.h | contact_law.h | greenbody.h | parameters.h | recorded_run.h | \
+        saved_state.h | simulation.h) echo api ;;
     *) echo unknown ;;
     esac
 }
@@ -114,6 +118,7 @@ exceptions() {
     cat <<'TABLE'
 publish:gb_command_ring_
 status:gb_error_
+simulation_read:gb_simulation_
 main:main
 TABLE
 }

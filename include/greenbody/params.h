@@ -250,6 +250,10 @@ const struct gb_field *gb_params_fields(size_t *count);
 /* Row of "group.key", or NULL. */
 const struct gb_field *gb_params_find(const char *group, const char *key);
 
+/* Row of "group.key", or of "key" where only one group has it; NULL and err: GB_ERR_INPUT,
+ * which lists what there is. */
+const struct gb_field *gb_params_find_name(const char *name, struct gb_error *err);
+
 /* Every field at its fallback. */
 void gb_params_init(struct gb_params *params);
 
@@ -265,7 +269,8 @@ char *gb_params_format(const struct gb_params *params, const struct gb_field *fi
 /* What the field accepts: "0 to 2", "auto, or 1 nm to 1 mm".  Returns buffer. */
 char *gb_params_accepted(const struct gb_field *field, char *buffer, size_t size);
 
-/* Sets a field from "group.key=value", as on the command line.  Errors: GB_ERR_INPUT;
+/* Sets a field from "group.key=value", or "key=value" where only one group has the key, as
+ * on the command line.  Errors: GB_ERR_INPUT;
  * params is untouched then. */
 bool gb_params_assign(struct gb_params *params, const char *assignment,
                       struct gb_error *err);

@@ -15,7 +15,7 @@ static const char *const state_words[] = {
     [GB_RUN_PAUSED] = "paused",   [GB_RUN_DONE] = "done",
     [GB_RUN_STOPPED] = "stopped", [GB_RUN_FAILED] = "failed"};
 
-static const char *state_word(enum gb_run_state state)
+const char *gb_status_json_word(enum gb_run_state state)
 {
     return (size_t)state < G_N_ELEMENTS(state_words) ? state_words[state] : "unknown";
 }
@@ -161,7 +161,7 @@ char *gb_status_json_text(const struct gb_snapshot *snapshot, int64_t points)
     JsonBuilder *json = json_builder_new();
     json_builder_begin_object(json);
     add_text(json, "program", "greenbody " GB_VERSION);
-    add_text(json, "state", state_word(snapshot->state));
+    add_text(json, "state", gb_status_json_word(snapshot->state));
     add_integer(json, "pid", (int64_t)getpid());
     add_text(json, "host", g_get_host_name());
     add_progress(json, snapshot, points);

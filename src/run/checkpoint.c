@@ -59,12 +59,15 @@ static bool record_points(struct gb_experiment *experiment, struct gb_record *re
     return gb_record_members(record, members, MEMBERS, experiment, err) &&
            gb_point_columns_record(&experiment->point, "point/tensors", record, err) &&
            gb_point_columns_record(&experiment->shown, "shown/tensors", record, err) &&
-           (gb_loading_kind_of(&experiment->params)->columns != GB_COLUMNS_COMMON ||
+           /* what a record has not is loaded as NaN */
+           ((gb_loading_kind_of(&experiment->params)->columns != GB_COLUMNS_COMMON &&
+             !record->loading) ||
             (gb_point_columns_record_step(&experiment->point, "point/unrelaxed", record,
                                           err) &&
              gb_point_columns_record_step(&experiment->shown, "shown/unrelaxed", record,
                                           err))) &&
-           (gb_loading_kind_of(&experiment->params)->periodic_cell ||
+           ((gb_loading_kind_of(&experiment->params)->periodic_cell &&
+             !record->loading) ||
             (gb_point_columns_record_die(&experiment->point, "point/die", record, err) &&
              gb_point_columns_record_die(&experiment->shown, "shown/die", record, err)));
 }

@@ -201,20 +201,24 @@ const struct gb_point *gb_experiment_point(const struct gb_experiment *experimen
     return &experiment->point;
 }
 
-void gb_experiment_observe(const struct gb_experiment *experiment,
-                           struct gb_snapshot *snapshot)
+double gb_experiment_progress(const struct gb_experiment *experiment)
 {
     const struct gb_loading *loading = experiment->loading;
     const struct gb_point *point = &experiment->point;
-    snapshot->now = *point;
+    if (experiment->over && !experiment->stopped) {
+        return 1.0;
+    }
+    return loading->mode->progress(
+        loading, point->p_pa / experiment->model->pascal_per_stress, point->density);
+}
+
+void gb_experiment_observe(const struct gb_experiment *experiment,
+                           struct gb_snapshot *snapshot)
+{
+    snapshot->now = experiment->point;
     snapshot->now_valid = experiment->step > 0;
-    gb_point_measure_live(loading, snapshot);
-    snapshot->progress =
-        experiment->over && !experiment->stopped
-            ? 1.0
-            : loading->mode->progress(loading,
-                                      point->p_pa / experiment->model->pascal_per_stress,
-                                      point->density);
+    gb_point_measure_live(experiment->loading, snapshot);
+    snapshot->progress = gb_experiment_progress(experiment);
 }
 
 bool gb_experiment_state(const struct gb_experiment *experiment, struct gb_state **out,

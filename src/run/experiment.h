@@ -45,6 +45,9 @@ const struct gb_point *gb_experiment_point(const struct gb_experiment *experimen
 bool gb_experiment_event(struct gb_experiment *experiment, int64_t *step, char *text,
                          size_t size);
 
+/* Share of the loading that is done, 0 to 1. */
+double gb_experiment_progress(const struct gb_experiment *experiment);
+
 /* Fills the snapshot except state, seconds and rates. */
 void gb_experiment_observe(const struct gb_experiment *experiment,
                            struct gb_snapshot *snapshot);

@@ -229,6 +229,7 @@ static enum gb_run_outcome record_point(struct gb_run_loop *loop)
     const struct gb_run_loop_hooks *hooks = &loop->hooks;
     struct gb_point point = *gb_experiment_point(loop->experiment);
     struct gb_error err = {0};
+    loop->points_left--;
     point.seconds = gb_run_loop_seconds(loop);
     if (records(loop)) {
         check_record(
@@ -352,6 +353,7 @@ static enum gb_run_outcome conclude(struct gb_run_loop *loop, enum gb_run_outcom
     const struct gb_run_loop_hooks *hooks = &loop->hooks;
     struct gb_error err = {0};
     check_rows(loop);
+    loop->begun = false;
     observe_end(loop, outcome);
     if (hooks->on_end != NULL) {
         hooks->on_end(hooks->data);
@@ -367,13 +369,39 @@ static enum gb_run_outcome conclude(struct gb_run_loop *loop, enum gb_run_outcom
     return outcome;
 }
 
-enum gb_run_outcome gb_run_loop_run(struct gb_run_loop *loop)
+static void begin(struct gb_run_loop *loop)
 {
-    enum gb_run_outcome outcome = GB_RUN_OUTCOME_NONE;
+    loop->begun = true;
+    if (loop->error.code == GB_ERR_CANCELLED) {
+        loop->error = (struct gb_error){0};
+        loop->snapshot.error = loop->error;
+    }
     gb_run_loop_observe(loop, GB_RUN_RUNNING);
     write_status(loop);
-    while (outcome == GB_RUN_OUTCOME_NONE) {
+}
+
+enum gb_run_outcome gb_run_loop_advance(struct gb_run_loop *loop, int64_t points)
+{
+    enum gb_run_outcome outcome = GB_RUN_OUTCOME_NONE;
+    if (!loop->begun) {
+        begin(loop);
+    }
+    loop->points_left = points;
+    while (outcome == GB_RUN_OUTCOME_NONE && loop->points_left > 0) {
         outcome = loop->record_failed ? GB_RUN_OUTCOME_FAILED : step(loop);
     }
-    return conclude(loop, outcome);
+    return outcome == GB_RUN_OUTCOME_NONE ? outcome : conclude(loop, outcome);
+}
+
+enum gb_run_outcome gb_run_loop_run(struct gb_run_loop *loop)
+{
+    return gb_run_loop_advance(loop, INT64_MAX);
+}
+
+void gb_run_loop_leave(struct gb_run_loop *loop)
+{
+    if (loop->begun) {
+        gb_error_set(&loop->error, GB_ERR_CANCELLED, "left before its end");
+        (void)conclude(loop, GB_RUN_OUTCOME_CANCELLED);
+    }
 }

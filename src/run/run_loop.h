@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "greenbody/outcome.h"
 #include "greenbody/snapshot.h"
 #include "run/experiment.h"
 #include "run/pace.h"
@@ -13,14 +14,6 @@
  * in slices of 5 to 20 ms, records points and events, writes status and checkpoints when
  * they are due.  The foreground command, the engine thread of the workbench and the
  * workers of many runs share it and differ in their hooks. */
-
-enum gb_run_outcome {
-    GB_RUN_OUTCOME_NONE,      /* still running */
-    GB_RUN_OUTCOME_DONE,      /* the loading program has ended */
-    GB_RUN_OUTCOME_STOPPED,   /* by a guard, or not converged; results kept */
-    GB_RUN_OUTCOME_CANCELLED, /* by the hook may_continue; results kept */
-    GB_RUN_OUTCOME_FAILED     /* no memory, bad input, or a directory not writable */
-};
 
 /* Called by the thread of the loop, between two slices.  Each member may be NULL. */
 struct gb_run_loop_hooks {
@@ -50,6 +43,8 @@ struct gb_run_loop {
     struct gb_pace pace;
     enum gb_step_outcome last; /* result of the last slice */
     bool record_failed;        /* the run directory could not be written */
+    bool begun;                /* the first status is written, the last one is not */
+    int64_t points_left;       /* of the advance under way */
     double started_s;          /* clock reading at second 0 of the run */
     double packed_s;           /* seconds of the run when its packing was built */
     double status_at_s;        /* seconds of the run at the last status */
@@ -82,6 +77,13 @@ bool gb_run_loop_ended(const struct gb_run_loop *loop);
  * early end is loop->error, and an event; so are goals that a run which is done has not
  * reached (GB_ERR_GUARD). */
 enum gb_run_outcome gb_run_loop_run(struct gb_run_loop *loop);
+/* The same for at most so many points: GB_RUN_OUTCOME_NONE when they are recorded and the
+ * run has not ended.  May be called again then, and after GB_RUN_OUTCOME_CANCELLED: the run
+ * continues with the same bits. */
+enum gb_run_outcome gb_run_loop_advance(struct gb_run_loop *loop, int64_t points);
+/* Writes the last files of a run that is left before its end; nothing to do where no advance
+ * is unfinished. */
+void gb_run_loop_leave(struct gb_run_loop *loop);
 
 /* For a run that fails before its loop: status.json says so where there is one. */
 enum gb_run_outcome gb_run_loop_fail(struct gb_run_loop *loop,

@@ -110,6 +110,10 @@ static void test_assign(void)
     g_assert_true(p.seed == UINT64_MAX);
     g_assert_true(gb_params_assign(&p, "scene.title=a = b", NULL));
     g_assert_cmpstr(p.title, ==, "a = b");
+    /* keys of one group alone */
+    g_assert_true(gb_params_assign(&p, "mu=0.125", NULL));
+    g_assert_true(gb_params_assign(&p, "until=50 MPa", NULL));
+    g_assert_true(p.mu == 0.125 && p.until_pressure_pa == 5e7);
 }
 
 /* What is refused, and a part of the line that says so. */
@@ -171,7 +175,8 @@ static const char *const refused[][2] = {
     {"scene.title=\xff", "text of at most"},
     {"contact.muu=1", "no such key; must be one of normal, "},
     {"contacts.mu=1", "no such group; must be one of scene, material"},
-    {"mu=1", "must be group.key=value"},
+    {"nu=1", "must be group.key=value"},
+    {"diameter=1 mm", "must be one of particles.diameter, die.diameter"},
     {"contact.mu", "must be group.key=value"},
     {"=", "must be group.key=value"},
     {"", "must be group.key=value"},

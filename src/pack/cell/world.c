@@ -137,13 +137,22 @@ struct gb_bodies gb_world_movable(struct gb_world *world)
                               .rotation = particles->rotation};
 }
 
+struct gb_bodies gb_world_readable(struct gb_world *world)
+{
+    const struct gb_particles *particles = &world->engine.particles;
+    gb_f32_convert_synchronise(&world->engine);
+    gb_f32_convert_forces_to_f64(&world->engine);
+    return (struct gb_bodies){.count = particles->count,
+                              .position = particles->position,
+                              .rotation = particles->rotation,
+                              .force = particles->force,
+                              .torque = particles->torque};
+}
+
 struct gb_bodies gb_world_bodies(struct gb_world *world)
 {
-    struct gb_bodies bodies = gb_world_movable(world);
-    gb_f32_convert_forces_to_f64(&world->engine);
-    bodies.force = world->engine.particles.force;
-    bodies.torque = world->engine.particles.torque;
-    return bodies;
+    (void)gb_world_movable(world);
+    return gb_world_readable(world);
 }
 
 const struct gb_cell *gb_world_cell(const struct gb_world *world)
@@ -169,6 +178,11 @@ int gb_world_threads(const struct gb_world *world)
 const double *gb_world_position(const struct gb_world *world)
 {
     return world->engine.particles.position;
+}
+
+const double *gb_world_diameters(const struct gb_world *world)
+{
+    return world->engine.particles.diameter;
 }
 
 double gb_world_diameter(const struct gb_world *world, int64_t i)

@@ -69,12 +69,17 @@ void gb_world_deform(struct gb_world *world, const struct gb_deformation *deform
 struct gb_bodies gb_world_bodies(struct gb_world *world);
 /* Positions and rotations only, without a conversion of forces; force, torque: NULL. */
 struct gb_bodies gb_world_movable(struct gb_world *world);
+/* The same for readers: positions and forces are brought up to date, and no later bit depends
+ * on the call. */
+struct gb_bodies gb_world_readable(struct gb_world *world);
 const struct gb_cell *gb_world_cell(const struct gb_world *world);
 const struct gb_model *gb_world_model(const struct gb_world *world);
 const struct gb_tally *gb_world_tally(const struct gb_world *world);
 /* Threads of its sweeps. */
 int gb_world_threads(const struct gb_world *world);
 const double *gb_world_position(const struct gb_world *world);
+/* Diameters (count), d; NULL: all are 1. */
+const double *gb_world_diameters(const struct gb_world *world);
 /* Diameter of particle i, d. */
 double gb_world_diameter(const struct gb_world *world, int64_t i);
 

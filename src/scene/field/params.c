@@ -77,17 +77,39 @@ static bool unknown_key(const char *group, const char *key, struct gb_error *err
     return false;
 }
 
-static bool assign_parts(struct gb_params *params, char *name, const char *value,
-                         struct gb_error *err)
+/* The only field whose key is the name; several: err lists them. */
+static const struct gb_field *find_short(const char *name, struct gb_error *err)
 {
-    char *dot = strchr(name, '.');
-    if (!dot) {
-        return gb_error_set(err, GB_ERR_INPUT, "%.80s: must be group.key=value", name);
+    GString *found = g_string_new(NULL);
+    const struct gb_field *field = NULL;
+    size_t count = 0, matches = 0;
+    const struct gb_field *fields = gb_params_table(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(fields[i].key, name) == 0) {
+            field = &fields[i];
+            g_string_append_printf(found, "%s%s.%s", matches++ ? ", " : "",
+                                   fields[i].group, name);
+        }
     }
-    *dot = '\0';
-    const char *key = dot + 1;
-    const struct gb_field *field = gb_params_find(name, key);
-    return field ? gb_params_set(params, field, value, err) : unknown_key(name, key, err);
+    if (matches == 0) {
+        gb_error_set(err, GB_ERR_INPUT, "%.80s: must be group.key=value", name);
+    } else if (matches > 1) {
+        gb_error_set(err, GB_ERR_INPUT, "%.80s: must be one of %s", name, found->str);
+    }
+    g_string_free(found, TRUE);
+    return matches == 1 ? field : NULL;
+}
+
+const struct gb_field *gb_params_find_name(const char *name, struct gb_error *err)
+{
+    char **part = g_strsplit(name, ".", 2);
+    const struct gb_field *field =
+        part[0] && part[1] ? gb_params_find(part[0], part[1]) : find_short(name, err);
+    if (!field && part[0] && part[1]) {
+        unknown_key(part[0], part[1], err);
+    }
+    g_strfreev(part);
+    return field;
 }
 
 bool gb_params_assign(struct gb_params *params, const char *assignment,
@@ -98,7 +120,8 @@ bool gb_params_assign(struct gb_params *params, const char *assignment,
     bool assigned = false;
     if (equals) {
         *equals = '\0';
-        assigned = assign_parts(params, g_strstrip(name), equals + 1, err);
+        const struct gb_field *field = gb_params_find_name(g_strstrip(name), err);
+        assigned = field && gb_params_set(params, field, equals + 1, err);
     } else {
         gb_error_set(err, GB_ERR_INPUT,
                      "%.80s: missing \"=value\"; must be group.key=value", assignment);

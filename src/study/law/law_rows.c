@@ -12,6 +12,11 @@
 /* Points between two corners of a path. */
 enum { PATH_STEPS = 200 };
 
+size_t gb_law_rows_of_path(size_t corners)
+{
+    return corners > 0 ? 1 + (corners - 1) * PATH_STEPS : 0;
+}
+
 /* A request for one scene. */
 struct rows {
     const struct gb_law_rows_request *request;

@@ -2,6 +2,7 @@
 #define GB_STUDY_LAW_LAW_ROWS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "study/law/law_table.h"
 
@@ -17,6 +18,9 @@ struct gb_law_rows_request {
 /* Takes a row; false with an error ends the request. */
 typedef bool gb_law_rows_take(const double *value, int columns, void *data,
                               struct gb_error *err);
+
+/* Rows of a path of so many corners. */
+size_t gb_law_rows_of_path(size_t corners);
 
 /* Checks a request without computing its rows.  Errors: GB_ERR_INPUT with option or key.
  */

@@ -1,0 +1,371 @@
+/* The arrays of a packing, one row each. */
+#include <math.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "api/array_private.h"
+#include "base/alloc.h"
+#include "io/state/state_stress.h"
+#include "run/experiment_private.h"
+
+/* Unit of an array. */
+enum unit { PURE, LENGTH, SPEED, ROTATION_SPEED, FORCE, MOMENT, PRESSURE };
+
+struct unit_row {
+    const char *unit, *si_unit;
+};
+static const struct unit_row units[] = {
+    [PURE] = {"", ""},         [LENGTH] = {"d", "m"},
+    [SPEED] = {"d/T", "m/s"},  [ROTATION_SPEED] = {"1/T", "1/s"},
+    [FORCE] = {"E d^2", "N"},  [MOMENT] = {"E d^3", "N m"},
+    [PRESSURE] = {"Pa", "Pa"},
+};
+
+/* Where the rows of an array begin. */
+struct rows {
+    const void *data; /* NULL: the packing has none */
+    int64_t count;
+    int64_t stride; /* bytes; 0 of rows that lie without gaps */
+    bool constant;  /* one row stands for all */
+};
+
+struct array_row {
+    const char *name;
+    enum gb_array_type type;
+    int columns;
+    enum unit unit;
+    /* False with err: out of memory. */
+    bool (*find)(struct gb_array_source *packing, struct rows *rows,
+                 struct gb_error *err);
+    const char *doc;
+};
+
+void gb_array_forget(struct gb_array_source *packing)
+{
+    gb_state_destroy(packing->state);
+    gb_alloc_free(packing->diameter);
+    gb_alloc_free(packing->stress);
+    packing->state = NULL;
+    packing->diameter = packing->stress = NULL;
+}
+
+/* The state, listed where it is not yet.  NULL and err: GB_ERR_MEMORY. */
+static const struct gb_state *state_of(struct gb_array_source *packing,
+                                       struct gb_error *err)
+{
+    if (!packing->state &&
+        !gb_experiment_state(packing->experiment, &packing->state, err)) {
+        return NULL;
+    }
+    return packing->state;
+}
+
+static struct gb_world *world_of(const struct gb_array_source *packing)
+{
+    return packing->experiment ? packing->experiment->loading->world : NULL;
+}
+
+static const struct gb_bed *bed_of(const struct gb_array_source *packing)
+{
+    return packing->experiment ? packing->experiment->loading->bed : NULL;
+}
+
+/* Rows of four doubles; none where the packing is in no die. */
+static bool bed_rows(const struct gb_bed *bed, const gb_bed_row *row, struct rows *rows)
+{
+    *rows = (struct rows){.data = row, .count = bed->count, .stride = sizeof *row};
+    return true;
+}
+
+static bool find_position(struct gb_array_source *packing, struct rows *rows,
+                          struct gb_error *err)
+{
+    (void)err;
+    struct gb_world *world = world_of(packing);
+    const struct gb_bed *bed = bed_of(packing);
+    if (bed) {
+        return bed_rows(bed, (const gb_bed_row *)bed->position, rows);
+    }
+    if (world) {
+        const struct gb_bodies bodies = gb_world_readable(world);
+        *rows = (struct rows){.data = bodies.position, .count = bodies.count};
+        return true;
+    }
+    *rows =
+        (struct rows){.data = packing->state->position, .count = packing->state->count};
+    return true;
+}
+
+static bool double_radii(struct gb_array_source *packing, struct gb_error *err)
+{
+    const struct gb_state *state = state_of(packing, err);
+    if (!state) {
+        return false;
+    }
+    packing->diameter =
+        gb_alloc_array((size_t)state->count, sizeof *packing->diameter, err);
+    for (int64_t i = 0; packing->diameter && i < state->count; i++) {
+        packing->diameter[i] = 2.0 * state->radius[i];
+    }
+    return packing->diameter != NULL;
+}
+
+static bool find_diameter(struct gb_array_source *packing, struct rows *rows,
+                          struct gb_error *err)
+{
+    static const double one = 1.0;
+    const struct gb_world *world = world_of(packing);
+    if (world) {
+        const double *diameter = gb_world_diameters(world);
+        *rows = (struct rows){.data = diameter ? diameter : &one,
+                              .count = gb_world_model(world)->count,
+                              .constant = !diameter};
+        return true;
+    }
+    if (!packing->diameter && !double_radii(packing, err)) {
+        return false;
+    }
+    *rows = (struct rows){.data = packing->diameter, .count = packing->state->count};
+    return true;
+}
+
+static bool find_force(struct gb_array_source *packing, struct rows *rows,
+                       struct gb_error *err)
+{
+    (void)err;
+    struct gb_world *world = world_of(packing);
+    const struct gb_bed *bed = bed_of(packing);
+    if (bed) {
+        return bed_rows(bed, (const gb_bed_row *)bed->force, rows);
+    }
+    if (world) {
+        const struct gb_bodies bodies = gb_world_readable(world);
+        *rows = (struct rows){.data = bodies.force, .count = bodies.count};
+    }
+    return true;
+}
+
+static bool find_torque(struct gb_array_source *packing, struct rows *rows,
+                        struct gb_error *err)
+{
+    (void)err;
+    struct gb_world *world = world_of(packing);
+    const struct gb_bed *bed = bed_of(packing);
+    if (bed) {
+        return bed_rows(bed, (const gb_bed_row *)bed->torque, rows);
+    }
+    if (world) {
+        const struct gb_bodies bodies = gb_world_readable(world);
+        *rows = (struct rows){.data = bodies.torque, .count = bodies.count};
+    }
+    return true;
+}
+
+static bool find_velocity(struct gb_array_source *packing, struct rows *rows,
+                          struct gb_error *err)
+{
+    (void)err;
+    const struct gb_bed *bed = bed_of(packing);
+    return !bed || bed_rows(bed, (const gb_bed_row *)bed->velocity, rows);
+}
+
+static bool find_spin(struct gb_array_source *packing, struct rows *rows,
+                      struct gb_error *err)
+{
+    (void)err;
+    const struct gb_bed *bed = bed_of(packing);
+    return !bed || bed_rows(bed, (const gb_bed_row *)bed->spin, rows);
+}
+
+static bool find_cell(struct gb_array_source *packing, struct rows *rows,
+                      struct gb_error *err)
+{
+    const struct gb_world *world = world_of(packing);
+    const struct gb_state *state = world ? NULL : state_of(packing, err);
+    if (world || state) {
+        *rows = (struct rows){.data = world ? gb_world_cell(world)->edge : state->cell,
+                              .count = 3};
+    }
+    return world || state;
+}
+
+static bool find_tilt(struct gb_array_source *packing, struct rows *rows,
+                      struct gb_error *err)
+{
+    const struct gb_world *world = world_of(packing);
+    const struct gb_state *state = world ? NULL : state_of(packing, err);
+    if (world || state) {
+        *rows = (struct rows){.data = world ? gb_world_cell(world)->tilt : state->tilt,
+                              .count = 3};
+    }
+    return world || state;
+}
+
+/* An array that the list of contacts has. */
+static bool listed(struct gb_array_source *packing, size_t member, size_t count,
+                   struct rows *rows, struct gb_error *err)
+{
+    const struct gb_state *state = state_of(packing, err);
+    if (!state) {
+        return false;
+    }
+    const char *bytes = (const char *)state;
+    memcpy(&rows->data, bytes + member, sizeof rows->data);
+    memcpy(&rows->count, bytes + count, sizeof rows->count);
+    return true;
+}
+
+#define LISTED(function, member, rows_of)                                                \
+    static bool function(struct gb_array_source *packing, struct rows *rows,             \
+                         struct gb_error *err)                                           \
+    {                                                                                    \
+        return listed(packing, offsetof(struct gb_state, member),                        \
+                      offsetof(struct gb_state, rows_of), rows, err);                    \
+    }
+LISTED(find_coordination, contacts, count)
+LISTED(find_contact, pair, pair_count)
+LISTED(find_contact_force, pair_force, pair_count)
+LISTED(find_contact_normal, pair_normal, pair_count)
+LISTED(find_contact_bridged, pair_bridged, pair_count)
+LISTED(find_wall, wall, wall_count)
+LISTED(find_wall_force, wall_force, wall_count)
+
+static bool find_stress(struct gb_array_source *packing, struct rows *rows,
+                        struct gb_error *err)
+{
+    const struct gb_state *state = state_of(packing, err);
+    if (state && !packing->stress) {
+        packing->stress =
+            gb_alloc_array(6 * (size_t)state->count, sizeof *packing->stress, err);
+        if (packing->stress) {
+            gb_state_stress_tensor(state, packing->stress);
+        }
+    }
+    if (!packing->stress) {
+        return false;
+    }
+    *rows = (struct rows){.data = packing->stress, .count = state->count};
+    return true;
+}
+
+static const struct array_row table[] = {
+    {"position", GB_ARRAY_DOUBLE, 3, LENGTH, find_position, "particles x 3, d"},
+    {"diameter", GB_ARRAY_DOUBLE, 1, LENGTH, find_diameter, "particles, d"},
+    {"force", GB_ARRAY_DOUBLE, 3, FORCE, find_force,
+     "particles x 3, E d^2: resultant; of a simulation only"},
+    {"torque", GB_ARRAY_DOUBLE, 3, MOMENT, find_torque,
+     "particles x 3, E d^3: resultant; of a simulation only"},
+    {"velocity", GB_ARRAY_DOUBLE, 3, SPEED, find_velocity,
+     "particles x 3, d/T with T = sqrt(m/(E d)); of a simulation in a die"},
+    {"spin", GB_ARRAY_DOUBLE, 3, ROTATION_SPEED, find_spin,
+     "particles x 3, 1/T: angular velocity; of a simulation in a die"},
+    {"coordination", GB_ARRAY_INT32, 1, PURE, find_coordination,
+     "particles: contacts with other particles"},
+    {"stress", GB_ARRAY_DOUBLE, 6, PRESSURE, find_stress,
+     "particles x 6, Pa: xx, yy, zz, xy, xz, yz, positive in compression"},
+    {"contact", GB_ARRAY_INT32, 2, PURE, find_contact, "contacts x 2: the two particles"},
+    {"contact_force", GB_ARRAY_DOUBLE, 3, FORCE, find_contact_force,
+     "contacts x 3, E d^2: whole force on the first"},
+    {"contact_normal", GB_ARRAY_DOUBLE, 1, FORCE, find_contact_normal,
+     "contacts, E d^2: normal force, positive when pressed"},
+    {"contact_bridged", GB_ARRAY_UINT8, 1, PURE, find_contact_bridged,
+     "contacts: 1 with a bridge"},
+    {"wall", GB_ARRAY_INT32, 2, PURE, find_wall,
+     "contacts with walls x 2: particle, wall (0 floor, 1 side, 2 punch, 3 funnel)"},
+    {"wall_force", GB_ARRAY_DOUBLE, 3, FORCE, find_wall_force,
+     "contacts with walls x 3, E d^2: whole force on the particle"},
+    {"cell", GB_ARRAY_DOUBLE, 1, LENGTH, find_cell,
+     "3, d: edges of the periodic cell, or of the box of a die"},
+    {"tilt", GB_ARRAY_DOUBLE, 1, LENGTH, find_tilt, "3, d: tilts xy, xz, yz of the cell"},
+};
+
+const char *gb_array_name(size_t index)
+{
+    return index < G_N_ELEMENTS(table) ? table[index].name : NULL;
+}
+
+const char *gb_array_doc(size_t index)
+{
+    return index < G_N_ELEMENTS(table) ? table[index].doc : NULL;
+}
+
+/* One unit in SI units. */
+static double si_factor(const struct gb_array_source *packing, enum unit unit)
+{
+    const struct gb_model *model =
+        packing->experiment ? packing->experiment->model : NULL;
+    const double metre =
+        model ? model->metre_per_length : packing->state->metre_per_length;
+    const double pascal =
+        model ? model->pascal_per_stress : packing->state->pascal_per_stress;
+    const double second = model ? model->die.second_per_time : (double)NAN;
+    const double factors[] = {[PURE] = 1.0,
+                              [LENGTH] = metre,
+                              [SPEED] = metre / second,
+                              [ROTATION_SPEED] = 1.0 / second,
+                              [FORCE] = pascal * metre * metre,
+                              [MOMENT] = pascal * metre * metre * metre,
+                              [PRESSURE] = 1.0};
+    return factors[unit];
+}
+
+static const struct array_row *find_row(const char *name, struct gb_error *err)
+{
+    GString *names = g_string_new(NULL);
+    const struct array_row *found = NULL;
+    for (size_t i = 0; !found && i < G_N_ELEMENTS(table); i++) {
+        found = strcmp(table[i].name, name) == 0 ? &table[i] : NULL;
+        g_string_append_printf(names, "%s%s", i ? ", " : "", table[i].name);
+    }
+    if (!found) {
+        gb_error_set(err, GB_ERR_INPUT, "%.40s: no such array; must be one of %s", name,
+                     names->str);
+    }
+    g_string_free(names, TRUE);
+    return found;
+}
+
+/* Hands over as much of the struct as the caller knows. */
+static bool hand_over(struct gb_array *out, struct gb_array *array, struct gb_error *err)
+{
+    const size_t size = MIN(out->size, sizeof *array);
+    if (size < offsetof(struct gb_array, si) + sizeof array->si) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "gb_array.size = %zu: must be sizeof(struct gb_array), %zu",
+                            out->size, sizeof *array);
+    }
+    array->size = out->size;
+    memcpy(out, array, size);
+    return true;
+}
+
+bool gb_array_find(struct gb_array_source *packing, const char *name,
+                   struct gb_array *array, struct gb_error *err)
+{
+    static const int64_t sizes[] = {[GB_ARRAY_DOUBLE] = sizeof(double),
+                                    [GB_ARRAY_INT32] = sizeof(int32_t),
+                                    [GB_ARRAY_UINT8] = sizeof(uint8_t)};
+    struct rows rows = {0};
+    const struct array_row *row = find_row(name, err);
+    if (!row || !row->find(packing, &rows, err)) {
+        return false;
+    }
+    if (!rows.data && rows.count == 0 && row->find != find_wall &&
+        row->find != find_wall_force) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: this packing has none (%s)", name,
+                            row->doc);
+    }
+    struct gb_array found = {.data = rows.data,
+                             .type = (int)row->type,
+                             .dimensions = row->columns > 1 ? 2 : 1,
+                             .shape = {rows.count, row->columns},
+                             .stride = {rows.constant ? 0
+                                        : rows.stride ? rows.stride
+                                                      : row->columns * sizes[row->type],
+                                        sizes[row->type]},
+                             .unit = units[row->unit].unit,
+                             .si_unit = units[row->unit].si_unit,
+                             .si = si_factor(packing, row->unit)};
+    return hand_over(array, &found, err);
+}

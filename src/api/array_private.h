@@ -1,0 +1,24 @@
+#ifndef GB_API_ARRAY_PRIVATE_H
+#define GB_API_ARRAY_PRIVATE_H
+
+#include "greenbody/array.h"
+#include "greenbody/status.h"
+#include "io/state/state.h"
+#include "run/experiment.h"
+
+/* A packing under way or read from a file, and what was computed of it. */
+struct gb_array_source {
+    struct gb_experiment *experiment; /* under way; NULL: read from a file */
+    struct gb_state
+        *state; /* owned; under way a list of the contacts, when first needed */
+    double *diameter, *stress; /* owned; computed when first needed */
+};
+
+/* What was computed for the present positions is no longer true. */
+void gb_array_forget(struct gb_array_source *packing);
+
+/* The array of a name; errors as of gb_saved_state_array. */
+bool gb_array_find(struct gb_array_source *packing, const char *name,
+                   struct gb_array *array, struct gb_error *err);
+
+#endif

@@ -1,0 +1,153 @@
+#include "greenbody/contact_law.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "api/parameters_private.h"
+#include "study/law/law_rows.h"
+
+static const struct gb_law_table_law *law_at(size_t index)
+{
+    size_t count = 0;
+    const struct gb_law_table_law *laws = gb_law_table_laws(&count);
+    return index < count ? &laws[index] : NULL;
+}
+
+const char *gb_contact_law_name(size_t index)
+{
+    const struct gb_law_table_law *law = law_at(index);
+    return law ? law->name : NULL;
+}
+
+const char *gb_contact_law_doc(size_t index)
+{
+    const struct gb_law_table_law *law = law_at(index);
+    return law ? law->doc : NULL;
+}
+
+const char *gb_contact_law_columns(const char *law)
+{
+    const struct gb_law_table_law *found = gb_law_table_find(law);
+    return found ? found->header : NULL;
+}
+
+const char *gb_contact_law_variable(const char *law)
+{
+    const struct gb_law_table_law *found = gb_law_table_find(law);
+    return found ? found->variable : NULL;
+}
+
+size_t gb_contact_law_rows(const struct gb_contact_law_request *request)
+{
+    const struct gb_law_table_law *law = gb_law_table_find(request->law);
+    if (!law) {
+        return 0;
+    }
+    if (!law->variable) {
+        return 1;
+    }
+    return request->history == GB_CONTACT_LAW_PATH ? gb_law_rows_of_path(request->count)
+                                                   : request->count;
+}
+
+/* --- the request as the options of `greenbody law` --------------------------------- */
+
+/* Rows as they come. */
+struct rows {
+    double *out;
+    size_t room, filled;
+};
+
+static bool take_row(const double *value, int columns, void *data, struct gb_error *err)
+{
+    struct rows *rows = data;
+    const size_t count = (size_t)columns;
+    if (rows->room - rows->filled < count) {
+        return gb_error_set(err, GB_ERR_INPUT, "room = %zu: must hold rows x columns",
+                            rows->room);
+    }
+    memcpy(rows->out + rows->filled, value, count * sizeof *value);
+    rows->filled += count;
+    return true;
+}
+
+static char **points_of(const struct gb_contact_law_request *request,
+                        const char *variable)
+{
+    char **at = g_new0(char *, request->count + 1);
+    for (size_t i = 0; i < request->count; i++) {
+        char x[G_ASCII_DTOSTR_BUF_SIZE], h_min[G_ASCII_DTOSTR_BUF_SIZE];
+        g_ascii_dtostr(x, sizeof x, request->x[i]);
+        g_ascii_dtostr(h_min, sizeof h_min, request->h_min);
+        at[i] = isnan(request->h_min)
+                    ? g_strdup_printf("%s=%s", variable, x)
+                    : g_strdup_printf("%s=%s,h_min=%s", variable, x, h_min);
+    }
+    return at;
+}
+
+static char *path_of(const struct gb_contact_law_request *request, const char *variable)
+{
+    GString *path = g_string_new(variable);
+    for (size_t i = 0; i < request->count; i++) {
+        char x[G_ASCII_DTOSTR_BUF_SIZE];
+        g_ascii_dtostr(x, sizeof x, request->x[i]);
+        g_string_append_printf(path, "%c%s", i ? ',' : '=', x);
+    }
+    return g_string_free(path, FALSE);
+}
+
+static bool find(const struct gb_contact_law_request *request,
+                 struct gb_law_rows_request *rows, struct gb_error *err)
+{
+    GString *names = g_string_new(NULL);
+    for (size_t i = 0; law_at(i); i++) {
+        g_string_append_printf(names, "%s%s", i ? ", " : "", law_at(i)->name);
+    }
+    rows->law = gb_law_table_find(request->law);
+    if (!rows->law) {
+        gb_error_set(err, GB_ERR_INPUT, "law %.40s: accepted %s", request->law,
+                     names->str);
+    }
+    g_string_free(names, TRUE);
+    if (!rows->law) {
+        return false;
+    }
+    rows->lattice = request->lattice ? gb_law_table_find_lattice(request->lattice) : NULL;
+    const bool needed = strcmp(request->law, "lattice") == 0;
+    return (needed ? rows->lattice != NULL : request->lattice == NULL) ||
+           gb_error_set(err, GB_ERR_INPUT, "law %s: lattice %s: accepted %s",
+                        request->law, request->lattice ? request->lattice : "missing",
+                        needed ? "sc, fcc, bcc or diamond" : "none");
+}
+
+bool gb_contact_law_compute(const struct gb_contact_law_request *request,
+                            const struct gb_parameters *parameters, double *out,
+                            size_t room, struct gb_error *err)
+{
+    struct gb_law_rows_request options = {0};
+    struct rows rows = {.out = out, .room = room};
+    if (request->size < sizeof *request) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "size = %zu: must be sizeof(struct gb_contact_law_request), %zu",
+            request->size, sizeof *request);
+    }
+    if (!find(request, &options, err)) {
+        return false;
+    }
+    const char *variable = options.law->variable;
+    if (variable && request->history == GB_CONTACT_LAW_PATH) {
+        options.path = path_of(request, variable);
+    } else if (variable && request->count > 0) {
+        options.at = points_of(request, variable);
+    }
+    const bool good = gb_law_rows_compute(&options, gb_preset_params(parameters->preset),
+                                          take_row, &rows, err);
+    g_strfreev(options.at);
+    g_free(options.path);
+    return good;
+}

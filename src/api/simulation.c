@@ -1,0 +1,304 @@
+#include <string.h>
+
+#include <glib.h>
+
+#include "api/parameters_private.h"
+#include "api/simulation_private.h"
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "io/follow.h"
+
+/* --- hooks of the loop ----------------------------------------------------------- */
+
+static bool may_continue(void *data, struct gb_error *err)
+{
+    struct gb_simulation *simulation = data;
+    const char *reason = atomic_load(&simulation->reason);
+    return reason == NULL || gb_error_set(err, GB_ERR_CANCELLED, "%s", reason);
+}
+
+static bool on_point(void *data, const struct gb_point *point, struct gb_error *err)
+{
+    struct gb_simulation *simulation = data;
+    gb_array_forget(&simulation->packing);
+    if (!gb_curve_append(simulation->curve, point, err)) {
+        return false;
+    }
+    if (simulation->on_point) {
+        simulation->on_point(simulation->point_data, simulation, point);
+    }
+    return true;
+}
+
+static void on_event(void *data, int64_t step, const char *text)
+{
+    struct gb_simulation *simulation = data;
+    if (simulation->on_event) {
+        simulation->on_event(simulation->event_data, simulation, step, text);
+    }
+}
+
+static void call_progress(struct gb_simulation *simulation)
+{
+    if (simulation->on_progress &&
+        gb_clock_s() - simulation->called_s >= simulation->interval) {
+        gb_array_forget(&simulation->packing);
+        simulation->on_progress(simulation->progress_data, simulation,
+                                gb_simulation_progress(simulation));
+        simulation->called_s = gb_clock_s();
+    }
+}
+
+static void on_tick(void *data)
+{
+    call_progress(data);
+}
+
+/* Polled while the packing is built. */
+static bool packing_cancelled(void *data)
+{
+    struct gb_simulation *simulation = data;
+    call_progress(simulation);
+    return atomic_load(&simulation->reason) != NULL;
+}
+
+/* --- creation -------------------------------------------------------------------- */
+
+static struct gb_simulation *allocate(struct gb_error *err)
+{
+    struct gb_simulation *simulation = gb_alloc_array(1, sizeof *simulation, err);
+    if (!simulation) {
+        return NULL;
+    }
+    const struct gb_run_loop_hooks hooks = {.may_continue = may_continue,
+                                            .on_event = on_event,
+                                            .on_point = on_point,
+                                            .on_tick = on_tick,
+                                            .data = simulation};
+    gb_run_loop_init(&simulation->loop, &hooks);
+    atomic_init(&simulation->reason, NULL);
+    if (!gb_curve_create(&simulation->curve, err)) {
+        gb_simulation_destroy(simulation);
+        return NULL;
+    }
+    return simulation;
+}
+
+static void attach(struct gb_simulation *simulation, struct gb_experiment *experiment)
+{
+    gb_run_loop_attach(&simulation->loop, experiment);
+    simulation->packing.experiment = experiment;
+}
+
+bool gb_simulation_create_from(struct gb_simulation **out, const struct gb_params *params,
+                               struct gb_error *err)
+{
+    struct gb_model model;
+    if (!gb_params_check(params, err) || !gb_model_init(&model, params, err)) {
+        return false;
+    }
+    struct gb_simulation *simulation = allocate(err);
+    if (!simulation) {
+        return false;
+    }
+    simulation->params = *params;
+    *out = simulation;
+    return true;
+}
+
+bool gb_simulation_create(struct gb_simulation **out,
+                          const struct gb_parameters *parameters, struct gb_error *err)
+{
+    return gb_simulation_create_from(out, gb_preset_params(parameters->preset), err);
+}
+
+/* From the checkpoint; without one the first advance builds the packing. */
+static bool resume(struct gb_simulation *simulation, const char *directory,
+                   struct gb_error *err)
+{
+    char text[96];
+    struct gb_experiment *experiment = NULL;
+    struct gb_run_loop *loop = &simulation->loop;
+    simulation->origin = GB_SIMULATION_RESUMED;
+    if (!gb_run_recorder_resume(&loop->recorder, &experiment, directory, err)) {
+        return false;
+    }
+    simulation->params = *gb_run_recorder_params(loop->recorder);
+    if (!experiment) {
+        return true;
+    }
+    const double seconds = gb_run_recorder_seconds(loop->recorder);
+    gb_run_loop_set_seconds(loop, seconds);
+    attach(simulation, experiment);
+    if (!gb_follow_curve(directory, &simulation->params, simulation->curve, err)) {
+        return false;
+    }
+    g_snprintf(text, sizeof text,
+               "resumed from the checkpoint of step %" G_GINT64_FORMAT ", after %.1f s",
+               gb_experiment_point(experiment)->step, seconds);
+    gb_run_loop_event(loop, text);
+    return true;
+}
+
+bool gb_simulation_resume(struct gb_simulation **out, const char *directory,
+                          struct gb_error *err)
+{
+    struct gb_simulation *simulation = allocate(err);
+    if (!simulation || !resume(simulation, directory, err)) {
+        gb_simulation_destroy(simulation);
+        return false;
+    }
+    *out = simulation;
+    return true;
+}
+
+void gb_simulation_destroy(struct gb_simulation *simulation)
+{
+    if (!simulation) {
+        return;
+    }
+    simulation->on_point = NULL;
+    simulation->on_event = NULL;
+    simulation->on_progress = NULL;
+    gb_run_loop_leave(&simulation->loop);
+    gb_array_forget(&simulation->packing);
+    gb_run_loop_finish(&simulation->loop);
+    gb_curve_destroy(simulation->curve);
+    g_free(simulation->directory);
+    gb_alloc_free(simulation);
+}
+
+/* --- the record ------------------------------------------------------------------ */
+
+bool gb_simulation_start_record(struct gb_simulation *simulation, struct gb_error *err)
+{
+    return gb_run_recorder_create(&simulation->loop.recorder, simulation->directory,
+                                  &simulation->params, simulation->mode, err);
+}
+
+bool gb_simulation_record(struct gb_simulation *simulation, const char *directory,
+                          bool replace, struct gb_error *err)
+{
+    const enum gb_rundir_mode mode = replace ? GB_RUNDIR_REPLACE : GB_RUNDIR_KEEP;
+    if (simulation->loop.experiment || simulation->origin != GB_SIMULATION_NEW) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: a run is recorded from its beginning, before the first "
+                            "advance",
+                            directory);
+    }
+    if (!gb_rundir_check(directory, mode, err)) {
+        return false;
+    }
+    g_free(simulation->directory);
+    simulation->directory = g_strdup(directory);
+    simulation->mode = mode;
+    return true;
+}
+
+/* --- callbacks ------------------------------------------------------------------- */
+
+void gb_simulation_on_point(struct gb_simulation *simulation,
+                            void (*call)(void *data, struct gb_simulation *simulation,
+                                         const struct gb_point *point),
+                            void *data)
+{
+    simulation->on_point = call;
+    simulation->point_data = data;
+}
+
+void gb_simulation_on_event(struct gb_simulation *simulation,
+                            void (*call)(void *data, struct gb_simulation *simulation,
+                                         int64_t step, const char *text),
+                            void *data)
+{
+    simulation->on_event = call;
+    simulation->event_data = data;
+}
+
+void gb_simulation_on_progress(struct gb_simulation *simulation,
+                               void (*call)(void *data, struct gb_simulation *simulation,
+                                            double share),
+                               void *data, double interval)
+{
+    simulation->on_progress = call;
+    simulation->progress_data = data;
+    simulation->interval = interval;
+}
+
+void gb_simulation_cancel(struct gb_simulation *simulation, const char *reason)
+{
+    atomic_store(&simulation->reason, reason ? reason : "cancelled");
+}
+
+/* --- advances -------------------------------------------------------------------- */
+
+bool gb_simulation_build(struct gb_simulation *simulation, struct gb_error *err)
+{
+    struct gb_experiment *experiment = NULL;
+    if (simulation->loop.experiment) {
+        return true;
+    }
+    if (!gb_experiment_create(&experiment, &simulation->params, packing_cancelled,
+                              simulation, err)) {
+        return false;
+    }
+    attach(simulation, experiment);
+    return true;
+}
+
+static bool begin(struct gb_simulation *simulation, struct gb_error *err)
+{
+    return gb_simulation_build(simulation, err) &&
+           (!simulation->directory || simulation->loop.recorder ||
+            gb_simulation_start_record(simulation, err));
+}
+
+static bool has_ended(const struct gb_simulation *simulation)
+{
+    return simulation->outcome == GB_RUN_OUTCOME_DONE ||
+           simulation->outcome == GB_RUN_OUTCOME_STOPPED ||
+           simulation->outcome == GB_RUN_OUTCOME_FAILED;
+}
+
+/* The time between two advances does not count for the run. */
+static void go_on(struct gb_simulation *simulation)
+{
+    if (simulation->returned_s > 0.0) {
+        gb_run_loop_exclude(&simulation->loop, gb_clock_s() - simulation->returned_s);
+    }
+}
+
+static enum gb_run_outcome advance(struct gb_simulation *simulation, int64_t points)
+{
+    struct gb_error why = {0};
+    struct gb_run_loop *loop = &simulation->loop;
+    if (!begin(simulation, &why)) {
+        (void)gb_run_loop_fail(loop, &why);
+        return gb_run_loop_outcome(&why);
+    }
+    const enum gb_run_outcome outcome = gb_run_loop_advance(loop, points);
+    /* cancelled at the last of the points */
+    return outcome == GB_RUN_OUTCOME_NONE && atomic_load(&simulation->reason)
+               ? gb_run_loop_advance(loop, 1)
+               : outcome;
+}
+
+enum gb_run_outcome gb_simulation_advance(struct gb_simulation *simulation,
+                                          int64_t points, struct gb_error *err)
+{
+    if (!has_ended(simulation)) {
+        go_on(simulation);
+        gb_array_forget(&simulation->packing);
+        simulation->outcome = advance(simulation, points);
+        gb_array_forget(&simulation->packing);
+        simulation->returned_s = gb_clock_s();
+        if (simulation->outcome == GB_RUN_OUTCOME_CANCELLED) {
+            atomic_store(&simulation->reason, NULL);
+        }
+    }
+    const struct gb_error *why = &simulation->loop.error;
+    if (simulation->outcome != GB_RUN_OUTCOME_NONE && why->code != GB_OK) {
+        gb_error_set(err, why->code, "%s", why->text);
+    }
+    return simulation->outcome;
+}

@@ -1,0 +1,117 @@
+/* Reading a simulation: points, arrays, states. */
+#include <math.h>
+
+#include "api/parameters_private.h"
+#include "api/simulation_private.h"
+#include "base/alloc.h"
+#include "io/hdf/hdf_record.h"
+#include "io/state/state_record.h"
+#include "run/checkpoint.h"
+
+size_t gb_simulation_points(const struct gb_simulation *simulation)
+{
+    return gb_curve_count(simulation->curve);
+}
+
+const struct gb_point *gb_simulation_point(const struct gb_simulation *simulation,
+                                           size_t index)
+{
+    return gb_curve_at(simulation->curve, index);
+}
+
+double gb_simulation_progress(const struct gb_simulation *simulation)
+{
+    const struct gb_experiment *experiment = simulation->loop.experiment;
+    const double share = experiment ? gb_experiment_progress(experiment) : 0.0;
+    return isfinite(share) ? share : 0.0;
+}
+
+bool gb_simulation_parameters(const struct gb_simulation *simulation,
+                              struct gb_parameters **out, struct gb_error *err)
+{
+    return gb_parameters_wrap(out, &simulation->params, err);
+}
+
+bool gb_simulation_array(struct gb_simulation *simulation, const char *name,
+                         struct gb_array *array, struct gb_error *err)
+{
+    if (!simulation->loop.experiment) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%.40s: no packing yet; the first advance builds it", name);
+    }
+    return gb_array_find(&simulation->packing, name, array, err);
+}
+
+static bool write(struct gb_simulation *simulation, struct gb_record *record,
+                  const char *path, struct gb_error *err)
+{
+    struct gb_state *state = NULL;
+    struct gb_experiment *experiment = simulation->loop.experiment;
+    const bool done = gb_checkpoint_take(experiment, record, err) &&
+                      gb_state_record(&state, record, gb_experiment_params(experiment),
+                                      gb_experiment_model(experiment), err) &&
+                      gb_state_write(state, record, path, err);
+    gb_state_destroy(state);
+    return done;
+}
+
+bool gb_simulation_save(struct gb_simulation *simulation, const char *path,
+                        struct gb_error *err)
+{
+    const enum gb_step_outcome last = simulation->loop.last;
+    if (gb_simulation_points(simulation) == 0 ||
+        (last != GB_STEP_POINT && last != GB_STEP_DONE)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: the packing is between two recorded points; a state is "
+                            "that of a point",
+                            path);
+    }
+    struct gb_record *record = gb_alloc_array(1, sizeof *record, err);
+    const bool done = record && write(simulation, record, path, err);
+    if (record) {
+        gb_record_finish(record);
+    }
+    gb_alloc_free(record);
+    return done;
+}
+
+/* The experiment of a record, in place of the packing that would be built. */
+static bool load(struct gb_simulation *simulation, struct gb_record *record,
+                 const char *path, struct gb_error *err)
+{
+    struct gb_error why = {0};
+    struct gb_experiment *experiment = NULL;
+    if (!gb_hdf_record_read(record, path, err)) {
+        return false;
+    }
+    if (!gb_experiment_resume(&experiment, &simulation->params, record, &why)) {
+        return gb_error_set(err, why.code, "%s: %s", path, why.text);
+    }
+    simulation->origin = GB_SIMULATION_LOADED;
+    gb_run_loop_attach(&simulation->loop, experiment);
+    simulation->packing.experiment = experiment;
+    return gb_curve_append(simulation->curve, gb_experiment_point(experiment), err);
+}
+
+bool gb_simulation_load(struct gb_simulation **out,
+                        const struct gb_parameters *parameters, const char *path,
+                        struct gb_error *err)
+{
+    struct gb_simulation *simulation = NULL;
+    if (!gb_simulation_create(&simulation, parameters, err)) {
+        return false;
+    }
+    struct gb_record *record = gb_alloc_array(1, sizeof *record, err);
+    const bool done = record && load(simulation, record, path, err);
+    if (record) {
+        gb_record_finish(record);
+    }
+    gb_alloc_free(record);
+    if (!done) {
+        gb_simulation_destroy(simulation);
+        return false;
+    }
+    simulation->loop.last = GB_STEP_POINT;
+    *out = simulation;
+    return true;
+}
