@@ -9,6 +9,7 @@
 #include "greenbody/outcome.h"
 #include "greenbody/parameters.h"
 #include "greenbody/point.h"
+#include "greenbody/saved_state.h"
 #include "greenbody/status.h"
 
 #ifdef __cplusplus
@@ -32,6 +33,10 @@ bool gb_simulation_create(struct gb_simulation **out,
  * GB_ERR_INPUT (no run, a run under way, a preset that was changed since), GB_ERR_MACHINE. */
 bool gb_simulation_resume(struct gb_simulation **out, const char *directory,
                           struct gb_error *err);
+/* The same from the checkpoint before the last one, where that is damaged; the points
+ * after it are computed again. */
+bool gb_simulation_resume_before(struct gb_simulation **out, const char *directory,
+                                 struct gb_error *err);
 
 /* Continues from a state that gb_simulation_save or a run of the same parameters has
  * written; its curve begins there.  Errors: GB_ERR_INPUT naming the item that does not
@@ -39,6 +44,10 @@ bool gb_simulation_resume(struct gb_simulation **out, const char *directory,
 bool gb_simulation_load(struct gb_simulation **out,
                         const struct gb_parameters *parameters, const char *path,
                         struct gb_error *err);
+
+/* Writes the last files of a recorded run and unlocks its directory, which can be resumed;
+ * points and arrays stay, and no advance follows. */
+void gb_simulation_leave(struct gb_simulation *simulation);
 
 /* A recorded run that is left before its end can be resumed from its directory. NULL is
  * fine. */
@@ -105,6 +114,11 @@ bool gb_simulation_parameters(const struct gb_simulation *simulation,
  * gb_saved_state_array; GB_ERR_INPUT before the first advance. */
 bool gb_simulation_array(struct gb_simulation *simulation, const char *name,
                          struct gb_array *array, struct gb_error *err);
+
+/* The packing as it is now, as an object of its own that outlives the next advance and the
+ * simulation.  Errors: GB_ERR_INPUT before the first advance, GB_ERR_MEMORY. */
+bool gb_simulation_state(struct gb_simulation *simulation, struct gb_saved_state **out,
+                         struct gb_error *err);
 
 /* Writes the state of the last recorded point, HDF5, replaced as a whole.  Errors:
  * GB_ERR_INPUT where the packing is between two points, GB_ERR_MACHINE. */

@@ -14,6 +14,10 @@ struct gb_array_source {
     double *diameter, *stress; /* owned; computed when first needed */
 };
 
+struct gb_saved_state {
+    struct gb_array_source packing;
+};
+
 /* What was computed for the present positions is no longer true. */
 void gb_array_forget(struct gb_array_source *packing);
 

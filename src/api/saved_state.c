@@ -3,10 +3,6 @@
 #include "api/array_private.h"
 #include "base/alloc.h"
 
-struct gb_saved_state {
-    struct gb_array_source packing;
-};
-
 bool gb_saved_state_load(struct gb_saved_state **out, const char *path,
                          struct gb_error *err)
 {

@@ -114,13 +114,12 @@ bool gb_simulation_create(struct gb_simulation **out,
 
 /* From the checkpoint; without one the first advance builds the packing. */
 static bool resume(struct gb_simulation *simulation, const char *directory,
-                   struct gb_error *err)
+                   enum gb_run_recorder_from from, struct gb_error *err)
 {
-    char text[96];
     struct gb_experiment *experiment = NULL;
     struct gb_run_loop *loop = &simulation->loop;
     simulation->origin = GB_SIMULATION_RESUMED;
-    if (!gb_run_recorder_resume(&loop->recorder, &experiment, directory, err)) {
+    if (!gb_run_recorder_resume(&loop->recorder, &experiment, directory, from, err)) {
         return false;
     }
     simulation->params = *gb_run_recorder_params(loop->recorder);
@@ -130,26 +129,34 @@ static bool resume(struct gb_simulation *simulation, const char *directory,
     const double seconds = gb_run_recorder_seconds(loop->recorder);
     gb_run_loop_set_seconds(loop, seconds);
     attach(simulation, experiment);
-    if (!gb_follow_curve(directory, &simulation->params, simulation->curve, err)) {
-        return false;
-    }
-    g_snprintf(text, sizeof text,
+    g_snprintf(simulation->resumed, sizeof simulation->resumed,
                "resumed from the checkpoint of step %" G_GINT64_FORMAT ", after %.1f s",
                gb_experiment_point(experiment)->step, seconds);
-    gb_run_loop_event(loop, text);
+    return gb_follow_curve(directory, &simulation->params, simulation->curve, err);
+}
+
+static bool create_resumed(struct gb_simulation **out, const char *directory,
+                           enum gb_run_recorder_from from, struct gb_error *err)
+{
+    struct gb_simulation *simulation = allocate(err);
+    if (!simulation || !resume(simulation, directory, from, err)) {
+        gb_simulation_destroy(simulation);
+        return false;
+    }
+    *out = simulation;
     return true;
 }
 
 bool gb_simulation_resume(struct gb_simulation **out, const char *directory,
                           struct gb_error *err)
 {
-    struct gb_simulation *simulation = allocate(err);
-    if (!simulation || !resume(simulation, directory, err)) {
-        gb_simulation_destroy(simulation);
-        return false;
-    }
-    *out = simulation;
-    return true;
+    return create_resumed(out, directory, GB_RUN_RECORDER_LAST, err);
+}
+
+bool gb_simulation_resume_before(struct gb_simulation **out, const char *directory,
+                                 struct gb_error *err)
+{
+    return create_resumed(out, directory, GB_RUN_RECORDER_BEFORE, err);
 }
 
 void gb_simulation_destroy(struct gb_simulation *simulation)
@@ -260,6 +267,18 @@ static bool has_ended(const struct gb_simulation *simulation)
            simulation->outcome == GB_RUN_OUTCOME_FAILED;
 }
 
+void gb_simulation_leave(struct gb_simulation *simulation)
+{
+    struct gb_run_loop *loop = &simulation->loop;
+    gb_run_loop_leave(loop);
+    gb_run_recorder_destroy(loop->recorder);
+    loop->recorder = NULL;
+    if (!has_ended(simulation)) {
+        simulation->outcome = GB_RUN_OUTCOME_FAILED;
+        gb_error_set(&loop->error, GB_ERR_INPUT, "the run was left; no advance follows");
+    }
+}
+
 /* The time between two advances does not count for the run. */
 static void go_on(struct gb_simulation *simulation)
 {
@@ -275,6 +294,10 @@ static enum gb_run_outcome advance(struct gb_simulation *simulation, int64_t poi
     if (!begin(simulation, &why)) {
         (void)gb_run_loop_fail(loop, &why);
         return gb_run_loop_outcome(&why);
+    }
+    if (simulation->resumed[0] != '\0') {
+        gb_run_loop_event(loop, simulation->resumed);
+        simulation->resumed[0] = '\0';
     }
     const enum gb_run_outcome outcome = gb_run_loop_advance(loop, points);
     /* cancelled at the last of the points */

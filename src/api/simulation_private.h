@@ -24,6 +24,7 @@ struct gb_simulation {
     enum gb_run_outcome outcome; /* of the last advance */
     char *directory;             /* of the records, before the recorder; NULL: none */
     enum gb_rundir_mode mode;
+    char resumed[96];  /* event of the next advance; empty: none */
     double returned_s; /* clock reading when the last advance ended; 0: none yet */
     _Atomic(const char *) reason; /* of cancelling; NULL: not cancelled */
     void (*on_point)(void *data, struct gb_simulation *simulation,

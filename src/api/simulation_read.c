@@ -32,14 +32,35 @@ bool gb_simulation_parameters(const struct gb_simulation *simulation,
     return gb_parameters_wrap(out, &simulation->params, err);
 }
 
+static bool has_packing(const struct gb_simulation *simulation, const char *what,
+                        struct gb_error *err)
+{
+    return simulation->loop.experiment != NULL ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "%.40s: no packing yet; the first advance builds it", what);
+}
+
 bool gb_simulation_array(struct gb_simulation *simulation, const char *name,
                          struct gb_array *array, struct gb_error *err)
 {
-    if (!simulation->loop.experiment) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "%.40s: no packing yet; the first advance builds it", name);
+    return has_packing(simulation, name, err) &&
+           gb_array_find(&simulation->packing, name, array, err);
+}
+
+bool gb_simulation_state(struct gb_simulation *simulation, struct gb_saved_state **out,
+                         struct gb_error *err)
+{
+    if (!has_packing(simulation, "state", err)) {
+        return false;
     }
-    return gb_array_find(&simulation->packing, name, array, err);
+    struct gb_saved_state *saved = gb_alloc_array(1, sizeof *saved, err);
+    if (!saved ||
+        !gb_experiment_state(simulation->loop.experiment, &saved->packing.state, err)) {
+        gb_alloc_free(saved);
+        return false;
+    }
+    *out = saved;
+    return true;
 }
 
 static bool write(struct gb_simulation *simulation, struct gb_record *record,

@@ -1,49 +1,24 @@
-#include <stdio.h>
-
 #include <glib.h>
 
 #include "cli/commands.h"
 #include "cli/foreground.h"
 #include "cli/options.h"
-#include "cli/signals.h"
 
-/* A run that was killed before its first checkpoint starts again. */
-static bool start_again(struct gb_foreground *run, struct gb_error *err)
+static int perform(struct gb_foreground *run, const char *directory, bool before)
 {
-    struct gb_experiment *experiment = NULL;
-    gb_progress_say(&run->progress, "there is no checkpoint yet: the run starts again");
-    if (!gb_experiment_create(&experiment, gb_run_recorder_params(run->loop.recorder),
-                              gb_signals_cancelled, NULL, err)) {
-        return false;
-    }
-    gb_run_loop_attach(&run->loop, experiment);
-    return true;
-}
-
-static void resume(struct gb_foreground *run, struct gb_experiment *experiment)
-{
-    char text[96];
-    const double seconds = gb_run_recorder_seconds(run->loop.recorder);
-    gb_run_loop_set_seconds(&run->loop, seconds);
-    gb_run_loop_attach(&run->loop, experiment);
-    snprintf(text, sizeof text, "resumed from the checkpoint of step %lld, after %.1f s",
-             (long long)gb_experiment_point(experiment)->step, seconds);
-    gb_run_loop_event(&run->loop, text);
-}
-
-static int perform(struct gb_foreground *run, const char *directory,
-                   enum gb_run_recorder_from from)
-{
-    struct gb_experiment *experiment = NULL;
+    struct gb_simulation *simulation = NULL;
     struct gb_error err = {0};
-    bool good =
-        gb_run_recorder_resume(&run->loop.recorder, &experiment, directory, from, &err);
-    if (experiment != NULL) {
-        resume(run, experiment);
-    } else {
-        good = good && start_again(run, &err);
+    const bool good = before ? gb_simulation_resume_before(&simulation, directory, &err)
+                             : gb_simulation_resume(&simulation, directory, &err);
+    if (!good) {
+        return gb_foreground_fail(run, &err);
     }
-    return good ? gb_foreground_run(run) : gb_foreground_fail(run, &err);
+    gb_foreground_attach(run, simulation);
+    if (simulation->loop.experiment == NULL) { /* killed before its first checkpoint */
+        gb_progress_say(&run->progress,
+                        "there is no checkpoint yet: the run starts again");
+    }
+    return gb_foreground_run(run);
 }
 
 int gb_cmd_resume(int argc, char **argv)
@@ -70,8 +45,7 @@ int gb_cmd_resume(int argc, char **argv)
             status = gb_options_fail(&err);
         } else {
             gb_foreground_init(&run, quiet);
-            status = perform(&run, directory,
-                             before ? GB_RUN_RECORDER_BEFORE : GB_RUN_RECORDER_LAST);
+            status = perform(&run, directory, before);
         }
     }
     gb_foreground_finish(&run);

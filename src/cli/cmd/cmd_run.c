@@ -6,9 +6,7 @@
 #include "cli/commands.h"
 #include "cli/foreground.h"
 #include "cli/options.h"
-#include "cli/signals.h"
 #include "io/preset.h"
-#include "io/rundir.h"
 #include "run/cost.h"
 #include "run/warmup.h"
 #include "scene/loading_kind.h"
@@ -20,8 +18,7 @@ static const double warmup_s = 0.3;
 
 struct run {
     char *directory;
-    enum gb_rundir_mode mode;
-    bool yes;
+    bool replace, yes;
     struct gb_preset *preset;
     struct gb_model model;
     bool announced;
@@ -34,17 +31,31 @@ static const struct gb_params *params_of(const struct run *run)
     return gb_preset_params(run->preset);
 }
 
+static struct gb_run_loop *loop_of(const struct run *run)
+{
+    return &run->foreground.simulation->loop;
+}
+
+static void on_packing(void *data);
+
 /* All checks that are possible before any work. */
 static bool prepare(struct run *run, char **words, char **sets, struct gb_error *err)
 {
+    struct gb_simulation *simulation = NULL;
     if (!gb_options_scene(&run->preset, words, sets, GB_OPTIONS_PRESET_NEEDED, err)) {
         return false;
     }
     if (run->directory == NULL) {
         run->directory = gb_store_default_directory(gb_preset_path(run->preset));
     }
-    return gb_model_init(&run->model, params_of(run), err) &&
-           gb_rundir_check(run->directory, run->mode, err);
+    if (!gb_model_init(&run->model, params_of(run), err) ||
+        !gb_simulation_create_from(&simulation, params_of(run), err)) {
+        return false;
+    }
+    run->foreground.on_packing = on_packing;
+    run->foreground.data = run;
+    gb_foreground_attach(&run->foreground, simulation);
+    return gb_simulation_record(simulation, run->directory, run->replace, err);
 }
 
 static void announce(struct run *run)
@@ -60,15 +71,14 @@ static void announce(struct run *run)
     }
 }
 
-/* Polled while the packing is built. */
-static bool packing_cancelled(void *data)
+/* While the packing is built. */
+static void on_packing(void *data)
 {
     struct run *run = data;
-    if (!run->announced && gb_run_loop_seconds(&run->foreground.loop) > patience_s) {
+    if (!run->announced && gb_run_loop_seconds(loop_of(run)) > patience_s) {
         announce(run);
         gb_progress_say(&run->foreground.progress, "  building the packing");
     }
-    return gb_signals_cancelled(NULL);
 }
 
 /* Fills the line with the estimated cost of a dynamic run.  Refuses one that takes longer
@@ -76,7 +86,7 @@ static bool packing_cancelled(void *data)
 static bool estimate(struct run *run, char *line, size_t size, struct gb_error *err)
 {
     const struct gb_params *params = params_of(run);
-    struct gb_run_loop *loop = &run->foreground.loop;
+    struct gb_run_loop *loop = loop_of(run);
     struct gb_cost cost;
     line[0] = '\0';
     if (!gb_loading_kind_of(params)->given_rate) {
@@ -92,30 +102,18 @@ static bool estimate(struct run *run, char *line, size_t size, struct gb_error *
     return run->yes || gb_run_loop_ended(loop) || gb_cost_check_limit(&cost, err);
 }
 
-static bool build_packing(struct run *run, struct gb_error *err)
+static bool start_record(struct run *run, struct gb_error *err)
 {
-    struct gb_experiment *experiment = NULL;
-    if (!gb_experiment_create(&experiment, params_of(run), packing_cancelled, run, err)) {
-        return false;
-    }
-    gb_run_loop_attach(&run->foreground.loop, experiment);
-    return true;
-}
-
-static bool create_recorder(struct run *run, struct gb_error *err)
-{
-    struct gb_run_loop *loop = &run->foreground.loop;
-    return gb_run_recorder_create(&loop->recorder, run->directory, params_of(run),
-                                  run->mode, err) &&
-           gb_warmup_record(&run->warmup, loop->recorder, err);
+    return gb_simulation_start_record(run->foreground.simulation, err) &&
+           gb_warmup_record(&run->warmup, loop_of(run)->recorder, err);
 }
 
 static bool begin(struct run *run, struct gb_error *err)
 {
     char cost[320];
     struct gb_foreground *foreground = &run->foreground;
-    if (!build_packing(run, err) || !estimate(run, cost, sizeof cost, err) ||
-        !create_recorder(run, err)) {
+    if (!gb_simulation_build(foreground->simulation, err) ||
+        !estimate(run, cost, sizeof cost, err) || !start_record(run, err)) {
         return false;
     }
     if (!run->announced) {
@@ -123,7 +121,7 @@ static bool begin(struct run *run, struct gb_error *err)
     }
     gb_progress_say(&foreground->progress,
                     "  packing built in %.1f s, %.1f MB in arrays; writing to %s",
-                    foreground->loop.packed_s, (double)gb_alloc_bytes() / 1e6,
+                    loop_of(run)->packed_s, (double)gb_alloc_bytes() / 1e6,
                     run->directory);
     if (cost[0] != '\0') {
         gb_progress_say(&foreground->progress, "  %s", cost);
@@ -179,7 +177,7 @@ int gb_cmd_run(int argc, char **argv)
         gb_options_quiet(&quiet),
         {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
-        run.mode = force ? GB_RUNDIR_REPLACE : GB_RUNDIR_KEEP;
+        run.replace = force;
         run.yes = yes;
         gb_foreground_init(&run.foreground, quiet);
         if (from != NULL) {
