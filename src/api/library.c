@@ -64,6 +64,7 @@ static const struct member members[] = {
     ARRAY(fabric),
     ARRAY(anisotropy),
     NUMBERS(leg, 'd'),
+    NUMBERS(unrelaxed, 'd'),
 };
 #undef NUMBERS
 #undef ARRAY
