@@ -1,0 +1,186 @@
+"""Many runs on several cores."""
+from __future__ import annotations
+
+import itertools
+import os
+import pathlib
+import re
+import threading
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from ._data import Curve
+from ._experiment import Experiment
+from ._library import GreenbodyError
+from ._parameters import Keys, Parameters, Preset, text_of
+from ._states import Path
+
+
+class SweepRun:
+    """One run of a sweep: its values, seed, curve, and the error that ended it (or None)."""
+
+    def __init__(self, values: Dict[str, Any], seed: int, parameters: Parameters) -> None:
+        self.values = values
+        self.seed = seed
+        self.parameters = parameters
+        self.curve: Optional[Curve] = None
+        self.error: Optional[GreenbodyError] = None
+
+    def at_pressure(self, p_pa: float, member: str = 'density') -> float:
+        """A member of the points on loading where the pressure first reaches p_pa; NaN: never."""
+        if self.curve is None:
+            return float('nan')
+        loading = self.curve.loading
+        above = np.flatnonzero(loading['p_pa'] >= p_pa)
+        if len(above) == 0:
+            return float('nan')
+        k = int(above[0])
+        if k == 0:
+            return float(loading[member][0])
+        p, y = loading['p_pa'][k - 1:k + 1], loading[member][k - 1:k + 1]
+        return float(y[0] + (y[1] - y[0]) * (p_pa - p[0]) / (p[1] - p[0]))
+
+    def __repr__(self) -> str:
+        how = 'not run' if self.curve is None else f'{len(self.curve)} points'
+        return f'<SweepRun {self.values} seed {self.seed}: {self.error or how}>'
+
+
+class Sweep(Sequence[SweepRun]):
+    """The runs of a sweep, the last key fastest, then the seeds."""
+
+    def __init__(self, runs: List[SweepRun]) -> None:
+        self.runs = runs
+
+    def __len__(self) -> int:
+        return len(self.runs)
+
+    def __getitem__(self, index):  # type: ignore[no-untyped-def]
+        return self.runs[index]
+
+    @property
+    def failed(self) -> List[SweepRun]:
+        """The runs that did not end."""
+        return [run for run in self.runs if run.error is not None]
+
+    def at_pressure(self, p_pa: float, member: str = 'density') -> np.ndarray:
+        """A structured array: values and seed of each run, and the member at a pressure."""
+        names = list(self.runs[0].values) if self.runs else []
+        columns = [np.array([run.values[name] for run in self.runs]) for name in names]
+        columns.append(np.array([run.seed for run in self.runs], dtype='u8'))
+        columns.append(np.array([run.at_pressure(p_pa, member) for run in self.runs]))
+        return np.rec.fromarrays(columns, names=names + ['seed', member])
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame of all points: values and seed of the run in the first columns."""
+        import pandas
+        tables = []
+        for run in self.runs:
+            if run.curve is not None:
+                table = run.curve.to_pandas()
+                table.insert(0, 'seed', run.seed)
+                for name, value in reversed(list(run.values.items())):
+                    table.insert(0, name, value)
+                tables.append(table)
+        return pandas.concat(tables, ignore_index=True) if tables else pandas.DataFrame()
+
+
+def _plan(preset: Preset, values: Mapping[str, Iterable[Any]], seeds: List[int], keys: Keys,
+          more: Dict[str, Any]) -> List[SweepRun]:
+    """All runs, with parameters that are checked before the first one begins."""
+    runs = []
+    names = [name.replace('__', '.') for name in values]
+    for combination in itertools.product(*(list(v) for v in values.values())):
+        for seed in seeds:
+            parameters = Parameters(preset, keys, **more)
+            parameters.update_keys(dict(zip(names, combination)))
+            parameters['structure.seed'] = seed
+            if parameters['numerics.threads'] == 'auto':
+                parameters['numerics.threads'] = 1
+            parameters.check()
+            runs.append(SweepRun(dict(zip(names, combination)), seed, parameters))
+    return runs
+
+
+def _directory(out: Optional[Path], run: SweepRun) -> Optional[pathlib.Path]:
+    if out is None:
+        return None
+    name = '_'.join([f'{key.split(".")[-1]}-{text_of(value)}'
+                     for key, value in run.values.items()] + [f'seed-{run.seed}'])
+    return pathlib.Path(out) / re.sub(r'[^\w.+-]', '', name)
+
+
+class _Work:
+    """The runs under way, so that all can be cancelled."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+        self.under_way: List[Experiment] = []
+        self.stopped = False
+
+    def do(self, run: SweepRun, directory: Optional[pathlib.Path], replace: bool) -> SweepRun:
+        experiment = None
+        try:
+            with self.lock:
+                if self.stopped:
+                    return run
+                experiment = Experiment(run.parameters, out=directory, replace=replace)
+                self.under_way.append(experiment)
+            experiment.run()
+        except GreenbodyError as error:
+            error.experiment = None
+            run.error = error
+        if experiment is not None:
+            run.curve = experiment.curve
+            experiment.close()
+            with self.lock:
+                self.under_way.remove(experiment)
+        return run
+
+    def stop(self) -> None:
+        with self.lock:
+            self.stopped = True
+            for experiment in self.under_way:
+                experiment.cancel()
+
+
+def sweep(preset: Preset = None, values: Optional[Mapping[str, Iterable[Any]]] = None,
+          seeds: Union[int, Iterable[int]] = 1, keys: Keys = None, *,
+          workers: Optional[int] = None, out: Optional[Path] = None, replace: bool = False,
+          progress: Optional[Callable[[int, int, SweepRun], Any]] = None,
+          **more: Any) -> Sweep:
+    """Runs all combinations of values with several seeds, on several cores.
+
+    values    {"contact.mu": [0.1, 0.3], "particles.diameter": ["9.7 nm", "38 nm"]}
+    seeds     how many (1, 2, ...), or which
+    keys      changes common to all runs, also as keywords
+    workers   runs at a time, one thread each; None: the cores of the machine
+    out       directory with a run directory for each; None: not recorded
+    progress  function of (runs done, runs, run), called in this thread
+
+    Wrong keys or values raise InputError before the first run begins.  A run that is stopped
+    keeps its points and its error; the others continue.  KeyboardInterrupt cancels all.
+    """
+    chosen = list(range(1, seeds + 1)) if isinstance(seeds, int) else list(seeds)
+    runs = _plan(preset, values or {}, chosen, keys, more)
+    work = _Work()
+    count = workers or len(os.sched_getaffinity(0))
+    with ThreadPoolExecutor(max_workers=max(1, count)) as pool:
+        left = {pool.submit(work.do, run, _directory(out, run), replace) for run in runs}
+        try:
+            _wait(left, len(runs), progress)
+        except BaseException:
+            work.stop()
+            raise
+    return Sweep(runs)
+
+
+def _wait(left: 'set[Future[SweepRun]]', count: int,
+          progress: Optional[Callable[[int, int, SweepRun], Any]]) -> None:
+    while left:
+        finished, left = wait(left, timeout=0.2, return_when=FIRST_COMPLETED)
+        for future in finished:
+            run = future.result()
+            if progress is not None:
+                progress(count - len(left), count, run)
