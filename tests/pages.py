@@ -3,7 +3,8 @@
 
 Usage: pages.py SOURCE_DIR GREENBODY
 
-Every command has a line of the table of commands, and every line a command.  Every key of the
+Every command has a line of the table of commands, and every line a command; so has every exit
+status.  Every key of the
 table of keys, which is a selection, is a key of the workbench.  Figures, commands and presets that
 the pages name exist, and docs/papers.md has every figure whose source is one of the papers.
 """
@@ -76,6 +77,9 @@ def main():
     wrong = [f'no line for greenbody {name}' for name in sorted(commands - named)]
     wrong += [f'there is no command {name}' for name in sorted(named - commands)]
     wrong += [f'there is no key {key}' for key in sorted(pressed - keys)]
+    statuses = {line.split()[0] for line in asked(sys.argv[2], '--exit-statuses')}
+    told = {cell.strip() for cell in rows(text, '| exit status | meaning |')}
+    wrong += [f'exit status {status} is in one table only' for status in sorted(statuses ^ told)]
     if not named or not pressed:
         wrong.append('a table is empty')
     wrong = [f'docs/manual.md: {line}' for line in wrong]

@@ -56,6 +56,11 @@ const struct gb_commands_row *gb_commands_find(const char *name)
     return NULL;
 }
 
+const struct gb_commands_row *gb_commands_at(size_t index)
+{
+    return index < G_N_ELEMENTS(rows) ? &rows[index] : NULL;
+}
+
 void gb_commands_print(FILE *to)
 {
     for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {

@@ -15,6 +15,9 @@ struct gb_commands_row {
 /* NULL for a word that is no command. */
 const struct gb_commands_row *gb_commands_find(const char *name);
 
+/* Row by row; NULL behind the last. */
+const struct gb_commands_row *gb_commands_at(size_t index);
+
 /* The commands by group, as in the help. */
 void gb_commands_print(FILE *to);
 /* "NAME DOC", a line each, for the manual page. */

@@ -10,7 +10,10 @@
 
 #include <glib.h>
 
+#include "base/program.h"
 #include "cli/commands.h"
+#include "cli/complete/completion.h"
+#include "cli/exit_status.h"
 #include "cli/options.h"
 #include "cli/screen_options.h"
 #include "io/preset_folders.h"
@@ -107,6 +110,24 @@ static int open_scene(int argc, char **argv)
     return gb_cmd_workbench(argc, argv);
 }
 
+/* `greenbody --complete WORD... PREFIX`, for the completion scripts of the shells. */
+static int complete(int argc, char **argv)
+{
+    static char program[] = "greenbody", requested[] = GB_COMPLETION_WORD;
+    const struct gb_commands_row *command = argc > 3 ? gb_commands_find(argv[2]) : NULL;
+    const char *first = argc > 2 ? argv[2] : "";
+    if (command != NULL) {
+        argv[1] = argv[2];
+        argv[2] = requested;
+        return command->function(argc - 1, argv + 1);
+    }
+    if (argc <= 3) {
+        gb_completion_first(first);
+    }
+    argv[0] = program;
+    return argc > 3 || first[0] == '-' ? gb_cmd_workbench(argc, argv) : 0;
+}
+
 static int dispatch(int argc, char **argv)
 {
     const char *word = argc > 1 ? argv[1] : "";
@@ -130,6 +151,13 @@ static int dispatch(int argc, char **argv)
         gb_commands_print_plain(stdout);
         return 0;
     }
+    if (strcmp(word, "--exit-statuses") == 0) { /* for the manual pages */
+        gb_exit_status_print(stdout);
+        return 0;
+    }
+    if (strcmp(word, GB_COMPLETION_WORD) == 0) {
+        return complete(argc, argv);
+    }
     const struct gb_commands_row *command = gb_commands_find(word);
     return command != NULL ? command->function(argc - 1, argv + 1)
                            : open_scene(argc, argv);
@@ -144,7 +172,9 @@ static void limit_spinning(char **argv)
 #ifdef _OPENMP
     if (!getenv("GOMP_SPINCOUNT") && !getenv("OMP_WAIT_POLICY") &&
         setenv("GOMP_SPINCOUNT", "3000", 0) == 0) {
-        execv("/proc/self/exe", argv);
+        char *program = gb_program_executable();
+        execv(program, argv);
+        g_free(program);
     }
 #else
     (void)argv;
@@ -154,6 +184,7 @@ static void limit_spinning(char **argv)
 int main(int argc, char **argv)
 {
     limit_spinning(argv);
+    gb_program_name_process();
     /* Text in the user's locale, numbers always with a decimal point. */
     setlocale(LC_ALL, "");
     setlocale(LC_NUMERIC, "C");

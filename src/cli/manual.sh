@@ -43,10 +43,21 @@ keys() {
         }'
 }
 
+statuses() {
+    "$greenbody" --exit-statuses | verbatim | sed -e 's/^\([0-9]*\) /.TP\n.B \1\n/'
+}
+
+# The manual pages of the commands.
+pages() {
+    "$greenbody" --commands | sed -e 's/^\([a-z]*\) .*/.BR greenbody\\-\1 (1),/' -e '$s/,$//'
+}
+
 while IFS= read -r line; do
     case $line in
     @COMMANDS@) commands ;;
     @KEYS@) keys ;;
+    @STATUSES@) statuses ;;
+    @PAGES@) pages ;;
     @WORKBENCH@) workbench ;;
     @SCREEN@) screen ;;
     *@VERSION@*) printf '%s%s%s\n' "${line%%@VERSION@*}" "$version" "${line#*@VERSION@}" ;;

@@ -6,6 +6,7 @@
 
 #include <glib/gstdio.h>
 
+#include "cli/complete/completion.h"
 #include "draw/image/png.h"
 #include "io/preset_folders.h"
 
@@ -53,6 +54,11 @@ bool gb_options_parse(const struct gb_options_page *page, const GOptionEntry *en
                       int argc, char **argv, char ***words, int *status)
 {
     gboolean help = FALSE;
+    if (gb_completion_requested(argc, argv)) {
+        gb_completion_command(page, entries, argc, argv);
+        *status = 0;
+        return false;
+    }
     const GOptionEntry own[] = {
         {"help", 'h', 0, G_OPTION_ARG_NONE, &help, "show this page", NULL},
         {0},

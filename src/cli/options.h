@@ -17,7 +17,7 @@ struct gb_options_page {
 
 /* Reads the options of a command (entries end with a zeroed one) and returns the
  * remaining words (*words, g_strfreev).  False when the command ends here: --help was
- * printed (*status 0), or the error of an option (*status 2). */
+ * printed or a word completed (*status 0), or the error of an option (*status 2). */
 bool gb_options_parse(const struct gb_options_page *page, const GOptionEntry *entries,
                       int argc, char **argv, char ***words, int *status);
 

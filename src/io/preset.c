@@ -214,10 +214,15 @@ static char *resolve(const char *name, struct gb_error *err)
     }
     if (!path) {
         char **known = gb_preset_folders_list();
+        char **folders = gb_preset_folders();
         char *list = g_strjoinv(", ", known);
-        gb_error_set(err, GB_ERR_INPUT, "%.80s: no such file or preset; presets: %s",
-                     name, list);
+        char *searched = g_strjoinv(", ", folders);
+        gb_error_set(err, GB_ERR_INPUT,
+                     "%.80s: no such file or preset; looked in %.250s; presets: %s", name,
+                     searched, known[0] != NULL ? list : "none");
+        g_free(searched);
         g_free(list);
+        g_strfreev(folders);
         g_strfreev(known);
     }
     return path;

@@ -5,33 +5,94 @@
 
 #include <glib.h>
 
-/* A program run from its build folder finds what belongs to it in its source tree. */
-static void add_source_tree(GPtrArray *list, const char *name)
+#include "base/program.h"
+
+/* What belongs to the program, by name, in the order of search. */
+enum { ABOVE = 3 };
+
+static void add_once(GPtrArray *list, char *folder)
 {
-    char *program = g_file_read_link("/proc/self/exe", NULL);
-    char *folder = program ? g_path_get_dirname(program) : NULL;
-    for (int up = 0; folder && up < 3; up++) {
+    if (g_ptr_array_find_with_equal_func(list, folder, g_str_equal, NULL)) {
+        g_free(folder);
+    } else {
+        g_ptr_array_add(list, folder);
+    }
+}
+
+/* share/greenbody/NAME of the prefix that the program stands in, wherever it was moved. */
+static void add_prefix(GPtrArray *list, const char *program, const char *name)
+{
+    char *prefix = g_path_get_dirname(program);
+    add_once(list, g_build_filename(prefix, "share", "greenbody", name, NULL));
+    g_free(prefix);
+}
+
+/* A program run from its build folder finds what belongs to it in its source tree, or
+ * through the link that meson leaves in a build folder elsewhere. */
+static void add_source_tree(GPtrArray *list, const char *program, const char *name)
+{
+    char *folder = g_strdup(program);
+    for (int up = 0; up < ABOVE; up++) {
         char *parent = g_path_get_dirname(folder);
-        g_ptr_array_add(list, g_build_filename(parent, name, NULL));
+        char *here = g_build_filename(parent, name, NULL);
+        if (g_file_test(here, G_FILE_TEST_IS_DIR)) {
+            add_once(list, here);
+        } else {
+            g_free(here);
+        }
         g_free(folder);
         folder = parent;
     }
     g_free(folder);
+}
+
+/* The same of the prefix that the library stands in: PREFIX/lib, or a folder in it. */
+static void add_library(GPtrArray *list, const char *library, const char *name)
+{
+    char *folder = g_strdup(library);
+    for (int up = 0; up < ABOVE - 1; up++) {
+        char *parent = g_path_get_dirname(folder);
+        char *here = g_build_filename(parent, "share", "greenbody", name, NULL);
+        if (g_file_test(here, G_FILE_TEST_IS_DIR)) {
+            add_once(list, here);
+        } else {
+            g_free(here);
+        }
+        g_free(folder);
+        folder = parent;
+    }
+    g_free(folder);
+}
+
+/* Folders of what is installed as share/greenbody/NAME; `given` is the value of a variable
+ * of the environment, or NULL. */
+static void add_shipped(GPtrArray *list, const char *given, const char *name,
+                        const char *installed, const char *in_tree)
+{
+    char *program = gb_program_folder();
+    char *library = gb_program_library_folder();
+    if (given != NULL && *given != '\0') {
+        add_once(list, g_strdup(given));
+    }
+    if (program != NULL) {
+        add_prefix(list, program, name);
+        add_source_tree(list, program, in_tree);
+    }
+    if (library != NULL) {
+        add_library(list, library, name);
+    }
+    add_once(list, g_strdup(installed));
+    g_free(library);
     g_free(program);
 }
 
-/* Folders that hold presets, first match wins; NULL-terminated, g_strfreev. */
-static char **folders(void)
+char **gb_preset_folders(void)
 {
     GPtrArray *list = g_ptr_array_new();
-    g_ptr_array_add(
-        list, g_build_filename(g_get_user_config_dir(), "greenbody", "presets", NULL));
-    const char *given = g_getenv("GB_PRESET_DIR");
-    if (given && *given) {
-        g_ptr_array_add(list, g_strdup(given));
-    }
-    g_ptr_array_add(list, g_strdup(GB_PRESET_INSTALL_DIR));
-    add_source_tree(list, "presets");
+    add_once(list,
+             g_build_filename(g_get_user_config_dir(), "greenbody", "presets", NULL));
+    add_shipped(list, g_getenv("GB_PRESET_DIR"), "presets", GB_PRESET_INSTALL_DIR,
+                "presets");
     g_ptr_array_add(list, NULL);
     return (char **)g_ptr_array_free(list, FALSE);
 }
@@ -56,7 +117,7 @@ char *gb_preset_folders_find(const char *name)
     if (*name == '\0' || strchr(name, '/')) {
         return NULL;
     }
-    char **list = folders();
+    char **list = gb_preset_folders();
     char *path = NULL;
     for (int i = 0; list[i] && !path; i++) {
         path = find_in(list[i], name);
@@ -69,12 +130,8 @@ char *gb_preset_folders_find_data(const char *file)
 {
     GPtrArray *list = g_ptr_array_new_with_free_func(g_free);
     char *path = NULL;
-    const char *given = g_getenv("GB_DATA_DIR");
-    if (given != NULL && *given != '\0') {
-        g_ptr_array_add(list, g_strdup(given));
-    }
-    g_ptr_array_add(list, g_strdup(GB_DATA_INSTALL_DIR));
-    add_source_tree(list, "assets/data");
+    add_shipped(list, g_getenv("GB_DATA_DIR"), "data", GB_DATA_INSTALL_DIR,
+                "assets/data");
     for (guint i = 0; i < list->len && path == NULL; i++) {
         path = find_in(g_ptr_array_index(list, i), file);
     }
@@ -104,7 +161,7 @@ static void list_folder(const char *folder, GHashTable *names)
 char **gb_preset_folders_list(void)
 {
     GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
-    char **list = folders();
+    char **list = gb_preset_folders();
     for (int i = 0; list[i]; i++) {
         list_folder(list[i], names);
     }

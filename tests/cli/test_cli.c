@@ -120,7 +120,7 @@ static const char *const refused[][2] = {
     {"law rod --at h=0.1 contact.muu=1", "no such key"},
     {"law rod --at h=0.1 --set nonsense", "must be group.key=value"},
     {"law rod --at h=0.1 no-preset",
-     "no-preset: no such file or preset; presets: default"},
+     "no-preset: no such file or preset; looked in "},
     {"law rod --at h=0.1 default p1-set2-38nm", "p1-set2-38nm: accepted one preset"},
     {"run default contact.mu", "contact.mu: missing \"=value\""},
     {"law rod --at h=0.1 /dev/zero", "/dev/zero: larger"},

@@ -234,7 +234,7 @@ static void expect_failure(const char *path, enum gb_status code, const char *sa
 static void test_files(void)
 {
     expect_failure("/no/such/file.ini", GB_ERR_INPUT, "/no/such/file.ini: No such file");
-    expect_failure("no-such-preset", GB_ERR_INPUT, "no such file or preset; presets:");
+    expect_failure("no-such-preset", GB_ERR_INPUT, "no such file or preset; looked in ");
     expect_failure("", GB_ERR_INPUT, "no such file or preset");
     expect_failure(folder, GB_ERR_INPUT, "directory");
     expect_failure("/dev/zero", GB_ERR_INPUT, "larger than a preset may be");

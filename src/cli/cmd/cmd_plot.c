@@ -383,7 +383,7 @@ int gb_cmd_plot(int argc, char **argv)
     GOptionEntry *entries = gb_lab_input_entries(&request.lab, own);
     char *figures = describe_figures();
     const struct gb_options_page page = {
-        .usage = "DIR...",
+        .usage = "DIR... or PRESET [group.key=value]...",
         .summary = "A figure over one or more run directories, or its data as CSV.",
         .description = figures,
     };

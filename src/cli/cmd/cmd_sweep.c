@@ -213,7 +213,8 @@ int gb_cmd_sweep(int argc, char **argv)
     const GOptionEntry entries[] = {
         gb_options_set(&request.sets),
         {"vary", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.vary,
-         "key=FROM:TO:COUNT[:log] or key=VALUE;VALUE...; may be repeated", "KEY=VALUES"},
+         "key=FROM:TO:COUNT[:log] or key=VALUE,VALUE... (or with ';'); may be repeated",
+         "KEY=VALUES"},
         {"design", 0, 0, G_OPTION_ARG_STRING, &request.design,
          "points of a Sobol sequence in the ranges key=FROM:TO[:log] of --vary in place of "
          "a grid; sensitivities go to DIR/sensitivity.csv",

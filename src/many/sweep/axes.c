@@ -16,7 +16,7 @@ static bool refuse(const char *text, struct gb_error *err)
     return gb_error_set(
         err, GB_ERR_INPUT,
         "%.120s: accepted group.key=FROM:TO:COUNT, FROM:TO:COUNT:log or a "
-        "list VALUE;VALUE;..., a unit at the end counts for all",
+        "list VALUE;VALUE;... or VALUE,VALUE,..., a unit at the end counts for all",
         text);
 }
 
@@ -91,10 +91,35 @@ static bool add_with_unit(struct gb_axis *axis, const char *text, const char *un
     return good;
 }
 
+/* "0,1" with nothing else: 0.1 of a decimal comma, or 0 and 1? */
+static bool is_decimal_comma(const struct gb_axis *axis, const char *values)
+{
+    const char *comma = strchr(values, ',');
+    return axis->field->type != GB_FIELD_INTEGER && comma != NULL &&
+           strchr(comma + 1, ',') == NULL && strpbrk(values, ".eE") == NULL &&
+           comma > values && g_ascii_isdigit(comma[-1]) && g_ascii_isdigit(comma[1]);
+}
+
+/* What is between the values: ';', or ',' where there is none and the key's own values
+ * cannot have one. */
+static const char *separator_of(const struct gb_axis *axis, const char *values)
+{
+    const bool free_text =
+        axis->field->type == GB_FIELD_TEXT && axis->field->choices == NULL;
+    return free_text || strchr(values, ';') != NULL ? ";" : ",";
+}
+
 static bool add_list(struct gb_axis *axis, const char *text, const char *values,
                      struct gb_error *err)
 {
-    char **parts = g_strsplit(values, ";", GB_AXES_VALUES_MOST + 2);
+    const char *separator = separator_of(axis, values);
+    if (*separator == ',' && is_decimal_comma(axis, values)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%.120s: one number with a comma, or two: accepted a point in "
+                            "numbers and ';' between values",
+                            text);
+    }
+    char **parts = g_strsplit(values, separator, GB_AXES_VALUES_MOST + 2);
     const guint count = g_strv_length(parts);
     for (guint i = 0; i < count; i++) {
         g_strstrip(parts[i]);
@@ -226,6 +251,24 @@ static bool add_design(struct gb_axes *axes, const char *text, const char *value
     return good;
 }
 
+/* A name without its group is answered with the keys of that name. */
+static bool refuse_key(const char *text, const char *name, struct gb_error *err)
+{
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    GString *meant = g_string_new(NULL);
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(fields[i].key, name) == 0) {
+            g_string_append_printf(meant, "%s%s.%s", meant->len > 0 ? " or " : "",
+                                   fields[i].group, name);
+        }
+    }
+    gb_error_set(err, GB_ERR_INPUT, "%.120s: no such key; accepted %s", text,
+                 meant->len > 0 ? meant->str : "what greenbody params lists");
+    g_string_free(meant, TRUE);
+    return false;
+}
+
 /* The row of "group.key" if it can be varied. */
 static const struct gb_field *find_field(const struct gb_axes *axes, const char *text,
                                          const char *name, struct gb_error *err)
@@ -235,8 +278,7 @@ static const struct gb_field *find_field(const struct gb_axes *axes, const char 
         words[0] && words[1] ? gb_params_find(words[0], words[1]) : NULL;
     g_strfreev(words);
     if (field == NULL) {
-        gb_error_set(err, GB_ERR_INPUT,
-                     "%.120s: no such key; see greenbody params for all", text);
+        refuse_key(text, name, err);
         return NULL;
     }
     if (gb_key_difference_bookkeeping(field) || field->type == GB_FIELD_PRESSURES ||

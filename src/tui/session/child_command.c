@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/program.h"
+
 enum { WORDS = 16, LOWER_PRIORITY = 5 };
 
 /* In the child: unblocks the signals that the screen blocks, and redirects standard
@@ -29,20 +31,23 @@ bool gb_child_command_start(struct gb_child_command *child, const char *name,
                             const char *path, enum gb_child_command_kind kind,
                             const char *const *words, struct gb_error *err)
 {
-    static char self[] = "/proc/self/exe";
-    char *argv[WORDS] = {self};
-    GError *error = NULL;
-    GPid pid = 0;
+    static char program[] = "greenbody";
     if (child->pid != 0) {
         return gb_error_set(err, GB_ERR_INPUT, "the %s is not finished yet", child->name);
     }
+    char *file = gb_program_executable();
+    char *argv[WORDS + 1] = {file, program};
+    GError *error = NULL;
+    GPid pid = 0;
     struct gb_child_command next = {.output_fd = -1, .kind = kind};
     for (int i = 0; words[i] != NULL && i < WORDS - 2; i++) {
-        argv[i + 1] = (char *)words[i];
+        argv[i + 2] = (char *)words[i];
     }
-    if (!g_spawn_async_with_pipes(NULL, argv, NULL, G_SPAWN_DO_NOT_REAP_CHILD,
-                                  prepare_child, &next, &pid, NULL, NULL, &next.output_fd,
-                                  &error)) {
+    const bool started = g_spawn_async_with_pipes(
+        NULL, argv, NULL, G_SPAWN_DO_NOT_REAP_CHILD | G_SPAWN_FILE_AND_ARGV_ZERO,
+        prepare_child, &next, &pid, NULL, NULL, &next.output_fd, &error);
+    g_free(file);
+    if (!started) {
         gb_error_set(err, GB_ERR_MACHINE, "%s: %s", name, error->message);
         g_error_free(error);
         return false;
