@@ -62,7 +62,8 @@ static void print_version(void)
            GB_WITH_PICTURES ? "pictures" : "no pictures", threads,
            GB_WITH_MPI ? "MPI" : "no MPI", glib_major_version, glib_minor_version,
            gsl_version);
-    printf("threads: %u, vectors: %d bits\n", g_get_num_processors(), gb_simd_width(0));
+    printf("threads: %u, vectors: %d bits (%s)\n", g_get_num_processors(),
+           gb_simd_width(0), gb_simd_name(gb_simd_width(0)));
 }
 
 static int refuse_word(const char *word)

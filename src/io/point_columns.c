@@ -67,8 +67,9 @@ static bool exchange(struct gb_point *point, size_t first, int count, const char
     double value[GB_POINT_ALL_COLUMNS];
     const bool missing = record->loading && !gb_record_find(record, name);
     for (int k = 0; k < count; k++) {
-        value[k] =
-            missing ? (double)NAN : *gb_point_columns_member(point, first + (size_t)k);
+        /* the sign of 0/0 is the compiler's choice: a missing value has no sign */
+        const double member = *gb_point_columns_member(point, first + (size_t)k);
+        value[k] = missing || isnan(member) ? (double)NAN : member;
     }
     const bool done = missing || gb_record_array(record, name, GB_RECORD_DOUBLE, 1, count,
                                                  "SI", value, err);

@@ -1,5 +1,6 @@
 /* Same parameters, same bits: on 1 to 8 threads, resumed or not, with a screen or without,
- * with kept states or without, for every kind of scene.  Compared: curve and state. */
+ * with kept states or without, with the vectors of any level, for every kind of scene.
+ * Compared: curve and state. */
 #include <glib.h>
 #include <string.h>
 
@@ -7,6 +8,7 @@
 #include "common/run_directory.h"
 #include "common/scene.h"
 #include "many/single_run.h"
+#include "pack/kernel/simd.h"
 #include "run/runner/runner.h"
 
 /* Options of a run; all eight combinations, each on another number of threads. */
@@ -176,6 +178,97 @@ static void check(const struct gb_params *params)
     finish(&first);
 }
 
+/* With each level of vectors that this processor has. */
+static void check_levels(const struct gb_params *params)
+{
+    static struct result widest, other;
+    const int most = gb_simd_most;
+    gb_simd_most = 512;
+    const int best = gb_simd_width(0);
+    run(*params, 0, &widest);
+    g_assert_cmpint(widest.points, >, 2 * STOP_AFTER);
+    if (best < 512) {
+        g_test_message("no AVX-512 here: up to %d bits", best);
+    }
+    for (int bits = 128; bits < best; bits *= 2) {
+        int64_t row = 0;
+        gb_simd_most = bits;
+        g_assert_cmpint(gb_simd_width(0), ==, bits);
+        run(*params, 0, &other);
+        g_assert_cmpstr(widest.rows, ==, other.rows);
+        const char *name = gb_record_difference(&widest.state, &other.state, &row);
+        if (name != NULL) {
+            g_error("vectors of %d and %d bits: %s differs in row %lld", best, bits, name,
+                    (long long)row);
+        }
+        finish(&other);
+    }
+    finish(&widest);
+    gb_simd_most = most;
+}
+
+static void test_levels_single(void)
+{
+    const struct gb_params params =
+        scene_params("numerics.precision=single", "particles.count=1000",
+                     "loading.until=60 MPa", "loading.unload_from=30 MPa",
+                     "loading.step=1 %", "numerics.tolerance=1e-3", NULL);
+    check_levels(&params);
+}
+
+static void test_levels_double(void)
+{
+    const struct gb_params params = scene_params(
+        "numerics.precision=double", "loading.until=60 MPa", "loading.unload_from=30 MPa",
+        "loading.step=1 %", "numerics.tolerance=1e-3", NULL);
+    check_levels(&params);
+}
+
+static void test_levels_steepest(void)
+{
+    const struct gb_params params = scene_params(
+        "numerics.relaxer=steepest", "particles.count=100", "structure.base=5.5 d",
+        "loading.until=10 MPa", "loading.step=1 %", "numerics.tolerance=1e-2", NULL);
+    check_levels(&params);
+}
+
+static void test_levels_sizes(void)
+{
+    const struct gb_params params =
+        scene_params("particles.distribution=lognormal", "particles.sigma=0.25",
+                     "particles.largest=14 nm", "particles.count=120",
+                     "loading.until=20 MPa", "loading.unload_from=12 MPa",
+                     "loading.step=1 %", "numerics.tolerance=3e-2", NULL);
+    check_levels(&params);
+}
+
+static void test_levels_dynamic(void)
+{
+    const struct gb_params flat = scene_params(
+        "scene.kind=dynamic", "scene.dimension=2", "particles.count=100",
+        "contact.mu=0.5", "loading.geometry=isotropic", "loading.rate=6.8e9 1/s",
+        "loading.relax=0.002 ns", "loading.hold=0.002 ns", "loading.record_time=0.001 ns",
+        "loading.record=2 %", "loading.until=density = 0.58", NULL);
+    check_levels(&flat);
+    const struct gb_params solid = scene_params(
+        "scene.kind=dynamic", "loading.geometry=isotropic", "loading.rate=6.8e9 1/s",
+        "loading.relax=0.002 ns", "loading.hold=0.002 ns", "loading.record_time=0.001 ns",
+        "loading.record=2 %", "loading.until=density = 0.3", NULL);
+    check_levels(&solid);
+}
+
+static void test_levels_die(void)
+{
+    static const char *const normals[] = {"contact.normal=hertz",
+                                          "contact.normal=storakers"};
+    for (size_t i = 0; i < G_N_ELEMENTS(normals); i++) {
+        const struct gb_params params = die_params(
+            "particles.count=30", "loading.until=10 MPa", "loading.record_pressure=1 MPa",
+            "contact.mu=0.05", normals[i], NULL);
+        check_levels(&params);
+    }
+}
+
 static void test_quasistatic(void)
 {
     const struct gb_params params =
@@ -220,5 +313,11 @@ int main(int argc, char **argv)
     g_test_add_func("/same/cell/sizes", test_sizes);
     g_test_add_func("/same/cell/dynamic", test_dynamic);
     g_test_add_func("/same/die", test_die);
+    g_test_add_func("/same/levels/single", test_levels_single);
+    g_test_add_func("/same/levels/double", test_levels_double);
+    g_test_add_func("/same/levels/steepest", test_levels_steepest);
+    g_test_add_func("/same/levels/sizes", test_levels_sizes);
+    g_test_add_func("/same/levels/dynamic", test_levels_dynamic);
+    g_test_add_func("/same/levels/die", test_levels_die);
     return g_test_run();
 }

@@ -38,3 +38,17 @@ bool gb_simd_check(struct gb_error *err)
            gb_error_set(err, GB_ERR_INPUT,
                         "GB_SIMD = %.40s: must be one of sse2, avx2, avx512", name);
 }
+
+const char *gb_simd_name(int width)
+{
+    for (int i = 0; i < LEVELS; i++) {
+        if (levels[i].bits == width) {
+#if defined(__x86_64__)
+            return levels[i].name;
+#else
+            return "compiler's";
+#endif
+        }
+    }
+    return "none";
+}

@@ -24,6 +24,9 @@ extern int gb_simd_most;
 /* False, error set: GB_SIMD is set to something else. */
 bool gb_simd_check(struct gb_error *err);
 
+/* Name of the level with vectors of 128, 256 or 512 bits. */
+const char *gb_simd_name(int width);
+
 /* Bits of the widest vectors that this processor, the environment and the caller (0: no
  * limit) allow: 128, 256 or 512. */
 static inline int gb_simd_width(int widest)
