@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "draw/caption.h"
-#include "draw/gl/osmesa.h"
+#include "draw/gl/renderer.h"
 #include "draw/image/png.h"
 #include "draw/mute_stderr.h"
 
@@ -23,7 +23,7 @@ void gb_packing_image_init(struct gb_packing_image *packing_image)
 static bool render(struct gb_image *image, const struct gb_packing_image *packing_image,
                    const struct gb_state *state, struct gb_error *err)
 {
-    struct gb_osmesa *renderer = packing_image->renderer;
+    struct gb_renderer *renderer = packing_image->renderer;
     struct gb_scene *scene = NULL;
     struct gb_picture_style *style = NULL;
     struct gb_caption_layout layout;
@@ -32,11 +32,11 @@ static bool render(struct gb_image *image, const struct gb_packing_image *packin
         gb_picture_style_create(&style, state, &packing_image->style, err) &&
         gb_scene_create(&scene, state, style, &packing_image->viewpoint, &layout.scene,
                         packing_image->background, err) &&
-        (renderer != NULL || gb_osmesa_open(&renderer, err)) &&
-        gb_osmesa_render(renderer, scene, image, err) &&
+        (renderer != NULL || gb_renderer_open(&renderer, err)) &&
+        gb_renderer_render(renderer, scene, image, err) &&
         gb_caption_draw(image, &layout, scene, style, state, err);
     if (renderer != packing_image->renderer) {
-        gb_osmesa_close(renderer);
+        gb_renderer_close(renderer);
     }
     gb_picture_style_destroy(style);
     gb_scene_destroy(scene);

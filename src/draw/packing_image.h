@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "draw/gl/osmesa.h"
+#include "draw/gl/renderer.h"
 #include "draw/image/image.h"
 #include "draw/image/png.h"
 #include "draw/scene.h"
@@ -19,7 +19,7 @@ struct gb_packing_image {
     enum gb_background background;
     bool annotated; /* title, colour bar, scale bar, density and pressure */
     struct gb_picture_style_request style;
-    struct gb_osmesa *renderer; /* shared by many images; NULL: one per image */
+    struct gb_renderer *renderer; /* shared by many images; NULL: one per image */
     const char *preset;         /* text of preset.ini, a chunk of the file; NULL: none */
 };
 

@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "draw/caption.h"
-#include "draw/gl/osmesa.h"
+#include "draw/gl/renderer.h"
 #include "draw/mute_stderr.h"
 #include "draw/rose.h"
 
@@ -23,16 +23,17 @@ static bool draw_rose(struct gb_image *image,
                       const struct gb_harmonics *rose, double reach, double newton,
                       struct gb_error *err)
 {
-    struct gb_osmesa *renderer = NULL;
+    struct gb_renderer *renderer = NULL;
     struct gb_scene *scene = NULL;
     struct gb_caption_layout layout;
     gb_caption_arrange(image->width, image->height, packing_image->annotated, &layout);
     const bool done =
         gb_rose_scene(&scene, rose, reach, &packing_image->viewpoint, &layout.scene,
                       packing_image->background, err) &&
-        gb_osmesa_open(&renderer, err) && gb_osmesa_render(renderer, scene, image, err) &&
+        gb_renderer_open(&renderer, err) &&
+        gb_renderer_render(renderer, scene, image, err) &&
         gb_caption_draw_rose(image, &layout, scene, reach, rose->mean * newton, err);
-    gb_osmesa_close(renderer);
+    gb_renderer_close(renderer);
     gb_scene_destroy(scene);
     return done;
 }

@@ -44,18 +44,19 @@ static void draw_spheres(struct gb_gl_pass *pass, const struct gb_camera *camera
             pass->index[count++] = (uint32_t)i;
         }
     }
-    glUseProgram(program);
-    gb_gl_uniform_camera(program, camera, width, height);
-    gb_gl_uniform_sampler(program, "spheres", GB_GL_TEXTURE_SPHERES);
-    glBindVertexArray(pass->array[GB_GL_ARRAY_SPHERES]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[GB_GL_BUFFER_INDICES]);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)count * 4, pass->index, GL_STREAM_DRAW);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+    pass->gl->UseProgram(program);
+    gb_gl_uniform_camera(pass->gl, program, camera, width, height);
+    gb_gl_uniform_sampler(pass->gl, program, "spheres", GB_GL_TEXTURE_SPHERES);
+    pass->gl->BindVertexArray(pass->array[GB_GL_ARRAY_SPHERES]);
+    pass->gl->BindBuffer(GL_ARRAY_BUFFER, pass->buffer[GB_GL_BUFFER_INDICES]);
+    pass->gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)count * 4, pass->index,
+                         GL_STREAM_DRAW);
+    pass->gl->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
 }
 
-static void set_first(GLuint program, size_t first)
+static void set_first(const struct gb_gl_pass *pass, GLuint program, size_t first)
 {
-    glUniform1ui(glGetUniformLocation(program, "first"), (GLuint)first);
+    pass->gl->Uniform1ui(pass->gl->GetUniformLocation(program, "first"), (GLuint)first);
 }
 
 /* Bounding ball of a rod around its first end. */
@@ -78,25 +79,26 @@ static void draw_rods(struct gb_gl_pass *pass, const struct gb_camera *camera, i
             pass->index[count++] = (uint32_t)i;
         }
     }
-    glUseProgram(program);
-    gb_gl_uniform_camera(program, camera, width, height);
-    gb_gl_uniform_sampler(program, "rods", GB_GL_TEXTURE_RODS);
-    set_first(program, scene->count);
-    glBindVertexArray(pass->array[GB_GL_ARRAY_RODS]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[GB_GL_BUFFER_ROD_INDICES]);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)count * 4, pass->index, GL_STREAM_DRAW);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+    pass->gl->UseProgram(program);
+    gb_gl_uniform_camera(pass->gl, program, camera, width, height);
+    gb_gl_uniform_sampler(pass->gl, program, "rods", GB_GL_TEXTURE_RODS);
+    set_first(pass, program, scene->count);
+    pass->gl->BindVertexArray(pass->array[GB_GL_ARRAY_RODS]);
+    pass->gl->BindBuffer(GL_ARRAY_BUFFER, pass->buffer[GB_GL_BUFFER_ROD_INDICES]);
+    pass->gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)count * 4, pass->index,
+                         GL_STREAM_DRAW);
+    pass->gl->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
 }
 
 static void draw_facets(const struct gb_gl_pass *pass, const struct gb_camera *camera,
                         int width, int height)
 {
     const GLuint program = pass->program[GB_GL_PROGRAM_FACET];
-    glUseProgram(program);
-    gb_gl_uniform_camera(program, camera, width, height);
-    set_first(program, pass->scene->count + pass->scene->rods);
-    glBindVertexArray(pass->array[GB_GL_ARRAY_FACETS]);
-    glDrawArrays(GL_TRIANGLES, 0, 3 * (GLsizei)pass->scene->facets);
+    pass->gl->UseProgram(program);
+    gb_gl_uniform_camera(pass->gl, program, camera, width, height);
+    set_first(pass, program, pass->scene->count + pass->scene->rods);
+    pass->gl->BindVertexArray(pass->array[GB_GL_ARRAY_FACETS]);
+    pass->gl->DrawArrays(GL_TRIANGLES, 0, 3 * (GLsizei)pass->scene->facets);
 }
 
 /* Spheres, rods and facets. */
@@ -151,31 +153,31 @@ static void draw_edges(struct gb_gl_pass *pass, int width, int height)
     for (int k = 0; k < pass->scene->edge_count; k++) {
         ribbon(&pass->eye, pass->scene->edge[k], thick, vertices[k]);
     }
-    glUseProgram(program);
-    gb_gl_uniform_camera(program, &pass->eye, width, height);
-    glBindVertexArray(pass->array[GB_GL_ARRAY_RIBBONS]);
-    glBindBuffer(GL_ARRAY_BUFFER, pass->buffer[GB_GL_BUFFER_RIBBONS]);
-    glBufferData(GL_ARRAY_BUFFER, sizeof vertices, vertices, GL_STREAM_DRAW);
-    glDrawArrays(GL_TRIANGLES, 0, RIBBON * pass->scene->edge_count);
+    pass->gl->UseProgram(program);
+    gb_gl_uniform_camera(pass->gl, program, &pass->eye, width, height);
+    pass->gl->BindVertexArray(pass->array[GB_GL_ARRAY_RIBBONS]);
+    pass->gl->BindBuffer(GL_ARRAY_BUFFER, pass->buffer[GB_GL_BUFFER_RIBBONS]);
+    pass->gl->BufferData(GL_ARRAY_BUFFER, sizeof vertices, vertices, GL_STREAM_DRAW);
+    pass->gl->DrawArrays(GL_TRIANGLES, 0, RIBBON * pass->scene->edge_count);
 }
 
 void gb_gl_parts_draw_shadow(struct gb_gl_pass *pass)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[1]);
-    glViewport(0, 0, GB_GL_SHADOW, GB_GL_SHADOW);
-    glEnable(GL_DEPTH_TEST);
-    glClear(GL_DEPTH_BUFFER_BIT);
+    pass->gl->BindFramebuffer(GL_FRAMEBUFFER, pass->frame[1]);
+    pass->gl->Viewport(0, 0, GB_GL_SHADOW, GB_GL_SHADOW);
+    pass->gl->Enable(GL_DEPTH_TEST);
+    pass->gl->Clear(GL_DEPTH_BUFFER_BIT);
     draw_parts(pass, &pass->light, GB_GL_SHADOW, GB_GL_SHADOW);
 }
 
 void gb_gl_parts_draw_visible(struct gb_gl_pass *pass, int width, int height)
 {
     static const GLuint no_particle[4] = {0xffffffffU, 0, 0, 0};
-    glBindFramebuffer(GL_FRAMEBUFFER, pass->frame[0]);
-    glViewport(0, 0, width, height);
-    glEnable(GL_DEPTH_TEST);
-    glClearBufferuiv(GL_COLOR, 0, no_particle);
-    glClear(GL_DEPTH_BUFFER_BIT);
+    pass->gl->BindFramebuffer(GL_FRAMEBUFFER, pass->frame[0]);
+    pass->gl->Viewport(0, 0, width, height);
+    pass->gl->Enable(GL_DEPTH_TEST);
+    pass->gl->ClearBufferuiv(GL_COLOR, 0, no_particle);
+    pass->gl->Clear(GL_DEPTH_BUFFER_BIT);
     draw_parts(pass, &pass->eye, width, height);
     draw_edges(pass, width, height);
 }

@@ -1,15 +1,13 @@
 #ifndef GB_DRAW_GL_GL_PASS_H
 #define GB_DRAW_GL_GL_PASS_H
 
-/* One rendering of a scene with OpenGL; private to osmesa.c and gl_*.c, the only files
+/* One rendering of a scene with OpenGL; private to renderer.c and gl_*.c, the only files
  * that call GL. */
 
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
 #include <stdint.h>
 
 #include "draw/gl/camera.h"
+#include "draw/gl/gl_functions.h"
 #include "draw/image/image.h"
 #include "draw/scene.h"
 
@@ -61,6 +59,7 @@ enum gb_gl_array {
 
 /* Names of the GL objects, and the tile being rendered. */
 struct gb_gl_pass {
+    const struct gb_gl *gl;
     const GLuint *program; /* GB_GL_PROGRAMS */
     const struct gb_scene *scene;
     const struct gb_image *image;

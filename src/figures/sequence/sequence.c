@@ -128,13 +128,13 @@ static bool render_all(struct job *job, struct gb_error *err)
     bool done = set_common_scales(job, err);
     if (done) {
         const int saved = gb_mute_stderr_begin();
-        done = gb_osmesa_open(&job->packing_image->renderer, err);
+        done = gb_renderer_open(&job->packing_image->renderer, err);
         gb_mute_stderr_end(saved);
     }
     for (guint k = 0; k < job->paths->len && done; k++) {
         done = render_frame(job, k, err);
     }
-    gb_osmesa_close(job->packing_image->renderer);
+    gb_renderer_close(job->packing_image->renderer);
     job->packing_image->renderer = NULL;
     return job->writer != NULL ? job->methods->close(job->writer, done, err) : done;
 }

@@ -1,12 +1,11 @@
-#include "draw/gl/osmesa.h"
+#include "draw/gl/renderer.h"
 
-#include "draw/gl/gl_pass.h" /* GL with prototypes, before OSMesa */
-
-#include <GL/osmesa.h>
 #include <glib.h>
 #include <math.h>
 
 #include "base/alloc.h"
+#include "draw/gl/gl_context.h"
+#include "draw/gl/gl_pass.h"
 #include "draw/gl/hidden.h"
 #include "draw/gl/shaders.h"
 
@@ -14,105 +13,80 @@ enum {
     TILE_WIDTH = 2048,   /* widest tile, pixels */
     TILE_AREA = 1 << 20, /* largest tile, pixels: bounds the memory */
     REACH_LIMIT = 192, /* longest range of the occlusion, and margin of a tile, samples */
-    CANVAS = 16        /* side of OSMesa's own buffer, which is not drawn to */
 };
 
-struct gb_osmesa {
-    OSMesaContext context;
-    uint8_t canvas[CANVAS * CANVAS * 4];
+struct gb_renderer {
+    struct gb_gl_context *context;
     GLuint program[GB_GL_PROGRAMS];
     GLint most_spheres;
 };
 
-static bool compile(GLuint program, GLenum stage, const char *text, const char *more,
-                    struct gb_error *err)
+static bool compile(const struct gb_gl *gl, GLuint program, GLenum stage,
+                    const char *text, const char *more, struct gb_error *err)
 {
     const char *const both[2] = {text, more};
     GLint done = 0;
-    const GLuint shader = glCreateShader(stage);
-    glShaderSource(shader, 2, both, NULL);
-    glCompileShader(shader);
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+    const GLuint shader = gl->CreateShader(stage);
+    gl->ShaderSource(shader, 2, both, NULL);
+    gl->CompileShader(shader);
+    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &done);
     if (done == 0) {
         char log[200] = "";
-        glGetShaderInfoLog(shader, sizeof log, NULL, log);
+        gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
         gb_error_set(err, GB_ERR_MACHINE, "OpenGL refuses a shader: %s", log);
     }
-    glAttachShader(program, shader);
-    glDeleteShader(shader);
+    gl->AttachShader(program, shader);
+    gl->DeleteShader(shader);
     return done != 0;
 }
 
-static bool build(GLuint *program, const struct gb_shaders_text *text,
-                  struct gb_error *err)
+static bool build(const struct gb_gl *gl, GLuint *program,
+                  const struct gb_shaders_text *text, struct gb_error *err)
 {
     GLint done = 0;
-    *program = glCreateProgram();
-    if (!compile(*program, GL_VERTEX_SHADER, text->vertex, "", err) ||
-        !compile(*program, GL_FRAGMENT_SHADER, text->fragment, text->more, err)) {
+    *program = gl->CreateProgram();
+    if (!compile(gl, *program, GL_VERTEX_SHADER, text->vertex, "", err) ||
+        !compile(gl, *program, GL_FRAGMENT_SHADER, text->fragment, text->more, err)) {
         return false;
     }
-    glLinkProgram(*program);
-    glGetProgramiv(*program, GL_LINK_STATUS, &done);
+    gl->LinkProgram(*program);
+    gl->GetProgramiv(*program, GL_LINK_STATUS, &done);
     return done != 0 || gb_error_set(err, GB_ERR_MACHINE, "OpenGL cannot link a shader");
 }
 
-static bool make_current(struct gb_osmesa *renderer, struct gb_error *err)
+bool gb_renderer_open(struct gb_renderer **out, struct gb_error *err)
 {
-    return OSMesaMakeCurrent(renderer->context, renderer->canvas, GL_UNSIGNED_BYTE,
-                             CANVAS, CANVAS) != 0 ||
-           gb_error_set(err, GB_ERR_MACHINE, "OSMesa cannot use its context");
-}
-
-bool gb_osmesa_open(struct gb_osmesa **out, struct gb_error *err)
-{
-    static const int wanted[] = {OSMESA_FORMAT,
-                                 OSMESA_RGBA,
-                                 OSMESA_PROFILE,
-                                 OSMESA_CORE_PROFILE,
-                                 OSMESA_CONTEXT_MAJOR_VERSION,
-                                 3,
-                                 OSMESA_CONTEXT_MINOR_VERSION,
-                                 3,
-                                 0};
     static const struct gb_shaders_text *const text[GB_GL_PROGRAMS] = {
         &gb_shaders_sphere, &gb_shaders_rod,   &gb_shaders_facet,
         &gb_shaders_edge,   &gb_shaders_shade, &gb_shaders_resolve};
     *out = NULL;
-    struct gb_osmesa *renderer = gb_alloc_array(1, sizeof *renderer, err);
+    struct gb_renderer *renderer = gb_alloc_array(1, sizeof *renderer, err);
     if (renderer == NULL) {
         return false;
     }
-    renderer->context = OSMesaCreateContextAttribs(wanted, NULL);
-    if (renderer->context == NULL) {
-        gb_error_set(err, GB_ERR_MACHINE, "OSMesa has no OpenGL 3.3: no pictures");
+    if (!gb_gl_context_open(&renderer->context, err)) {
         goto fail;
     }
-    if (!make_current(renderer, err)) {
-        goto fail;
-    }
+    const struct gb_gl *gl = gb_gl_context_functions(renderer->context);
     for (int k = 0; k < GB_GL_PROGRAMS; k++) {
-        if (!build(&renderer->program[k], text[k], err)) {
+        if (!build(gl, &renderer->program[k], text[k], err)) {
             goto fail;
         }
     }
-    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &renderer->most_spheres);
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &renderer->most_spheres);
     *out = renderer;
     return true;
 fail:
-    gb_osmesa_close(renderer);
+    gb_renderer_close(renderer);
     return false;
 }
 
-void gb_osmesa_close(struct gb_osmesa *renderer)
+void gb_renderer_close(struct gb_renderer *renderer)
 {
-    if (renderer == NULL) {
-        return;
+    if (renderer != NULL) {
+        gb_gl_context_close(renderer->context);
+        gb_alloc_free(renderer);
     }
-    if (renderer->context != NULL) {
-        OSMesaDestroyContext(renderer->context);
-    }
-    gb_alloc_free(renderer);
 }
 
 static void paint_tile(struct gb_gl_pass *pass)
@@ -134,9 +108,9 @@ static int tile_margin(const struct gb_scene *scene)
     return 2 * (int)ceil(0.5 * fmin(reach, REACH_LIMIT));
 }
 
-static bool gl_failed(struct gb_error *err)
+static bool gl_failed(const struct gb_gl *gl, struct gb_error *err)
 {
-    const GLenum code = glGetError();
+    const GLenum code = gl->GetError();
     if (code == GL_NO_ERROR) {
         return false;
     }
@@ -180,11 +154,13 @@ static bool make_lists(struct gb_gl_pass *pass, struct gb_error *err)
                           err);
 }
 
-bool gb_osmesa_render(struct gb_osmesa *renderer, const struct gb_scene *scene,
-                      struct gb_image *image, struct gb_error *err)
+bool gb_renderer_render(struct gb_renderer *renderer, const struct gb_scene *scene,
+                        struct gb_image *image, struct gb_error *err)
 {
-    struct gb_gl_pass pass = {
-        .program = renderer->program, .scene = scene, .image = image};
+    struct gb_gl_pass pass = {.gl = gb_gl_context_functions(renderer->context),
+                              .program = renderer->program,
+                              .scene = scene,
+                              .image = image};
     const size_t parts = scene->count + 2 * scene->rods + 3 * scene->facets;
     if (parts > (size_t)renderer->most_spheres) {
         return gb_error_set(err, GB_ERR_INPUT,
@@ -192,7 +168,7 @@ bool gb_osmesa_render(struct gb_osmesa *renderer, const struct gb_scene *scene,
                             "both",
                             scene->count, scene->rods / 2, renderer->most_spheres);
     }
-    if (!make_current(renderer, err)) {
+    if (!gb_gl_context_use(renderer->context, err)) {
         return false;
     }
     if (!make_lists(&pass, err)) {
@@ -204,7 +180,7 @@ bool gb_osmesa_render(struct gb_osmesa *renderer, const struct gb_scene *scene,
     pass.most_height = tile_size(image->height, TILE_AREA / pass.most_width);
     gb_gl_buffers_make_targets(&pass);
     gb_gl_buffers_make_inputs(&pass);
-    bool failed = gl_failed(err);
+    bool failed = gl_failed(pass.gl, err);
     if (!failed) {
         gb_gl_parts_draw_shadow(&pass);
     }
@@ -213,7 +189,7 @@ bool gb_osmesa_render(struct gb_osmesa *renderer, const struct gb_scene *scene,
         for (pass.x = 0; pass.x < image->width && !failed; pass.x += pass.most_width) {
             pass.width = MIN(pass.most_width, image->width - pass.x);
             paint_tile(&pass);
-            failed = gl_failed(err);
+            failed = gl_failed(pass.gl, err);
         }
     }
     gb_gl_buffers_free(&pass);
