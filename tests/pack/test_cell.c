@@ -88,7 +88,9 @@ static void test_tilted(void)
             double shift[3];
             gb_mat_apply((const double(*)[3])matrix, n, shift);
             gb_vec_add(shift, 1.0, far);
-            least = fmin(least, gb_vec_length(shift));
+            /* not fmin: gcc 12.2 stops at its reduction on aarch64 */
+            const double length = gb_vec_length(shift);
+            least = length < least ? length : least;
         }
         memcpy(near, far, sizeof near);
         gb_cell_nearest(&folded, near);

@@ -20,8 +20,9 @@ void gb_view_distances_draw(struct gb_panel_plot *panel, const struct gb_session
     for (int i = 0; i < GB_VIEW_SAMPLE_RDF; i++) {
         panel->x[i] = (i + 0.5) * sample->rdf_reach / GB_VIEW_SAMPLE_RDF;
         panel->y[i] = fmin(sample->rdf[i], shown_max);
-        max = fmax(max, panel->y[i]);
-        peak = fmax(peak, sample->rdf[i]);
+        /* not fmax: gcc 12.2 stops at its reduction on aarch64 */
+        max = panel->y[i] > max ? panel->y[i] : max;
+        peak = sample->rdf[i] > peak ? sample->rdf[i] : peak;
     }
     const double x_ends[2] = {0.0, sample->rdf_reach};
     const double y_ends[2] = {0.0, max};
