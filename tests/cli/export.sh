@@ -2,6 +2,7 @@
 # `greenbody export` as a user meets it: kept states as a trajectory, one state, files that
 # LAMMPS reads where it is installed, wrong input.
 # Usage: export.sh GREENBODY PRESET_FOLDER
+script=$(realpath "$0")
 . "$(dirname "$0")/folder.sh"
 
 refused() { # name, command: status 2, one line on stderr, nothing left behind
@@ -51,6 +52,38 @@ if command -v lmp >/dev/null; then
 else
     echo '# no LAMMPS here: its reading of the files is not tested'
 fi
+
+# --- VTKHDF: the numbers of the tables, of every kind of run ---------------------------------
+python=python3
+for other in python3 /usr/bin/python3; do
+    "$other" -c 'import h5py' 2>/dev/null && python=$other
+done
+tables_agree() { # name, run directory
+    is "$1: a grid of particles, one of contacts" "$greenbody" export "$2" --format vtkhdf \
+        --contacts "$2-c.vtkhdf" -o "$2.vtkhdf"
+    "$greenbody" export "$2" --format csv --contacts "$2-c.csv" -o "$2.csv"
+    "$python" "$(dirname "$script")/read_vtkhdf.py" "$2.vtkhdf" "$2-c.vtkhdf" "$2.csv" \
+        "$2-c.csv" >stdout 2>stderr
+    status=$?
+    [ $status -eq 77 ] && echo '# no h5py here: its reading of the files is not tested'
+    [ $status -eq 0 ] || [ $status -eq 77 ]
+    result "$1: read back, all numbers equal" $?
+}
+kind() { # name, arguments of run...
+    name=$1
+    shift
+    "$greenbody" run "$@" --quiet --out "$name" >stdout 2>stderr
+    is "$name" [ $? -eq 0 ]
+    tables_agree "$name" "$name"
+}
+tables_agree 'quasi-static' run
+kind sizes p1-set2-lognormal particles.count=150 loading.unload_from= 'loading.until=3 MPa'
+kind planar default scene.dimension=2 particles.count=150 loading.unload_from= \
+    'loading.until=density = 0.5'
+kind sheared default particles.count=150 numerics.fidelity=reference \
+    'loading.path=isotropic to 3 MPa; shear xz to 2 %'
+kind dynamic p2-v1 particles.count=100 'loading.relax=0.005 ns' 'loading.hold=0.005 ns' \
+    'loading.until=density = 0.6'
 
 # --- wrong input -------------------------------------------------------------------------
 refused 'no run' "$greenbody" export --format csv -o out

@@ -7,13 +7,15 @@
 #include "io/state/state_stress.h"
 
 static const struct gb_export_format formats[] = {
-    {"extxyz", "extended XYZ (OVITO, ASE)", true, gb_export_extxyz_write},
+    {"extxyz", "extended XYZ (OVITO, ASE)", true, gb_export_extxyz_write, NULL},
     {"lammps-dump", "dump of LAMMPS, contacts as a local dump (OVITO)", true,
-     gb_export_lammps_dump},
+     gb_export_lammps_dump, NULL},
     {"lammps-data", "data file of LAMMPS, atom_style sphere, units nano", false,
-     gb_export_lammps_data},
+     gb_export_lammps_data, NULL},
     {"csv", "tables of particles and contacts (ParaView, spreadsheets)", false,
-     gb_export_csv_write},
+     gb_export_csv_write, NULL},
+    {"vtkhdf", "VTKHDF, contacts as lines (ParaView 5.10 on, h5py)", false, NULL,
+     gb_export_vtkhdf_write},
 };
 
 const struct gb_export_format *gb_export_at(size_t index)
@@ -53,7 +55,12 @@ bool gb_export_add(const struct gb_export_format *format, const struct gb_state 
         return false;
     }
     gb_state_stress_tensor(state, frame.stress);
-    format->write(&frame, particles, contacts);
+    bool good = true;
+    if (format->write != NULL) {
+        format->write(&frame, particles, contacts);
+    } else {
+        good = format->write_binary(&frame, particles, contacts, err);
+    }
     gb_alloc_free(frame.stress);
-    return true;
+    return good;
 }

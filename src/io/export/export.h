@@ -26,6 +26,9 @@ struct gb_export_format {
     /* Appends a frame; contacts NULL: none are wanted. */
     void (*write)(const struct gb_export_frame *frame, GString *particles,
                   GString *contacts);
+    /* Instead of write: whole binary files.  Errors: GB_ERR_MEMORY. */
+    bool (*write_binary)(const struct gb_export_frame *frame, GString *particles,
+                         GString *contacts, struct gb_error *err);
 };
 
 /* By name; NULL and err, which lists the names. */

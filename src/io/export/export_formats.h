@@ -15,5 +15,7 @@ void gb_export_csv_contacts(const struct gb_export_frame *frame, GString *text);
 
 void gb_export_csv_write(const struct gb_export_frame *frame, GString *particles,
                          GString *contacts);
+bool gb_export_vtkhdf_write(const struct gb_export_frame *frame, GString *particles,
+                            GString *contacts, struct gb_error *err);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 
+#include "base/number.h"
 #include "base/vec.h"
 #include "pack/cell/cell.h"
 
@@ -9,9 +10,8 @@ enum { STRESSES = 6 };
 
 void gb_export_text_number(GString *text, double value, char end)
 {
-    char digits[G_ASCII_DTOSTR_BUF_SIZE];
-    g_ascii_formatd(digits, sizeof digits, "%.15g", value);
-    g_string_append(text, digits);
+    char digits[GB_NUMBER_MAX];
+    g_string_append(text, gb_number_write(value, digits));
     g_string_append_c(text, end);
 }
 

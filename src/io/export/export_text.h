@@ -5,7 +5,8 @@
 
 /* Shared by the formats: numbers, and what a contact is. */
 
-/* A number with up to 15 digits, '.' in every locale, and a character behind it. */
+/* A number with the fewest digits that read back the same, '.' in every locale, and a
+ * character behind it. */
 void gb_export_text_number(GString *text, double value, char end);
 
 /* Numbers times a factor, a character behind each and another behind the last. */
