@@ -4,6 +4,7 @@
 
 #include <glib.h>
 
+#include "cli/output/json_output.h"
 #include "cli/options.h"
 #include "cli/signals.h"
 
@@ -118,6 +119,9 @@ int gb_foreground_run(struct gb_foreground *run)
         return fail(run, &error);
     }
     summarise(run, outcome);
+    if (run->json) {
+        gb_json_output_run(&run->simulation->loop);
+    }
     if (error.code != GB_OK && run->progress.quiet) {
         (void)gb_options_fail(&error);
     }

@@ -9,6 +9,7 @@
 struct gb_foreground {
     struct gb_simulation *simulation; /* owned; NULL before gb_foreground_attach */
     struct gb_progress progress;
+    bool json; /* the end of the run as JSON on stdout */
     /* Called while the packing is built; NULL: nothing is done. */
     void (*on_packing)(void *data);
     void *data;

@@ -105,6 +105,13 @@ GOptionEntry gb_options_quiet(gboolean *quiet)
         "quiet", 'q', 0, G_OPTION_ARG_NONE, quiet, "only errors on stderr", NULL};
 }
 
+GOptionEntry gb_options_json(gboolean *json)
+{
+    return (GOptionEntry){
+        "json", 0, 0, G_OPTION_ARG_NONE, json, "the result as a JSON object on stdout",
+        NULL};
+}
+
 static bool is_assignment(const char *word)
 {
     return strchr(word, '=') != NULL;

@@ -26,6 +26,9 @@ GOptionEntry gb_options_set(char ***sets);
 /* The entry of --quiet, of commands with progress on stderr. */
 GOptionEntry gb_options_quiet(gboolean *quiet);
 
+/* The entry of --json, of commands whose result other programs read. */
+GOptionEntry gb_options_json(gboolean *json);
+
 enum gb_options_preset {
     GB_OPTIONS_PRESET_OPTIONAL, /* all defaults where no word names a preset */
     GB_OPTIONS_PRESET_NEEDED

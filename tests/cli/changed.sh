@@ -23,7 +23,7 @@ rows whole >whole.rows
 
 # name, file, command...: what is done to a run under way
 changes() {
-    name=$1
+    what=$1
     file=$2
     shift 2
     rm -rf out
@@ -34,12 +34,12 @@ changes() {
     "$@"
     kill -CONT $pid
     wait $pid
-    is "$name: status 0" [ $? -eq 0 ]
+    is "$what: status 0" [ $? -eq 0 ]
     rows out | cmp -s - whole.rows
-    result "$name: the curve is whole" $?
-    is "$name: an event" grep -q "$file was changed or removed by another program" out/events.log
+    result "$what: the curve is whole" $?
+    is "$what: an event" grep -q "$file was changed or removed by another program" out/events.log
     "$greenbody" verify out >stdout 2>stderr
-    is "$name: verify repeats it" grep -qx equal stdout
+    is "$what: verify repeats it" grep -qx equal stdout
 }
 
 replaced() {

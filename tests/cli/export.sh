@@ -70,11 +70,11 @@ tables_agree() { # name, run directory
     result "$1: read back, all numbers equal" $?
 }
 kind() { # name, arguments of run...
-    name=$1
+    what=$1
     shift
-    "$greenbody" run "$@" --quiet --out "$name" >stdout 2>stderr
-    is "$name" [ $? -eq 0 ]
-    tables_agree "$name" "$name"
+    "$greenbody" run "$@" --quiet --out "$what" >stdout 2>stderr
+    is "$what: a run" [ $? -eq 0 ]
+    tables_agree "$what" "$what"
 }
 tables_agree 'quasi-static' run
 kind sizes p1-set2-lognormal particles.count=150 loading.unload_from= 'loading.until=3 MPa'

@@ -100,18 +100,39 @@ for signal in INT:130 TERM:143; do
     rm -rf out
 done
 
+# --- results for other programs ----------------------------------------------------------
+json() { # expression of the object o, command...
+    expression=$1
+    shift
+    "$@" >stdout 2>stderr
+    python3 -c "import json, sys; o = json.load(sys.stdin); sys.exit(not ($expression))" <stdout
+}
+is 'run --json' json 'o["state"] == "done" and o["directory"] == "out" and o["pressure_MPa"] >= 5' \
+    "$greenbody" run default particles.count=200 'loading.until=60 MPa' loading.unload_from= \
+    'output.snapshots_at=3 MPa' --quiet --json --out out
+is 'resume --json' json 'o["state"] == "done" and o["points"] > 5' "$greenbody" resume out \
+    --quiet --json
+is 'fit --json' json 'any(r["equation"] == "heckel" and r["parameter"] == "A" and
+    r["unit"] == "1" and r["low"] < r["value"] < r["high"] for r in o["rows"])' \
+    "$greenbody" fit out --equation heckel --json
+is 'moduli --json' json 'len(o["rows"]) > 0 and all(r["C11_GPa"] > 0 for r in o["rows"])' \
+    "$greenbody" moduli out --quiet --no-range --json
+is 'bench --json' json '[r["particles"] for r in o["rows"]][:2] == ["100", "200"]' \
+    "$greenbody" bench --sizes 100,200 --json
+rm -rf out
+
 # --- goals that are not reached ----------------------------------------------------------
 # name, text of the event, keys...
 misses() {
-    name=$1
+    what=$1
     text=$2
     shift 2
     "$greenbody" run default particles.count=200 "$@" --out out >stdout 2>stderr
-    is "$name: status 1" [ $? -eq 1 ]
-    is "$name: an event" grep -q "$text" out/events.log
-    is "$name: on the screen" grep -q "$text" stderr
-    is "$name: in the status" grep -q "\"error\" : \"$text" out/status.json
-    is "$name: which is done" grep -q '"state" : "done"' out/status.json
+    is "$what: status 1" [ $? -eq 1 ]
+    is "$what: an event" grep -q "$text" out/events.log
+    is "$what: on the screen" grep -q "$text" stderr
+    is "$what: in the status" grep -q "\"error\" : \"$text" out/status.json
+    is "$what: which is done" grep -q '"state" : "done"' out/status.json
 }
 
 misses 'a soft powder' 'not reached: loading.until = 1 GPa, loading.unload_from = 1 GPa; ended' \

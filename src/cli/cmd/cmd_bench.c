@@ -5,6 +5,7 @@
 #include <glib.h>
 
 #include "cli/commands.h"
+#include "cli/output/json_output.h"
 #include "cli/options.h"
 #include "study/bench/bench.h"
 #include "study/bench/bench_die.h"
@@ -29,19 +30,21 @@ struct line {
     const char *unit;
 };
 
-static void print_lines(const struct line *line, size_t count, gboolean csv)
+static void print_lines(GString *text, const struct line *line, size_t count,
+                        gboolean csv)
 {
     if (csv) {
-        puts("figure,value,unit");
+        g_string_append(text, "figure,value,unit\n");
     }
     for (size_t i = 0; i < count; i++) {
-        printf(csv ? "%s,%.6g,%s\n" : "%-34s %12.4g  %s\n", line[i].name, line[i].value,
-               line[i].unit);
+        g_string_append_printf(text, csv ? "%s,%.6g,%s\n" : "%-34s %12.4g  %s\n",
+                               line[i].name, line[i].value, line[i].unit);
     }
 }
 
 static void report(const struct gb_bench *bench, double planar,
-                   const struct gb_bench_die *die, double particles, gboolean csv)
+                   const struct gb_bench_die *die, double particles, gboolean csv,
+                   GString *text)
 {
     const double micro = 1e6 / particles;
     const struct line line[] = {
@@ -68,25 +71,27 @@ static void report(const struct gb_bench *bench, double planar,
         {"die, Storakers with friction", 1e6 * die->storakers_friction,
          "us per particle-step"},
     };
-    print_lines(line, G_N_ELEMENTS(line), csv);
+    print_lines(text, line, G_N_ELEMENTS(line), csv);
 }
 
 /* Time of an evaluation with and without terms of the contact laws. */
 static bool report_terms(const struct gb_params *params, double coordination,
-                         gboolean csv, struct gb_error *err)
+                         gboolean csv, GString *text, struct gb_error *err)
 {
     struct gb_bench_term term[GB_BENCH_TERMS];
     if (!gb_bench_terms(term, params, coordination, err)) {
         return false;
     }
     const double micro = 1e6 / (double)params->count;
-    puts(csv ? "terms,us_per_particle,share" : "evaluation and move, one core");
+    g_string_append(text, csv ? "terms,us_per_particle,share\n"
+                              : "evaluation and move, one core\n");
     for (int i = 0; i < GB_BENCH_TERMS; i++) {
         if (isfinite(term[i].evaluation_s)) {
-            printf(csv ? "%s,%.6g,%.4g\n"
-                       : "  %-30s %8.4g us per particle, %5.3g of all\n",
-                   term[i].name, micro * term[i].evaluation_s,
-                   term[i].evaluation_s / term[0].evaluation_s);
+            g_string_append_printf(text,
+                                   csv ? "%s,%.6g,%.4g\n"
+                                       : "  %-30s %8.4g us per particle, %5.3g of all\n",
+                                   term[i].name, micro * term[i].evaluation_s,
+                                   term[i].evaluation_s / term[0].evaluation_s);
         }
     }
     return true;
@@ -125,40 +130,45 @@ static void print_progress(void *data, int64_t count, int round)
     }
 }
 
-static void print_sizes(const struct gb_bench_size *size, size_t sizes, gboolean csv)
+static void print_sizes(GString *text, const struct gb_bench_size *size, size_t sizes,
+                        gboolean csv)
 {
     double particles[SIZES_MAX], one[SIZES_MAX], all[SIZES_MAX];
-    puts(csv ? "particles,coordination,one_core_us,all_cores_us,bytes"
-             : " particles   coordination   one core   all cores, us   bytes per "
-               "particle");
+    g_string_append(
+        text, csv ? "particles,coordination,one_core_us,all_cores_us,bytes\n"
+                  : " particles   coordination   one core   all cores, us   bytes per "
+                    "particle\n");
     for (size_t i = 0; i < sizes; i++) {
         particles[i] = (double)size[i].count;
         one[i] = size[i].evaluation_s;
         all[i] = size[i].evaluation_all_s;
         const double micro = 1e6 / particles[i];
-        printf(csv ? "%.0f,%.4g,%.5g,%.5g,%.5g\n"
-                   : "%10.0f   %12.4g   %8.4g   %13.4g   %16.4g\n",
-               particles[i], size[i].coordination, micro * one[i], micro * all[i],
-               size[i].bytes_per_particle);
+        g_string_append_printf(text,
+                               csv ? "%.0f,%.4g,%.5g,%.5g,%.5g\n"
+                                   : "%10.0f   %12.4g   %8.4g   %13.4g   %16.4g\n",
+                               particles[i], size[i].coordination, micro * one[i],
+                               micro * all[i], size[i].bytes_per_particle);
     }
-    printf(csv ? "exponent,,%.4f,%.4f,\n"
-               : "exponent of the cost        %11.3f   %13.3f\n",
-           gb_bench_exponent(particles, one, sizes),
-           gb_bench_exponent(particles, all, sizes));
+    g_string_append_printf(text,
+                           csv ? "exponent,,%.4f,%.4f,\n"
+                               : "exponent of the cost        %11.3f   %13.3f\n",
+                           gb_bench_exponent(particles, one, sizes),
+                           gb_bench_exponent(particles, all, sizes));
 }
 
 /* Cost of an evaluation against the number of particles. */
-static bool report_sizes(const struct gb_params *params, const char *text,
-                         double coordination, gboolean csv, struct gb_error *err)
+static bool report_sizes(const struct gb_params *params, const char *list,
+                         double coordination, gboolean csv, GString *text,
+                         struct gb_error *err)
 {
     struct gb_bench_size size[SIZES_MAX];
     size_t sizes = 0;
-    if (!read_sizes(text, size, &sizes, err) ||
+    if (!read_sizes(list, size, &sizes, err) ||
         !gb_bench_growth_run(size, sizes, params, coordination, print_progress,
                              &size[sizes - 1].count, err)) {
         return false;
     }
-    print_sizes(size, sizes, csv);
+    print_sizes(text, size, sizes, csv);
     return true;
 }
 
@@ -166,7 +176,8 @@ static bool report_sizes(const struct gb_params *params, const char *text,
 struct request {
     char **sets, **words;
     char *sizes;
-    gboolean csv, terms;
+    gboolean csv, json, terms;
+    GString *text;
     double coordination;
 };
 
@@ -190,7 +201,8 @@ static bool report_all(const struct request *request, const struct gb_params *pa
         !gb_bench_planar(&planar, err) || !gb_bench_die_run(&die, err)) {
         return false;
     }
-    report(&bench, planar, &die, (double)params->count, request->csv);
+    report(&bench, planar, &die, (double)params->count, request->csv || request->json,
+           request->text);
     return true;
 }
 
@@ -208,10 +220,11 @@ static bool measure(const struct request *request, struct gb_error *err)
     }
     bool done = check_request(request, err);
     if (done && request->terms) {
-        done = report_terms(params, request->coordination, request->csv, err);
+        done = report_terms(params, request->coordination, request->csv || request->json,
+                            request->text, err);
     } else if (done && request->sizes != NULL) {
-        done = report_sizes(params, request->sizes, request->coordination, request->csv,
-                            err);
+        done = report_sizes(params, request->sizes, request->coordination,
+                            request->csv || request->json, request->text, err);
     } else if (done) {
         done = report_all(request, params, err);
     }
@@ -224,6 +237,7 @@ int gb_cmd_bench(int argc, char **argv)
     struct request request = {.coordination = 6.0};
     const GOptionEntry entries[] = {
         {"csv", 0, 0, G_OPTION_ARG_NONE, &request.csv, "print CSV", NULL},
+        gb_options_json(&request.json),
         {"coordination", 0, 0, G_OPTION_ARG_DOUBLE, &request.coordination,
          "press until this coordination number", "6"},
         {"terms", 0, 0, G_OPTION_ARG_NONE, &request.terms,
@@ -236,7 +250,14 @@ int gb_cmd_bench(int argc, char **argv)
     int status = 0;
     if (gb_options_parse(&page, entries, argc, argv, &request.words, &status)) {
         struct gb_error err = {0};
+        request.text = g_string_new(NULL);
         status = measure(&request, &err) ? 0 : gb_options_fail(&err);
+        if (request.json && status == 0) {
+            gb_json_output_table(request.text->str);
+        } else {
+            fputs(request.text->str, stdout);
+        }
+        g_string_free(request.text, TRUE);
     }
     g_strfreev(request.words);
     g_strfreev(request.sets);

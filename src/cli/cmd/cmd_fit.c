@@ -7,7 +7,8 @@
 
 #include "base/units.h"
 #include "cli/commands.h"
-#include "cli/fit_output.h"
+#include "cli/output/fit_output.h"
+#include "cli/output/json_output.h"
 #include "cli/lab_input.h"
 #include "cli/options.h"
 #include "figures/figures.h"
@@ -21,7 +22,7 @@ enum { DIRECTORIES_MAX = 1000 };
 struct request {
     char *equation, *from, *to, *initial, *output;
     struct gb_lab_input lab;
-    gboolean csv, force;
+    gboolean csv, json, force;
     const struct gb_equation *only; /* NULL: all */
     struct gb_compaction_window window;
 };
@@ -186,11 +187,17 @@ static bool write_figure(const struct gb_compaction_series *one, const char *out
     return good;
 }
 
-static bool print_fits(const struct gb_compaction_series *one, bool csv,
+static bool print_fits(const struct gb_compaction_series *one, bool csv, bool json,
                        struct gb_error *err)
 {
-    if (csv) {
+    if (csv || json) {
         print_refusals(&one->fits);
+    }
+    if (json) {
+        GString *text = gb_fit_output_csv(&one->fits, &one->data);
+        gb_json_output_table(text->str);
+        g_string_free(text, TRUE);
+        return true;
     }
     return print(csv ? gb_fit_output_csv(&one->fits, &one->data)
                      : gb_fit_output_text(&one->fits, &one->data),
@@ -206,7 +213,7 @@ static bool fit(struct request *request, char **words, struct gb_error *err)
         gb_compaction_series_init(&one, &data, request->only,
                                   data.curves > 0 ? "simulated" : "measured", err) &&
         (request->output == NULL || write_figure(&one, request->output, err)) &&
-        print_fits(&one, request->csv, err);
+        print_fits(&one, request->csv, request->json, err);
     gb_compaction_series_finish(&one);
     return good;
 }
@@ -245,6 +252,7 @@ int gb_cmd_fit(int argc, char **argv)
          "one of those below (all)", "NAME"},
         {"csv", 0, 0, G_OPTION_ARG_NONE, &request.csv,
          "print equation,parameter,value,low,high,unit", NULL},
+        gb_options_json(&request.json),
         {"from", 0, 0, G_OPTION_ARG_STRING, &request.from,
          "lowest pressure (runs: 1 % of the highest; file: its lowest)", "P"},
         {"to", 0, 0, G_OPTION_ARG_STRING, &request.to,

@@ -4,8 +4,9 @@
 #include <glib.h>
 
 #include "cli/commands.h"
+#include "cli/output/json_output.h"
 #include "cli/moduli_folder.h"
-#include "cli/moduli_output.h"
+#include "cli/output/moduli_output.h"
 #include "cli/options.h"
 #include "cli/signals.h"
 #include "figures/states.h"
@@ -17,7 +18,7 @@ enum { REPLICAS_MAX = 1000 };
 
 /* The options of the command line. */
 struct request {
-    gboolean csv, quiet, quick;
+    gboolean csv, json, quiet, quick;
     int replicas;
     char *at, *out;
     char *command;                /* as typed */
@@ -69,9 +70,13 @@ static bool is_new(void *data, int64_t step)
 
 static void print_states(const struct request *request, const GArray *states)
 {
-    if (request->csv) {
+    if (request->csv || request->json) {
         GString *text = gb_moduli_states_csv(states, NULL);
-        fputs(text->str, stdout);
+        if (request->json) {
+            gb_json_output_table(text->str);
+        } else {
+            fputs(text->str, stdout);
+        }
         g_string_free(text, TRUE);
         return;
     }
@@ -228,6 +233,7 @@ int gb_cmd_moduli(int argc, char **argv)
     const GOptionEntry entries[] = {
         {"csv", 0, 0, G_OPTION_ARG_NONE, &request.csv,
          "one header row and one row per state", NULL},
+        gb_options_json(&request.json),
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
          "states, as \"p=100 MPa; density=0.5\" (default: those of output.snapshots_at "
          "and the last; a lattice as it was placed)",

@@ -31,11 +31,12 @@ int gb_cmd_resume(int argc, char **argv)
         "have changed in [output], title and threads only."};
     struct gb_foreground run = {0};
     char **words = NULL;
-    gboolean quiet = FALSE, before = FALSE;
+    gboolean quiet = FALSE, before = FALSE, json = FALSE;
     int status = 0;
     const GOptionEntry entries[] = {
         {"before", 0, 0, G_OPTION_ARG_NONE, &before,
          "from state-before.h5, where the last checkpoint is damaged", NULL},
+        gb_options_json(&json),
         gb_options_quiet(&quiet),
         {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
@@ -45,6 +46,7 @@ int gb_cmd_resume(int argc, char **argv)
             status = gb_options_fail(&err);
         } else {
             gb_foreground_init(&run, quiet);
+            run.json = json;
             status = perform(&run, directory, before);
         }
     }

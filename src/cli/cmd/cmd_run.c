@@ -164,6 +164,7 @@ int gb_cmd_run(int argc, char **argv)
     gboolean force = FALSE;
     gboolean quiet = FALSE;
     gboolean yes = FALSE;
+    gboolean json = FALSE;
     int status = 0;
     const GOptionEntry entries[] = {
         gb_options_set(&sets),
@@ -174,12 +175,14 @@ int gb_cmd_run(int argc, char **argv)
          "repeat the run of a picture or figure", "FILE.png"},
         {"yes", 'y', 0, G_OPTION_ARG_NONE, &yes,
          "begin a dynamic run estimated to take more than an hour", NULL},
+        gb_options_json(&json),
         gb_options_quiet(&quiet),
         {0}};
     if (gb_options_parse(&page, entries, argc, argv, &words, &status)) {
         run.replace = force;
         run.yes = yes;
         gb_foreground_init(&run.foreground, quiet);
+        run.foreground.json = json;
         if (from != NULL) {
             words = put_first(words, from);
             from = NULL;

@@ -1,4 +1,4 @@
-#include "cli/fit_output.h"
+#include "cli/output/fit_output.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "cli/moduli_output.h"
+#include "cli/output/moduli_output.h"
 
 #include <math.h>
 #include <stdio.h>
