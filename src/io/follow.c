@@ -195,6 +195,12 @@ bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
     return true;
 }
 
+bool gb_follow_engine_gone(const struct gb_follow_engine *engine)
+{
+    return engine->here && engine->pid > 1 && kill((pid_t)engine->pid, 0) != 0 &&
+           errno == ESRCH;
+}
+
 /* Has the process that directory open?  Every engine has, for its lock.  The number in a
  * file alone is not enough to end a process: it may belong to another program by now. */
 static bool works_in(long long pid, const char *directory)

@@ -171,6 +171,27 @@ is 'run: HUP lets it go on' more_rows $((before + 3))
 is 'run: and is told among the events' grep -q 'terminal closed' "$run/events.log"
 ends run
 
+# --- an engine that was killed, and a log that is a pipe -----------------------------------
+run=$here/killed
+# shellcheck disable=SC2086  # words
+"$greenbody" run $scene --out "$run" 2>/dev/null &
+engine=$!
+is 'killed: the run is kept' more_rows 3
+kill -KILL $engine
+wait $engine 2>/dev/null
+engine=
+grep -q '"state" : "running"' "$run/status.json"
+result 'killed: its status still says that it runs' $?
+rm -rf "$here/state"
+mkdir -p "$here/state/greenbody"
+mkfifo "$here/state/greenbody/workbench.log"
+term new-session -d -x 100 -y 30 "$greenbody attach $run"
+is 'killed: attach says that its engine is gone' has 'ended without a final'
+is 'killed: and that it is stopped' has 'stopped'
+term kill-server
+rm -rf "$here/state"
+run=$here/quiet
+
 # --- the directory goes away --------------------------------------------------------------
 # shellcheck disable=SC2086  # words
 "$greenbody" run $scene --out "$run-2" 2>"$here/err" &

@@ -10,12 +10,12 @@ static const double follow_every_s = 0.4;
 /* Age of an unchanged status at which the lock is tested for a living engine, s. */
 static const double silence_s = 5.0;
 
-/* Reads the directory into the snapshot and the curve. */
-static void read_run(struct gb_runner *runner)
+/* Reads the directory into the snapshot and the curve.  True: its engine is gone. */
+static bool read_run(struct gb_runner *runner)
 {
     struct gb_snapshot *shown = &runner->loop.snapshot;
     const int64_t events = shown->events;
-    struct gb_follow_engine engine;
+    struct gb_follow_engine engine = {0};
     struct gb_error err = {0};
     if (!gb_follow_status(runner->directory, shown, &engine, &err) ||
         !gb_follow_curve(runner->directory, &runner->params, runner->curve, &err)) {
@@ -32,6 +32,7 @@ static void read_run(struct gb_runner *runner)
     if (shown->events > events && shown->event[0] != '\0') {
         gb_runner_publish_event(runner, shown->event);
     }
+    return gb_follow_engine_gone(&engine);
 }
 
 static void lose_directory(struct gb_runner *runner)
@@ -55,11 +56,14 @@ static bool refresh(struct gb_runner *runner, double *changed_s)
         lose_directory(runner);
         return false;
     }
-    read_run(runner);
+    /* again: its last status may have come after the first reading */
+    const bool gone =
+        read_run(runner) && shown->state <= GB_RUN_PAUSED && read_run(runner);
     if (shown->seconds != seconds || shown->state != state) {
         *changed_s = gb_clock_s();
     }
-    if (shown->state <= GB_RUN_PAUSED && gb_clock_s() - *changed_s > silence_s &&
+    if (shown->state <= GB_RUN_PAUSED &&
+        (gone || gb_clock_s() - *changed_s > silence_s) &&
         !gb_rundir_busy(runner->directory)) {
         gb_runner_publish_event(runner, "the engine of this run ended without a final "
                                         "status; t resumes from the last checkpoint");

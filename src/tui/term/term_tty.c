@@ -5,6 +5,7 @@
 #include <ncurses.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <term.h>
 #include <unistd.h>
 
@@ -13,10 +14,22 @@ char *gb_term_tty_log(void)
     return g_build_filename(g_get_user_state_dir(), "greenbody", "workbench.log", NULL);
 }
 
+/* The log, if it is a file; a pipe without a reader or writer would block for ever. */
+static int open_file(const char *path, int flags)
+{
+    struct stat info;
+    const int fd = open(path, flags | O_CLOEXEC | O_NONBLOCK, 0600);
+    if (fd >= 0 && (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode))) {
+        close(fd);
+        return -1;
+    }
+    return fd;
+}
+
 int gb_term_tty_read_log(void)
 {
     char *path = gb_term_tty_log();
-    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+    const int fd = open_file(path, O_RDONLY);
     g_free(path);
     return fd;
 }
@@ -26,7 +39,7 @@ static int open_log(void)
     char *path = gb_term_tty_log();
     char *folder = g_path_get_dirname(path);
     g_mkdir_with_parents(folder, 0700);
-    int fd = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+    int fd = open_file(path, O_WRONLY | O_CREAT | O_APPEND);
     if (fd < 0) {
         fd = open("/dev/null", O_WRONLY | O_CLOEXEC);
     }

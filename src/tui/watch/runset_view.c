@@ -31,6 +31,11 @@ static void read_states(struct gb_runset_view *runset, GPtrArray *list)
             run->state = shot.state;
             run->progress = shot.state == GB_RUN_DONE ? 1.0 : shot.progress;
             g_strlcpy(run->error, shot.error.text, sizeof run->error);
+            if (run->state <= GB_RUN_PAUSED && gb_follow_engine_gone(&engine)) {
+                run->state = GB_RUN_STOPPED;
+                g_strlcpy(run->error, "its engine ended without a final status",
+                          sizeof run->error);
+            }
         }
         runset->done += run->state == GB_RUN_DONE;
         runset->failed += run->state == GB_RUN_FAILED;
