@@ -130,36 +130,35 @@ static bool find_diameter(struct gb_array_source *packing, struct rows *rows,
     return true;
 }
 
+/* Resultant forces, or torques. */
+static bool resultants(struct gb_array_source *packing, bool torques, struct rows *rows)
+{
+    struct gb_world *world = world_of(packing);
+    const struct gb_bed *bed = bed_of(packing);
+    if (bed) {
+        return bed_rows(bed, (const gb_bed_row *)(torques ? bed->torque : bed->force),
+                        rows);
+    }
+    if (world) {
+        const struct gb_bodies bodies = gb_world_readable(world);
+        *rows = (struct rows){.data = torques ? bodies.torque : bodies.force,
+                              .count = bodies.count};
+    }
+    return true;
+}
+
 static bool find_force(struct gb_array_source *packing, struct rows *rows,
                        struct gb_error *err)
 {
     (void)err;
-    struct gb_world *world = world_of(packing);
-    const struct gb_bed *bed = bed_of(packing);
-    if (bed) {
-        return bed_rows(bed, (const gb_bed_row *)bed->force, rows);
-    }
-    if (world) {
-        const struct gb_bodies bodies = gb_world_readable(world);
-        *rows = (struct rows){.data = bodies.force, .count = bodies.count};
-    }
-    return true;
+    return resultants(packing, false, rows);
 }
 
 static bool find_torque(struct gb_array_source *packing, struct rows *rows,
                         struct gb_error *err)
 {
     (void)err;
-    struct gb_world *world = world_of(packing);
-    const struct gb_bed *bed = bed_of(packing);
-    if (bed) {
-        return bed_rows(bed, (const gb_bed_row *)bed->torque, rows);
-    }
-    if (world) {
-        const struct gb_bodies bodies = gb_world_readable(world);
-        *rows = (struct rows){.data = bodies.torque, .count = bodies.count};
-    }
-    return true;
+    return resultants(packing, true, rows);
 }
 
 static bool find_velocity(struct gb_array_source *packing, struct rows *rows,
@@ -178,28 +177,31 @@ static bool find_spin(struct gb_array_source *packing, struct rows *rows,
     return !bed || bed_rows(bed, (const gb_bed_row *)bed->spin, rows);
 }
 
-static bool find_cell(struct gb_array_source *packing, struct rows *rows,
+/* Edges of the cell, or its tilts. */
+static bool cell_rows(struct gb_array_source *packing, bool tilts, struct rows *rows,
                       struct gb_error *err)
 {
     const struct gb_world *world = world_of(packing);
     const struct gb_state *state = world ? NULL : state_of(packing, err);
-    if (world || state) {
-        *rows = (struct rows){.data = world ? gb_world_cell(world)->edge : state->cell,
-                              .count = 3};
+    if (world) {
+        const struct gb_cell *cell = gb_world_cell(world);
+        *rows = (struct rows){.data = tilts ? cell->tilt : cell->edge, .count = 3};
+    } else if (state) {
+        *rows = (struct rows){.data = tilts ? state->tilt : state->cell, .count = 3};
     }
     return world || state;
+}
+
+static bool find_cell(struct gb_array_source *packing, struct rows *rows,
+                      struct gb_error *err)
+{
+    return cell_rows(packing, false, rows, err);
 }
 
 static bool find_tilt(struct gb_array_source *packing, struct rows *rows,
                       struct gb_error *err)
 {
-    const struct gb_world *world = world_of(packing);
-    const struct gb_state *state = world ? NULL : state_of(packing, err);
-    if (world || state) {
-        *rows = (struct rows){.data = world ? gb_world_cell(world)->tilt : state->tilt,
-                              .count = 3};
-    }
-    return world || state;
+    return cell_rows(packing, true, rows, err);
 }
 
 /* An array that the list of contacts has. */
