@@ -184,8 +184,9 @@ bool gb_experiment_missed(const struct gb_experiment *experiment, char *text, si
 {
     const struct gb_loading *loading = experiment->loading;
     char goals[GB_EVENT_TEXT] = "", points[64] = "";
-    if (experiment->over && !experiment->stopped && loading->mode->missed != NULL) {
-        (void)loading->mode->missed(loading, goals, sizeof goals);
+    if (experiment->over && !experiment->stopped && loading->mode->missed != NULL &&
+        !loading->mode->missed(loading, goals, sizeof goals)) {
+        goals[0] = '\0';
     }
     if (experiment->unrelaxed > 0) {
         snprintf(points, sizeof points, "%" PRId64 " of %" PRId64 " points %s",

@@ -297,6 +297,11 @@
  * a part of the pressure and the point is not quasi-static. */
 #define GB_FLOOR_OVER_PUNCH_TOLERANCE 0.05
 
+/* Share of loading.until that the largest recorded pressure may lie below it: points are
+ * means over time, and the last one is before the end of the ramp.  Larger: a goal that
+ * was missed passes.  0: every run misses it. */
+#define GB_DIE_GOAL_TOLERANCE 0.05
+
 /* Time constants of a drag on the powder while gravity is reduced and after it, as shares
  * of the time of the reduction.  Without drag a bed of smooth spheres rotates about the
  * axis of the die without end: spheres at the wall roll, and no friction stops the others.

@@ -143,6 +143,16 @@ rm -rf out
 misses 'a low density' 'not reached: loading.unload_from = 100 MPa; 1 GPa; ended' \
     loading.until=density=0.3
 rm -rf out
+"$greenbody" run p3-hertz-mu0 particles.count=60 numerics.fidelity=fast 'loading.time=1 ns' \
+    --out out >stdout 2>stderr
+is 'a punch too fast for the powder: status 1' [ $? -eq 1 ]
+is 'with the pressure that was carried' grep -q \
+    'not reached: loading.until = 50 MPa; the powder carries at most' out/events.log
+is 'and not quasi-static' grep -q 'not quasi-static' out/events.log
+rm -rf out
+"$greenbody" run p3-hertz-mu0 particles.count=60 numerics.fidelity=fast --out out >stdout 2>stderr
+is 'one that is slow enough: status 0' [ $? -eq 0 ]
+rm -rf out
 misses 'no equilibrium' '[1-9][0-9]* of [0-9]* points are not in equilibrium' \
     numerics.max_evaluations=10 loading.unload_from=
 points=$(awk -F, '$37 == 1' out/curve.csv | wc -l)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/units.h"
 #include "pack/die/filling.h"
 #include "scene/tolerances.h"
 #include "solve/loading/die/die_stages.h"
@@ -11,6 +12,7 @@ struct die_loading {
     struct gb_loading base;
     struct gb_die_stages *stages;
     bool not_quasistatic; /* forces on floor and punch differed at the last point */
+    double highest;       /* pressure that the powder has carried on loading, E */
 };
 
 static struct die_loading *own(struct gb_loading *loading)
@@ -88,10 +90,12 @@ static enum gb_loading_stage loading_stage(const struct gb_die_stages_report *no
     }
 }
 
-static bool is_not_quasistatic(double floor_over_punch)
+/* A punch that has to press and touches nothing is not in equilibrium either. */
+static bool is_not_quasistatic(const struct gb_die_stages_report *now)
 {
-    return isfinite(floor_over_punch) &&
-           fabs(floor_over_punch - 1.0) > GB_FLOOR_OVER_PUNCH_TOLERANCE;
+    return isfinite(now->floor_over_punch)
+               ? fabs(now->floor_over_punch - 1.0) > GB_FLOOR_OVER_PUNCH_TOLERANCE
+               : now->wanted > 0.0;
 }
 
 /* One line when the point just recorded is the first that is out of equilibrium, or in
@@ -102,22 +106,25 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
 {
     char text[GB_EVENT_TEXT];
     const struct gb_die_stages_report now = stages_report(loading);
-    const bool not_quasistatic = is_not_quasistatic(now.floor_over_punch);
+    const bool not_quasistatic = is_not_quasistatic(&now);
     (void)err;
     if (loading_stage(&now) != GB_LOADING_LOAD) {
         return GB_STEP_MORE;
     }
     if (not_quasistatic != own(loading)->not_quasistatic) {
-        snprintf(
-            text, sizeof text,
-            not_quasistatic
-                ? "not quasi-static at %.4g MPa: floor-to-punch force ratio %.3g"
-                : "quasi-static again from %.4g MPa: floor-to-punch force ratio %.3g",
-            1e-6 * (now.carried * loading->model->pascal_per_stress),
-            now.floor_over_punch);
+        char ratio[32] = "none, no force on the punch";
+        if (isfinite(now.floor_over_punch)) {
+            snprintf(ratio, sizeof ratio, "%.3g", now.floor_over_punch);
+        }
+        snprintf(text, sizeof text,
+                 not_quasistatic
+                     ? "not quasi-static at %.4g MPa: floor-to-punch force ratio %s"
+                     : "quasi-static again from %.4g MPa: floor-to-punch force ratio %s",
+                 1e-6 * (now.carried * loading->model->pascal_per_stress), ratio);
         gb_event_queue_add(events, text);
     }
     own(loading)->not_quasistatic = not_quasistatic;
+    own(loading)->highest = fmax(own(loading)->highest, now.carried);
     return GB_STEP_MORE;
 }
 
@@ -128,7 +135,13 @@ static bool record_stages(struct gb_loading *loading, struct gb_record *record,
         {"die/unsteady", GB_RECORD_BOOL, 1, offsetof(struct die_loading, not_quasistatic),
          "1"},
     };
+    static const struct gb_record_member highest[] = {
+        {"die/highest", GB_RECORD_DOUBLE, 1, offsetof(struct die_loading, highest), "E"},
+    };
+    /* records of earlier versions have none */
+    const bool known = !record->loading || gb_record_find(record, "die/highest");
     return gb_record_members(record, members, 1, loading, err) &&
+           (!known || gb_record_members(record, highest, 1, loading, err)) &&
            gb_die_stages_record(own(loading)->stages, loading->bed, record, err);
 }
 
@@ -165,6 +178,22 @@ static double progress(const struct gb_loading *loading, double pressure, double
     return stages_report(loading).progress;
 }
 
+/* The ramp of the punch ends by time, whatever the powder carries. */
+static bool missed(const struct gb_loading *loading, char *text, size_t size)
+{
+    char until[64], carried[64];
+    const double wanted = loading->params->until_pressure_pa;
+    const double highest = ((const struct die_loading *)(const void *)loading)->highest *
+                           loading->model->pascal_per_stress;
+    gb_units_format_short(wanted, GB_DIM_PRESSURE, 6, until, sizeof until);
+    gb_units_format_short(highest, GB_DIM_PRESSURE, 4, carried, sizeof carried);
+    snprintf(text, size,
+             "not reached: loading.until = %s; the powder carries at most %s (a longer "
+             "loading.time is nearer to equilibrium)",
+             until, carried);
+    return highest < wanted * (1.0 - GB_DIE_GOAL_TOLERANCE);
+}
+
 const struct gb_loading_mode gb_loading_die = {
     .size = sizeof(struct die_loading),
     .build = build,
@@ -175,4 +204,5 @@ const struct gb_loading_mode gb_loading_die = {
     .record = record_stages,
     .report = report,
     .progress = progress,
+    .missed = missed,
 };
