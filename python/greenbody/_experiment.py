@@ -1,7 +1,9 @@
 """Runs: an Experiment to step, and `run` from begin to end."""
 from __future__ import annotations
 
+import contextlib
 import os
+import signal
 import sys
 import threading
 import time
@@ -126,8 +128,25 @@ class Experiment(Packing):
         try:
             function(*arguments)
         except BaseException as failure:  # pylint: disable=broad-except
-            self._failure = failure
+            self._failure = self._failure or failure
             self.cancel()
+
+    @contextlib.contextmanager
+    def _interrupts(self) -> Iterator[None]:
+        """An interrupt cancels the advance and is raised after it.
+
+        Python calls the handler at the first line of a callback, before any `try` in it, where
+        ctypes drops exceptions.
+        """
+        previous = signal.getsignal(signal.SIGINT)
+        if threading.current_thread() is not threading.main_thread() or not callable(previous):
+            yield
+            return
+        signal.signal(signal.SIGINT, lambda *arguments: self._guarded(previous, *arguments))
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, previous)
 
     def _on_progress(self, _data: Any, _simulation: Any, share: float) -> None:
         self._guarded(self._progress or (lambda *_: None), share, self)
@@ -155,11 +174,10 @@ class Experiment(Packing):
         error = Error()
         self._state = None
         self._failure = None
-        try:
+        with self._interrupts():
             outcome = lib.gb_simulation_advance(self._handle, points, ctypes.byref(error))
-        except BaseException:
-            self.cancel()
-            raise
+            if self._failure is not None and outcome == NONE:  # after the last of the points
+                outcome = lib.gb_simulation_advance(self._handle, 1, ctypes.byref(error))
         self.done = outcome == DONE
         if isinstance(self._progress, Bar) and outcome != NONE:
             self._progress(self.progress, self)

@@ -1,6 +1,7 @@
 """The Python module against the program: same bits, arrays without copies, errors."""
 import csv
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -207,6 +208,46 @@ class Cancel(Folder):
 
         with self.assertRaises(Stop):
             greenbody.run('default', SMALL, count=4000, until='1 GPa', progress=stop)
+
+    def interrupt(self, size, when):
+        """An advance that SIGINT ends in the main thread, sent once `when` says so."""
+        run = greenbody.Experiment('default', SMALL, count=size, until='1 GPa')
+        done = threading.Event()
+
+        def send():
+            while not when(run) and not done.wait(0.005):
+                pass
+            signal.raise_signal(signal.SIGINT)  # Python's own handler runs in the main thread
+
+        thread = threading.Thread(target=send)
+        thread.start()
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                run.run()
+        finally:
+            done.set()
+            thread.join()
+        self.assertLess(run.progress, 1.0)
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        return run
+
+    def test_interrupt(self):
+        """While it runs, where it can be advanced further."""
+        run = self.interrupt(2000, lambda run: len(run) > 1)
+        points = len(run)
+        self.assertEqual(run.advance(2), 2)
+        self.assertEqual(len(run), points + 2)
+
+    def test_interrupt_of_packing(self):
+        """While the packing is built."""
+        called = threading.Event()
+        run = greenbody.Experiment('default', SMALL, count=200000,
+                                   progress=lambda *_: called.set() or
+                                   signal.raise_signal(signal.SIGINT))
+        with self.assertRaises(KeyboardInterrupt):
+            run.run()
+        self.assertTrue(called.is_set())
+        self.assertEqual(len(run), 0)
 
     def test_two_at_once(self):
         """Two runs in two threads have the bits of two runs in turn."""
