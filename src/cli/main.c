@@ -51,17 +51,11 @@ static void print_version(void)
 #else
     const char *compiler = "gcc " __VERSION__;
 #endif
-#ifdef _OPENMP
-    const char *threads = "threads in the sweep";
-#else
-    const char *threads = "one thread in the sweep";
-#endif
     printf("greenbody %s\n", GB_VERSION);
     printf("compiler: %s\n", compiler);
-    printf("features: %s, %s, %s; GLib %u.%u, GSL %s\n",
-           GB_WITH_PICTURES ? "pictures" : "no pictures", threads,
-           GB_WITH_MPI ? "MPI" : "no MPI", glib_major_version, glib_minor_version,
-           gsl_version);
+    printf("features: %s, %s; GLib %u.%u, GSL %s\n",
+           GB_WITH_PICTURES ? "pictures" : "no pictures", GB_WITH_MPI ? "MPI" : "no MPI",
+           glib_major_version, glib_minor_version, gsl_version);
     printf("threads: %u, vectors: %d bits (%s)\n", g_get_num_processors(),
            gb_simd_width(0), gb_simd_name(gb_simd_width(0)));
 }
@@ -164,27 +158,8 @@ static int dispatch(int argc, char **argv)
                            : open_scene(argc, argv);
 }
 
-/* Limits the spinning of OpenMP threads at barriers: on cores shared with other processes
- * a spinning thread displaces the thread that it waits for (a sweep on all cores took ten
- * times as long as on one).  libgomp reads the variable before main, hence the program is
- * executed again. */
-static void limit_spinning(char **argv)
-{
-#ifdef _OPENMP
-    if (!getenv("GOMP_SPINCOUNT") && !getenv("OMP_WAIT_POLICY") &&
-        setenv("GOMP_SPINCOUNT", "3000", 0) == 0) {
-        char *program = gb_program_executable();
-        execv(program, argv);
-        g_free(program);
-    }
-#else
-    (void)argv;
-#endif
-}
-
 int main(int argc, char **argv)
 {
-    limit_spinning(argv);
     gb_program_name_process();
     /* Text in the user's locale, numbers always with a decimal point. */
     setlocale(LC_ALL, "");

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/team.h"
 #include "base/vec.h"
 #include "pack/cell/world_measure.h"
 #include "pack/kernel/pair_forces.h"
@@ -113,26 +114,53 @@ static void share_out(const int32_t *degree, int64_t count, double *share, int b
     }
 }
 
+/* Counts over a part of the particles. */
+struct part_counts {
+    int64_t touching, bridged, rattlers;
+};
+
+struct counting {
+    const struct gb_world *world;
+    const int32_t *degree;
+    struct part_counts *part;
+};
+
+enum { PARTS = 32 };
+
+static void count_part(void *data, int64_t p)
+{
+    const struct counting *counting = data;
+    const struct gb_pair_list *pairs = &gb_world_pairs(counting->world)->near;
+    const struct gb_contacts *contacts = gb_world_contacts(counting->world);
+    const int64_t count = gb_world_model(counting->world)->count;
+    struct part_counts *part = &counting->part[p];
+    *part = (struct part_counts){0};
+    for (int64_t i = count * p / PARTS; i < count * (p + 1) / PARTS; i++) {
+        part->rattlers += counting->degree[i] < 2;
+        for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
+            const double deepest = gb_contacts_deepest(contacts, k);
+            part->touching += deepest >= 0.0;
+            part->bridged += deepest > 0.0;
+        }
+    }
+}
+
 void gb_observe_contacts(const struct gb_world *world, struct gb_contact_counts *counts,
                          double *share, int bins, int32_t *each)
 {
-    const struct gb_pair_list *pairs = &gb_world_pairs(world)->near;
     const int64_t count = gb_world_model(world)->count;
-    const struct gb_contacts *contacts = gb_world_contacts(world);
     const int32_t *degree = gb_world_coordination(world);
+    struct part_counts part[PARTS];
+    struct counting counting = {.world = world, .degree = degree, .part = part};
     int64_t touching = 0, bridged = 0, rattlers = 0;
-#pragma omp parallel for num_threads(gb_world_threads(world)) schedule(static)          \
-    if (gb_world_threads(world) > 1) reduction(+ : touching, bridged, rattlers)
-    for (int64_t i = 0; i < count; i++) {
-        rattlers += degree[i] < 2;
-        if (each) {
-            each[i] = degree[i];
-        }
-        for (int64_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-            const double deepest = gb_contacts_deepest(contacts, k);
-            touching += deepest >= 0.0;
-            bridged += deepest > 0.0;
-        }
+    gb_team_run(gb_world_team(world), PARTS, count_part, &counting);
+    for (int p = 0; p < PARTS; p++) {
+        touching += part[p].touching;
+        bridged += part[p].bridged;
+        rattlers += part[p].rattlers;
+    }
+    if (each) {
+        memcpy(each, degree, (size_t)count * sizeof *each);
     }
     if (share) {
         share_out(degree, count, share, bins);

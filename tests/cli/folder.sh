@@ -10,7 +10,7 @@ presets=$2
 here=$(mktemp -d) || exit 1
 trap 'rm -rf "$here"' EXIT
 cd "$here" || exit 1
-export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
+export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config"
 tests=0
 bad=0
 : >stdout

@@ -9,7 +9,7 @@ architecture=$1
 mkdir -p "$2"
 folder=$(CDPATH='' cd -- "$2" && pwd)
 
-packages="libc6-dev libgcc-12-dev libgomp1 libglib2.0-dev libncurses-dev libgsl-dev \
+packages="libc6-dev libgcc-12-dev libglib2.0-dev libncurses-dev libgsl-dev \
 librandom123-dev libhdf5-dev libpng-dev libcairo2-dev libpango1.0-dev libfontconfig-dev \
 libjson-glib-dev"
 

@@ -15,7 +15,7 @@ bad=0
 # shellcheck disable=SC2034  # for those that source this
 long='default particles.count=6000 loading.step=0.02% numerics.fidelity=reference'
 
-export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config" OMP_NUM_THREADS=1
+export GB_PRESET_DIR="$presets" XDG_CONFIG_HOME="$here/config"
 export XDG_STATE_HOME="$here/state" LC_ALL=C.UTF-8 ENV=
 unset NO_COLOR COLORTERM TMUX LINES COLUMNS
 

@@ -10,7 +10,6 @@ if ! command -v valgrind >/dev/null; then
 fi
 
 # The program starts itself anew to set this; valgrind cannot follow there.
-export GOMP_SPINCOUNT=3000
 patience_s=$((patience_s * 4)) # and is thirty times as slow
 suppressed=$(cd "$(dirname "$0")/.." && pwd)/valgrind.supp
 cd "$here" || exit 1

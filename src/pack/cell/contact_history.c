@@ -3,8 +3,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/team.h"
 #include "pack/cell/engine.h"
 #include "pack/kernel/share.h"
+#include "pack/list/blocks.h"
 
 void gb_contact_history_finish(struct gb_contact_history *history)
 {
@@ -99,15 +101,41 @@ static void write_part(struct gb_contact_history *history, const struct gb_engin
     }
 }
 
-static bool reserve_parts(struct gb_contact_history *history, int threads,
+static bool reserve_parts(struct gb_contact_history *history, int parts,
                           struct gb_error *err)
 {
-    if (threads != history->threads || !history->begin) {
+    if (parts != history->parts || !history->begin) {
         gb_alloc_free(history->begin);
-        history->begin = gb_alloc_array((size_t)threads + 1, sizeof *history->begin, err);
-        history->threads = threads;
+        history->begin = gb_alloc_array((size_t)parts + 1, sizeof *history->begin, err);
+        history->parts = parts;
     }
     return history->begin != NULL;
+}
+
+/* The contacts of `count` particles in the parts of a history. */
+struct transfer {
+    struct gb_contact_history *history;
+    const struct gb_engine *engine;
+    int64_t count;
+};
+
+static void count_item(void *data, int64_t t)
+{
+    struct transfer *transfer = data;
+    const int64_t count = transfer->count;
+    const int parts = transfer->history->parts;
+    transfer->history->begin[t + 1] =
+        count_contacts(transfer->engine, gb_share(count, (int)t, parts),
+                       gb_share(count, (int)t + 1, parts));
+}
+
+static void write_item(void *data, int64_t t)
+{
+    struct transfer *transfer = data;
+    const int64_t count = transfer->count;
+    const int parts = transfer->history->parts;
+    write_part(transfer->history, transfer->engine, gb_share(count, (int)t, parts),
+               gb_share(count, (int)t + 1, parts), transfer->history->begin[t]);
 }
 
 bool gb_contact_history_write(struct gb_contact_history *history,
@@ -120,32 +148,25 @@ bool gb_contact_history_write(struct gb_contact_history *history,
     const int planes = !lists                              ? 1
                        : content == GB_CONTACT_HISTORY_ALL ? contacts->planes
                                                            : contacts->kept;
-    const int threads = lists ? engine->threads : 1;
+    const int parts = lists ? gb_team_size(engine->team) : 1;
     const int64_t count = lists ? engine->particles.count : 0;
     history->version = 0;
-    if (!reserve_parts(history, threads, err)) {
+    if (!reserve_parts(history, parts, err)) {
         return false;
     }
     int64_t *begin = history->begin;
+    struct transfer transfer = {history, engine, count};
     begin[0] = 0;
-#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
-    for (int t = 0; t < threads; t++) {
-        begin[t + 1] = count_contacts(engine, gb_share(count, t, threads),
-                                      gb_share(count, t + 1, threads));
-    }
-    for (int t = 0; t < threads; t++) {
+    gb_team_run(engine->team, parts, count_item, &transfer);
+    for (int t = 0; t < parts; t++) {
         begin[t + 1] += begin[t];
     }
-    if (!gb_contact_history_reserve(history, begin[threads], planes, engine->state.real,
+    if (!gb_contact_history_reserve(history, begin[parts], planes, engine->state.real,
                                     err)) {
         return false;
     }
-#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
-    for (int t = 0; t < threads; t++) {
-        write_part(history, engine, gb_share(count, t, threads),
-                   gb_share(count, t + 1, threads), begin[t]);
-    }
-    history->count = begin[threads];
+    gb_team_run(engine->team, parts, write_item, &transfer);
+    history->count = begin[parts];
     history->version = engine->history_version;
     return true;
 }
@@ -237,17 +258,24 @@ static void read_part(const struct gb_contact_history *history, struct gb_engine
     }
 }
 
+struct reading {
+    const struct gb_contact_history *history;
+    struct gb_engine *engine;
+};
+
+static void read_range(void *data, int64_t begin, int64_t end)
+{
+    const struct reading *reading = data;
+    read_part(reading->history, reading->engine, begin, end);
+}
+
 void gb_contact_history_read(const struct gb_contact_history *history,
                              struct gb_engine *engine)
 {
-    const int64_t count = engine->particles.count;
-    const int threads = engine->threads;
+    struct reading reading = {history, engine};
     engine->history_version++;
-#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
-    for (int t = 0; t < threads; t++) {
-        read_part(history, engine, gb_share(count, t, threads),
-                  gb_share(count, t + 1, threads));
-    }
+    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_SIZE, read_range,
+                       &reading);
 }
 
 const struct gb_contact_history_names gb_contact_history_world = {"world/pair",

@@ -26,7 +26,7 @@ struct gb_contact_history {
     void *value;     /* capacity x planes, of `real` */
     int64_t version; /* history_version of the engine that it was written at; 0: none */
     int64_t *begin;  /* scratch: first contact of each thread */
-    int threads;
+    int parts;
 };
 
 void gb_contact_history_finish(struct gb_contact_history *history);

@@ -14,12 +14,14 @@
 #include "pack/list/neighbour_list.h"
 #include "scene/model.h"
 
+struct gb_team;
+
 /* The data of the periodic engine: one member per owner, see docs/engine.md.  The files
  * that work on it (list check, sweeps, velocity update, contact history) see this struct
  * and the files below them, never gb_world. */
 struct gb_engine {
     const struct gb_model *model;
-    int threads;
+    struct gb_team *team; /* NULL: the calling thread alone */
     struct gb_engine_state state;
     struct gb_particles particles;
     struct gb_neighbour_list list;

@@ -37,7 +37,7 @@ bool gb_engine_lists_build(struct gb_engine *engine, const struct gb_cell *cell,
     const struct gb_list_build_range range = {numerics->cutoff, numerics->skin};
     gb_engine_state_drop_lists(&engine->state);
     if (!gb_list_build(&engine->list, cell, engine->particles.position, range,
-                       engine->threads, err) ||
+                       engine->team, err) ||
         !reserve(engine, err)) {
         gb_neighbour_list_clear(&engine->list);
         return false;

@@ -4,7 +4,9 @@
 
 #include "base/alloc.h"
 #include "base/mat.h"
+#include "base/team.h"
 #include "pack/kernel/simd.h"
+#include "pack/list/blocks.h"
 #include "pack/structure/assign_sizes.h"
 
 static bool assign_diameters(struct gb_particles *particles, const struct gb_model *model,
@@ -97,11 +99,15 @@ void gb_particles_replace(struct gb_particles *particles, const struct gb_cell *
     memset(particles->rotation, 0, n * sizeof *particles->rotation);
 }
 
-void gb_particles_wrap(struct gb_particles *particles, int threads)
+static void wrap_range(void *data, int64_t begin, int64_t end)
 {
-    (void)threads; /* without OpenMP */
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
-    for (int64_t i = 0; i < particles->count; i++) {
+    struct gb_particles *particles = data;
+    for (int64_t i = begin; i < end; i++) {
         gb_cell_wrap(&particles->cell, particles->position + 3 * i);
     }
+}
+
+void gb_particles_wrap(struct gb_particles *particles, struct gb_team *team)
+{
+    gb_team_run_ranges(team, particles->count, GB_BLOCKS_SIZE, wrap_range, particles);
 }

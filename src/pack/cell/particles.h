@@ -8,6 +8,8 @@
 #include "pack/cell/cell.h"
 #include "scene/model.h"
 
+struct gb_team;
+
 /* The particles and their cell; owned by particles.c.  Reduced units. */
 struct gb_particles {
     int64_t count;
@@ -32,6 +34,6 @@ void gb_particles_replace(struct gb_particles *particles, const struct gb_cell *
                           const double *position);
 
 /* Moves all positions into the cell. */
-void gb_particles_wrap(struct gb_particles *particles, int threads);
+void gb_particles_wrap(struct gb_particles *particles, struct gb_team *team);
 
 #endif

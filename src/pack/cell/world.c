@@ -1,12 +1,12 @@
 #include "pack/cell/world.h"
 
 #include <math.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 #include <string.h>
 
+#include <glib.h>
+
 #include "base/alloc.h"
+#include "base/team.h"
 #include "base/vec.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_convert.h"
@@ -19,15 +19,10 @@ _Static_assert((int)PARTICLES_PER_THREAD * 17 / 16 >= (int)GB_BLOCKS_SIZE,
 
 static int thread_count(const struct gb_model *model)
 {
-#ifdef _OPENMP
     const int64_t useful = model->count / PARTICLES_PER_THREAD;
-    const int cores = omp_get_num_procs();
-    const int automatic = (int)(useful < 1 ? 1 : useful < cores ? useful : cores);
-    return model->numerics.threads > 0 ? model->numerics.threads : automatic;
-#else
-    (void)model;
-    return 1;
-#endif
+    const int64_t cores = g_get_num_processors(); /* that this process may use */
+    const int64_t automatic = useful < 1 ? 1 : useful < cores ? useful : cores;
+    return model->numerics.threads > 0 ? model->numerics.threads : (int)automatic;
 }
 
 static bool init_engine(struct gb_engine *engine, const struct gb_model *model,
@@ -36,13 +31,13 @@ static bool init_engine(struct gb_engine *engine, const struct gb_model *model,
     const bool f32 = model->numerics.single;
     const size_t blocks = (size_t)gb_blocks_count(model->count);
     engine->model = model;
-    engine->threads = thread_count(model);
     engine->state.real = f32 ? GB_REAL_F32 : GB_REAL_F64;
     engine->kernel = gb_batch_pick(model, 0);
     gb_pair_results_init(&engine->pair, model);
     engine->check = gb_alloc_array(blocks, sizeof *engine->check, err);
     engine->tally = gb_alloc_array(blocks, sizeof *engine->tally, err);
     if (!engine->check || !engine->tally ||
+        !gb_team_create(&engine->team, thread_count(model), err) ||
         !gb_particles_init(&engine->particles, model, position, err) ||
         !gb_neighbour_list_init(
             &engine->list, model->count,
@@ -59,6 +54,7 @@ static bool init_engine(struct gb_engine *engine, const struct gb_model *model,
 
 static void finish_engine(struct gb_engine *engine)
 {
+    gb_team_destroy(engine->team);
     gb_alloc_free(engine->check);
     gb_alloc_free(engine->tally);
     gb_contacts_finish(&engine->contacts);
@@ -170,9 +166,9 @@ const struct gb_tally *gb_world_tally(const struct gb_world *world)
     return &world->engine.total.tally;
 }
 
-int gb_world_threads(const struct gb_world *world)
+struct gb_team *gb_world_team(const struct gb_world *world)
 {
-    return world->engine.threads;
+    return world->engine.team;
 }
 
 const double *gb_world_position(const struct gb_world *world)

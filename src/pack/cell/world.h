@@ -16,6 +16,7 @@
  * only; the force sweep inside uses model->numerics.threads threads and gives the same
  * bits for any number of them.  Reduced units.  How it works: docs/engine.md. */
 struct gb_world;
+struct gb_team;
 
 /* The arrays that relaxers and integrators move: count x 3, valid as long as the
  * world. */
@@ -75,8 +76,8 @@ struct gb_bodies gb_world_readable(struct gb_world *world);
 const struct gb_cell *gb_world_cell(const struct gb_world *world);
 const struct gb_model *gb_world_model(const struct gb_world *world);
 const struct gb_tally *gb_world_tally(const struct gb_world *world);
-/* Threads of its sweeps. */
-int gb_world_threads(const struct gb_world *world);
+/* The threads of its sweeps; NULL: the calling one alone. */
+struct gb_team *gb_world_team(const struct gb_world *world);
 const double *gb_world_position(const struct gb_world *world);
 /* Diameters (count), d; NULL: all are 1. */
 const double *gb_world_diameters(const struct gb_world *world);

@@ -17,7 +17,7 @@ bool gb_world_evaluate_rebuild(struct gb_world *world,
     struct gb_engine *engine = &world->engine;
     gb_f32_convert_synchronise(engine);
     (void)gb_cell_fold(&engine->particles.cell); /* new lists have new images */
-    gb_particles_wrap(&engine->particles, engine->threads);
+    gb_particles_wrap(&engine->particles, engine->team);
     if (!gb_engine_lists_build(engine, &engine->particles.cell, err)) {
         return false;
     }

@@ -1,5 +1,6 @@
 #include "pack/f32/f32_convert.h"
 
+#include "base/team.h"
 #include "pack/cell/engine.h"
 #include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"
@@ -40,42 +41,48 @@ GB_SIMD_WIDTHS(follow,
                 const double units[3], const double unit[3]),
                (position, particle, count, units, unit))
 
-void gb_f32_convert_synchronise(struct gb_engine *engine)
+static void follow_range(void *data, int64_t begin, int64_t end)
 {
+    struct gb_engine *engine = data;
     struct gb_particles *particles = &engine->particles;
-    const int64_t count = particles->count, blocks = gb_blocks_count(count);
     double units[3], unit[3];
-    if (!gb_engine_state_position_stale(&engine->state)) {
-        return;
-    }
     for (int c = 0; c < 3; c++) {
         units[c] = gb_fixed_position_units(&particles->cell, c);
         unit[c] = gb_fixed_position_unit(&particles->cell, c);
     }
-#pragma omp parallel for num_threads(engine->threads)                                    \
-    schedule(static) if (engine->threads > 1)
-    for (int64_t b = 0; b < blocks; b++) {
-        const int64_t begin = gb_blocks_begin(count, b);
-        follow(particles->position + 3 * begin, engine->f32.particle + begin,
-               gb_blocks_end(count, b) - begin, units, unit);
+    follow(particles->position + 3 * begin, engine->f32.particle + begin, end - begin,
+           units, unit);
+}
+
+void gb_f32_convert_synchronise(struct gb_engine *engine)
+{
+    if (!gb_engine_state_position_stale(&engine->state)) {
+        return;
     }
+    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_SIZE,
+                       follow_range, engine);
     gb_engine_state_synchronise(&engine->state);
 }
 
-void gb_f32_convert_forces_to_f64(struct gb_engine *engine)
+static void widen_range(void *data, int64_t begin, int64_t end)
 {
+    struct gb_engine *engine = data;
     struct gb_particles *particles = &engine->particles;
-    if (engine->state.forces == GB_ENGINE_FORCES_F64) {
-        return;
-    }
-#pragma omp parallel for num_threads(engine->threads)                                    \
-    schedule(static) if (engine->threads > 1)
-    for (int64_t i = 0; i < particles->count; i++) {
+    for (int64_t i = begin; i < end; i++) {
         for (int c = 0; c < 3; c++) {
             particles->force[3 * i + c] = (double)engine->f32.wrench[i][c];
             particles->torque[3 * i + c] = (double)engine->f32.wrench[i][TORQUE + c];
         }
     }
+}
+
+void gb_f32_convert_forces_to_f64(struct gb_engine *engine)
+{
+    if (engine->state.forces == GB_ENGINE_FORCES_F64) {
+        return;
+    }
+    gb_team_run_ranges(engine->team, engine->particles.count, GB_BLOCKS_SIZE, widen_range,
+                       engine);
     gb_engine_state_convert_forces(&engine->state);
 }
 

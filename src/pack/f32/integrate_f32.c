@@ -1,5 +1,6 @@
 #include "pack/f32/integrate_f32.h"
 
+#include "base/team.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_convert.h"
 #include "pack/f32/integrate_f32_tile.h"
@@ -93,24 +94,22 @@ GB_SIMD_WIDTHS(update_block,
                (struct gb_engine * engine, const struct pass *pass, int64_t b),
                (engine, pass, b))
 
-/* All blocks, by the threads of the calling OpenMP team; without a team, by the caller. */
-static void update_blocks(struct gb_engine *engine, const struct pass *pass)
+struct update {
+    struct gb_engine *engine;
+    const struct pass *pass;
+};
+
+static void update_item(void *data, int64_t b)
 {
-    const int64_t blocks = gb_blocks_count(engine->particles.count);
-#pragma omp for schedule(static)
-    for (int64_t b = 0; b < blocks; b++) {
-        update_block(engine, pass, b);
-    }
+    const struct update *update = data;
+    update_block(update->engine, update->pass, b);
 }
 
 static void update_all(struct gb_engine *engine, const struct pass *pass)
 {
-    if (engine->threads > 1) {
-#pragma omp parallel num_threads(engine->threads)
-        update_blocks(engine, pass);
-    } else { /* a team of one thread costs a barrier */
-        update_blocks(engine, pass);
-    }
+    struct update update = {engine, pass};
+    gb_team_run(engine->team, gb_blocks_count(engine->particles.count), update_item,
+                &update);
 }
 
 bool gb_integrate_f32_in_use(const struct gb_world *world)

@@ -1,11 +1,9 @@
 #include "pack/kernel/sweep.h"
 
 #include <math.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 #include <string.h>
 
+#include "base/team.h"
 #include "pack/cell/engine.h"
 #include "pack/f32/f32_convert.h"
 #include "pack/kernel/sweep_f32.h"
@@ -44,8 +42,9 @@ static void collect_block(struct gb_engine *engine, int64_t b,
     }
 }
 
-static void prepare_block(struct gb_engine *engine, int64_t b)
+static void prepare_block(void *data, int64_t b)
 {
+    struct gb_engine *engine = data;
     const int64_t count = engine->particles.count;
     gb_list_check_measure(engine, b);
     if (gb_engine_is_f32(engine)) {
@@ -54,61 +53,42 @@ static void prepare_block(struct gb_engine *engine, int64_t b)
     }
 }
 
-/* Blocks of one thread of a team, or all of them: those that a loop with a static
- * schedule gives it, so that they stay in its caches. */
-struct part {
-    int64_t begin, end;
+struct sweep {
+    struct gb_engine *engine;
+    struct gb_sweep_along along;
 };
 
-static struct part own_part(int64_t blocks)
+static void sweep_item(void *data, int64_t b)
 {
-#ifdef _OPENMP
-    const int64_t thread = omp_get_thread_num(), threads = omp_get_num_threads();
-    const int64_t each = blocks / threads, more = blocks % threads;
-    const int64_t begin = each * thread + (thread < more ? thread : more);
-    return (struct part){begin, begin + each + (thread < more ? 1 : 0)};
-#else
-    return (struct part){0, blocks};
-#endif
+    const struct sweep *sweep = data;
+    sweep_block(sweep->engine, b);
 }
 
-/* True if all rows for block b come from blocks of the same part, which its thread has
- * swept already. */
-static bool collects_at_once(const struct gb_engine *engine, const struct part *part,
-                             int64_t b)
+static void collect_item(void *data, int64_t b)
 {
-    return gb_engine_is_f32(engine) && engine->f32.near.source[b] >= part->begin &&
-           engine->f32.far.source[b] >= part->begin;
+    const struct sweep *sweep = data;
+    collect_block(sweep->engine, b, sweep->along);
 }
 
-/* All blocks, by the threads of the calling OpenMP team; without a team, by the caller.
- * Sets *valid where the lists are: the same for every thread. */
+/* In single precision all rows for a block come from blocks before it: a single thread
+ * collects each block while it is in the caches. */
+static bool collects_at_once(const struct gb_engine *engine)
+{
+    return gb_engine_is_f32(engine) && gb_team_active(engine->team) < 2;
+}
+
 static void run_blocks(struct gb_engine *engine, int64_t blocks,
-                       struct gb_sweep_along along, bool *valid)
+                       struct gb_sweep_along along)
 {
-    if (!gb_engine_state_moved(&engine->state)) { /* else the velocity update did it */
-#pragma omp for schedule(static)
+    struct sweep sweep = {engine, along};
+    if (collects_at_once(engine)) {
         for (int64_t b = 0; b < blocks; b++) {
-            prepare_block(engine, b);
-        }
-    }
-    if (!gb_list_check_run(engine)) {
-        return;
-    }
-#pragma omp single nowait
-    *valid = true;
-    const struct part part = own_part(blocks);
-    for (int64_t b = part.begin; b < part.end; b++) {
-        sweep_block(engine, b);
-        if (collects_at_once(engine, &part, b)) {
+            sweep_block(engine, b);
             collect_block(engine, b, along);
         }
-    }
-#pragma omp barrier
-    for (int64_t b = part.begin; b < part.end; b++) {
-        if (!collects_at_once(engine, &part, b)) {
-            collect_block(engine, b, along);
-        }
+    } else {
+        gb_team_run(engine->team, blocks, sweep_item, &sweep);
+        gb_team_run(engine->team, blocks, collect_item, &sweep);
     }
 }
 
@@ -142,23 +122,21 @@ static void sum_blocks(struct gb_engine *engine, int64_t blocks)
 static bool sweep_equal(struct gb_engine *engine, struct gb_sweep_along along)
 {
     const int64_t blocks = gb_blocks_count(engine->particles.count);
-    bool valid = false;
     for (int c = 0; c < 3; c++) {
         engine->f32.scale[c] = (float)gb_fixed_position_unit(&engine->particles.cell, c);
     }
     if (!gb_engine_state_moved(&engine->state)) {
         gb_f32_convert_synchronise(engine);
+        gb_team_run(engine->team, blocks, prepare_block, engine);
+    } /* else the velocity update did it */
+    if (!gb_list_check_run(engine)) {
+        return false;
     }
-    if (engine->threads > 1) {
-#pragma omp parallel num_threads(engine->threads)
-        run_blocks(engine, blocks, along, &valid);
-    } else { /* a team of one thread costs a barrier */
-        run_blocks(engine, blocks, along, &valid);
-    }
-    if (valid) {
-        sum_blocks(engine, blocks);
-    }
-    return valid;
+    gb_team_measured_begin(engine->team);
+    run_blocks(engine, blocks, along);
+    gb_team_measured_end(engine->team);
+    sum_blocks(engine, blocks);
+    return true;
 }
 
 /* Particles of unequal sizes; all sums by one thread. */
@@ -171,7 +149,9 @@ static bool sweep_sized(struct gb_engine *engine, struct gb_sweep_along along)
     if (!gb_list_check_run(engine)) {
         return false;
     }
+    gb_team_measured_begin(engine->team);
     gb_sweep_sized_run(engine);
+    gb_team_measured_end(engine->team);
     gb_sweep_f64_sum(&engine->particles, 0, count, along, &engine->total.sums);
     return true;
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/team.h"
 #include "pack/cell/engine.h"
 #include "pack/kernel/sized_contact.h"
 #include "scene/loading_kind.h"
@@ -158,21 +159,32 @@ static void sum_tally(struct gb_engine *engine, bool viscous)
     engine->total.tally = tally;
 }
 
+/* Pairs that are worth a thread. */
+enum { PAIRS_LEAST = 512 };
+
+static void sweep_near_range(void *data, int64_t begin, int64_t end)
+{
+    struct gb_engine *engine = data;
+    const bool viscous = gb_loading_kind_at(engine->model->kind)->viscous_contacts;
+    for (int64_t k = begin; k < end; k++) {
+        sweep_near(engine, k, viscous);
+    }
+}
+
+static void sweep_far_range(void *data, int64_t begin, int64_t end)
+{
+    struct gb_engine *engine = data;
+    for (int64_t k = begin; k < end; k++) {
+        sweep_far(engine, k);
+    }
+}
+
 void gb_sweep_sized_run(struct gb_engine *engine)
 {
     const int64_t near = engine->list.near.pair_count, far = engine->list.far.pair_count;
     const bool viscous = gb_loading_kind_at(engine->model->kind)->viscous_contacts;
-#pragma omp parallel num_threads(engine->threads) if (engine->threads > 1)
-    {
-#pragma omp for schedule(static) nowait
-        for (int64_t k = 0; k < near; k++) {
-            sweep_near(engine, k, viscous);
-        }
-#pragma omp for schedule(static)
-        for (int64_t k = 0; k < far; k++) {
-            sweep_far(engine, k);
-        }
-    }
+    gb_team_run_ranges(engine->team, near, PAIRS_LEAST, sweep_near_range, engine);
+    gb_team_run_ranges(engine->team, far, PAIRS_LEAST, sweep_far_range, engine);
     sum_forces(engine);
     sum_tally(engine, viscous);
 }

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/team.h"
 #include "pack/cell/world_private.h"
 #include "pack/kernel/fabric_sums.h"
 #include "pack/kernel/pair_forces.h"
@@ -191,20 +192,33 @@ static void add_group(struct gb_fabric_sums *sums, const struct gb_fabric_sums *
     }
 }
 
+struct summing {
+    const struct gb_world *world;
+    double (*part)[3][3];
+    struct gb_fabric_sums *group; /* NULL: no fabric */
+};
+
+static void sum_item(void *data, int64_t g)
+{
+    const struct summing *summing = data;
+    const struct gb_engine *engine = &summing->world->engine;
+    const int parts = parts_of(engine), groups = groups_of(engine);
+    struct gb_fabric_sums *fabric = summing->group ? &summing->group[g] : NULL;
+    if (fabric) {
+        *fabric = (struct gb_fabric_sums){.weight = {0}};
+    }
+    sum_group(summing->world, (int)gb_share(parts, (int)g, groups),
+              (int)gb_share(parts, (int)g + 1, groups), summing->part, fabric);
+}
+
 void gb_virial_sum_fabric(const struct gb_world *world, double sum[3][3],
                           struct gb_fabric_sums *fabric)
 {
     double part[PARTS][3][3] = {0};
     struct gb_fabric_sums group[PARTS];
-    const int threads = world->engine.threads, parts = parts_of(&world->engine),
-              groups = groups_of(&world->engine);
-    (void)threads; /* without OpenMP */
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
-    for (int g = 0; g < groups; g++) {
-        group[g] = (struct gb_fabric_sums){.weight = {0}};
-        sum_group(world, (int)gb_share(parts, g, groups),
-                  (int)gb_share(parts, g + 1, groups), part, fabric ? &group[g] : NULL);
-    }
+    const int parts = parts_of(&world->engine), groups = groups_of(&world->engine);
+    struct summing summing = {world, part, fabric ? group : NULL};
+    gb_team_run(world->engine.team, groups, sum_item, &summing);
     for (int g = 0; fabric && g < groups; g++) {
         add_group(fabric, &group[g]);
     }

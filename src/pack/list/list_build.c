@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/team.h"
 #include "pack/kernel/share.h"
 #include "pack/list/blocks.h"
 #include "pack/list/list_scan.h"
@@ -70,12 +71,12 @@ static bool scan_part(struct gb_neighbour_list *list, const struct gb_list_scan 
 
 /* First slots of every part, and room for all pairs. */
 static bool assign_part_slots(struct gb_neighbour_list *list, struct part *part,
-                              int threads, struct gb_error *err)
+                              int parts, struct gb_error *err)
 {
     const int64_t size = gb_blocks_size(list->count);
     const int64_t per_block = gb_neighbour_list_free_slots(list);
     int64_t near = 0, far = 0;
-    for (int t = 0; t < threads; t++) {
+    for (int t = 0; t < parts; t++) {
         if (part[t].err.code != GB_OK) {
             return gb_error_set(err, part[t].err.code, "%s", part[t].err.text);
         }
@@ -141,27 +142,44 @@ static void fill_part(struct gb_neighbour_list *list, const struct part *part)
     }
 }
 
-static bool fill_lists(struct gb_neighbour_list *list, const struct gb_list_scan *scan,
-                       int threads, struct gb_error *err)
+struct filling {
+    struct gb_neighbour_list *list;
+    const struct gb_list_scan *scan;
+    struct part *part;
+};
+
+static void scan_item(void *data, int64_t t)
 {
-    struct part *part = gb_alloc_array((size_t)threads, sizeof *part, err);
+    struct filling *filling = data;
+    struct part *part = &filling->part[t];
+    (void)scan_part(filling->list, filling->scan, part); /* the part keeps the error */
+}
+
+static void fill_item(void *data, int64_t t)
+{
+    struct filling *filling = data;
+    fill_part(filling->list, &filling->part[t]);
+}
+
+static bool fill_lists(struct gb_neighbour_list *list, const struct gb_list_scan *scan,
+                       struct gb_team *team, struct gb_error *err)
+{
+    const int parts = gb_team_size(team);
+    struct part *part = gb_alloc_array((size_t)parts, sizeof *part, err);
     if (!part) {
         return false;
     }
-    for (int t = 0; t < threads; t++) {
-        part[t].begin = gb_share(list->count, t, threads);
-        part[t].end = gb_share(list->count, t + 1, threads);
+    struct filling filling = {list, scan, part};
+    for (int t = 0; t < parts; t++) {
+        part[t].begin = gb_share(list->count, t, parts);
+        part[t].end = gb_share(list->count, t + 1, parts);
     }
-#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
-    for (int t = 0; t < threads; t++) {
-        (void)scan_part(list, scan, &part[t]); /* the error is kept in the part */
+    gb_team_run(team, parts, scan_item, &filling);
+    const bool good = assign_part_slots(list, part, parts, err);
+    if (good) {
+        gb_team_run(team, parts, fill_item, &filling);
     }
-    const bool good = assign_part_slots(list, part, threads, err);
-#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
-    for (int t = 0; t < threads; t++) {
-        if (good) {
-            fill_part(list, &part[t]);
-        }
+    for (int t = 0; t < parts; t++) {
         gb_alloc_free(part[t].found);
     }
     gb_alloc_free(part);
@@ -188,13 +206,11 @@ static void transpose(struct gb_pair_list *pairs, int64_t count)
     in[0] = 0;
 }
 
-static void transpose_both(struct gb_neighbour_list *list, int threads)
+/* The near list or the far one. */
+static void transpose_item(void *data, int64_t far)
 {
-    (void)threads; /* without OpenMP */
-#pragma omp parallel for num_threads(threads) schedule(static, 1) if (threads > 1)
-    for (int l = 0; l < 2; l++) {
-        transpose(l == 0 ? &list->near : &list->far, list->count);
-    }
+    struct gb_neighbour_list *list = data;
+    transpose(far ? &list->far : &list->near, list->count);
 }
 
 /* Reference of the list check until the next build. */
@@ -210,8 +226,8 @@ static void record_build(struct gb_neighbour_list *list, const struct gb_cell *c
 }
 
 bool gb_list_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
-                   const double *position, struct gb_list_build_range range, int threads,
-                   struct gb_error *err)
+                   const double *position, struct gb_list_build_range range,
+                   struct gb_team *team, struct gb_error *err)
 {
     const double skin = range.skin, gap = range.cutoff - 1.0 + skin;
     const double reach = list->largest - 1.0 + range.cutoff + skin;
@@ -230,11 +246,11 @@ bool gb_list_build(struct gb_neighbour_list *list, const struct gb_cell *cell,
         .shift = (const double(*)[3])list->shift,
         .diameter = list->diameter};
     gb_neighbour_grid_init(&scan.grid, cell, reach, list->count);
-    if (!gb_list_scan_sort(&scan, list, err) || !fill_lists(list, &scan, threads, err)) {
+    if (!gb_list_scan_sort(&scan, list, err) || !fill_lists(list, &scan, team, err)) {
         return false;
     }
     if (list->layout == GB_NEIGHBOUR_LIST_TRANSPOSED) {
-        transpose_both(list, threads);
+        gb_team_run(team, 2, transpose_item, list);
     }
     record_build(list, cell, position, &scan.grid);
     return true;

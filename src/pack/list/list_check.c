@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/team.h"
 #include "pack/cell/engine.h"
 #include "pack/list/blocks.h"
 #include "pack/list/escaped_search.h"
@@ -129,8 +130,9 @@ double gb_list_check_largest(const struct gb_engine *engine)
     return largest;
 }
 
-static void find_in_block(struct gb_engine *engine, int64_t b)
+static void find_in_block(void *data, int64_t b)
 {
+    struct gb_engine *engine = data;
     const int64_t count = engine->particles.count;
     struct gb_list_check_block *block = &engine->check[b];
     block->missing = (struct gb_missing_pairs){0};
@@ -165,9 +167,6 @@ bool gb_list_check_run(struct gb_engine *engine)
     if (verdict != GB_LIST_CHECK_UNCERTAIN) {
         return verdict == GB_LIST_CHECK_VALID;
     }
-#pragma omp for schedule(static)
-    for (int64_t b = 0; b < blocks; b++) {
-        find_in_block(engine, b);
-    }
+    gb_team_run(engine->team, blocks, find_in_block, engine);
     return !any_missing(engine, blocks);
 }

@@ -43,8 +43,7 @@ void gb_list_check_measure(struct gb_engine *engine, int64_t b);
 double gb_list_check_largest(const struct gb_engine *engine);
 
 /* True if the lists are valid, by the displacements of the blocks; leaves the missing pairs
- * in engine->check.  Called by all threads of an OpenMP team, or by one thread outside of
- * a team; every thread returns the same value. */
+ * in engine->check. */
 bool gb_list_check_run(struct gb_engine *engine);
 
 #endif

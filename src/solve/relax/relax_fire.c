@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/team.h"
 #include "base/vec.h"
 #include "pack/f32/integrate_f32.h"
 #include "pack/kernel/simd.h"
@@ -59,29 +60,9 @@ struct pass {
 };
 
 /* The first of the numbers (three a particle) of a span. */
-static int64_t span_begin(const struct pass *pass, int span)
+static int64_t span_begin(const struct pass *pass, int64_t span)
 {
     return 3 * (pass->b.count * span / SPANS);
-}
-
-/* All spans, by the threads of the team that calls it; without one, by the caller. */
-static void work_spans(struct pass *pass, void (*work)(struct pass *pass, int span))
-{
-#pragma omp for schedule(static)
-    for (int s = 0; s < SPANS; s++) {
-        work(pass, s);
-    }
-}
-
-static void over_spans(struct pass *pass, int threads,
-                       void (*work)(struct pass *pass, int span))
-{
-    if (threads > 1) {
-#pragma omp parallel num_threads(threads)
-        work_spans(pass, work);
-    } else { /* no team: its barriers cost time */
-        work_spans(pass, work);
-    }
 }
 
 /* Lengthens the step while the power is positive, else shortens it; returns the step
@@ -194,8 +175,9 @@ static double limit_displacement(const struct pass *pass, int64_t begin, int64_t
     return fall;
 }
 
-static void update_span(struct pass *pass, int span)
+static void update_span(void *data, int64_t span)
 {
+    struct pass *pass = data;
     const int64_t begin = span_begin(pass, span), end = span_begin(pass, span + 1);
     const struct update_factors translation = {pass->keep, pass->kick, pass->back,
                                                pass->step};
@@ -220,7 +202,6 @@ static void update_span(struct pass *pass, int span)
 static double update_world(struct gb_relax *relax, struct gb_world *world,
                            const struct gb_integrate_f32 *by)
 {
-    const int threads = gb_world_threads(world);
     const double bound = by->displacement_max / by->step;
     struct pass pass = {.b = gb_world_bodies(world),
                         .v = relax->vector[0],
@@ -233,7 +214,7 @@ static double update_world(struct gb_relax *relax, struct gb_world *world,
                         .back = by->back,
                         .step = by->step,
                         .most2 = bound * bound};
-    over_spans(&pass, threads, update_span);
+    gb_team_run(gb_world_team(world), SPANS, update_span, &pass);
     double speed2 = 0.0;
     for (int s = 0; s < SPANS; s++) {
         speed2 += pass.speed2[s];

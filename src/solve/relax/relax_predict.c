@@ -11,6 +11,8 @@
 
 #include "base/mat.h"
 #include "base/record.h"
+#include "base/team.h"
+#include "pack/list/blocks.h"
 #include "scene/tolerances.h"
 #include "solve/relax/relax_fire.h"
 
@@ -138,30 +140,32 @@ static inline void predict_particle(struct gb_relax *relax, const struct gb_bodi
     gb_vec_add(b->rotation + 3 * i, 1.0, rotation);
 }
 
-static void predict_scaled(struct gb_relax *relax, const struct gb_bodies *b,
-                           const double edge[3], int threads, struct request request)
+struct prediction {
+    struct gb_relax *relax;
+    struct gb_bodies b;
+    const struct gb_cell *cell, *before;
+    struct request request;
+};
+
+static void predict_scaled(void *data, int64_t begin, int64_t end)
 {
-    (void)threads; /* without OpenMP */
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
-    for (int64_t i = 0; i < b->count; i++) {
+    const struct prediction *p = data;
+    for (int64_t i = begin; i < end; i++) {
         double displacement[3];
-        displacement_of(edge, b->position + 3 * i, relax->vector[POSITION] + 3 * i,
-                        displacement);
-        predict_particle(relax, b, i, displacement, request);
+        displacement_of(p->cell->edge, p->b.position + 3 * i,
+                        p->relax->vector[POSITION] + 3 * i, displacement);
+        predict_particle(p->relax, &p->b, i, displacement, p->request);
     }
 }
 
-static void predict_tilted(struct gb_relax *relax, const struct gb_bodies *b,
-                           const struct gb_cell *cell, const struct gb_cell *before,
-                           int threads, struct request request)
+static void predict_tilted(void *data, int64_t begin, int64_t end)
 {
-    (void)threads; /* without OpenMP */
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
-    for (int64_t i = 0; i < b->count; i++) {
+    const struct prediction *p = data;
+    for (int64_t i = begin; i < end; i++) {
         double displacement[3];
-        displacement_tilted(cell, before, b->position + 3 * i,
-                            relax->vector[POSITION] + 3 * i, displacement);
-        predict_particle(relax, b, i, displacement, request);
+        displacement_tilted(p->cell, p->before, p->b.position + 3 * i,
+                            p->relax->vector[POSITION] + 3 * i, displacement);
+        predict_particle(p->relax, &p->b, i, displacement, p->request);
     }
 }
 
@@ -169,14 +173,11 @@ static void predict_tilted(struct gb_relax *relax, const struct gb_bodies *b,
 static void predict_motion(struct gb_relax *relax, struct gb_world *world,
                            const struct gb_cell *before, struct request request)
 {
-    const struct gb_bodies b = gb_world_movable(world);
-    const struct gb_cell *cell = gb_world_cell(world);
-    const int threads = gb_world_threads(world);
-    if (gb_world_model(world)->sheared && before->edge[0] > 0.0) {
-        predict_tilted(relax, &b, cell, before, threads, request);
-    } else {
-        predict_scaled(relax, &b, cell->edge, threads, request);
-    }
+    struct prediction prediction = {relax, gb_world_movable(world), gb_world_cell(world),
+                                    before, request};
+    const bool tilted = gb_world_model(world)->sheared && before->edge[0] > 0.0;
+    gb_team_run_ranges(gb_world_team(world), prediction.b.count, GB_BLOCKS_SIZE,
+                       tilted ? predict_tilted : predict_scaled, &prediction);
 }
 
 static void start(struct gb_relax *relax, struct gb_world *world)

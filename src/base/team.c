@@ -1,0 +1,314 @@
+#include "base/team.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "base/team_pace.h"
+#include "base/thread.h"
+
+/* A thread that waits looks for new work for some time before it sleeps: waking takes as
+ * long.  It must not be much longer, for the core may be what the awaited thread lacks. */
+static const double spin_s = 40e-6;
+enum { LOOKS_PER_CLOCK = 32 }; /* readings of the clock cost more than a look */
+
+enum { CACHE_LINE = 64 };
+
+/* A place to wait in: `signal` after a change, `await` until it. */
+struct bell {
+    pthread_mutex_t lock;
+    pthread_cond_t rung;
+    atomic_bool asleep;
+};
+
+/* One thread of the team: 0 is the caller. */
+struct member {
+    /* Items of its share that no thread has taken: the next one in the upper half, one
+     * past the last in the lower half.  Whoever changes the word by a successful
+     * exchange owns the item, of whatever work the word is by then. */
+    _Alignas(CACHE_LINE) _Atomic uint64_t share;
+    _Alignas(CACHE_LINE) struct bell bell;
+    pthread_t thread;
+    struct gb_team *team;
+    int number;
+};
+
+struct gb_team {
+    struct member *member;
+    int size; /* threads that exist or shall */
+    bool started;
+    struct gb_team_pace pace;
+    double began_s; /* of the measured work */
+    /* The work: written before its shares, read after an item is taken. */
+    gb_team_item *work;
+    void *data;
+    _Alignas(CACHE_LINE) atomic_int active; /* threads of this work */
+    atomic_uint generation;                 /* grows with every work and at the end */
+    atomic_bool over;
+    _Alignas(CACHE_LINE) _Atomic int64_t left; /* items that are not finished */
+};
+
+static inline void relax_cpu(void)
+{
+#if defined __x86_64__ || defined __i386__
+    __builtin_ia32_pause();
+#elif defined __aarch64__
+    __asm__ volatile("yield");
+#endif
+}
+
+static void bell_init(struct bell *bell)
+{
+    pthread_mutex_init(&bell->lock, NULL);
+    pthread_cond_init(&bell->rung, NULL);
+    atomic_init(&bell->asleep, false);
+}
+
+static void bell_finish(struct bell *bell)
+{
+    pthread_cond_destroy(&bell->rung);
+    pthread_mutex_destroy(&bell->lock);
+}
+
+/* After a change that bell_await looks for. */
+static void bell_ring(struct bell *bell)
+{
+    if (atomic_load(&bell->asleep)) {
+        pthread_mutex_lock(&bell->lock);
+        pthread_cond_signal(&bell->rung);
+        pthread_mutex_unlock(&bell->lock);
+    }
+}
+
+typedef bool condition(const struct member *member, unsigned seen);
+
+/* Until the condition holds: it looks, then sleeps. */
+static void bell_await(struct member *member, condition *holds, unsigned seen)
+{
+    struct bell *bell = &member->bell;
+    const double began_s = gb_clock_s();
+    do {
+        for (int look = 0; look < LOOKS_PER_CLOCK; look++) {
+            if (holds(member, seen)) {
+                return;
+            }
+            relax_cpu();
+        }
+    } while (gb_clock_s() - began_s < spin_s);
+    pthread_mutex_lock(&bell->lock);
+    atomic_store(&bell->asleep, true);
+    while (!holds(member, seen)) {
+        pthread_cond_wait(&bell->rung, &bell->lock);
+    }
+    atomic_store(&bell->asleep, false);
+    pthread_mutex_unlock(&bell->lock);
+}
+
+static bool has_new_work(const struct member *member, unsigned seen)
+{
+    struct gb_team *team = member->team;
+    return (atomic_load(&team->generation) != seen &&
+            member->number < atomic_load(&team->active)) ||
+           atomic_load(&team->over);
+}
+
+static bool all_finished(const struct member *member, unsigned seen)
+{
+    (void)seen;
+    return atomic_load(&member->team->left) == 0;
+}
+
+static uint64_t share_word(int64_t next, int64_t end)
+{
+    return (uint64_t)next << 32 | (uint64_t)end;
+}
+
+/* Takes an item of the member's share; false if none is left. */
+static bool take(struct member *from, int64_t *item)
+{
+    uint64_t word = atomic_load(&from->share);
+    do {
+        *item = (int64_t)(word >> 32);
+        if (*item >= (int64_t)(word & UINT32_MAX)) {
+            return false;
+        }
+    } while (
+        !atomic_compare_exchange_weak(&from->share, &word, word + ((uint64_t)1 << 32)));
+    return true;
+}
+
+/* Items of the own share, then of the others'. */
+static void work_off(struct gb_team *team, int number)
+{
+    for (int k = 0; k < team->size; k++) {
+        struct member *from = &team->member[(number + k) % team->size];
+        for (int64_t item; take(from, &item);) {
+            team->work(team->data, item);
+            if (atomic_fetch_sub(&team->left, 1) == 1 && number > 0) {
+                bell_ring(&team->member[0].bell);
+            }
+        }
+    }
+}
+
+static void *member_main(void *data)
+{
+    struct member *self = data;
+    struct gb_team *team = self->team;
+    unsigned seen = 0;
+    for (;;) {
+        bell_await(self, has_new_work, seen);
+        if (atomic_load(&team->over)) {
+            return NULL;
+        }
+        seen = atomic_load(&team->generation);
+        work_off(team, self->number);
+    }
+}
+
+bool gb_team_create(struct gb_team **out, int threads, struct gb_error *err)
+{
+    *out = NULL;
+    if (threads < 2) {
+        return true;
+    }
+    struct gb_team *team = gb_alloc_array(1, sizeof *team, err);
+    struct member *member =
+        team ? gb_alloc_array((size_t)threads, sizeof *member, err) : NULL;
+    if (!member) {
+        gb_alloc_free(team);
+        return false;
+    }
+    team->member = member;
+    team->size = threads;
+    for (int m = 0; m < threads; m++) {
+        atomic_init(&member[m].share, 0);
+        bell_init(&member[m].bell);
+        member[m].team = team;
+        member[m].number = m;
+    }
+    gb_team_pace_init(&team->pace, threads);
+    *out = team;
+    return true;
+}
+
+/* Starts the threads; the team shrinks to those that the machine grants. */
+static void start(struct gb_team *team)
+{
+    team->started = true;
+    for (int m = 1; m < team->size; m++) {
+        struct member *member = &team->member[m];
+        struct gb_error refused;
+        if (!gb_thread_start(&member->thread, member_main, member, "a worker thread",
+                             &refused)) {
+            for (int rest = m; rest < team->size; rest++) {
+                bell_finish(&team->member[rest].bell);
+            }
+            team->size = m;
+            gb_team_pace_init(&team->pace, m);
+        }
+    }
+}
+
+void gb_team_destroy(struct gb_team *team)
+{
+    if (!team) {
+        return;
+    }
+    atomic_store(&team->over, true);
+    for (int m = 1; team->started && m < team->size; m++) {
+        bell_ring(&team->member[m].bell);
+        pthread_join(team->member[m].thread, NULL);
+    }
+    for (int m = 0; m < team->size; m++) {
+        bell_finish(&team->member[m].bell);
+    }
+    gb_alloc_free(team->member);
+    gb_alloc_free(team);
+}
+
+int gb_team_size(const struct gb_team *team)
+{
+    return team ? team->size : 1;
+}
+
+int gb_team_active(const struct gb_team *team)
+{
+    return team ? gb_team_pace_threads(&team->pace) : 1;
+}
+
+static void run_alone(int64_t items, gb_team_item *work, void *data)
+{
+    for (int64_t item = 0; item < items; item++) {
+        work(data, item);
+    }
+}
+
+void gb_team_run(struct gb_team *team, int64_t items, gb_team_item *work, void *data)
+{
+    if (items < 2 || gb_team_active(team) < 2) {
+        run_alone(items, work, data);
+        return;
+    }
+    if (!team->started) {
+        start(team);
+    }
+    const int limit = gb_team_active(team);
+    const int active = items < limit ? (int)items : limit;
+    team->work = work;
+    team->data = data;
+    atomic_store(&team->left, items);
+    atomic_store(&team->active, active);
+    for (int m = 0; m < active; m++) {
+        atomic_store(&team->member[m].share,
+                     share_word(items * m / active, items * (m + 1) / active));
+    }
+    atomic_fetch_add(&team->generation, 1);
+    for (int m = 1; m < active; m++) {
+        bell_ring(&team->member[m].bell);
+    }
+    work_off(team, 0);
+    bell_await(&team->member[0], all_finished, 0);
+}
+
+struct ranges {
+    gb_team_range *work;
+    void *data;
+    int64_t count, parts;
+};
+
+static void run_range(void *data, int64_t part)
+{
+    const struct ranges *ranges = data;
+    ranges->work(ranges->data, ranges->count * part / ranges->parts,
+                 ranges->count * (part + 1) / ranges->parts);
+}
+
+void gb_team_run_ranges(struct gb_team *team, int64_t count, int64_t grain,
+                        gb_team_range *work, void *data)
+{
+    enum { RANGES_PER_THREAD = 4 };
+    const int64_t wanted = RANGES_PER_THREAD * (int64_t)gb_team_active(team);
+    int64_t parts = count / grain < wanted ? count / grain : wanted;
+    if (parts < 2 || gb_team_active(team) < 2) {
+        work(data, 0, count);
+        return;
+    }
+    struct ranges ranges = {work, data, count, parts};
+    gb_team_run(team, parts, run_range, &ranges);
+}
+
+void gb_team_measured_begin(struct gb_team *team)
+{
+    if (team) {
+        team->began_s = gb_clock_s();
+    }
+}
+
+void gb_team_measured_end(struct gb_team *team)
+{
+    if (team) {
+        gb_team_pace_add(&team->pace, gb_clock_s() - team->began_s);
+    }
+}

@@ -1,0 +1,50 @@
+#ifndef GB_BASE_TEAM_H
+#define GB_BASE_TEAM_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "greenbody/status.h"
+
+/* Threads that share the items of one piece of work after another.  Every thread takes
+ * the items of its own share in order, then those that others have not begun: a thread
+ * without a core delays nothing but the item that it holds.  Which thread computes an
+ * item is undefined, so an item's result must not depend on it.
+ *
+ * A team of one thread is NULL: every function accepts it, and the caller does the work.
+ * A team serves one caller at a time; items must not use the team. */
+struct gb_team;
+
+typedef void gb_team_item(void *data, int64_t item);
+typedef void gb_team_range(void *data, int64_t begin, int64_t end);
+
+/* At most `threads` threads, the caller's included; they start with the first work that
+ * has more than one item.  Where the machine refuses a thread, those that started do the
+ * work.
+ *
+ * Errors: GB_ERR_MEMORY. */
+bool gb_team_create(struct gb_team **out, int threads, struct gb_error *err);
+
+void gb_team_destroy(struct gb_team *team);
+
+/* Threads at most; 1 without a team. */
+int gb_team_size(const struct gb_team *team);
+
+/* Threads of the next work: gb_team_size, or fewer after gb_team_measured_end. */
+int gb_team_active(const struct gb_team *team);
+
+/* work(data, item) once for each item 0 .. items - 1 (at most 2^31); returns after the
+ * last one.  What an item wrote is visible to the caller. */
+void gb_team_run(struct gb_team *team, int64_t items, gb_team_item *work, void *data);
+
+/* work(data, begin, end) for ranges that cover 0 .. count - 1, none shorter than `grain`
+ * but a single one.  The ranges depend on the number of threads. */
+void gb_team_run_ranges(struct gb_team *team, int64_t count, int64_t grain,
+                        gb_team_range *work, void *data);
+
+/* Around work that costs the same each time: from its elapsed times the team finds how
+ * many threads pay (base/team_pace.h), also while other processes come and go. */
+void gb_team_measured_begin(struct gb_team *team);
+void gb_team_measured_end(struct gb_team *team);
+
+#endif
