@@ -384,7 +384,7 @@ static const struct gb_field rows[] = {
      .source = "numerical"},
     {"numerics", "threads", GB_FIELD_INTEGER, AT(threads), RANGE(1.0, 1024.0), AUTO(-1.0),
      .fallback = "auto",
-     .meaning = "threads of the force sweep; results do not depend on it",
+     .meaning = "most threads of the force sweep; results do not depend on it",
      .source = "numerical"},
     {"numerics", "max_evaluations", GB_FIELD_INTEGER, AT(max_evaluations),
      RANGE(1.0, 1e9), AUTO(-1.0), .fallback = "auto",
