@@ -7,8 +7,8 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "base/team.h"
-#include "base/team_pace.h"
+#include "base/team/team.h"
+#include "base/team/team_pace.h"
 
 static struct gb_team *team_of(int threads)
 {

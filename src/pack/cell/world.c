@@ -6,7 +6,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "base/team.h"
+#include "base/team/team.h"
 #include "base/vec.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_convert.h"

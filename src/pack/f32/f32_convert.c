@@ -1,6 +1,6 @@
 #include "pack/f32/f32_convert.h"
 
-#include "base/team.h"
+#include "base/team/team.h"
 #include "pack/cell/engine.h"
 #include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"

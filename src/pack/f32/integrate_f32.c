@@ -1,6 +1,6 @@
 #include "pack/f32/integrate_f32.h"
 
-#include "base/team.h"
+#include "base/team/team.h"
 #include "pack/cell/world_private.h"
 #include "pack/f32/f32_convert.h"
 #include "pack/f32/integrate_f32_tile.h"

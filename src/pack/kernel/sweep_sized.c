@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/team.h"
+#include "base/team/team.h"
 #include "pack/cell/engine.h"
 #include "pack/kernel/sized_contact.h"
 #include "scene/loading_kind.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/team.h"
+#include "base/team/team.h"
 #include "pack/kernel/share.h"
 #include "pack/list/blocks.h"
 #include "pack/list/list_scan.h"

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/team.h"
+#include "base/team/team.h"
 #include "pack/cell/engine.h"
 #include "pack/list/blocks.h"
 #include "pack/list/escaped_search.h"

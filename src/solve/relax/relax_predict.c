@@ -11,7 +11,7 @@
 
 #include "base/mat.h"
 #include "base/record.h"
-#include "base/team.h"
+#include "base/team/team.h"
 #include "pack/list/blocks.h"
 #include "scene/tolerances.h"
 #include "solve/relax/relax_fire.h"

@@ -43,7 +43,7 @@ void gb_team_run_ranges(struct gb_team *team, int64_t count, int64_t grain,
                         gb_team_range *work, void *data);
 
 /* Around work that costs the same each time: from its elapsed times the team finds how
- * many threads pay (base/team_pace.h), also while other processes come and go. */
+ * many threads pay (base/team/team_pace.h), also while other processes come and go. */
 void gb_team_measured_begin(struct gb_team *team);
 void gb_team_measured_end(struct gb_team *team);
 

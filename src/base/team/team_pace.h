@@ -3,22 +3,22 @@
 
 #include <stdint.h>
 
-/* How many threads pay: a search by trial.  Between searches `active` threads work.  A
+/* How many threads pay: a search by candidate.  Between searches `active` threads work.  A
  * search times a window with them and one with each neighbouring number; it starts again
  * from a number that is better, and ends where none is.  Searches grow rarer while nothing
  * changes, so that their cost stays below some percent. */
 struct gb_team_pace {
-    int most;   /* threads available */
-    int active; /* threads between searches */
-    int trial;  /* threads of the trial */
+    int most;      /* threads available */
+    int active;    /* threads between searches */
+    int candidate; /* threads of the candidate */
     enum gb_team_pace_phase {
         GB_TEAM_PACE_REST,
-        GB_TEAM_PACE_BASE, /* window of `active` threads */
-        GB_TEAM_PACE_TRIAL /* window of `trial` threads */
+        GB_TEAM_PACE_BASE,     /* window of `active` threads */
+        GB_TEAM_PACE_CANDIDATE /* window of `candidate` threads */
     } phase;
-    int last;       /* threads of the last trial, if in vain, or of those before it; 0 */
-    int next;       /* neighbour of the next trial */
-    int failed;     /* neighbours tried in vain in this search */
+    int last;   /* threads of the last candidate, if in vain, or of those before it; 0 */
+    int next;   /* neighbour of the next candidate */
+    int failed; /* neighbours tried in vain in this search */
     double rest_s;  /* until the next search */
     double spent_s; /* in this phase */
     int64_t rounds; /* in this phase */

@@ -1,4 +1,4 @@
-#include "base/team_pace.h"
+#include "base/team/team_pace.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -14,7 +14,7 @@ static const double rest_least_s = 0.1, rest_most_s = 3.2;
  * thread that gains nothing leaves its core to others. */
 static const double worth_more = 0.95, worth_fewer = 1.01;
 
-/* A trial that is slower by this factor after a quarter of its window ends. */
+/* A candidate that is slower by this factor after a quarter of its window ends. */
 static const double hopeless = 1.4;
 
 enum { NEIGHBOURS = 4 };
@@ -43,17 +43,17 @@ void gb_team_pace_init(struct gb_team_pace *pace, int most)
 
 int gb_team_pace_threads(const struct gb_team_pace *pace)
 {
-    return pace->phase == GB_TEAM_PACE_TRIAL ? pace->trial : pace->active;
+    return pace->phase == GB_TEAM_PACE_CANDIDATE ? pace->candidate : pace->active;
 }
 
-/* Starts the trial of the next neighbour that differs from `active`; rests after all of
+/* Starts the window of the next neighbour that differs from `active`; rests after all of
  * them. */
 static void try_next(struct gb_team_pace *pace)
 {
     for (; pace->failed < NEIGHBOURS; pace->failed++) {
-        pace->trial = neighbour(pace, pace->next);
-        if (pace->trial != pace->active && pace->trial != pace->last) {
-            enter(pace, GB_TEAM_PACE_TRIAL);
+        pace->candidate = neighbour(pace, pace->next);
+        if (pace->candidate != pace->active && pace->candidate != pace->last) {
+            enter(pace, GB_TEAM_PACE_CANDIDATE);
             return;
         }
         pace->next = (pace->next + 1) % NEIGHBOURS;
@@ -62,31 +62,31 @@ static void try_next(struct gb_team_pace *pace)
     pace->last = 0;
 }
 
-static void judge(struct gb_team_pace *pace, double trial_s)
+static void judge(struct gb_team_pace *pace, double candidate_s)
 {
-    const double worth = pace->trial > pace->active ? worth_more : worth_fewer;
-    if (trial_s < worth * pace->base_s) {
+    const double worth = pace->candidate > pace->active ? worth_more : worth_fewer;
+    if (candidate_s < worth * pace->base_s) {
         pace->last = pace->active; /* known to be worse */
-        pace->active = pace->trial;
-        pace->base_s = trial_s;
+        pace->active = pace->candidate;
+        pace->base_s = candidate_s;
         pace->failed = 0; /* goes on in the same direction */
         pace->rest_s = rest_least_s;
     } else {
-        pace->last = pace->trial;
+        pace->last = pace->candidate;
         pace->failed++;
         pace->next = (pace->next + 1) % NEIGHBOURS;
     }
     try_next(pace);
 }
 
-/* True at the end of a window; early if the trial is hopeless. */
+/* True at the end of a window; early if the candidate is hopeless. */
 static bool window_ends(const struct gb_team_pace *pace, double mean_s)
 {
     if (pace->rounds < WINDOW_ROUNDS) {
         return false;
     }
     return pace->spent_s >= window_s ||
-           (pace->phase == GB_TEAM_PACE_TRIAL && pace->spent_s >= window_s / 4.0 &&
+           (pace->phase == GB_TEAM_PACE_CANDIDATE && pace->spent_s >= window_s / 4.0 &&
             mean_s > hopeless * pace->base_s);
 }
 
@@ -104,7 +104,7 @@ void gb_team_pace_add(struct gb_team_pace *pace, double seconds)
             enter(pace, GB_TEAM_PACE_BASE);
         }
     } else if (window_ends(pace, mean_s)) {
-        if (pace->phase == GB_TEAM_PACE_TRIAL) {
+        if (pace->phase == GB_TEAM_PACE_CANDIDATE) {
             judge(pace, mean_s);
         } else {
             pace->base_s = mean_s;

@@ -1,11 +1,11 @@
-#include "base/team.h"
+#include "base/team/team.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "base/team_pace.h"
+#include "base/team/team_pace.h"
 #include "base/thread.h"
 
 /* A thread that waits looks for new work for some time before it sleeps: waking takes as
@@ -24,9 +24,9 @@ struct bell {
 
 /* One thread of the team: 0 is the caller. */
 struct member {
-    /* Items of its share that no thread has taken: the next one in the upper half, one
-     * past the last in the lower half.  Whoever changes the word by a successful
-     * exchange owns the item, of whatever work the word is by then. */
+    /* Items of its share that no thread has taken: the next one in the upper half, one past
+     * the last in the lower half.  A successful exchange of the word makes the item the
+     * exchanger's, of the work that the word belongs to by then. */
     _Alignas(CACHE_LINE) _Atomic uint64_t share;
     _Alignas(CACHE_LINE) struct bell bell;
     pthread_t thread;
