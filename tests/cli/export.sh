@@ -53,11 +53,47 @@ else
     echo '# no LAMMPS here: its reading of the files is not tested'
 fi
 
-# --- VTKHDF: the numbers of the tables, of every kind of run ---------------------------------
+# --- every kind of run in every format, read back by other programs ----------------------------
 python=python3
 for other in python3 /usr/bin/python3; do
     "$other" -c 'import h5py' 2>/dev/null && python=$other
 done
+for other in python3 /usr/bin/python3; do
+    "$other" -c 'import ase.io, h5py' 2>/dev/null && python=$other
+done
+read_by_lammps() { # name: its data file, and over it its dump, as LAMMPS has them
+    ends='p p p'
+    grep -q 'BOUNDS.*ff ff ff' "$1.lammps-dump" && ends='f f f'
+    frame=$(sed -n '/TIMESTEP/{n;p;q}' "$1.lammps-dump")
+    moving=
+    grep -q 'ITEM: ATOMS.* vx' "$1.lammps-dump" && moving='vx vy vz'
+    fields='id x y z radius vx vy vz omegax omegay omegaz'
+    # comm_modify and the cutoff: a box of a few large particles has no ghost without
+    printf '%s\n' 'units nano' 'atom_style sphere' 'atom_modify sort 0 0' "boundary $ends" \
+        "read_data $1.lammps-data" "pair_style zero $2" 'pair_coeff * *' \
+        "comm_modify cutoff $3" 'run 0' \
+        "write_dump all custom $1-0.back $fields modify format float %.17g" \
+        "read_dump $1.lammps-dump $frame x y z $moving box yes replace yes" \
+        "write_dump all custom $1-1.back $fields modify format float %.17g" >in.lmp
+    lmp -in in.lmp -log none >lmp.out 2>&1
+}
+formats_agree() { # name, cutoff and skin of LAMMPS
+    for format in extxyz lammps-dump lammps-data csv; do
+        [ -e "$1.$format" ] ||
+            "$greenbody" export "$1" --format $format -o "$1.$format" >stdout 2>stderr
+    done
+    back=
+    if command -v lmp >/dev/null; then
+        is "$1: LAMMPS reads data and dump" read_by_lammps "$1" "$2" "$3"
+        back="$1-0.back $1-1.back"
+    fi
+    # shellcheck disable=SC2086
+    "$python" "$(dirname "$script")/read_export.py" "$1/state.h5" "$1" $back >stdout 2>stderr
+    status=$?
+    [ $status -eq 77 ] && echo '# no h5py or no ASE here: their reading of the files is not tested'
+    [ $status -eq 0 ] || [ $status -eq 77 ]
+    result "$1: text formats read back, all numbers equal" $?
+}
 tables_agree() { # name, run directory
     is "$1: a grid of particles, one of contacts" "$greenbody" export "$2" --format vtkhdf \
         --contacts "$2-c.vtkhdf" -o "$2.vtkhdf"
@@ -75,8 +111,10 @@ kind() { # name, arguments of run...
     "$greenbody" run "$@" --quiet --out "$what" >stdout 2>stderr
     is "$what: a run" [ $? -eq 0 ]
     tables_agree "$what" "$what"
+    formats_agree "$what" "${cutoff:-10}" "${reach:-20}"
 }
 tables_agree 'quasi-static' run
+formats_agree run 10 20
 kind sizes p1-set2-lognormal particles.count=150 loading.unload_from= 'loading.until=3 MPa'
 kind planar default scene.dimension=2 particles.count=150 loading.unload_from= \
     'loading.until=density = 0.5'

@@ -36,6 +36,16 @@ with h5py.File(particles) as file:
     same('positions', points, vector(p, 'x_nm y_nm z_nm'))
     same('diameters', root['PointData/diameter_nm'][:], p['diameter_nm'])
     same('coordination', root['PointData/coordination'][:].astype(float), p['coordination'])
+    for name, unit, columns in [
+            ('velocity', 'm_per_s', 'vx_m_per_s vy_m_per_s vz_m_per_s'),
+            ('omega', 'per_ns', 'omegax_per_ns omegay_per_ns omegaz_per_ns'),
+            ('force', 'nN', 'fx_nN fy_nN fz_nN'),
+            ('torque', 'nN_nm', 'tqx_nN_nm tqy_nN_nm tqz_nN_nm')]:
+        present = f'{name}_{unit}' in root['PointData']
+        if present != (columns.split()[0] in p):
+            sys.exit(f'{name}: in one of the formats only')
+        if present:
+            same(name, root[f'PointData/{name}_{unit}'][:], vector(p, columns))
     same('stress', root['PointData/stress_MPa'][:],
          vector(p, 'sxx_MPa syy_MPa szz_MPa sxy_MPa syz_MPa sxz_MPa'))
 with h5py.File(contacts) as file:
@@ -46,7 +56,7 @@ with h5py.File(contacts) as file:
     same('pairs', root['CellData/particles'][:] + 1.0, vector(c, 'i j'))
     ends = root['Points'][:].reshape(-1, 2, 3)
     branch = vector(c, 'bx_nm by_nm bz_nm')
-    if np.abs(ends[:, 0] - ends[:, 1] - branch).max() > 1e-9 * np.abs(ends).max():
+    if len(branch) and np.abs(ends[:, 0] - ends[:, 1] - branch).max() > 1e-9 * np.abs(ends).max():
         sys.exit('lines are not the branch vectors')
 
 try:
@@ -69,7 +79,9 @@ same('VTK: positions', vtk_to_numpy(grid.GetPoints().GetData()).astype(float), p
 same('VTK: diameters', vtk_to_numpy(grid.GetPointData().GetArray('diameter_nm')),
      p['diameter_nm'])
 lines = read(contacts)
-if lines.GetNumberOfCells() != len(c['i']) or lines.GetCell(0).GetNumberOfPoints() != 2:
+if lines.GetNumberOfCells() != len(c['i']):
     sys.exit('VTK: no line for each contact')
+if len(c['i']) and lines.GetCell(0).GetNumberOfPoints() != 2:
+    sys.exit('VTK: a contact is no line')
 same('VTK: forces', vtk_to_numpy(lines.GetCellData().GetArray('normal_nN')), c['normal_nN'])
 print('h5py and VTK')

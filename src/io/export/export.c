@@ -1,5 +1,6 @@
 #include "io/export/export.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -38,6 +39,15 @@ const struct gb_export_format *gb_export_find(const char *name, struct gb_error 
     return found;
 }
 
+/* T = sqrt(m/(E d)) in ns; files of earlier versions do not name it. */
+static double unit_time(const struct gb_state *state, double density_kg_m3)
+{
+    return 1e9 * (isfinite(state->second_per_time)
+                      ? state->second_per_time
+                      : state->metre_per_length *
+                            sqrt(M_PI * density_kg_m3 / (6.0 * state->pascal_per_stress)));
+}
+
 bool gb_export_add(const struct gb_export_format *format, const struct gb_state *state,
                    double density_kg_m3, int64_t index, GString *particles,
                    GString *contacts, struct gb_error *err)
@@ -48,6 +58,7 @@ bool gb_export_add(const struct gb_export_format *format, const struct gb_state 
         .density_kg_m3 = density_kg_m3,
         .index = index,
         .nm = metre * 1e9,
+        .ns = unit_time(state, density_kg_m3),
         .nn = state->pascal_per_stress * metre * metre * 1e9,
         .stress = gb_alloc_array((size_t)state->count * 6, sizeof(double), err),
     };

@@ -18,6 +18,7 @@ struct gb_export_frame {
     double *stress;       /* count x 6, Pa: xx, yy, zz, xy, xz, yz */
     double nm;            /* of a reduced length */
     double nn;            /* of a reduced force */
+    double ns;            /* of a reduced time; NaN: not known */
 };
 
 struct gb_export_format {

@@ -3,6 +3,7 @@
 
 #include "io/export/export_formats.h"
 #include "io/export/export_text.h"
+#include "io/export/export_vectors.h"
 
 void gb_export_csv_contacts(const struct gb_export_frame *frame, GString *text)
 {
@@ -26,7 +27,8 @@ void gb_export_csv_contacts(const struct gb_export_frame *frame, GString *text)
     }
 }
 
-static void add_head(const struct gb_export_frame *frame, GString *text)
+static void add_head(const struct gb_export_frame *frame,
+                     const struct gb_export_vector *vectors, GString *text)
 {
     const struct gb_state *state = frame->state;
     g_string_append(text, "# ");
@@ -40,20 +42,30 @@ static void add_head(const struct gb_export_frame *frame, GString *text)
         gb_export_text_number(text, frame->nm * state->tilt[k], k < 2 ? ' ' : '\n');
     }
     g_string_append(text, "id,x_nm,y_nm,z_nm,diameter_nm,coordination,sxx_MPa,syy_MPa,"
-                          "szz_MPa,sxy_MPa,sxz_MPa,syz_MPa\n");
+                          "szz_MPa,sxy_MPa,sxz_MPa,syz_MPa");
+    for (int k = 0; k < GB_EXPORT_VECTORS; k++) {
+        if (vectors[k].data != NULL) {
+            g_string_append_printf(text, ",%s", vectors[k].csv);
+        }
+    }
+    g_string_append_c(text, '\n');
 }
 
 void gb_export_csv_write(const struct gb_export_frame *frame, GString *particles,
                          GString *contacts)
 {
     const struct gb_state *state = frame->state;
-    add_head(frame, particles);
+    struct gb_export_vector vectors[GB_EXPORT_VECTORS];
+    gb_export_vectors_list(frame, vectors);
+    add_head(frame, vectors, particles);
     for (int64_t i = 0; i < state->count; i++) {
         g_string_append_printf(particles, "%" PRId64 ",", i + 1);
         gb_export_text_numbers(particles, frame->nm, &state->position[3 * i], 3, ',',
                                ',');
         gb_export_text_number(particles, 2.0 * frame->nm * state->radius[i], ',');
         gb_export_text_stress(particles, frame, i, ',');
+        gb_export_vectors_append(particles, vectors, false, i, ',');
+        g_string_append_c(particles, '\n');
     }
     if (contacts != NULL) {
         gb_export_csv_contacts(frame, contacts);

@@ -3,6 +3,7 @@
 
 #include "io/export/export_formats.h"
 #include "io/export/export_text.h"
+#include "io/export/export_vectors.h"
 
 static bool is_tilted(const struct gb_state *state)
 {
@@ -64,16 +65,26 @@ void gb_export_lammps_dump(const struct gb_export_frame *frame, GString *particl
                            GString *contacts)
 {
     const struct gb_state *state = frame->state;
+    struct gb_export_vector vectors[GB_EXPORT_VECTORS];
+    gb_export_vectors_list(frame, vectors);
     add_head(frame, "ATOMS", state->count, particles);
     g_string_append(particles,
                     "ITEM: ATOMS id type x y z radius coordination sxx syy szz "
-                    "sxy sxz syz\n");
+                    "sxy sxz syz");
+    for (int k = 0; k < GB_EXPORT_VECTORS; k++) {
+        if (vectors[k].data != NULL) {
+            g_string_append_printf(particles, " %s", vectors[k].lammps);
+        }
+    }
+    g_string_append_c(particles, '\n');
     for (int64_t i = 0; i < state->count; i++) {
         g_string_append_printf(particles, "%" PRId64 " 1 ", i + 1);
         gb_export_text_numbers(particles, frame->nm, &state->position[3 * i], 3, ' ',
                                ' ');
         gb_export_text_number(particles, frame->nm * state->radius[i], ' ');
         gb_export_text_stress(particles, frame, i, ' ');
+        gb_export_vectors_append(particles, vectors, true, i, ' ');
+        g_string_append_c(particles, '\n');
     }
     if (contacts != NULL) {
         add_contacts(frame, contacts);
@@ -100,6 +111,27 @@ static void add_data_head(const struct gb_export_frame *frame, GString *text)
     g_string_append(text, "\nAtoms # sphere\n\n");
 }
 
+/* Of scenes with time: "Velocities" of atom_style sphere. */
+static void add_velocities(const struct gb_export_frame *frame, GString *text)
+{
+    struct gb_export_vector all[GB_EXPORT_VECTORS];
+    gb_export_vectors_list(frame, all);
+    struct gb_export_vector moving[GB_EXPORT_VECTORS] = {
+        [GB_EXPORT_VECTOR_VELOCITY] = all[GB_EXPORT_VECTOR_VELOCITY],
+        [GB_EXPORT_VECTOR_SPIN] = all[GB_EXPORT_VECTOR_SPIN],
+    };
+    if (moving[GB_EXPORT_VECTOR_VELOCITY].data == NULL ||
+        moving[GB_EXPORT_VECTOR_SPIN].data == NULL) {
+        return;
+    }
+    g_string_append(text, "\nVelocities # sphere\n\n");
+    for (int64_t i = 0; i < frame->state->count; i++) {
+        g_string_append_printf(text, "%" PRId64, i + 1);
+        gb_export_vectors_append(text, moving, true, i, ' ');
+        g_string_append_c(text, '\n');
+    }
+}
+
 /* Density in attograms per nm^3; 1e-3 of g/cm3. */
 void gb_export_lammps_data(const struct gb_export_frame *frame, GString *particles,
                            GString *contacts)
@@ -114,6 +146,7 @@ void gb_export_lammps_data(const struct gb_export_frame *frame, GString *particl
         gb_export_text_numbers(particles, frame->nm, &state->position[3 * i], 3, ' ',
                                '\n');
     }
+    add_velocities(frame, particles);
     if (contacts != NULL) {
         add_contacts(frame, contacts);
     }

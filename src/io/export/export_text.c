@@ -12,7 +12,9 @@ void gb_export_text_number(GString *text, double value, char end)
 {
     char digits[GB_NUMBER_MAX];
     g_string_append(text, gb_number_write(value, digits));
-    g_string_append_c(text, end);
+    if (end != '\0') {
+        g_string_append_c(text, end);
+    }
 }
 
 void gb_export_text_numbers(GString *text, double factor, const double *values, int count,
@@ -28,7 +30,7 @@ void gb_export_text_stress(GString *text, const struct gb_export_frame *frame, i
 {
     g_string_append_printf(text, "%" PRId32 "%c", frame->state->contacts[i], between);
     gb_export_text_numbers(text, 1e-6, &frame->stress[STRESSES * i], STRESSES, between,
-                           '\n');
+                           '\0');
 }
 
 void gb_export_text_title(GString *text, const struct gb_state *state)
@@ -48,7 +50,7 @@ void gb_export_text_provenance(GString *text, const struct gb_export_frame *fram
     gb_export_text_number(text, state->point.density, ';');
     g_string_append(text, " p ");
     gb_export_text_number(text, state->point.p_pa / 1e6, ' ');
-    g_string_append(text, "MPa; units nm, nN, MPa; stress positive in compression");
+    g_string_append(text, "MPa; units nm, ns, nN, MPa; stress positive in compression");
 }
 
 struct gb_export_contact gb_export_text_contact(const struct gb_export_frame *frame,

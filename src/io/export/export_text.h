@@ -6,14 +6,14 @@
 /* Shared by the formats: numbers, and what a contact is. */
 
 /* A number with the fewest digits that read back the same, '.' in every locale, and a
- * character behind it. */
+ * character behind it; '\0': none. */
 void gb_export_text_number(GString *text, double value, char end);
 
 /* Numbers times a factor, a character behind each and another behind the last. */
 void gb_export_text_numbers(GString *text, double factor, const double *values, int count,
                             char between, char end);
 
-/* "coordination sxx ... syz" of a particle, MPa, at the end of its line. */
+/* "coordination sxx ... syz" of a particle, MPa. */
 void gb_export_text_stress(GString *text, const struct gb_export_frame *frame, int64_t i,
                            char between);
 

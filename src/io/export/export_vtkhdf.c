@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "io/export/export_formats.h"
 #include "io/export/export_text.h"
+#include "io/export/export_vectors.h"
 #include "io/hdf/hdf_group.h"
 
 enum {
@@ -118,11 +119,32 @@ static void put_particle_data(struct vtk *vtk, const struct gb_export_frame *fra
     gb_alloc_free(values);
 }
 
+static void put_vectors(struct vtk *vtk, const struct gb_export_frame *frame)
+{
+    struct gb_export_vector vectors[GB_EXPORT_VECTORS];
+    const int64_t count = frame->state->count;
+    double *values = numbers(vtk, count, 3);
+    gb_export_vectors_list(frame, vectors);
+    for (int k = 0; vtk->good && k < GB_EXPORT_VECTORS; k++) {
+        if (vectors[k].data == NULL) {
+            continue;
+        }
+        for (int64_t i = 0; i < 3 * count; i++) {
+            values[i] = vectors[k].factor * vectors[k].data[i];
+        }
+        char name[64];
+        g_snprintf(name, sizeof name, ROOT "PointData/%s", vectors[k].vtk);
+        put(vtk, name, GB_HDF_DOUBLE, count, 3, vectors[k].unit, values);
+    }
+    gb_alloc_free(values);
+}
+
 static void write_particles(struct vtk *vtk, const struct gb_export_frame *frame)
 {
     put_positions(vtk, frame);
     put_cells(vtk, frame->state->count, 1, VERTEX);
     put_particle_data(vtk, frame);
+    put_vectors(vtk, frame);
 }
 
 /* A line from each first particle to the nearest image of the second. */

@@ -9,6 +9,7 @@
 #include "io/hdf/hdf.h"
 #include "io/hdf/hdf_record.h"
 #include "io/state/state_check.h"
+#include "io/state/state_optional.h"
 
 /* Raised when a reader of the old layout would misunderstand the new one.  1: without
  * checkpoints; 2: without dies; 3: without tilts and tensors; 4: without walls.
@@ -160,7 +161,7 @@ bool gb_state_create(struct gb_state **out, int64_t count, int64_t pair_count,
     state->dimension = 3;
     state->count = count;
     state->pair_count = pair_count;
-    state->die_top = (double)NAN;
+    state->die_top = state->second_per_time = (double)NAN;
     for (int k = 0; k < ARRAY_COUNT; k++) {
         if (!allocate(state, &arrays[k], err)) {
             gb_state_destroy(state);
@@ -199,6 +200,7 @@ void gb_state_destroy(struct gb_state *state)
     for (int k = 0; k < ARRAY_COUNT; k++) {
         gb_alloc_free(*array_member(state, &arrays[k]));
     }
+    gb_state_optional_free(state);
     gb_alloc_free(state);
 }
 
@@ -257,7 +259,8 @@ bool gb_state_write(const struct gb_state *state, const struct gb_record *record
         const struct gb_hdf_array shape = shape_of(&arrays[k], state);
         done = gb_hdf_put_array(file, &shape, array_data(state, &arrays[k]), err);
     }
-    done = done && (record == NULL || gb_hdf_record_put(file, record, err)) &&
+    done = done && gb_state_optional_write(state, file, err) &&
+           (record == NULL || gb_hdf_record_put(file, record, err)) &&
            gb_hdf_store(file, err);
     gb_hdf_destroy(file);
     return done;
@@ -383,8 +386,9 @@ bool gb_state_read(struct gb_state **out, const char *path, struct gb_error *err
         const struct gb_hdf_array shape = shape_of(&arrays[k], state);
         done = gb_hdf_get_array(file, &shape, *array_member(state, &arrays[k]), err);
     }
-    done =
-        done && check(state, path, err) && check_digest(state, layout, file, path, err);
+    done = done && check(state, path, err) &&
+           check_digest(state, layout, file, path, err) &&
+           gb_state_optional_read(state, file, path, err);
     gb_hdf_destroy(file);
     if (!done) {
         gb_state_destroy(state);

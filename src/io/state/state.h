@@ -30,8 +30,15 @@ struct gb_state {
     int64_t wall_count; /* contacts with the walls of a die */
     int32_t *wall;      /* wall_count x 2: particle, enum gb_die_wall */
     double *wall_force; /* wall_count x 3: whole force on the particle, E d^2 */
+    /* What a state may lack: NULL.  See io/state/state_optional.h. */
+    double *velocity;       /* count x 3, d/T; beside the affine motion of a cell */
+    double *spin;           /* count x 3: angular velocity, 1/T */
+    double *force;          /* count x 3: resultant of the contacts, E d^2 */
+    double *torque;         /* count x 3, about the centre, E d^3 */
+    double *contact_radius; /* pair_count: of the contact, or of its bridge, d */
     struct gb_point point;
     double metre_per_length, pascal_per_stress;
+    double second_per_time; /* T; NaN: not known, or a scene without time */
     char preset[256]; /* title of the preset */
     uint64_t seed;
     char version[32];

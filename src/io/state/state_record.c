@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/vec.h"
 #include "io/point_columns.h"
+#include "io/state/state_optional.h"
 #include "pack/cell/cell.h"
 #include "pack/die/die.h"
 #include "pack/structure/assign_sizes.h"
@@ -97,12 +98,21 @@ static void fill_pairs(struct gb_state *state, const struct gb_cell *cell,
     }
 }
 
+/* T of a scene with time. */
+static double second_per_time(const struct gb_model *model)
+{
+    const double second =
+        fmax(model->dynamics.second_per_time, model->die.second_per_time);
+    return second > 0.0 ? second : (double)NAN;
+}
+
 static void fill_header(struct gb_state *state, const struct gb_params *params,
                         const struct gb_model *model)
 {
     state->dimension = model->dimension;
     state->metre_per_length = model->metre_per_length;
     state->pascal_per_stress = model->pascal_per_stress;
+    state->second_per_time = second_per_time(model);
     state->seed = model->seed.value;
     snprintf(state->preset, sizeof state->preset, "%s", params->title);
     snprintf(state->version, sizeof state->version, "%s", GB_VERSION);
@@ -252,7 +262,8 @@ static bool fill_die(struct gb_state *state, const struct gb_record *record,
     state->cell[2] = die.punch ? die.punch_position : 0.0;
     copy_spheres(state, (const double(*)[4])position, &die);
     join_forces(state, shear);
-    return take_walls(state, record, (const double(*)[4])position, &die, err);
+    return take_walls(state, record, (const double(*)[4])position, &die, err) &&
+           gb_state_optional_take(state, record, err);
 }
 
 static bool die_state(struct gb_state **out, const struct gb_record *record,
@@ -312,6 +323,10 @@ bool gb_state_record(struct gb_state **out, const struct gb_record *record,
     }
     fill_pairs(state, &cell, history);
     fill_header(state, params, model);
+    if (!gb_state_optional_take(state, record, err)) {
+        gb_state_destroy(state);
+        return false;
+    }
     *out = state;
     return true;
 }

@@ -1,0 +1,242 @@
+#include "io/state/state_optional.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <glib.h>
+
+#include "base/alloc.h"
+#include "io/hdf/hdf_list.h"
+
+enum { DIGEST_SIZE = 65, BED_COLUMNS = 4 };
+
+/* An array, and the items of a record that have it. */
+struct optional_row {
+    const char *name; /* of the dataset */
+    const char *unit;
+    int columns;
+    bool of_pairs;
+    size_t member;
+    const char *cell, *bed; /* items: of a periodic cell, of a die; NULL: none */
+    int power; /* of the diameter that turns the arcs of the cell's item into angles */
+};
+
+static const struct optional_row rows[] = {
+    {"/velocity", "d/T", 3, false, offsetof(struct gb_state, velocity),
+     "motion/velocity", "bed/speed", 0},
+    {"/spin", "1/T", 3, false, offsetof(struct gb_state, spin), "motion/spin",
+     "bed/spin", -1},
+    {"/force", "E d^2", 3, false, offsetof(struct gb_state, force), "world/force",
+     "bed/force", 0},
+    {"/torque", "E d^3", 3, false, offsetof(struct gb_state, torque), "world/torque",
+     "bed/torque", 1},
+    {"/contact_radius", "d", 1, true, offsetof(struct gb_state, contact_radius), NULL,
+     NULL, 0},
+};
+enum { ROWS = sizeof rows / sizeof rows[0] };
+
+static const char time_name[] = "second_per_time", sum_name[] = "sha256_optional";
+
+static double **member_of(struct gb_state *state, const struct optional_row *row)
+{
+    return (double **)(void *)((char *)state + row->member);
+}
+
+static const double *data_of(const struct gb_state *state, const struct optional_row *row)
+{
+    return *(double *const *)(const void *)((const char *)state + row->member);
+}
+
+static struct gb_hdf_array shape_of(const struct gb_state *state,
+                                    const struct optional_row *row)
+{
+    return (struct gb_hdf_array){.name = row->name,
+                                 .type = GB_HDF_DOUBLE,
+                                 .rows = row->of_pairs ? state->pair_count : state->count,
+                                 .columns = row->columns,
+                                 .unit = row->unit};
+}
+
+static bool allocate(struct gb_state *state, const struct optional_row *row,
+                     struct gb_error *err)
+{
+    const struct gb_hdf_array shape = shape_of(state, row);
+    double **member = member_of(state, row);
+    gb_alloc_free(*member);
+    *member = gb_alloc_array((size_t)(shape.rows + 1) * (size_t)shape.columns,
+                             sizeof **member, err);
+    return *member != NULL;
+}
+
+bool gb_state_optional_allocate(struct gb_state *state, double **member,
+                                struct gb_error *err)
+{
+    size_t k = 0;
+    while (member_of(state, &rows[k]) != member) {
+        k++;
+    }
+    return allocate(state, &rows[k], err);
+}
+
+void gb_state_optional_free(struct gb_state *state)
+{
+    for (int k = 0; k < ROWS; k++) {
+        gb_alloc_free(*member_of(state, &rows[k]));
+        *member_of(state, &rows[k]) = NULL;
+    }
+}
+
+/* Three of `columns` numbers for each particle, arcs as angles. */
+static void fill(struct gb_state *state, const struct optional_row *row,
+                 const double *data, int columns)
+{
+    double *to = *member_of(state, row);
+    for (int64_t i = 0; i < state->count; i++) {
+        const double diameter = 2.0 * state->radius[i];
+        const double factor = state->die_radius > 0.0 || row->power == 0 ? 1.0
+                              : row->power > 0 ? diameter
+                                               : 1.0 / diameter;
+        for (int c = 0; c < row->columns; c++) {
+            to[row->columns * i + c] = factor * data[columns * i + c];
+        }
+    }
+}
+
+static const char *item_of(const struct gb_state *state, const struct optional_row *row)
+{
+    return state->die_radius > 0.0 ? row->bed : row->cell;
+}
+
+static int item_columns(const struct gb_state *state, const struct optional_row *row)
+{
+    return state->die_radius > 0.0 ? BED_COLUMNS : row->columns;
+}
+
+bool gb_state_optional_take(struct gb_state *state, const struct gb_record *record,
+                            struct gb_error *err)
+{
+    for (int k = 0; k < ROWS; k++) {
+        const char *name = item_of(state, &rows[k]);
+        const struct gb_record_item *item = name ? gb_record_find(record, name) : NULL;
+        if (item == NULL) {
+            continue;
+        }
+        if (item->type != GB_RECORD_DOUBLE || item->rows != state->count ||
+            item->columns != item_columns(state, &rows[k])) {
+            return gb_error_set(err, GB_ERR_INPUT, "%s: is of another shape", name);
+        }
+        if (!allocate(state, &rows[k], err)) {
+            return false;
+        }
+        fill(state, &rows[k], item->data, item->columns);
+    }
+    return true;
+}
+
+/* SHA-256 of the arrays that are there, in the order of the table. */
+static bool digest(const struct gb_state *state, char text[DIGEST_SIZE])
+{
+    GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
+    bool some = false;
+    for (int k = 0; k < ROWS; k++) {
+        const double *data = data_of(state, &rows[k]);
+        const struct gb_hdf_array shape = shape_of(state, &rows[k]);
+        if (data != NULL) {
+            g_checksum_update(sum, (const guchar *)rows[k].name, -1);
+            g_checksum_update(sum, (const guchar *)data,
+                              (gssize)((size_t)shape.rows * (size_t)shape.columns *
+                                       sizeof *data));
+            some = true;
+        }
+    }
+    g_strlcpy(text, g_checksum_get_string(sum), DIGEST_SIZE);
+    g_checksum_free(sum);
+    return some;
+}
+
+bool gb_state_optional_write(const struct gb_state *state, struct gb_hdf *file,
+                             struct gb_error *err)
+{
+    char sum[DIGEST_SIZE];
+    bool done = !digest(state, sum) || gb_hdf_put_text(file, sum_name, sum, err);
+    if (done && isfinite(state->second_per_time)) {
+        done = gb_hdf_put_numbers(file, time_name, GB_HDF_DOUBLE, 1,
+                                  &state->second_per_time, err);
+    }
+    for (int k = 0; k < ROWS && done; k++) {
+        const struct gb_hdf_array shape = shape_of(state, &rows[k]);
+        const double *data = data_of(state, &rows[k]);
+        done = data == NULL || gb_hdf_put_array(file, &shape, data, err);
+    }
+    return done;
+}
+
+static bool check(const struct gb_state *state, const char *path, struct gb_error *err)
+{
+    for (int k = 0; k < ROWS; k++) {
+        const struct gb_hdf_array shape = shape_of(state, &rows[k]);
+        const double *data = data_of(state, &rows[k]);
+        for (int64_t i = 0; data != NULL && i < shape.rows * shape.columns; i++) {
+            if (!isfinite(data[i])) {
+                return gb_error_set(err, GB_ERR_INPUT,
+                                    "%s: %s: row %lld is out of range", path,
+                                    rows[k].name, (long long)(i / shape.columns));
+            }
+        }
+    }
+    return true;
+}
+
+/* An array that only the checkpoint of the file has, if that. */
+static bool read_item(struct gb_state *state, const struct optional_row *row,
+                      struct gb_hdf *file, struct gb_error *err)
+{
+    const char *item = item_of(state, row);
+    char name[GB_HDF_LIST_NAME];
+    g_snprintf(name, sizeof name, "/checkpoint/%s", item != NULL ? item : "");
+    if (item == NULL || !gb_hdf_list_has(file, name)) {
+        return true;
+    }
+    const int columns = item_columns(state, row);
+    const struct gb_hdf_array shape = {name, GB_HDF_DOUBLE, state->count, columns, ""};
+    double *data =
+        gb_alloc_array((size_t)state->count * (size_t)columns, sizeof *data, err);
+    const bool done = data != NULL && gb_hdf_get_array(file, &shape, data, err) &&
+                      allocate(state, row, err);
+    if (done) {
+        fill(state, row, data, columns);
+    }
+    gb_alloc_free(data);
+    return done;
+}
+
+bool gb_state_optional_read(struct gb_state *state, struct gb_hdf *file, const char *path,
+                            struct gb_error *err)
+{
+    char kept[DIGEST_SIZE], sum[DIGEST_SIZE];
+    bool done = true, some = false;
+    for (int k = 0; k < ROWS && done; k++) {
+        if (gb_hdf_list_has(file, rows[k].name)) {
+            const struct gb_hdf_array shape = shape_of(state, &rows[k]);
+            some = true;
+            done = allocate(state, &rows[k], err) &&
+                   gb_hdf_get_array(file, &shape, *member_of(state, &rows[k]), err);
+        }
+    }
+    const bool summed = gb_hdf_get_text(file, sum_name, kept, sizeof kept, NULL);
+    digest(state, sum);
+    if (done && (some || summed) && (!summed || strcmp(kept, sum) != 0)) {
+        done = gb_error_set(err, GB_ERR_INPUT, "%s: %s: does not fit the data: damaged",
+                            path, sum_name);
+    }
+    for (int k = 0; k < ROWS && done && !some; k++) {
+        done = read_item(state, &rows[k], file, err);
+    }
+    double second = 0.0;
+    const bool timed =
+        gb_hdf_get_numbers(file, time_name, GB_HDF_DOUBLE, 1, &second, NULL);
+    state->second_per_time =
+        timed && isfinite(second) && second > 0.0 ? second : (double)NAN;
+    return done && check(state, path, err);
+}

@@ -1,0 +1,133 @@
+"""Exports of a state against the state file itself, read by h5py, ASE and LAMMPS.
+Usage: read_export.py STATE.h5 PREFIX [BACK.dump...]
+PREFIX.extxyz, .lammps-dump, .lammps-data, .csv: exports; BACK.dump: what LAMMPS has written of
+what it has read, from the data file and then from the dump.
+Exit status 77: no h5py or no ASE here."""
+import csv
+import io
+import sys
+
+try:
+    import ase.io
+    import h5py
+    import numpy as np
+except ImportError:
+    sys.exit(77)
+
+state_path, prefix, back = sys.argv[1], sys.argv[2], sys.argv[3:]
+
+
+def fail(text):
+    sys.exit(f'{prefix}: {text}')
+
+
+def same(what, read, want, share=1e-13):
+    """Equal but for the rounding of factors; want 0 is 0."""
+    if read.shape != want.shape:
+        fail(f'{what}: {read.shape} instead of {want.shape}')
+    if read.size and not np.all(np.abs(read - want) <= share * np.abs(want)):
+        fail(f'{what}: differs by {np.abs(read - want).max()}')
+
+
+def state_arrays():
+    """Of the state file in nm, ns, nN, MPa."""
+    with h5py.File(state_path) as file:
+        metre, pascal = file.attrs['metre_per_length'], file.attrs['pascal_per_stress']
+        second = file.attrs.get('second_per_time', np.nan)
+        nm, nn, ns = metre * 1e9, pascal * metre ** 2 * 1e9, second * 1e9
+        factors = {'position': nm, 'radius': nm, 'contacts': 1.0, 'velocity': nm / ns,
+                   'spin': 1.0 / ns, 'force': nn, 'torque': nn * nm}
+        arrays = {name: factor * file[name][:] for name, factor in factors.items()
+                  if name in file}
+        cell, tilt = nm * file.attrs['cell_d'], nm * file.attrs['cell_tilt_d']
+        arrays['cell'] = np.array([[cell[0], 0, 0], [tilt[0], cell[1], 0],
+                                   [tilt[1], tilt[2], cell[2]]])
+        record = file['checkpoint'] if 'checkpoint' in file else {}
+        if 'motion/velocity' in record:
+            same('velocity of the checkpoint', arrays['velocity'],
+                 nm / ns * record['motion/velocity'][:])
+        if 'bed/spin' in record:
+            same('spin of the checkpoint', arrays['spin'], record['bed/spin'][:, :3] / ns)
+        if 'world/force' in record:
+            same('force of the checkpoint', arrays['force'], nn * record['world/force'][:])
+    return arrays
+
+
+def table(path):
+    with open(path, encoding='utf-8') as file:
+        rows = list(csv.reader(line for line in file if not line.startswith('#')))
+    return {name: np.array([float(row[k]) for row in rows[1:]])
+            for k, name in enumerate(rows[0])}
+
+
+def dump(path):
+    """The last frame of a dump of atoms, by id."""
+    with open(path, encoding='utf-8') as file:
+        head, _, atoms = file.read().rpartition('ITEM: ATOMS ')
+    names, _, rows = atoms.partition('\n')
+    data = np.loadtxt(io.StringIO(rows), ndmin=2)
+    data = data[np.argsort(data[:, names.split().index('id')])]
+    return {name: data[:, k] for k, name in enumerate(names.split())}, head
+
+
+def vector(columns, names):
+    return np.stack([columns[name] for name in names.split()], axis=1)
+
+
+def has(name, columns):
+    """A format has the columns of an array if the state has it."""
+    if (name in want) != columns:
+        fail(f'{name}: {"missing" if name in want else "from nowhere"}')
+    return columns
+
+
+want = state_arrays()
+rows = {'velocity': ('vx_m_per_s vy_m_per_s vz_m_per_s', 'vx vy vz', 'velo', 1.0),
+        'spin': ('omegax_per_ns omegay_per_ns omegaz_per_ns', 'omegax omegay omegaz',
+                 'omega', 1.0),
+        'force': ('fx_nN fy_nN fz_nN', 'fx fy fz', 'forces', 1e3),
+        'torque': ('tqx_nN_nm tqy_nN_nm tqz_nN_nm', 'tqx tqy tqz', 'torques', 1e3)}
+
+# --- tables ------------------------------------------------------------------------------
+particles = table(f'{prefix}.csv')
+same('csv: positions', vector(particles, 'x_nm y_nm z_nm'), want['position'])
+same('csv: diameters', particles['diameter_nm'], 2.0 * want['radius'])
+same('csv: coordination', particles['coordination'], want['contacts'])
+for name, (columns, _, _, _) in rows.items():
+    if has(name, columns.split()[0] in particles):
+        same(f'csv: {name}', vector(particles, columns), want[name])
+stress = vector(particles, 'sxx_MPa syy_MPa szz_MPa sxy_MPa sxz_MPa syz_MPa')
+
+# --- ASE ---------------------------------------------------------------------------------
+atoms = ase.io.read(f'{prefix}.extxyz', index=-1, format='extxyz')
+arrays = dict(atoms.arrays)
+if atoms.calc is not None:
+    arrays.update(atoms.calc.results)
+same('ASE: positions', atoms.positions, want['position'])
+same('ASE: cell', atoms.cell[:], want['cell'])
+same('ASE: radii', arrays['radius'], want['radius'])
+same('ASE: coordination', arrays['coordination'], want['contacts'])
+same('ASE: stress', arrays['stress_MPa'], stress)
+for name, (_, _, key, _) in rows.items():
+    if has(name, key in arrays):
+        same(f'ASE: {name}', arrays[key], want[name])
+
+# --- the dump, and LAMMPS of both of its formats ------------------------------------------
+columns, head = dump(f'{prefix}.lammps-dump')
+if 'ITEM: UNITS\nnano\n' not in head:
+    fail('dump: no units')
+same('dump: radii', columns['radius'], want['radius'])
+same('dump: stress', vector(columns, 'sxx syy szz sxy sxz syz'), stress)
+for name, (_, keys, _, nano) in rows.items():
+    if has(name, keys.split()[0] in columns):
+        same(f'dump: {name}', vector(columns, keys), nano * want[name])
+for k, path in enumerate(back):
+    read, _ = dump(path)
+    same(f'LAMMPS {k}: positions', vector(read, 'x y z'), want['position'], 1e-12)
+    same(f'LAMMPS {k}: radii', read['radius'], want['radius'])
+    moving = want.get('velocity', 0.0 * want['position'])
+    same(f'LAMMPS {k}: velocities', vector(read, 'vx vy vz'), moving)
+    if k == 0:
+        spin = want.get('spin', 0.0 * want['position'])
+        same('LAMMPS 0: spins', vector(read, 'omegax omegay omegaz'), spin)
+print('h5py and ASE' + (' and LAMMPS' if back else ''))
