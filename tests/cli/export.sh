@@ -78,9 +78,10 @@ read_by_lammps() { # name: its data file, and over it its dump, as LAMMPS has th
     lmp -in in.lmp -log none >lmp.out 2>&1
 }
 formats_agree() { # name, cutoff and skin of LAMMPS
-    for format in extxyz lammps-dump lammps-data csv; do
-        [ -e "$1.$format" ] ||
-            "$greenbody" export "$1" --format $format -o "$1.$format" >stdout 2>stderr
+    for format in extxyz lammps-dump lammps-data; do
+        "$greenbody" export "$1" --format $format --contacts "$1-c.$format" \
+            -o "$1.$format" >stdout 2>stderr
+        is "$1: $format" [ $? -eq 0 ]
     done
     back=
     if command -v lmp >/dev/null; then
@@ -122,6 +123,11 @@ kind sheared default particles.count=150 numerics.fidelity=reference \
     'loading.path=isotropic to 3 MPa; shear xz to 2 %'
 kind dynamic p2-v1 particles.count=100 'loading.relax=0.005 ns' 'loading.hold=0.005 ns' \
     'loading.until=density = 0.6'
+kind dynamic-sizes p2-v1 particles.count=60 particles.distribution=lognormal \
+    'loading.relax=0.005 ns' 'loading.hold=0.005 ns' 'loading.until=density = 0.6'
+cutoff=10000 reach=20000
+kind die p3-storakers-m0.2-mu0.05 particles.count=40 die.diameter='24 um' 'die.central=20 um' \
+    numerics.fidelity=fast 'loading.until=5 MPa'
 
 # --- wrong input -------------------------------------------------------------------------
 refused 'no run' "$greenbody" export --format csv -o out

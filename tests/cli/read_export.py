@@ -1,6 +1,7 @@
 """Exports of a state against the state file itself, read by h5py, ASE and LAMMPS.
 Usage: read_export.py STATE.h5 PREFIX [BACK.dump...]
-PREFIX.extxyz, .lammps-dump, .lammps-data, .csv: exports; BACK.dump: what LAMMPS has written of
+PREFIX.extxyz, .lammps-dump, .lammps-data, .csv: exports, -c.csv and -c.lammps-dump its
+contacts; BACK.dump: what LAMMPS has written of
 what it has read, from the data file and then from the dump.
 Exit status 77: no h5py or no ASE here."""
 import csv
@@ -34,15 +35,24 @@ def state_arrays():
     with h5py.File(state_path) as file:
         metre, pascal = file.attrs['metre_per_length'], file.attrs['pascal_per_stress']
         second = file.attrs.get('second_per_time', np.nan)
+        record = file['checkpoint']
         nm, nn, ns = metre * 1e9, pascal * metre ** 2 * 1e9, second * 1e9
         factors = {'position': nm, 'radius': nm, 'contacts': 1.0, 'velocity': nm / ns,
                    'spin': 1.0 / ns, 'force': nn, 'torque': nn * nm}
         arrays = {name: factor * file[name][:] for name, factor in factors.items()
                   if name in file}
+        pairs = file['pair'][:].reshape(-1, 2)
+        arrays.update(pair=pairs, pair_force=nn * file['pair_force'][:],
+                      pair_normal=nn * file['pair_normal'][:],
+                      bridged=file['pair_bridged'][:].astype(float),
+                      contact_radius=nm * file['contact_radius'][:],
+                      reduced=1.0 / (1.0 / arrays['radius'][pairs]).sum(axis=1))
+        if 'world/history' in record:
+            arrays['deepest'] = nm * file['checkpoint/world/history'][:].reshape(
+                len(pairs), -1)[:, 0]
         cell, tilt = nm * file.attrs['cell_d'], nm * file.attrs['cell_tilt_d']
         arrays['cell'] = np.array([[cell[0], 0, 0], [tilt[0], cell[1], 0],
                                    [tilt[1], tilt[2], cell[2]]])
-        record = file['checkpoint'] if 'checkpoint' in file else {}
         if 'motion/velocity' in record:
             same('velocity of the checkpoint', arrays['velocity'],
                  nm / ns * record['motion/velocity'][:])
@@ -60,14 +70,15 @@ def table(path):
             for k, name in enumerate(rows[0])}
 
 
-def dump(path):
-    """The last frame of a dump of atoms, by id."""
+def dump(path, rows_of='ATOMS', order='id'):
+    """The last frame of a dump, by id."""
     with open(path, encoding='utf-8') as file:
-        head, _, atoms = file.read().rpartition('ITEM: ATOMS ')
+        head, _, atoms = file.read().rpartition(f'ITEM: {rows_of} ')
     names, _, rows = atoms.partition('\n')
-    data = np.loadtxt(io.StringIO(rows), ndmin=2)
-    data = data[np.argsort(data[:, names.split().index('id')])]
-    return {name: data[:, k] for k, name in enumerate(names.split())}, head
+    names = names.split()
+    data = np.loadtxt(io.StringIO(rows), ndmin=2) if rows else np.empty((0, len(names)))
+    data = data[np.argsort(data[:, names.index(order)])]
+    return {name: data[:, k] for k, name in enumerate(names)}, head
 
 
 def vector(columns, names):
@@ -111,6 +122,35 @@ same('ASE: stress', arrays['stress_MPa'], stress)
 for name, (_, _, key, _) in rows.items():
     if has(name, key in arrays):
         same(f'ASE: {name}', arrays[key], want[name])
+
+# --- contacts ----------------------------------------------------------------------------
+contacts = table(f'{prefix}-c.csv')
+local, _ = dump(f'{prefix}-c.lammps-dump', 'ENTRIES', 'index')
+for name, other in [('fx_nN', 'fx_nN'), ('fz_nN', 'fz_nN'), ('normal_nN', 'normal_nN'),
+                    ('bx_nm', 'bx'), ('bridged', 'bridged'), ('overlap_nm', 'overlap'),
+                    ('shear_nN', 'shear_nN'), ('radius_nm', 'radius'),
+                    ('area_nm2', 'area'), ('bridge_radius_nm', 'bridge_radius')]:
+    same(f'contacts of both tables: {name}', local[other], contacts[name])
+same('contacts: pairs', vector(contacts, 'i j'), want['pair'] + 1.0)
+force, branch = vector(contacts, 'fx_nN fy_nN fz_nN'), vector(contacts, 'bx_nm by_nm bz_nm')
+same('contacts: forces', force, want['pair_force'])
+same('contacts: normal forces', contacts['normal_nN'], want['pair_normal'])
+same('contacts: bridges', contacts['bridged'], want['bridged'])
+same('contacts: radii', contacts['radius_nm'], want['contact_radius'])
+same('contacts: areas', contacts['area_nm2'], np.pi * want['contact_radius'] ** 2)
+same('contacts: bridge radii', contacts['bridge_radius_nm'],
+     want['contact_radius'] * want['bridged'])
+unit = branch / np.linalg.norm(branch, axis=1)[:, None]
+across = np.linalg.norm(force - (force * unit).sum(axis=1)[:, None] * unit, axis=1)
+if len(across) and np.abs(across - contacts['shear_nN']).max() > 1e-9 * np.abs(force).max():
+    fail('contacts: force across')
+# a^2 = R* h, of a bridge that of its deepest overlap
+if 'deepest' in want:
+    held = np.where(want['bridged'] > 0.0, want['deepest'], contacts['overlap_nm'])
+    square = want['reduced'] * np.maximum(held, 0.0)
+    if np.abs(square - contacts['radius_nm'] ** 2).max(initial=0.0) > 1e-9 * square.max(
+            initial=1.0):
+        fail('contacts: radii of the law')
 
 # --- the dump, and LAMMPS of both of its formats ------------------------------------------
 columns, head = dump(f'{prefix}.lammps-dump')

@@ -52,6 +52,8 @@ with h5py.File(contacts) as file:
     root = file['VTKHDF']
     same('forces', root['CellData/force_nN'][:], vector(c, 'fx_nN fy_nN fz_nN'))
     same('normal forces', root['CellData/normal_nN'][:], c['normal_nN'])
+    for name in ['overlap_nm', 'shear_nN', 'radius_nm', 'area_nm2', 'bridge_radius_nm']:
+        same(name, root[f'CellData/{name}'][:], c[name])
     same('bridges', root['CellData/bridged'][:].astype(float), c['bridged'])
     same('pairs', root['CellData/particles'][:] + 1.0, vector(c, 'i j'))
     ends = root['Points'][:].reshape(-1, 2, 3)

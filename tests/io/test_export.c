@@ -6,6 +6,7 @@
 
 #include <glib.h>
 
+#include "io/state/state_optional.h"
 #include "io/state/state_stress.h"
 
 /* Two pairs of particles in a tilted cell; the second touches across a boundary. */
@@ -123,6 +124,68 @@ static void test_stress(void)
     gb_state_destroy(state);
 }
 
+/* Force (1e-4, 1e-3, 0) on a branch along y: 1e-4 across; a = 0.2 d = 2 nm. */
+static void test_contact_radius(void)
+{
+    struct gb_error err = {0};
+    const double nn = 400e9 * 1e-16 * 1e9;
+    struct gb_state *state = make_state();
+    state->pair_normal[1] = 1e-3;
+    g_assert_true(gb_state_optional_allocate(state, &state->contact_radius, &err));
+    state->contact_radius[0] = 0.1;
+    state->contact_radius[1] = 0.2;
+    struct texts texts = {g_string_new(NULL), g_string_new(NULL)};
+    g_assert_true(gb_export_add(gb_export_find("csv", &err), state, NAN, 0,
+                                texts.particles, texts.contacts, &err));
+    const char *row = texts.contacts->str;
+    g_assert_nonnull(strstr(row, ",bridged,shear_nN,radius_nm,area_nm2,bridge_radius_nm\n"));
+    g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 12), nn * 1e-4, 1e-12);
+    g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 13), 2.0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 14), 4.0 * G_PI, 1e-12);
+    g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 15), 2.0, 1e-12);
+    g_assert_cmpfloat(number_at(row, ",", 3, 12), ==, 0.0);
+    g_assert_cmpfloat(number_at(row, ",", 3, 15), ==, 0.0); /* no bridge */
+    gb_state_destroy(state);
+    finish(&texts);
+}
+
+/* d = 10 nm, T = 2 ps: 1 d/T is 5000 m/s, 1/T 500 per ns; 1 E d^2 is 4e4 nN, E d^3 4e5
+ * nN nm; a dump has pN. */
+static void test_vectors(void)
+{
+    struct gb_error err = {0};
+    struct gb_state *state = make_state();
+    double **members[] = {&state->velocity, &state->spin, &state->force, &state->torque};
+    static const double unit[] = {5000.0, 500.0, 4e4, 4e5};
+    state->second_per_time = 2e-12;
+    for (int k = 0; k < 4; k++) {
+        g_assert_true(gb_state_optional_allocate(state, members[k], &err));
+        (*members[k])[3 * 2 + 1] = k + 1; /* y of the third */
+    }
+    struct texts csv = {g_string_new(NULL), NULL}, lammps = {g_string_new(NULL), NULL};
+    g_assert_true(gb_export_add(gb_export_find("csv", &err), state, NAN, 0, csv.particles,
+                                NULL, &err));
+    g_assert_true(gb_export_add(gb_export_find("lammps-dump", &err), state, NAN, 0,
+                                lammps.particles, NULL, &err));
+    for (int k = 0; k < 4; k++) {
+        const double value = unit[k] * (k + 1);
+        g_assert_cmpfloat_with_epsilon(
+            number_at(csv.particles->str, ",", 5, 12 + 3 * k + 1), value, 1e-9 * value);
+        g_assert_cmpfloat_with_epsilon(
+            number_at(lammps.particles->str, " ", 13, 13 + 3 * k + 1),
+            (k < 2 ? 1.0 : 1e3) * value, 1e-6 * value);
+    }
+    state->second_per_time = (double)NAN; /* and no density: no time */
+    g_string_truncate(csv.particles, 0);
+    g_assert_true(gb_export_add(gb_export_find("csv", &err), state, NAN, 0, csv.particles,
+                                NULL, &err));
+    g_assert_null(strstr(csv.particles->str, "vx_m_per_s"));
+    g_assert_nonnull(strstr(csv.particles->str, ",fx_nN,"));
+    g_string_free(csv.particles, TRUE);
+    g_string_free(lammps.particles, TRUE);
+    gb_state_destroy(state);
+}
+
 static void test_extxyz(void)
 {
     struct texts texts = export_frames("extxyz", 2);
@@ -171,6 +234,8 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/export/contacts", test_contacts);
     g_test_add_func("/export/stress", test_stress);
+    g_test_add_func("/export/contact-radius", test_contact_radius);
+    g_test_add_func("/export/vectors", test_vectors);
     g_test_add_func("/export/extxyz", test_extxyz);
     g_test_add_func("/export/lammps", test_lammps);
     g_test_add_func("/export/unknown", test_unknown);

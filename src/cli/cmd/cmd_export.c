@@ -140,9 +140,11 @@ static char *describe(void)
         g_string_append_printf(text, "  %-13s %s\n", format->name, format->doc);
     }
     g_string_append(text,
-                    "\nLengths in nm, forces in nN, stresses in MPa, positive in "
-                    "compression.  Contacts\nare a dump of LAMMPS beside its formats, "
-                    "else a table.\n\n"
+                    "\nParticles with velocities, angular velocities, forces and "
+                    "torques where the run has\nthem; contacts with forces, areas and "
+                    "bridges.  Lengths in nm, velocities in m/s,\nforces in nN (pN in "
+                    "dumps), stresses in MPa, positive in compression.  Contacts\nare a "
+                    "dump of LAMMPS beside its formats, else a table.\n\n"
                     "  greenbody export run --format extxyz --all -o run.xyz\n"
                     "  greenbody export run --format lammps-dump --at 'p=100 MPa' \\\n"
                     "    --contacts contacts.dump -o run.dump");

@@ -13,7 +13,10 @@ void gb_export_csv_contacts(const struct gb_export_frame *frame, GString *text)
         g_string_append(text,
                         "\n# force on particle i, branch vector from j to the nearest "
                         "image of i\nframe,i,j,fx_nN,fy_nN,fz_nN,normal_nN,bx_nm,by_nm,"
-                        "bz_nm,overlap_nm,bridged\n");
+                        "bz_nm,overlap_nm,bridged,shear_nN");
+        g_string_append(text, frame->state->contact_radius
+                                  ? ",radius_nm,area_nm2,bridge_radius_nm\n"
+                                  : "\n");
     }
     for (int64_t k = 0; k < frame->state->pair_count; k++) {
         const struct gb_export_contact contact = gb_export_text_contact(frame, k);
@@ -23,7 +26,8 @@ void gb_export_csv_contacts(const struct gb_export_frame *frame, GString *text)
         gb_export_text_number(text, contact.normal, ',');
         gb_export_text_numbers(text, 1.0, contact.branch, 3, ',', ',');
         gb_export_text_number(text, contact.overlap, ',');
-        g_string_append(text, contact.bridged ? "1\n" : "0\n");
+        g_string_append_c(text, contact.bridged ? '1' : '0');
+        gb_export_text_contact_end(text, frame, &contact, ',');
     }
 }
 

@@ -48,7 +48,10 @@ static void add_contacts(const struct gb_export_frame *frame, GString *text)
     const int64_t count = frame->state->pair_count;
     add_head(frame, "ENTRIES", count, text);
     g_string_append(text, "ITEM: ENTRIES index i j fx_nN fy_nN fz_nN normal_nN bx by bz "
-                          "overlap bridged\n");
+                          "overlap bridged shear_nN");
+    g_string_append(text, frame->state->contact_radius
+                              ? " radius area bridge_radius\n"
+                              : "\n");
     for (int64_t k = 0; k < count; k++) {
         const struct gb_export_contact contact = gb_export_text_contact(frame, k);
         g_string_append_printf(text, "%" PRId64 " %" PRId64 " %" PRId64 " ", k + 1,
@@ -57,7 +60,8 @@ static void add_contacts(const struct gb_export_frame *frame, GString *text)
         gb_export_text_number(text, contact.normal, ' ');
         gb_export_text_numbers(text, 1.0, contact.branch, 3, ' ', ' ');
         gb_export_text_number(text, contact.overlap, ' ');
-        g_string_append(text, contact.bridged ? "1\n" : "0\n");
+        g_string_append_c(text, contact.bridged ? '1' : '0');
+        gb_export_text_contact_end(text, frame, &contact, ' ');
     }
 }
 

@@ -1,6 +1,7 @@
 #include "io/export/export_text.h"
 
 #include <inttypes.h>
+#include <math.h>
 
 #include "base/number.h"
 #include "base/vec.h"
@@ -68,9 +69,28 @@ struct gb_export_contact gb_export_text_contact(const struct gb_export_frame *fr
     gb_cell_nearest(&cell, r);
     contact.overlap = frame->nm * (state->radius[contact.first] +
                                    state->radius[contact.second] - gb_vec_length(r));
+    double across = 0.0;
+    const double along = state->pair_normal[k] / gb_vec_length(r);
     for (int c = 0; c < 3; c++) {
+        const double part = state->pair_force[3 * k + c] - along * r[c];
+        across += part * part;
         contact.force[c] = frame->nn * state->pair_force[3 * k + c];
         contact.branch[c] = frame->nm * r[c];
     }
+    contact.shear = frame->nn * sqrt(across);
+    contact.radius =
+        state->contact_radius ? frame->nm * state->contact_radius[k] : (double)NAN;
+    contact.area = M_PI * contact.radius * contact.radius;
+    contact.bridge_radius = contact.bridged ? contact.radius : 0.0;
     return contact;
+}
+
+void gb_export_text_contact_end(GString *text, const struct gb_export_frame *frame,
+                                const struct gb_export_contact *contact, char between)
+{
+    const double values[] = {contact->shear, contact->radius, contact->area,
+                             contact->bridge_radius};
+    const int count = frame->state->contact_radius ? (int)G_N_ELEMENTS(values) : 1;
+    g_string_append_c(text, between);
+    gb_export_text_numbers(text, 1.0, values, count, between, '\n');
 }

@@ -26,11 +26,20 @@ void gb_export_text_provenance(GString *text, const struct gb_export_frame *fram
 struct gb_export_contact {
     int64_t first, second; /* particles, from 0 */
     double force[3];       /* on the first, nN */
-    double normal;         /* normal force, nN, positive when pressed */
+    double normal, shear;  /* normal force, positive when pressed; force across, nN */
     double branch[3];      /* from the second to the first, the nearest image, nm */
     double overlap;        /* nm */
     bool bridged;
+    /* NaN where the state does not have it: a and pi a^2 of the contact, which of a bridge
+     * are those of the bridge; nm, nm^2 */
+    double radius, area;
+    double bridge_radius; /* nm; 0: no bridge */
 };
+
+/* The columns of contacts behind "bridged", as far as the state has them: `between` before
+ * each, in the order shear, radius, area, bridge_radius. */
+void gb_export_text_contact_end(GString *text, const struct gb_export_frame *frame,
+                                const struct gb_export_contact *contact, char between);
 
 /* Contact k of the pairs of a state. */
 struct gb_export_contact gb_export_text_contact(const struct gb_export_frame *frame,

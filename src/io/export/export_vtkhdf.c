@@ -165,27 +165,45 @@ static void put_branches(struct vtk *vtk, const struct gb_export_frame *frame)
     gb_alloc_free(points);
 }
 
-/* Columns of the lines, by number of components. */
+/* A number of each contact. */
+static double scalar_of(const struct gb_export_contact *contact, int column)
+{
+    const double values[] = {contact->normal, contact->overlap, contact->shear,
+                             contact->radius, contact->area,    contact->bridge_radius};
+    return values[column];
+}
+
+/* Columns of the lines, as far as the state has them. */
 static void put_contact_data(struct vtk *vtk, const struct gb_export_frame *frame)
 {
+    static const struct {
+        const char *name, *unit;
+    } columns[] = {{ROOT "CellData/normal_nN", "nN"},
+                   {ROOT "CellData/overlap_nm", "nm"},
+                   {ROOT "CellData/shear_nN", "nN"},
+                   {ROOT "CellData/radius_nm", "nm"},
+                   {ROOT "CellData/area_nm2", "nm^2"},
+                   {ROOT "CellData/bridge_radius_nm", "nm"}};
     const struct gb_state *state = frame->state;
     const int64_t pairs = state->pair_count;
-    double *force = numbers(vtk, pairs, 3);
-    double *normal = numbers(vtk, pairs, 1), *overlap = numbers(vtk, pairs, 1);
+    const int count = state->contact_radius ? (int)G_N_ELEMENTS(columns) : 3;
+    double *force = numbers(vtk, pairs, 3), *values = numbers(vtk, pairs, count);
     for (int64_t k = 0; vtk->good && k < pairs; k++) {
         const struct gb_export_contact contact = gb_export_text_contact(frame, k);
         memcpy(&force[3 * k], contact.force, sizeof contact.force);
-        normal[k] = contact.normal;
-        overlap[k] = contact.overlap;
+        for (int c = 0; c < count; c++) {
+            values[c * pairs + k] = scalar_of(&contact, c);
+        }
     }
     put(vtk, ROOT "CellData/force_nN", GB_HDF_DOUBLE, pairs, 3, "nN", force);
-    put(vtk, ROOT "CellData/normal_nN", GB_HDF_DOUBLE, pairs, 1, "nN", normal);
-    put(vtk, ROOT "CellData/overlap_nm", GB_HDF_DOUBLE, pairs, 1, "nm", overlap);
+    for (int c = 0; c < count; c++) {
+        put(vtk, columns[c].name, GB_HDF_DOUBLE, pairs, 1, columns[c].unit,
+            values ? values + c * pairs : NULL);
+    }
     put(vtk, ROOT "CellData/bridged", GB_HDF_UINT8, pairs, 1, "1", state->pair_bridged);
     put(vtk, ROOT "CellData/particles", GB_HDF_INT32, pairs, 2, "1", state->pair);
     gb_alloc_free(force);
-    gb_alloc_free(normal);
-    gb_alloc_free(overlap);
+    gb_alloc_free(values);
 }
 
 static void write_contacts(struct vtk *vtk, const struct gb_export_frame *frame)

@@ -8,6 +8,7 @@
 #include "base/vec.h"
 #include "io/point_columns.h"
 #include "io/state/state_optional.h"
+#include "io/state/state_radius.h"
 #include "pack/cell/cell.h"
 #include "pack/die/die.h"
 #include "pack/structure/assign_sizes.h"
@@ -262,8 +263,7 @@ static bool fill_die(struct gb_state *state, const struct gb_record *record,
     state->cell[2] = die.punch ? die.punch_position : 0.0;
     copy_spheres(state, (const double(*)[4])position, &die);
     join_forces(state, shear);
-    return take_walls(state, record, (const double(*)[4])position, &die, err) &&
-           gb_state_optional_take(state, record, err);
+    return take_walls(state, record, (const double(*)[4])position, &die, err);
 }
 
 static bool die_state(struct gb_state **out, const struct gb_record *record,
@@ -276,7 +276,9 @@ static bool die_state(struct gb_state **out, const struct gb_record *record,
     struct gb_state *state = NULL;
     double *work = gb_alloc_array(size, sizeof *work, err);
     const bool done = work && gb_state_create(&state, model->count, pairs, err) &&
-                      fill_die(state, record, model, work, err);
+                      fill_die(state, record, model, work, err) &&
+                      gb_state_optional_take(state, record, err) &&
+                      gb_state_radius_fill(state, record, params, model, err);
     gb_alloc_free(work);
     if (!done) {
         gb_state_destroy(state);
@@ -323,7 +325,8 @@ bool gb_state_record(struct gb_state **out, const struct gb_record *record,
     }
     fill_pairs(state, &cell, history);
     fill_header(state, params, model);
-    if (!gb_state_optional_take(state, record, err)) {
+    if (!gb_state_optional_take(state, record, err) ||
+        !gb_state_radius_fill(state, record, params, model, err)) {
         gb_state_destroy(state);
         return false;
     }

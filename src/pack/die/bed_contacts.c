@@ -33,6 +33,15 @@ void gb_bed_contacts_finish(struct gb_bed_contacts *contacts)
     *contacts = (struct gb_bed_contacts){0};
 }
 
+double gb_bed_contacts_radius(const struct gb_bed_law *law, double star, double overlap)
+{
+    const bool plastic =
+        law->storakers && overlap > gb_law_storakers_transition(&law->normal, star);
+    const double twice_c2 =
+        plastic ? 2.0 * 1.43 * exp(-0.97 * law->normal.exponent) : 1.0;
+    return sqrt(twice_c2 * star * overlap);
+}
+
 void gb_bed_contacts_set(struct gb_bed_contacts *c, int64_t slot,
                          const struct gb_bed_law *law, const double radius[2],
                          const double mass[2])

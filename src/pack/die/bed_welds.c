@@ -57,17 +57,6 @@ static double direction(const struct gb_bed *bed, int32_t i, int32_t j, double u
     return distance;
 }
 
-/* Of the contact under its force: Hertz' a^2 = R* h, Storakers' a^2 = 2 c^2 R* h with
- * c^2 = 1.43 exp(-0.97 m), P3 (17). */
-static double contact_radius(const struct gb_bed_law *law, double star, double overlap)
-{
-    const bool plastic =
-        law->storakers && overlap > gb_law_storakers_transition(&law->normal, star);
-    const double twice_c2 =
-        plastic ? 2.0 * 1.43 * exp(-0.97 * law->normal.exponent) : 1.0;
-    return sqrt(twice_c2 * star * overlap);
-}
-
 static void add_weld(struct gb_bed_welds *welds, const struct gb_bed *bed, int64_t slot)
 {
     const int32_t i = bed->pairs.first[slot], j = bed->pairs.other[slot];
@@ -78,7 +67,8 @@ static void add_weld(struct gb_bed_welds *welds, const struct gb_bed *bed, int64
     welds->first[k] = i;
     welds->other[k] = j;
     welds->length[k] = ri + rj - bed->pairs.contacts.permanent[slot];
-    welds->radius[k] = contact_radius(&bed->law, gb_law_hertz_radius(ri, rj), overlap);
+    welds->radius[k] =
+        gb_bed_contacts_radius(&bed->law, gb_law_hertz_radius(ri, rj), overlap);
     welds->force[0][k] = welds->force[1][k] = welds->force[2][k] = 0.0;
 }
 

@@ -1,0 +1,70 @@
+#include "io/state/state_radius.h"
+
+#include <math.h>
+
+#include "base/vec.h"
+#include "io/state/state_optional.h"
+#include "law/law_unequal.h"
+#include "pack/die/filling.h"
+
+/* Overlap of a pair, d. */
+static double overlap_of(const struct gb_state *state, const struct gb_cell *cell,
+                         int64_t k)
+{
+    const int64_t i = state->pair[2 * k], j = state->pair[2 * k + 1];
+    const double *a = state->position + 3 * i, *b = state->position + 3 * j;
+    double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    gb_cell_nearest(cell, r);
+    return state->radius[i] + state->radius[j] - gb_vec_length(r);
+}
+
+/* deepest > 0: of a bridge. */
+static double cell_radius(const struct gb_state *state, const struct gb_model *model,
+                          int64_t k, double overlap, double deepest)
+{
+    const double first = 2.0 * state->radius[state->pair[2 * k]],
+                 second = 2.0 * state->radius[state->pair[2 * k + 1]],
+                 mean = 0.5 * (first + second);
+    const struct gb_law_unequal law = {.mean_diameter = mean,
+                                       .diameter_ratio = first * second / (mean * mean)};
+    const double bridge = model->bridge.radius_current
+                              ? overlap + mean * model->bridge.length
+                              : deepest;
+    return gb_law_unequal_radius(&law, deepest > 0.0 ? bridge : overlap);
+}
+
+static double bed_radius(const struct gb_state *state, const struct gb_bed_law *law,
+                         int64_t k, double overlap, double deepest)
+{
+    const double star = gb_law_hertz_radius(state->radius[state->pair[2 * k]],
+                                            state->radius[state->pair[2 * k + 1]]);
+    return gb_bed_contacts_radius(law, star, fmax(fmax(overlap, 0.0), deepest));
+}
+
+bool gb_state_radius_fill(struct gb_state *state, const struct gb_record *record,
+                          const struct gb_params *params, const struct gb_model *model,
+                          struct gb_error *err)
+{
+    const bool in_die = state->die_radius > 0.0;
+    const char *name = in_die ? "bed/deepest" : "world/history";
+    const struct gb_record_item *item = gb_record_find(record, name);
+    if (item == NULL || item->type != GB_RECORD_DOUBLE ||
+        item->rows != state->pair_count) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: is missing or of another shape",
+                            name);
+    }
+    if (!gb_state_optional_allocate(state, &state->contact_radius, err)) {
+        return false;
+    }
+    const double *deepest = item->data; /* the first number of a history */
+    const struct gb_cell cell = gb_state_cell(state);
+    const struct gb_bed_law law =
+        in_die ? gb_filling_compaction_law(params) : (struct gb_bed_law){0};
+    for (int64_t k = 0; k < state->pair_count; k++) {
+        const double overlap = overlap_of(state, &cell, k);
+        state->contact_radius[k] =
+            in_die ? bed_radius(state, &law, k, overlap, deepest[k])
+                   : cell_radius(state, model, k, overlap, deepest[k * item->columns]);
+    }
+    return true;
+}
