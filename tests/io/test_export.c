@@ -138,7 +138,8 @@ static void test_contact_radius(void)
     g_assert_true(gb_export_add(gb_export_find("csv", &err), state, NAN, 0,
                                 texts.particles, texts.contacts, &err));
     const char *row = texts.contacts->str;
-    g_assert_nonnull(strstr(row, ",bridged,shear_nN,radius_nm,area_nm2,bridge_radius_nm\n"));
+    g_assert_nonnull(
+        strstr(row, ",bridged,shear_nN,radius_nm,area_nm2,bridge_radius_nm\n"));
     g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 12), nn * 1e-4, 1e-12);
     g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 13), 2.0, 1e-12);
     g_assert_cmpfloat_with_epsilon(number_at(row, ",", 4, 14), 4.0 * G_PI, 1e-12);

@@ -178,9 +178,9 @@ static void test_damaged(void)
     write_file(state, NULL);
     hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
     const hid_t set = H5Dopen2(file, "/force", H5P_DEFAULT);
-    g_assert_cmpint(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                             state->torque),
-                    >=, 0);
+    g_assert_cmpint(
+        H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, state->torque),
+        >=, 0);
     H5Dclose(set);
     H5Fclose(file);
     refuse("sha256_optional");

@@ -44,8 +44,8 @@ static double unit_time(const struct gb_state *state, double density_kg_m3)
 {
     return 1e9 * (isfinite(state->second_per_time)
                       ? state->second_per_time
-                      : state->metre_per_length *
-                            sqrt(M_PI * density_kg_m3 / (6.0 * state->pascal_per_stress)));
+                      : state->metre_per_length * sqrt(M_PI * density_kg_m3 /
+                                                       (6.0 * state->pascal_per_stress)));
 }
 
 bool gb_export_add(const struct gb_export_format *format, const struct gb_state *state,

@@ -29,12 +29,11 @@ static void add_comment(const struct gb_export_frame *frame,
             g_string_append_printf(text, ":%s", vectors[k].extxyz);
         }
     }
-    g_string_append_printf(
-        text, " pbc=\"%s\" branch=%d step=%" PRId64 " density=",
-        in_die                  ? "F F F"
-        : state->dimension == 2 ? "T F T"
-                                : "T T T",
-        state->point.branch, (int64_t)state->point.step);
+    g_string_append_printf(text, " pbc=\"%s\" branch=%d step=%" PRId64 " density=",
+                           in_die                  ? "F F F"
+                           : state->dimension == 2 ? "T F T"
+                                                   : "T T T",
+                           state->point.branch, (int64_t)state->point.step);
     gb_export_text_number(text, state->point.density, ' ');
     g_string_append(text, "pressure_MPa=");
     gb_export_text_number(text, state->point.p_pa / 1e6, ' ');

@@ -49,9 +49,8 @@ static void add_contacts(const struct gb_export_frame *frame, GString *text)
     add_head(frame, "ENTRIES", count, text);
     g_string_append(text, "ITEM: ENTRIES index i j fx_nN fy_nN fz_nN normal_nN bx by bz "
                           "overlap bridged shear_nN");
-    g_string_append(text, frame->state->contact_radius
-                              ? " radius area bridge_radius\n"
-                              : "\n");
+    g_string_append(text,
+                    frame->state->contact_radius ? " radius area bridge_radius\n" : "\n");
     for (int64_t k = 0; k < count; k++) {
         const struct gb_export_contact contact = gb_export_text_contact(frame, k);
         g_string_append_printf(text, "%" PRId64 " %" PRId64 " %" PRId64 " ", k + 1,

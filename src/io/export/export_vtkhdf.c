@@ -178,12 +178,10 @@ static void put_contact_data(struct vtk *vtk, const struct gb_export_frame *fram
 {
     static const struct {
         const char *name, *unit;
-    } columns[] = {{ROOT "CellData/normal_nN", "nN"},
-                   {ROOT "CellData/overlap_nm", "nm"},
-                   {ROOT "CellData/shear_nN", "nN"},
-                   {ROOT "CellData/radius_nm", "nm"},
-                   {ROOT "CellData/area_nm2", "nm^2"},
-                   {ROOT "CellData/bridge_radius_nm", "nm"}};
+    } columns[] = {
+        {ROOT "CellData/normal_nN", "nN"},  {ROOT "CellData/overlap_nm", "nm"},
+        {ROOT "CellData/shear_nN", "nN"},   {ROOT "CellData/radius_nm", "nm"},
+        {ROOT "CellData/area_nm2", "nm^2"}, {ROOT "CellData/bridge_radius_nm", "nm"}};
     const struct gb_state *state = frame->state;
     const int64_t pairs = state->pair_count;
     const int count = state->contact_radius ? (int)G_N_ELEMENTS(columns) : 3;

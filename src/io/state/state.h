@@ -39,7 +39,7 @@ struct gb_state {
     struct gb_point point;
     double metre_per_length, pascal_per_stress;
     double second_per_time; /* T; NaN: not known, or a scene without time */
-    char preset[256]; /* title of the preset */
+    char preset[256];       /* title of the preset */
     uint64_t seed;
     char version[32];
 };

@@ -23,10 +23,10 @@ struct optional_row {
 };
 
 static const struct optional_row rows[] = {
-    {"/velocity", "d/T", 3, false, offsetof(struct gb_state, velocity),
-     "motion/velocity", "bed/speed", 0},
-    {"/spin", "1/T", 3, false, offsetof(struct gb_state, spin), "motion/spin",
-     "bed/spin", -1},
+    {"/velocity", "d/T", 3, false, offsetof(struct gb_state, velocity), "motion/velocity",
+     "bed/speed", 0},
+    {"/spin", "1/T", 3, false, offsetof(struct gb_state, spin), "motion/spin", "bed/spin",
+     -1},
     {"/force", "E d^2", 3, false, offsetof(struct gb_state, force), "world/force",
      "bed/force", 0},
     {"/torque", "E d^3", 3, false, offsetof(struct gb_state, torque), "world/torque",
@@ -95,8 +95,8 @@ static void fill(struct gb_state *state, const struct optional_row *row,
     for (int64_t i = 0; i < state->count; i++) {
         const double diameter = 2.0 * state->radius[i];
         const double factor = state->die_radius > 0.0 || row->power == 0 ? 1.0
-                              : row->power > 0 ? diameter
-                                               : 1.0 / diameter;
+                              : row->power > 0                           ? diameter
+                                                                         : 1.0 / diameter;
         for (int c = 0; c < row->columns; c++) {
             to[row->columns * i + c] = factor * data[columns * i + c];
         }
@@ -144,9 +144,9 @@ static bool digest(const struct gb_state *state, char text[DIGEST_SIZE])
         const struct gb_hdf_array shape = shape_of(state, &rows[k]);
         if (data != NULL) {
             g_checksum_update(sum, (const guchar *)rows[k].name, -1);
-            g_checksum_update(sum, (const guchar *)data,
-                              (gssize)((size_t)shape.rows * (size_t)shape.columns *
-                                       sizeof *data));
+            g_checksum_update(
+                sum, (const guchar *)data,
+                (gssize)((size_t)shape.rows * (size_t)shape.columns * sizeof *data));
             some = true;
         }
     }
@@ -179,9 +179,8 @@ static bool check(const struct gb_state *state, const char *path, struct gb_erro
         const double *data = data_of(state, &rows[k]);
         for (int64_t i = 0; data != NULL && i < shape.rows * shape.columns; i++) {
             if (!isfinite(data[i])) {
-                return gb_error_set(err, GB_ERR_INPUT,
-                                    "%s: %s: row %lld is out of range", path,
-                                    rows[k].name, (long long)(i / shape.columns));
+                return gb_error_set(err, GB_ERR_INPUT, "%s: %s: row %lld is out of range",
+                                    path, rows[k].name, (long long)(i / shape.columns));
             }
         }
     }

@@ -27,9 +27,8 @@ static double cell_radius(const struct gb_state *state, const struct gb_model *m
                  mean = 0.5 * (first + second);
     const struct gb_law_unequal law = {.mean_diameter = mean,
                                        .diameter_ratio = first * second / (mean * mean)};
-    const double bridge = model->bridge.radius_current
-                              ? overlap + mean * model->bridge.length
-                              : deepest;
+    const double bridge =
+        model->bridge.radius_current ? overlap + mean * model->bridge.length : deepest;
     return gb_law_unequal_radius(&law, deepest > 0.0 ? bridge : overlap);
 }
 
