@@ -103,6 +103,12 @@ struct gb_sizetable {
     struct gb_sizetable_row row[GB_SIZES_MAX];
 };
 
+/* A packing in a file. */
+struct gb_packing_file {
+    char path[512]; /* "": none */
+    uint64_t sum;   /* checksum of the packing, not of the file */
+};
+
 /* Members in the order of the groups of a preset.  An int is the enum in its comment. */
 struct gb_params {
     /* [scene] */
@@ -149,7 +155,8 @@ struct gb_params {
     int storakers;                     /* enum gb_storakers */
     double radius_i_m, radius_j_m;     /* of a pair; NaN: d/2, infinite: a wall */
     /* [structure] */
-    int structure;            /* enum gb_structure */
+    int structure; /* enum gb_structure */
+    struct gb_packing_file from;
     double overlap;           /* of nearest neighbours in a lattice, h/d */
     double structure_density; /* NaN: auto, 0.24 in 3D, 0.5 in 2D */
     struct gb_relative base;  /* relative with value 0: auto, P1's aspect ratio */
@@ -221,7 +228,8 @@ enum gb_field_type {
     GB_FIELD_TEXT,     /* char[] */
     GB_FIELD_UNTIL,    /* pressure, or "density = x": until_pressure_pa / until_density */
     GB_FIELD_PRESSURES, /* list separated by ';' */
-    GB_FIELD_SIZES      /* struct gb_sizetable: a CSV file, or the table in one line */
+    GB_FIELD_SIZES,     /* struct gb_sizetable: a CSV file, or the table in one line */
+    GB_FIELD_PACKING /* struct gb_packing_file: a packing; sets its count and sizes, too */
 };
 
 /* A row of the field table. */

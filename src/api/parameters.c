@@ -97,7 +97,7 @@ static const char *type_of(const struct gb_field *field)
         [GB_FIELD_INTEGER] = "integer", [GB_FIELD_SEED] = "integer",
         [GB_FIELD_CHOICE] = "choice",   [GB_FIELD_TEXT] = "text",
         [GB_FIELD_UNTIL] = "text",      [GB_FIELD_PRESSURES] = "list",
-        [GB_FIELD_SIZES] = "list"};
+        [GB_FIELD_SIZES] = "list",      [GB_FIELD_PACKING] = "text"};
     return names[field->type];
 }
 

@@ -94,13 +94,18 @@ static bool is_known_group(const char *group)
     return false;
 }
 
-/* A value as read from a preset at path: the name of a table of sizes is relative to the
- * folder of its preset. */
+/* Names of files are relative to the folder of their preset. */
+static bool names_file(const struct gb_field *field, const char *value)
+{
+    return (field->type == GB_FIELD_SIZES && gb_size_table_is_path(value)) ||
+           (field->type == GB_FIELD_PACKING && *value != '\0');
+}
+
+/* A value as read from a preset at path. */
 static bool set_value(struct gb_params *params, const struct gb_field *field,
                       const char *value, const char *path, struct gb_error *err)
 {
-    if (field->type != GB_FIELD_SIZES || !gb_size_table_is_path(value) ||
-        g_path_is_absolute(value)) {
+    if (!names_file(field, value) || g_path_is_absolute(value)) {
         return gb_params_set(params, field, value, err);
     }
     char *folder = g_path_get_dirname(path);
@@ -111,17 +116,20 @@ static bool set_value(struct gb_params *params, const struct gb_field *field,
     return good;
 }
 
-/* One key of the file into params. */
-static bool apply_line(struct gb_preset *preset, GKeyFile *file,
+/* One key of the file into params; packing: the one that names a packing, or another. */
+static bool apply_line(struct gb_preset *preset, GKeyFile *file, bool packing,
                        const struct gb_key_line *line, struct gb_error *err)
 {
     if (!line->key || g_str_has_prefix(line->key, "x-") || !is_known_group(line->group)) {
         return true;
     }
+    const struct gb_field *field = gb_params_find(line->group, line->key);
+    if ((field && field->type == GB_FIELD_PACKING) != packing) {
+        return true;
+    }
     char *value = g_key_file_get_value(file, line->group, line->key, NULL);
     struct gb_error why = {0};
     bool good = false;
-    const struct gb_field *field = gb_params_find(line->group, line->key);
     if (!value) {
         gb_error_set(&why, GB_ERR_INPUT, "%.40s.%.40s: not a name for a key", line->group,
                      line->key);
@@ -148,8 +156,11 @@ static bool apply(struct gb_preset *preset, struct gb_error *err)
         gb_error_set(err, GB_ERR_INPUT, "%s: %s", preset->path, trouble->message);
         g_error_free(trouble);
     }
-    for (size_t i = 0; i < preset->lines.count && good; i++) {
-        good = apply_line(preset, file, &preset->lines.item[i], err);
+    /* a packing first: it sets count and diameter, which other keys may set again */
+    for (size_t i = 0; i < 2 * preset->lines.count && good; i++) {
+        const bool packing = i < preset->lines.count;
+        good = apply_line(preset, file, packing,
+                          &preset->lines.item[i % preset->lines.count], err);
     }
     g_key_file_free(file);
     return good;

@@ -8,8 +8,9 @@
 
 /* Files of a run by name; other files in a directory are never removed. */
 static const char *const known_files[] = {
-    "preset.ini",  "curve.csv", "events.log",     "status.json",     "state.h5",
-    "packing.csv", "g.csv",     "structure.json", "state-before.h5", "moduli.csv"};
+    "preset.ini",      "curve.csv",   "events.log",   "status.json",
+    "state.h5",        "packing.csv", "g.csv",        "structure.json",
+    "state-before.h5", "moduli.csv",  "structure.csv"};
 static const char snapshot_folder[] = "snapshots";
 
 /* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed.

@@ -6,6 +6,7 @@
 
 #include <glib.h>
 
+#include "base/file.h"
 #include "io/curve_csv.h"
 #include "io/line_file.h"
 #include "io/preset.h"
@@ -13,6 +14,7 @@
 #include "io/status_json.h"
 #include "io/text_file.h"
 #include "scene/loading_kind.h"
+#include "scene/packing/packing.h"
 
 struct gb_store {
     struct gb_rundir dir;
@@ -31,6 +33,25 @@ static bool write_curve_head(struct gb_line_file *curve, const struct gb_params 
     return ok;
 }
 
+static const char packing_name[] = "structure.csv";
+
+/* The packing that the run begins with, beside the preset, which then names this copy. */
+static bool write_packing(const char *directory, struct gb_params *params,
+                          struct gb_error *err)
+{
+    const struct gb_packing *packing = gb_packing_of(params, err);
+    if (packing == NULL) {
+        return !gb_packing_given(params);
+    }
+    char *path = g_build_filename(directory, packing_name, NULL);
+    char *text = gb_packing_text(packing);
+    const bool ok = gb_file_replace(path, text, strlen(text), err);
+    g_free(text);
+    g_free(path);
+    g_strlcpy(params->from.path, packing_name, sizeof params->from.path);
+    return ok;
+}
+
 /* A complete preset written without a file before it names the program's version. */
 static bool write_preset(const char *directory, const struct gb_params *params,
                          struct gb_error *err)
@@ -41,7 +62,8 @@ static bool write_preset(const char *directory, const struct gb_params *params,
     }
     *gb_preset_params(preset) = *params;
     char *path = g_build_filename(directory, "preset.ini", NULL);
-    const bool ok = gb_preset_save(preset, path, GB_PRESET_ALL_KEYS, err);
+    const bool ok = write_packing(directory, gb_preset_params(preset), err) &&
+                    gb_preset_save(preset, path, GB_PRESET_ALL_KEYS, err);
     g_free(path);
     gb_preset_destroy(preset);
     return ok;

@@ -1,11 +1,13 @@
 #include "scene/derived.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "law/law_storakers.h"
 #include "scene/field/field.h"
 #include "scene/lattice.h"
 #include "scene/loading_kind.h"
+#include "scene/packing/packing.h"
 #include "scene/path/path.h"
 #include "scene/size/sizes.h"
 
@@ -53,6 +55,10 @@ static double lattice_density(const struct gb_params *params)
 
 double gb_derived_structure_density(const struct gb_params *params)
 {
+    const struct gb_packing *packing = gb_packing_of(params, NULL);
+    if (packing) {
+        return gb_packing_density(packing);
+    }
     if (gb_lattice_of(params->structure)) {
         return lattice_density(params);
     }
@@ -107,7 +113,12 @@ static double base_edge(const struct gb_params *params, double volume)
 
 void gb_derived_cell(const struct gb_params *params, double edges[3])
 {
+    const struct gb_packing *packing = gb_packing_of(params, NULL);
     const struct gb_lattice *lattice = gb_lattice_of(params->structure);
+    if (packing) {
+        memcpy(edges, packing->edges, sizeof packing->edges);
+        return;
+    }
     if (lattice) {
         gb_lattice_edges(lattice, params->count, params->overlap, edges);
         return;

@@ -10,6 +10,7 @@
 #include "scene/derived.h"
 #include "scene/loading_kind.h"
 #include "scene/normal_law.h"
+#include "scene/packing/packing.h"
 #include "scene/tolerances.h"
 #include "scene/unequal_pair.h"
 
@@ -144,7 +145,8 @@ static void pick_numerics(struct gb_model *model, const struct gb_params *params
                            ? given
                            : gb_law_dispersion_range(&model->dispersion, share);
     const bool contacts_only =
-        !model->terms.attraction || model->structure != GB_STRUCTURE_GROWN;
+        !model->terms.attraction ||
+        (model->structure != GB_STRUCTURE_GROWN && !model->packing);
     if (contacts_only && !(isfinite(given) && given > 0.0)) {
         numerics->cutoff = 1.0;
     }
@@ -282,6 +284,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .count = params->count,
         .seed = gb_seed_of(params),
         .structure = params->structure,
+        .packing = gb_packing_of(params, err),
         .single_contact = params->single_contact,
         .r_meso =
             params->r_meso.relative ? params->r_meso.value : params->r_meso.value / d,
@@ -289,6 +292,9 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .metre_per_length = d,
         .newton_per_force = params->young_pa * d * d,
     };
+    if (gb_packing_given(params) && !model->packing) {
+        return false;
+    }
     gb_loading_kind_of(params)->freeze(model, params);
     if (!freeze_sizes(model, params, err) || !freeze_path(model, params, err)) {
         return false;

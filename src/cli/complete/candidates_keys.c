@@ -59,6 +59,11 @@ static void add_values(const struct gb_candidates *to, const struct gb_field *fi
         static const char *const tables[] = {".csv", NULL};
         gb_candidates_paths(to, GB_CANDIDATES_FILE, tables);
     }
+    if (field->type == GB_FIELD_PACKING) {
+        static const char *const packings[] = {".csv",  ".xyz", ".extxyz", ".dump",
+                                               ".data", ".txt", NULL};
+        gb_candidates_paths(to, GB_CANDIDATES_FILE, packings);
+    }
     add_number(to, field);
 }
 

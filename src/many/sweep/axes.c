@@ -114,10 +114,11 @@ static bool add_list(struct gb_axis *axis, const char *text, const char *values,
 {
     const char *separator = separator_of(axis, values);
     if (*separator == ',' && is_decimal_comma(axis, values)) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "%.120s: one number with a comma, or two: accepted a point in "
-                            "numbers and ';' between values",
-                            text);
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "%.120s: one number with a comma, or two: accepted a point in "
+            "numbers and ';' between values",
+            text);
     }
     char **parts = g_strsplit(values, separator, GB_AXES_VALUES_MOST + 2);
     const guint count = g_strv_length(parts);
@@ -282,7 +283,8 @@ static const struct gb_field *find_field(const struct gb_axes *axes, const char 
         return NULL;
     }
     if (gb_key_difference_bookkeeping(field) || field->type == GB_FIELD_PRESSURES ||
-        field->type == GB_FIELD_SEED || field->type == GB_FIELD_SIZES) {
+        field->type == GB_FIELD_SEED || field->type == GB_FIELD_SIZES ||
+        field->type == GB_FIELD_PACKING) {
         gb_error_set(err, GB_ERR_INPUT,
                      "%s: cannot be varied; accepted keys of one value that make another "
                      "experiment (replicas vary the seed)",

@@ -1,6 +1,9 @@
 #include "pack/structure/assign_sizes.h"
 
+#include <string.h>
+
 #include "pack/structure/random.h"
+#include "scene/packing/packing.h"
 
 static bool shuffle(int64_t count, const struct gb_seed *seed, double *diameter_m,
                     struct gb_error *err)
@@ -30,6 +33,11 @@ bool gb_assign_sizes(const struct gb_sizes *sizes, int64_t count,
 bool gb_assign_sizes_model(const struct gb_model *model, double *diameter,
                            struct gb_error *err)
 {
+    if (model->packing) {
+        memcpy(diameter, model->packing->diameter,
+               (size_t)model->count * sizeof *diameter);
+        return true;
+    }
     if (model->polydisperse &&
         !gb_assign_sizes(&model->sizes, model->count, &model->seed, diameter, err)) {
         return false;

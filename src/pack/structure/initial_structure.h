@@ -6,8 +6,8 @@
 #include "greenbody/status.h"
 #include "scene/model.h"
 
-/* Places the particles of the structure that a model begins with: grown chains, or a
- * lattice.
+/* Places the particles of the structure that a model begins with: grown chains, a
+ * lattice, or those of a file.
  *
  * position    count x 3, filled with positions inside the cell (y = 0 in 2D)
  * cancelled   polled with data during growth; NULL is fine

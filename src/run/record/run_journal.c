@@ -1,6 +1,8 @@
 #include "run/record/run_journal.h"
 
+#include <inttypes.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <glib.h>
@@ -148,6 +150,9 @@ static void add_later(GChecksum *sum, const struct gb_params *params)
         char value[2048], usual[2048];
         gb_params_format(params, field, value, sizeof value);
         gb_params_format(&defaults, field, usual, sizeof usual);
+        if (field->type == GB_FIELD_PACKING && *value != '\0') { /* wherever it lies */
+            snprintf(value, sizeof value, "%016" PRIx64, params->from.sum);
+        }
         if (!is_free(field) && !is_first(name) && strcmp(value, usual) != 0) {
             update(sum, name, value);
         }

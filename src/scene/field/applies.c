@@ -5,6 +5,7 @@
 
 #include "scene/loading_kind.h"
 #include "scene/normal_law.h"
+#include "scene/packing/packing.h"
 
 static bool mono(const struct gb_params *params)
 {
@@ -31,14 +32,19 @@ static bool with_path(const struct gb_params *params)
     return !without_path(params);
 }
 
+static bool generated(const struct gb_params *params)
+{
+    return !gb_packing_given(params);
+}
+
 static bool grown(const struct gb_params *params)
 {
-    return params->structure == GB_STRUCTURE_GROWN;
+    return generated(params) && params->structure == GB_STRUCTURE_GROWN;
 }
 
 static bool lattice(const struct gb_params *params)
 {
-    return !grown(params);
+    return generated(params) && !grown(params);
 }
 
 /* Two bodies of the law command; scenes have one material. */
@@ -70,6 +76,8 @@ static const struct {
     {"loading", "until", without_path},
     {"loading", "unload_from", without_path},
     {"loading", "on_collapse", with_path},
+    {"particles", "distribution", generated},
+    {"structure", "kind", generated},
     {"structure", "overlap", lattice},
     {"structure", "density", grown},
     {"structure", "base", grown},

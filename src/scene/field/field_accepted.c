@@ -112,6 +112,11 @@ static char *describe(const struct gb_field *field, enum style style, char *buff
                  "a CSV file, or number: 1 um 0.4; 2 um 0.6 (or volume:); up to %d, %s",
                  GB_SIZES_MAX, range);
         break;
+    case GB_FIELD_PACKING:
+        snprintf(buffer, size,
+                 "a file: extended XYZ, LAMMPS dump or data, or a table of x, y, z and "
+                 "diameter or radius");
+        break;
     }
     return buffer;
 }

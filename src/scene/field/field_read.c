@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "scene/field/field.h"
+#include "scene/packing/packing.h"
 #include "scene/size/size_table.h"
 
 static void *member(struct gb_params *params, const struct gb_field *field)
@@ -208,6 +209,30 @@ static bool read_sizes(const struct gb_field *field, const char *text,
     return true;
 }
 
+/* The path is kept from the root on: a run may continue from another folder. */
+static bool read_packing(const struct gb_field *field, const char *text,
+                         struct gb_params *params, struct gb_error *err)
+{
+    struct gb_error why = {0};
+    if (*text == '\0') {
+        params->from = (struct gb_packing_file){.path = ""};
+        return true;
+    }
+    char *path = g_canonicalize_filename(text, NULL);
+    bool good = strlen(path) < sizeof params->from.path;
+    if (!good) {
+        gb_error_set(&why, GB_ERR_INPUT, "%.80s: the path is longer than %zu bytes", path,
+                     sizeof params->from.path - 1);
+    }
+    const struct gb_packing *packing = good ? gb_packing_load(path, &why) : NULL;
+    if (packing != NULL) {
+        gb_packing_take(params, path, packing);
+    }
+    g_free(path);
+    return packing != NULL ||
+           gb_error_set(err, why.code, "%s.%s: %s", field->group, field->key, why.text);
+}
+
 /* Stores what "auto" is in memory. */
 static void set_automatic(const struct gb_field *field, void *out)
 {
@@ -247,6 +272,8 @@ static bool read_trimmed(const struct gb_field *field, struct gb_params *params,
         return read_pressures(field, text, params, err);
     case GB_FIELD_SIZES:
         return read_sizes(field, text, out, err);
+    case GB_FIELD_PACKING:
+        return read_packing(field, text, params, err);
     }
     return false;
 }

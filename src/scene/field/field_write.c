@@ -106,6 +106,9 @@ char *gb_field_write(const struct gb_field *field, const struct gb_params *param
     case GB_FIELD_SIZES:
         gb_size_table_write(value, buffer, size);
         break;
+    case GB_FIELD_PACKING:
+        g_strlcpy(buffer, ((const struct gb_packing_file *)value)->path, size);
+        break;
     }
     return buffer;
 }

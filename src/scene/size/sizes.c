@@ -5,6 +5,7 @@
 
 #include "scene/derived.h"
 #include "scene/loading_kind.h"
+#include "scene/packing/packing.h"
 #include "scene/size/size_table.h"
 
 /* Probability of a standard normal between a and b, without loss in either tail. */
@@ -39,8 +40,9 @@ static double cut_at(const struct gb_sizes *sizes, double diameter_m, double unc
 
 bool gb_sizes_polydisperse(const struct gb_params *params)
 {
+    const struct gb_packing *packing = gb_packing_of(params, NULL);
     return gb_loading_kind_of(params)->periodic_cell &&
-           params->distribution != GB_DISTRIBUTION_MONO;
+           (packing ? !packing->one_size : params->distribution != GB_DISTRIBUTION_MONO);
 }
 
 bool gb_sizes_init(struct gb_sizes *sizes, const struct gb_params *params,
@@ -50,7 +52,8 @@ bool gb_sizes_init(struct gb_sizes *sizes, const struct gb_params *params,
         !gb_size_table_check_params(params, err)) {
         return false;
     }
-    *sizes = (struct gb_sizes){.distribution = params->distribution,
+    *sizes = (struct gb_sizes){.packing = gb_packing_of(params, NULL),
+                               .distribution = params->distribution,
                                .median_m = params->diameter_m};
     if (params->distribution == GB_DISTRIBUTION_LOGNORMAL) {
         sizes->median_m = gb_derived_median_m(params);
@@ -113,7 +116,11 @@ static void fill_table(const struct gb_sizes *sizes, int64_t count, double *diam
 
 void gb_sizes_fill(const struct gb_sizes *sizes, int64_t count, double *diameter_m)
 {
-    if (sizes->distribution == GB_DISTRIBUTION_LOGNORMAL) {
+    if (sizes->packing) {
+        for (int64_t i = 0; i < count; i++) {
+            diameter_m[i] = sizes->packing->diameter[i] * sizes->median_m;
+        }
+    } else if (sizes->distribution == GB_DISTRIBUTION_LOGNORMAL) {
         fill_lognormal(sizes, count, diameter_m);
     } else if (sizes->distribution == GB_DISTRIBUTION_TABLE) {
         fill_table(sizes, count, diameter_m);
@@ -130,7 +137,10 @@ void gb_sizes_range(const struct gb_sizes *sizes, int64_t count, double *least,
     const double n = (double)count,
                  probability = between(sizes->z_least, sizes->z_largest) / n;
     *least = *largest = sizes->median_m;
-    if (sizes->distribution == GB_DISTRIBUTION_LOGNORMAL) {
+    if (sizes->packing) {
+        *least *= sizes->packing->least;
+        *largest *= sizes->packing->largest;
+    } else if (sizes->distribution == GB_DISTRIBUTION_LOGNORMAL) {
         const double low = quantile(sizes, 1.0 / n),
                      high = quantile(sizes, 1.0 - 1.0 / n);
         *least = stratum_diameter(sizes, sizes->z_least, low, probability);
@@ -152,6 +162,9 @@ double gb_sizes_moment(const struct gb_sizes *sizes, int power)
         return sum;
     }
     const double mono = pow(sizes->median_m, power);
+    if (sizes->packing) {
+        return mono * sizes->packing->moment[power];
+    }
     if (sizes->distribution == GB_DISTRIBUTION_MONO) {
         return mono;
     }

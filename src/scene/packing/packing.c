@@ -1,0 +1,213 @@
+#include "scene/packing/packing.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/number.h"
+#include "base/read_file.h"
+#include "scene/loading_kind.h"
+#include "scene/packing/packing_private.h"
+
+/* Bytes of a file at most: ten million particles of a hundred each. */
+static const size_t bytes_max = (size_t)1 << 30;
+
+/* Packings of this process, by checksum; they are never freed. */
+static GMutex lock;
+static GHashTable *known;
+
+static void destroy(struct gb_packing *packing)
+{
+    gb_alloc_free(packing->position);
+    gb_alloc_free(packing->diameter);
+    gb_alloc_free(packing);
+}
+
+/* The one that is known with the same checksum, or the new one. */
+static const struct gb_packing *keep(struct gb_packing *packing)
+{
+    g_mutex_lock(&lock);
+    if (known == NULL) {
+        known = g_hash_table_new(g_int64_hash, g_int64_equal);
+    }
+    const struct gb_packing *kept = g_hash_table_lookup(known, &packing->sum);
+    if (kept == NULL) {
+        g_hash_table_insert(known, &packing->sum, packing);
+        kept = packing;
+    } else {
+        destroy(packing);
+    }
+    g_mutex_unlock(&lock);
+    return kept;
+}
+
+static const struct gb_packing *find(uint64_t sum)
+{
+    g_mutex_lock(&lock);
+    const struct gb_packing *found =
+        known != NULL ? g_hash_table_lookup(known, &sum) : NULL;
+    g_mutex_unlock(&lock);
+    return found;
+}
+
+static bool read_text(const char *path, char *text, struct gb_packing *packing,
+                      struct gb_error *err)
+{
+    static const struct gb_packing_format *const formats[] = {
+        &gb_packing_lammps_dump, &gb_packing_extxyz, &gb_packing_lammps_data,
+        &gb_packing_table};
+    struct gb_packing_raw raw = {
+        .position = g_array_new(FALSE, FALSE, sizeof(double)),
+        .diameter = g_array_new(FALSE, FALSE, sizeof(double)),
+        .unit_m = (double)NAN,
+    };
+    struct gb_packing_lines lines = {.path = path, .next = text};
+    size_t k = 0;
+    while (!formats[k]->recognise(text)) {
+        k++; /* the last one recognises everything */
+    }
+    const bool good = formats[k]->read(&lines, &raw, err) &&
+                      gb_packing_reduce(packing, &raw, path, err);
+    g_array_free(raw.position, TRUE);
+    g_array_free(raw.diameter, TRUE);
+    return good;
+}
+
+const struct gb_packing *gb_packing_load(const char *path, struct gb_error *err)
+{
+    char *text = NULL;
+    size_t length = 0;
+    if (!gb_read_file(path, bytes_max, &text, &length, err)) {
+        return NULL;
+    }
+    struct gb_packing *packing = gb_alloc_array(1, sizeof *packing, err);
+    bool good = packing != NULL;
+    if (good && (memchr(text, '\0', length) != NULL ||
+                 !g_utf8_validate(text, (gssize)length, NULL))) {
+        good = gb_error_set(err, GB_ERR_INPUT,
+                            "%s: no text: must be extended XYZ, a dump or data file of "
+                            "LAMMPS, or a table",
+                            path);
+    }
+    good = good && read_text(path, text, packing, err);
+    gb_alloc_free(text);
+    if (!good && packing != NULL) {
+        destroy(packing);
+    }
+    return good ? keep(packing) : NULL;
+}
+
+bool gb_packing_given(const struct gb_params *params)
+{
+    return params->from.path[0] != '\0';
+}
+
+const struct gb_packing *gb_packing_of(const struct gb_params *params,
+                                       struct gb_error *err)
+{
+    if (!gb_packing_given(params)) {
+        return NULL;
+    }
+    const struct gb_packing *packing = find(params->from.sum);
+    if (packing != NULL) { /* the usual case: read when the key was set */
+        return packing;
+    }
+    packing = gb_packing_load(params->from.path, err);
+    if (packing != NULL && packing->sum != params->from.sum) {
+        gb_error_set(err, GB_ERR_INPUT,
+                     "structure.from = %.200s: has changed since it was read",
+                     params->from.path);
+        return NULL;
+    }
+    return packing;
+}
+
+void gb_packing_take(struct gb_params *params, const char *path,
+                     const struct gb_packing *packing)
+{
+    g_strlcpy(params->from.path, path, sizeof params->from.path);
+    params->from.sum = packing->sum;
+    params->count = packing->count;
+    params->distribution = GB_DISTRIBUTION_MONO;
+    if (!isnan(packing->unit_m)) {
+        params->diameter_m = packing->unit_m;
+    }
+}
+
+bool gb_packing_check_params(const struct gb_params *params, struct gb_error *err)
+{
+    const char *path = params->from.path;
+    if (!gb_packing_given(params)) {
+        return true;
+    }
+    const struct gb_packing *packing = gb_packing_of(params, err);
+    if (packing == NULL) {
+        return false;
+    }
+    if (!gb_loading_kind_of(params)->periodic_cell) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "structure.from: must be empty with scene.kind = %s, which "
+                            "has no periodic cell",
+                            gb_loading_kind_of(params)->name);
+    }
+    if (params->count != packing->count) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "particles.count = %" PRId64 ": must be %" PRId64
+                            ", as many as %.200s has",
+                            params->count, packing->count, path);
+    }
+    if (params->distribution != GB_DISTRIBUTION_MONO) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "particles.distribution: must be mono with structure.from: "
+                            "the sizes are those of %.200s",
+                            path);
+    }
+    if (packing->planar != (params->dimension == 2)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "scene.dimension = %d: must be %d for the particles of "
+                            "%.200s, which lie %s",
+                            params->dimension, packing->planar ? 2 : 3, path,
+                            packing->planar ? "in a plane of one y" : "in space");
+    }
+    return true;
+}
+
+double gb_packing_density(const struct gb_packing *packing)
+{
+    const double shape = packing->planar ? M_PI / 4.0 : M_PI / 6.0;
+    const double *edges = packing->edges;
+    return (double)packing->count * packing->moment[packing->planar ? 2 : 3] * shape /
+           (edges[0] * edges[1] * edges[2]);
+}
+
+static void add_numbers(GString *text, const double *numbers, int count, char between)
+{
+    char buffer[GB_NUMBER_MAX];
+    for (int k = 0; k < count; k++) {
+        if (k > 0) {
+            g_string_append_c(text, between);
+        }
+        g_string_append(text, gb_number_write(numbers[k], buffer));
+    }
+}
+
+char *gb_packing_text(const struct gb_packing *packing)
+{
+    GString *text = g_string_new(NULL);
+    if (!isnan(packing->unit_m)) {
+        g_string_append(text, "# d = ");
+        add_numbers(text, &packing->unit_m, 1, ' ');
+        g_string_append(text, " m\n");
+    }
+    g_string_append(text, "# cell, d: ");
+    add_numbers(text, packing->edges, 3, ' ');
+    g_string_append(text, "\nx_d,y_d,z_d,diameter_d\n");
+    for (int64_t i = 0; i < packing->count; i++) {
+        add_numbers(text, &packing->position[3 * i], 3, ',');
+        g_string_append_c(text, ',');
+        add_numbers(text, &packing->diameter[i], 1, ',');
+        g_string_append_c(text, '\n');
+    }
+    return g_string_free(text, FALSE);
+}

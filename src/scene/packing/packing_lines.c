@@ -1,0 +1,60 @@
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "scene/packing/packing_private.h"
+
+char *gb_packing_lines_next(struct gb_packing_lines *lines)
+{
+    char *line = lines->next;
+    if (line == NULL) {
+        return NULL;
+    }
+    char *end = strchr(line, '\n');
+    if (end != NULL) {
+        *end = '\0';
+    }
+    lines->next = end != NULL && end[1] != '\0' ? end + 1 : NULL;
+    lines->number++;
+    return g_strstrip(line);
+}
+
+bool gb_packing_refuse(const struct gb_packing_lines *lines, struct gb_error *err,
+                       const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    char *text = g_strdup_vprintf(format, values);
+    va_end(values);
+    gb_error_set(err, GB_ERR_INPUT, "%s:%d: %s", lines->path, lines->number, text);
+    g_free(text);
+    return false;
+}
+
+bool gb_packing_number(const struct gb_packing_lines *lines, const char *text,
+                       const char *what, double *number, struct gb_error *err)
+{
+    char *end = NULL;
+    *number = g_ascii_strtod(text, &end);
+    return (end != text && *end == '\0' && isfinite(*number)) ||
+           gb_packing_refuse(lines, err,
+                             "%s is %.40s: must be a finite number with a decimal point",
+                             what, text);
+}
+
+double gb_packing_unit(const char *name)
+{
+    static const struct {
+        const char *name;
+        double metre;
+    } units[] = {{"m", 1.0},      {"cm", 1e-2},    {"mm", 1e-3},    {"um", 1e-6},
+                 {"µm", 1e-6},    {"μm", 1e-6},    {"nm", 1e-9},    {"A", 1e-10},
+                 {"si", 1.0},     {"cgs", 1e-2},   {"micro", 1e-6}, {"nano", 1e-9},
+                 {"real", 1e-10}, {"metal", 1e-10}};
+    for (size_t k = 0; k < G_N_ELEMENTS(units); k++) {
+        if (g_ascii_strcasecmp(units[k].name, name) == 0) {
+            return units[k].metre;
+        }
+    }
+    return (double)NAN;
+}

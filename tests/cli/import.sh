@@ -1,0 +1,116 @@
+#!/bin/sh
+# Packings of files as a user presses them: exported by this program, written by LAMMPS where it
+# is installed, copied into the run directory; wrong files.
+# Usage: import.sh GREENBODY PRESET_FOLDER
+script=$(realpath "$0")
+. "$(dirname "$0")/folder.sh"
+
+run() { # preset and keys
+    in_patience "$greenbody" run "$@" --quiet >stdout 2>stderr
+}
+
+refused() { # name, text of the line, file
+    in_patience "$greenbody" run default structure.from="$3" --out refused \
+        >stdout 2>stderr
+    [ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && [ ! -e refused ] &&
+        grep -q -- "$2" stderr
+    result "$1" $?
+}
+
+same_rows() { # two run directories: the same curve but for the last columns' seconds
+    "$greenbody" export "$1" --format csv --contacts one.c -o one.csv --force >stdout &&
+        "$greenbody" export "$2" --format csv --contacts two.c -o two.csv --force >stdout &&
+        tail -n +2 one.csv >one && tail -n +2 two.csv >two && cmp one two &&
+        tail -n +2 one.c >one && tail -n +2 two.c >two && cmp one two
+}
+
+pressed() { # name, preset, keys...: exported in every format and pressed on
+    what=$1
+    shift
+    rm -rf first
+    is "$what" run "$@" --out first
+    for format in extxyz lammps-dump lammps-data csv; do
+        rm -rf "from-$format" "x.$format"
+        "$greenbody" export first --format $format -o "x.$format" >stdout 2>stderr
+        is "$what: pressed from $format" \
+            run "$@" structure.from="x.$format" --out "from-$format"
+        is "$what: $format gives the same run" same_rows from-extxyz "from-$format"
+    done
+}
+
+short="numerics.fidelity=fast loading.unload_from="
+# shellcheck disable=SC2086  # keys without blanks
+{
+    pressed 'one size' default particles.count=200 $short 'loading.until=3 MPa'
+    pressed 'many sizes' p1-set2-lognormal particles.count=200 $short 'loading.until=3 MPa'
+    pressed 'discs in motion' p2-v1 particles.count=200 loading.until=density=0.52
+}
+
+# --- the run directory is whole ---------------------------------------------------------------
+is 'the packing is kept beside the preset' grep -q '^from *= *structure.csv' \
+    from-csv/preset.ini
+# of unequal particles, which a copy could mix up
+long="p1-set2-lognormal structure.from=kept.csv loading.unload_from= numerics.fidelity=fast"
+rm -rf first
+run p1-set2-lognormal particles.count=200 loading.unload_from= 'loading.until=1 MPa' --out first
+"$greenbody" export first --format csv -o kept.csv >stdout 2>stderr
+# shellcheck disable=SC2086
+is 'undisturbed' run $long 'loading.until=40 MPa' --out whole
+begun() {
+    [ -f stopped/curve.csv ] && [ "$(grep -c '^load' stopped/curve.csv)" -gt 3 ]
+}
+# shellcheck disable=SC2086
+"$greenbody" run $long 'loading.until=40 MPa' numerics.threads=2 --quiet --out stopped \
+    >stdout 2>stderr &
+engine=$!
+until_true begun
+kill -TERM $engine 2>/dev/null
+wait $engine
+rm kept.csv
+mkdir elsewhere
+is 'a stopped run goes on without the file, from another folder' sh -c \
+    "cd elsewhere && timeout $patience_s '$greenbody' resume ../stopped --quiet >../stdout 2>../stderr"
+is 'to the same bits' same_rows whole stopped
+is 'and is verified' in_patience "$greenbody" verify stopped
+
+# --- other programs ---------------------------------------------------------------------------
+if command -v lmp >/dev/null; then
+    printf '%s\n' 'units micro' 'atom_style sphere' 'boundary p p p' \
+        'region box block -5 7 0 12 0 12' 'create_box 1 box' 'lattice sc 2.0' \
+        'create_atoms 1 box' 'set type 1 diameter 1.8' 'set type 1 density 3.9' \
+        'displace_atoms all random 0.05 0.05 0.05 7 units box' \
+        'pair_style zero 2.0' 'pair_coeff * *' 'write_data lammps.data' \
+        'dump d all custom 1 lammps.dump id xu yu zu radius' 'dump_modify d units yes' \
+        'run 0' >in.lmp
+    is 'LAMMPS writes a packing' sh -c 'lmp -in in.lmp -log none >lmp.out 2>&1'
+    for file in lammps.data lammps.dump; do
+        rm -rf lammps
+        is "its $file is pressed" run default structure.from=$file loading.unload_from= \
+            'loading.until=1 MPa' --out lammps
+        is 'all of them' [ "$(grep -c '^[0-9]' lammps/structure.csv)" -eq \
+            "$(awk '/ atoms$/ { print $1 }' lammps.data)" ]
+    done
+    is 'with particles of the size in a dump, which names its units' \
+        grep -q '^diameter *= *1.8 um' lammps/preset.ini
+else
+    echo '# no LAMMPS here: its files are not tested'
+fi
+
+# --- wrong input ------------------------------------------------------------------------------
+rows() { # edge of the cell along x: a row of twelve, and two of them side by side
+    printf '# cell, um: %s 40 40\nx_um,y_um,z_um,diameter_um\n' "$1"
+    seq 12 | awk '{ print "1," 1 + $1 % 2 "," 3 * $1 ",2" }'
+}
+{ rows 40 && echo 1,2,3.5,2; } >deep.csv
+rows 4 >narrow.csv
+{ rows 40 && echo 1,1,one,2; } >word.csv
+refused 'deep overlaps, with numbers' 'particles 1 and 13 by 0.75: must be at most 0.5' deep.csv
+refused 'a narrow cell' 'a cell of 2 d along x' narrow.csv
+refused 'a word for a number' 'word.csv:15: z is one' word.csv
+refused 'no file' 'absent.csv: No such file' absent.csv
+refused 'no text' 'no text: must be' "$greenbody"
+in_patience "$greenbody" run p3-hertz-mu0 structure.from=deep.csv --out refused >stdout 2>stderr
+is 'a die has no packing from a file' grep -q 'structure.from: must be empty' stderr
+
+echo "1..$tests"
+exit $bad
