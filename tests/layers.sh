@@ -12,11 +12,11 @@ set -u
 source=$1
 shift
 bad=0
-layers="base law scene pack solve measure io run many study api draw figures tui cli"
+layers="base hdf law scene pack solve measure io run many study api draw figures tui cli"
 
 # What each layer sees besides itself.  `draw`, `study` and `tui` stand beside each other.
 below() {
-    core="base law scene pack solve measure io run"
+    core="base hdf law scene pack solve measure io run"
     case $1 in
     many | draw) echo "$core" ;;
     study) echo "$core many" ;;

@@ -6,8 +6,8 @@
 
 #include "api/parameters_private.h"
 #include "base/alloc.h"
+#include "hdf/hdf_record.h"
 #include "io/follow.h"
-#include "io/hdf/hdf_record.h"
 #include "io/status_json.h"
 #include "run/checkpoint.h"
 

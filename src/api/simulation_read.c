@@ -4,7 +4,7 @@
 #include "api/parameters_private.h"
 #include "api/simulation_private.h"
 #include "base/alloc.h"
-#include "io/hdf/hdf_record.h"
+#include "hdf/hdf_record.h"
 #include "io/state/state_record.h"
 #include "run/checkpoint.h"
 

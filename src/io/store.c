@@ -13,8 +13,8 @@
 #include "io/rundir.h"
 #include "io/status_json.h"
 #include "io/text_file.h"
+#include "scene/imported/imported.h"
 #include "scene/loading_kind.h"
-#include "scene/packing/packing.h"
 
 struct gb_store {
     struct gb_rundir dir;
@@ -39,12 +39,12 @@ static const char packing_name[] = "structure.csv";
 static bool write_packing(const char *directory, struct gb_params *params,
                           struct gb_error *err)
 {
-    const struct gb_packing *packing = gb_packing_of(params, err);
+    const struct gb_imported *packing = gb_imported_of(params, err);
     if (packing == NULL) {
-        return !gb_packing_given(params);
+        return !gb_imported_given(params);
     }
     char *path = g_build_filename(directory, packing_name, NULL);
-    char *text = gb_packing_text(packing);
+    char *text = gb_imported_text(packing);
     const bool ok = gb_file_replace(path, text, strlen(text), err);
     g_free(text);
     g_free(path);

@@ -10,6 +10,7 @@
 #include "io/rundir.h"
 #include "many/single_run.h"
 #include "run/cost.h"
+#include "scene/imported/imported.h"
 
 /* Longest time between two calls of callbacks->cancelled. */
 static const double poll_s = 0.2;
@@ -158,6 +159,12 @@ bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *pool,
     struct queue queue = {0};
     bool stopping = false;
     bool good = true;
+    if (ensemble->replicas > 1 && gb_imported_given(&ensemble->run[0].params)) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "replicas: must be 1 with structure.from: cells differ by their "
+            "seed, and that of a file has none");
+    }
     for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
         queue.waiting += !ensemble->run[i].ended;
     }

@@ -5,9 +5,9 @@
 
 #include "law/law_storakers.h"
 #include "scene/field/field.h"
+#include "scene/imported/imported.h"
 #include "scene/lattice.h"
 #include "scene/loading_kind.h"
-#include "scene/packing/packing.h"
 #include "scene/path/path.h"
 #include "scene/size/sizes.h"
 
@@ -55,9 +55,9 @@ static double lattice_density(const struct gb_params *params)
 
 double gb_derived_structure_density(const struct gb_params *params)
 {
-    const struct gb_packing *packing = gb_packing_of(params, NULL);
+    const struct gb_imported *packing = gb_imported_of(params, NULL);
     if (packing) {
-        return gb_packing_density(packing);
+        return gb_imported_density(packing);
     }
     if (gb_lattice_of(params->structure)) {
         return lattice_density(params);
@@ -113,7 +113,7 @@ static double base_edge(const struct gb_params *params, double volume)
 
 void gb_derived_cell(const struct gb_params *params, double edges[3])
 {
-    const struct gb_packing *packing = gb_packing_of(params, NULL);
+    const struct gb_imported *packing = gb_imported_of(params, NULL);
     const struct gb_lattice *lattice = gb_lattice_of(params->structure);
     if (packing) {
         memcpy(edges, packing->edges, sizeof packing->edges);

@@ -8,9 +8,9 @@
 
 #include "base/units.h"
 #include "scene/derived.h"
+#include "scene/imported/imported.h"
 #include "scene/loading_kind.h"
 #include "scene/normal_law.h"
-#include "scene/packing/packing.h"
 #include "scene/tolerances.h"
 #include "scene/unequal_pair.h"
 
@@ -284,7 +284,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .count = params->count,
         .seed = gb_seed_of(params),
         .structure = params->structure,
-        .packing = gb_packing_of(params, err),
+        .packing = gb_imported_of(params, err),
         .single_contact = params->single_contact,
         .r_meso =
             params->r_meso.relative ? params->r_meso.value : params->r_meso.value / d,
@@ -292,7 +292,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         .metre_per_length = d,
         .newton_per_force = params->young_pa * d * d,
     };
-    if (gb_packing_given(params) && !model->packing) {
+    if (gb_imported_given(params) && !model->packing) {
         return false;
     }
     gb_loading_kind_of(params)->freeze(model, params);

@@ -13,7 +13,7 @@
 #include "scene/seed.h"
 #include "scene/size/sizes.h"
 
-struct gb_packing;
+struct gb_imported;
 
 /* Which terms the force sweep of this scene carries.  The sweep contains
  * no others. */
@@ -92,8 +92,8 @@ struct gb_model {
     struct gb_seed seed;
     double edges[3]; /* initial cell, d */
     double start_density;
-    int structure;                    /* enum gb_structure */
-    const struct gb_packing *packing; /* in place of the structure; NULL: none */
+    int structure;                     /* enum gb_structure */
+    const struct gb_imported *packing; /* in place of the structure; NULL: none */
     double r_meso;
     double single_contact; /* share of particles that begin with one contact */
     bool polydisperse;     /* more than one size; else the next four are 0 or 1 */

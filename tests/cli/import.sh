@@ -29,7 +29,7 @@ pressed() { # name, preset, keys...: exported in every format and pressed on
     shift
     rm -rf first
     is "$what" run "$@" --out first
-    for format in extxyz lammps-dump lammps-data csv; do
+    for format in extxyz lammps-dump lammps-data csv vtkhdf; do
         rm -rf "from-$format" "x.$format"
         "$greenbody" export first --format $format -o "x.$format" >stdout 2>stderr
         is "$what: pressed from $format" \
@@ -95,6 +95,11 @@ if command -v lmp >/dev/null; then
 else
     echo '# no LAMMPS here: its files are not tested'
 fi
+
+in_patience "$greenbody" sweep default structure.from=lammps.data --vary contact.mu=0.1,0.2 --replicas 2 \
+    --out many >stdout 2>stderr
+is 'replicas of one packing are refused' [ $? -eq 2 ]
+is 'with the reason' grep -q 'replicas: must be 1 with structure.from' stderr
 
 # --- wrong input ------------------------------------------------------------------------------
 rows() { # edge of the cell along x: a row of twelve, and two of them side by side

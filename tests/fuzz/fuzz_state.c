@@ -3,7 +3,7 @@
  * looked at: see fuzz_record.c. */
 #include "fuzz/target.h"
 
-#include "io/hdf/hdf_record.h"
+#include "hdf/hdf_record.h"
 #include "io/state/state.h"
 
 static struct gb_record record;

@@ -9,7 +9,7 @@
 #include "common/die.h"
 #include "common/run_directory.h"
 #include "common/scene.h"
-#include "io/hdf/hdf_record.h"
+#include "hdf/hdf_record.h"
 #include "io/rundir.h"
 #include "many/single_run.h"
 #include "run/runner/runner.h"

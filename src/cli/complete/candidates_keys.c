@@ -61,7 +61,7 @@ static void add_values(const struct gb_candidates *to, const struct gb_field *fi
     }
     if (field->type == GB_FIELD_PACKING) {
         static const char *const packings[] = {".csv",  ".xyz", ".extxyz", ".dump",
-                                               ".data", ".txt", NULL};
+                                               ".data", ".txt", ".vtkhdf", NULL};
         gb_candidates_paths(to, GB_CANDIDATES_FILE, packings);
     }
     add_number(to, field);

@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "hdf/hdf_group.h"
 #include "io/export/export_formats.h"
 #include "io/export/export_text.h"
 #include "io/export/export_vectors.h"
-#include "io/hdf/hdf_group.h"
 
 enum {
     VERTEX = 1,

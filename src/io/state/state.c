@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "io/hdf/hdf.h"
-#include "io/hdf/hdf_record.h"
+#include "hdf/hdf.h"
+#include "hdf/hdf_record.h"
 #include "io/state/state_check.h"
 #include "io/state/state_optional.h"
 

@@ -55,7 +55,7 @@ void gb_state_destroy(struct gb_state *state); /* NULL is fine */
 struct gb_cell gb_state_cell(const struct gb_state *state);
 
 /* HDF5 file, written to a temporary name, synced and renamed.  Units are attributes.
- * record (may be NULL) goes into it as the group /checkpoint: see io/hdf/hdf_record.h. */
+ * record (may be NULL) goes into it as the group /checkpoint: see hdf/hdf_record.h. */
 bool gb_state_write(const struct gb_state *state, const struct gb_record *record,
                     const char *path, struct gb_error *err);
 /* Errors: GB_ERR_MACHINE (cannot be opened), GB_ERR_INPUT (not a state, sizes that do not

@@ -7,7 +7,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
-#include "io/hdf/hdf_list.h"
+#include "hdf/hdf_list.h"
 
 enum { DIGEST_SIZE = 65, BED_COLUMNS = 4 };
 

@@ -2,7 +2,7 @@
 #define GB_IO_STATE_STATE_OPTIONAL_H
 
 #include "base/record.h"
-#include "io/hdf/hdf.h"
+#include "hdf/hdf.h"
 #include "io/state/state.h"
 
 /* The arrays that a state may lack: velocities exist in scenes with time, resultants and

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "pack/structure/random.h"
-#include "scene/packing/packing.h"
+#include "scene/imported/imported.h"
 
 static bool shuffle(int64_t count, const struct gb_seed *seed, double *diameter_m,
                     struct gb_error *err)

@@ -4,7 +4,7 @@
 
 #include "pack/structure/chain_growth.h"
 #include "pack/structure/unit_cells.h"
-#include "scene/packing/packing.h"
+#include "scene/imported/imported.h"
 
 bool gb_initial_structure_fill(const struct gb_model *model,
                                bool (*cancelled)(void *data), void *data,

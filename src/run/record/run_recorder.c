@@ -6,8 +6,8 @@
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "hdf/hdf_record.h"
 #include "io/follow.h"
-#include "io/hdf/hdf_record.h"
 #include "io/rundir_files.h"
 #include "run/checkpoint.h"
 #include "run/record/kept_states.h"

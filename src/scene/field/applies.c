@@ -3,9 +3,9 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "scene/imported/imported.h"
 #include "scene/loading_kind.h"
 #include "scene/normal_law.h"
-#include "scene/packing/packing.h"
 
 static bool mono(const struct gb_params *params)
 {
@@ -34,7 +34,7 @@ static bool with_path(const struct gb_params *params)
 
 static bool generated(const struct gb_params *params)
 {
-    return !gb_packing_given(params);
+    return !gb_imported_given(params);
 }
 
 static bool grown(const struct gb_params *params)

@@ -113,9 +113,10 @@ static char *describe(const struct gb_field *field, enum style style, char *buff
                  GB_SIZES_MAX, range);
         break;
     case GB_FIELD_PACKING:
-        snprintf(buffer, size,
-                 "a file: extended XYZ, LAMMPS dump or data, or a table of x, y, z and "
-                 "diameter or radius");
+        snprintf(
+            buffer, size,
+            "a file: extended XYZ, LAMMPS dump or data, VTKHDF, or a table of x, y, z and "
+            "diameter or radius");
         break;
     }
     return buffer;

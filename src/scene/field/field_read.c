@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 #include "scene/field/field.h"
-#include "scene/packing/packing.h"
+#include "scene/imported/imported.h"
 #include "scene/size/size_table.h"
 
 static void *member(struct gb_params *params, const struct gb_field *field)
@@ -224,9 +224,9 @@ static bool read_packing(const struct gb_field *field, const char *text,
         gb_error_set(&why, GB_ERR_INPUT, "%.80s: the path is longer than %zu bytes", path,
                      sizeof params->from.path - 1);
     }
-    const struct gb_packing *packing = good ? gb_packing_load(path, &why) : NULL;
+    const struct gb_imported *packing = good ? gb_imported_load(path, &why) : NULL;
     if (packing != NULL) {
-        gb_packing_take(params, path, packing);
+        gb_imported_take(params, path, packing);
     }
     g_free(path);
     return packing != NULL ||

@@ -7,10 +7,10 @@
 #include "scene/field/changes.h"
 #include "scene/field/field.h"
 #include "scene/field/keep_points.h"
+#include "scene/imported/imported.h"
 #include "scene/lattice.h"
 #include "scene/loading_kind.h"
 #include "scene/normal_law.h"
-#include "scene/packing/packing.h"
 #include "scene/path/path.h"
 #include "scene/size/size_table.h"
 #include "scene/size/sizes.h"
@@ -68,7 +68,7 @@ static bool check_cell(const struct gb_params *params, struct gb_error *err)
     gb_derived_cell(params, edges);
     for (int k = 0; k < 3; k++) {
         if ((params->dimension == 3 || k != 1) && !(edges[k] >= 2.0 * range)) {
-            if (gb_packing_given(params)) {
+            if (gb_imported_given(params)) {
                 return gb_error_set(err, GB_ERR_INPUT,
                                     "structure.from = %.200s: a cell of %.3g d along %c: "
                                     "must be at least %g d",
@@ -101,7 +101,7 @@ static bool check_loading(const struct gb_params *params, struct gb_error *err)
         return gb_error_set(
             err, GB_ERR_INPUT, "loading.until = density = %g: must be above %s %g",
             params->until_density,
-            gb_packing_given(params) ? "that of structure.from," : "structure.density =",
+            gb_imported_given(params) ? "that of structure.from," : "structure.density =",
             start);
     }
     if (!isnan(params->until_pressure_pa) && params->unload_count > 0) {
@@ -144,7 +144,7 @@ static bool check_normal(const struct gb_params *params, struct gb_error *err)
 static bool check_periodic(const struct gb_params *params, struct gb_error *err)
 {
     return check_normal(params, err) &&
-           (gb_packing_given(params) || gb_lattice_check(params, err)) &&
+           (gb_imported_given(params) || gb_lattice_check(params, err)) &&
            check_cell(params, err) && check_loading(params, err);
 }
 
@@ -153,7 +153,7 @@ bool gb_params_check(const struct gb_params *params, struct gb_error *err)
     struct gb_keep_points points;
     if (!gb_params_check_fields(params, err) ||
         !gb_size_table_check_params(params, err) ||
-        !gb_packing_check_params(params, err) ||
+        !gb_imported_check_params(params, err) ||
         !gb_keep_points_parse(params->snapshots_at, &points, err)) {
         return false;
     }

@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "scene/derived.h"
+#include "scene/imported/imported.h"
 #include "scene/loading_kind.h"
-#include "scene/packing/packing.h"
 #include "scene/size/size_table.h"
 
 /* Probability of a standard normal between a and b, without loss in either tail. */
@@ -40,7 +40,7 @@ static double cut_at(const struct gb_sizes *sizes, double diameter_m, double unc
 
 bool gb_sizes_polydisperse(const struct gb_params *params)
 {
-    const struct gb_packing *packing = gb_packing_of(params, NULL);
+    const struct gb_imported *packing = gb_imported_of(params, NULL);
     return gb_loading_kind_of(params)->periodic_cell &&
            (packing ? !packing->one_size : params->distribution != GB_DISTRIBUTION_MONO);
 }
@@ -52,7 +52,7 @@ bool gb_sizes_init(struct gb_sizes *sizes, const struct gb_params *params,
         !gb_size_table_check_params(params, err)) {
         return false;
     }
-    *sizes = (struct gb_sizes){.packing = gb_packing_of(params, NULL),
+    *sizes = (struct gb_sizes){.packing = gb_imported_of(params, NULL),
                                .distribution = params->distribution,
                                .median_m = params->diameter_m};
     if (params->distribution == GB_DISTRIBUTION_LOGNORMAL) {

@@ -13,16 +13,16 @@
  * 1751 spheres of P3 would scatter by 4 % from seed to seed (the few largest carry most
  * of it), as much as the densities that are compared. */
 struct gb_sizes {
-    const struct gb_packing *packing; /* its particles; NULL: the rest */
-    int distribution;                 /* enum gb_distribution */
-    double median_m, sigma;           /* lognormal; mono: the diameter, 0 */
-    double z_least, z_largest;        /* where it is cut, as (ln d - ln median)/sigma */
-    int rows;                         /* table */
+    const struct gb_imported *packing; /* its particles; NULL: the rest */
+    int distribution;                  /* enum gb_distribution */
+    double median_m, sigma;            /* lognormal; mono: the diameter, 0 */
+    double z_least, z_largest;         /* where it is cut, as (ln d - ln median)/sigma */
+    int rows;                          /* table */
     double diameter_m[GB_SIZES_MAX];
     double below[GB_SIZES_MAX]; /* share by number up to and with this row; last: 1 */
 };
 
-struct gb_packing;
+struct gb_imported;
 
 /* A scene with particles of more than one size in a periodic cell?  (Beds in a die draw
  * their sizes themselves.) */

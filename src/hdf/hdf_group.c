@@ -1,8 +1,8 @@
-#include "io/hdf/hdf_group.h"
+#include "hdf/hdf_group.h"
 
 #include <string.h>
 
-#include "io/hdf/hdf_private.h"
+#include "hdf/hdf_private.h"
 
 static bool unwritten(const struct gb_hdf *file, const char *name, struct gb_error *err)
 {

@@ -1,4 +1,4 @@
-#include "io/hdf/hdf_memory.h"
+#include "hdf/hdf_memory.h"
 
 #include <glib.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "io/hdf/hdf.h"
+#include "hdf/hdf.h"
 
 #include <errno.h>
 #include <glib.h>
@@ -9,7 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "io/hdf/hdf_private.h"
+#include "hdf/hdf_private.h"
 
 enum { TEXT_MAX = 4096 }; /* longest text attribute that is read */
 

@@ -1,27 +1,28 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/packing/packing_private.h"
+#include "scene/imported/imported_private.h"
 
 /* Dumps (the last frame) and data files (atom_style sphere) of LAMMPS. */
 
 static const char *const tilted = "a tilted cell: must have right angles";
 
 /* "xlo xhi" as a line of a file. */
-static bool take_bounds(struct gb_packing_raw *raw, const struct gb_packing_lines *lines,
-                        int axis, const char *line, struct gb_error *err)
+static bool take_bounds(struct gb_imported_raw *raw,
+                        const struct gb_imported_lines *lines, int axis, const char *line,
+                        struct gb_error *err)
 {
     double high = 0.0;
     char **words = g_strsplit_set(line, " \t", -1);
     bool good = g_strv_length(words) >= 2 ||
-                gb_packing_refuse(lines, err, "%.40s: must be two bounds", line);
-    good =
-        good &&
-        gb_packing_number(lines, words[0], "a bound of the cell", &raw->low[axis], err) &&
-        gb_packing_number(lines, words[1], "a bound of the cell", &high, err);
+                gb_imported_lines_refuse(lines, err, "%.40s: must be two bounds", line);
+    good = good &&
+           gb_imported_lines_number(lines, words[0], "a bound of the cell",
+                                    &raw->low[axis], err) &&
+           gb_imported_lines_number(lines, words[1], "a bound of the cell", &high, err);
     raw->edges[axis] = high - raw->low[axis];
     if (good && g_strv_length(words) >= 3 && g_ascii_strtod(words[2], NULL) != 0.0) {
-        good = gb_packing_refuse(lines, err, "%s", tilted);
+        good = gb_imported_lines_refuse(lines, err, "%s", tilted);
     }
     g_strfreev(words);
     return good;
@@ -37,33 +38,34 @@ struct dump {
     bool atoms; /* a frame has been read */
 };
 
-static bool next_line(struct gb_packing_lines *lines, char **line, struct gb_error *err)
+static bool next_line(struct gb_imported_lines *lines, char **line, struct gb_error *err)
 {
-    *line = gb_packing_lines_next(lines);
-    return *line != NULL || gb_packing_refuse(lines, err, "the file ends here");
+    *line = gb_imported_lines_next(lines);
+    return *line != NULL || gb_imported_lines_refuse(lines, err, "the file ends here");
 }
 
-static bool take_atoms(struct dump *dump, struct gb_packing_lines *lines,
-                       struct gb_packing_raw *raw, const char *names,
+static bool take_atoms(struct dump *dump, struct gb_imported_lines *lines,
+                       struct gb_imported_raw *raw, const char *names,
                        struct gb_error *err)
 {
-    struct gb_packing_columns columns;
+    struct gb_imported_columns columns;
     const char *missing = "";
     char **name = g_strsplit_set(names, " \t", -1);
-    const bool found = gb_packing_columns_find(&columns, name, &missing);
+    const bool found = gb_imported_columns_find(&columns, name, &missing);
     g_strfreev(name);
     if (!found) {
-        return gb_packing_refuse(lines, err,
-                                 "no column %s: must be x y z (or xu yu zu) and diameter "
-                                 "or radius",
-                                 missing);
+        return gb_imported_lines_refuse(
+            lines, err,
+            "no column %s: must be x y z (or xu yu zu) and diameter "
+            "or radius",
+            missing);
     }
     dump->atoms = true;
-    return gb_packing_read_rows(lines, raw, &columns, dump->count, err);
+    return gb_imported_columns_read_rows(lines, raw, &columns, dump->count, err);
 }
 
-static bool take_item(struct dump *dump, struct gb_packing_lines *lines,
-                      struct gb_packing_raw *raw, const char *item, struct gb_error *err)
+static bool take_item(struct dump *dump, struct gb_imported_lines *lines,
+                      struct gb_imported_raw *raw, const char *item, struct gb_error *err)
 {
     static const char atoms[] = "ATOMS", bounds[] = "BOX BOUNDS";
     char *line;
@@ -74,10 +76,10 @@ static bool take_item(struct dump *dump, struct gb_packing_lines *lines,
         if (!next_line(lines, &line, err)) {
             return false;
         }
-        raw->unit_m = gb_packing_unit(line);
+        raw->unit_m = gb_imported_lines_unit(line);
     } else if (strcmp(item, "NUMBER OF ATOMS") == 0) {
         return next_line(lines, &line, err) &&
-               gb_packing_count(lines, line, &dump->count, err);
+               gb_imported_columns_count(lines, line, &dump->count, err);
     } else if (g_str_has_prefix(item, bounds)) {
         for (int axis = 0; axis < 3; axis++) {
             if (!next_line(lines, &line, err) ||
@@ -90,22 +92,23 @@ static bool take_item(struct dump *dump, struct gb_packing_lines *lines,
     return true;
 }
 
-static bool read_dump(struct gb_packing_lines *lines, struct gb_packing_raw *raw,
+static bool read_dump(struct gb_imported_lines *lines, struct gb_imported_raw *raw,
                       struct gb_error *err)
 {
     static const char mark[] = "ITEM: ";
     struct dump dump = {0};
-    for (char *line; (line = gb_packing_lines_next(lines)) != NULL;) {
+    for (char *line; (line = gb_imported_lines_next(lines)) != NULL;) {
         if (g_str_has_prefix(line, mark) &&
             !take_item(&dump, lines, raw, line + strlen(mark), err)) {
             return false;
         }
     }
-    return dump.atoms || gb_packing_refuse(lines, err, "no ITEM: ATOMS: must have one");
+    return dump.atoms ||
+           gb_imported_lines_refuse(lines, err, "no ITEM: ATOMS: must have one");
 }
 
-const struct gb_packing_format gb_packing_lammps_dump = {"lammps-dump", is_dump,
-                                                         read_dump};
+const struct gb_imported_format gb_imported_lammps_dump = {"lammps-dump", is_dump,
+                                                           read_dump};
 
 /* The first line is a title; "N atoms" follows within the head. */
 static bool is_data(const char *text)
@@ -116,16 +119,16 @@ static bool is_data(const char *text)
     return atoms != NULL && bounds != NULL;
 }
 
-static bool take_head(struct gb_packing_raw *raw, const struct gb_packing_lines *lines,
+static bool take_head(struct gb_imported_raw *raw, const struct gb_imported_lines *lines,
                       char *line, int64_t *count, struct gb_error *err)
 {
     static const char *const bounds[] = {"xlo xhi", "ylo yhi", "zlo zhi"};
     if (g_str_has_suffix(line, " atoms")) {
-        return gb_packing_count(lines, line, count, err);
+        return gb_imported_columns_count(lines, line, count, err);
     }
     if (g_str_has_suffix(line, "xy xz yz") &&
         strspn(line, "0. xyze+-\t") < strlen(line)) {
-        return gb_packing_refuse(lines, err, "%s", tilted);
+        return gb_imported_lines_refuse(lines, err, "%s", tilted);
     }
     for (int axis = 0; axis < 3; axis++) {
         if (g_str_has_suffix(line, bounds[axis])) {
@@ -137,16 +140,17 @@ static bool take_head(struct gb_packing_raw *raw, const struct gb_packing_lines 
     return true;
 }
 
-static bool take_section(struct gb_packing_raw *raw, struct gb_packing_lines *lines,
+static bool take_section(struct gb_imported_raw *raw, struct gb_imported_lines *lines,
                          const char *style, int64_t count, struct gb_error *err)
 {
     /* atom-ID atom-type diameter density x y z */
-    static const struct gb_packing_columns sphere = {.position = {4, 5, 6}, .size = 2};
+    static const struct gb_imported_columns sphere = {.position = {4, 5, 6}, .size = 2};
     if (style != NULL && strstr(style, "sphere") == NULL) {
-        return gb_packing_refuse(lines, err, "atoms of style %.40s: must be sphere",
-                                 style + 1 + strspn(style + 1, " \t"));
+        return gb_imported_lines_refuse(lines, err,
+                                        "atoms of style %.40s: must be sphere",
+                                        style + 1 + strspn(style + 1, " \t"));
     }
-    return gb_packing_read_rows(lines, raw, &sphere, count, err);
+    return gb_imported_columns_read_rows(lines, raw, &sphere, count, err);
 }
 
 /* LAMMPS says its units in the title, this program in the provenance. */
@@ -155,20 +159,21 @@ static double unit_of_title(const char *title)
     static const char key[] = "units = ";
     const char *found = strstr(title, key);
     if (found == NULL) {
-        return strstr(title, "units nm") != NULL ? gb_packing_unit("nm") : (double)NAN;
+        return strstr(title, "units nm") != NULL ? gb_imported_lines_unit("nm")
+                                                 : (double)NAN;
     }
     found += strlen(key);
     char *name = g_strndup(found, strcspn(found, " ,"));
-    const double unit = gb_packing_unit(name);
+    const double unit = gb_imported_lines_unit(name);
     g_free(name);
     return unit;
 }
 
-static bool read_data(struct gb_packing_lines *lines, struct gb_packing_raw *raw,
+static bool read_data(struct gb_imported_lines *lines, struct gb_imported_raw *raw,
                       struct gb_error *err)
 {
     int64_t count = 0;
-    for (char *line; (line = gb_packing_lines_next(lines)) != NULL;) {
+    for (char *line; (line = gb_imported_lines_next(lines)) != NULL;) {
         if (lines->number == 1) {
             raw->unit_m = unit_of_title(line);
         } else if (g_str_has_prefix(line, "Atoms")) {
@@ -177,8 +182,8 @@ static bool read_data(struct gb_packing_lines *lines, struct gb_packing_raw *raw
             return false;
         }
     }
-    return gb_packing_refuse(lines, err, "no section Atoms: must have one");
+    return gb_imported_lines_refuse(lines, err, "no section Atoms: must have one");
 }
 
-const struct gb_packing_format gb_packing_lammps_data = {"lammps-data", is_data,
-                                                         read_data};
+const struct gb_imported_format gb_imported_lammps_data = {"lammps-data", is_data,
+                                                           read_data};

@@ -1,4 +1,4 @@
-#include "scene/packing/packing.h"
+#include "scene/imported/imported.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -7,8 +7,8 @@
 #include "base/alloc.h"
 #include "base/number.h"
 #include "base/read_file.h"
+#include "scene/imported/imported_private.h"
 #include "scene/loading_kind.h"
-#include "scene/packing/packing_private.h"
 
 /* Bytes of a file at most: ten million particles of a hundred each. */
 static const size_t bytes_max = (size_t)1 << 30;
@@ -17,7 +17,7 @@ static const size_t bytes_max = (size_t)1 << 30;
 static GMutex lock;
 static GHashTable *known;
 
-static void destroy(struct gb_packing *packing)
+static void destroy(struct gb_imported *packing)
 {
     gb_alloc_free(packing->position);
     gb_alloc_free(packing->diameter);
@@ -25,13 +25,13 @@ static void destroy(struct gb_packing *packing)
 }
 
 /* The one that is known with the same checksum, or the new one. */
-static const struct gb_packing *keep(struct gb_packing *packing)
+static const struct gb_imported *keep(struct gb_imported *packing)
 {
     g_mutex_lock(&lock);
     if (known == NULL) {
         known = g_hash_table_new(g_int64_hash, g_int64_equal);
     }
-    const struct gb_packing *kept = g_hash_table_lookup(known, &packing->sum);
+    const struct gb_imported *kept = g_hash_table_lookup(known, &packing->sum);
     if (kept == NULL) {
         g_hash_table_insert(known, &packing->sum, packing);
         kept = packing;
@@ -42,78 +42,92 @@ static const struct gb_packing *keep(struct gb_packing *packing)
     return kept;
 }
 
-static const struct gb_packing *find(uint64_t sum)
+static const struct gb_imported *find(uint64_t sum)
 {
     g_mutex_lock(&lock);
-    const struct gb_packing *found =
+    const struct gb_imported *found =
         known != NULL ? g_hash_table_lookup(known, &sum) : NULL;
     g_mutex_unlock(&lock);
     return found;
 }
 
-static bool read_text(const char *path, char *text, struct gb_packing *packing,
+static bool read_text(const char *path, char *text, struct gb_imported_raw *raw,
                       struct gb_error *err)
 {
-    static const struct gb_packing_format *const formats[] = {
-        &gb_packing_lammps_dump, &gb_packing_extxyz, &gb_packing_lammps_data,
-        &gb_packing_table};
-    struct gb_packing_raw raw = {
-        .position = g_array_new(FALSE, FALSE, sizeof(double)),
-        .diameter = g_array_new(FALSE, FALSE, sizeof(double)),
-        .unit_m = (double)NAN,
-    };
-    struct gb_packing_lines lines = {.path = path, .next = text};
+    static const struct gb_imported_format *const formats[] = {
+        &gb_imported_lammps_dump, &gb_imported_extxyz, &gb_imported_lammps_data,
+        &gb_imported_table};
+    struct gb_imported_lines lines = {.path = path, .next = text};
     size_t k = 0;
     while (!formats[k]->recognise(text)) {
         k++; /* the last one recognises everything */
     }
-    const bool good = formats[k]->read(&lines, &raw, err) &&
-                      gb_packing_reduce(packing, &raw, path, err);
-    g_array_free(raw.position, TRUE);
-    g_array_free(raw.diameter, TRUE);
-    return good;
+    return formats[k]->read(&lines, raw, err);
 }
 
-const struct gb_packing *gb_packing_load(const char *path, struct gb_error *err)
+static bool read_bytes(const char *path, char *bytes, size_t length,
+                       struct gb_imported_raw *raw, struct gb_error *err)
 {
-    char *text = NULL;
-    size_t length = 0;
-    if (!gb_read_file(path, bytes_max, &text, &length, err)) {
-        return NULL;
+    static const char hdf5[] = "\x89HDF\r\n\x1a\n";
+    if (length >= sizeof hdf5 && memcmp(bytes, hdf5, sizeof hdf5 - 1) == 0) {
+        return gb_imported_vtkhdf_read(path, raw, err);
     }
-    struct gb_packing *packing = gb_alloc_array(1, sizeof *packing, err);
-    bool good = packing != NULL;
-    if (good && (memchr(text, '\0', length) != NULL ||
-                 !g_utf8_validate(text, (gssize)length, NULL))) {
-        good = gb_error_set(err, GB_ERR_INPUT,
+    if (memchr(bytes, '\0', length) != NULL ||
+        !g_utf8_validate(bytes, (gssize)length, NULL)) {
+        return gb_error_set(err, GB_ERR_INPUT,
                             "%s: no text: must be extended XYZ, a dump or data file of "
-                            "LAMMPS, or a table",
+                            "LAMMPS, VTKHDF, or a table",
                             path);
     }
-    good = good && read_text(path, text, packing, err);
-    gb_alloc_free(text);
-    if (!good && packing != NULL) {
-        destroy(packing);
-    }
-    return good ? keep(packing) : NULL;
+    return read_text(path, bytes, raw, err);
 }
 
-bool gb_packing_given(const struct gb_params *params)
+static struct gb_imported *read_packing(const char *path, struct gb_error *err)
+{
+    char *bytes = NULL;
+    size_t length = 0;
+    if (!gb_read_file(path, bytes_max, &bytes, &length, err)) {
+        return NULL;
+    }
+    struct gb_imported_raw raw = {
+        .position = g_array_new(FALSE, FALSE, sizeof(double)),
+        .diameter = g_array_new(FALSE, FALSE, sizeof(double)),
+        .unit_m = (double)NAN,
+    };
+    struct gb_imported *packing = gb_alloc_array(1, sizeof *packing, err);
+    if (packing != NULL && (!read_bytes(path, bytes, length, &raw, err) ||
+                            !gb_imported_reduce(packing, &raw, path, err))) {
+        destroy(packing);
+        packing = NULL;
+    }
+    gb_alloc_free(bytes);
+    g_array_free(raw.position, TRUE);
+    g_array_free(raw.diameter, TRUE);
+    return packing;
+}
+
+const struct gb_imported *gb_imported_load(const char *path, struct gb_error *err)
+{
+    struct gb_imported *packing = read_packing(path, err);
+    return packing != NULL ? keep(packing) : NULL;
+}
+
+bool gb_imported_given(const struct gb_params *params)
 {
     return params->from.path[0] != '\0';
 }
 
-const struct gb_packing *gb_packing_of(const struct gb_params *params,
-                                       struct gb_error *err)
+const struct gb_imported *gb_imported_of(const struct gb_params *params,
+                                         struct gb_error *err)
 {
-    if (!gb_packing_given(params)) {
+    if (!gb_imported_given(params)) {
         return NULL;
     }
-    const struct gb_packing *packing = find(params->from.sum);
+    const struct gb_imported *packing = find(params->from.sum);
     if (packing != NULL) { /* the usual case: read when the key was set */
         return packing;
     }
-    packing = gb_packing_load(params->from.path, err);
+    packing = gb_imported_load(params->from.path, err);
     if (packing != NULL && packing->sum != params->from.sum) {
         gb_error_set(err, GB_ERR_INPUT,
                      "structure.from = %.200s: has changed since it was read",
@@ -123,8 +137,8 @@ const struct gb_packing *gb_packing_of(const struct gb_params *params,
     return packing;
 }
 
-void gb_packing_take(struct gb_params *params, const char *path,
-                     const struct gb_packing *packing)
+void gb_imported_take(struct gb_params *params, const char *path,
+                      const struct gb_imported *packing)
 {
     g_strlcpy(params->from.path, path, sizeof params->from.path);
     params->from.sum = packing->sum;
@@ -135,13 +149,13 @@ void gb_packing_take(struct gb_params *params, const char *path,
     }
 }
 
-bool gb_packing_check_params(const struct gb_params *params, struct gb_error *err)
+bool gb_imported_check_params(const struct gb_params *params, struct gb_error *err)
 {
     const char *path = params->from.path;
-    if (!gb_packing_given(params)) {
+    if (!gb_imported_given(params)) {
         return true;
     }
-    const struct gb_packing *packing = gb_packing_of(params, err);
+    const struct gb_imported *packing = gb_imported_of(params, err);
     if (packing == NULL) {
         return false;
     }
@@ -173,7 +187,7 @@ bool gb_packing_check_params(const struct gb_params *params, struct gb_error *er
     return true;
 }
 
-double gb_packing_density(const struct gb_packing *packing)
+double gb_imported_density(const struct gb_imported *packing)
 {
     const double shape = packing->planar ? M_PI / 4.0 : M_PI / 6.0;
     const double *edges = packing->edges;
@@ -192,7 +206,7 @@ static void add_numbers(GString *text, const double *numbers, int count, char be
     }
 }
 
-char *gb_packing_text(const struct gb_packing *packing)
+char *gb_imported_text(const struct gb_imported *packing)
 {
     GString *text = g_string_new(NULL);
     if (!isnan(packing->unit_m)) {

@@ -1,11 +1,11 @@
-#include "io/hdf/hdf_list.h"
+#include "hdf/hdf_list.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include <glib.h>
 
-#include "io/hdf/hdf_private.h"
+#include "hdf/hdf_private.h"
 
 enum { DEEPEST = 2 };
 

@@ -1,9 +1,9 @@
-#ifndef GB_IO_HDF_HDF_GROUP_H
-#define GB_IO_HDF_HDF_GROUP_H
+#ifndef GB_HDF_HDF_GROUP_H
+#define GB_HDF_HDF_GROUP_H
 
 #include <glib.h>
 
-#include "io/hdf/hdf.h"
+#include "hdf/hdf.h"
 
 /* Groups with attributes, as other programs want them, and the file as bytes. */
 

@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/packing/packing_private.h"
+#include "scene/imported/imported_private.h"
 
 static const char *const x_names[] = {
     "x", "px", "pos_x", "position_x", "center_x", "centroid_x", "xu", "points:0", NULL};
@@ -28,24 +28,24 @@ static char *bare_name(const char *name, char **unit)
     }
     char *last = strrchr(bare, '_');
     if (last != NULL &&
-        (isfinite(gb_packing_unit(last + 1)) || strcmp(last + 1, "d") == 0)) {
+        (isfinite(gb_imported_lines_unit(last + 1)) || strcmp(last + 1, "d") == 0)) {
         *unit = g_strdup(last + 1);
         *last = '\0';
     }
     return bare;
 }
 
-static void take_unit(struct gb_packing_columns *columns, const char *unit)
+static void take_unit(struct gb_imported_columns *columns, const char *unit)
 {
     if (unit != NULL && strcmp(unit, "d") == 0) {
         columns->reduced = true;
     } else if (unit != NULL) {
-        columns->unit_m = gb_packing_unit(unit);
+        columns->unit_m = gb_imported_lines_unit(unit);
     }
 }
 
-bool gb_packing_columns_find(struct gb_packing_columns *columns, char *const *names,
-                             const char **missing)
+bool gb_imported_columns_find(struct gb_imported_columns *columns, char *const *names,
+                              const char **missing)
 {
     static const char *const *const wanted[] = {x_names, y_names, z_names, diameters,
                                                 radii};
@@ -78,28 +78,31 @@ bool gb_packing_columns_find(struct gb_packing_columns *columns, char *const *na
     return true;
 }
 
-bool gb_packing_add_row(struct gb_packing_raw *raw, const struct gb_packing_lines *lines,
-                        const struct gb_packing_columns *columns, char *const *words,
-                        int count, struct gb_error *err)
+bool gb_imported_columns_add_row(struct gb_imported_raw *raw,
+                                 const struct gb_imported_lines *lines,
+                                 const struct gb_imported_columns *columns,
+                                 char *const *words, int count, struct gb_error *err)
 {
     static const char *const names[] = {"x", "y", "z"};
     double x[3], size;
     for (int c = 0; c < 3; c++) {
         if (columns->position[c] >= count || columns->size >= count) {
-            return gb_packing_refuse(lines, err, "%d columns: must be at least %d", count,
-                                     1 + MAX(columns->position[c], columns->size));
+            return gb_imported_lines_refuse(lines, err, "%d columns: must be at least %d",
+                                            count,
+                                            1 + MAX(columns->position[c], columns->size));
         }
-        if (!gb_packing_number(lines, words[columns->position[c]], names[c], &x[c],
-                               err)) {
+        if (!gb_imported_lines_number(lines, words[columns->position[c]], names[c], &x[c],
+                                      err)) {
             return false;
         }
     }
     const char *what = columns->radius ? "radius" : "diameter";
-    if (!gb_packing_number(lines, words[columns->size], what, &size, err)) {
+    if (!gb_imported_lines_number(lines, words[columns->size], what, &size, err)) {
         return false;
     }
     if (!(size > 0.0)) {
-        return gb_packing_refuse(lines, err, "%s is %g: must be above 0", what, size);
+        return gb_imported_lines_refuse(lines, err, "%s is %g: must be above 0", what,
+                                        size);
     }
     size *= columns->radius ? 2.0 : 1.0;
     g_array_append_vals(raw->position, x, 3);
@@ -124,26 +127,27 @@ static int cut_words(char *line, char **words, int most)
 
 enum { WORDS_MAX = 256 };
 
-bool gb_packing_read_rows(struct gb_packing_lines *lines, struct gb_packing_raw *raw,
-                          const struct gb_packing_columns *columns, int64_t count,
-                          struct gb_error *err)
+bool gb_imported_columns_read_rows(struct gb_imported_lines *lines,
+                                   struct gb_imported_raw *raw,
+                                   const struct gb_imported_columns *columns,
+                                   int64_t count, struct gb_error *err)
 {
     char *words[WORDS_MAX];
     g_array_set_size(raw->position, 0);
     g_array_set_size(raw->diameter, 0);
     for (int64_t i = 0; i < count;) {
-        char *line = gb_packing_lines_next(lines);
+        char *line = gb_imported_lines_next(lines);
         if (line != NULL && *line == '\0') {
             continue;
         }
         if (line == NULL) {
-            return gb_packing_refuse(lines, err,
-                                     "the file ends: must have %" G_GINT64_FORMAT
-                                     " particles, has %" G_GINT64_FORMAT,
-                                     count, i);
+            return gb_imported_lines_refuse(lines, err,
+                                            "the file ends: must have %" G_GINT64_FORMAT
+                                            " particles, has %" G_GINT64_FORMAT,
+                                            count, i);
         }
-        if (!gb_packing_add_row(raw, lines, columns, words,
-                                cut_words(line, words, WORDS_MAX), err)) {
+        if (!gb_imported_columns_add_row(raw, lines, columns, words,
+                                         cut_words(line, words, WORDS_MAX), err)) {
             return false;
         }
         i++;
@@ -151,12 +155,13 @@ bool gb_packing_read_rows(struct gb_packing_lines *lines, struct gb_packing_raw 
     return true;
 }
 
-bool gb_packing_count(const struct gb_packing_lines *lines, const char *text,
-                      int64_t *count, struct gb_error *err)
+bool gb_imported_columns_count(const struct gb_imported_lines *lines, const char *text,
+                               int64_t *count, struct gb_error *err)
 {
     char *end = NULL;
     *count = g_ascii_strtoll(text, &end, 10);
     return (end != text && (*end == '\0' || g_ascii_isspace(*end)) && *count > 0 &&
             *count <= INT32_MAX) ||
-           gb_packing_refuse(lines, err, "%.40s: must be a number of particles", text);
+           gb_imported_lines_refuse(lines, err, "%.40s: must be a number of particles",
+                                    text);
 }

@@ -1,10 +1,10 @@
-#ifndef GB_IO_HDF_HDF_PRIVATE_H
-#define GB_IO_HDF_HDF_PRIVATE_H
+#ifndef GB_HDF_HDF_PRIVATE_H
+#define GB_HDF_HDF_PRIVATE_H
 
 #include <hdf5.h>
 
-#include "io/hdf/hdf.h"
-#include "io/hdf/hdf_memory.h"
+#include "hdf/hdf.h"
+#include "hdf/hdf_memory.h"
 
 /* The inside of gb_hdf, for hdf.c (owner) and hdf_list.c. */
 struct gb_hdf {

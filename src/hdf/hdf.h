@@ -1,5 +1,5 @@
-#ifndef GB_IO_HDF_HDF_H
-#define GB_IO_HDF_HDF_H
+#ifndef GB_HDF_HDF_H
+#define GB_HDF_HDF_H
 
 #include <stdbool.h>
 #include <stddef.h>

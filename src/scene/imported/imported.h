@@ -1,5 +1,5 @@
-#ifndef GB_SCENE_PACKING_H
-#define GB_SCENE_PACKING_H
+#ifndef GB_SCENE_IMPORTED_H
+#define GB_SCENE_IMPORTED_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -8,7 +8,7 @@
 
 /* A packing read from a file (structure.from), in a periodic cell with right angles.
  * Lengths are in d, the mean diameter of its particles by number. */
-struct gb_packing {
+struct gb_imported {
     int64_t count;
     double edges[3];
     double *position;      /* count x 3, inside the cell; y = 0 if planar */
@@ -21,34 +21,34 @@ struct gb_packing {
     uint64_t sum;          /* checksum of all the above */
 };
 
-/* Reads a file: extended XYZ, a dump or a data file of LAMMPS, or a table with named
- * columns, recognised by content (docs/import.md).  The packing lives as long as the
+/* Reads a file: extended XYZ, a dump or a data file of LAMMPS, VTKHDF, or a table with
+ * named columns, recognised by content (docs/import.md).  The packing lives as long as the
  * process, one for each checksum; thread-safe.
  *
  * Errors: GB_ERR_INPUT "path:line: what was read, what is accepted"; GB_ERR_MACHINE;
  * GB_ERR_MEMORY. */
-const struct gb_packing *gb_packing_load(const char *path, struct gb_error *err);
+const struct gb_imported *gb_imported_load(const char *path, struct gb_error *err);
 
 /* The packing of structure.from; NULL without one, and with err if its file has been
  * removed or changed. */
-const struct gb_packing *gb_packing_of(const struct gb_params *params,
-                                       struct gb_error *err);
+const struct gb_imported *gb_imported_of(const struct gb_params *params,
+                                         struct gb_error *err);
 
 /* Are the particles those of a file? */
-bool gb_packing_given(const struct gb_params *params);
+bool gb_imported_given(const struct gb_params *params);
 
 /* Makes the parameters those of a packing: its count, its diameter if the file says it,
  * and no distribution. */
-void gb_packing_take(struct gb_params *params, const char *path,
-                     const struct gb_packing *packing);
+void gb_imported_take(struct gb_params *params, const char *path,
+                      const struct gb_imported *packing);
 
 /* Relations of a packing to the other parameters.  Errors: GB_ERR_INPUT. */
-bool gb_packing_check_params(const struct gb_params *params, struct gb_error *err);
+bool gb_imported_check_params(const struct gb_params *params, struct gb_error *err);
 
 /* Volume of the particles (their area in 2D) over that of the cell. */
-double gb_packing_density(const struct gb_packing *packing);
+double gb_imported_density(const struct gb_imported *packing);
 
-/* The packing as a table that gb_packing_load reads to the same bits.  g_free. */
-char *gb_packing_text(const struct gb_packing *packing);
+/* The packing as a table that gb_imported_load reads to the same bits.  g_free. */
+char *gb_imported_text(const struct gb_imported *packing);
 
 #endif

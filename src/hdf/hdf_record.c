@@ -1,9 +1,9 @@
-#include "io/hdf/hdf_record.h"
+#include "hdf/hdf_record.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "io/hdf/hdf_list.h"
+#include "hdf/hdf_list.h"
 
 /* Raised whenever the members of a record change their meaning: a resumed run must be the
  * same run, so no other layout is read. */

@@ -2,9 +2,9 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "scene/packing/packing_private.h"
+#include "scene/imported/imported_private.h"
 
-char *gb_packing_lines_next(struct gb_packing_lines *lines)
+char *gb_imported_lines_next(struct gb_imported_lines *lines)
 {
     char *line = lines->next;
     if (line == NULL) {
@@ -19,8 +19,8 @@ char *gb_packing_lines_next(struct gb_packing_lines *lines)
     return g_strstrip(line);
 }
 
-bool gb_packing_refuse(const struct gb_packing_lines *lines, struct gb_error *err,
-                       const char *format, ...)
+bool gb_imported_lines_refuse(const struct gb_imported_lines *lines, struct gb_error *err,
+                              const char *format, ...)
 {
     va_list values;
     va_start(values, format);
@@ -31,18 +31,18 @@ bool gb_packing_refuse(const struct gb_packing_lines *lines, struct gb_error *er
     return false;
 }
 
-bool gb_packing_number(const struct gb_packing_lines *lines, const char *text,
-                       const char *what, double *number, struct gb_error *err)
+bool gb_imported_lines_number(const struct gb_imported_lines *lines, const char *text,
+                              const char *what, double *number, struct gb_error *err)
 {
     char *end = NULL;
     *number = g_ascii_strtod(text, &end);
     return (end != text && *end == '\0' && isfinite(*number)) ||
-           gb_packing_refuse(lines, err,
-                             "%s is %.40s: must be a finite number with a decimal point",
-                             what, text);
+           gb_imported_lines_refuse(
+               lines, err, "%s is %.40s: must be a finite number with a decimal point",
+               what, text);
 }
 
-double gb_packing_unit(const char *name)
+double gb_imported_lines_unit(const char *name)
 {
     static const struct {
         const char *name;

@@ -1,8 +1,8 @@
-#ifndef GB_IO_HDF_HDF_RECORD_H
-#define GB_IO_HDF_HDF_RECORD_H
+#ifndef GB_HDF_HDF_RECORD_H
+#define GB_HDF_HDF_RECORD_H
 
 #include "base/record.h"
-#include "io/hdf/hdf.h"
+#include "hdf/hdf.h"
 
 /* A record in an HDF5 file: its items are the datasets /checkpoint/PART/NAME, numbers of
  * a struct as one row, the unit as an attribute; checkpoint_layout and checkpoint_hash

@@ -9,7 +9,7 @@
 #include <glib.h>
 
 #include "io/export/export.h"
-#include "scene/packing/packing.h"
+#include "scene/imported/imported.h"
 
 enum { COUNT = 40 };
 
@@ -37,36 +37,44 @@ static struct gb_state *make_state(bool one_size, bool planar)
     return state;
 }
 
-static char *export_state(const struct gb_state *state, const char *format)
+static GString *export_state(const struct gb_state *state, const char *format)
 {
     struct gb_error err = {0};
     GString *text = g_string_new(NULL);
     g_assert_true(
         gb_export_add(gb_export_find(format, &err), state, 3990.0, 0, text, NULL, &err));
-    return g_string_free(text, FALSE);
+    return text;
 }
 
-static char *file_of(const char *text)
+static char *file_of(const GString *text)
 {
     char *path = NULL;
     const int fd = g_file_open_tmp("packing-XXXXXX", &path, NULL);
     g_assert_cmpint(fd, >=, 0);
     close(fd);
-    g_assert_true(g_file_set_contents(path, text, -1, NULL));
+    g_assert_true(g_file_set_contents(path, text->str, (gssize)text->len, NULL));
     return path;
 }
 
-static const struct gb_packing *load_text(const char *text, struct gb_error *err)
+static const struct gb_imported *load(const GString *text, struct gb_error *err)
 {
     char *path = file_of(text);
-    const struct gb_packing *packing = gb_packing_load(path, err);
+    const struct gb_imported *packing = gb_imported_load(path, err);
     unlink(path);
     g_free(path);
     return packing;
 }
 
+static const struct gb_imported *load_text(const char *text, struct gb_error *err)
+{
+    GString *string = g_string_new(text);
+    const struct gb_imported *packing = load(string, err);
+    g_string_free(string, TRUE);
+    return packing;
+}
+
 /* A packing that is read, in the place of the state that was written. */
-static void put(const struct gb_packing *packing, struct gb_state *state)
+static void put(const struct gb_imported *packing, struct gb_state *state)
 {
     /* a plane is as thick as its d */
     const double thickness = state->cell[1] * state->metre_per_length / packing->unit_m;
@@ -101,8 +109,8 @@ static void check_round_trip(const char *format, bool one_size, bool planar)
 {
     struct gb_error err = {0};
     struct gb_state *state = make_state(one_size, planar);
-    char *before = export_state(state, format);
-    const struct gb_packing *packing = load_text(before, &err);
+    GString *before = export_state(state, format);
+    const struct gb_imported *packing = load(before, &err);
     if (packing == NULL) {
         g_error("%s: %s", format, err.text);
     }
@@ -113,17 +121,22 @@ static void check_round_trip(const char *format, bool one_size, bool planar)
         g_assert_cmpfloat_with_epsilon(packing->position[i], state->position[i], 1e-14);
     }
     put(packing, state);
-    char *after = export_state(state, format);
+    GString *after = export_state(state, format);
     /* the mean of unequal sizes is another unit, which costs the last bit */
-    compare_texts(before, after, one_size ? 0.0 : 2.0 * DBL_EPSILON);
-    g_free(before);
-    g_free(after);
+    if (strcmp(format, "vtkhdf") != 0) {
+        compare_texts(before->str, after->str, one_size ? 0.0 : 2.0 * DBL_EPSILON);
+    } else if (one_size && !planar) {
+        g_assert_true(g_string_equal(before, after));
+    }
+    g_string_free(before, TRUE);
+    g_string_free(after, TRUE);
     gb_state_destroy(state);
 }
 
 static void test_round_trip(void)
 {
-    static const char *const formats[] = {"extxyz", "lammps-dump", "lammps-data", "csv"};
+    static const char *const formats[] = {"extxyz", "lammps-dump", "lammps-data", "csv",
+                                          "vtkhdf"};
     for (size_t k = 0; k < G_N_ELEMENTS(formats); k++) {
         check_round_trip(formats[k], true, false);
         check_round_trip(formats[k], false, false);
@@ -137,14 +150,14 @@ static void test_own_table(void)
 {
     struct gb_error err = {0};
     struct gb_state *state = make_state(false, false);
-    char *text = export_state(state, "csv");
-    const struct gb_packing *packing = load_text(text, &err);
-    char *own = gb_packing_text(packing);
-    const struct gb_packing *again = load_text(own, &err);
+    GString *text = export_state(state, "csv");
+    const struct gb_imported *packing = load(text, &err);
+    char *own = gb_imported_text(packing);
+    const struct gb_imported *again = load_text(own, &err);
     g_assert_nonnull(again);
     g_assert_true(again == packing); /* one of a checksum is kept */
     g_free(own);
-    g_free(text);
+    g_string_free(text, TRUE);
     gb_state_destroy(state);
 }
 
@@ -156,15 +169,14 @@ static void test_last_frame(void)
     first->cell[2] = 12.0;
     for (int k = 0; k < 2; k++) {
         const char *format = k == 0 ? "extxyz" : "lammps-dump";
-        char *one = export_state(first, format), *two = export_state(last, format);
-        char *both = g_strconcat(one, two, NULL);
-        const struct gb_packing *packing = load_text(both, &err);
+        GString *both = export_state(first, format), *two = export_state(last, format);
+        g_string_append_len(both, two->str, (gssize)two->len);
+        const struct gb_imported *packing = load(both, &err);
         g_assert_nonnull(packing);
         g_assert_cmpint(packing->count, ==, COUNT);
         g_assert_cmpfloat_with_epsilon(packing->edges[2], 9.0 + 1.0 / 7.0, 1e-14);
-        g_free(both);
-        g_free(one);
-        g_free(two);
+        g_string_free(both, TRUE);
+        g_string_free(two, TRUE);
     }
     gb_state_destroy(first);
     gb_state_destroy(last);
@@ -212,7 +224,7 @@ static void test_foreign(void)
     static const double position[6] = {0.5, 1.0, 1.5, 2.0, 2.5, 3.0};
     for (size_t k = 0; k < G_N_ELEMENTS(foreign); k++) {
         struct gb_error err = {0};
-        const struct gb_packing *packing = load_text(foreign[k].text, &err);
+        const struct gb_imported *packing = load_text(foreign[k].text, &err);
         if (packing == NULL) {
             g_error("%s: %s", foreign[k].name, err.text);
         }
@@ -272,7 +284,7 @@ static void test_params(void)
     struct gb_params params;
     struct gb_error err = {0};
     struct gb_state *state = make_state(false, false);
-    char *text = export_state(state, "csv");
+    GString *text = export_state(state, "csv");
     char *path = file_of(text);
     char *key = g_strconcat("structure.from=", path, NULL);
     gb_params_init(&params);
@@ -290,22 +302,22 @@ static void test_params(void)
     g_assert_false(gb_params_check(&params, &err));
     g_assert_nonnull(strstr(err.text, "scene.dimension = 2: must be 3"));
     g_assert_true(gb_params_assign(&params, "structure.from=", &err));
-    g_assert_false(gb_packing_given(&params));
+    g_assert_false(gb_imported_given(&params));
     unlink(path);
     g_free(key);
     g_free(path);
-    g_free(text);
+    g_string_free(text, TRUE);
     gb_state_destroy(state);
 }
 
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
-    g_test_add_func("/packing/round_trip", test_round_trip);
-    g_test_add_func("/packing/own_table", test_own_table);
-    g_test_add_func("/packing/last_frame", test_last_frame);
-    g_test_add_func("/packing/foreign", test_foreign);
-    g_test_add_func("/packing/wrong", test_wrong);
-    g_test_add_func("/packing/params", test_params);
+    g_test_add_func("/imported/round_trip", test_round_trip);
+    g_test_add_func("/imported/own_table", test_own_table);
+    g_test_add_func("/imported/last_frame", test_last_frame);
+    g_test_add_func("/imported/foreign", test_foreign);
+    g_test_add_func("/imported/wrong", test_wrong);
+    g_test_add_func("/imported/params", test_params);
     return g_test_run();
 }

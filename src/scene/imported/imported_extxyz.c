@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/packing/packing_private.h"
+#include "scene/imported/imported_private.h"
 
 /* Extended XYZ: frames of a count, a line key=value ..., and the particles.  The last frame
  * is read.  Lengths are Angstroms only by a convention that powders do not follow: the
@@ -39,18 +39,20 @@ static char *value_of(const char *line, const char *key)
     return NULL;
 }
 
-static bool take_lattice(struct gb_packing_raw *raw, const struct gb_packing_lines *lines,
-                         const char *lattice, struct gb_error *err)
+static bool take_lattice(struct gb_imported_raw *raw,
+                         const struct gb_imported_lines *lines, const char *lattice,
+                         struct gb_error *err)
 {
     double rows[9];
     char **words = g_strsplit(lattice, " ", -1);
     bool good = g_strv_length(words) == 9 ||
-                gb_packing_refuse(lines, err, "Lattice of %u numbers: must be 9",
-                                  g_strv_length(words));
+                gb_imported_lines_refuse(lines, err, "Lattice of %u numbers: must be 9",
+                                         g_strv_length(words));
     for (int k = 0; good && k < 9; k++) {
-        good = gb_packing_number(lines, words[k], "Lattice", &rows[k], err);
+        good = gb_imported_lines_number(lines, words[k], "Lattice", &rows[k], err);
         if (good && k % 4 != 0 && rows[k] != 0.0) {
-            good = gb_packing_refuse(lines, err, "a tilted cell: must have right angles");
+            good = gb_imported_lines_refuse(lines, err,
+                                            "a tilted cell: must have right angles");
         }
         if (good && k % 4 == 0) {
             raw->edges[k / 4] = rows[k];
@@ -82,9 +84,9 @@ static char **names_of(const char *properties)
     return (char **)g_ptr_array_free(names, FALSE);
 }
 
-static bool take_comment(struct gb_packing_raw *raw, const struct gb_packing_lines *lines,
-                         const char *line, struct gb_packing_columns *columns,
-                         struct gb_error *err)
+static bool take_comment(struct gb_imported_raw *raw,
+                         const struct gb_imported_lines *lines, const char *line,
+                         struct gb_imported_columns *columns, struct gb_error *err)
 {
     const char *missing = "";
     char *lattice = value_of(line, "Lattice");
@@ -92,17 +94,18 @@ static bool take_comment(struct gb_packing_raw *raw, const struct gb_packing_lin
     char **names = names_of(properties != NULL ? properties : "");
     char *provenance = value_of(line, "provenance");
     bool good = true;
-    if (!gb_packing_columns_find(columns, names, &missing)) {
-        good = gb_packing_refuse(lines, err,
-                                 "no %s in Properties: must have pos and radius or "
-                                 "diameter",
-                                 missing);
+    if (!gb_imported_columns_find(columns, names, &missing)) {
+        good =
+            gb_imported_lines_refuse(lines, err,
+                                     "no %s in Properties: must have pos and radius or "
+                                     "diameter",
+                                     missing);
     }
     if (good && lattice != NULL) {
         good = take_lattice(raw, lines, lattice, err);
     }
     if (provenance != NULL && strstr(provenance, "units nm") != NULL) {
-        raw->unit_m = gb_packing_unit("nm");
+        raw->unit_m = gb_imported_lines_unit("nm");
     }
     g_free(provenance);
     g_strfreev(names);
@@ -111,25 +114,25 @@ static bool take_comment(struct gb_packing_raw *raw, const struct gb_packing_lin
     return good;
 }
 
-static bool read_extxyz(struct gb_packing_lines *lines, struct gb_packing_raw *raw,
+static bool read_extxyz(struct gb_imported_lines *lines, struct gb_imported_raw *raw,
                         struct gb_error *err)
 {
-    for (char *line; (line = gb_packing_lines_next(lines)) != NULL;) {
-        struct gb_packing_columns columns;
+    for (char *line; (line = gb_imported_lines_next(lines)) != NULL;) {
+        struct gb_imported_columns columns;
         int64_t count;
         if (*line == '\0') {
             continue;
         }
-        if (!gb_packing_count(lines, line, &count, err)) {
+        if (!gb_imported_columns_count(lines, line, &count, err)) {
             return false;
         }
-        line = gb_packing_lines_next(lines);
+        line = gb_imported_lines_next(lines);
         if (!take_comment(raw, lines, line != NULL ? line : "", &columns, err) ||
-            !gb_packing_read_rows(lines, raw, &columns, count, err)) {
+            !gb_imported_columns_read_rows(lines, raw, &columns, count, err)) {
             return false;
         }
     }
     return true;
 }
 
-const struct gb_packing_format gb_packing_extxyz = {"extxyz", recognise, read_extxyz};
+const struct gb_imported_format gb_imported_extxyz = {"extxyz", recognise, read_extxyz};

@@ -1,7 +1,7 @@
-#ifndef GB_IO_HDF_HDF_LIST_H
-#define GB_IO_HDF_HDF_LIST_H
+#ifndef GB_HDF_HDF_LIST_H
+#define GB_HDF_HDF_LIST_H
 
-#include "io/hdf/hdf.h"
+#include "hdf/hdf.h"
 
 /* Names of datasets that are not known beforehand. */
 enum { GB_HDF_LIST_NAME = 64 };

@@ -3,7 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/number.h"
-#include "scene/packing/packing_private.h"
+#include "scene/imported/imported_private.h"
 
 /* The q near value/factor of which q * factor rounds to value, where there is one: what is
  * written in the unit again has the digits that were read. */
@@ -20,7 +20,7 @@ static double divide_back(double value, double factor)
 }
 
 /* The unit of length of a file, in the program's: d in m is the mean diameter times it. */
-static double mean_diameter(const struct gb_packing_raw *raw)
+static double mean_diameter(const struct gb_imported_raw *raw)
 {
     const double *diameter = (const double *)(void *)raw->diameter->data;
     double sum = 0.0;
@@ -34,7 +34,7 @@ static double mean_diameter(const struct gb_packing_raw *raw)
 
 /* d in m.  1.8 um is the number that 1.8e-6 reads as, but in nm, the unit of exports, the
  * one that is written with the same digits again. */
-static double unit_metres(const struct gb_packing_raw *raw, double mean)
+static double unit_metres(const struct gb_imported_raw *raw, double mean)
 {
     char number[GB_NUMBER_MAX], text[GB_NUMBER_MAX + 16];
     if (raw->reduced || isnan(raw->unit_m)) {
@@ -48,7 +48,7 @@ static double unit_metres(const struct gb_packing_raw *raw, double mean)
     return raw->unit_m == 1e-9 && metres * 1e9 != mean ? divide_back(mean, 1e9) : metres;
 }
 
-static void measure(struct gb_packing *packing)
+static void measure(struct gb_imported *packing)
 {
     packing->least = packing->largest = packing->diameter[0];
     for (int64_t i = 0; i < packing->count; i++) {
@@ -68,7 +68,7 @@ static void measure(struct gb_packing *packing)
 }
 
 /* Whether all y are one, and then discs in the plane y = 0. */
-static void flatten(struct gb_packing *packing)
+static void flatten(struct gb_imported *packing)
 {
     double *x = packing->position;
     packing->planar = true;
@@ -81,7 +81,7 @@ static void flatten(struct gb_packing *packing)
     packing->edges[1] = packing->planar ? 1.0 : packing->edges[1];
 }
 
-static void wrap(struct gb_packing *packing)
+static void wrap(struct gb_imported *packing)
 {
     for (int64_t k = 0; k < 3 * packing->count; k++) {
         const double edge = packing->edges[k % 3];
@@ -93,7 +93,7 @@ static void wrap(struct gb_packing *packing)
     }
 }
 
-static uint64_t checksum(const struct gb_packing *packing)
+static uint64_t checksum(const struct gb_imported *packing)
 {
     const size_t n = (size_t)packing->count;
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
@@ -113,8 +113,8 @@ static uint64_t checksum(const struct gb_packing *packing)
     return number;
 }
 
-bool gb_packing_reduce(struct gb_packing *packing, const struct gb_packing_raw *raw,
-                       const char *path, struct gb_error *err)
+bool gb_imported_reduce(struct gb_imported *packing, const struct gb_imported_raw *raw,
+                        const char *path, struct gb_error *err)
 {
     const int64_t count = raw->diameter->len;
     const double *x = (const double *)(void *)raw->position->data;

@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/packing/packing_private.h"
+#include "scene/imported/imported_private.h"
 
 /* A table: '#' comments, a row of names, rows of numbers, separated by commas,
  * semicolons, tabs or blanks.  Names may stand in a comment; without names, four columns
@@ -10,7 +10,7 @@
 struct table {
     char separator; /* ' ': blanks and tabs */
     bool named;
-    struct gb_packing_columns columns;
+    struct gb_imported_columns columns;
 };
 
 /* The mark that separates four words or more; some files mix tabs and blanks. */
@@ -51,7 +51,7 @@ static char **split(const char *line, char separator)
 }
 
 /* "cell, um: 12 12 20": the unit may be left out. */
-static bool take_cell(struct gb_packing_raw *raw, const struct gb_packing_lines *lines,
+static bool take_cell(struct gb_imported_raw *raw, const struct gb_imported_lines *lines,
                       const char *text, struct gb_error *err)
 {
     const char *colon = strchr(text, ':');
@@ -69,17 +69,18 @@ static bool take_cell(struct gb_packing_raw *raw, const struct gb_packing_lines 
     char **edges = split(numbers, ' ');
     bool good =
         g_strv_length(edges) == 3 ||
-        gb_packing_refuse(lines, err,
-                          "a cell of %u edges: must be 3, as in # cell, um: 12 12 "
-                          "20",
-                          g_strv_length(edges));
+        gb_imported_lines_refuse(lines, err,
+                                 "a cell of %u edges: must be 3, as in # cell, um: 12 12 "
+                                 "20",
+                                 g_strv_length(edges));
     for (int k = 0; good && k < 3; k++) {
-        good = gb_packing_number(lines, edges[k], "an edge of the cell", &raw->edges[k],
-                                 err);
+        good = gb_imported_lines_number(lines, edges[k], "an edge of the cell",
+                                        &raw->edges[k], err);
     }
     for (int k = 0; good && tilts[k] != NULL; k++) {
-        good = g_ascii_strtod(tilts[k], NULL) == 0.0 ||
-               gb_packing_refuse(lines, err, "a tilted cell: must have right angles");
+        good =
+            g_ascii_strtod(tilts[k], NULL) == 0.0 ||
+            gb_imported_lines_refuse(lines, err, "a tilted cell: must have right angles");
     }
     raw->cell = good;
     g_strfreev(edges);
@@ -88,8 +89,8 @@ static bool take_cell(struct gb_packing_raw *raw, const struct gb_packing_lines 
     return good;
 }
 
-static bool take_comment(struct table *table, struct gb_packing_raw *raw,
-                         const struct gb_packing_lines *lines, const char *text,
+static bool take_comment(struct table *table, struct gb_imported_raw *raw,
+                         const struct gb_imported_lines *lines, const char *text,
                          struct gb_error *err)
 {
     const char *missing;
@@ -104,7 +105,7 @@ static bool take_comment(struct table *table, struct gb_packing_raw *raw,
         }
         table->separator = separator_of(names);
         char **words = split(g_strstrip(names), table->separator);
-        table->named = gb_packing_columns_find(&table->columns, words, &missing);
+        table->named = gb_imported_columns_find(&table->columns, words, &missing);
         g_strfreev(words);
         g_free(names);
         if (table->named) {
@@ -115,7 +116,7 @@ static bool take_comment(struct table *table, struct gb_packing_raw *raw,
 }
 
 /* The first line that is no comment: names, or already numbers. */
-static bool take_names(struct table *table, const struct gb_packing_lines *lines,
+static bool take_names(struct table *table, const struct gb_imported_lines *lines,
                        const char *line, bool *is_row, struct gb_error *err)
 {
     const char *missing = "";
@@ -127,32 +128,34 @@ static bool take_names(struct table *table, const struct gb_packing_lines *lines
     *is_row = end != first && *end == '\0';
     bool good = true;
     if (*is_row && !table->named) {
-        table->columns = (struct gb_packing_columns){
+        table->columns = (struct gb_imported_columns){
             .position = {0, 1, 2}, .size = 3, .radius = true, .unit_m = (double)NAN};
         good = g_strv_length(words) == 4 ||
-               gb_packing_refuse(lines, err,
-                                 "%u columns without names: must be 4 (x y z radius), or "
-                                 "have a row of names: x, y, z, diameter or radius",
-                                 g_strv_length(words));
+               gb_imported_lines_refuse(
+                   lines, err,
+                   "%u columns without names: must be 4 (x y z radius), or "
+                   "have a row of names: x, y, z, diameter or radius",
+                   g_strv_length(words));
     } else if (!*is_row) {
-        good = gb_packing_columns_find(&table->columns, words, &missing) ||
-               gb_packing_refuse(lines, err,
-                                 "no column %s among %.80s: must be x, y, z and diameter "
-                                 "or radius, a unit behind as in x_um",
-                                 missing, line);
+        good = gb_imported_columns_find(&table->columns, words, &missing) ||
+               gb_imported_lines_refuse(
+                   lines, err,
+                   "no column %s among %.80s: must be x, y, z and diameter "
+                   "or radius, a unit behind as in x_um",
+                   missing, line);
     }
     table->named = true;
     g_strfreev(words);
     return good;
 }
 
-static bool take_row(struct table *table, struct gb_packing_raw *raw,
-                     const struct gb_packing_lines *lines, const char *line,
+static bool take_row(struct table *table, struct gb_imported_raw *raw,
+                     const struct gb_imported_lines *lines, const char *line,
                      struct gb_error *err)
 {
     char **words = split(line, table->separator);
-    const bool good = gb_packing_add_row(raw, lines, &table->columns, words,
-                                         (int)g_strv_length(words), err);
+    const bool good = gb_imported_columns_add_row(raw, lines, &table->columns, words,
+                                                  (int)g_strv_length(words), err);
     g_strfreev(words);
     return good;
 }
@@ -163,12 +166,12 @@ static bool recognise(const char *text)
     return true;
 }
 
-static bool read_table(struct gb_packing_lines *lines, struct gb_packing_raw *raw,
+static bool read_table(struct gb_imported_lines *lines, struct gb_imported_raw *raw,
                        struct gb_error *err)
 {
     struct table table = {.separator = ' '};
     bool begun = false;
-    for (char *line; (line = gb_packing_lines_next(lines)) != NULL;) {
+    for (char *line; (line = gb_imported_lines_next(lines)) != NULL;) {
         bool is_row = true;
         if (*line == '\0') {
             continue;
@@ -194,4 +197,4 @@ static bool read_table(struct gb_packing_lines *lines, struct gb_packing_raw *ra
     return true;
 }
 
-const struct gb_packing_format gb_packing_table = {"table", recognise, read_table};
+const struct gb_imported_format gb_imported_table = {"table", recognise, read_table};

@@ -1,5 +1,5 @@
-#ifndef GB_IO_HDF_HDF_MEMORY_H
-#define GB_IO_HDF_HDF_MEMORY_H
+#ifndef GB_HDF_HDF_MEMORY_H
+#define GB_HDF_HDF_MEMORY_H
 
 #include <hdf5.h>
 #include <stddef.h>
