@@ -125,6 +125,23 @@ kind dynamic p2-v1 particles.count=100 'loading.relax=0.005 ns' 'loading.hold=0.
     'loading.until=density = 0.6'
 kind dynamic-sizes p2-v1 particles.count=60 particles.distribution=lognormal \
     'loading.relax=0.005 ns' 'loading.hold=0.005 ns' 'loading.until=density = 0.6'
+
+# --- a series of VTKHDF files ------------------------------------------------------------------
+is 'a series of VTKHDF files' export_run --format vtkhdf --all --contacts s-c.vtkhdf -o s.vtkhdf
+is 'has a file for each state and a list' sh -c \
+    '[ "$(ls s-000[012].vtkhdf s.vtkhdf.series | wc -l)" -eq 4 ] && [ ! -e s.vtkhdf ] &&
+     [ ! -e s-0003.vtkhdf ] && [ "$(ls s-c-000[012].vtkhdf s-c.vtkhdf.series | wc -l)" -eq 4 ]'
+"$python" "$(dirname "$script")/read_series.py" s.vtkhdf.series all.xyz >stdout 2>stderr
+status=$?
+[ $status -eq 77 ] && echo '# no h5py or no ASE here: their reading of the series is not tested'
+[ $status -eq 0 ] || [ $status -eq 77 ]
+result 'the series has the frames of the trajectory' $?
+rm s-0000.vtkhdf
+refused 'a series of which a file exists' "$greenbody" export run --format vtkhdf --all -o s.vtkhdf
+is 'nothing of it is written' [ ! -e s-0000.vtkhdf ]
+is '--force replaces the series' export_run --format vtkhdf --all --force -o s.vtkhdf
+is 'all of it' [ -e s-0000.vtkhdf ]
+
 cutoff=10000 reach=20000
 kind die p3-storakers-m0.2-mu0.05 particles.count=40 die.diameter='24 um' 'die.central=20 um' \
     numerics.fidelity=fast 'loading.until=5 MPa'

@@ -8,6 +8,7 @@
 #include "cli/options.h"
 #include "figures/states.h"
 #include "io/export/export.h"
+#include "io/export/export_series.h"
 #include "io/follow.h"
 
 /* The options of the command line. */
@@ -42,7 +43,7 @@ static bool check_request(const struct request *request, char **words, struct ex
     if (job->format == NULL) {
         return false;
     }
-    return !request->all || job->format->trajectory ||
+    return !request->all || job->format->trajectory || job->format->series ||
            gb_error_set(err, GB_ERR_INPUT, "--all: %s has one state; accepted --at",
                         job->format->name);
 }
@@ -68,24 +69,100 @@ static bool add(struct export *job, struct gb_state *state, int64_t index,
     return good;
 }
 
-/* All kept states, or one. */
-static bool collect(struct export *job, const struct request *request,
-                    struct gb_error *err)
+static bool write_text(const char *path, const GString *text, struct gb_error *err)
+{
+    return path == NULL || gb_file_replace(path, text->str, text->len, err);
+}
+
+/* The texts so far. */
+static bool write_both(struct export *job, const char *particles, const char *contacts,
+                       struct gb_error *err)
+{
+    return write_text(contacts, job->contacts, err) &&
+           write_text(particles, job->particles, err);
+}
+
+/* One state, or all into the same texts. */
+static bool write_whole(struct export *job, const struct request *request,
+                        const GPtrArray *paths, struct gb_error *err)
 {
     struct gb_state *state = NULL;
-    if (!request->all) {
-        return gb_states_read(&state, job->source, request->at, err) &&
+    bool good = true;
+    if (paths == NULL) {
+        good = gb_states_read(&state, job->source, request->at, err) &&
                add(job, state, 0, err);
     }
-    GPtrArray *paths = gb_states_along(job->source, err);
-    bool good = paths != NULL;
-    for (guint i = 0; good && i < paths->len; i++) {
+    for (guint i = 0; good && paths != NULL && i < paths->len; i++) {
         good = gb_state_read(&state, g_ptr_array_index(paths, i), err) &&
                add(job, state, i, err);
     }
-    if (paths != NULL) {
-        g_ptr_array_unref(paths);
+    return good && write_both(job, request->output, request->contacts, err);
+}
+
+/* Are the numbered files of a series and their list free, or to be replaced? */
+static bool check_series(const char *path, guint count, gboolean force,
+                         struct gb_error *err)
+{
+    bool good = true;
+    for (guint i = 0; good && path != NULL && i <= count; i++) {
+        char *name =
+            i < count ? gb_export_series_name(path, i) : gb_export_series_list_name(path);
+        good = check_target(name, force, err);
+        g_free(name);
     }
+    return good;
+}
+
+static bool write_member(struct export *job, const struct request *request, guint index,
+                         struct gb_error *err)
+{
+    char *particles = gb_export_series_name(request->output, index);
+    char *contacts = request->contacts != NULL
+                         ? gb_export_series_name(request->contacts, index)
+                         : NULL;
+    const bool good = write_both(job, particles, contacts, err);
+    g_free(particles);
+    g_free(contacts);
+    return good;
+}
+
+/* A file for each state, then the lists: without these nothing is a series. */
+static bool write_series(struct export *job, const struct request *request,
+                         const GPtrArray *paths, struct gb_error *err)
+{
+    int64_t *steps = g_new0(int64_t, paths->len + 1);
+    bool good = check_series(request->output, paths->len, request->force, err) &&
+                check_series(request->contacts, paths->len, request->force, err);
+    for (guint i = 0; good && i < paths->len; i++) {
+        struct gb_state *state = NULL;
+        g_string_truncate(job->particles, 0);
+        if (job->contacts != NULL) {
+            g_string_truncate(job->contacts, 0);
+        }
+        good = gb_state_read(&state, g_ptr_array_index(paths, i), err);
+        steps[i] = good ? state->point.step : 0;
+        good = good && add(job, state, i, err) && write_member(job, request, i, err);
+    }
+    good = good && gb_export_series_put_list(request->output, steps, paths->len, err) &&
+           (request->contacts == NULL ||
+            gb_export_series_put_list(request->contacts, steps, paths->len, err));
+    g_free(steps);
+    return good;
+}
+
+static bool write_files(struct export *job, const struct request *request,
+                        struct gb_error *err)
+{
+    if (!request->all) {
+        return write_whole(job, request, NULL, err);
+    }
+    GPtrArray *paths = gb_states_along(job->source, err);
+    if (paths == NULL) {
+        return false;
+    }
+    const bool good = job->format->series ? write_series(job, request, paths, err)
+                                          : write_whole(job, request, paths, err);
+    g_ptr_array_unref(paths);
     return good;
 }
 
@@ -99,17 +176,15 @@ static double solid_density(const char *source)
                : (double)NAN;
 }
 
-static bool write_text(const char *path, const GString *text, struct gb_error *err)
-{
-    return path == NULL || gb_file_replace(path, text->str, text->len, err);
-}
-
 static bool perform(const struct request *request, char **words, struct gb_error *err)
 {
     struct export job = {0};
-    if (!check_request(request, words, &job, err) ||
-        !check_target(request->output, request->force, err) ||
-        !check_target(request->contacts, request->force, err)) {
+    if (!check_request(request, words, &job, err)) {
+        return false;
+    }
+    const bool numbered = request->all && job.format->series;
+    if (!numbered && (!check_target(request->output, request->force, err) ||
+                      !check_target(request->contacts, request->force, err))) {
         return false;
     }
     if (request->contacts != NULL &&
@@ -121,9 +196,7 @@ static bool perform(const struct request *request, char **words, struct gb_error
     job.density_kg_m3 = solid_density(job.source);
     job.particles = g_string_new(NULL);
     job.contacts = request->contacts != NULL ? g_string_new(NULL) : NULL;
-    const bool good = collect(&job, request, err) &&
-                      write_text(request->contacts, job.contacts, err) &&
-                      write_text(request->output, job.particles, err);
+    const bool good = write_files(&job, request, err);
     g_string_free(job.particles, TRUE);
     if (job.contacts != NULL) {
         g_string_free(job.contacts, TRUE);
@@ -167,7 +240,9 @@ int gb_cmd_export(int argc, char **argv)
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
          "a kept state, as \"p=100 MPa\" or \"density=0.5\" (the last)", "POINT"},
         {"all", 0, 0, G_OPTION_ARG_NONE, &request.all,
-         "all kept states in the order of the run (output.snapshots_at)", NULL},
+         "all kept states in the order of the run (output.snapshots_at); vtkhdf: "
+         "FILE-0000, FILE-0001, ... and FILE.series",
+         NULL},
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, "the particles",
          "FILE"},
         {"contacts", 0, 0, G_OPTION_ARG_FILENAME, &request.contacts,

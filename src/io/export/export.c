@@ -8,14 +8,14 @@
 #include "io/state/state_stress.h"
 
 static const struct gb_export_format formats[] = {
-    {"extxyz", "extended XYZ (OVITO, ASE)", true, gb_export_extxyz_write, NULL},
-    {"lammps-dump", "dump of LAMMPS, contacts as a local dump (OVITO)", true,
+    {"extxyz", "extended XYZ (OVITO, ASE)", true, false, gb_export_extxyz_write, NULL},
+    {"lammps-dump", "dump of LAMMPS, contacts as a local dump (OVITO)", true, false,
      gb_export_lammps_dump, NULL},
-    {"lammps-data", "data file of LAMMPS, atom_style sphere, units nano", false,
+    {"lammps-data", "data file of LAMMPS, atom_style sphere, units nano", false, false,
      gb_export_lammps_data, NULL},
-    {"csv", "tables of particles and contacts (ParaView, spreadsheets)", false,
+    {"csv", "tables of particles and contacts (ParaView, spreadsheets)", false, false,
      gb_export_csv_write, NULL},
-    {"vtkhdf", "VTKHDF, contacts as lines (ParaView 5.10 on, h5py)", false, NULL,
+    {"vtkhdf", "VTKHDF, contacts as lines (ParaView 5.10 on, h5py)", false, true, NULL,
      gb_export_vtkhdf_write},
 };
 
