@@ -74,6 +74,15 @@ enum gb_precision { GB_PRECISION_AUTO, GB_PRECISION_DOUBLE, GB_PRECISION_SINGLE 
 enum gb_fidelity { GB_FIDELITY_FAST, GB_FIDELITY_BALANCED, GB_FIDELITY_REFERENCE };
 /* What a loading path does where no equilibrium of a stress exists. */
 enum gb_on_collapse { GB_COLLAPSE_STOP, GB_COLLAPSE_STRAIN };
+/* A format of io/export/export.h, in its order. */
+enum gb_live_format {
+    GB_LIVE_NONE,
+    GB_LIVE_EXTXYZ,
+    GB_LIVE_LAMMPS_DUMP,
+    GB_LIVE_LAMMPS_DATA,
+    GB_LIVE_CSV,
+    GB_LIVE_VTKHDF
+};
 enum gb_on_hangup { GB_ON_HANGUP_DETACH, GB_ON_HANGUP_STOP };
 
 enum { GB_UNLOAD_MAX = 16, GB_SIZES_MAX = 128 };
@@ -214,6 +223,7 @@ struct gb_params {
     double inertia_scale;         /* of the rotation of particles in a die */
     /* [output] */
     char snapshots_at[192]; /* "100 MPa; density = 0.5; every 20" */
+    int export_format;      /* enum gb_live_format, of the kept states */
     double checkpoint_every_s;
     int on_hangup; /* enum gb_on_hangup */
 };

@@ -4,6 +4,7 @@
 #include <glib.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <sys/types.h>
 
 #include "greenbody/status.h"
 
@@ -26,6 +27,10 @@ bool gb_file_check_target(const char *path, struct gb_error *err);
 /* Called before every write: false with errno ENOSPC when the hook below
  * says so. */
 bool gb_file_may_write(void);
+
+/* Writes all of data at the offset; false with errno and with the file cut back to the
+ * offset where that fails: a full disk takes a part before it says so. */
+bool gb_file_append_at(int fd, off_t at, const char *data, size_t size);
 
 /* Two names of one place, seen from the working directory; links are not followed. */
 bool gb_file_is_same(const char *a, const char *b);

@@ -112,18 +112,6 @@ void gb_line_file_close(struct gb_line_file *rows)
     *rows = (struct gb_line_file){.fd = -1};
 }
 
-/* A disk that is full takes a part before it says so; so does the test hook. */
-static ssize_t write_some(const struct gb_line_file *rows, const char *text, size_t size,
-                          off_t done)
-{
-    const bool may = gb_file_may_write();
-    const ssize_t n = pwrite(rows->fd, text, may ? size : size / 2, rows->length + done);
-    if (!may) {
-        errno = ENOSPC;
-    }
-    return may ? n : -1;
-}
-
 /* The same file of the same size, not written since. */
 static bool is_untouched(const struct gb_line_file *rows)
 {
@@ -193,23 +181,11 @@ bool gb_line_file_append(struct gb_line_file *rows, const char *text,
                          struct gb_error *err)
 {
     const size_t size = strlen(text);
-    size_t done = 0;
     if (!gb_line_file_check(rows, false, err)) {
         return false;
     }
-    while (done < size) {
-        const ssize_t n = write_some(rows, text + done, size - done, (off_t)done);
-        if (n < 0 && errno == EINTR) {
-            continue;
-        }
-        if (n <= 0) {
-            const int why = n < 0 ? errno : EIO;
-            if (ftruncate(rows->fd, rows->length) != 0) {
-                return write_error(rows, errno, err);
-            }
-            return write_error(rows, why, err);
-        }
-        done += (size_t)n;
+    if (!gb_file_append_at(rows->fd, rows->length, text, size)) {
+        return write_error(rows, errno, err);
     }
     remember(rows, text, size);
     note_time(rows);

@@ -8,9 +8,11 @@
 
 /* Files of a run by name; other files in a directory are never removed. */
 static const char *const known_files[] = {
-    "preset.ini",      "curve.csv",   "events.log",   "status.json",
-    "state.h5",        "packing.csv", "g.csv",        "structure.json",
-    "state-before.h5", "moduli.csv",  "structure.csv"};
+    "preset.ini", "curve.csv", "events.log", "status.json", "state.h5", "packing.csv",
+    "g.csv", "structure.json", "state-before.h5", "moduli.csv", "structure.csv",
+    /* output.export */
+    "trajectory.extxyz", "trajectory-contacts.extxyz", "trajectory.lammps-dump",
+    "trajectory-contacts.lammps-dump"};
 static const char snapshot_folder[] = "snapshots";
 
 /* "status.json.X7TQ2C" or "state.h5.tmp": left by an atomic replacement that was killed.
@@ -59,7 +61,12 @@ static bool is_engine_leftover(const char *name)
 
 static bool is_snapshot_name(const char *name)
 {
-    return g_str_has_suffix(name, ".h5") || g_str_has_suffix(name, ".png");
+    static const char *const ends[] = {".h5", ".png", ".lammps-data", ".csv", ".vtkhdf"};
+    bool known = false;
+    for (size_t k = 0; k < G_N_ELEMENTS(ends); k++) {
+        known = known || g_str_has_suffix(name, ends[k]);
+    }
+    return known;
 }
 
 static bool has_type(const char *path, mode_t type)

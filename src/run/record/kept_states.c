@@ -9,8 +9,6 @@
 #include <glib/gstdio.h>
 
 #include "base/units.h"
-#include "io/state/state.h"
-#include "io/state/state_record.h"
 
 void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *params)
 {
@@ -73,36 +71,30 @@ static bool write_state(const char *directory, const char *name,
     return done;
 }
 
-/* Names of what is due, one for each mark. */
-static int list_due(const struct gb_kept_states *states, const struct gb_point *point,
-                    int64_t number, char names[GB_KEEP_POINTS_MAX + 1][64])
+void gb_kept_states_due(const struct gb_kept_states *states, const struct gb_point *point,
+                        int64_t number, struct gb_kept_names *names)
 {
     const struct gb_keep_points *marks = &states->marks;
-    int count = 0;
+    names->count = 0;
     for (int i = 0; i < marks->count; i++) {
         if (reaches(states, &marks->point[i], point)) {
-            gb_kept_states_name(&marks->point[i], names[count++], sizeof names[0]);
+            gb_kept_states_name(&marks->point[i], names->name[names->count++],
+                                sizeof names->name[0]);
         }
     }
     if (marks->every > 0 && (number - 1) % marks->every == 0) {
-        snprintf(names[count++], sizeof names[0], "point-%06" PRId64, number);
+        snprintf(names->name[names->count++], sizeof names->name[0], "point-%06" PRId64,
+                 number);
     }
-    return count;
 }
 
-bool gb_kept_states_point(struct gb_kept_states *states, const char *directory,
-                          const struct gb_point *point, int64_t number,
-                          const struct gb_record *record, const struct gb_params *params,
-                          const struct gb_model *model, struct gb_error *err)
+bool gb_kept_states_write(const char *directory, const struct gb_kept_names *names,
+                          const struct gb_state *state, const struct gb_record *record,
+                          struct gb_error *err)
 {
-    char names[GB_KEEP_POINTS_MAX + 1][64];
-    struct gb_state *state = NULL;
-    const int count = list_due(states, point, number, names);
-    bool good = count == 0 || gb_state_record(&state, record, params, model, err);
-    for (int i = 0; i < count && good; i++) {
-        good = write_state(directory, names[i], state, record, err);
+    bool good = true;
+    for (int i = 0; i < names->count && good; i++) {
+        good = write_state(directory, names->name[i], state, record, err);
     }
-    gb_state_destroy(state);
-    gb_kept_states_pass(states, point);
     return good;
 }

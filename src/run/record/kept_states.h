@@ -3,8 +3,8 @@
 
 #include "base/record.h"
 #include "greenbody/curve.h"
+#include "io/state/state.h"
 #include "scene/field/keep_points.h"
-#include "scene/model.h"
 
 /* States kept along a run, DIR/snapshots/<name>.h5: of the first recorded point of
  * loading that reaches a pressure or a density ("p-100MPa", "density-0.5"), and of every
@@ -24,14 +24,22 @@ void gb_kept_states_init(struct gb_kept_states *states, const struct gb_params *
 /* A point before the start or resume: its state is not kept. */
 void gb_kept_states_pass(struct gb_kept_states *states, const struct gb_point *point);
 
-/* Keeps the state of a point where one is due.
+/* Names of the states that are due at a point, without their endings. */
+struct gb_kept_names {
+    int count;
+    char name[GB_KEEP_POINTS_MAX + 1][64];
+};
+
+/* number   of the point, from 1 */
+void gb_kept_states_due(const struct gb_kept_states *states, const struct gb_point *point,
+                        int64_t number, struct gb_kept_names *names);
+
+/* Keeps the state of a point under its names.
  *
- * number   of the point, from 1
  * record   taken at it
  * An existing state stays: a run that is continued from a checkpoint repeats points. */
-bool gb_kept_states_point(struct gb_kept_states *states, const char *directory,
-                          const struct gb_point *point, int64_t number,
-                          const struct gb_record *record, const struct gb_params *params,
-                          const struct gb_model *model, struct gb_error *err);
+bool gb_kept_states_write(const char *directory, const struct gb_kept_names *names,
+                          const struct gb_state *state, const struct gb_record *record,
+                          struct gb_error *err);
 
 #endif

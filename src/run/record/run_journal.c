@@ -174,15 +174,19 @@ int64_t gb_run_journal_digest(const struct gb_params *params)
     return number;
 }
 
-/* Checkpoints of version 0.1 have no checksum. */
+/* Checkpoints of version 0.1 have no checksum, older ones no trajectory: none is written. */
 static bool record_members(struct gb_run_journal *journal, struct gb_record *record,
                            struct gb_error *err)
 {
-    static const char sum[] = "journal/curve_sum";
+    static const char sum[] = "journal/curve_sum", live[] = "journal/trajectory";
     const bool missing = record->loading && !gb_record_find(record, sum);
     return gb_record_members(record, members, MEMBERS, journal, err) &&
            (missing || gb_record_array(record, sum, GB_RECORD_INT64, 1, 1, "1",
-                                       &journal->extent.curve_sum, err));
+                                       &journal->extent.curve_sum, err)) &&
+           (record->loading && !gb_record_find(record, live)
+                ? true
+                : gb_record_array(record, live, GB_RECORD_INT64, 1, 4, "1",
+                                  &journal->live, err));
 }
 
 bool gb_run_journal_record(struct gb_run_journal *journal, struct gb_record *record,

@@ -4,10 +4,12 @@
 #include "base/record.h"
 #include "greenbody/params.h"
 #include "io/store.h"
+#include "run/record/live_export.h"
 
 /* State of the run directory in a checkpoint, beside that of the experiment. */
 struct gb_run_journal {
     struct gb_store_extent extent;
+    struct gb_live_extent live;
     int64_t events;
     double seconds;
     int64_t preset; /* digest of the parameters that determine the results */

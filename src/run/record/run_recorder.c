@@ -9,8 +9,10 @@
 #include "hdf/hdf_record.h"
 #include "io/follow.h"
 #include "io/rundir_files.h"
+#include "io/state/state_record.h"
 #include "run/checkpoint.h"
 #include "run/record/kept_states.h"
+#include "run/record/live_export.h"
 #include "run/record/run_journal.h"
 #include "run/record/writer.h"
 
@@ -20,6 +22,7 @@ struct gb_run_recorder {
     struct gb_store *store;
     struct gb_writer *writer;
     struct gb_kept_states states;
+    struct gb_live_export live;
     struct gb_run_journal journal; /* events and seconds as they grow */
     bool fresh;                    /* the record in memory is newer than state.h5 */
     double written_at;             /* seconds of the run at the last checkpoint */
@@ -35,6 +38,7 @@ static bool create(struct gb_run_recorder **out, const struct gb_params *params,
     recorder->params = *params;
     recorder->journal.preset = gb_run_journal_digest(params);
     gb_kept_states_init(&recorder->states, params);
+    gb_live_export_init(&recorder->live, params);
     if (!gb_params_check(params, err) || !gb_model_init(&recorder->model, params, err)) {
         gb_alloc_free(recorder);
         return false;
@@ -177,6 +181,8 @@ bool gb_run_recorder_resume(struct gb_run_recorder **out,
         return false;
     }
     recorder->written_at = recorder->journal.seconds;
+    gb_live_export_resume(&recorder->live, gb_store_rundir(recorder->store)->held,
+                          &recorder->journal.live);
     if (*experiment != NULL) {
         gb_kept_states_pass(&recorder->states, gb_experiment_point(*experiment));
     }
@@ -190,6 +196,7 @@ void gb_run_recorder_destroy(struct gb_run_recorder *recorder)
         return;
     }
     gb_writer_destroy(recorder->writer);
+    gb_live_export_finish(&recorder->live);
     gb_store_destroy(recorder->store);
     gb_alloc_free(recorder);
 }
@@ -224,6 +231,7 @@ static bool add_journal(struct gb_run_recorder *recorder, double seconds,
                         struct gb_error *err)
 {
     recorder->journal.extent = gb_store_extent(recorder->store);
+    recorder->journal.live = recorder->live.extent;
     recorder->journal.seconds = seconds;
     recorder->fresh = gb_run_journal_record(&recorder->journal,
                                             gb_writer_record(recorder->writer), err);
@@ -236,6 +244,33 @@ bool gb_run_recorder_row(struct gb_run_recorder *recorder, const struct gb_point
     return gb_store_point(recorder->store, point, err);
 }
 
+/* The journal and, where one is due, the kept state; its frame comes before the journal,
+ * which counts it. */
+static bool keep(struct gb_run_recorder *recorder, const struct gb_point *point,
+                 const struct gb_record *record, struct gb_state **state,
+                 struct gb_error *err)
+{
+    const struct gb_rundir *dir = gb_store_rundir(recorder->store);
+    struct gb_kept_names names;
+    gb_kept_states_due(&recorder->states, point, gb_run_recorder_points(recorder),
+                       &names);
+    gb_kept_states_pass(&recorder->states, point);
+    if (names.count == 0) {
+        return add_journal(recorder, point->seconds, err);
+    }
+    if (!gb_state_record(state, record, &recorder->params, &recorder->model, err)) {
+        return false;
+    }
+    gb_live_export_frame(&recorder->live, dir->held, *state);
+    if (!add_journal(recorder, point->seconds, err) ||
+        !gb_rundir_result(
+            dir, gb_kept_states_write(dir->held, &names, *state, record, err), err)) {
+        return false;
+    }
+    gb_live_export_files(&recorder->live, dir->held, &names, *state);
+    return true;
+}
+
 bool gb_run_recorder_point(struct gb_run_recorder *recorder,
                            struct gb_experiment *experiment, const struct gb_point *point,
                            struct gb_error *err)
@@ -246,16 +281,12 @@ bool gb_run_recorder_point(struct gb_run_recorder *recorder,
     if (!recorder->writer) {
         return true;
     }
-    const struct gb_rundir *dir = gb_store_rundir(recorder->store);
     struct gb_record *record = gb_writer_record(recorder->writer);
-    return gb_checkpoint_take(experiment, record, err) &&
-           add_journal(recorder, point->seconds, err) &&
-           gb_rundir_result(dir,
-                            gb_kept_states_point(&recorder->states, dir->held, point,
-                                                 gb_run_recorder_points(recorder), record,
-                                                 &recorder->params, &recorder->model,
-                                                 err),
-                            err);
+    struct gb_state *state = NULL;
+    const bool good = gb_checkpoint_take(experiment, record, err) &&
+                      keep(recorder, point, record, &state, err);
+    gb_state_destroy(state);
+    return good;
 }
 
 bool gb_run_recorder_adopt(struct gb_run_recorder *recorder,
@@ -347,7 +378,7 @@ bool gb_run_recorder_restored(struct gb_run_recorder *recorder, char *text, size
 {
     const char *name = gb_store_restored(recorder->store);
     if (name == NULL) {
-        return false;
+        return gb_live_export_told(&recorder->live, text, size);
     }
     snprintf(text, size,
              "%s was changed or removed by another program: written again from memory",

@@ -62,7 +62,8 @@ bool gb_run_recorder_event(struct gb_run_recorder *recorder, int64_t step,
 /* Compares curve.csv and events.log to what was recorded, before the end of a run; what
  * another program has changed is written again.  Errors: GB_ERR_MACHINE. */
 bool gb_run_recorder_check(struct gb_run_recorder *recorder, struct gb_error *err);
-/* An event about a file that was written again, once; false: none. */
+/* An event about a file that was written again, or a frame that was left out, once; false:
+ * none. */
 bool gb_run_recorder_restored(struct gb_run_recorder *recorder, char *text, size_t size);
 
 enum gb_run_recorder_when {

@@ -21,6 +21,8 @@ static const char *const viscous[] = {"all", "translation", "normal", NULL};
 static const char *const geometries[] = {"uniaxial", "biaxial", "isotropic", "die", NULL};
 static const char *const cycles[] = {"press", "full", NULL};
 static const char *const ramps[] = {"auto", "linear", "quadratic", NULL};
+static const char *const exports[] = {"none", "extxyz", "lammps-dump", "lammps-data",
+                                      "csv",  "vtkhdf", NULL};
 static const char *const hangups[] = {"detach", "stop", NULL};
 static const char *const collapses[] = {"stop", "strain", NULL};
 static const char *const fidelities[] = {"fast", "balanced", "reference", NULL};
@@ -415,6 +417,10 @@ static const struct gb_field rows[] = {
     {"output", "snapshots_at", GB_FIELD_TEXT, AT(snapshots_at), .fallback = "",
      .meaning = "points of the loading path at which states are kept, as 100 MPa; "
                 "density = 0.5; every 20 (recorded points)",
+     .source = "user"},
+    {"output", "export", GB_FIELD_CHOICE, AT(export_format), .choices = exports,
+     .fallback = "none",
+     .meaning = "states kept by snapshots_at for other programs, written along the run",
      .source = "user"},
     {"output", "checkpoint_every", GB_FIELD_NUMBER, AT(checkpoint_every_s),
      .dimension = GB_DIM_TIME, RANGE(0.1, 604800.0), .fallback = "60 s",
