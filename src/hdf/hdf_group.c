@@ -12,7 +12,10 @@ static bool unwritten(const struct gb_hdf *file, const char *name, struct gb_err
 bool gb_hdf_group_create(struct gb_hdf *file, const char *group, struct gb_error *err)
 {
     gb_hdf_mute();
-    const hid_t id = H5Gcreate2(file->file, group, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t create = H5Pcreate(H5P_GROUP_CREATE);
+    H5Pset_obj_track_times(create, false);
+    const hid_t id = H5Gcreate2(file->file, group, H5P_DEFAULT, create, H5P_DEFAULT);
+    H5Pclose(create);
     return (id >= 0 && H5Gclose(id) >= 0) || unwritten(file, group, err);
 }
 

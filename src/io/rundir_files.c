@@ -11,7 +11,7 @@ static const char *const known_files[] = {
     "preset.ini", "curve.csv", "events.log", "status.json", "state.h5", "packing.csv",
     "g.csv", "structure.json", "state-before.h5", "moduli.csv", "structure.csv",
     /* output.export */
-    "trajectory.extxyz", "trajectory-contacts.extxyz", "trajectory.lammps-dump",
+    "trajectory.extxyz", "trajectory-contacts.csv", "trajectory.lammps-dump",
     "trajectory-contacts.lammps-dump"};
 static const char snapshot_folder[] = "snapshots";
 

@@ -146,6 +146,31 @@ cutoff=10000 reach=20000
 kind die p3-storakers-m0.2-mu0.05 particles.count=40 die.diameter='24 um' 'die.central=20 um' \
     numerics.fidelity=fast 'loading.until=5 MPa'
 
+# --- along a run ---------------------------------------------------------------------------------
+live_run() {
+    "$greenbody" run default particles.count=200 numerics.fidelity=fast loading.unload_from= \
+        'loading.until=10 MPa' 'output.snapshots_at=2 MPa; 5 MPa' "$@" --quiet --out live \
+        >stdout 2>stderr
+}
+for format in extxyz lammps-dump; do
+    is "$format along a run" live_run output.export=$format --force
+    export_run --format $format --all --contacts live-c.$format --force -o live.$format
+    contacts=$(ls live/trajectory-contacts.*)
+    is 'has the frames of its kept states' sh -c \
+        "cmp -n \$(stat -c %s live/trajectory.$format) live.$format live/trajectory.$format"
+    is 'and their contacts' sh -c \
+        "cmp -n \$(stat -c %s $contacts) live-c.$format $contacts"
+    is 'two of them' [ "$(grep -c 'Lattice=\|ITEM: ATOMS' live/trajectory.$format)" -eq 2 ]
+done
+is 'VTKHDF along a run' live_run output.export=vtkhdf --force
+is 'has a file for each state' [ -e live/snapshots/p-5MPa.vtkhdf ]
+is 'and no trajectory of the run before' sh -c '! ls live/trajectory* 2>/dev/null'
+export_run --format vtkhdf --at 'p=5 MPa' --contacts live-c.vtkhdf -o live.vtkhdf
+is 'as export writes it' sh -c \
+    'cmp live.vtkhdf live/snapshots/p-5MPa.vtkhdf &&
+     cmp live-c.vtkhdf live/snapshots/p-5MPa-contacts.vtkhdf'
+refused 'nothing that is kept' "$greenbody" run default output.export=csv --quiet --out out
+
 # --- wrong input -------------------------------------------------------------------------
 refused 'no run' "$greenbody" export --format csv -o out
 refused 'no format' "$greenbody" export run -o out

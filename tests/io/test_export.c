@@ -222,6 +222,19 @@ static void test_lammps(void)
     finish(&texts);
 }
 
+/* Equal states make equal files, whenever they are written. */
+static void test_same_bytes(void)
+{
+    struct texts one = export_frames("vtkhdf", 1);
+    g_usleep(1100000); /* times in HDF5 have seconds */
+    struct texts two = export_frames("vtkhdf", 1);
+    g_assert_cmpuint(one.particles->len, >, 1000);
+    g_assert_true(g_string_equal(one.particles, two.particles));
+    g_assert_true(g_string_equal(one.contacts, two.contacts));
+    finish(&one);
+    finish(&two);
+}
+
 static void test_unknown(void)
 {
     struct gb_error err = {0};
@@ -239,6 +252,7 @@ int main(int argc, char **argv)
     g_test_add_func("/export/vectors", test_vectors);
     g_test_add_func("/export/extxyz", test_extxyz);
     g_test_add_func("/export/lammps", test_lammps);
+    g_test_add_func("/export/same-bytes", test_same_bytes);
     g_test_add_func("/export/unknown", test_unknown);
     return g_test_run();
 }

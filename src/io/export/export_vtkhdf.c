@@ -211,7 +211,8 @@ static void write_contacts(struct vtk *vtk, const struct gb_export_frame *frame)
     put_contact_data(vtk, frame);
 }
 
-static bool write_file(const struct gb_export_frame *frame,
+/* Groups made here have no times: equal states make equal files. */
+static bool write_file(const struct gb_export_frame *frame, const char *data,
                        void (*write)(struct vtk *vtk,
                                      const struct gb_export_frame *frame),
                        GString *bytes, struct gb_error *err)
@@ -220,6 +221,8 @@ static bool write_file(const struct gb_export_frame *frame,
     struct vtk vtk = {.err = err};
     vtk.good = gb_hdf_create(&vtk.file, "vtkhdf", err) &&
                gb_hdf_group_create(vtk.file, "/VTKHDF", err) &&
+               gb_hdf_group_create(vtk.file, data, err) &&
+               gb_hdf_group_create(vtk.file, "/VTKHDF/FieldData", err) &&
                gb_hdf_group_numbers(vtk.file, "/VTKHDF", "Version", 2, version, err) &&
                gb_hdf_group_text(vtk.file, "/VTKHDF", "Type", "UnstructuredGrid", err);
     if (vtk.good) {
@@ -234,6 +237,7 @@ static bool write_file(const struct gb_export_frame *frame,
 bool gb_export_vtkhdf_write(const struct gb_export_frame *frame, GString *particles,
                             GString *contacts, struct gb_error *err)
 {
-    return write_file(frame, write_particles, particles, err) &&
-           (contacts == NULL || write_file(frame, write_contacts, contacts, err));
+    return write_file(frame, "/VTKHDF/PointData", write_particles, particles, err) &&
+           (contacts == NULL ||
+            write_file(frame, "/VTKHDF/CellData", write_contacts, contacts, err));
 }

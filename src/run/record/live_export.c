@@ -36,7 +36,9 @@ void gb_live_export_finish(struct gb_live_export *live)
 
 static char *file_name(const struct gb_live_export *live, const char *name, int which)
 {
-    return g_strdup_printf("%s%s.%s", name, tails[which], live->format->name);
+    return g_strdup_printf("%s%s.%s", name, tails[which],
+                           which == CONTACTS ? live->format->contacts
+                                             : live->format->name);
 }
 
 /* What is told of a file: its name and the reason. */

@@ -9,7 +9,8 @@
 
 /* The kept states of a run as files of other programs, along the run (output.export): a
  * frame for each in DIR/trajectory.FORMAT, or for formats of one state
- * DIR/snapshots/NAME.FORMAT; the contacts in files with "-contacts" behind the name.
+ * DIR/snapshots/NAME.FORMAT; the contacts in files with "-contacts" behind the name, those
+ * of extended XYZ as a table (.csv), those of data files as a dump.
  * What cannot be written is told and left out: it never ends a run. */
 
 /* How much of the trajectory belongs to a checkpoint. */
