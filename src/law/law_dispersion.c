@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/portable.h"
+
 /* 1 / (s^3 (s^2 - 1)^2), s = r + alpha d0. */
 static double shape(double s)
 {
@@ -40,7 +42,7 @@ double gb_law_dispersion_energy(const struct gb_law_dispersion *law, double r)
      * at infinity. */
     const double s = (r < 1.0 ? 1.0 : r) + law->shift;
     const double u = s * s;
-    const double tail = 1.0 / u + 1.0 / (u - 1.0) + 2.0 * log1p(-1.0 / u);
+    const double tail = 1.0 / u + 1.0 / (u - 1.0) + 2.0 * gb_portable_log1p(-1.0 / u);
     const double gap = -0.5 * law->strength * tail;
     return r < 1.0 ? gap - law->contact * (1.0 - r) : gap;
 }

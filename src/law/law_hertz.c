@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/portable.h"
 #include "law/critical_step.h"
 
 /* Greatest pressure over yield stress when a sphere starts to flow; von Mises, nu = 0.3.
@@ -54,7 +55,7 @@ double gb_law_hertz_overlap(const struct gb_law_hertz *law, double radius, doubl
     if (!(force > 0.0)) {
         return 0.0;
     }
-    const double root = cbrt(0.75 * force / (law->modulus * sqrt(radius)));
+    const double root = gb_portable_cbrt(0.75 * force / (law->modulus * sqrt(radius)));
     return root * root;
 }
 

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/portable.h"
+
 /* Below this overlap the logarithms are summed as power series: h + ln(1 - h) loses
  * digits to cancellation as h -> 0, and the series vectorises.  The first term left out
  * is below 2^-53 of the sum at the border. */
@@ -13,7 +15,7 @@ enum { SERIES_TERMS = 14 };
 static double log_tail(double h)
 {
     if (h > series_border) {
-        return -(h + log1p(-h));
+        return -(h + gb_portable_log1p(-h));
     }
     double sum = 0.0;
     for (int k = SERIES_TERMS; k >= 2; k--) {
@@ -74,7 +76,7 @@ static double log_tail_integral(double h)
     static const double odd[] = {1.0 / 12.0, 1.0 / 30.0,  1.0 / 56.0,
                                  1.0 / 90.0, 1.0 / 132.0, 1.0 / 182.0};
     if (h > series_border) {
-        return h - 0.5 * h * h + (1.0 - h) * log1p(-h);
+        return h - 0.5 * h * h + (1.0 - h) * gb_portable_log1p(-h);
     }
     /* two chains side by side: curve.csv asks for this at every contact */
     const double h2 = h * h;

@@ -2,9 +2,11 @@
 
 #include <math.h>
 
+#include "base/portable.h"
+
 double gb_law_storakers_hollomon(double yield, double young, double exponent)
 {
-    return yield * pow(young / yield, exponent);
+    return yield * gb_portable_pow(young / yield, exponent);
 }
 
 double gb_law_storakers_strength(double strength_i, double strength_j, double exponent)
@@ -15,7 +17,8 @@ double gb_law_storakers_strength(double strength_i, double strength_j, double ex
         return weak;
     }
     /* (18) divided by the weaker one's term: nothing overflows at small m */
-    return weak * pow(1.0 + pow(weak / strong, 1.0 / exponent), -exponent);
+    return weak * gb_portable_pow(1.0 + gb_portable_pow(weak / strong, 1.0 / exponent),
+                                  -exponent);
 }
 
 void gb_law_storakers_init(struct gb_law_storakers *law, const struct gb_elastic *i,
@@ -25,8 +28,9 @@ void gb_law_storakers_init(struct gb_law_storakers *law, const struct gb_elastic
     gb_law_hertz_init(&law->hertz, i, j);
     law->exponent = exponent;
     law->strength = gb_law_storakers_strength(strength_i, strength_j, exponent);
-    law->factor = pow(2.0, 1.0 - 0.5 * exponent) * pow(3.0, 1.0 - exponent) * M_PI *
-                  1.43 * exp(-0.97 * exponent);
+    law->factor = gb_portable_pow(2.0, 1.0 - 0.5 * exponent) *
+                  gb_portable_pow(3.0, 1.0 - exponent) * M_PI * 1.43 *
+                  gb_portable_exp(-0.97 * exponent);
     law->printed = printed;
 }
 
@@ -37,7 +41,7 @@ double gb_law_storakers_plastic(const struct gb_law_storakers *law, double radiu
         return 0.0;
     }
     return law->factor * law->strength * radius * h *
-           pow(h / radius, 0.5 * law->exponent);
+           gb_portable_pow(h / radius, 0.5 * law->exponent);
 }
 
 double gb_law_storakers_plastic_stiffness(const struct gb_law_storakers *law,
@@ -52,7 +56,7 @@ double gb_law_storakers_plastic_stiffness(const struct gb_law_storakers *law,
 double gb_law_storakers_transition(const struct gb_law_storakers *law, double radius)
 {
     const double ratio = 0.75 * law->factor * law->strength / law->hertz.modulus;
-    return radius * pow(ratio, 2.0 / (1.0 - law->exponent));
+    return radius * gb_portable_pow(ratio, 2.0 / (1.0 - law->exponent));
 }
 
 struct gb_law_branch gb_law_storakers_loading(const struct gb_law_storakers *law,

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/portable.h"
+
 void gb_law_unequal_init(struct gb_law_unequal *law, const struct gb_law_rod *rod,
                          const struct gb_law_bridge *bridge,
                          const struct gb_law_dispersion *dispersion, double first,
@@ -83,7 +85,8 @@ double gb_law_unequal_attraction_energy(const struct gb_law_unequal *law, double
     const double s = fmax(r / law->mean_diameter, 1.0) + law->shift, u = s * s;
     const double c = law->diameter_ratio;
     const double near = u - 1.0, wide = u - law->offset;
-    const double tail = (1.0 / near + 1.0 / wide + 2.0 / c * log1p(-c / wide)) / (c * c);
+    const double tail =
+        (1.0 / near + 1.0 / wide + 2.0 / c * gb_portable_log1p(-c / wide)) / (c * c);
     const double mean_diameter = law->mean_diameter;
     return -0.5 * mean_diameter * mean_diameter * mean_diameter * law->strength * tail -
            law->adhesion * fmax(mean_diameter - r, 0.0);
@@ -96,7 +99,7 @@ double gb_law_unequal_equilibrium(const struct gb_law_unequal *law)
     }
     /* Hertz alone needs more overlap; from there Newton's way down is monotonic */
     const double wanted = law->adhesion / (law->mean_diameter * law->mean_diameter);
-    double x = cbrt(wanted / law->rod.hertz), change = 1.0;
+    double x = gb_portable_cbrt(wanted / law->rod.hertz), change = 1.0;
     x *= x;
     for (int i = 0; i < 50 && x < 1.0 && change > 1e-15; i++) {
         const double less = (gb_law_rod_force(&law->rod, x) - wanted) /

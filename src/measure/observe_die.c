@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/portable.h"
 #include "base/vec.h"
 #include "measure/ball.h"
 
@@ -89,7 +90,7 @@ void gb_observe_die_wall(const struct gb_bed *bed, double height, int bands,
             continue;
         }
         gb_die_overlap(&bed->die, GB_DIE_SIDE, x, x[3], unit);
-        const double radial = hypot(unit[0], unit[1]);
+        const double radial = gb_portable_hypot(unit[0], unit[1]);
         const int b = (int)(x[2] / height * bands);
         pressure[b < bands ? b : bands - 1] +=
             bed->walls.contacts.normal[slot] * radial / area;

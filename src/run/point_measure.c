@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/portable.h"
 #include "io/point_columns.h"
 #include "measure/fabric.h"
 #include "measure/observe.h"
@@ -49,7 +50,7 @@ static void measure_tensors(const struct gb_loading *loading, const double press
     for (int k = 0; k < 3; k++) {
         point->shear_pa[k] =
             0.5 * pascal * (pressure[row[k]][column[k]] + pressure[column[k]][row[k]]);
-        point->strain[k] = log(model->edges[k] / cell->edge[k]);
+        point->strain[k] = gb_portable_log(model->edges[k] / cell->edge[k]);
         point->strain[3 + k] = cell->shear[k];
     }
     point->q_pa = pascal * gb_tensor_deviatoric(pressure, model->dimension);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/portable.h"
 #include "law/law_storakers.h"
 #include "scene/field/field.h"
 #include "scene/imported/imported.h"
@@ -94,7 +95,7 @@ static double mean_power(const struct gb_params *params)
     const int power = params->dimension;
     return gb_sizes_polydisperse(params) && gb_sizes_init(&sizes, params, NULL)
                ? gb_sizes_moment(&sizes, power) /
-                     pow(gb_sizes_moment(&sizes, 1), (double)power)
+                     gb_portable_pow(gb_sizes_moment(&sizes, 1), (double)power)
                : 1.0;
 }
 
@@ -105,7 +106,7 @@ static double base_edge(const struct gb_params *params, double volume)
     if (params->base.relative && params->base.value == 0.0) {
         const double share = (double)params->count * mean_power(params) / 8000.0 *
                              (0.24 / gb_derived_structure_density(params));
-        return params->dimension == 2 ? sqrt(volume) : 18.0 * cbrt(share);
+        return params->dimension == 2 ? sqrt(volume) : 18.0 * gb_portable_cbrt(share);
     }
     return params->base.relative ? params->base.value
                                  : params->base.value / gb_derived_reference_m(params);

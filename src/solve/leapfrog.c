@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/portable.h"
 #include "law/critical_step.h"
 #include "scene/tolerances.h"
 
@@ -32,7 +33,8 @@ double gb_leapfrog_impact(const struct gb_bed *bed, double speed)
         return INFINITY;
     }
     const double duration =
-        2.868 * pow(mass * mass / (bed->smallest * modulus * modulus * speed), 0.2);
+        2.868 *
+        gb_portable_pow(mass * mass / (bed->smallest * modulus * modulus * speed), 0.2);
     return M_2_PI * duration * gb_critical_step_share(xi);
 }
 

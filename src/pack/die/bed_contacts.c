@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/portable.h"
 
 enum { PLANES = 10 };
 
@@ -38,7 +39,7 @@ double gb_bed_contacts_radius(const struct gb_bed_law *law, double star, double 
     const bool plastic =
         law->storakers && overlap > gb_law_storakers_transition(&law->normal, star);
     const double twice_c2 =
-        plastic ? 2.0 * 1.43 * exp(-0.97 * law->normal.exponent) : 1.0;
+        plastic ? 2.0 * 1.43 * gb_portable_exp(-0.97 * law->normal.exponent) : 1.0;
     return sqrt(twice_c2 * star * overlap);
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/portable.h"
 #include "pack/die/random_insertion.h"
 #include "pack/structure/assign_sizes.h"
 #include "scene/derived.h"
@@ -67,8 +68,8 @@ static bool size_die(struct gb_die *die, const struct gb_params *params,
         .height = scene->height > 0.0 ? scene->height
                                       : volume / (loosest * area) + 2.0 * largest,
         .outlet = scene->outlet,
-        .sine = sin(scene->angle),
-        .cosine = cos(scene->angle),
+        .sine = gb_portable_sin(scene->angle),
+        .cosine = gb_portable_cos(scene->angle),
     };
     const double micron = 1e6 * params->diameter_m;
     if (largest >= scene->outlet) {

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/portable.h"
 #include "pack/structure/random.h"
 
 /* Random positions tried for one sphere before the funnel counts as full. */
@@ -30,7 +31,7 @@ struct pour {
 static double cone_top(const struct gb_die *die, double volume)
 {
     const double slope = die->sine / die->cosine, r0 = die->outlet;
-    const double r = cbrt(r0 * r0 * r0 + 3.0 * slope * volume / M_PI);
+    const double r = gb_portable_cbrt(r0 * r0 * r0 + 3.0 * slope * volume / M_PI);
     return die->height + (r - r0) / slope;
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/mat.h"
+#include "base/portable.h"
 
 static int clamp(int value, int low, int high)
 {
@@ -12,7 +13,7 @@ static int clamp(int value, int low, int high)
 void gb_neighbour_grid_init(struct gb_neighbour_grid *grid, const struct gb_cell *cell,
                             double reach, int64_t count)
 {
-    const int most = (int)fmax(1.0, ceil(cbrt((double)count)) * 2.0);
+    const int most = (int)fmax(1.0, ceil(gb_portable_cbrt((double)count)) * 2.0);
     grid->plain = true;
     for (int k = 0; k < 3; k++) {
         const double edge = gb_cell_spacing(cell, k);

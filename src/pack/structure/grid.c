@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/portable.h"
 
 /* Grid cells for each point of the capacity: more would cost memory and empty visits. */
 static const double cells_per_point = 8.0;
@@ -17,7 +18,7 @@ static void choose_cells(struct gb_grid *grid, double size)
     const int axes = grid->cell.periodic[1] ? 3 : 2;
     const double room =
         gb_cell_volume(&grid->cell) / (cells_per_point * (double)grid->capacity + 64.0);
-    const double least = fmax(size, axes == 3 ? cbrt(room) : sqrt(room));
+    const double least = fmax(size, axes == 3 ? gb_portable_cbrt(room) : sqrt(room));
     for (int k = 0; k < 3; k++) {
         const double cells = floor(grid->cell.edge[k] / least);
         const bool many = grid->cell.periodic[k] && cells > 1.0;

@@ -1,18 +1,19 @@
 #include "scene/size/sizes.h"
 
-#include <gsl/gsl_cdf.h>
 #include <math.h>
 
+#include "base/portable.h"
 #include "scene/derived.h"
 #include "scene/imported/imported.h"
 #include "scene/loading_kind.h"
+#include "scene/size/gaussian.h"
 #include "scene/size/size_table.h"
 
 /* Probability of a standard normal between a and b, without loss in either tail. */
 static double between(double a, double b)
 {
-    return a > 0.0 ? gsl_cdf_ugaussian_Q(a) - gsl_cdf_ugaussian_Q(b)
-                   : gsl_cdf_ugaussian_P(b) - gsl_cdf_ugaussian_P(a);
+    return a > 0.0 ? gb_gaussian_above(a) - gb_gaussian_above(b)
+                   : gb_gaussian_below(b) - gb_gaussian_below(a);
 }
 
 /* Shares by number, summed up.  A share of the volume is divided by that of one sphere.
@@ -35,7 +36,9 @@ static void freeze_table(struct gb_sizes *sizes, const struct gb_sizetable *tabl
 
 static double cut_at(const struct gb_sizes *sizes, double diameter_m, double uncut)
 {
-    return isnan(diameter_m) ? uncut : log(diameter_m / sizes->median_m) / sizes->sigma;
+    return isnan(diameter_m)
+               ? uncut
+               : gb_portable_log(diameter_m / sizes->median_m) / sizes->sigma;
 }
 
 bool gb_sizes_polydisperse(const struct gb_params *params)
@@ -71,10 +74,10 @@ static double quantile(const struct gb_sizes *sizes, double share)
 {
     const double low = sizes->z_least, high = sizes->z_largest;
     const double mass = between(low, high);
-    const double below = gsl_cdf_ugaussian_P(low) + share * mass;
-    const double above = gsl_cdf_ugaussian_Q(high) + (1.0 - share) * mass;
-    const double z =
-        below < 0.5 ? gsl_cdf_ugaussian_Pinv(below) : gsl_cdf_ugaussian_Qinv(above);
+    const double below = gb_gaussian_below(low) + share * mass;
+    const double above = gb_gaussian_above(high) + (1.0 - share) * mass;
+    const double z = below < 0.5 ? gb_gaussian_quantile_below(below)
+                                 : gb_gaussian_quantile_above(above);
     return fmin(fmax(z, low), high);
 }
 
@@ -84,8 +87,9 @@ static double stratum_diameter(const struct gb_sizes *sizes, double a, double b,
 {
     const double s = sizes->sigma;
     const double third =
-        exp(4.5 * s * s) * between(a - 3.0 * s, b - 3.0 * s) / probability;
-    return sizes->median_m * fmin(fmax(cbrt(third), exp(s * a)), exp(s * b));
+        gb_portable_exp(4.5 * s * s) * between(a - 3.0 * s, b - 3.0 * s) / probability;
+    return sizes->median_m * fmin(fmax(gb_portable_cbrt(third), gb_portable_exp(s * a)),
+                                  gb_portable_exp(s * b));
 }
 
 static void fill_lognormal(const struct gb_sizes *sizes, int64_t count,
@@ -157,11 +161,11 @@ double gb_sizes_moment(const struct gb_sizes *sizes, int power)
         double sum = 0.0;
         for (int i = 0; i < sizes->rows; i++) {
             const double share = sizes->below[i] - (i > 0 ? sizes->below[i - 1] : 0.0);
-            sum += share * pow(sizes->diameter_m[i], power);
+            sum += share * gb_portable_pow(sizes->diameter_m[i], power);
         }
         return sum;
     }
-    const double mono = pow(sizes->median_m, power);
+    const double mono = gb_portable_pow(sizes->median_m, power);
     if (sizes->packing) {
         return mono * sizes->packing->moment[power];
     }
@@ -169,7 +173,7 @@ double gb_sizes_moment(const struct gb_sizes *sizes, int power)
         return mono;
     }
     const double shift = power * sizes->sigma;
-    return mono * exp(0.5 * shift * shift) *
+    return mono * gb_portable_exp(0.5 * shift * shift) *
            between(sizes->z_least - shift, sizes->z_largest - shift) /
            between(sizes->z_least, sizes->z_largest);
 }

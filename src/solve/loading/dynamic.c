@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/alloc.h"
+#include "base/portable.h"
 #include "pack/cell/world_measure.h"
 #include "scene/tolerances.h"
 #include "solve/loading/compressed_axes.h"
@@ -87,15 +88,15 @@ static void plan(struct gb_dynamic *motion, double allowed)
         const double next = fmin(motion->density * (1.0 + dynamics->record_density),
                                  motion->model->until_density);
         growth = next / motion->density;
-        interval = log(growth) / dynamics->rate;
+        interval = gb_portable_log(growth) / dynamics->rate;
     }
     motion->planned = motion->left =
         (int64_t)fmax(1.0, ceil(interval / allowed - GB_STEP_COUNT_TOLERANCE));
     motion->step = interval / (double)motion->planned;
     const struct gb_compressed_axes axes = gb_compressed_axes_of(motion->model);
-    gb_compressed_axes_scale(&axes,
-                             pow(growth, -1.0 / (axes.count * (double)motion->planned)),
-                             motion->factor);
+    gb_compressed_axes_scale(
+        &axes, gb_portable_pow(growth, -1.0 / (axes.count * (double)motion->planned)),
+        motion->factor);
     motion->density *= growth;
     motion->sliding = motion->contacts = 0;
 }
@@ -149,7 +150,8 @@ static double whole_time(const struct gb_dynamic *motion)
 {
     const struct gb_model *model = motion->model;
     return model->dynamics.relax + model->dynamics.hold +
-           log(model->until_density / model->start_density) / model->dynamics.rate;
+           gb_portable_log(model->until_density / model->start_density) /
+               model->dynamics.rate;
 }
 
 struct gb_dynamic_report gb_dynamic_report(const struct gb_dynamic *motion)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/portable.h"
 #include "pack/cell/world_measure.h"
 #include "pack/cell/world_record.h"
 #include "scene/tolerances.h"
@@ -74,8 +75,8 @@ static void strain(struct quasistatic_loading *run)
     const int parts = run->base.model->numerics.parts;
     double factor[3];
     for (int k = 0; k < 3; k++) {
-        factor[k] =
-            parts > 1 ? pow(run->base.factor[k], 1.0 / parts) : run->base.factor[k];
+        factor[k] = parts > 1 ? gb_portable_pow(run->base.factor[k], 1.0 / parts)
+                              : run->base.factor[k];
     }
     const struct gb_deformation part = gb_deformation_scaling(factor);
     gb_strain_step_begin(&run->step, &part, parts);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/portable.h"
 #include "base/units.h"
 
 #include "scene/tolerances.h"
@@ -60,7 +61,8 @@ static enum gb_quasistatic_order compress(const struct gb_quasistatic *load,
                                           double density, double factor[3])
 {
     const double full = 1.0 - load->step;
-    const double to_end = pow(density / load->until_density, 1.0 / load->axes.count);
+    const double to_end =
+        gb_portable_pow(density / load->until_density, 1.0 / load->axes.count);
     gb_compressed_axes_scale(&load->axes, fmax(full, to_end), factor);
     return GB_QUASISTATIC_STRAIN;
 }
@@ -84,7 +86,7 @@ static double expansion(struct gb_quasistatic *load, double pressure)
 
 static bool unloaded(struct gb_quasistatic *load, double pressure)
 {
-    const double grown = pow(1.0 / (1.0 - load->step), load->expansions);
+    const double grown = gb_portable_pow(1.0 / (1.0 - load->step), load->expansions);
     const bool done = pressure <= GB_UNLOADED_FRACTION * load->top_pressure;
     load->endless = !done && grown > GB_UNLOADING_GROWTH_MAX;
     return done || load->endless;
@@ -176,7 +178,8 @@ double gb_quasistatic_progress(const struct gb_quasistatic *load, double pressur
     /* time goes with the number of strain steps, that is with the logarithm of density */
     const double end =
         load->until_density < 1.0 ? load->until_density : GB_PROGRESS_END_DENSITY;
-    const double by_density = log(density / start_density) / log(end / start_density);
+    const double by_density =
+        gb_portable_log(density / start_density) / gb_portable_log(end / start_density);
     const double by_pressure =
         isfinite(load->until_pressure) ? pressure / load->until_pressure : 0.0;
     return fmin(1.0, fmax(0.0, fmax(fmin(by_density, GB_PROGRESS_MAX),

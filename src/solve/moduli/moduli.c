@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/portable.h"
 #include "pack/cell/world_measure.h"
 #include "scene/tolerances.h"
 #include "solve/moduli/probe.h"
@@ -185,7 +186,8 @@ static bool march(struct gb_probe *probe, int k, double size, double modulus,
         const double limit = (1.0 - GB_PROBE_LOSS) * modulus;
         if (secant < limit) {
             const double share = (before - limit) / (before - secant);
-            *range = reached > 0.0 ? reached * pow(next / reached, share) : next;
+            *range =
+                reached > 0.0 ? reached * gb_portable_pow(next / reached, share) : next;
             return true;
         }
         before = secant;

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/mat.h"
+#include "base/portable.h"
 #include "base/record.h"
 #include "base/team/team.h"
 #include "pack/list/blocks.h"
@@ -42,7 +43,7 @@ struct request {
 static double strain_along(const struct predict *state, const struct gb_cell *cell, int k)
 {
     const double edge = state->cell.edge[k];
-    return edge > 0.0 ? log(cell->edge[k] / edge) : 0.0;
+    return edge > 0.0 ? gb_portable_log(cell->edge[k] / edge) : 0.0;
 }
 
 static struct request request_since(struct predict *state, const struct gb_cell *cell)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/portable.h"
 #include "scene/tolerances.h"
 #include "solve/loading/die/die_rest.h"
 
@@ -84,8 +85,9 @@ static enum gb_die_sequence_state check_ease(struct gb_die_stages *stages,
     (void)bed;
     (void)err;
     now->leapfrog.gravity =
-        scene->fill_gravity * pow(scene->gravity / scene->fill_gravity,
-                                  fmin(now->stage_time / scene->gravity_ramp, 1.0));
+        scene->fill_gravity *
+        gb_portable_pow(scene->gravity / scene->fill_gravity,
+                        fmin(now->stage_time / scene->gravity_ramp, 1.0));
     if (now->stage_time < scene->gravity_ramp) {
         return GB_DIE_SEQUENCE_CONTINUES;
     }

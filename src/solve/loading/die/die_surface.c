@@ -6,6 +6,7 @@
 #include <gsl/gsl_statistics.h>
 
 #include "base/alloc.h"
+#include "base/portable.h"
 
 void gb_die_surface_finish(struct gb_die_surface *surface)
 {
@@ -72,7 +73,7 @@ double gb_die_surface_radius(const struct gb_die_surface *surface,
 {
     for (int64_t k = 0; k < surface->count; k++) {
         const double *x = bed->position[surface->particle[k]];
-        surface->value[k] = hypot(x[0], x[1]) + x[3];
+        surface->value[k] = gb_portable_hypot(x[0], x[1]) + x[3];
     }
     return median(surface);
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/portable.h"
 #include "scene/tolerances.h"
 
 double gb_leg_end_mean(const double stress[6], int dimension)
@@ -13,7 +14,7 @@ double gb_leg_end_mean(const double stress[6], int dimension)
 double gb_leg_end_q(const double stress[6], int dimension)
 {
     if (dimension == 2) {
-        return hypot(stress[0] - stress[2], 2.0 * stress[4]);
+        return gb_portable_hypot(stress[0] - stress[2], 2.0 * stress[4]);
     }
     const double xy = stress[0] - stress[1], yz = stress[1] - stress[2],
                  zx = stress[2] - stress[0];
@@ -52,7 +53,7 @@ double gb_leg_end_value(const struct gb_leg *leg, const struct gb_leg_end *end,
     case GB_LEG_END_STRAIN:
         return strain[leg->leading];
     case GB_LEG_END_DENSITY:
-        return log(density);
+        return gb_portable_log(density);
     case GB_LEG_END_PRESSURE:
         return led_pressure(leg, stress);
     case GB_LEG_END_STRESS:
@@ -69,7 +70,7 @@ double gb_leg_end_value(const struct gb_leg *leg, const struct gb_leg_end *end,
 
 double gb_leg_end_target(const struct gb_leg_end *end)
 {
-    return end->kind == GB_LEG_END_DENSITY ? log(end->value) : end->value;
+    return end->kind == GB_LEG_END_DENSITY ? gb_portable_log(end->value) : end->value;
 }
 
 double gb_leg_end_tolerance(const struct gb_leg_end *end, double largest)

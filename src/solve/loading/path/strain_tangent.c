@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/portable.h"
 #include "pack/cell/world_measure.h"
 #include "scene/tolerances.h"
 
@@ -15,7 +16,7 @@ struct gb_deformation gb_strain_tangent_deformation(const double strain[N])
 {
     struct gb_deformation deformation = {{{0.0}}};
     for (int k = 0; k < 3; k++) {
-        deformation.f[k][k] = exp(-strain[k]);
+        deformation.f[k][k] = gb_portable_exp(-strain[k]);
         deformation.f[shear_row[k]][shear_column[k]] = strain[3 + k];
     }
     return deformation;
