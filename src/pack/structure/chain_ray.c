@@ -1,10 +1,10 @@
 #include "pack/structure/chain_ray.h"
 
-#include <gsl/gsl_randist.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "pack/structure/random.h"
 #include "pack/structure/roll.h"
 
 /* P1 follows a ray through the nearest images of the cell.  Rays are also cut at this
@@ -31,9 +31,9 @@ static struct gb_roll next_one(const struct gb_chain_ray *growth)
 static void random_direction(struct gb_chain_ray *growth, double direction[3])
 {
     if (growth->grow->dimension == 3) {
-        gsl_ran_dir_3d(&growth->rng, &direction[0], &direction[1], &direction[2]);
+        gb_random_direction_3d(&growth->rng, direction);
     } else {
-        gsl_ran_dir_2d(&growth->rng, &direction[0], &direction[2]);
+        gb_random_direction_2d(&growth->rng, &direction[0], &direction[2]);
         direction[1] = 0.0;
     }
 }

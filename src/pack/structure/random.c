@@ -1,6 +1,7 @@
 #include "pack/structure/random.h"
 
 #include <Random123/philox.h>
+#include <math.h>
 
 #include "base/alloc.h"
 
@@ -98,4 +99,35 @@ void gb_random_close(gsl_rng *random)
 {
     gb_alloc_free(random->state);
     random->state = NULL;
+}
+
+/* A point in the unit disc, not its centre; returns its squared radius. */
+static double point_in_disc(const gsl_rng *random, double *u, double *v)
+{
+    double square;
+    do {
+        *u = 2.0 * gsl_rng_uniform(random) - 1.0;
+        *v = 2.0 * gsl_rng_uniform(random) - 1.0;
+        square = *u * *u + *v * *v;
+    } while (square > 1.0 || square == 0.0);
+    return square;
+}
+
+void gb_random_direction_3d(const gsl_rng *random, double direction[3])
+{
+    double u, v;
+    const double square = point_in_disc(random, &u, &v);
+    const double scale = 2.0 * sqrt(1.0 - square);
+    direction[0] = scale * u;
+    direction[1] = scale * v;
+    direction[2] = 2.0 * square - 1.0;
+}
+
+/* The angle of the point, doubled. */
+void gb_random_direction_2d(const gsl_rng *random, double *x, double *z)
+{
+    double u, v;
+    const double square = point_in_disc(random, &u, &v);
+    *x = (u * u - v * v) / square;
+    *z = 2.0 * u * v / square;
 }

@@ -26,4 +26,11 @@ bool gb_random_open(gsl_rng *random, const struct gb_seed *seed,
                     enum gb_random_stream stream, struct gb_error *err);
 void gb_random_close(gsl_rng *random);
 
+/* Unit vectors, uniform over the sphere or the circle.  GSL's functions have other bits
+ * where its compiler fused multiply and add (aarch64).
+ * Source: Knop, Commun. ACM 13, 326 (1970); von Neumann, Nat. Bur. Stand. AMS 12, 36
+ * (1951). */
+void gb_random_direction_3d(const gsl_rng *random, double direction[3]);
+void gb_random_direction_2d(const gsl_rng *random, double *x, double *z);
+
 #endif
