@@ -136,6 +136,11 @@ status=$?
 [ $status -eq 77 ] && echo '# no h5py or no ASE here: their reading of the series is not tested'
 [ $status -eq 0 ] || [ $status -eq 77 ]
 result 'the series has the frames of the trajectory' $?
+is 'tables of all states' export_run --format csv --all --contacts t-c.csv -o t.csv
+is 'the last but one is that of the second mark' cmp t-0001.csv one.csv
+is 'with its contacts' cmp t-c-0001.csv contacts.csv
+is 'data files of all states' export_run --format lammps-data --all -o t.data
+is 'one of the last' cmp t-0002.data p.data
 rm s-0000.vtkhdf
 refused 'a series of which a file exists' "$greenbody" export run --format vtkhdf --all -o s.vtkhdf
 is 'nothing of it is written' [ ! -e s-0000.vtkhdf ]
@@ -144,7 +149,7 @@ is 'all of it' [ -e s-0000.vtkhdf ]
 
 cutoff=10000 reach=20000
 kind die p3-storakers-m0.2-mu0.05 particles.count=40 die.diameter='24 um' 'die.central=20 um' \
-    numerics.fidelity=fast 'loading.until=5 MPa'
+    'material.yield=150 MPa' numerics.fidelity=fast 'loading.until=5 MPa'
 
 # --- along a run ---------------------------------------------------------------------------------
 live_run() {
@@ -178,7 +183,6 @@ refused 'an unknown format' "$greenbody" export run --format xyz -o out
 is 'which lists the others' grep -q 'accepted extxyz, lammps-dump' stderr
 refused 'no file' "$greenbody" export run --format csv
 refused 'no such state' "$greenbody" export run --format csv --at 'p=1 GPa' -o out
-refused 'several states in a format of one' "$greenbody" export run --format csv --all -o out
 refused 'a directory without a run' "$greenbody" export . --format csv -o out
 refused 'a file that exists' "$greenbody" export run --format csv -o one.csv
 is 'is left as it was' [ "$(grep -c '^[0-9]' one.csv)" -eq 200 ]

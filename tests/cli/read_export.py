@@ -50,6 +50,10 @@ def state_arrays():
         if 'world/history' in record:
             arrays['deepest'] = nm * file['checkpoint/world/history'][:].reshape(
                 len(pairs), -1)[:, 0]
+        if 'bed/deepest' in record:
+            arrays.update(bed_deepest=nm * record['bed/deepest'][:],
+                          wall=file['wall'][:].reshape(-1, 2),
+                          wall_force=nn * file['wall_force'][:])
         cell, tilt = nm * file.attrs['cell_d'], nm * file.attrs['cell_tilt_d']
         arrays['cell'] = np.array([[cell[0], 0, 0], [tilt[0], cell[1], 0],
                                    [tilt[1], tilt[2], cell[2]]])
@@ -151,6 +155,22 @@ if 'deepest' in want:
     if np.abs(square - contacts['radius_nm'] ** 2).max(initial=0.0) > 1e-9 * square.max(
             initial=1.0):
         fail('contacts: radii of the law')
+if 'bed_deepest' in want:
+    # Hertz' a^2 = R* h; of a contact that has flowed 2 c^2 R* h at its deepest overlap,
+    # c^2 = 1.43 exp(-0.97 m) with m = 0.2
+    square = contacts['radius_nm'] ** 2 / want['reduced']
+    plastic = 2.86 * np.exp(-0.97 * 0.2) * want['bed_deepest']
+    flowed = np.abs(square - plastic) < 1e-9 * plastic
+    elastic = np.abs(square - np.maximum(contacts['overlap_nm'], 0.0)) < 1e-9 * plastic
+    if not flowed.any() or not elastic.any() or not np.all(flowed | elastic):
+        fail('contacts: radii of the law of a die')
+    # without attraction the contacts of a particle make up its resultant
+    total = np.zeros_like(want['force'])
+    np.add.at(total, want['pair'][:, 0], force)
+    np.add.at(total, want['pair'][:, 1], -force)
+    np.add.at(total, want['wall'][:, 0], want['wall_force'])
+    if np.abs(total - want['force']).max() > 1e-9 * np.abs(force).max():
+        fail('contacts: do not make up the resultants')
 
 # --- the dump, and LAMMPS of both of its formats ------------------------------------------
 columns, head = dump(f'{prefix}.lammps-dump')

@@ -40,12 +40,7 @@ static bool check_request(const struct request *request, char **words, struct ex
     }
     job->source = words[0];
     job->format = gb_export_find(request->format, err);
-    if (job->format == NULL) {
-        return false;
-    }
-    return !request->all || job->format->trajectory || job->format->series ||
-           gb_error_set(err, GB_ERR_INPUT, "--all: %s has one state; accepted --at",
-                        job->format->name);
+    return job->format != NULL;
 }
 
 static bool check_target(const char *path, gboolean force, struct gb_error *err)
@@ -141,7 +136,7 @@ static bool write_series(struct export *job, const struct request *request,
         }
         good = gb_state_read(&state, g_ptr_array_index(paths, i), err);
         steps[i] = good ? state->point.step : 0;
-        good = good && add(job, state, i, err) && write_member(job, request, i, err);
+        good = good && add(job, state, 0, err) && write_member(job, request, i, err);
     }
     good = good && gb_export_series_put_list(request->output, steps, paths->len, err) &&
            (request->contacts == NULL ||
@@ -160,8 +155,8 @@ static bool write_files(struct export *job, const struct request *request,
     if (paths == NULL) {
         return false;
     }
-    const bool good = job->format->series ? write_series(job, request, paths, err)
-                                          : write_whole(job, request, paths, err);
+    const bool good = job->format->trajectory ? write_whole(job, request, paths, err)
+                                              : write_series(job, request, paths, err);
     g_ptr_array_unref(paths);
     return good;
 }
@@ -182,7 +177,7 @@ static bool perform(const struct request *request, char **words, struct gb_error
     if (!check_request(request, words, &job, err)) {
         return false;
     }
-    const bool numbered = request->all && job.format->series;
+    const bool numbered = request->all && !job.format->trajectory;
     if (!numbered && (!check_target(request->output, request->force, err) ||
                       !check_target(request->contacts, request->force, err))) {
         return false;
@@ -240,8 +235,8 @@ int gb_cmd_export(int argc, char **argv)
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,
          "a kept state, as \"p=100 MPa\" or \"density=0.5\" (the last)", "POINT"},
         {"all", 0, 0, G_OPTION_ARG_NONE, &request.all,
-         "all kept states in the order of the run (output.snapshots_at); vtkhdf: "
-         "FILE-0000, FILE-0001, ... and FILE.series",
+         "all kept states in the order of the run (output.snapshots_at); in "
+         "formats of one state FILE-0000, FILE-0001, ... and FILE.series",
          NULL},
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, "the particles",
          "FILE"},

@@ -8,16 +8,15 @@
 #include "io/state/state_stress.h"
 
 static const struct gb_export_format formats[] = {
-    {"extxyz", "extended XYZ (OVITO, ASE)", "csv", true, false, gb_export_extxyz_write,
-     NULL},
+    {"extxyz", "extended XYZ (OVITO, ASE)", "csv", true, gb_export_extxyz_write, NULL},
     {"lammps-dump", "dump of LAMMPS, contacts as a local dump (OVITO)", "lammps-dump",
-     true, false, gb_export_lammps_dump, NULL},
+     true, gb_export_lammps_dump, NULL},
     {"lammps-data", "data file of LAMMPS, atom_style sphere, units nano", "lammps-dump",
-     false, false, gb_export_lammps_data, NULL},
+     false, gb_export_lammps_data, NULL},
     {"csv", "tables of particles and contacts (ParaView, spreadsheets)", "csv", false,
-     false, gb_export_csv_write, NULL},
+     gb_export_csv_write, NULL},
     {"vtkhdf", "VTKHDF, contacts as lines (ParaView 5.10 on, h5py)", "vtkhdf", false,
-     true, NULL, gb_export_vtkhdf_write},
+     NULL, gb_export_vtkhdf_write},
 };
 
 const struct gb_export_format *gb_export_at(size_t index)

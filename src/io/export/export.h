@@ -24,8 +24,8 @@ struct gb_export_frame {
 struct gb_export_format {
     const char *name, *doc;
     const char *contacts; /* the format of its contacts: a name, or the end of one */
-    bool trajectory;      /* several states in one file */
-    bool series;          /* or in numbered files: io/export/export_series.h */
+    bool trajectory;      /* several states in one file; else in numbered ones, see
+                      * io/export/export_series.h */
     /* Appends a frame; contacts NULL: none are wanted. */
     void (*write)(const struct gb_export_frame *frame, GString *particles,
                   GString *contacts);

@@ -32,12 +32,15 @@ static double cell_radius(const struct gb_state *state, const struct gb_model *m
     return gb_law_unequal_radius(&law, deepest > 0.0 ? bridge : overlap);
 }
 
+/* deepest: of a contact that has flowed, what it keeps; else the contact is elastic. */
 static double bed_radius(const struct gb_state *state, const struct gb_bed_law *law,
                          int64_t k, double overlap, double deepest)
 {
     const double star = gb_law_hertz_radius(state->radius[state->pair[2 * k]],
                                             state->radius[state->pair[2 * k + 1]]);
-    return gb_bed_contacts_radius(law, star, fmax(fmax(overlap, 0.0), deepest));
+    const bool flowed =
+        law->storakers && deepest > gb_law_storakers_transition(&law->normal, star);
+    return gb_bed_contacts_radius(law, star, flowed ? deepest : fmax(overlap, 0.0));
 }
 
 bool gb_state_radius_fill(struct gb_state *state, const struct gb_record *record,
