@@ -60,6 +60,12 @@ def state_arrays():
         if 'motion/velocity' in record:
             same('velocity of the checkpoint', arrays['velocity'],
                  nm / ns * record['motion/velocity'][:])
+            # rotations of a cell are arcs there, diameters times angles, torques over them
+            same('spin of the checkpoint', arrays['spin'] * 2.0 * file['radius'][:][:, None],
+                 record['motion/spin'][:] / ns)
+        if 'world/torque' in record:
+            same('torque of the checkpoint', arrays['torque'],
+                 nn * nm * 2.0 * file['radius'][:][:, None] * record['world/torque'][:])
         if 'bed/spin' in record:
             same('spin of the checkpoint', arrays['spin'], record['bed/spin'][:, :3] / ns)
         if 'world/force' in record:
