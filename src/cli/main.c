@@ -10,6 +10,7 @@
 
 #include <glib.h>
 
+#include "base/built_with.h"
 #include "base/program.h"
 #include "cli/commands.h"
 #include "cli/complete/completion.h"

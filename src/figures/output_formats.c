@@ -2,6 +2,8 @@
 
 #include <glib.h>
 
+#include "base/built_with.h"
+
 #if GB_WITH_PICTURES
 #include "figures/sequence/frame_writer.h"
 #define FRAMES(writer) .frames = &(writer)

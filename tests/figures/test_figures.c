@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/built_with.h"
 #include "figures/output_formats.h"
 #include "figures/plotting.h"
 #include "figures/report/report.h"

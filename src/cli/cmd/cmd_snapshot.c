@@ -3,6 +3,7 @@
 
 #include <glib.h>
 
+#include "base/built_with.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 

@@ -1,5 +1,7 @@
 #include "figures/report/report.h"
 
+#include "base/built_with.h"
+
 #if GB_WITH_PICTURES
 
 #include "draw/packing_panels.h"

@@ -5,6 +5,8 @@
 
 #include <glib.h>
 
+#include "base/built_with.h"
+
 #if GB_WITH_MPI
 
 #include <mpi.h>

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/built_with.h"
 #include "tui/plot/sphere_shading.h"
 #include "tui/term/settings.h"
 
