@@ -29,4 +29,11 @@ sed "s|@SYSROOT@|$folder/root|" "$source/tests/cross/aarch64.txt" >"$folder/cros
     meson setup "$folder/build" "$source" --cross-file "$folder/cross.txt" \
         --buildtype=release -Dpictures=disabled -Dimages=disabled -Dmpi=disabled
 ninja -C "$folder/build"
-meson test -C "$folder/build" --no-rebuild --suite unit --timeout-multiplier 0 --print-errorlogs
+# Of the suite, pty starts the program by itself, which takes a kernel that knows the emulator.
+tests=$(meson test -C "$folder/build" --no-rebuild --suite unit --list | sed 's/.* //')
+[ -e /proc/sys/fs/binfmt_misc/qemu-aarch64 ] || {
+    echo 'left out: pty (Debian: qemu-user-binfmt)'
+    tests=$(printf '%s\n' "$tests" | grep -vx pty)
+}
+# shellcheck disable=SC2086  # words
+meson test -C "$folder/build" --no-rebuild --timeout-multiplier 0 --print-errorlogs $tests
