@@ -17,6 +17,7 @@
 #include "cli/exit_status.h"
 #include "cli/options.h"
 #include "cli/screen_options.h"
+#include "hdf/hdf.h"
 #include "io/preset_folders.h"
 #include "pack/kernel/simd.h"
 
@@ -162,6 +163,7 @@ static int dispatch(int argc, char **argv)
 int main(int argc, char **argv)
 {
     gb_program_name_process();
+    gb_hdf_skip_exit();
     /* Text in the user's locale, numbers always with a decimal point. */
     setlocale(LC_ALL, "");
     setlocale(LC_NUMERIC, "C");

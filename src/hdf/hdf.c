@@ -71,8 +71,17 @@ static struct gb_hdf *wrap(const char *path, struct gb_error *err)
     return file;
 }
 
+void gb_hdf_skip_exit(void)
+{
+    (void)H5dont_atexit();
+}
+
 bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err)
 {
+    if (!gb_hdf_memory_left()) {
+        *out = NULL;
+        return gb_error_set(err, GB_ERR_MEMORY, "%s: out of memory for a state", path);
+    }
     gb_hdf_mute();
     *out = gb_file_check_target(path, err) ? wrap(path, err) : NULL;
     if (*out == NULL) {

@@ -29,6 +29,10 @@ bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err);
 bool gb_hdf_open(struct gb_hdf **out, const char *path, struct gb_error *err);
 void gb_hdf_destroy(struct gb_hdf *file); /* NULL is fine */
 
+/* Before any other function: HDF5 does not close files at the exit of the program.  A file
+ * that could not be closed for lack of memory would bring the exit down. */
+void gb_hdf_skip_exit(void);
+
 /* Dataset of rows x columns (rank 1 when columns is 1) with its unit as an attribute. */
 struct gb_hdf_array {
     const char *name; /* "/position" */

@@ -5,6 +5,14 @@
 #include <string.h>
 
 enum { IMAGE_STEP = 1 << 20 }; /* growth of the image */
+enum { MARGIN = 8 << 20 };     /* left for small pieces */
+
+bool gb_hdf_memory_left(void)
+{
+    void *volatile margin = malloc(MARGIN); /* volatile: or compilers leave both out */
+    free(margin);
+    return margin != NULL;
+}
 
 /* The memory of a file under construction.  H5Fget_file_image would copy it, and in 1.10
  * clears a flag of the header without renewing its checksum; so the close hands over the
@@ -13,13 +21,18 @@ static void *image_malloc(size_t size, H5FD_file_image_op_t why, void *data)
 {
     (void)why;
     (void)data;
-    return malloc(size);
+    return gb_hdf_memory_left() ? malloc(size) : NULL;
 }
 
 static void *image_realloc(void *image, size_t size, H5FD_file_image_op_t why, void *data)
 {
     (void)why;
     (void)data;
+    void *volatile larger = malloc(size > MARGIN ? size + MARGIN : MARGIN);
+    if (larger == NULL) {
+        return NULL;
+    }
+    free(larger);
     return realloc(image, size);
 }
 
