@@ -56,7 +56,7 @@ cp press.out shared.out
 cmp shared.out static.out || fail "shared and static differ"
 ./press default contact.muu=1 2>wrong.out
 [ $? -eq 2 ] || fail "a wrong key has another status"
-grep -q 'press: contact.muu: no such key; must be one of' wrong.out ||
+grep -q 'press: contact.muu: no such key; did you mean contact.mu? must be one of' wrong.out ||
     fail "message of a wrong key: $(cat wrong.out)"
 for cxx in c++ g++ clang++; do
     command -v "$cxx" >/dev/null || continue

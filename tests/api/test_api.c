@@ -30,7 +30,7 @@ static void test_set_and_get(void)
 static void test_refused(void)
 {
     static const char *const refused[][2] = {
-        {"contact.muu=1", "contact.muu: no such key; must be one of normal"},
+        {"contact.muu=1", "contact.muu: no such key; did you mean contact.mu? must be one of normal"},
         {"contact.mu=-1", "contact.mu = -1: must be between 0 and"},
         {"diameter=1 nm", "must be one of particles.diameter, die.diameter"},
         {"loading.until=3 kg", "units"},

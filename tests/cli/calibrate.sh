@@ -63,7 +63,7 @@ awk -F, 'BEGIN { print "p_MPa,density,density_error,lateral_ratio,lateral_ratio_
     truth/sweep.csv >more.csv
 # shellcheck disable=SC2086
 "$greenbody" calibrate $scene contact.mu=0.2 contact.alpha=0.3 --data more.csv \
-    --free contact.mu=0.04:0.4,contact.alpha=0.2:0.8 --replicas 4 --out fit >stdout 2>stderr
+    --free mu=0.04:0.4,contact.alpha=0.2:0.8 --replicas 4 --out fit >stdout 2>stderr
 is 'three quantities are fitted together' [ $? -eq 0 ]
 is 'each has its rows' awk -F, '
     { n[$8]++ } END { exit !(n["density"] == 7 && n["lateral_ratio"] == 1 &&

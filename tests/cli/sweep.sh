@@ -47,7 +47,7 @@ is 'replicas end when the error is small enough' \
 design() {
     "$greenbody" sweep p1-nobridge-38nm particles.count=100 structure.base=auto \
         'loading.until=5 MPa' numerics.fidelity=fast loading.unload_from= \
-        --design "$1" --vary contact.mu=0.1:0.4 --vary contact.alpha=0.2:0.5 \
+        --design "$1" --vary mu=0.1:0.4 --vary contact.alpha=0.2:0.5 \
         --replicas 3 --at '5 MPa' --out design >stdout 2>stderr
 }
 design sobol:8

@@ -156,7 +156,9 @@ static const struct {
     const char *said[3];
 } hostile[] = {
     {"[contact]\nmu = -1\n", 0, {":2: contact.mu = -1: must be between 0 and 2"}},
-    {"[contact]\n\n# x\nmuu = 1\n", 0, {":4: contact.muu: no such key; must be one of"}},
+    {"[contact]\n\n# x\nmuu = 1\n",
+     0,
+     {":4: contact.muu: no such key; did you mean contact.mu? must be one of"}},
     {"[contact]\nmu = 0.1 # no comments here\n", 0, {":2:", "must be between 0 and 2"}},
     {"[contact]\nmu = 0.1\n[x]\n[contact]\nmu = 0.2\n",
      0,

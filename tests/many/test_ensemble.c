@@ -258,7 +258,7 @@ static void test_axes_refuse(void)
                                       "contact.mu=0.1:0.2:3:lin",
                                       "contact.mu=0.1:x:3",
                                       "contact.nu=0.1;0.2",
-                                      "mu=0.1;0.2",
+                                      "nu=0.1;0.2",
                                       "particles.diameter=9.7;16",
                                       "particles.diameter=9.7 nm:16 um:3",
                                       "particles.diameter=1:2:3 MPa",

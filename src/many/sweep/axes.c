@@ -252,34 +252,12 @@ static bool add_design(struct gb_axes *axes, const char *text, const char *value
     return good;
 }
 
-/* A name without its group is answered with the keys of that name. */
-static bool refuse_key(const char *text, const char *name, struct gb_error *err)
+/* The row of "group.key", or of a key that only one group has, if it can be varied. */
+static const struct gb_field *find_field(const struct gb_axes *axes, const char *name,
+                                         struct gb_error *err)
 {
-    size_t count = 0;
-    const struct gb_field *fields = gb_params_fields(&count);
-    GString *meant = g_string_new(NULL);
-    for (size_t i = 0; i < count; i++) {
-        if (strcmp(fields[i].key, name) == 0) {
-            g_string_append_printf(meant, "%s%s.%s", meant->len > 0 ? " or " : "",
-                                   fields[i].group, name);
-        }
-    }
-    gb_error_set(err, GB_ERR_INPUT, "%.120s: no such key; accepted %s", text,
-                 meant->len > 0 ? meant->str : "what greenbody params lists");
-    g_string_free(meant, TRUE);
-    return false;
-}
-
-/* The row of "group.key" if it can be varied. */
-static const struct gb_field *find_field(const struct gb_axes *axes, const char *text,
-                                         const char *name, struct gb_error *err)
-{
-    char **words = g_strsplit(name, ".", 2);
-    const struct gb_field *field =
-        words[0] && words[1] ? gb_params_find(words[0], words[1]) : NULL;
-    g_strfreev(words);
+    const struct gb_field *field = gb_params_find_name(name, err);
     if (field == NULL) {
-        refuse_key(text, name, err);
         return NULL;
     }
     if (gb_key_difference_bookkeeping(field) || field->type == GB_FIELD_PRESSURES ||
@@ -311,7 +289,7 @@ bool gb_axes_add(struct gb_axes *axes, const char *text, struct gb_error *err)
                             text, GB_AXES_MOST);
     }
     char *name = g_strstrip(g_strndup(text, (gsize)(equals - text)));
-    const struct gb_field *field = find_field(axes, text, name, err);
+    const struct gb_field *field = find_field(axes, name, err);
     g_free(name);
     if (field == NULL) {
         return false;

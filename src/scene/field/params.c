@@ -5,6 +5,7 @@
 #include <glib.h>
 
 #include "scene/field/field.h"
+#include "scene/field/nearest_key.h"
 #include "scene/field/params_table.h"
 
 const struct gb_field *gb_params_fields(size_t *count)
@@ -57,6 +58,8 @@ char *gb_params_accepted(const struct gb_field *field, char *buffer, size_t size
 /* The message lists the keys of the group, or the groups when the group is unknown. */
 static bool unknown_key(const char *group, const char *key, struct gb_error *err)
 {
+    char *name = g_strconcat(group, ".", key, NULL);
+    char meant[128];
     GString *keys = g_string_new(NULL), *groups = g_string_new(NULL);
     const char *last = "";
     size_t count = 0;
@@ -70,8 +73,11 @@ static bool unknown_key(const char *group, const char *key, struct gb_error *err
             g_string_append_printf(groups, "%s%s", groups->len ? ", " : "", last);
         }
     }
-    gb_error_set(err, GB_ERR_INPUT, "%.40s.%.40s: no such %s; must be one of %s", group,
-                 key, keys->len ? "key" : "group", keys->len ? keys->str : groups->str);
+    gb_error_set(err, GB_ERR_INPUT, "%.40s.%.40s: no such %s; %smust be one of %s", group,
+                 key, keys->len ? "key" : "group",
+                 gb_nearest_key(name, meant, sizeof meant),
+                 keys->len ? keys->str : groups->str);
+    g_free(name);
     g_string_free(keys, TRUE);
     g_string_free(groups, TRUE);
     return false;
@@ -92,7 +98,9 @@ static const struct gb_field *find_short(const char *name, struct gb_error *err)
         }
     }
     if (matches == 0) {
-        gb_error_set(err, GB_ERR_INPUT, "%.80s: must be group.key=value", name);
+        char meant[128];
+        gb_error_set(err, GB_ERR_INPUT, "%.80s: no such key; %smust be group.key=value",
+                     name, gb_nearest_key(name, meant, sizeof meant));
     } else if (matches > 1) {
         gb_error_set(err, GB_ERR_INPUT, "%.80s: must be one of %s", name, found->str);
     }

@@ -91,11 +91,12 @@ static bool take_around(struct gb_free_key *key, const struct gb_params *params,
 static bool find_field(const struct gb_free_keys *keys, struct gb_free_key *key,
                        const char *name, struct gb_error *err)
 {
-    char **words = g_strsplit(name, ".", 2);
-    key->field = words[0] && words[1] ? gb_params_find(words[0], words[1]) : NULL;
-    g_strfreev(words);
+    key->field = gb_params_find_name(name, err);
+    if (key->field == NULL) {
+        return false;
+    }
     const bool fit =
-        key->field != NULL && !gb_key_difference_bookkeeping(key->field) &&
+        !gb_key_difference_bookkeeping(key->field) &&
         (key->field->type == GB_FIELD_NUMBER || key->field->type == GB_FIELD_RELATIVE);
     bool twice = false;
     for (size_t i = 0; i < keys->count; i++) {
