@@ -94,7 +94,7 @@ shows "C asks for the keys" 'Calibration to the measured'
 keys C-u
 keys -l 'contact.nu'
 keys Enter
-told "an unknown key is refused by name" 'contact.nu: accepted'
+told "an unknown key is refused by name" 'contact.nu: no such key'
 keys C
 keys C-u
 keys -l 'contact.mu=0.05:0.4'
