@@ -12,7 +12,7 @@ set -u
 source=$1
 shift
 bad=0
-layers="base hdf law scene pack solve measure io run many study api draw figures tui cli"
+layers="base hdf law scene pack solve measure io run many study api runner draw figures tui cli"
 
 # What each layer sees besides itself.  `draw`, `study` and `tui` stand beside each other.
 below() {
@@ -20,10 +20,11 @@ below() {
     case $1 in
     many | draw) echo "$core" ;;
     study) echo "$core many" ;;
-    tui) echo "$core many study" ;;
+    tui) echo "$core many study api runner" ;;
     figures) echo "$core many study draw" ;;
     api) echo "$core many study" ;;
-    cli) echo "$core many study api draw figures tui" ;;
+    runner) echo "$core many study api" ;;
+    cli) echo "$core many study api runner draw figures tui" ;;
     *) echo "${core%%"$1"*}" ;;
     esac
 }

@@ -13,6 +13,9 @@
 static bool may_continue(void *data, struct gb_error *err)
 {
     struct gb_simulation *simulation = data;
+    if (simulation->hooks.between_slices) {
+        simulation->hooks.between_slices(simulation->hooks.data);
+    }
     const char *reason = atomic_load(&simulation->reason);
     return reason == NULL || gb_error_set(err, GB_ERR_CANCELLED, "%s", reason);
 }
@@ -54,6 +57,20 @@ static void on_tick(void *data)
     call_progress(data);
 }
 
+static void on_end(void *data)
+{
+    struct gb_simulation *simulation = data;
+    if (simulation->hooks.on_end) {
+        simulation->hooks.on_end(simulation->hooks.data);
+    }
+}
+
+static bool on_record_error(void *data, const struct gb_error *err)
+{
+    const struct gb_simulation_hooks *hooks = &((struct gb_simulation *)data)->hooks;
+    return hooks->on_record_error && hooks->on_record_error(hooks->data, err);
+}
+
 /* Polled while the packing is built. */
 static bool packing_cancelled(void *data)
 {
@@ -74,6 +91,8 @@ static struct gb_simulation *allocate(struct gb_error *err)
                                             .on_event = on_event,
                                             .on_point = on_point,
                                             .on_tick = on_tick,
+                                            .on_end = on_end,
+                                            .on_record_error = on_record_error,
                                             .data = simulation};
     gb_run_loop_init(&simulation->loop, &hooks);
     atomic_init(&simulation->reason, NULL);
@@ -112,9 +131,48 @@ bool gb_simulation_create(struct gb_simulation **out,
     return gb_simulation_create_from(out, gb_preset_params(parameters->preset), err);
 }
 
+bool gb_simulation_create_fork(struct gb_simulation **out, const struct gb_params *params,
+                               struct gb_record *record, const struct gb_curve *curve,
+                               size_t points, struct gb_error *err)
+{
+    struct gb_simulation *simulation = NULL;
+    if (!gb_simulation_create_from(&simulation, params, err)) {
+        return false;
+    }
+    bool good = true;
+    for (size_t i = 0; good && i < points; i++) {
+        good = gb_curve_append(simulation->curve, gb_curve_at(curve, i), err);
+    }
+    simulation->begin = good ? gb_alloc_array(1, sizeof *record, err) : NULL;
+    if (!simulation->begin) {
+        gb_simulation_destroy(simulation);
+        return false;
+    }
+    simulation->origin = GB_SIMULATION_LOADED;
+    *simulation->begin = *record;
+    memset(record, 0, sizeof *record);
+    *out = simulation;
+    return true;
+}
+
+void gb_simulation_set_hooks(struct gb_simulation *simulation,
+                             const struct gb_simulation_hooks *hooks)
+{
+    simulation->hooks = *hooks;
+}
+
+static void drop_begin(struct gb_simulation *simulation)
+{
+    if (simulation->begin) {
+        gb_record_finish(simulation->begin);
+        gb_alloc_free(simulation->begin);
+        simulation->begin = NULL;
+    }
+}
+
 /* From the checkpoint; without one the first advance builds the packing. */
-static bool resume(struct gb_simulation *simulation, const char *directory,
-                   enum gb_run_recorder_from from, struct gb_error *err)
+bool gb_simulation_open(struct gb_simulation *simulation, const char *directory,
+                        enum gb_run_recorder_from from, struct gb_error *err)
 {
     struct gb_experiment *experiment = NULL;
     struct gb_run_loop *loop = &simulation->loop;
@@ -139,7 +197,7 @@ static bool create_resumed(struct gb_simulation **out, const char *directory,
                            enum gb_run_recorder_from from, struct gb_error *err)
 {
     struct gb_simulation *simulation = allocate(err);
-    if (!simulation || !resume(simulation, directory, from, err)) {
+    if (!simulation || !gb_simulation_open(simulation, directory, from, err)) {
         gb_simulation_destroy(simulation);
         return false;
     }
@@ -159,6 +217,14 @@ bool gb_simulation_resume_before(struct gb_simulation **out, const char *directo
     return create_resumed(out, directory, GB_RUN_RECORDER_BEFORE, err);
 }
 
+void gb_simulation_release(struct gb_simulation *simulation)
+{
+    gb_array_forget(&simulation->packing);
+    simulation->packing.experiment = NULL;
+    drop_begin(simulation);
+    gb_run_loop_finish(&simulation->loop);
+}
+
 void gb_simulation_destroy(struct gb_simulation *simulation)
 {
     if (!simulation) {
@@ -167,9 +233,9 @@ void gb_simulation_destroy(struct gb_simulation *simulation)
     simulation->on_point = NULL;
     simulation->on_event = NULL;
     simulation->on_progress = NULL;
+    simulation->hooks = (struct gb_simulation_hooks){0};
     gb_run_loop_leave(&simulation->loop);
-    gb_array_forget(&simulation->packing);
-    gb_run_loop_finish(&simulation->loop);
+    gb_simulation_release(simulation);
     gb_curve_destroy(simulation->curve);
     g_free(simulation->directory);
     gb_alloc_free(simulation);
@@ -177,10 +243,11 @@ void gb_simulation_destroy(struct gb_simulation *simulation)
 
 /* --- the record ------------------------------------------------------------------ */
 
-bool gb_simulation_start_record(struct gb_simulation *simulation, struct gb_error *err)
+bool gb_simulation_start_record(struct gb_simulation *simulation, const char *directory,
+                                enum gb_rundir_mode mode, struct gb_error *err)
 {
-    return gb_run_recorder_create(&simulation->loop.recorder, simulation->directory,
-                                  &simulation->params, simulation->mode, err);
+    return gb_run_recorder_create(&simulation->loop.recorder, directory,
+                                  &simulation->params, mode, err);
 }
 
 bool gb_simulation_record(struct gb_simulation *simulation, const char *directory,
@@ -245,19 +312,24 @@ bool gb_simulation_build(struct gb_simulation *simulation, struct gb_error *err)
     if (simulation->loop.experiment) {
         return true;
     }
-    if (!gb_experiment_create(&experiment, &simulation->params, packing_cancelled,
-                              simulation, err)) {
-        return false;
+    const bool good =
+        simulation->begin
+            ? gb_experiment_resume(&experiment, &simulation->params, simulation->begin, err)
+            : gb_experiment_create(&experiment, &simulation->params, packing_cancelled,
+                                   simulation, err);
+    drop_begin(simulation);
+    if (good) {
+        attach(simulation, experiment);
     }
-    attach(simulation, experiment);
-    return true;
+    return good;
 }
 
 static bool begin(struct gb_simulation *simulation, struct gb_error *err)
 {
     return gb_simulation_build(simulation, err) &&
            (!simulation->directory || simulation->loop.recorder ||
-            gb_simulation_start_record(simulation, err));
+            gb_simulation_start_record(simulation, simulation->directory, simulation->mode,
+                                       err));
 }
 
 static bool has_ended(const struct gb_simulation *simulation)

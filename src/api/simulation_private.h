@@ -14,6 +14,15 @@ enum gb_simulation_origin {
     GB_SIMULATION_LOADED   /* from a state */
 };
 
+/* What the engine thread of the workbench needs besides the callbacks.  Each may be NULL. */
+struct gb_simulation_hooks {
+    /* Before each slice; may wait (gb_run_loop_exclude) and cancel. */
+    void (*between_slices)(void *data);
+    void (*on_end)(void *data);                                      /* as in the loop */
+    bool (*on_record_error)(void *data, const struct gb_error *err); /* as in the loop */
+    void *data;
+};
+
 /* The inside of gb_simulation. */
 struct gb_simulation {
     struct gb_params params;
@@ -22,6 +31,7 @@ struct gb_simulation {
     struct gb_array_source packing; /* of the experiment, for arrays */
     enum gb_simulation_origin origin;
     enum gb_run_outcome outcome; /* of the last advance */
+    struct gb_record *begin;     /* the state of GB_SIMULATION_LOADED, until it is built */
     char *directory;             /* of the records, before the recorder; NULL: none */
     enum gb_rundir_mode mode;
     char resumed[96];  /* event of the next advance; empty: none */
@@ -36,14 +46,28 @@ struct gb_simulation {
     void (*on_progress)(void *data, struct gb_simulation *simulation, double share);
     void *progress_data;
     double interval, called_s; /* of on_progress: s, clock reading */
+    struct gb_simulation_hooks hooks;
 };
 
 /* For the commands of the program: parameters as the engine has them.  Errors as of
  * gb_simulation_create. */
 bool gb_simulation_create_from(struct gb_simulation **out, const struct gb_params *params,
                                struct gb_error *err);
-/* Builds the packing of a new simulation, and the recorder where it is to be recorded. */
+/* From a state in memory with the points up to it, which begin the curve; the first advance
+ * reads the record, whose members move into the simulation.  Errors: as above. */
+bool gb_simulation_create_fork(struct gb_simulation **out, const struct gb_params *params,
+                               struct gb_record *record, const struct gb_curve *curve,
+                               size_t points, struct gb_error *err);
+/* Opens a recorded run in a simulation of its parameters, as gb_simulation_resume does. */
+bool gb_simulation_open(struct gb_simulation *simulation, const char *directory,
+                        enum gb_run_recorder_from from, struct gb_error *err);
+void gb_simulation_set_hooks(struct gb_simulation *simulation,
+                             const struct gb_simulation_hooks *hooks);
+/* Builds the packing of a new simulation, and the recorder in its directory. */
 bool gb_simulation_build(struct gb_simulation *simulation, struct gb_error *err);
-bool gb_simulation_start_record(struct gb_simulation *simulation, struct gb_error *err);
+bool gb_simulation_start_record(struct gb_simulation *simulation, const char *directory,
+                                enum gb_rundir_mode mode, struct gb_error *err);
+/* Frees packing and recorder, which unlocks the directory; points stay. */
+void gb_simulation_release(struct gb_simulation *simulation);
 
 #endif

@@ -10,7 +10,7 @@
 #include "cli/screen_options.h"
 #include "cli/signals.h"
 #include "io/rundir.h"
-#include "run/runner/runner.h"
+#include "runner/runner.h"
 #include "tui/app/app.h"
 #include "tui/term/term_profile.h"
 #include "tui/watch/runset_files.h"

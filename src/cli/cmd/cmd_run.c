@@ -104,7 +104,9 @@ static bool estimate(struct run *run, char *line, size_t size, struct gb_error *
 
 static bool start_record(struct run *run, struct gb_error *err)
 {
-    return gb_simulation_start_record(run->foreground.simulation, err) &&
+    return gb_simulation_start_record(run->foreground.simulation, run->directory,
+                                      run->replace ? GB_RUNDIR_REPLACE : GB_RUNDIR_KEEP,
+                                      err) &&
            gb_warmup_record(&run->warmup, loop_of(run)->recorder, err);
 }
 

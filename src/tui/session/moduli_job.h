@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 #include "run/moduli_states.h"
-#include "run/runner/runner.h"
+#include "runner/runner.h"
 #include "tui/session/child_command.h"
 
 /* Elastic moduli of the run shown: `greenbody moduli DIR --out DIR` as a child command, after

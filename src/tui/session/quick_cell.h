@@ -1,7 +1,7 @@
 #ifndef GB_TUI_SESSION_QUICK_CELL_H
 #define GB_TUI_SESSION_QUICK_CELL_H
 
-#include "run/runner/runner.h"
+#include "runner/runner.h"
 
 /* The quick cell of the edited parameters: a second engine that computes a whole loading
  * curve in about two seconds (run/quick.h), before or beside the full run. */

@@ -4,7 +4,7 @@
 #include "io/lab/lab_reader.h"
 #include "io/measured.h"
 #include "io/preset.h"
-#include "run/runner/runner.h"
+#include "runner/runner.h"
 #include "tui/session/child_command.h"
 #include "tui/session/moduli_job.h"
 #include "tui/session/overlay/chart_csv.h"

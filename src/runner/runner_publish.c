@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "run/runner/runner_private.h"
-#include "run/runner/view_sample.h"
+#include "runner/runner_private.h"
+#include "runner/view_sample.h"
 
 /* The screen draws at most ten frames per second, and each snapshot costs a sweep over
  * the contacts: the shortest interval (s), and the largest share of the engine's time. */
@@ -34,7 +34,7 @@ void gb_runner_publish_event(struct gb_runner *runner, const char *text)
 void gb_runner_publish_snapshot(struct gb_runner *runner)
 {
     struct gb_snapshot *shown = gb_publish_back(&runner->publish);
-    *shown = runner->loop.snapshot;
+    *shown = gb_runner_loop(runner)->snapshot;
     pthread_mutex_lock(&runner->mutex);
     shown->events = runner->events;
     if (runner->events > 0) {
@@ -49,7 +49,7 @@ void gb_runner_publish_snapshot(struct gb_runner *runner)
 static void observe(struct gb_runner *runner, enum gb_run_state state)
 {
     const double before = gb_clock_s();
-    gb_run_loop_observe(&runner->loop, state);
+    gb_run_loop_observe(gb_runner_loop(runner), state);
     runner->publish_cost_s = gb_clock_s() - before;
     gb_runner_publish_snapshot(runner);
 }
@@ -57,10 +57,10 @@ static void observe(struct gb_runner *runner, enum gb_run_state state)
 void gb_runner_publish_view(struct gb_runner *runner)
 {
     const double before = gb_clock_s();
-    if (runner->loop.experiment == NULL || !runner->view_wanted) {
+    if (gb_runner_loop(runner)->experiment == NULL || !runner->view_wanted) {
         return;
     }
-    gb_view_sample_take(runner->loop.experiment, &runner->view[runner->view_slots.back]);
+    gb_view_sample_take(gb_runner_loop(runner)->experiment, &runner->view[runner->view_slots.back]);
     gb_publish_slots_swap(&runner->view_slots);
     runner->sampled_s = gb_clock_s();
     runner->sample_cost_s = runner->sampled_s - before;

@@ -1,5 +1,5 @@
-#ifndef GB_RUN_RUNNER_RUNNER_H
-#define GB_RUN_RUNNER_RUNNER_H
+#ifndef GB_RUNNER_RUNNER_H
+#define GB_RUNNER_RUNNER_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 #include "greenbody/params.h"
 #include "greenbody/snapshot.h"
 #include "io/state/state.h"
-#include "run/runner/publish.h"
+#include "runner/publish.h"
 
 /* One experiment in a background thread, which blocks all signals. */
 struct gb_runner;

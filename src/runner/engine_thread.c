@@ -6,7 +6,10 @@
 #include "io/follow.h"
 #include "io/rundir.h"
 #include "run/checkpoint.h"
-#include "run/runner/runner_private.h"
+#include "runner/runner_private.h"
+
+/* The reason of GB_COMMAND_STOP. */
+static const char stopped[] = "stopped on request";
 
 static void obey(struct gb_runner *runner, struct gb_command command)
 {
@@ -52,7 +55,7 @@ void gb_engine_thread_drain(struct gb_runner *runner)
 /* A run without a recorded point has no state to store yet. */
 static bool store_is_due(const struct gb_runner *runner)
 {
-    const struct gb_run_recorder *recorder = runner->loop.recorder;
+    const struct gb_run_recorder *recorder = gb_runner_loop(runner)->recorder;
     return runner->store_wanted &&
            (recorder == NULL || gb_run_recorder_points(recorder) > 0);
 }
@@ -60,7 +63,7 @@ static bool store_is_due(const struct gb_runner *runner)
 static void store_if_due(struct gb_runner *runner)
 {
     if (store_is_due(runner)) {
-        gb_run_loop_store(&runner->loop);
+        gb_run_loop_store(gb_runner_loop(runner));
         gb_runner_publish_stored(runner);
     }
 }
@@ -85,14 +88,14 @@ static void sleep_while(struct gb_runner *runner, const bool *reason)
         }
     }
     pthread_mutex_unlock(&runner->mutex);
-    gb_run_loop_exclude(&runner->loop, gb_clock_s() - from);
+    gb_run_loop_exclude(gb_runner_loop(runner), gb_clock_s() - from);
 }
 
 static void sleep_paused(struct gb_runner *runner)
 {
     gb_runner_publish_event(runner, "paused");
     gb_runner_publish_state(runner, GB_RUN_PAUSED);
-    gb_run_loop_save(&runner->loop);
+    gb_run_loop_save(gb_runner_loop(runner));
     sleep_while(runner, &runner->paused);
     if (!runner->stop) {
         gb_runner_publish_event(runner, "resumed");
@@ -100,9 +103,16 @@ static void sleep_paused(struct gb_runner *runner)
     }
 }
 
-/* --- hooks of the loop ----------------------------------------------------------- */
+/* --- hooks and callbacks of the simulation ----------------------------------------- */
 
-static bool may_continue(void *data, struct gb_error *err)
+static void cancel_if_stopped(struct gb_runner *runner)
+{
+    if (runner->stop) {
+        gb_simulation_cancel(runner->simulation, stopped);
+    }
+}
+
+static void between_slices(void *data)
 {
     struct gb_runner *runner = data;
     gb_engine_thread_drain(runner);
@@ -113,11 +123,13 @@ static bool may_continue(void *data, struct gb_error *err)
     if (runner->paused && !runner->stop) {
         sleep_paused(runner);
     }
-    return !runner->stop || gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
+    cancel_if_stopped(runner);
 }
 
-static void on_event(void *data, int64_t step, const char *text)
+static void on_event(void *data, struct gb_simulation *simulation, int64_t step,
+                     const char *text)
 {
+    (void)simulation;
     (void)step;
     gb_runner_publish_event(data, text);
 }
@@ -139,7 +151,7 @@ static void hand_over(struct gb_runner *runner, const struct gb_point *point)
     if (!runner->fork_wanted || point->branch > 0 || forked) {
         return;
     }
-    if (!gb_checkpoint_take(runner->loop.experiment, &runner->record, &err)) {
+    if (!gb_checkpoint_take(gb_runner_loop(runner)->experiment, &runner->record, &err)) {
         runner->fork_wanted = false;
         gb_runner_publish_event(runner, err.text);
         return;
@@ -150,24 +162,30 @@ static void hand_over(struct gb_runner *runner, const struct gb_point *point)
     runner->fork_wanted = false;
     pthread_mutex_lock(&runner->mutex);
     runner->forked = true;
-    runner->forked_points = gb_curve_count(runner->curve);
+    runner->forked_points = gb_simulation_points(runner->simulation);
     pthread_mutex_unlock(&runner->mutex);
 }
 
-static bool on_point(void *data, const struct gb_point *point, struct gb_error *err)
+static void on_point(void *data, struct gb_simulation *simulation,
+                     const struct gb_point *point)
 {
-    struct gb_runner *runner = data;
-    if (!gb_curve_append(runner->curve, point, err)) {
-        return false;
-    }
-    hand_over(runner, point);
-    return true;
+    (void)simulation;
+    hand_over(data, point);
 }
 
-static void on_tick(void *data)
+/* Also while the packing is built. */
+static void on_progress(void *data, struct gb_simulation *simulation, double share)
 {
-    gb_runner_publish_view_if_due(data);
-    gb_runner_publish_if_due(data, GB_RUN_RUNNING);
+    struct gb_runner *runner = data;
+    (void)share;
+    if (simulation->loop.experiment == NULL) {
+        gb_engine_thread_drain(runner);
+        gb_runner_publish_if_due(runner, GB_RUN_PACKING);
+        cancel_if_stopped(runner);
+        return;
+    }
+    gb_runner_publish_view_if_due(runner);
+    gb_runner_publish_if_due(runner, GB_RUN_RUNNING);
 }
 
 static void on_end(void *data)
@@ -187,32 +205,6 @@ static bool on_record_error(void *data, const struct gb_error *err)
 
 /* --- the beginning --------------------------------------------------------------- */
 
-/* Polled while the packing is built. */
-static bool packing_cancelled(void *data)
-{
-    struct gb_runner *runner = data;
-    gb_engine_thread_drain(runner);
-    gb_runner_publish_if_due(runner, GB_RUN_PACKING);
-    return runner->stop;
-}
-
-static bool create_experiment(struct gb_runner *runner, struct gb_error *err)
-{
-    struct gb_experiment *experiment = NULL;
-    bool good;
-    if (runner->origin == NULL) {
-        good = gb_experiment_create(&experiment, &runner->params, packing_cancelled,
-                                    runner, err);
-    } else {
-        good = gb_experiment_resume(&experiment, &runner->params, runner->origin, err);
-        gb_record_finish(runner->origin);
-    }
-    if (good) {
-        gb_run_loop_attach(&runner->loop, experiment);
-    }
-    return good;
-}
-
 /* A new run in a new directory; without one it is not recorded. */
 static void create_recorder(struct gb_runner *runner)
 {
@@ -221,60 +213,39 @@ static void create_recorder(struct gb_runner *runner)
     if (runner->directory == NULL) {
         return;
     }
-    if (gb_run_recorder_create(&runner->loop.recorder, runner->directory, &runner->params,
-                               GB_RUNDIR_KEEP, &err)) {
+    if (gb_simulation_start_record(runner->simulation, runner->directory, GB_RUNDIR_KEEP,
+                                   &err)) {
         snprintf(text, sizeof text, "recorded in %s", runner->directory);
     } else {
         snprintf(text, sizeof text, "not recorded: %s", err.text);
     }
     gb_runner_publish_event(runner, text);
-    gb_run_loop_inherit(&runner->loop, runner->curve);
+    gb_run_loop_inherit(gb_runner_loop(runner), gb_runner_curve(runner));
 }
 
 /* The engine that holds the lock has been told to stop. */
 static bool wait_for_lock(struct gb_runner *runner, struct gb_error *err)
 {
     while (gb_rundir_busy(runner->directory)) {
-        if (packing_cancelled(runner)) {
-            return gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
+        gb_engine_thread_drain(runner);
+        gb_runner_publish_if_due(runner, GB_RUN_PACKING);
+        if (runner->stop) {
+            return gb_error_set(err, GB_ERR_CANCELLED, "%s", stopped);
         }
         g_usleep(50000);
     }
     return true;
 }
 
-/* From the checkpoint; without one from the beginning. */
-static bool resume(struct gb_runner *runner, struct gb_error *err)
-{
-    char text[96];
-    struct gb_run_loop *loop = &runner->loop;
-    struct gb_experiment *experiment = NULL;
-    if (!wait_for_lock(runner, err) ||
-        !gb_run_recorder_resume(&loop->recorder, &experiment, runner->directory,
-                                GB_RUN_RECORDER_LAST, err)) {
-        return false;
-    }
-    if (experiment == NULL) {
-        return gb_follow_curve(runner->directory, &runner->params, runner->curve, err) &&
-               create_experiment(runner, err);
-    }
-    gb_run_loop_set_seconds(loop, gb_run_recorder_seconds(loop->recorder));
-    gb_run_loop_attach(loop, experiment);
-    if (!gb_follow_curve(runner->directory, &runner->params, runner->curve, err)) {
-        return false;
-    }
-    snprintf(text, sizeof text, "resumed from the checkpoint of step %lld",
-             (long long)gb_experiment_point(experiment)->step);
-    gb_run_loop_event(loop, text);
-    return true;
-}
-
 static bool begin(struct gb_runner *runner, struct gb_error *err)
 {
     if (runner->resumed) {
-        return resume(runner, err);
+        return wait_for_lock(runner, err) &&
+               gb_simulation_open(runner->simulation, runner->directory,
+                                  GB_RUN_RECORDER_LAST, err) &&
+               gb_simulation_build(runner->simulation, err);
     }
-    if (!create_experiment(runner, err)) {
+    if (!gb_simulation_build(runner->simulation, err)) {
         return false;
     }
     create_recorder(runner);
@@ -283,32 +254,38 @@ static bool begin(struct gb_runner *runner, struct gb_error *err)
 
 static void fail_to_begin(struct gb_runner *runner, const struct gb_error *err)
 {
-    gb_run_loop_finish(&runner->loop);
-    gb_run_loop_observe(&runner->loop, gb_run_loop_state(gb_run_loop_outcome(err)));
-    runner->loop.snapshot.error = *err;
+    struct gb_run_loop *loop = gb_runner_loop(runner);
+    gb_simulation_release(runner->simulation);
+    gb_run_loop_observe(loop, gb_run_loop_state(gb_run_loop_outcome(err)));
+    loop->snapshot.error = *err;
     gb_runner_publish_snapshot(runner);
+}
+
+static void listen(struct gb_runner *runner)
+{
+    struct gb_simulation *simulation = runner->simulation;
+    gb_simulation_on_event(simulation, on_event, runner);
+    gb_simulation_on_point(simulation, on_point, runner);
+    gb_simulation_on_progress(simulation, on_progress, runner, 0.0);
+    gb_simulation_set_hooks(
+        simulation, &(struct gb_simulation_hooks){.between_slices = between_slices,
+                                                  .on_end = on_end,
+                                                  .on_record_error = on_record_error,
+                                                  .data = runner});
 }
 
 void *gb_engine_thread(void *data)
 {
     struct gb_runner *runner = data;
     struct gb_error err = {0};
-    runner->loop.hooks = (struct gb_run_loop_hooks){
-        .may_continue = may_continue,
-        .on_event = on_event,
-        .on_point = on_point,
-        .on_tick = on_tick,
-        .on_end = on_end,
-        .on_record_error = on_record_error,
-        .data = runner,
-    };
+    listen(runner);
     if (!begin(runner, &err)) {
         fail_to_begin(runner, &err);
         return NULL;
     }
     gb_runner_publish_state(runner, GB_RUN_RUNNING);
-    (void)gb_run_loop_run(&runner->loop); /* the result is in the snapshot */
-    gb_runner_publish_snapshot(runner);   /* with an event of the last files */
-    gb_run_loop_finish(&runner->loop);    /* the lock of the directory goes with it */
+    (void)gb_simulation_advance(runner->simulation, INT64_MAX, &err); /* in the snapshot */
+    gb_runner_publish_snapshot(runner); /* with an event of the last files */
+    gb_simulation_release(runner->simulation);
     return NULL;
 }

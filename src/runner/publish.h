@@ -1,5 +1,5 @@
-#ifndef GB_RUN_RUNNER_PUBLISH_H
-#define GB_RUN_RUNNER_PUBLISH_H
+#ifndef GB_RUNNER_PUBLISH_H
+#define GB_RUNNER_PUBLISH_H
 
 #include <stdatomic.h>
 #include <stdbool.h>

@@ -1,13 +1,13 @@
-#ifndef GB_RUN_RUNNER_PRIVATE_H
-#define GB_RUN_RUNNER_PRIVATE_H
+#ifndef GB_RUNNER_PRIVATE_H
+#define GB_RUNNER_PRIVATE_H
 
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "run/run_loop.h"
-#include "run/runner/publish.h"
-#include "run/runner/runner.h"
+#include "api/simulation_private.h"
+#include "runner/publish.h"
+#include "runner/runner.h"
 
 /* Members of gb_runner, for runner.c (creation, calls of the screen's thread),
  * engine_thread.c and follow_thread.c (the two threads) and runner_publish.c (what the
@@ -18,7 +18,7 @@ enum { GB_RUNNER_EVENTS = 256 }; /* the last ones are kept */
 struct gb_runner {
     /* const once the thread runs */
     struct gb_params params;
-    struct gb_curve *curve;
+    struct gb_simulation *simulation; /* of the thread, except for the curve */
     char *directory; /* NULL: not recorded */
     bool resumed;    /* continues the run in its directory */
     pthread_t thread;
@@ -41,13 +41,11 @@ struct gb_runner {
     char event[GB_RUNNER_EVENTS][GB_EVENT_TEXT];
 
     /* of the thread alone */
-    struct gb_run_loop loop;
     bool paused, stop;
     bool yielded;             /* sleeps while another engine computes */
     bool view_wanted;         /* view samples are taken */
     bool store_wanted;        /* state.h5 is written between two slices */
     bool fork_wanted;         /* the state of the next loading point is handed over */
-    struct gb_record *origin; /* state that the run begins with; NULL: a new packing */
     double published_s, publish_cost_s; /* clock reading; seconds that filling took */
     double sampled_s, sample_cost_s;    /* the same of the view sample */
 };
@@ -55,6 +53,9 @@ struct gb_runner {
 /* The threads' work, for gb_thread_start; data is the runner. */
 void *gb_engine_thread(void *data);
 void *gb_follow_thread(void *data);
+
+/* What the simulation keeps of the run. */
+struct gb_run_loop *gb_runner_loop(const struct gb_runner *runner);
 
 /* Takes all commands from the ring. */
 void gb_engine_thread_drain(struct gb_runner *runner);

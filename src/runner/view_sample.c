@@ -1,4 +1,4 @@
-#include "run/runner/view_sample.h"
+#include "runner/view_sample.h"
 
 #include <math.h>
 #include <string.h>

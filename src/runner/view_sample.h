@@ -1,5 +1,5 @@
-#ifndef GB_RUN_RUNNER_VIEW_SAMPLE_H
-#define GB_RUN_RUNNER_VIEW_SAMPLE_H
+#ifndef GB_RUNNER_VIEW_SAMPLE_H
+#define GB_RUNNER_VIEW_SAMPLE_H
 
 #include "greenbody/snapshot.h"
 #include "run/experiment.h"

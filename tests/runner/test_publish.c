@@ -1,7 +1,7 @@
 #include <glib.h>
 #include <string.h>
 
-#include "run/runner/publish.h"
+#include "runner/publish.h"
 
 /* Two threads hammer the buffer; built with -Db_sanitize=thread this also proves that the
  * atomics are enough. */

@@ -1,4 +1,4 @@
-#include "run/runner/runner.h"
+#include "runner/runner.h"
 #include "run/change.h"
 
 #include <glib.h>
@@ -10,44 +10,47 @@
 #include "io/follow.h"
 #include "io/rundir.h"
 #include "run/checkpoint.h"
-#include "run/runner/runner_private.h"
+#include "runner/runner_private.h"
 #include "scene/field/changes.h"
 
 static void free_runner(struct gb_runner *runner)
 {
     gb_record_finish(&runner->record);
-    if (runner->origin != NULL) {
-        gb_record_finish(runner->origin);
-        gb_alloc_free(runner->origin);
-    }
-    gb_run_loop_finish(&runner->loop);
+    gb_simulation_destroy(runner->simulation);
     g_free(runner->directory);
-    gb_curve_destroy(runner->curve);
     gb_alloc_free(runner);
+}
+
+/* The simulation belongs to the runner, also where there is none. */
+static struct gb_runner *wrap(struct gb_simulation *simulation, const char *directory,
+                              struct gb_error *err)
+{
+    struct gb_runner *runner = gb_alloc_array(1, sizeof *runner, err);
+    if (runner == NULL) {
+        gb_simulation_destroy(simulation);
+        return NULL;
+    }
+    runner->simulation = simulation;
+    runner->params = simulation->params;
+    runner->directory = g_strdup(directory);
+    gb_publish_init(&runner->publish);
+    gb_publish_slots_init(&runner->view_slots);
+    gb_command_ring_init(&runner->ring);
+    return runner;
 }
 
 static struct gb_runner *create(const struct gb_params *params, const char *directory,
                                 struct gb_error *err)
 {
-    struct gb_model model;
-    if (!gb_params_check(params, err) || !gb_model_init(&model, params, err)) {
-        return NULL;
-    }
-    struct gb_runner *runner = gb_alloc_array(1, sizeof *runner, err);
-    if (runner == NULL) {
-        return NULL;
-    }
-    if (!gb_curve_create(&runner->curve, err)) {
-        gb_alloc_free(runner);
-        return NULL;
-    }
-    runner->params = *params;
-    runner->directory = g_strdup(directory);
-    gb_publish_init(&runner->publish);
-    gb_publish_slots_init(&runner->view_slots);
-    gb_command_ring_init(&runner->ring);
-    gb_run_loop_init(&runner->loop, &(struct gb_run_loop_hooks){0});
-    return runner;
+    struct gb_simulation *simulation = NULL;
+    return gb_simulation_create_from(&simulation, params, err)
+               ? wrap(simulation, directory, err)
+               : NULL;
+}
+
+struct gb_run_loop *gb_runner_loop(const struct gb_runner *runner)
+{
+    return &runner->simulation->loop;
 }
 
 static bool launch(struct gb_runner **out, struct gb_runner *runner,
@@ -96,25 +99,16 @@ bool gb_runner_create_fork(struct gb_runner **out, const char *changes,
         !gb_change_allowed(&parent->params, &changed, step, err)) {
         return false;
     }
-    struct gb_runner *runner = create(&changed, directory, err);
-    if (runner == NULL) {
+    struct gb_simulation *simulation = NULL;
+    if (!gb_simulation_create_fork(&simulation, &changed, &parent->record,
+                                   gb_runner_curve(parent), parent->forked_points, err)) {
         return false;
     }
-    bool good = true;
-    for (size_t i = 0; good && i < parent->forked_points; i++) {
-        good = gb_curve_append(runner->curve, gb_curve_at(parent->curve, i), err);
-    }
-    runner->origin = good ? gb_alloc_array(1, sizeof *runner->origin, err) : NULL;
-    if (runner->origin == NULL) {
-        free_runner(runner);
-        return false;
-    }
-    *runner->origin = parent->record;
     pthread_mutex_lock(&parent->mutex);
-    memset(&parent->record, 0, sizeof parent->record);
     parent->forked = false;
     pthread_mutex_unlock(&parent->mutex);
-    return launch(out, runner, gb_engine_thread, err);
+    struct gb_runner *runner = wrap(simulation, directory, err);
+    return runner != NULL && launch(out, runner, gb_engine_thread, err);
 }
 
 bool gb_runner_create_in(struct gb_runner **out, const struct gb_params *params,
@@ -210,7 +204,7 @@ const struct gb_view_sample *gb_runner_view_sample(struct gb_runner *runner,
 
 const struct gb_curve *gb_runner_curve(const struct gb_runner *runner)
 {
-    return runner->curve;
+    return runner->simulation->curve;
 }
 
 const struct gb_params *gb_runner_params(const struct gb_runner *runner)

@@ -9,7 +9,7 @@
 #include "common/scene.h"
 #include "many/single_run.h"
 #include "pack/kernel/simd.h"
-#include "run/runner/runner.h"
+#include "runner/runner.h"
 
 /* Options of a run; all eight combinations, each on another number of threads. */
 enum { RESUMED = 1, SCREEN = 2, SNAPSHOTS = 4, COMBINATIONS = 8 };

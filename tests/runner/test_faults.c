@@ -12,7 +12,7 @@
 #include "hdf/hdf_record.h"
 #include "io/rundir.h"
 #include "many/single_run.h"
-#include "run/runner/runner.h"
+#include "runner/runner.h"
 
 static struct gb_params scene(void)
 {

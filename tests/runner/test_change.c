@@ -8,7 +8,7 @@
 #include "common/scene.h"
 #include "pack/cell/world.h"
 #include "run/checkpoint.h"
-#include "run/runner/runner.h"
+#include "runner/runner.h"
 #include "scene/field/changes.h"
 
 enum { BEFORE = 100, BEHIND = 20 };

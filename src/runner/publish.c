@@ -1,4 +1,4 @@
-#include "run/runner/publish.h"
+#include "runner/publish.h"
 
 #include <string.h>
 

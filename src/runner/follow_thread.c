@@ -3,7 +3,7 @@
 #include "base/clock.h"
 #include "io/follow.h"
 #include "io/rundir.h"
-#include "run/runner/runner_private.h"
+#include "runner/runner_private.h"
 
 /* Interval between two readings of the directory, s. */
 static const double follow_every_s = 0.4;
@@ -13,21 +13,21 @@ static const double silence_s = 5.0;
 /* Reads the directory into the snapshot and the curve.  True: its engine is gone. */
 static bool read_run(struct gb_runner *runner)
 {
-    struct gb_snapshot *shown = &runner->loop.snapshot;
+    struct gb_snapshot *shown = &gb_runner_loop(runner)->snapshot;
     const int64_t events = shown->events;
     struct gb_follow_engine engine = {0};
     struct gb_error err = {0};
     if (!gb_follow_status(runner->directory, shown, &engine, &err) ||
-        !gb_follow_curve(runner->directory, &runner->params, runner->curve, &err)) {
+        !gb_follow_curve(runner->directory, &runner->params, runner->simulation->curve, &err)) {
         if (shown->error.code == GB_OK) {
             gb_runner_publish_event(runner, err.text);
         }
         shown->error = err;
     }
-    const size_t points = gb_curve_count(runner->curve);
+    const size_t points = gb_curve_count(runner->simulation->curve);
     shown->now_valid = points > 0;
     if (points > 0) {
-        shown->now = *gb_curve_at(runner->curve, points - 1);
+        shown->now = *gb_curve_at(runner->simulation->curve, points - 1);
     }
     if (shown->events > events && shown->event[0] != '\0') {
         gb_runner_publish_event(runner, shown->event);
@@ -37,7 +37,7 @@ static bool read_run(struct gb_runner *runner)
 
 static void lose_directory(struct gb_runner *runner)
 {
-    struct gb_snapshot *shown = &runner->loop.snapshot;
+    struct gb_snapshot *shown = &gb_runner_loop(runner)->snapshot;
     gb_error_set(&shown->error, GB_ERR_MACHINE,
                  "%s: was moved or removed while it was shown", runner->directory);
     gb_runner_publish_event(runner, shown->error.text);
@@ -49,7 +49,7 @@ static void lose_directory(struct gb_runner *runner)
  * changed_s  clock reading at the last change of the status */
 static bool refresh(struct gb_runner *runner, double *changed_s)
 {
-    struct gb_snapshot *shown = &runner->loop.snapshot;
+    struct gb_snapshot *shown = &gb_runner_loop(runner)->snapshot;
     const double seconds = shown->seconds;
     const enum gb_run_state state = shown->state;
     if (!g_file_test(runner->directory, G_FILE_TEST_IS_DIR)) {
