@@ -218,7 +218,7 @@ static bool freeze_path(struct gb_model *model, const struct gb_params *params,
     for (int l = 0; l < model->path.count; l++) {
         scale_leg(&model->path.leg[l], params->young_pa);
     }
-    model->sheared = gb_path_sheared(&model->path);
+    model->sheared = model->sheared || gb_path_sheared(&model->path);
     model->collapse_strains = params->on_collapse == GB_COLLAPSE_STRAIN;
     return true;
 }
@@ -295,6 +295,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
     if (gb_imported_given(params) && !model->packing) {
         return false;
     }
+    model->sheared = model->packing && gb_imported_tilted(model->packing);
     gb_loading_kind_of(params)->freeze(model, params);
     if (!freeze_sizes(model, params, err) || !freeze_path(model, params, err)) {
         return false;
@@ -303,7 +304,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         return gb_error_set(
             err, GB_ERR_INPUT,
             "numerics.precision = single: must be auto or double unless the scene is "
-            "quasi-static, in 3D, of one particle size and without shear");
+            "quasi-static, in 3D, of one particle size and without shear or tilts");
     }
     freeze_laws(model, params);
     if (!gb_loading_kind_of(params)->periodic_cell) {

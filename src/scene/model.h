@@ -113,7 +113,7 @@ struct gb_model {
     double adhesion;    /* f_a(d), E d^2 */
     double force_floor; /* least force scale of the stopping rule, E d^2 */
     struct gb_numerics numerics;
-    bool sheared;          /* the loading tilts the cell: double precision */
+    bool sheared;          /* the cell is or will be tilted: double precision */
     struct gb_path path;   /* loading path, stresses over E; no legs: the next ones */
     bool collapse_strains; /* where a stress cannot be held, strain goes on */
     int geometry;          /* enum gb_geometry */

@@ -101,6 +101,56 @@ in_patience "$greenbody" sweep default structure.from=lammps.data --vary contact
 is 'replicas of one packing are refused' [ $? -eq 2 ]
 is 'with the reason' grep -q 'replicas: must be 1 with structure.from' stderr
 
+# --- tilted cells -----------------------------------------------------------------------------
+# Twice the cell of a packing, along x: in a box, and in cells of the same lattice of images
+# with a tilt.  All are one infinite packing.
+tilted='particles.count=200 loading.unload_from= numerics.precision=double'
+# shellcheck disable=SC2086
+run default $tilted 'loading.until=20 MPa' --out small
+in_patience "$greenbody" export small --format csv -o small.csv >stdout 2>stderr
+doubled() { # tilts xy, xz in edges of the small cell
+    awk -F, -v xy="$1" -v xz="$2" '
+        /^# cell/ { split($0, part, ": "); split(part[2], edge, " ")
+            printf "# cell, nm: %.17g %s %s tilt xy xz yz, nm: %.17g %.17g 0\n", 2 * edge[1],
+                edge[2], edge[3], xy * edge[1], xz * edge[1]
+            print "x_nm,y_nm,z_nm,diameter_nm" }
+        /^[0-9]/ { for (k = 0; k < 2; k++)
+            printf "%.17g,%s,%s,%s\n", $2 + k * edge[1], $3, $4, $5 }' small.csv
+}
+doubled 0 0 >box.csv
+doubled 1 0 >xy.csv
+doubled 0 1 >xz.csv
+same_points() { # the branch, step, density and pressures of two curves to 1e-9
+    paste -d, one two | awk -F, '{ n++; for (k = 3; k <= 6; k++) {
+        d = $k - $(k + 6); d = d < 0 ? -d : d; if (d > 1e-9 * ($k < 0 ? -$k : $k) + 1e-12) exit 1 }
+        } END { exit n < 30 }'
+}
+points() { grep '^load' "$1/curve.csv" | head -n 60 | cut -d, -f1-6; }
+for cell in box xy xz; do
+    # shellcheck disable=SC2086
+    is "the cell $cell is pressed" run default $tilted structure.from=$cell.csv \
+        particles.count=400 'loading.until=30 MPa' --out "cell-$cell"
+    points cell-box >one
+    points "cell-$cell" >two
+    is 'as the packing that it is' same_points
+done
+is 'its table has the tilts' grep -q '^# cell, d: .* tilt xy xz yz, d: [1-9]' cell-xy/structure.csv
+is 'a run in a tilted cell is verified' in_patience "$greenbody" verify cell-xy
+is 'a tilted cell is sheared' run default structure.from=xy.csv \
+    'loading.path=uniaxial to 20 MPa; shear xz to 2 %' --out sheared
+for format in extxyz lammps-dump lammps-data vtkhdf csv; do
+    in_patience "$greenbody" export sheared --format $format -o "sheared.$format" \
+        >stdout 2>stderr
+    rm -rf again
+    is "the sheared cell as $format is pressed" run default structure.from="sheared.$format" \
+        loading.unload_from= 'loading.until=30 MPa' --out again
+    grep '^# cell' again/structure.csv | tr ' ' '\n' | grep '[0-9]' >two
+    [ -s one ] && [ $format != extxyz ] || cp two one
+    # a dump has the box around the cell, and its bounds rounded
+    is 'with its cell' sh -c 'paste one two | awk "{ d = \$1 - \$2; n++
+        if (d * d > 1e-24) exit 1 } END { exit n != 6 }"'
+done
+
 # --- wrong input ------------------------------------------------------------------------------
 rows() { # edge of the cell along x: a row of twelve, and two of them side by side
     printf '# cell, um: %s 40 40\nx_um,y_um,z_um,diameter_um\n' "$1"
@@ -111,6 +161,10 @@ rows 4 >narrow.csv
 { rows 40 && echo 1,1,one,2; } >word.csv
 refused 'deep overlaps, with numbers' 'particles 1 and 13 by 0.75: must be at most 0.5' deep.csv
 refused 'a narrow cell' 'a cell of 2 d along x' narrow.csv
+sed 's/^# cell.*/& tilt xy xz yz, um: 1 2/' deep.csv >tilts.csv
+refused 'a tilt too few' 'tilts.csv:1: 2 tilts of the cell: must be 3' tilts.csv
+printf '2\nLattice="0 9 0 9 0 0 0 0 9" Properties=pos:R:3:radius:R:1\n1 1 1 1\n1 1 5 1\n' >turned.xyz
+refused 'a turned cell' 'turned.xyz:2: Lattice: cell vectors must be (Lx 0 0)' turned.xyz
 refused 'a word for a number' 'word.csv:15: z is one' word.csv
 refused 'no file' 'absent.csv: No such file' absent.csv
 refused 'no text' 'no text: must be' "$greenbody"

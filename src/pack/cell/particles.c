@@ -8,6 +8,7 @@
 #include "pack/kernel/simd.h"
 #include "pack/list/blocks.h"
 #include "pack/structure/assign_sizes.h"
+#include "scene/imported/imported.h"
 
 static bool assign_diameters(struct gb_particles *particles, const struct gb_model *model,
                              struct gb_error *err)
@@ -26,6 +27,9 @@ bool gb_particles_init(struct gb_particles *particles, const struct gb_model *mo
     const size_t n = (size_t)model->count;
     particles->count = model->count;
     gb_cell_init(&particles->cell, model->dimension, model->edges);
+    if (model->packing) {
+        memcpy(particles->cell.tilt, model->packing->tilts, sizeof particles->cell.tilt);
+    }
     particles->position = gb_alloc_array(3 * n, sizeof(double), err);
     particles->rotation = gb_alloc_array(3 * n, sizeof(double), err);
     particles->force = gb_alloc_array(3 * n, sizeof(double), err);

@@ -66,7 +66,9 @@ static bool check_cell(const struct gb_params *params, struct gb_error *err)
     range += largest_over_mean(params) - 1.0;
     double edges[3];
     gb_derived_cell(params, edges);
+    const struct gb_imported *packing = gb_imported_of(params, NULL);
     for (int k = 0; k < 3; k++) {
+        edges[k] = packing ? gb_imported_spacing(packing, k) : edges[k];
         if ((params->dimension == 3 || k != 1) && !(edges[k] >= 2.0 * range)) {
             if (gb_imported_given(params)) {
                 return gb_error_set(err, GB_ERR_INPUT,

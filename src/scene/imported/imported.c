@@ -195,6 +195,28 @@ double gb_imported_density(const struct gb_imported *packing)
            (edges[0] * edges[1] * edges[2]);
 }
 
+bool gb_imported_tilted(const struct gb_imported *packing)
+{
+    return packing->tilts[0] != 0.0 || packing->tilts[1] != 0.0 ||
+           packing->tilts[2] != 0.0;
+}
+
+double gb_imported_spacing(const struct gb_imported *packing, int k)
+{
+    const double *edges = packing->edges;
+    const double xy = packing->tilts[0], xz = packing->tilts[1], yz = packing->tilts[2];
+    const double across = yz / edges[2]; /* rows of the inverse, times their edge */
+    switch (k) {
+    case 0:
+        return edges[0] / hypot(hypot(1.0, xy / edges[1]),
+                                (xz - xy * yz / edges[1]) / edges[2]);
+    case 1:
+        return edges[1] / hypot(1.0, across);
+    default:
+        return edges[2];
+    }
+}
+
 static void add_numbers(GString *text, const double *numbers, int count, char between)
 {
     char buffer[GB_NUMBER_MAX];
@@ -216,6 +238,10 @@ char *gb_imported_text(const struct gb_imported *packing)
     }
     g_string_append(text, "# cell, d: ");
     add_numbers(text, packing->edges, 3, ' ');
+    if (gb_imported_tilted(packing)) {
+        g_string_append(text, " tilt xy xz yz, d: ");
+        add_numbers(text, packing->tilts, 3, ' ');
+    }
     g_string_append(text, "\nx_d,y_d,z_d,diameter_d\n");
     for (int64_t i = 0; i < packing->count; i++) {
         add_numbers(text, &packing->position[3 * i], 3, ',');

@@ -6,11 +6,12 @@
 
 #include "greenbody/params.h"
 
-/* A packing read from a file (structure.from), in a periodic cell with right angles.
- * Lengths are in d, the mean diameter of its particles by number. */
+/* A packing read from a file (structure.from), in a periodic cell of edge vectors
+ * (Lx, 0, 0), (xy, Ly, 0), (xz, yz, Lz).  Lengths are in d, the mean diameter of its particles by number. */
 struct gb_imported {
     int64_t count;
-    double edges[3];
+    double edges[3];       /* Lx, Ly, Lz */
+    double tilts[3];       /* xy, xz, yz, at most half an edge */
     double *position;      /* count x 3, inside the cell; y = 0 if planar */
     double *diameter;      /* count */
     bool one_size;         /* all diameters are 1 */
@@ -44,6 +45,12 @@ void gb_imported_take(struct gb_params *params, const char *path,
 
 /* Relations of a packing to the other parameters.  Errors: GB_ERR_INPUT. */
 bool gb_imported_check_params(const struct gb_params *params, struct gb_error *err);
+
+/* Is a tilt of the cell not 0? */
+bool gb_imported_tilted(const struct gb_imported *packing);
+
+/* Distance of the two faces that edge vector k leads across. */
+double gb_imported_spacing(const struct gb_imported *packing, int k);
 
 /* Volume of the particles (their area in 2D) over that of the cell. */
 double gb_imported_density(const struct gb_imported *packing);

@@ -44,21 +44,17 @@ static bool take_lattice(struct gb_imported_raw *raw,
                          struct gb_error *err)
 {
     double rows[9];
+    const char *why = "";
     char **words = g_strsplit(lattice, " ", -1);
     bool good = g_strv_length(words) == 9 ||
                 gb_imported_lines_refuse(lines, err, "Lattice of %u numbers: must be 9",
                                          g_strv_length(words));
     for (int k = 0; good && k < 9; k++) {
         good = gb_imported_lines_number(lines, words[k], "Lattice", &rows[k], err);
-        if (good && k % 4 != 0 && rows[k] != 0.0) {
-            good = gb_imported_lines_refuse(lines, err,
-                                            "a tilted cell: must have right angles");
-        }
-        if (good && k % 4 == 0) {
-            raw->edges[k / 4] = rows[k];
-        }
     }
-    raw->cell = good;
+    if (good && !gb_imported_lines_vectors(raw, rows, &why)) {
+        good = gb_imported_lines_refuse(lines, err, "Lattice: %s", why);
+    }
     g_strfreev(words);
     return good;
 }

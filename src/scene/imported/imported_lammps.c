@@ -5,9 +5,7 @@
 
 /* Dumps (the last frame) and data files (atom_style sphere) of LAMMPS. */
 
-static const char *const tilted = "a tilted cell: must have right angles";
-
-/* "xlo xhi" as a line of a file. */
+/* "xlo xhi" as a line of a file; a third number in dumps of tilted cells is xy, xz, yz. */
 static bool take_bounds(struct gb_imported_raw *raw,
                         const struct gb_imported_lines *lines, int axis, const char *line,
                         struct gb_error *err)
@@ -21,11 +19,26 @@ static bool take_bounds(struct gb_imported_raw *raw,
                                     &raw->low[axis], err) &&
            gb_imported_lines_number(lines, words[1], "a bound of the cell", &high, err);
     raw->edges[axis] = high - raw->low[axis];
-    if (good && g_strv_length(words) >= 3 && g_ascii_strtod(words[2], NULL) != 0.0) {
-        good = gb_imported_lines_refuse(lines, err, "%s", tilted);
+    raw->tilts[axis] = 0.0;
+    if (good && g_strv_length(words) >= 3) {
+        good = gb_imported_lines_number(lines, words[2], "a tilt of the cell",
+                                        &raw->tilts[axis], err);
     }
     g_strfreev(words);
     return good;
+}
+
+/* Dumps have the bounds of the box around a tilted cell. */
+static void take_tilts_out(struct gb_imported_raw *raw)
+{
+    const double xy = raw->tilts[0], xz = raw->tilts[1], yz = raw->tilts[2];
+    const double low[3] = {fmin(fmin(0.0, xy), fmin(xz, xy + xz)), fmin(0.0, yz), 0.0};
+    const double high[3] = {fmax(fmax(0.0, xy), fmax(xz, xy + xz)), fmax(0.0, yz), 0.0};
+    for (int axis = 0; axis < 3; axis++) {
+        const double edge = raw->edges[axis] + raw->low[axis]; /* the upper bound */
+        raw->low[axis] -= low[axis];
+        raw->edges[axis] = edge - high[axis] - raw->low[axis];
+    }
 }
 
 static bool is_dump(const char *text)
@@ -88,6 +101,7 @@ static bool take_item(struct dump *dump, struct gb_imported_lines *lines,
             }
         }
         raw->cell = true;
+        take_tilts_out(raw);
     }
     return true;
 }
@@ -119,6 +133,22 @@ static bool is_data(const char *text)
     return atoms != NULL && bounds != NULL;
 }
 
+static bool take_tilts(struct gb_imported_raw *raw, const struct gb_imported_lines *lines,
+                       char *line, struct gb_error *err)
+{
+    bool good = true;
+    line[strlen(line) - strlen("xy xz yz")] = '\0';
+    char **words = g_strsplit_set(g_strstrip(line), " \t", -1);
+    for (int k = 0; good && k < 3; k++) {
+        good = (words[k] != NULL || gb_imported_lines_refuse(
+                                        lines, err, "%d tilts: must be 3, xy xz yz", k)) &&
+               gb_imported_lines_number(lines, words[k], "a tilt of the cell",
+                                        &raw->tilts[k], err);
+    }
+    g_strfreev(words);
+    return good;
+}
+
 static bool take_head(struct gb_imported_raw *raw, const struct gb_imported_lines *lines,
                       char *line, int64_t *count, struct gb_error *err)
 {
@@ -126,9 +156,8 @@ static bool take_head(struct gb_imported_raw *raw, const struct gb_imported_line
     if (g_str_has_suffix(line, " atoms")) {
         return gb_imported_columns_count(lines, line, count, err);
     }
-    if (g_str_has_suffix(line, "xy xz yz") &&
-        strspn(line, "0. xyze+-\t") < strlen(line)) {
-        return gb_imported_lines_refuse(lines, err, "%s", tilted);
+    if (g_str_has_suffix(line, "xy xz yz")) {
+        return take_tilts(raw, lines, line, err);
     }
     for (int axis = 0; axis < 3; axis++) {
         if (g_str_has_suffix(line, bounds[axis])) {

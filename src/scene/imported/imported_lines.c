@@ -58,3 +58,20 @@ double gb_imported_lines_unit(const char *name)
     }
     return (double)NAN;
 }
+
+bool gb_imported_lines_vectors(struct gb_imported_raw *raw, const double rows[9],
+                               const char **why)
+{
+    *why = "cell vectors must be (Lx 0 0), (xy Ly 0), (xz yz Lz)";
+    if (rows[1] != 0.0 || rows[2] != 0.0 || rows[5] != 0.0) {
+        return false;
+    }
+    for (int c = 0; c < 3; c++) {
+        raw->edges[c] = rows[4 * c];
+    }
+    raw->tilts[0] = rows[3];
+    raw->tilts[1] = rows[6];
+    raw->tilts[2] = rows[7];
+    raw->cell = true;
+    return true;
+}

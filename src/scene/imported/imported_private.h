@@ -11,6 +11,7 @@ struct gb_imported_raw {
     GArray *diameter; /* double, in the unit of the positions */
     bool cell;        /* low and edges are known */
     double low[3], edges[3];
+    double tilts[3]; /* xy, xz, yz */
     double unit_m; /* unit of length; NaN: not said */
     bool reduced;  /* lengths are in d already, and unit_m is d */
 };
@@ -32,6 +33,11 @@ bool gb_imported_lines_refuse(const struct gb_imported_lines *lines, struct gb_e
 /* A finite number with a decimal point in any locale; what: its name for the message. */
 bool gb_imported_lines_number(const struct gb_imported_lines *lines, const char *text,
                               const char *what, double *number, struct gb_error *err);
+
+/* Takes the edge vectors of a cell, nine numbers with a vector a row: the first has to lie
+ * along x and the second in the plane xy.  False: they do not, and *why says it. */
+bool gb_imported_lines_vectors(struct gb_imported_raw *raw, const double rows[9],
+                               const char **why);
 
 /* Metres of a unit of length as its name ("nm", "um") or a style of units of LAMMPS
  * ("nano", "si") says; NaN: neither. */

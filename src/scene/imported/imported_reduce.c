@@ -81,15 +81,47 @@ static void flatten(struct gb_imported *packing)
     packing->edges[1] = packing->planar ? 1.0 : packing->edges[1];
 }
 
+/* The same lattice with tilts of at most half an edge. */
+static void fold(struct gb_imported *packing)
+{
+    const double *edges = packing->edges;
+    double *xy = &packing->tilts[0], *xz = &packing->tilts[1], *yz = &packing->tilts[2];
+    const double along_y = rint(*yz / edges[1]);
+    *yz -= along_y * edges[1];
+    *xz -= along_y * *xy;
+    *xz -= rint(*xz / edges[0]) * edges[0];
+    *xy -= rint(*xy / edges[0]) * edges[0];
+}
+
+/* Moves a particle by whole edge vectors along axis k; vector: the one of that axis. */
+static void wrap_axis(double *x, int k, double edge, const double vector[3], double skew)
+{
+    const double from = x[k] - skew; /* of the face at which the cell begins */
+    if (from >= 0.0 && from < edge) {
+        return;
+    }
+    const double whole = floor(from / edge);
+    for (int c = 0; c <= k; c++) {
+        x[c] -= whole * vector[c];
+    }
+    if (skew == 0.0 && (x[k] >= edge || x[k] < 0.0)) {
+        x[k] = 0.0; /* by rounding */
+    }
+}
+
+/* Into the cell; in a tilted one within rounding. */
 static void wrap(struct gb_imported *packing)
 {
-    for (int64_t k = 0; k < 3 * packing->count; k++) {
-        const double edge = packing->edges[k % 3];
-        double *x = &packing->position[k];
-        if (*x < 0.0 || *x >= edge) {
-            *x -= edge * floor(*x / edge);
-            *x = *x >= edge || *x < 0.0 ? 0.0 : *x; /* by rounding */
-        }
+    const double *edges = packing->edges;
+    const double xy = packing->tilts[0], xz = packing->tilts[1], yz = packing->tilts[2];
+    const double a[3] = {edges[0], 0.0, 0.0}, b[3] = {xy, edges[1], 0.0},
+                 c[3] = {xz, yz, edges[2]};
+    for (int64_t i = 0; i < packing->count; i++) {
+        double *x = &packing->position[3 * i];
+        wrap_axis(x, 2, edges[2], c, 0.0);
+        wrap_axis(x, 1, edges[1], b, x[2] / edges[2] * yz);
+        const double v = (x[1] - x[2] / edges[2] * yz) / edges[1];
+        wrap_axis(x, 0, edges[0], a, v * xy + x[2] / edges[2] * xz);
     }
 }
 
@@ -103,6 +135,9 @@ static uint64_t checksum(const struct gb_imported *packing)
     const double unit_m = isnan(packing->unit_m) ? 0.0 : packing->unit_m;
     g_checksum_update(sum, (const guchar *)&unit_m, sizeof unit_m);
     g_checksum_update(sum, (const guchar *)packing->edges, sizeof packing->edges);
+    if (gb_imported_tilted(packing)) {
+        g_checksum_update(sum, (const guchar *)packing->tilts, sizeof packing->tilts);
+    }
     g_checksum_update(sum, (const guchar *)packing->position,
                       (gssize)(3 * n * sizeof(double)));
     g_checksum_update(sum, (const guchar *)packing->diameter,
@@ -140,6 +175,7 @@ bool gb_imported_reduce(struct gb_imported *packing, const struct gb_imported_ra
     packing->unit_m = unit_metres(raw, mean);
     for (int c = 0; c < 3; c++) {
         packing->edges[c] = divide_back(raw->edges[c], mean);
+        packing->tilts[c] = divide_back(raw->tilts[c], mean);
     }
     for (int64_t i = 0; i < count; i++) {
         packing->diameter[i] = divide_back(diameter[i], mean);
@@ -148,6 +184,11 @@ bool gb_imported_reduce(struct gb_imported *packing, const struct gb_imported_ra
         }
     }
     flatten(packing);
+    fold(packing);
+    if (packing->planar && (packing->tilts[0] != 0.0 || packing->tilts[2] != 0.0)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%s: tilts xy and yz of a cell of discs: must be 0", path);
+    }
     wrap(packing);
     measure(packing);
     packing->sum = checksum(packing);

@@ -5,8 +5,8 @@
 
 /* A table: '#' comments, a row of names, rows of numbers, separated by commas,
  * semicolons, tabs or blanks.  Names may stand in a comment; without names, four columns
- * are x, y, z and the radius (Yade).  "# cell, um: 12 12 20" gives the edges of the cell,
- * "# d = 9.7e-9 m" the unit of columns in d. */
+ * are x, y, z and the radius (Yade).  "# cell, um: 12 12 20" gives the edges of the cell, and
+ * "tilt xy xz yz, um: 1 0 0" behind it its tilts; "# d = 9.7e-9 m" the unit of columns in d. */
 struct table {
     char separator; /* ' ': blanks and tabs */
     bool named;
@@ -77,10 +77,14 @@ static bool take_cell(struct gb_imported_raw *raw, const struct gb_imported_line
         good = gb_imported_lines_number(lines, edges[k], "an edge of the cell",
                                         &raw->edges[k], err);
     }
+    if (good && tilt != NULL && g_strv_length(tilts) != 3) {
+        good = gb_imported_lines_refuse(
+            lines, err, "%u tilts of the cell: must be 3, as in tilt xy xz yz, um: 1 0 0",
+            g_strv_length(tilts));
+    }
     for (int k = 0; good && tilts[k] != NULL; k++) {
-        good =
-            g_ascii_strtod(tilts[k], NULL) == 0.0 ||
-            gb_imported_lines_refuse(lines, err, "a tilted cell: must have right angles");
+        good = gb_imported_lines_number(lines, tilts[k], "a tilt of the cell",
+                                        &raw->tilts[k], err);
     }
     raw->cell = good;
     g_strfreev(edges);

@@ -33,17 +33,9 @@ static bool take(struct gb_hdf *file, const struct gb_hdf_array *array, GArray *
 static bool take_edges(struct gb_imported_raw *raw, const double edges[9],
                        struct gb_error *err)
 {
-    for (int k = 0; k < 9; k++) {
-        if (k % 4 != 0 && edges[k] != 0.0) {
-            return gb_error_set(err, GB_ERR_INPUT,
-                                "a tilted cell: must have right angles");
-        }
-    }
-    for (int c = 0; c < 3; c++) {
-        raw->edges[c] = edges[4 * c];
-    }
-    raw->cell = true;
-    return true;
+    const char *why = "";
+    return gb_imported_lines_vectors(raw, edges, &why) ||
+           gb_error_set(err, GB_ERR_INPUT, "cell_nm: %s", why);
 }
 
 /* What a text cannot hold is not in a binary file either. */
