@@ -48,6 +48,10 @@ void gb_array_forget(struct gb_array_source *packing)
     gb_alloc_free(packing->stress);
     packing->state = NULL;
     packing->diameter = packing->stress = NULL;
+    for (size_t k = 0; k < G_N_ELEMENTS(packing->angular); k++) {
+        gb_alloc_free(packing->angular[k]);
+        packing->angular[k] = NULL;
+    }
 }
 
 /* The state, listed where it is not yet.  NULL and err: GB_ERR_MEMORY. */
@@ -130,51 +134,110 @@ static bool find_diameter(struct gb_array_source *packing, struct rows *rows,
     return true;
 }
 
-/* Resultant forces, or torques. */
-static bool resultants(struct gb_array_source *packing, bool torques, struct rows *rows)
+/* Rows that the state has, where it has them. */
+static bool listed(struct gb_array_source *packing, size_t member, size_t count,
+                   struct rows *rows, struct gb_error *err)
 {
-    struct gb_world *world = world_of(packing);
-    const struct gb_bed *bed = bed_of(packing);
-    if (bed) {
-        return bed_rows(bed, (const gb_bed_row *)(torques ? bed->torque : bed->force),
-                        rows);
+    const struct gb_state *state = state_of(packing, err);
+    if (!state) {
+        return false;
     }
-    if (world) {
-        const struct gb_bodies bodies = gb_world_readable(world);
-        *rows = (struct rows){.data = torques ? bodies.torque : bodies.force,
-                              .count = bodies.count};
-    }
+    const char *bytes = (const char *)state;
+    memcpy(&rows->data, bytes + member, sizeof rows->data);
+    memcpy(&rows->count, bytes + count, sizeof rows->count);
+    rows->count = rows->data ? rows->count : 0;
     return true;
+}
+
+#define LISTED(function, member, rows_of)                                                \
+    static bool function(struct gb_array_source *packing, struct rows *rows,             \
+                         struct gb_error *err)                                           \
+    {                                                                                    \
+        return listed(packing, offsetof(struct gb_state, member),                        \
+                      offsetof(struct gb_state, rows_of), rows, err);                    \
+    }
+
+static bool world_rows(const struct gb_world *world, const double *data,
+                       struct rows *rows)
+{
+    *rows = (struct rows){.data = data, .count = gb_world_model(world)->count};
+    return true;
+}
+
+/* The world has arcs, the diameter times the angle, in place of angles: numbers times the
+ * diameter to the power 1 or -1, in memory of the packing. */
+static bool angular_rows(struct gb_array_source *packing, enum gb_array_angular which,
+                         const double *arcs, int power, struct rows *rows,
+                         struct gb_error *err)
+{
+    const struct gb_world *world = world_of(packing);
+    const double *diameter = gb_world_diameters(world);
+    const int64_t count = 3 * gb_world_model(world)->count;
+    double **angles = &packing->angular[which];
+    if (!diameter) {
+        return world_rows(world, arcs, rows);
+    }
+    if (!*angles) {
+        *angles = gb_alloc_array((size_t)count, sizeof **angles, err);
+        for (int64_t k = 0; *angles && k < count; k++) {
+            const double d = diameter[k / 3];
+            (*angles)[k] = arcs[k] * (power > 0 ? d : 1.0 / d); /* as in state files */
+        }
+    }
+    return *angles && world_rows(world, *angles, rows);
 }
 
 static bool find_force(struct gb_array_source *packing, struct rows *rows,
                        struct gb_error *err)
 {
-    (void)err;
-    return resultants(packing, false, rows);
+    struct gb_world *world = world_of(packing);
+    const struct gb_bed *bed = bed_of(packing);
+    return bed     ? bed_rows(bed, (const gb_bed_row *)bed->force, rows)
+           : world ? world_rows(world, gb_world_readable(world).force, rows)
+                   : listed(packing, offsetof(struct gb_state, force),
+                            offsetof(struct gb_state, count), rows, err);
 }
 
 static bool find_torque(struct gb_array_source *packing, struct rows *rows,
                         struct gb_error *err)
 {
-    (void)err;
-    return resultants(packing, true, rows);
+    struct gb_world *world = world_of(packing);
+    const struct gb_bed *bed = bed_of(packing);
+    return bed     ? bed_rows(bed, (const gb_bed_row *)bed->torque, rows)
+           : world ? angular_rows(packing, GB_ARRAY_TORQUE,
+                                  gb_world_readable(world).torque, 1, rows, err)
+                   : listed(packing, offsetof(struct gb_state, torque),
+                            offsetof(struct gb_state, count), rows, err);
+}
+
+/* NULL: a scene without time, or no simulation. */
+static const struct gb_verlet *verlet_of(const struct gb_array_source *packing)
+{
+    const struct gb_loading *loading =
+        packing->experiment ? packing->experiment->loading : NULL;
+    return loading && loading->mode->motion ? loading->mode->motion(loading) : NULL;
 }
 
 static bool find_velocity(struct gb_array_source *packing, struct rows *rows,
                           struct gb_error *err)
 {
-    (void)err;
     const struct gb_bed *bed = bed_of(packing);
-    return !bed || bed_rows(bed, (const gb_bed_row *)bed->velocity, rows);
+    const struct gb_verlet *verlet = verlet_of(packing);
+    return bed      ? bed_rows(bed, (const gb_bed_row *)bed->velocity, rows)
+           : verlet ? world_rows(world_of(packing), verlet->velocity, rows)
+                    : listed(packing, offsetof(struct gb_state, velocity),
+                             offsetof(struct gb_state, count), rows, err);
 }
 
 static bool find_spin(struct gb_array_source *packing, struct rows *rows,
                       struct gb_error *err)
 {
-    (void)err;
     const struct gb_bed *bed = bed_of(packing);
-    return !bed || bed_rows(bed, (const gb_bed_row *)bed->spin, rows);
+    const struct gb_verlet *verlet = verlet_of(packing);
+    return bed      ? bed_rows(bed, (const gb_bed_row *)bed->spin, rows)
+           : verlet ? angular_rows(packing, GB_ARRAY_SPIN, verlet->spin, -1, rows, err)
+                    : listed(packing, offsetof(struct gb_state, spin),
+                             offsetof(struct gb_state, count), rows, err);
 }
 
 /* Edges of the cell, or its tilts. */
@@ -204,32 +267,12 @@ static bool find_tilt(struct gb_array_source *packing, struct rows *rows,
     return cell_rows(packing, true, rows, err);
 }
 
-/* An array that the list of contacts has. */
-static bool listed(struct gb_array_source *packing, size_t member, size_t count,
-                   struct rows *rows, struct gb_error *err)
-{
-    const struct gb_state *state = state_of(packing, err);
-    if (!state) {
-        return false;
-    }
-    const char *bytes = (const char *)state;
-    memcpy(&rows->data, bytes + member, sizeof rows->data);
-    memcpy(&rows->count, bytes + count, sizeof rows->count);
-    return true;
-}
-
-#define LISTED(function, member, rows_of)                                                \
-    static bool function(struct gb_array_source *packing, struct rows *rows,             \
-                         struct gb_error *err)                                           \
-    {                                                                                    \
-        return listed(packing, offsetof(struct gb_state, member),                        \
-                      offsetof(struct gb_state, rows_of), rows, err);                    \
-    }
 LISTED(find_coordination, contacts, count)
 LISTED(find_contact, pair, pair_count)
 LISTED(find_contact_force, pair_force, pair_count)
 LISTED(find_contact_normal, pair_normal, pair_count)
 LISTED(find_contact_bridged, pair_bridged, pair_count)
+LISTED(find_contact_radius, contact_radius, pair_count)
 LISTED(find_wall, wall, wall_count)
 LISTED(find_wall_force, wall_force, wall_count)
 
@@ -255,13 +298,14 @@ static const struct array_row table[] = {
     {"position", GB_ARRAY_DOUBLE, 3, LENGTH, find_position, "particles x 3, d"},
     {"diameter", GB_ARRAY_DOUBLE, 1, LENGTH, find_diameter, "particles, d"},
     {"force", GB_ARRAY_DOUBLE, 3, FORCE, find_force,
-     "particles x 3, E d^2: resultant; of a simulation only"},
+     "particles x 3, E d^2: resultant"},
     {"torque", GB_ARRAY_DOUBLE, 3, MOMENT, find_torque,
-     "particles x 3, E d^3: resultant; of a simulation only"},
+     "particles x 3, E d^3: resultant"},
     {"velocity", GB_ARRAY_DOUBLE, 3, SPEED, find_velocity,
-     "particles x 3, d/T with T = sqrt(m/(E d)); of a simulation in a die"},
+     "particles x 3, d/T with T = sqrt(m/(E d)); of scenes with time, in a periodic cell "
+     "beside its affine motion"},
     {"spin", GB_ARRAY_DOUBLE, 3, ROTATION_SPEED, find_spin,
-     "particles x 3, 1/T: angular velocity; of a simulation in a die"},
+     "particles x 3, 1/T: angular velocity; of scenes with time"},
     {"coordination", GB_ARRAY_INT32, 1, PURE, find_coordination,
      "particles: contacts with other particles"},
     {"stress", GB_ARRAY_DOUBLE, 6, PRESSURE, find_stress,
@@ -273,6 +317,8 @@ static const struct array_row table[] = {
      "contacts, E d^2: normal force, positive when pressed"},
     {"contact_bridged", GB_ARRAY_UINT8, 1, PURE, find_contact_bridged,
      "contacts: 1 with a bridge"},
+    {"contact_radius", GB_ARRAY_DOUBLE, 1, LENGTH, find_contact_radius,
+     "contacts, d: of the contact, or of its bridge; of a state from a file"},
     {"wall", GB_ARRAY_INT32, 2, PURE, find_wall,
      "contacts with walls x 2: particle, wall (0 floor, 1 side, 2 punch, 3 funnel)"},
     {"wall_force", GB_ARRAY_DOUBLE, 3, FORCE, find_wall_force,
@@ -292,6 +338,18 @@ const char *gb_array_doc(size_t index)
     return index < G_N_ELEMENTS(table) ? table[index].doc : NULL;
 }
 
+double gb_array_second_per_time(const struct gb_array_source *packing)
+{
+    const struct gb_model *model =
+        packing->experiment ? packing->experiment->model : NULL;
+    if (!model) {
+        return packing->state->second_per_time;
+    }
+    return bed_of(packing)      ? model->die.second_per_time
+           : verlet_of(packing) ? model->dynamics.second_per_time
+                                : (double)NAN;
+}
+
 /* One unit in SI units. */
 static double si_factor(const struct gb_array_source *packing, enum unit unit)
 {
@@ -301,7 +359,7 @@ static double si_factor(const struct gb_array_source *packing, enum unit unit)
         model ? model->metre_per_length : packing->state->metre_per_length;
     const double pascal =
         model ? model->pascal_per_stress : packing->state->pascal_per_stress;
-    const double second = model ? model->die.second_per_time : (double)NAN;
+    const double second = gb_array_second_per_time(packing);
     const double factors[] = {[PURE] = 1.0,
                               [LENGTH] = metre,
                               [SPEED] = metre / second,

@@ -6,12 +6,16 @@
 #include "io/state/state.h"
 #include "run/experiment.h"
 
+/* Arrays that the engine of a periodic cell has as arcs. */
+enum gb_array_angular { GB_ARRAY_TORQUE, GB_ARRAY_SPIN, GB_ARRAY_ANGULAR };
+
 /* A packing under way or read from a file, and what was computed of it. */
 struct gb_array_source {
     struct gb_experiment *experiment; /* under way; NULL: read from a file */
     struct gb_state
         *state; /* owned; under way a list of the contacts, when first needed */
     double *diameter, *stress; /* owned; computed when first needed */
+    double *angular[GB_ARRAY_ANGULAR]; /* the same, of unequal particles */
 };
 
 struct gb_saved_state {
@@ -20,6 +24,9 @@ struct gb_saved_state {
 
 /* What was computed for the present positions is no longer true. */
 void gb_array_forget(struct gb_array_source *packing);
+
+/* T in s; NaN in scenes without time. */
+double gb_array_second_per_time(const struct gb_array_source *packing);
 
 /* The array of a name; errors as of gb_saved_state_array. */
 bool gb_array_find(struct gb_array_source *packing, const char *name,

@@ -1,10 +1,14 @@
 /* Reading a simulation: points, arrays, states. */
 #include <math.h>
+#include <string.h>
+
+#include <glib.h>
 
 #include "api/parameters_private.h"
 #include "api/simulation_private.h"
 #include "base/alloc.h"
 #include "hdf/hdf_record.h"
+#include "io/state/state_optional.h"
 #include "io/state/state_record.h"
 #include "run/checkpoint.h"
 
@@ -47,6 +51,29 @@ bool gb_simulation_array(struct gb_simulation *simulation, const char *name,
            gb_array_find(&simulation->packing, name, array, err);
 }
 
+/* What the engine has beside the list of contacts: into the state. */
+static bool copy_optional(struct gb_array_source *packing, struct gb_state *state,
+                          struct gb_error *err)
+{
+    double **const members[] = {&state->velocity, &state->spin, &state->force,
+                                &state->torque};
+    static const char *const names[] = {"velocity", "spin", "force", "torque"};
+    for (size_t k = 0; k < G_N_ELEMENTS(members); k++) {
+        struct gb_array array = {.size = sizeof array};
+        if (!gb_array_find(packing, names[k], &array, NULL)) {
+            continue; /* a scene without time */
+        }
+        if (!gb_state_optional_allocate(state, members[k], err)) {
+            return false;
+        }
+        for (int64_t i = 0; i < state->count; i++) {
+            memcpy(*members[k] + 3 * i, (const char *)array.data + i * array.stride[0],
+                   3 * sizeof(double));
+        }
+    }
+    return true;
+}
+
 bool gb_simulation_state(struct gb_simulation *simulation, struct gb_saved_state **out,
                          struct gb_error *err)
 {
@@ -55,10 +82,13 @@ bool gb_simulation_state(struct gb_simulation *simulation, struct gb_saved_state
     }
     struct gb_saved_state *saved = gb_alloc_array(1, sizeof *saved, err);
     if (!saved ||
-        !gb_experiment_state(simulation->loop.experiment, &saved->packing.state, err)) {
-        gb_alloc_free(saved);
+        !gb_experiment_state(simulation->loop.experiment, &saved->packing.state, err) ||
+        !copy_optional(&simulation->packing, saved->packing.state, err)) {
+        gb_saved_state_destroy(saved);
         return false;
     }
+    saved->packing.state->second_per_time =
+        gb_array_second_per_time(&simulation->packing);
     *out = saved;
     return true;
 }

@@ -70,7 +70,8 @@ static void test_arrays(void)
         g_assert_nonnull(gb_array_doc(i));
         array.size = sizeof array;
         const bool there = gb_simulation_array(simulation, name, &array, &err);
-        g_assert_true(there == (strcmp(name, "velocity") && strcmp(name, "spin")));
+        g_assert_true(there == (strcmp(name, "velocity") && strcmp(name, "spin") &&
+                                strcmp(name, "contact_radius")));
     }
     array.size = 8;
     g_assert_false(gb_simulation_array(simulation, "position", &array, &err));
@@ -250,6 +251,53 @@ static void test_save_and_load(void)
     folder_finish(&folder);
 }
 
+static void assert_equal(const struct gb_array *a, const struct gb_array *b)
+{
+    g_assert_cmpint(a->shape[0], ==, b->shape[0]);
+    g_assert_cmpfloat(a->si, ==, b->si);
+    for (int64_t i = 0; i < a->shape[0]; i++) {
+        for (int64_t k = 0; k < 3; k++) {
+            g_assert_cmpfloat(at(a, i, k), ==, at(b, i, k));
+        }
+    }
+}
+
+/* Velocities, spins and resultants of unequal particles under way, of the state taken then,
+ * and of the file written then. */
+static void test_motion(void)
+{
+    static const char *const names[] = {"velocity", "spin", "force", "torque"};
+    struct gb_error err = {0};
+    struct gb_parameters *parameters = NULL;
+    struct folder folder = folder_make();
+    g_assert_true(gb_parameters_create(&parameters, "p2-3d-v1", &err));
+    g_assert_true(gb_parameters_set(parameters, "particles.count=1000", &err));
+    g_assert_true(gb_parameters_set(parameters, "particles.distribution=lognormal", &err));
+    struct gb_simulation *simulation = simulation_of(parameters);
+    g_assert_cmpint(gb_simulation_advance(simulation, 3, &err), ==, GB_RUN_OUTCOME_NONE);
+    struct gb_saved_state *now = NULL, *file = NULL;
+    g_assert_true(gb_simulation_state(simulation, &now, &err));
+    g_assert_true(gb_simulation_save(simulation, folder.state, &err));
+    g_assert_true(gb_saved_state_load(&file, folder.state, &err));
+    for (size_t k = 0; k < G_N_ELEMENTS(names); k++) {
+        const struct gb_array live = array_of(simulation, names[k]);
+        struct gb_array taken = {.size = sizeof taken}, read = {.size = sizeof read};
+        g_assert_true(gb_saved_state_array(now, names[k], &taken, &err));
+        g_assert_true(gb_saved_state_array(file, names[k], &read, &err));
+        g_assert_true(isfinite(live.si) && live.si > 0.0);
+        g_assert_cmpfloat(fabs(at(&live, 0, 0)), >, 0.0);
+        assert_equal(&live, &taken);
+        assert_equal(&live, &read);
+    }
+    struct gb_array radius = {.size = sizeof radius};
+    g_assert_true(gb_saved_state_array(file, "contact_radius", &radius, &err));
+    g_assert_cmpint(radius.shape[0], ==, array_of(simulation, "contact").shape[0]);
+    gb_saved_state_destroy(now);
+    gb_saved_state_destroy(file);
+    gb_simulation_destroy(simulation);
+    folder_finish(&folder);
+}
+
 /* --- laws ----------------------------------------------------------------------------- */
 
 static void test_laws(void)
@@ -300,6 +348,7 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/api/arrays/cell", test_arrays);
     g_test_add_func("/api/arrays/die", test_die);
+    g_test_add_func("/api/arrays/motion", test_motion);
     g_test_add_func("/api/files/record", test_record);
     g_test_add_func("/api/files/state", test_save_and_load);
     g_test_add_func("/api/laws", test_laws);

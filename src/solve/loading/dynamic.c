@@ -154,6 +154,11 @@ static double whole_time(const struct gb_dynamic *motion)
                model->dynamics.rate;
 }
 
+const struct gb_verlet *gb_dynamic_verlet(const struct gb_dynamic *motion)
+{
+    return &motion->verlet;
+}
+
 struct gb_dynamic_report gb_dynamic_report(const struct gb_dynamic *motion)
 {
     return (struct gb_dynamic_report){

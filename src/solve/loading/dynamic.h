@@ -8,6 +8,7 @@
 #include "greenbody/status.h"
 #include "pack/cell/world.h"
 #include "solve/step_outcome.h"
+#include "solve/verlet.h"
 
 /* High-speed pressing of P2: relax in a fixed cell, compress at a rate to a density,
  * hold.  Steps of gb_verlet between recorded points; a guard on the share of
@@ -42,6 +43,9 @@ struct gb_dynamic_report {
     double progress;  /* 0..1, by time */
 };
 struct gb_dynamic_report gb_dynamic_report(const struct gb_dynamic *motion);
+
+/* Velocities of the particles, valid until the next advance. */
+const struct gb_verlet *gb_dynamic_verlet(const struct gb_dynamic *motion);
 
 /* The motion at a recorded point into a record, or out of it after gb_dynamic_create
  * with the same world.  Errors: GB_ERR_INPUT naming the member. */

@@ -14,6 +14,7 @@
 #include "scene/model.h"
 #include "solve/event_queue.h"
 #include "solve/step_outcome.h"
+#include "solve/verlet.h"
 
 /* A packing and the loading that it undergoes: one table of modes with the same functions
  * each, by enum gb_kind.  What a mode can be combined with is the row of the same index
@@ -99,6 +100,9 @@ struct gb_loading_mode {
     bool (*record)(struct gb_loading *loading, struct gb_record *record,
                    struct gb_error *err);
     struct gb_loading_report (*report)(const struct gb_loading *loading);
+    /* Velocities and angular velocities of the particles of a periodic cell, as
+     * struct gb_verlet has them.  NULL where a mode has no time, or a bed. */
+    const struct gb_verlet *(*motion)(const struct gb_loading *loading);
     /* Share of the loading that is done, 0 to 1; pressure (E) and density of the last
      * recorded point. */
     double (*progress)(const struct gb_loading *loading, double pressure, double density);

@@ -85,6 +85,11 @@ static struct gb_loading_report report(const struct gb_loading *loading)
     return report;
 }
 
+static const struct gb_verlet *verlet(const struct gb_loading *loading)
+{
+    return gb_dynamic_verlet(motion_of(loading));
+}
+
 static double progress(const struct gb_loading *loading, double pressure, double density)
 {
     (void)pressure;
@@ -101,5 +106,6 @@ const struct gb_loading_mode gb_loading_dynamic = {
     .after_point = after_point,
     .record = record_motion,
     .report = report,
+    .motion = verlet,
     .progress = progress,
 };
