@@ -141,6 +141,13 @@ is 'the last but one is that of the second mark' cmp t-0001.csv one.csv
 is 'with its contacts' cmp t-c-0001.csv contacts.csv
 is 'data files of all states' export_run --format lammps-data --all -o t.data
 is 'one of the last' cmp t-0002.data p.data
+if command -v pvpython >/dev/null; then
+    pvpython --force-offscreen-rendering "$(dirname "$script")/read_paraview.py" \
+        s.vtkhdf.series all.xyz >stdout 2>stderr
+    result 'ParaView shows the series' $?
+else
+    echo '# no ParaView here: its reading of the series is not tested'
+fi
 rm s-0000.vtkhdf
 refused 'a series of which a file exists' "$greenbody" export run --format vtkhdf --all -o s.vtkhdf
 is 'nothing of it is written' [ ! -e s-0000.vtkhdf ]

@@ -32,6 +32,8 @@ with h5py.File(particles) as file:
     root = file['VTKHDF']
     if root.attrs['Type'] != b'UnstructuredGrid' or list(root.attrs['Version']) != [1, 0]:
         sys.exit('no UnstructuredGrid of version 1.0')
+    if root.attrs.get_id('Type').get_type().get_size() != len('UnstructuredGrid'):
+        sys.exit('a Type with bytes behind it, which ParaView 5.11 does not know')
     points = root['Points'][:]
     same('positions', points, vector(p, 'x_nm y_nm z_nm'))
     same('diameters', root['PointData/diameter_nm'][:], p['diameter_nm'])
