@@ -61,10 +61,16 @@ static bool unwritten(const struct gb_hdf *file, const char *name, struct gb_err
                         file->path, name);
 }
 
+/* Many builds of HDF5 may only be called by one thread at a time: a thread has it for as long
+ * as it has a file. */
+static GRecMutex one_thread;
+
 static struct gb_hdf *wrap(const char *path, struct gb_error *err)
 {
     struct gb_hdf *file = gb_alloc_array(1, sizeof *file, err);
     if (file != NULL) {
+        g_rec_mutex_lock(&one_thread);
+        gb_hdf_mute();
         file->file = H5I_INVALID_HID;
         file->path = g_strdup(path);
     }
@@ -82,7 +88,6 @@ bool gb_hdf_create(struct gb_hdf **out, const char *path, struct gb_error *err)
         *out = NULL;
         return gb_error_set(err, GB_ERR_MEMORY, "%s: out of memory for a state", path);
     }
-    gb_hdf_mute();
     *out = gb_file_check_target(path, err) ? wrap(path, err) : NULL;
     if (*out == NULL) {
         return false;
@@ -126,7 +131,6 @@ bool gb_hdf_open(struct gb_hdf **out, const char *path, struct gb_error *err)
         return gb_error_set(err, GB_ERR_MACHINE, "%s: %s", path, g_strerror(errno));
     }
     fclose(probe);
-    gb_hdf_mute();
     *out = wrap(path, err);
     if (*out == NULL) {
         return false;
@@ -158,6 +162,7 @@ void gb_hdf_destroy(struct gb_hdf *file)
     free(file->memory.image);
     g_free(file->path);
     gb_alloc_free(file);
+    g_rec_mutex_unlock(&one_thread);
 }
 
 /* A text attribute of fixed length on any object. */

@@ -10,7 +10,10 @@
 /* HDF5 files with one-line errors.  Written files are built in memory and replaced as a
  * whole: after an I/O error HDF5 could not close the file.  Read files are not trusted:
  * types, ranks and sizes are checked before memory is allocated, and links and external
- * or virtual data are refused. */
+ * or virtual data are refused.
+ *
+ * A thread that has a file is the only one: others wait in gb_hdf_create and gb_hdf_open until
+ * it has destroyed its files. */
 struct gb_hdf;
 
 enum gb_hdf_type {
