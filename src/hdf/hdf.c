@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <glib.h>
 #include <hdf5.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -63,13 +64,25 @@ static bool unwritten(const struct gb_hdf *file, const char *name, struct gb_err
 
 /* Many builds of HDF5 may only be called by one thread at a time: a thread has it for as long
  * as it has a file. */
-static GRecMutex one_thread;
+static pthread_mutex_t one_thread;
+static pthread_once_t prepared = PTHREAD_ONCE_INIT;
+
+/* One thread may have several files. */
+static void prepare(void)
+{
+    pthread_mutexattr_t kind;
+    pthread_mutexattr_init(&kind);
+    pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE);
+    pthread_mutex_init(&one_thread, &kind);
+    pthread_mutexattr_destroy(&kind);
+}
 
 static struct gb_hdf *wrap(const char *path, struct gb_error *err)
 {
     struct gb_hdf *file = gb_alloc_array(1, sizeof *file, err);
     if (file != NULL) {
-        g_rec_mutex_lock(&one_thread);
+        pthread_once(&prepared, prepare);
+        pthread_mutex_lock(&one_thread);
         gb_hdf_mute();
         file->file = H5I_INVALID_HID;
         file->path = g_strdup(path);
@@ -162,7 +175,7 @@ void gb_hdf_destroy(struct gb_hdf *file)
     free(file->memory.image);
     g_free(file->path);
     gb_alloc_free(file);
-    g_rec_mutex_unlock(&one_thread);
+    pthread_mutex_unlock(&one_thread);
 }
 
 /* A text attribute of fixed length on any object. */
