@@ -60,8 +60,12 @@ static bool copy_optional(struct gb_array_source *packing, struct gb_state *stat
     static const char *const names[] = {"velocity", "spin", "force", "torque"};
     for (size_t k = 0; k < G_N_ELEMENTS(members); k++) {
         struct gb_array array = {.size = sizeof array};
-        if (!gb_array_find(packing, names[k], &array, NULL)) {
-            continue; /* a scene without time */
+        struct gb_error none = {0};
+        if (!gb_array_find(packing, names[k], &array, &none)) {
+            if (none.code == GB_ERR_INPUT) {
+                continue; /* a scene without time */
+            }
+            return gb_error_set(err, none.code, "%s", none.text);
         }
         if (!gb_state_optional_allocate(state, members[k], err)) {
             return false;

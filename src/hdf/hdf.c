@@ -83,11 +83,21 @@ static struct gb_hdf *wrap(const char *path, struct gb_error *err)
     if (file != NULL) {
         pthread_once(&prepared, prepare);
         pthread_mutex_lock(&one_thread);
+        file->locked = true;
         gb_hdf_mute();
         file->file = H5I_INVALID_HID;
         file->path = g_strdup(path);
     }
     return file;
+}
+
+/* HDF5 is called no more for this file. */
+static void unlock(struct gb_hdf *file)
+{
+    if (file->locked) {
+        file->locked = false;
+        pthread_mutex_unlock(&one_thread);
+    }
 }
 
 void gb_hdf_skip_exit(void)
@@ -124,6 +134,7 @@ bool gb_hdf_store(struct gb_hdf *file, struct gb_error *err)
     if (!flushed || !closed || file->memory.image == NULL) {
         return unwritten(file, "/", err);
     }
+    unlock(file); /* a slow disk makes no other thread wait */
     return gb_file_replace(file->path, file->memory.image,
                            gb_hdf_memory_size(&file->memory), err);
 }
@@ -168,14 +179,14 @@ void gb_hdf_destroy(struct gb_hdf *file)
     if (file == NULL) {
         return;
     }
-    gb_hdf_mute();
     if (file->file >= 0) {
+        gb_hdf_mute();
         H5Fclose(file->file);
     }
+    unlock(file);
     free(file->memory.image);
     g_free(file->path);
     gb_alloc_free(file);
-    pthread_mutex_unlock(&one_thread);
 }
 
 /* A text attribute of fixed length on any object. */

@@ -13,7 +13,7 @@
  * or virtual data are refused.
  *
  * A thread that has a file is the only one: others wait in gb_hdf_create and gb_hdf_open until
- * it has destroyed its files. */
+ * it has stored or destroyed its files. */
 struct gb_hdf;
 
 enum gb_hdf_type {

@@ -47,7 +47,8 @@ bool gb_hdf_group_text(struct gb_hdf *file, const char *group, const char *name,
 {
     gb_hdf_mute();
     const hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, strlen(text)); /* ParaView 5.11 knows no type with a byte behind it */
+    /* ParaView 5.11 knows no type with a byte behind it; HDF5 has no text of no bytes */
+    H5Tset_size(type, text[0] != '\0' ? strlen(text) : 1);
     H5Tset_strpad(type, H5T_STR_NULLPAD);
     const bool done =
         put(file, group, name, type, H5Screate(H5S_SCALAR), type, text, err);

@@ -11,6 +11,7 @@ struct gb_hdf {
     hid_t file;
     char *path;
     struct gb_hdf_memory memory; /* of a file under construction */
+    bool locked;                 /* its thread is the one that may call HDF5 */
 };
 
 /* HDF5 prints its error stack to stderr unless told otherwise.  The setting belongs to the

@@ -71,7 +71,8 @@ mkdir elsewhere
 is 'a stopped run goes on without the file, from another folder' sh -c \
     "cd elsewhere && timeout $patience_s '$greenbody' resume ../stopped --quiet >../stdout 2>../stderr"
 is 'to the same bits' same_rows whole stopped
-is 'and is verified' in_patience "$greenbody" verify stopped
+in_patience "$greenbody" verify stopped >stdout 2>stderr
+result 'and is verified' $?
 
 # --- other programs ---------------------------------------------------------------------------
 if command -v lmp >/dev/null; then
@@ -135,7 +136,8 @@ for cell in box xy xz; do
     is 'as the packing that it is' same_points
 done
 is 'its table has the tilts' grep -q '^# cell, d: .* tilt xy xz yz, d: [1-9]' cell-xy/structure.csv
-is 'a run in a tilted cell is verified' in_patience "$greenbody" verify cell-xy
+in_patience "$greenbody" verify cell-xy >stdout 2>stderr
+result 'a run in a tilted cell is verified' $?
 is 'a tilted cell is sheared' run default structure.from=xy.csv \
     'loading.path=uniaxial to 20 MPa; shear xz to 2 %' --out sheared
 for format in extxyz lammps-dump lammps-data vtkhdf csv; do

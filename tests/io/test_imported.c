@@ -228,6 +228,30 @@ static const struct {
      NAN},
 };
 
+/* The cell 10 x 12 x 14 with tilts 2, 1, 0.5 around diameters of 2, as LAMMPS writes it: tilts
+ * before the bounds, and a dump, whose bounds are those of the box around it. */
+static void test_tilted(void)
+{
+    static const char *const texts[] = {
+        "title\n\n2 atoms\n2 1 0.5 xy xz yz\n-5 5 xlo xhi\n-6 6 ylo yhi\n-7 7 zlo zhi\n\n"
+        "Atoms # sphere\n\n1 1 2 1 -3 -3 -3\n2 1 2 1 0 0 0\n",
+        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS xy xz yz pp pp pp\n"
+        "-5 8 2\n-6 6.5 1\n-7 7 0.5\nITEM: ATOMS id x y z radius\n1 -3 -3 -3 1\n"
+        "2 0 0 0 1\n"};
+    for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
+        struct gb_error err = {0};
+        const struct gb_imported *packing = load_text(texts[k], &err);
+        if (packing == NULL) {
+            g_error("%s", err.text);
+        }
+        for (int c = 0; c < 3; c++) {
+            g_assert_cmpfloat(packing->edges[c], ==, 5.0 + c);
+            g_assert_cmpfloat(packing->tilts[c], ==, 1.0 / (1 << c));
+            g_assert_cmpfloat(packing->position[c], ==, 1.0 + 0.5 * c);
+        }
+    }
+}
+
 static void test_foreign(void)
 {
     static const double edges[3] = {5.0, 6.0, 7.0};
@@ -273,6 +297,8 @@ static const struct {
     {"ITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x y z\n1 1 2 3\n",
      ":3: no column diameter or radius"},
     {"ITEM: TIMESTEP\n0\n", "no ITEM: ATOMS"},
+    {"ITEM: BOX BOUNDS abc origin p p p\n9 0 0 0\n1 9 0 0\n0 0 9 0\n",
+     ":1: a cell by vectors and origin: must be bounds with xy xz yz"},
     {"t\n\n1 atoms\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nAtoms # atomic\n\n1 1 1 2 3\n",
      "atoms of style atomic: must be sphere"},
 };
@@ -328,6 +354,7 @@ int main(int argc, char **argv)
     g_test_add_func("/imported/own_table", test_own_table);
     g_test_add_func("/imported/last_frame", test_last_frame);
     g_test_add_func("/imported/foreign", test_foreign);
+    g_test_add_func("/imported/tilted", test_tilted);
     g_test_add_func("/imported/wrong", test_wrong);
     g_test_add_func("/imported/params", test_params);
     return g_test_run();

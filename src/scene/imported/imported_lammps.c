@@ -19,7 +19,6 @@ static bool take_bounds(struct gb_imported_raw *raw,
                                     &raw->low[axis], err) &&
            gb_imported_lines_number(lines, words[1], "a bound of the cell", &high, err);
     raw->edges[axis] = high - raw->low[axis];
-    raw->tilts[axis] = 0.0;
     if (good && g_strv_length(words) >= 3) {
         good = gb_imported_lines_number(lines, words[2], "a tilt of the cell",
                                         &raw->tilts[axis], err);
@@ -32,6 +31,9 @@ static bool take_bounds(struct gb_imported_raw *raw,
 static void take_tilts_out(struct gb_imported_raw *raw)
 {
     const double xy = raw->tilts[0], xz = raw->tilts[1], yz = raw->tilts[2];
+    if (xy == 0.0 && xz == 0.0 && yz == 0.0) {
+        return;
+    }
     const double low[3] = {fmin(fmin(0.0, xy), fmin(xz, xy + xz)), fmin(0.0, yz), 0.0};
     const double high[3] = {fmax(fmax(0.0, xy), fmax(xz, xy + xz)), fmax(0.0, yz), 0.0};
     for (int axis = 0; axis < 3; axis++) {
@@ -94,6 +96,11 @@ static bool take_item(struct dump *dump, struct gb_imported_lines *lines,
         return next_line(lines, &line, err) &&
                gb_imported_columns_count(lines, line, &dump->count, err);
     } else if (g_str_has_prefix(item, bounds)) {
+        memset(raw->tilts, 0, sizeof raw->tilts); /* of an earlier frame */
+        if (strstr(item, "abc origin")) {
+            return gb_imported_lines_refuse(
+                lines, err, "a cell by vectors and origin: must be bounds with xy xz yz");
+        }
         for (int axis = 0; axis < 3; axis++) {
             if (!next_line(lines, &line, err) ||
                 !take_bounds(raw, lines, axis, line, err)) {
