@@ -115,7 +115,7 @@ static const char *automatic_relaxer(const struct gb_params *params)
 static bool has_single_sweep(const struct gb_model *model)
 {
     return gb_loading_kind_at(model->kind)->single_precision && model->dimension == 3 &&
-           !model->polydisperse && !model->sheared;
+           !model->sheared;
 }
 
 /* Single precision halves memory and time; P1's own relaxer is kept as printed. */
@@ -304,7 +304,7 @@ bool gb_model_init(struct gb_model *model, const struct gb_params *params,
         return gb_error_set(
             err, GB_ERR_INPUT,
             "numerics.precision = single: must be auto or double unless the scene is "
-            "quasi-static, in 3D, of one particle size and without shear or tilts");
+            "quasi-static, in 3D and without shear or tilts");
     }
     freeze_laws(model, params);
     if (!gb_loading_kind_of(params)->periodic_cell) {

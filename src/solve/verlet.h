@@ -10,7 +10,7 @@
 /* Newton's equations for translation and rotation, P2 (1), by velocity Verlet. Velocities
  * are those beside the affine motion of the cell.  Reduced units: a particle of the
  * reference diameter has m = 1, J = 0.1; one of diameter d has m = d^3, J = m d^2/10, and
- * its rotations are arcs, d times the angle (pack/kernel/sweep_sized.h), whose inertia is
+ * its rotations are arcs, d times the angle (pack/kernel/sweep_f64.h), whose inertia is
  * m/10.  In 2D only x, z and the rotation about y move; discs have the masses of spheres,
  * P2 (1). */
 struct gb_verlet {

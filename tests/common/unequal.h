@@ -9,10 +9,11 @@
 
 #define UNEQUAL_LOGNORMAL "particles.distribution=lognormal", "particles.median=9.7 nm"
 
-static inline struct gb_model unequal_model(const char *more)
+static inline struct gb_model unequal_model(const char *first, const char *second)
 {
-    const struct gb_params params = scene_params(UNEQUAL_LOGNORMAL, "particles.sigma=0.3",
-                                                 "particles.largest=20 nm", more, NULL);
+    const struct gb_params params =
+        scene_params(UNEQUAL_LOGNORMAL, "particles.sigma=0.3", "particles.largest=20 nm",
+                     first, second, NULL);
     return scene_model(&params);
 }
 

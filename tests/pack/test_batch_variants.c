@@ -33,6 +33,11 @@ static void round_batch(const struct gb_batch *batch, struct gb_batch_f32 *round
 {
     rounded->n = batch->n;
     rounded->cutoff2 = (float)batch->cutoff2;
+    for (int s = 0; s < 2; s++) {
+        for (int k = 0; k < batch->n; k++) {
+            rounded->diameter[s][k] = (float)batch->diameter[s][k];
+        }
+    }
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < batch->n; k++) {
             rounded->r[c][k] = (float)batch->r[c][k];
@@ -72,21 +77,44 @@ static uint64_t close_sum(GChecksum *sum)
     return hash;
 }
 
+/* Diameters for the pairs, which keep their overlaps over the mean. */
+static void random_sizes(GRand *random, struct gb_batch *batch)
+{
+    for (int k = 0; k < batch->n; k++) {
+        const double first = g_rand_double_range(random, 0.5, 2.0);
+        const double second = g_rand_double_range(random, 0.5, 2.0);
+        batch->diameter[0][k] = first;
+        batch->diameter[1][k] = second;
+        for (int c = 0; c < 3; c++) {
+            batch->r[c][k] *= 0.5 * (first + second);
+        }
+    }
+}
+
+/* dimension: 2, 3, or SIZED for unequal sizes */
+enum { SIZED = 4, VARIANTS_EACH = 3 };
+
 static uint64_t walk(const struct gb_params *params, int width, int dimension,
                      enum gb_kind kind)
 {
     const bool viscous = kind == GB_KIND_DYNAMIC;
     struct gb_model model = scene_model(params);
     struct gb_contacts contacts;
-    model.dimension = dimension;
+    const bool sized = dimension == SIZED;
+    model.dimension = sized ? 3 : dimension;
+    model.polydisperse = sized;
     model.kind = (int)kind;
     const struct gb_batch_kernel kernel = gb_batch_pick(&model, width);
-    open_contacts(&contacts, (struct gb_contacts_shape){dimension, viscous, GB_REAL_F64});
+    open_contacts(&contacts,
+                  (struct gb_contacts_shape){model.dimension, viscous, GB_REAL_F64});
     GRand *random = g_rand_new_with_seed(5);
     static struct gb_batch batch;
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
     for (int i = 0; i < 50; i++) {
         random_batch(random, &batch);
+        if (sized) {
+            random_sizes(random, &batch);
+        }
         kernel.advance(&model, &batch, &contacts, 3);
         add_to_sum(sum, batch.force[0], (size_t)batch.n, sizeof(double));
         add_to_sum(sum, batch.torque_i[0], (size_t)batch.n, sizeof(double));
@@ -113,9 +141,10 @@ static void test_widths(void)
 {
     for (int t = 0; t < TERMS; t++) {
         const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
-        for (int v = 0; v < (t < COHESIVE ? 4 : 2); v++) {
-            const int dimension = 2 + v % 2;
-            const enum gb_kind kind = v > 1 ? GB_KIND_DYNAMIC : GB_KIND_QUASISTATIC;
+        for (int v = 0; v < (t < COHESIVE ? 2 : 1) * VARIANTS_EACH; v++) {
+            const int dimension = 2 + v % VARIANTS_EACH;
+            const enum gb_kind kind =
+                v >= VARIANTS_EACH ? GB_KIND_DYNAMIC : GB_KIND_QUASISTATIC;
             const uint64_t reference = walk(&params, 128, dimension, kind);
             g_assert_cmpuint(walk(&params, 256, dimension, kind), ==, reference);
             g_assert_cmpuint(walk(&params, 512, dimension, kind), ==, reference);
@@ -124,10 +153,11 @@ static void test_widths(void)
 }
 
 /* Single precision: the same bits for every vector width. */
-static uint64_t walk_f32(const struct gb_params *params, int width)
+static uint64_t walk_f32(const struct gb_params *params, int width, bool sized)
 {
     struct gb_model model = scene_model(params);
     struct gb_contacts contacts;
+    model.polydisperse = sized;
     const struct gb_batch_f32_kernel kernel = gb_batch_f32_pick(&model, width);
     open_contacts(&contacts, f32);
     GRand *random = g_rand_new_with_seed(5);
@@ -137,6 +167,9 @@ static uint64_t walk_f32(const struct gb_params *params, int width)
     GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
     for (int i = 0; i < 50; i++) {
         random_batch(random, &batch);
+        if (sized) {
+            random_sizes(random, &batch);
+        }
         round_batch(&batch, &rounded);
         kernel.advance(&model, &rounded, &contacts, 3);
         kernel.tally(&rounded, &contacts, 3, &tally);
@@ -154,9 +187,11 @@ static void test_widths_f32(void)
 {
     for (int t = 0; t < TERMS; t++) {
         const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
-        const uint64_t reference = walk_f32(&params, 128);
-        g_assert_cmpuint(walk_f32(&params, 256), ==, reference);
-        g_assert_cmpuint(walk_f32(&params, 512), ==, reference);
+        for (int sized = 0; sized < 2; sized++) {
+            const uint64_t reference = walk_f32(&params, 128, sized);
+            g_assert_cmpuint(walk_f32(&params, 256, sized), ==, reference);
+            g_assert_cmpuint(walk_f32(&params, 512, sized), ==, reference);
+        }
     }
 }
 
@@ -191,10 +226,11 @@ static void assert_same_forces(const struct gb_batch *batch,
 
 /* The same small motion of pairs in both precisions: forces and torques agree within the
  * rounding of an overlap, 1e-7 of the distance. */
-static void check_precisions(int t)
+static void check_precisions(int t, bool sized)
 {
     const struct gb_params params = scene_params(terms[t][0], terms[t][1], NULL);
     struct gb_model model = scene_model(&params);
+    model.polydisperse = sized;
     struct gb_contacts fine, coarse;
     static struct gb_batch batch;
     static struct gb_batch_f32 rounded;
@@ -205,6 +241,9 @@ static void check_precisions(int t)
     open_contacts(&coarse, f32);
     GRand *random = g_rand_new_with_seed(7);
     random_batch(random, &batch);
+    if (sized) {
+        random_sizes(random, &batch);
+    }
     for (int i = 0; i < 200; i++) {
         move_batch(random, &batch);
         round_batch(&batch, &rounded);
@@ -226,7 +265,8 @@ static void check_precisions(int t)
 static void test_f32(void)
 {
     for (int t = 0; t < COHESIVE; t++) {
-        check_precisions(t);
+        check_precisions(t, false);
+        check_precisions(t, true);
     }
 }
 

@@ -9,7 +9,7 @@
 /* Between equal spheres of diameter 1 the laws are those of P1. */
 static void test_equal(void)
 {
-    const struct gb_model model = unequal_model(NULL);
+    const struct gb_model model = unequal_model(NULL, NULL);
     struct gb_law_unequal law;
     gb_unequal_pair_init(&law, &model, 1.0, 1.0);
     for (double h = 1e-4; h < 0.4; h *= 1.7) {
@@ -61,7 +61,7 @@ static const double sizes[][2] = {{0.5, 1.9}, {1.9, 0.5}, {0.8, 0.9}, {0.4, 0.4}
 /* Forces are slopes of energies; the order of the two particles does not matter. */
 static void test_potential(void)
 {
-    const struct gb_model model = unequal_model(NULL);
+    const struct gb_model model = unequal_model(NULL, NULL);
     for (size_t s = 0; s < G_N_ELEMENTS(sizes); s++) {
         struct gb_law_unequal law, other;
         gb_unequal_pair_init(&law, &model, sizes[s][0], sizes[s][1]);
@@ -92,7 +92,7 @@ static void test_potential(void)
  * to Hamaker's sphere at a wall, whose leading term is A d/(12 s^2) with the gap s. */
 static void test_limits(void)
 {
-    const struct gb_model model = unequal_model(NULL);
+    const struct gb_model model = unequal_model(NULL, NULL);
     struct gb_law_unequal law;
     gb_unequal_pair_init(&law, &model, 0.5, 2.0);
     const double h = 1e-7, reduced = 0.25 * 1.0 / 1.25;

@@ -31,9 +31,9 @@ static void test_one_size(void)
     for (size_t s = 0; s < G_N_ELEMENTS(scenes); s++) {
         const struct gb_params plain =
             scene_params(scenes[s][0], scenes[s][1], "numerics.precision=double", NULL);
-        const struct gb_params table =
-            scene_params(scenes[s][0], scenes[s][1], "particles.distribution=table",
-                         "particles.table=number: 9.7 nm 1", NULL);
+        const struct gb_params table = scene_params(
+            scenes[s][0], scenes[s][1], "particles.distribution=table",
+            "particles.table=number: 9.7 nm 1", "numerics.precision=double", NULL);
         const struct gb_model one = scene_model(&plain), many = scene_model(&table);
         double *position = scene_positions(&one);
         struct gb_world *world[2];
@@ -105,7 +105,7 @@ static void test_packing(void)
 {
     const struct gb_params params =
         scene_params(UNEQUAL_LOGNORMAL, "particles.sigma=0.3", "particles.largest=20 nm",
-                     "particles.count=400", NULL);
+                     "particles.count=400", "numerics.precision=double", NULL);
     const struct gb_model model = scene_model(&params);
     g_assert_true(model.polydisperse);
     struct gb_world *world = scene_world(&model);
@@ -143,9 +143,9 @@ static double pull_of(const struct gb_world *world, int64_t k)
 }
 
 /* The lists hold the pairs that a scan of all pairs finds. */
-static void test_lists(void)
+static void check_lists(const char *precision)
 {
-    const struct gb_model model = unequal_model("particles.count=300");
+    const struct gb_model model = unequal_model("particles.count=300", precision);
     struct gb_world *world = scene_world(&model);
     scene_press(world, 3, 20, 1.5);
     const double *x = gb_world_position(world);
@@ -177,11 +177,18 @@ static void test_lists(void)
     gb_world_destroy(world);
 }
 
-static void test_threads(void)
+static void test_lists(void)
+{
+    check_lists("numerics.precision=double");
+    check_lists("numerics.precision=single");
+}
+
+/* Several blocks of particles. */
+static void check_threads(const char *precision)
 {
     uint64_t hash = 0;
     for (int threads = 1; threads <= 4; threads++) {
-        struct gb_model model = unequal_model("particles.count=300");
+        struct gb_model model = unequal_model("particles.count=4000", precision);
         model.numerics.threads = threads;
         struct gb_world *world = scene_world(&model);
         scene_press(world, 3, 20, 1.5);
@@ -191,13 +198,19 @@ static void test_threads(void)
     }
 }
 
+static void test_threads(void)
+{
+    check_threads("numerics.precision=double");
+    check_threads("numerics.precision=single");
+}
+
 /* Two spheres of 0.6 and 1.7 d: pressed and pulled back, the force is the law's, over the
  * bridge and after it has been peeled. */
 static struct gb_world *pair(struct gb_model *model, double d[2])
 {
-    const struct gb_params params =
-        scene_params("particles.distribution=table",
-                     "particles.table=number: 6 nm 0.5; 17 nm 0.5", NULL);
+    const struct gb_params params = scene_params(
+        "particles.distribution=table", "particles.table=number: 6 nm 0.5; 17 nm 0.5",
+        "numerics.precision=double", NULL);
     *model = scene_model(&params);
     model->count = 2;
     model->edges[0] = model->edges[1] = model->edges[2] = 12.0;

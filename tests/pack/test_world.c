@@ -235,8 +235,7 @@ static void test_memory(const void *data)
 static void test_precision(void)
 {
     const char *const without[] = {"scene.kind=dynamic", "scene.kind=die",
-                                   "scene.dimension=2",
-                                   "particles.distribution=lognormal"};
+                                   "scene.dimension=2"};
     for (size_t i = 0; i < G_N_ELEMENTS(without); i++) {
         struct gb_params params = scene_params("particles.count=1000", without[i], NULL);
         struct gb_model model;

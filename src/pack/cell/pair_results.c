@@ -6,9 +6,7 @@
 
 void gb_pair_results_init(struct gb_pair_results *results, const struct gb_model *model)
 {
-    results->width = model->polydisperse     ? GB_PAIR_RESULTS_SIZED
-                     : model->dimension == 3 ? 6
-                                             : 3;
+    results->width = model->record_dimension == 3 ? 6 : 3;
 }
 
 void gb_pair_results_finish(struct gb_pair_results *results)

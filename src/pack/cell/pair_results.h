@@ -12,15 +12,12 @@
  * pair_results.c.  A world in single precision keeps none. */
 struct gb_pair_results {
     double *wrench; /* rows per near pair: force on i, torque on j */
-    int width;      /* doubles in a row: 6; in 2D 3 (x, z, about y); unequal sizes 13 */
+    int width;      /* doubles in a row: 6; of equal discs 3 (x, z, about y) */
     double *pull;   /* three per far pair: attraction on i */
     int64_t far_capacity;
     /* Dynamic scenes, per far pair: distance and attraction at the last evaluation. */
     double *far_distance, *far_pull;
 };
-
-/* Doubles in a row of a pair of unequal sizes: forces and what it adds to the tally. */
-enum { GB_PAIR_RESULTS_SIZED = 13 };
 
 void gb_pair_results_init(struct gb_pair_results *results, const struct gb_model *model);
 void gb_pair_results_finish(struct gb_pair_results *results);

@@ -7,7 +7,7 @@
  * by numerics.precision. */
 enum gb_real {
     GB_REAL_F64,
-    GB_REAL_F32, /* quasi-static scenes in 3D with particles of one size */
+    GB_REAL_F32, /* quasi-static scenes in 3D */
 };
 
 static inline size_t gb_real_size(enum gb_real real)

@@ -5,7 +5,7 @@
 #include "base/alloc.h"
 #include "base/mat.h"
 #include "pack/cell/world_private.h"
-#include "pack/kernel/sweep_sized.h"
+#include "pack/kernel/sweep_f64.h"
 #include "scene/loading_kind.h"
 #include "scene/tolerances.h"
 
@@ -84,8 +84,8 @@ static void from_batch(const struct gb_batch *batch, int dimension, bool near,
     }
 }
 
-/* Equal spheres: the kernel of the sweep on a copy of the contact records. */
-static void apply_batch(const struct source *from, int64_t slot, int n, struct span *span)
+/* The kernel of the sweep on a copy of the contact records. */
+static void apply(const struct source *from, int64_t slot, int n, struct span *span)
 {
     const struct gb_engine *engine = from->engine;
     const double cutoff =
@@ -95,34 +95,15 @@ static void apply_batch(const struct source *from, int64_t slot, int n, struct s
     memset(&batch, 0, sizeof batch);
     batch.n = n;
     batch.cutoff2 = cutoff * cutoff;
-    to_batch(span, engine->model->dimension, &batch);
+    to_batch(span, engine->model->record_dimension, &batch);
+    gb_sweep_f64_gather_diameters(engine, from->list, &batch, slot);
     if (from->near) {
         copy_contacts(from, slot, n);
         engine->kernel.advance(engine->model, &batch, from->scratch, 0);
     } else {
         engine->kernel.attract(engine->model, &batch, NULL, NULL, &tally);
     }
-    from_batch(&batch, engine->model->dimension, from->near, span);
-}
-
-/* Unequal spheres, pair by pair. */
-static void apply_sized(const struct source *from, int64_t slot, int n, struct span *span)
-{
-    for (int k = 0; k < n; k++) {
-        double motion[WIDTH], result[WIDTH];
-        for (int m = 0; m < WIDTH; m++) {
-            motion[m] = span->motion[m][k];
-        }
-        gb_sweep_sized_pair(from->engine, from->near, slot + k, motion, result);
-        for (int m = 0; m < WIDTH; m++) {
-            span->result[m][k] = result[m];
-        }
-    }
-}
-
-static void apply(const struct source *from, int64_t slot, int n, struct span *span)
-{
-    (from->engine->particles.diameter ? apply_sized : apply_batch)(from, slot, n, span);
+    from_batch(&batch, engine->model->record_dimension, from->near, span);
 }
 
 /* Adds the motion of all particles to the numbers of pair k of a span. */

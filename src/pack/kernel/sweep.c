@@ -8,7 +8,6 @@
 #include "pack/f32/f32_convert.h"
 #include "pack/kernel/sweep_f32.h"
 #include "pack/kernel/sweep_f64.h"
-#include "pack/kernel/sweep_sized.h"
 #include "pack/list/blocks.h"
 #include "pack/list/list_check.h"
 
@@ -118,8 +117,7 @@ static void sum_blocks(struct gb_engine *engine, int64_t blocks)
     engine->total = total;
 }
 
-/* Particles of one size. */
-static bool sweep_equal(struct gb_engine *engine, struct gb_sweep_along along)
+static bool sweep(struct gb_engine *engine, struct gb_sweep_along along)
 {
     const int64_t blocks = gb_blocks_count(engine->particles.count);
     for (int c = 0; c < 3; c++) {
@@ -139,28 +137,11 @@ static bool sweep_equal(struct gb_engine *engine, struct gb_sweep_along along)
     return true;
 }
 
-/* Particles of unequal sizes; all sums by one thread. */
-static bool sweep_sized(struct gb_engine *engine, struct gb_sweep_along along)
-{
-    const int64_t count = engine->particles.count;
-    for (int64_t b = 0; b < gb_blocks_count(count); b++) {
-        gb_list_check_measure(engine, b);
-    }
-    if (!gb_list_check_run(engine)) {
-        return false;
-    }
-    gb_team_measured_begin(engine->team);
-    gb_sweep_sized_run(engine);
-    gb_team_measured_end(engine->team);
-    gb_sweep_f64_sum(&engine->particles, 0, count, along, &engine->total.sums);
-    return true;
-}
-
 enum gb_sweep_outcome gb_sweep_run(struct gb_engine *engine, struct gb_sweep_along along)
 {
     const double count = (double)engine->particles.count;
     gb_neighbour_list_update_shifts(&engine->list, &engine->particles.cell);
-    if (!(engine->particles.diameter ? sweep_sized : sweep_equal)(engine, along)) {
+    if (!sweep(engine, along)) {
         return isfinite(gb_list_check_largest(engine)) ? GB_SWEEP_LIST_INVALID
                                                        : GB_SWEEP_NOT_FINITE;
     }

@@ -68,6 +68,18 @@ GB_ROW_INLINE void gather(const struct gb_f32_state *f32, const struct gb_pair_l
     }
 }
 
+/* Diameters of the pairs of a batch, where they are unequal. */
+GB_ROW_INLINE void gather_diameters(const struct gb_engine *engine,
+                                    const struct gb_pair_list *list,
+                                    struct gb_batch_f32 *restrict batch, int64_t slot)
+{
+    const double *diameter = engine->particles.diameter;
+    for (int k = 0; diameter && k < batch->n; k++) {
+        batch->diameter[0][k] = (float)diameter[list->first[slot + k]];
+        batch->diameter[1][k] = (float)diameter[list->other[slot + k]];
+    }
+}
+
 /* Destination of the forces of a block: the second particle of a pair too while it lies
  * before `end`, else the next row. */
 struct target {
@@ -180,6 +192,7 @@ GB_ROW_INLINE void sweep_near(struct gb_engine *engine, int64_t b, float cutoff2
         batch.n = stop - slot < GB_BATCH ? (int)(stop - slot) : GB_BATCH;
         prefetch_particles(engine, near, slot + batch.n, stop - slot - batch.n);
         gather(&engine->f32, near, &batch, slot, WITH_ROTATIONS);
+        gather_diameters(engine, near, &batch, slot);
         kernel->advance(engine->model, &batch, &engine->contacts, slot);
         to =
             scatter(&batch, near->first + slot, near->other + slot, to, scatter_wrenches);
@@ -199,6 +212,7 @@ GB_ROW_INLINE void sweep_far(struct gb_engine *engine, int64_t b, float cutoff2)
         batch.n = stop - slot < GB_BATCH ? (int)(stop - slot) : GB_BATCH;
         prefetch_particles(engine, far, slot + batch.n, stop - slot - batch.n);
         gather(&engine->f32, far, &batch, slot, BRANCH_ONLY);
+        gather_diameters(engine, far, &batch, slot);
         engine->f32.kernel.attract(engine->model, &batch);
         to = scatter(&batch, far->first + slot, far->other + slot, to, scatter_pulls);
     }
@@ -318,6 +332,7 @@ void gb_sweep_f32_recompute(const struct gb_engine *engine,
 {
     const double cutoff = gb_engine_cutoff(engine);
     batch->cutoff2 = (float)(cutoff * cutoff);
+    gather_diameters(engine, list, batch, slot);
     if (list == &engine->list.near) {
         engine->f32.kernel.recompute(engine->model, batch, &engine->contacts, slot);
         return;

@@ -35,6 +35,17 @@ static void gather(const struct gb_engine *engine, struct gb_batch *restrict bat
     }
 }
 
+void gb_sweep_f64_gather_diameters(const struct gb_engine *engine,
+                                   const struct gb_pair_list *list,
+                                   struct gb_batch *restrict batch, int64_t slot)
+{
+    const double *diameter = engine->particles.diameter;
+    for (int k = 0; diameter && k < batch->n; k++) {
+        batch->diameter[0][k] = diameter[list->first[slot + k]];
+        batch->diameter[1][k] = diameter[list->other[slot + k]];
+    }
+}
+
 static void gather_2d(const struct gb_engine *engine, struct gb_batch *restrict batch,
                       int64_t slot)
 {
@@ -106,7 +117,7 @@ static void sweep_near(struct gb_engine *engine, int64_t begin, int64_t end,
                        double cutoff2, struct gb_tally *tally)
 {
     const int64_t *start = engine->list.near.start;
-    const bool planar = engine->model->dimension == 2;
+    const bool planar = gb_pair_results_planar(&engine->pair);
     struct gb_batch batch;
     batch.cutoff2 = cutoff2;
     batch.damp = engine->damp;
@@ -118,6 +129,7 @@ static void sweep_near(struct gb_engine *engine, int64_t begin, int64_t end,
             i++;
         }
         (planar ? gather_2d : gather)(engine, &batch, slot);
+        gb_sweep_f64_gather_diameters(engine, &engine->list.near, &batch, slot);
         engine->kernel.advance(engine->model, &batch, &engine->contacts, slot);
         (planar ? scatter_2d : scatter)(engine, &batch, slot, i);
         engine->kernel.tally(&batch, &engine->contacts, slot, tally);
@@ -132,7 +144,7 @@ static void gather_far(const struct gb_engine *engine, struct gb_batch *restrict
     const int32_t *first = far->first + slot, *other = far->other + slot;
     const uint8_t *image = far->image + slot;
     const double *position = engine->particles.position;
-    const int up = engine->model->dimension == 2 ? 1 : 2, n = batch->n;
+    const int up = gb_pair_results_planar(&engine->pair) ? 1 : 2, n = batch->n;
     for (int k = 0; k < n; k++) {
         const double *xi = position + 3 * (int64_t)first[k];
         const double *xj = position + 3 * (int64_t)other[k];
@@ -147,7 +159,7 @@ static void scatter_far(struct gb_engine *engine, const struct gb_batch *restric
                         int64_t slot)
 {
     const int32_t *first = engine->list.far.first + slot;
-    const bool planar = engine->model->dimension == 2;
+    const bool planar = gb_pair_results_planar(&engine->pair);
     const int n = batch->n;
     double *restrict pull = engine->pair.pull + 3 * slot;
     for (int k = 0; k < n; k++, pull += 3) {
@@ -170,6 +182,7 @@ static void sweep_far(struct gb_engine *engine, int64_t begin, int64_t end,
         const int64_t left = start[end] - slot;
         batch.n = left < GB_BATCH ? (int)left : GB_BATCH;
         gather_far(engine, &batch, slot);
+        gb_sweep_f64_gather_diameters(engine, &engine->list.far, &batch, slot);
         engine->kernel.attract(engine->model, &batch, distance ? distance + slot : NULL,
                                distance ? pull + slot : NULL, tally);
         scatter_far(engine, &batch, slot);
@@ -231,7 +244,7 @@ static void collect_far(const struct gb_engine *engine, int64_t j, double *restr
 
 void gb_sweep_f64_collect(struct gb_engine *engine, int64_t begin, int64_t end)
 {
-    const bool planar = engine->model->dimension == 2;
+    const bool planar = gb_pair_results_planar(&engine->pair);
     for (int64_t j = begin; j < end; j++) {
         (planar ? collect_near_2d : collect_near)(engine, j);
         collect_far(engine, j, engine->particles.force + 3 * j);

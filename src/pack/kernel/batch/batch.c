@@ -68,7 +68,11 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
     THREE(width##_2d, attribute, .planar = true)                                         \
     THREE(width##_2d_viscous, attribute, .planar = true, .viscous = true)                \
     TWO(width##_3d, attribute, .planar = false)                                          \
-    TWO(width##_2d, attribute, .planar = true)
+    TWO(width##_2d, attribute, .planar = true)                                           \
+    THREE(width##_sized, attribute, .planar = false, .sized = true)                      \
+    THREE(width##_sized_viscous, attribute, .planar = false, .sized = true,              \
+          .viscous = true)                                                               \
+    TWO(width##_sized, attribute, .planar = false, .sized = true)
 
 #define ROW(name)                                                                        \
     {                                                                                    \
@@ -79,7 +83,8 @@ INLINE void advance(const struct gb_model *model, struct terms t, struct gb_batc
 #define TABLE(width)                                                                     \
     {                                                                                    \
         ROWS(width##_3d), ROWS(width##_3d_viscous), ROWS(width##_2d),                    \
-            ROWS(width##_2d_viscous), PLAIN_ROWS(width##_3d), PLAIN_ROWS(width##_2d)     \
+            ROWS(width##_2d_viscous), PLAIN_ROWS(width##_3d), PLAIN_ROWS(width##_2d),    \
+            ROWS(width##_sized), ROWS(width##_sized_viscous), PLAIN_ROWS(width##_sized)  \
     }
 
 VARIANTS(w128, )
@@ -107,6 +112,11 @@ struct gb_batch_kernel gb_batch_pick(const struct gb_model *model, int widest)
     const int terms = model->terms.bridges ? 2 : model->terms.friction ? 1 : 0;
     const int viscous = gb_loading_kind_at(model->kind)->viscous_contacts;
     const int planar = model->dimension == 2;
+    if (model->polydisperse) { /* behind all of one size; discs by the rows of 3D */
+        const int row =
+            model->terms.plain ? 6 + model->terms.friction : 3 * viscous + terms;
+        return table_for(widest)[16 + row];
+    }
     if (model->terms.plain) { /* behind the four times three rows */
         return table_for(widest)[12 + 2 * planar + model->terms.friction];
     }

@@ -8,7 +8,7 @@
 #include "pack/kernel/tally.h"
 #include "scene/model.h"
 
-/* The contact laws of equal spheres over batches of pairs, in vector registers. */
+/* The contact laws over batches of pairs, in vector registers. */
 
 enum { GB_BATCH = 128, GB_LANES = 8 };
 
@@ -22,6 +22,7 @@ enum { GB_BATCH = 128, GB_LANES = 8 };
          * i and j since the last evaluation */ \
         _Alignas(64) real r[3][GB_BATCH];                                                  \
         real rotation_sum[3][GB_BATCH], rotation_difference[3][GB_BATCH];                  \
+        real diameter[2][GB_BATCH]; /* of i and j; unequal sizes only */                   \
         /* out: force on i (the opposite acts on j), torques on i and on j */              \
         real force[3][GB_BATCH], torque_i[3][GB_BATCH], torque_j[3][GB_BATCH];             \
         real normal[GB_BATCH];   /* |f_n| of contacts, 0 elsewhere */                      \
@@ -32,6 +33,9 @@ enum { GB_BATCH = 128, GB_LANES = 8 };
         real loose; /* number of contacts without a bridge */                              \
         real unit[3][GB_BATCH], distance[GB_BATCH], moment[GB_BATCH];                      \
         real rate[8][GB_BATCH]; /* increments of the springs; 7: of h */                   \
+        /* unequal sizes: 1/d_i, 1/d_j, their mean D, 1/D and d' = d_i d_j/D */            \
+        real inverse[2][GB_BATCH], mean[GB_BATCH], inverse_mean[GB_BATCH],                 \
+            reduced[GB_BATCH];                                                             \
     };
 GB_BATCH_OF(gb_batch, double)
 GB_BATCH_OF(gb_batch_f32, float)
@@ -42,7 +46,8 @@ GB_BATCH_OF(gb_batch_f32, float)
  * The increment of relative motion is r minus the stored branch vector, so it includes
  * the affine motion of the cell.  Stored vectors are rotated into the current tangent
  * plane keeping their length before the increment is added.  Source: P1 (1)-(12);
- * viscous forces P2 (3). */
+ * viscous forces P2 (3); unequal sizes by law/law_unequal.h, with rotations that are arcs
+ * and torques over the diameters (pack/kernel/sweep_f64.h). */
 struct gb_batch_kernel {
     void (*advance)(const struct gb_model *model, struct gb_batch *batch,
                     struct gb_contacts *contacts, int64_t slot);

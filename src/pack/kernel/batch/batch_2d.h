@@ -36,7 +36,7 @@ INLINE struct caps_2d caps_2d(const struct gb_law_slip *slip, struct terms t)
 INLINE double radius_2d(struct terms t, double length, double deepest, double h,
                         double root)
 {
-    const double square = larger(radius_square(t, length, deepest, h), 0.0);
+    const double square = larger(radius_square(t, length, deepest, h, 1), 0.0);
     return t.printed ? 0.5 * sqrt(where(deepest >= 0.0, square)) : 0.5 * root;
 }
 
@@ -87,7 +87,7 @@ INLINE void advance_2d(const struct gb_model *model, struct terms t,
                 const double tear = caps.tear * squared;
                 const bool fails =
                     lasts & (state > 0.0) &
-                    (pulled * pulled > tear * radius_square(t, length, state, h));
+                    (pulled * pulled > tear * radius_square(t, length, state, h, 1));
                 const double left = h > length ? h : 0.0;
                 state = fails ? left : state;
             }

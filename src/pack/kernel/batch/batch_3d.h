@@ -2,6 +2,15 @@
 #define GB_PACK_KERNEL_BATCH_3D_H
 
 #include "pack/kernel/batch/batch_laws.h"
+#include "scene/unequal_pair.h"
+
+/* Difference of the angles of i and j from sum and difference of their arcs. */
+INLINE real angle(struct terms t, struct pair_size size, real sum, real difference)
+{
+    return t.sized ? (real)0.5 * ((sum + difference) * size.inverse_i -
+                                  (sum - difference) * size.inverse_j)
+                   : difference;
+}
 
 /* First half, 3D: geometry, springs advanced by the relative motion, state of the bridge. */
 INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
@@ -15,7 +24,7 @@ INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
     real *restrict sz = PLANE(c->shear[2]);
     real *restrict qx = PLANE(c->roll[0]), *restrict qy = PLANE(c->roll[1]);
     real *restrict qz = PLANE(c->roll[2]);
-    const real m = (real)model->slip.motion, length = (real)model->bridge.length;
+    const real m = (real)model->slip.motion, relative = (real)model->bridge.length;
     const real k_shear = (real)model->slip.shear, k_pivot = (real)model->slip.pivot;
     /* the caps over the stiffnesses, both squared, without the contact's size */
     const real bond = (real)(M_PI * model->slip.strength), tear = bond * bond;
@@ -27,8 +36,11 @@ INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
         const real squared = rx * rx + ry * ry + rz * rz;
         const real r = root(squared), inverse = 1 / r;
         const real nx = rx * inverse, ny = ry * inverse, nz = rz * inverse;
-        const real h = 1 - r, before = deepest[k];
-        const bool live = squared < 1;
+        const struct pair_size size =
+            t.sized ? unequal_size(b->diameter[0][k], b->diameter[1][k]) : equal_size();
+        const real length = relative * size.mean;
+        const real h = size.mean - r, before = deepest[k];
+        const bool live = t.sized ? h > 0 : squared < 1;
         const bool lasts = live & (before >= 0);
         const real state = t.bridges ? deepest_after(length, larger(before, 0), h) : 0;
         real now = live ? state : -1;
@@ -36,16 +48,20 @@ INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
         b->unit[1][k] = ny;
         b->unit[2][k] = nz;
         b->distance[k] = r;
+        if (t.sized) {
+            store_size(b, k, size);
+        }
         b->overlap[k] = h;
         if (t.friction) {
             const real wx = b->rotation_sum[0][k], wy = b->rotation_sum[1][k];
             const real wz = b->rotation_sum[2][k];
-            const real dx = b->rotation_difference[0][k],
-                       dy = b->rotation_difference[1][k];
-            const real dz = b->rotation_difference[2][k];
-            real ux = rx - ax[k] - half * r * (wy * nz - wz * ny);
-            real uy = ry - ay[k] - half * r * (wz * nx - wx * nz);
-            real uz = rz - az[k] - half * r * (wx * ny - wy * nx);
+            const real dx = angle(t, size, wx, b->rotation_difference[0][k]);
+            const real dy = angle(t, size, wy, b->rotation_difference[1][k]);
+            const real dz = angle(t, size, wz, b->rotation_difference[2][k]);
+            const real lever = t.sized ? half * r * size.inverse_mean : half * r;
+            real ux = rx - ax[k] - lever * (wy * nz - wz * ny);
+            real uy = ry - ay[k] - lever * (wz * nx - wx * nz);
+            real uz = rz - az[k] - lever * (wx * ny - wy * nx);
             const real un = ux * nx + uy * ny + uz * nz;
             const real dn = dx * nx + dy * ny + dz * nz;
             ux = m * (ux - un * nx);
@@ -94,7 +110,7 @@ INLINE void advance_springs_3d(const struct gb_model *model, struct terms t,
                     b->rate[6][k] = where(holds, gz);
                 }
                 /* (5), (11): the cap of shear or pivoting is reached */
-                const real a2 = quarter * radius_square(t, length, now, h);
+                const real a2 = quarter * radius_square(t, length, now, h, size.reduced);
                 const real v_squared = vx * vx + vy * vy + vz * vz;
                 const bool fails =
                     (now > 0) & ((k_shear * k_shear * v_squared > tear * a2) |
@@ -149,6 +165,14 @@ INLINE real fitted_moment(const struct slip_law *slip, real from, real root)
     return from * from * (slip->plate + slip->rod * root * moment_tail(from));
 }
 
+/* Of unequal sizes: root is that of d' h. */
+INLINE real fitted_unequal_moment(const struct slip_law *slip, struct pair_size size,
+                                  real from, real root)
+{
+    const real tail = slip->rod * root * moment_tail(from * size.inverse_mean);
+    return size.reduced * (from * from) * (slip->plate + tail * size.inverse_mean);
+}
+
 /* Second half, 3D: springs cut at their caps; forces and torques. */
 INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
                              BATCH *restrict b, struct gb_contacts *restrict c,
@@ -168,7 +192,7 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
     const struct normal_law law = normal_law(model, b->cutoff2);
     const real half = 0.5, quarter = 0.25, third = (real)(1.0 / 3.0);
     const real inverse_motion = (real)(1.0 / model->slip.motion);
-    const real damp = b->damp, length = (real)model->bridge.length;
+    const real damp = b->damp, relative = (real)model->bridge.length;
     const real shear_damp = damp * (real)model->dynamics.viscous_shear;
     const real roll_damp = damp * (real)model->dynamics.viscous_rolling;
 #pragma omp simd
@@ -177,7 +201,10 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
         const real r = b->distance[k], h = b->overlap[k], state = deepest[k];
         const bool held = t.bridges & (state > 0);
         const bool live = state >= 0;
-        const struct normal f = normal_force(t, &law, state, h, r);
+        const struct pair_size size = stored_size(t, b, k);
+        const real length = relative * size.mean;
+        const struct normal f = t.sized ? unequal_force(t, &law, size, state, h)
+                                        : normal_force(t, &law, state, h, r);
         real fn = f.total, absorbed = 0.0;
         if (t.viscous) {
             const real lag = damp * f.slope * b->rate[7][k];
@@ -189,16 +216,19 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
         real tx = 0.0, ty = 0.0, tz = 0.0, jx = 0.0, jy = 0.0, jz = 0.0;
         real slides = 0.0;
         if (t.friction) {
-            const real a2 = where(live, quarter * radius_square(t, length, state, h));
+            const real a2 =
+                where(live, quarter * radius_square(t, length, state, h, size.reduced));
             const real a = radius(t, a2, live, f.root);
             const real from = larger(h, 0);
             const real ks = slip.shear * a, kp = slip.pivot * a2 * a;
             const real strength = a2 * slip.bond;
             const real twisting = half * a2 * a * slip.bond;
             const real cap = held ? strength : smaller(slip.mu * f.elastic, strength);
-            const real moment = t.unpivoted     ? 0
-                                : MOMENT_FITTED ? fitted_moment(&slip, from, f.root)
-                                                : b->moment[k];
+            const real moment = t.unpivoted      ? 0
+                                : !MOMENT_FITTED ? b->moment[k]
+                                : t.sized
+                                    ? fitted_unequal_moment(&slip, size, from, f.root)
+                                    : fitted_moment(&slip, from, f.root);
             const real pivot_cap =
                 held ? twisting : smaller(slip.mu_pivot * moment, twisting);
             real vx = sx[k], vy = sy[k], vz = sz[k], p = t.unpivoted ? 0 : pivot[k];
@@ -278,16 +308,17 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
                 mz -= kr * pz;
             }
             /* torque of the shear force on both: -(r/2) n x T, T = -ks v */
-            const real lever = half * r * ks;
+            const real lever =
+                t.sized ? half * r * size.inverse_mean * ks : half * r * ks;
             const real cx = lever * (ny * vz - nz * vy);
             const real cy = lever * (nz * vx - nx * vz);
             const real cz = lever * (nx * vy - ny * vx);
-            tx = cx + mx;
-            ty = cy + my;
-            tz = cz + mz;
-            jx = cx - mx;
-            jy = cy - my;
-            jz = cz - mz;
+            tx = cx + mx * size.inverse_i;
+            ty = cy + my * size.inverse_i;
+            tz = cz + mz * size.inverse_i;
+            jx = cx - mx * size.inverse_j;
+            jy = cy - my * size.inverse_j;
+            jz = cz - mz * size.inverse_j;
         }
         b->force[0][k] = fx;
         b->force[1][k] = fy;
@@ -301,7 +332,10 @@ INLINE void spring_forces_3d(const struct gb_model *model, struct terms t,
         if (t.viscous) {
             b->absorbed[k] = absorbed;
         }
-        b->normal[k] = where(live, magnitude(f.elastic - law.adhesion));
+        b->normal[k] = where(live, magnitude(f.elastic - f.adhesion));
+        if (t.sized) { /* for the tally */
+            b->overlap[k] = h * size.inverse_mean;
+        }
         b->sliding[k] = slides;
     }
 }
@@ -316,20 +350,25 @@ INLINE void recompute_3d(const struct gb_model *model, struct terms t, BATCH *re
     const real *restrict sx = PLANE(c->shear[0]), *restrict sy = PLANE(c->shear[1]);
     const real *restrict sz = PLANE(c->shear[2]);
     const struct normal_law law = normal_law(model, b->cutoff2);
-    const real k_shear = (real)model->slip.shear, length = (real)model->bridge.length;
+    const real k_shear = (real)model->slip.shear, relative = (real)model->bridge.length;
     const real quarter = 0.25;
     const real away2 = 4 * (1 + b->cutoff2); /* of free slots, whose branch vector is 0 */
 #pragma omp simd
     for (int k = 0; k < b->n; k++) {
         const real rx = ax[k], ry = ay[k], rz = az[k], state = deepest[k];
         const real squared = rx * rx + ry * ry + rz * rz;
-        const real r = root(squared > 0 ? squared : away2), h = 1 - r;
+        const struct pair_size size =
+            t.sized ? unequal_size(b->diameter[0][k], b->diameter[1][k]) : equal_size();
+        const real length = relative * size.mean;
+        const real r = root(squared > 0 ? squared : away2), h = size.mean - r;
         const bool live = state >= 0;
-        const struct normal f = normal_force(t, &law, state, h, r);
+        const struct normal f = t.sized ? unequal_force(t, &law, size, state, h)
+                                        : normal_force(t, &law, state, h, r);
         const real along = f.total / r;
         real ks = 0;
         if (t.friction) {
-            const real a2 = where(live, quarter * radius_square(t, length, state, h));
+            const real a2 =
+                where(live, quarter * radius_square(t, length, state, h, size.reduced));
             ks = k_shear * radius(t, a2, live, f.root);
         }
         b->r[0][k] = rx;
@@ -341,14 +380,23 @@ INLINE void recompute_3d(const struct gb_model *model, struct terms t, BATCH *re
     }
 }
 
+static inline double unequal_moment(const struct gb_model *model, const BATCH *b, int k)
+{
+    struct gb_law_unequal law;
+    gb_unequal_pair_init(&law, model, b->diameter[0][k], b->diameter[1][k]);
+    return gb_law_unequal_moment(&law, b->overlap[k]);
+}
+
 /* First moment of the contact pressure, M(a) of (9), for the pivoting cap of contacts
  * without a bridge.  Few contacts need it in scenes with bridges. */
-static inline void fill_moments(const struct gb_model *model, BATCH *batch,
-                                const real *deepest)
+INLINE void fill_moments(const struct gb_model *model, struct terms t, BATCH *batch,
+                         const real *deepest)
 {
     for (int k = 0; k < batch->n; k++) {
         if (deepest[k] == 0) {
-            batch->moment[k] = (real)gb_law_rod_moment(&model->rod, batch->overlap[k]);
+            batch->moment[k] =
+                t.sized ? (real)unequal_moment(model, batch, k)
+                        : (real)gb_law_rod_moment(&model->rod, batch->overlap[k]);
         }
     }
 }
@@ -359,7 +407,7 @@ INLINE void advance_3d(const struct gb_model *model, struct terms t, BATCH *b,
 {
     advance_springs_3d(model, t, b, c, slot);
     if (t.friction && !MOMENT_FITTED && b->loose > 0 && model->slip.mu_pivot > 0.0) {
-        fill_moments(model, b, PLANE(c->deepest));
+        fill_moments(model, t, b, PLANE(c->deepest));
     }
     spring_forces_3d(model, t, b, c, slot);
 }

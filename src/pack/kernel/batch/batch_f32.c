@@ -47,22 +47,29 @@
         attract(model, t, batch, NULL, NULL);                                            \
     }
 
+/* All variants of equal or of unequal sizes. */
+#define FIVE(name, attribute, ...)                                                       \
+    VARIANT(name##_normal, attribute, __VA_ARGS__)                                       \
+    VARIANT(name##_friction, attribute, .friction = true, __VA_ARGS__)                   \
+    VARIANT(name##_bridges, attribute, .friction = true, .bridges = true, __VA_ARGS__)   \
+    VARIANT(name##_plain, attribute, .plain = true, .unpivoted = true, __VA_ARGS__)      \
+    VARIANT(name##_plain_friction, attribute, .friction = true, .plain = true,           \
+            .unpivoted = true, __VA_ARGS__)
+
 #define VARIANTS(width, attribute)                                                       \
-    VARIANT(width##_normal, attribute, .friction = false)                                \
-    VARIANT(width##_friction, attribute, .friction = true)                               \
-    VARIANT(width##_bridges, attribute, .friction = true, .bridges = true)               \
-    VARIANT(width##_plain, attribute, .plain = true, .unpivoted = true)                  \
-    VARIANT(width##_plain_friction, attribute, .friction = true, .plain = true,          \
-            .unpivoted = true)
+    FIVE(width##_equal, attribute, .sized = false)                                       \
+    FIVE(width##_sized, attribute, .sized = true)
 
 #define ROW(name)                                                                        \
     {                                                                                    \
         name##_advance, name##_tally, name##_attract, name##_recompute                   \
     }
+#define ROWS(name)                                                                       \
+    ROW(name##_normal), ROW(name##_friction), ROW(name##_bridges), ROW(name##_plain),    \
+        ROW(name##_plain_friction)
 #define TABLE(width)                                                                     \
     {                                                                                    \
-        ROW(width##_normal), ROW(width##_friction), ROW(width##_bridges),                \
-            ROW(width##_plain), ROW(width##_plain_friction)                              \
+        ROWS(width##_equal), ROWS(width##_sized)                                         \
     }
 
 VARIANTS(w128, )
@@ -76,10 +83,11 @@ static const struct gb_batch_f32_kernel table512[] = TABLE(w512);
 
 struct gb_batch_f32_kernel gb_batch_f32_pick(const struct gb_model *model, int widest)
 {
-    const int terms = model->terms.plain      ? 3 + model->terms.friction
-                      : model->terms.bridges  ? 2
-                      : model->terms.friction ? 1
-                                              : 0;
+    const int law = model->terms.plain      ? 3 + model->terms.friction
+                    : model->terms.bridges  ? 2
+                    : model->terms.friction ? 1
+                                            : 0;
+    const int terms = law + (model->polydisperse ? 5 : 0);
 #if defined(__x86_64__)
     const int width = gb_simd_width(widest);
     return (width == 512 ? table512 : width == 256 ? table256 : table128)[terms];

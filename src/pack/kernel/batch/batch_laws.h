@@ -21,6 +21,7 @@ struct terms {
     bool planar, friction, bridges, viscous;
     bool printed; /* a_ch follows the printed form at the current r */
     bool plain;   /* a cohesionless law: no rod, no attraction */
+    bool sized;   /* unequal sizes */
     /* without springs of pivoting; double precision keeps them, without a force */
     bool unpivoted;
 };
@@ -44,10 +45,50 @@ INLINE real deepest_after(real length, real before, real h)
     return before <= 0 ? formed : bridged;
 }
 
-/* Squared overlap whose root is twice the spring radius. */
-INLINE real radius_square(struct terms t, real length, real deepest, real h)
+/* Squared overlap whose root is twice the spring radius; length and result of unequal sizes
+ * are those of the pair, with d' in place of the diameter. */
+INLINE real radius_square(struct terms t, real length, real deepest, real h, real reduced)
 {
-    return (t.bridges & (deepest > 0)) ? (t.printed ? h + length : deepest) : h;
+    const real overlap =
+        (t.bridges & (deepest > 0)) ? (t.printed ? h + length : deepest) : h;
+    return t.sized ? reduced * overlap : overlap;
+}
+
+/* Lengths of a pair; constants where all sizes are equal. */
+struct pair_size {
+    real mean, inverse_mean; /* D */
+    real reduced;            /* d' */
+    real inverse_i, inverse_j;
+};
+
+INLINE struct pair_size equal_size(void)
+{
+    return (struct pair_size){1, 1, 1, 1, 1};
+}
+
+/* From two diameters with one division. */
+INLINE struct pair_size unequal_size(real i, real j)
+{
+    const real mean = (real)0.5 * (i + j), product = i * j, all = 1 / (product * mean);
+    const real inverse_mean = product * all;
+    return (struct pair_size){mean, inverse_mean, product * inverse_mean, j * mean * all,
+                              i * mean * all};
+}
+
+INLINE void store_size(BATCH *restrict b, int k, struct pair_size size)
+{
+    b->mean[k] = size.mean;
+    b->inverse_mean[k] = size.inverse_mean;
+    b->reduced[k] = size.reduced;
+    b->inverse[0][k] = size.inverse_i;
+    b->inverse[1][k] = size.inverse_j;
+}
+
+INLINE struct pair_size stored_size(struct terms t, const BATCH *restrict b, int k)
+{
+    return t.sized ? (struct pair_size){b->mean[k], b->inverse_mean[k], b->reduced[k],
+                                        b->inverse[0][k], b->inverse[1][k]}
+                   : equal_size();
 }
 
 /* Factor that restores the length of a vector after its normal part was removed, from the
@@ -80,12 +121,14 @@ INLINE real where(bool condition, real x)
  */
 struct normal {
     real elastic, slope, total;
-    real root; /* overlap of the elastic force */
+    real root;     /* overlap of the elastic force, of unequal sizes times d' */
+    real adhesion; /* of a contact */
 };
 
 /* Constants of the normal force. */
 struct normal_law {
     real hertz, rod, shift, strength, adhesion, cutoff2;
+    real gap; /* of unequal sizes: the widest across which they attract */
 };
 
 INLINE struct normal_law normal_law(const struct gb_model *model, real cutoff2)
@@ -97,7 +140,54 @@ INLINE struct normal_law normal_law(const struct gb_model *model, real cutoff2)
         .strength = (real)model->dispersion.strength,
         .adhesion = (real)model->adhesion,
         .cutoff2 = cutoff2,
+        .gap = model->terms.attraction ? (real)(model->numerics.cutoff - 1.0)
+                                       : -(real)INFINITY,
     };
+}
+
+/* (3) of unequal sizes; law/law_unequal.h.  The sum that its denominator is and the factor
+ * before it: pull = factor / sum. */
+struct pull {
+    real factor, sum;
+};
+
+INLINE struct pull unequal_pull(const struct normal_law *law, struct pair_size size,
+                                real h)
+{
+    /* s - 1 and not s: their squares differ little from 1 */
+    const real apart = (law->shift + larger(-h, 0)) * size.inverse_mean;
+    const real share =
+        size.reduced * size.inverse_mean; /* c: 1 less the offset squared */
+    const real near = apart * (2 + apart), wide = near + share;
+    return (struct pull){share * share * share * law->strength * size.inverse_mean *
+                             (1 + apart),
+                         near * near * (wide * wide)};
+}
+
+/* normal_force of unequal sizes. */
+INLINE struct normal unequal_force(struct terms t, const struct normal_law *law,
+                                   struct pair_size size, real deepest, real h)
+{
+    const real overlap = larger(h, 0);
+    const real from = deepest > 0 ? deepest : overlap;
+    const real half_width = root(size.reduced * from), hertz = law->hertz * half_width;
+    if (t.plain) {
+        const real force = hertz * from;
+        return (struct normal){force, (real)1.5 * hertz, force, half_width, 0};
+    }
+    const struct pull attraction = unequal_pull(law, size, h);
+    const real x = from * size.inverse_mean, near = 1 - x, wide = 2 - x,
+               gap = attraction.sum;
+    const real all = 1 / (near * wide * gap);
+    const real tail = log_tail(x, x * (near * gap) * all);
+    const real rod = law->rod * size.reduced;
+    const real slope = (real)1.5 * hertz + rod * (x * (wide * gap)) * all;
+    const real force = hertz * from + rod * size.mean * tail - slope * (from - overlap);
+    const real pull = attraction.factor * (near * wide * all);
+    /* s of a contact is that of two that touch: the pull is the adhesion */
+    const real apart = where(-h < law->gap, -pull);
+    return (struct normal){force, slope, deepest >= 0 ? force - pull : apart, half_width,
+                           pull};
 }
 
 INLINE struct normal normal_force(struct terms t, const struct normal_law *law,
@@ -107,7 +197,8 @@ INLINE struct normal normal_force(struct terms t, const struct normal_law *law,
     if (t.plain) { /* the sum of these laws: one of them has constants other than 0 */
         const real half_width = root(overlap), hertz = law->hertz * half_width;
         const real force = hertz * overlap;
-        return (struct normal){force, (real)1.5 * hertz, force, half_width};
+        return (struct normal){force, (real)1.5 * hertz, force, half_width,
+                               law->adhesion};
     }
     const real from = deepest > 0 ? deepest : overlap;
     /* one division for all: D = 1 / ((1 - h) (2 - h) s^3 q^2) */
@@ -122,7 +213,8 @@ INLINE struct normal normal_force(struct terms t, const struct normal_law *law,
     const real touching = force - law->adhesion;
     const real apart = where(r * r < law->cutoff2, -pull);
     /* without a contact the overlap is 0, and so are force and slope */
-    return (struct normal){force, slope, deepest >= 0 ? touching : apart, half_width};
+    return (struct normal){force, slope, deepest >= 0 ? touching : apart, half_width,
+                           law->adhesion};
 }
 
 /* Radius of the springs from its square; mostly half the known root of the overlap. */
