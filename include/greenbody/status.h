@@ -31,7 +31,8 @@ struct gb_error {
 };
 
 /* Fills err (NULL is fine) from a printf format and returns false, so that callers write
- * `return gb_error_set(err, ...)`.  Control characters in the text become '?'. */
+ * `return gb_error_set(err, ...)`.  Control characters and bytes
+ * that are no UTF-8 become escapes like \x1b. */
 bool gb_error_set(struct gb_error *err, enum gb_status code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -2,39 +2,22 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
-#include <glib.h>
-
-/* A message may quote a hostile file: it must stay one line, valid UTF-8, and must not
- * drive the terminal. */
-static void clean(char *text)
-{
-    const char *bad = NULL;
-    while (!g_utf8_validate(text, -1, &bad)) {
-        text[bad - text] = '?';
-    }
-    for (char *c = text; *c != '\0'; c = g_utf8_next_char(c)) {
-        if (!g_unichar_iscntrl(g_utf8_get_char(c))) {
-            continue;
-        }
-        const size_t width = (size_t)(g_utf8_next_char(c) - c);
-        memset(c, '?', width);
-    }
-}
+#include "base/text/visible.h"
 
 bool gb_error_set(struct gb_error *err, enum gb_status code, const char *format, ...)
 {
     if (!err) {
         return false;
     }
-    char text[sizeof err->text]; /* the arguments may point into err itself */
+    char text[2 * sizeof err->text]; /* the arguments may point into err itself */
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    clean(text);
-    memcpy(err->text, text, sizeof text);
+    /* one line that cannot drive the terminal, whatever file it quotes; what vsnprintf cut off
+     * is behind the end of the message */
+    gb_visible_copy(err->text, sizeof err->text, text);
     err->code = code;
     return false;
 }

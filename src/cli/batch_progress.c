@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/text/visible.h"
 #include "cli/options.h"
 #include "cli/signals.h"
 #include "many/single_run.h"
@@ -53,7 +54,7 @@ static bool is_terminal(void)
 static void clear_line(struct gb_batch_progress *batch)
 {
     if (batch->columns > 0) {
-        fprintf(stderr, "\r%*s\r", batch->columns, "");
+        gb_visible_rewrite(stderr, batch->columns, "");
         batch->columns = 0;
     }
 }
@@ -81,11 +82,10 @@ static void print_line(struct gb_batch_progress *batch)
     const int length = snprintf(line, sizeof line, "%zu of %zu runs, %zu failed, %s",
                                 batch->ended, batch->total, batch->failed, remaining);
     if (!is_terminal()) {
-        fprintf(stderr, "%s\n", line);
+        gb_visible_line(stderr, "%s", line);
         return;
     }
-    fprintf(stderr, "\r%-*s", batch->columns, line);
-    fflush(stderr);
+    gb_visible_rewrite(stderr, batch->columns, line);
     batch->columns = MAX(length, batch->columns);
 }
 
@@ -110,7 +110,7 @@ static void on_progress(const struct gb_ensemble *ensemble,
     }
     if (run != NULL && run->error.code != GB_OK && run->error.code != GB_ERR_CANCELLED) {
         clear_line(batch);
-        fprintf(stderr, "%s: %s\n", run->directory, run->error.text);
+        gb_visible_line(stderr, "%s: %s", run->directory, run->error.text);
     }
     if (gb_clock_s() - batch->printed_s >=
         (is_terminal() ? terminal_interval_s : plain_interval_s)) {
@@ -153,16 +153,16 @@ bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble 
     gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
     begin(batch, ensemble);
     if (batch->output == GB_BATCH_PROGRESS_ALL) {
-        fprintf(stderr, "%zu runs, %zu of them done before; %zu at once\n", batch->total,
-                batch->before, workers);
+        gb_visible_line(stderr, "%zu runs, %zu of them done before; %zu at once",
+                        batch->total, batch->before, workers);
     }
     const bool good = gb_pool_create(&pool, workers, gb_single_run, batch->mpi, err) &&
                       gb_ensemble_work(ensemble, pool, &callbacks, err);
     gb_pool_destroy(pool);
     clear_line(batch);
     if (batch->output == GB_BATCH_PROGRESS_ALL) {
-        fprintf(stderr, "%zu of %zu runs, %zu failed, after %.1f s\n", batch->ended,
-                batch->total, batch->failed, gb_clock_s() - batch->started_s);
+        gb_visible_line(stderr, "%zu of %zu runs, %zu failed, after %.1f s", batch->ended,
+                        batch->total, batch->failed, gb_clock_s() - batch->started_s);
     }
     return good;
 }

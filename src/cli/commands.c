@@ -4,6 +4,8 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
+
 static const char runs[] = "Runs", many[] = "Many runs", packings[] = "Packings",
                   results[] = "Results", numerics[] = "Numerics", lists[] = "Lists";
 
@@ -65,16 +67,16 @@ void gb_commands_print(FILE *to)
 {
     for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
         if (i == 0 || rows[i].group != rows[i - 1].group) {
-            fprintf(to, "  %s\n", rows[i].group);
+            gb_visible_print(to, "  %s\n", rows[i].group);
         }
-        fprintf(to, "    %-10s %s\n", rows[i].name, rows[i].doc);
+        gb_visible_print(to, "    %-10s %s\n", rows[i].name, rows[i].doc);
     }
 }
 
 void gb_commands_print_plain(FILE *to)
 {
     for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
-        fprintf(to, "%s %s\n", rows[i].name, rows[i].doc);
+        gb_visible_print(to, "%s %s\n", rows[i].name, rows[i].doc);
     }
 }
 

@@ -2,13 +2,16 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
+
 static const struct {
     const char *status, *meaning;
 } rows[] = {
     {"0", "done"},
-    {"1", "a physical or numerical guard stopped the run, or it ended without reaching a goal "
-          "(loading.until, a pressure of loading.unload_from) or with points that are not in "
-          "equilibrium; the results are kept"},
+    {"1",
+     "a physical or numerical guard stopped the run, or it ended without reaching a goal "
+     "(loading.until, a pressure of loading.unload_from) or with points that are not in "
+     "equilibrium; the results are kept"},
     {"2", "bad usage or input; one line with the rejected value and what is accepted"},
     {"3", "the machine: disk full, no permission, out of memory"},
     {"129", "stopped by SIGHUP; points and state are kept"},
@@ -19,6 +22,6 @@ static const struct {
 void gb_exit_status_print(FILE *to)
 {
     for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
-        fprintf(to, "%s %s\n", rows[i].status, rows[i].meaning);
+        gb_visible_print(to, "%s %s\n", rows[i].status, rows[i].meaning);
     }
 }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/table_build.h"
+#include "base/text/visible.h"
 #include "io/lab/lab_reader.h"
 
 enum { ANSWER_MAX = 1024, QUESTIONS_MAX = 10 };
@@ -108,11 +109,11 @@ static bool ask(const char *path, const struct gb_lab_report *report,
 {
     char answer[ANSWER_MAX];
     guint64 number = 0;
-    fprintf(stderr, "%s: %s\n", path, report->question);
+    gb_visible_line(stderr, "%s: %s", path, report->question);
     for (int k = 0; k < report->choices; k++) {
-        fprintf(stderr, "  %d  %s\n", k + 1, report->choice[k]);
+        gb_visible_line(stderr, "  %d  %s", k + 1, report->choice[k]);
     }
-    fprintf(stderr, "Number, or a list as these (Enter ends): ");
+    gb_visible_print(stderr, "Number, or a list as these (Enter ends): ");
     if (fgets(answer, sizeof answer, stdin) == NULL || *g_strstrip(answer) == '\0') {
         return gb_error_set(err, GB_ERR_INPUT, "%.200s: not read", path);
     }
@@ -124,7 +125,7 @@ static bool ask(const char *path, const struct gb_lab_report *report,
     }
     struct gb_error why = {0};
     if (!gb_lab_options_parse(options, list, &why)) {
-        fprintf(stderr, "%s\n", why.text); /* and the same question again */
+        gb_visible_line(stderr, "%s", why.text); /* and the same question again */
     }
     return true;
 }
@@ -185,7 +186,7 @@ bool gb_lab_input_read(struct gb_table **out, const struct gb_lab_input *input,
         return false;
     }
     if (report.told[0] != '\0') {
-        fprintf(stderr, "greenbody: %s: %s\n", path, report.told);
+        gb_visible_line(stderr, "greenbody: %s: %s", path, report.told);
     }
     if (input->series != NULL && !keep_series(*out, input->series, err)) {
         gb_table_destroy(*out);

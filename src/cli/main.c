@@ -12,6 +12,7 @@
 
 #include "base/built_with.h"
 #include "base/program.h"
+#include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/complete/completion.h"
 #include "cli/exit_status.h"
@@ -23,27 +24,31 @@
 
 static void print_help(void)
 {
-    puts("Usage:\n"
-         "  greenbody [PRESET] [group.key=value]...   the workbench\n"
-         "  greenbody COMMAND ...                     see greenbody COMMAND --help\n"
-         "\n"
-         "Simulates the pressing of powders particle by particle.\n"
-         "\n"
-         "Commands:");
+    gb_visible_put(
+        stdout,
+        "Usage:\n"
+        "  greenbody [PRESET] [group.key=value]...   the workbench\n"
+        "  greenbody COMMAND ...                     see greenbody COMMAND --help\n"
+        "\n"
+        "Simulates the pressing of powders particle by particle.\n"
+        "\n"
+        "Commands:\n");
     gb_commands_print(stdout);
     char **presets = gb_preset_folders_list();
-    puts("\nPresets:");
+    gb_visible_put(stdout, "\nPresets:\n");
     for (int i = 0; presets[i]; i++) {
-        printf("  %s\n", presets[i]);
+        gb_visible_print(stdout, "  %s\n", presets[i]);
     }
     g_strfreev(presets);
-    puts("\nOptions:\n"
-         "  -h, --help     this page\n"
-         "  --diagnose     detected features of the terminal, disk space of kept runs\n"
-         "  --batch        greenbody run instead of the workbench, also in a terminal\n"
-         "  --color, --graph, --images, --mouse, --ascii, --slow\n"
-         "                 of the workbench: see greenbody default --help\n"
-         "  --version      version, compiler, features, threads");
+    gb_visible_put(
+        stdout,
+        "\nOptions:\n"
+        "  -h, --help     this page\n"
+        "  --diagnose     detected features of the terminal, disk space of kept runs\n"
+        "  --batch        greenbody run instead of the workbench, also in a terminal\n"
+        "  --color, --graph, --images, --mouse, --ascii, --slow\n"
+        "                 of the workbench: see greenbody default --help\n"
+        "  --version      version, compiler, features, threads\n");
 }
 
 static void print_version(void)
@@ -53,13 +58,15 @@ static void print_version(void)
 #else
     const char *compiler = "gcc " __VERSION__;
 #endif
-    printf("greenbody %s\n", GB_VERSION);
-    printf("compiler: %s\n", compiler);
-    printf("features: %s, %s; GLib %u.%u, GSL %s\n",
-           GB_WITH_PICTURES ? "pictures" : "no pictures", GB_WITH_MPI ? "MPI" : "no MPI",
-           glib_major_version, glib_minor_version, gsl_version);
-    printf("threads: %u, vectors: %d bits (%s)\n", g_get_num_processors(),
-           gb_simd_width(0), gb_simd_name(gb_simd_width(0)));
+    gb_visible_print(stdout, "greenbody %s\n", GB_VERSION);
+    gb_visible_print(stdout, "compiler: %s\n", compiler);
+    gb_visible_print(stdout, "features: %s, %s; GLib %u.%u, GSL %s\n",
+                     GB_WITH_PICTURES ? "pictures" : "no pictures",
+                     GB_WITH_MPI ? "MPI" : "no MPI", glib_major_version,
+                     glib_minor_version, gsl_version);
+    gb_visible_print(stdout, "threads: %u, vectors: %d bits (%s)\n",
+                     g_get_num_processors(), gb_simd_width(0),
+                     gb_simd_name(gb_simd_width(0)));
 }
 
 static int refuse_word(const char *word)

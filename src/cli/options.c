@@ -6,6 +6,7 @@
 
 #include <glib/gstdio.h>
 
+#include "base/text/visible.h"
 #include "cli/complete/completion.h"
 #include "draw/image/png.h"
 #include "io/preset_folders.h"
@@ -30,7 +31,7 @@ static GOptionContext *make_context(const struct gb_options_page *page,
 static void print_help(GOptionContext *context)
 {
     char *text = g_option_context_get_help(context, TRUE, NULL);
-    fputs(text, stdout);
+    gb_visible_put(stdout, text);
     g_free(text);
 }
 
@@ -259,7 +260,7 @@ const char *gb_options_directory(char **words, const char *command, struct gb_er
 int gb_options_fail(const struct gb_error *err)
 {
     if (err->code != GB_OK) {
-        fprintf(stderr, "greenbody: %s\n", err->text);
+        gb_visible_line(stderr, "greenbody: %s", err->text);
     }
     return gb_status_exit_code(err->code);
 }
@@ -283,6 +284,7 @@ char *gb_options_command(const char *head, int argc, char **argv)
         g_string_append_printf(text, " %s", quoted);
         g_free(quoted);
     }
-    g_strdelimit(text->str, "\n\r", '?');
-    return g_string_free(text, FALSE);
+    char *shown = gb_visible_text(text->str, "");
+    g_string_free(text, TRUE);
+    return shown;
 }

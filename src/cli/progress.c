@@ -7,6 +7,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "base/text/visible.h"
+
 static const double terminal_every_s = 0.25;
 static const double plain_every_s = 5.0;
 
@@ -23,8 +25,7 @@ void gb_progress_init(struct gb_progress *progress, bool quiet)
 void gb_progress_clear(struct gb_progress *progress)
 {
     if (progress->shown > 0) {
-        fprintf(stderr, "\r%*s\r", progress->shown, "");
-        fflush(stderr);
+        gb_visible_rewrite(stderr, progress->shown, "");
         progress->shown = 0;
     }
 }
@@ -37,9 +38,8 @@ void gb_progress_say(struct gb_progress *progress, const char *format, ...)
     gb_progress_clear(progress);
     va_list args;
     va_start(args, format);
-    vfprintf(stderr, format, args);
+    (void)gb_visible_line_of(stderr, format, args);
     va_end(args);
-    fputc('\n', stderr);
 }
 
 bool gb_progress_due(const struct gb_progress *progress, double seconds)
@@ -97,7 +97,7 @@ void gb_progress_show(struct gb_progress *progress, const struct gb_snapshot *sn
     progress->line_at = snapshot->seconds;
     format_line(snapshot, line, sizeof line);
     if (!progress->terminal) {
-        fprintf(stderr, "%s\n", line);
+        gb_visible_line(stderr, "%s", line);
         return;
     }
     const int width = terminal_width() - 1;
@@ -106,7 +106,6 @@ void gb_progress_show(struct gb_progress *progress, const struct gb_snapshot *sn
     }
     const int length = (int)strlen(line);
     const int before = progress->shown < width ? progress->shown : width;
-    fprintf(stderr, "\r%-*s", before, line);
-    fflush(stderr);
+    gb_visible_rewrite(stderr, before, line);
     progress->shown = length > before ? length : before;
 }

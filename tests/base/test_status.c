@@ -8,9 +8,9 @@ static void test_one_line(void)
 {
     struct gb_error err = {0};
     g_assert_false(gb_error_set(&err, GB_ERR_INPUT, "a%cb\n\x1b[2J%s", 7, "c\r\xff\xfe"));
-    g_assert_cmpstr(err.text, ==, "a?b??[2Jc???");
+    g_assert_cmpstr(err.text, ==, "a\\x07b\\x0a\\x1b[2Jc\\x0d\\xff\\xfe");
     gb_error_set(&err, GB_ERR_INPUT, "%s", "x\xc2\x9by"); /* C1 control in UTF-8 */
-    g_assert_cmpstr(err.text, ==, "x??y");
+    g_assert_cmpstr(err.text, ==, "x\\u009by");
     gb_error_set(&err, GB_ERR_INPUT, "%s", "5 \xc2\xb5m");
     g_assert_cmpstr(err.text, ==, "5 \xc2\xb5m");
     g_assert_false(gb_error_set(NULL, GB_ERR_INPUT, "no caller"));
@@ -27,7 +27,7 @@ static void test_long(void)
     for (int shift = 0; shift < 2; shift++) {
         gb_error_set(&err, GB_ERR_MACHINE, "%s%s", shift ? "x" : "", text);
         g_assert_true(g_utf8_validate(err.text, -1, NULL));
-        g_assert_cmpuint(strlen(err.text), ==, sizeof err.text - 1);
+        g_assert_cmpuint(strlen(err.text), ==, sizeof err.text - 2 + (gsize)shift);
     }
 }
 

@@ -179,7 +179,7 @@ static const struct {
     {"[contact]\nmu = \xff\xfe\n", 0, {":2:", "UTF-8"}},
     {"\xff\xfe[\0c\0]\0", 8, {":1:", "NUL"}},
     {"[contact]\nmu[de] = 0.1\n", 0, {":2:", "contact.mu[de]"}},
-    {"[scene]\ntitle = a\x1b[2Jb\n", 0, {":2: scene.title = a?[2Jb"}},
+    {"[scene]\ntitle = a\x1b[2Jb\n", 0, {":2: scene.title = a\\x1b[2Jb"}},
 };
 
 static void test_hostile(void)

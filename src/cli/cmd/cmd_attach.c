@@ -4,6 +4,7 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/progress.h"
@@ -22,8 +23,8 @@ static int print_runs(const char *directory, struct gb_error *err)
     struct gb_runset_view view;
     const bool read = gb_runset_view_read(&view, directory, err);
     if (read) {
-        printf("%zu runs: %zu done, %zu under way, %zu failed\n", view.runs, view.done,
-               view.live, view.failed);
+        gb_visible_print(stdout, "%zu runs: %zu done, %zu under way, %zu failed\n",
+                         view.runs, view.done, view.live, view.failed);
     }
     gb_runset_view_finish(&view);
     return read ? 0 : gb_options_fail(err);

@@ -4,9 +4,10 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "cli/commands.h"
-#include "cli/output/json_output.h"
 #include "cli/options.h"
+#include "cli/output/json_output.h"
 #include "study/bench/bench.h"
 #include "study/bench/bench_die.h"
 
@@ -124,9 +125,9 @@ static void print_progress(void *data, int64_t count, int round)
 {
     const int64_t *last = data;
     if (round == 0) {
-        fprintf(stderr, "%lld particles: packing ready\n", (long long)count);
+        gb_visible_line(stderr, "%lld particles: packing ready", (long long)count);
     } else if (count == *last) {
-        fprintf(stderr, "round %d of %d\n", round, GB_BENCH_ROUNDS);
+        gb_visible_line(stderr, "round %d of %d", round, GB_BENCH_ROUNDS);
     }
 }
 
@@ -255,7 +256,7 @@ int gb_cmd_bench(int argc, char **argv)
         if (request.json && status == 0) {
             gb_json_output_table(request.text->str);
         } else {
-            fputs(request.text->str, stdout);
+            gb_visible_put(stdout, request.text->str);
         }
         g_string_free(request.text, TRUE);
     }

@@ -2,6 +2,7 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "cli/batch_progress.h"
 #include "cli/commands.h"
 #include "cli/lab_input.h"
@@ -44,16 +45,15 @@ static void print_round(const struct gb_calibration *calibration,
     if (command->request->quiet) {
         return;
     }
-    fprintf(stderr,
-            "%s, round %d:", stage == GB_CALIBRATE_COARSE ? "small cells" : "full cells",
-            round);
+    gb_visible_print(stderr, "%s, round %d:",
+                     stage == GB_CALIBRATE_COARSE ? "small cells" : "full cells", round);
     for (size_t k = 0; k < calibration->keys.count; k++) {
         char name[96];
         gb_calibration_name(&calibration->keys.key[k], name, sizeof name);
-        fprintf(stderr, "%s %s = %.4g within %.2g", k > 0 ? "," : "", name, best[k],
-                half_width[k]);
+        gb_visible_print(stderr, "%s %s = %.4g within %.2g", k > 0 ? "," : "", name,
+                         best[k], half_width[k]);
     }
-    fputc('\n', stderr);
+    gb_visible_put(stderr, "\n");
 }
 
 static bool check_request(const struct request *request, struct gb_error *err)
@@ -108,7 +108,7 @@ static bool perform(struct command *command, char **words, struct gb_error *err)
     const bool written =
         gb_calibration_table_write(&command->calibration, command->preset, err);
     GString *text = gb_calibration_table_text(&command->calibration);
-    fputs(text->str, stdout);
+    gb_visible_put(stdout, text->str);
     g_string_free(text, TRUE);
     return written;
 }

@@ -4,6 +4,7 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/signals.h"
@@ -22,7 +23,7 @@ static void print_progress(void *data, int done, int replicas)
 {
     const struct request *request = data;
     if (!request->quiet) {
-        fprintf(stderr, "%d of %d cells\n", done, replicas);
+        gb_visible_line(stderr, "%d of %d cells", done, replicas);
     }
 }
 
@@ -75,17 +76,20 @@ static bool take_options(struct gb_card_options *options, const struct request *
 
 static void print_result(const struct gb_card_study *study, const char *out)
 {
-    printf("%d densities from %.3f to %.3f, %d cells, %.0f s\n", study->levels,
-           study->card.density[0], study->card.density[study->levels - 1],
-           study->options.replicas, study->seconds);
+    gb_visible_print(stdout, "%d densities from %.3f to %.3f, %d cells, %.0f s\n",
+                     study->levels, study->card.density[0],
+                     study->card.density[study->levels - 1], study->options.replicas,
+                     study->seconds);
     for (int k = 0; k < GB_CARD_PATHS; k++) {
         const struct gb_card_misfit *misfit = &study->misfit[k];
-        printf("%s path: misfit of p_x/p_z %.3f, of p_z %.1f %%, of density at the same "
-               "p_z %.4f\n",
-               gb_card_options_paths[k].name, misfit->ratio, 100.0 * misfit->pressure,
-               misfit->density);
+        gb_visible_print(
+            stdout,
+            "%s path: misfit of p_x/p_z %.3f, of p_z %.1f %%, of density at the same "
+            "p_z %.4f\n",
+            gb_card_options_paths[k].name, misfit->ratio, 100.0 * misfit->pressure,
+            misfit->density);
     }
-    printf("%s: card.csv, card.inp, card.html\n", out);
+    gb_visible_print(stdout, "%s: card.csv, card.inp, card.html\n", out);
 }
 
 static bool perform(const struct request *request, char **words, const char *command,

@@ -5,6 +5,7 @@
 #include <glib.h>
 
 #include "base/file.h"
+#include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/chart_plot.h"
 #include "cli/commands.h"
@@ -183,14 +184,14 @@ static bool write_preset(const struct chart *chart, const struct gb_chart_row *c
                       gb_preset_save(preset, chart->write, GB_PRESET_CHANGED_KEYS, err);
     gb_preset_destroy(preset);
     if (good) {
-        printf("written to %s\n", chart->write);
+        gb_visible_print(stdout, "written to %s\n", chart->write);
     }
     return good;
 }
 
 static void print_text(GString *text)
 {
-    fputs(text->str, stdout);
+    gb_visible_put(stdout, text->str);
     g_string_free(text, TRUE);
 }
 
@@ -207,7 +208,8 @@ static bool conclude(struct chart *chart, struct gb_error *err)
         print_text(gb_chart_plot(&table, &chart->plan));
         print_text(gb_chart_text_results(&table, &chart->plan, &advice));
         if (chart->missing > 0) {
-            printf(
+            gb_visible_print(
+                stdout,
                 "%d cells are missing: the budget is spent; the same command continues\n",
                 chart->missing);
         }

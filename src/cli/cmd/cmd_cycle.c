@@ -3,6 +3,7 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "many/die_summary.h"
@@ -12,8 +13,8 @@ static void print_value(double mean, double error, gboolean csv)
 {
     char text[64] = "-";
     if (csv) {
-        printf(isfinite(mean) ? ",%.6g" : ",", mean);
-        printf(isfinite(error) ? ",%.3g" : ",", error);
+        gb_visible_print(stdout, isfinite(mean) ? ",%.6g" : ",", mean);
+        gb_visible_print(stdout, isfinite(error) ? ",%.3g" : ",", error);
         return;
     }
     if (isfinite(error)) {
@@ -21,26 +22,26 @@ static void print_value(double mean, double error, gboolean csv)
     } else if (isfinite(mean)) {
         g_snprintf(text, sizeof text, "%.4g", mean);
     }
-    printf("  %-20s", text);
+    gb_visible_print(stdout, "  %-20s", text);
 }
 
 /* A column a group; a row a number, with what it means. */
 static void print_table(const struct gb_runset *set)
 {
-    printf("%-22s", "beds");
+    gb_visible_print(stdout, "%-22s", "beds");
     for (size_t g = 0; g < set->groups; g++) {
-        printf("  %-20zu", gb_runset_members(set, g));
+        gb_visible_print(stdout, "  %-20zu", gb_runset_members(set, g));
     }
-    printf("\n");
+    gb_visible_print(stdout, "\n");
     for (const struct gb_die_summary_row *row = gb_die_summary_table(); row->name;
          row++) {
-        printf("%-22s", row->name);
+        gb_visible_print(stdout, "%-22s", row->name);
         for (size_t g = 0; g < set->groups; g++) {
             double mean = 0.0, error = 0.0;
             gb_die_summary_mean(row, set, g, &mean, &error);
             print_value(mean, error, FALSE);
         }
-        printf("  %s\n", row->doc);
+        gb_visible_print(stdout, "  %s\n", row->doc);
     }
 }
 
@@ -48,8 +49,9 @@ static void print_groups(const struct gb_runset *set)
 {
     for (size_t g = 0; g < set->groups; g++) {
         char *label = gb_runset_label(set, g);
-        printf("# %zu: %s\n", g + 1,
-               label[0] != '\0' ? label : gb_runset_first(set, g)->params.title);
+        gb_visible_print(stdout, "# %zu: %s\n", g + 1,
+                         label[0] != '\0' ? label
+                                          : gb_runset_first(set, g)->params.title);
         g_free(label);
     }
 }
@@ -57,21 +59,21 @@ static void print_groups(const struct gb_runset *set)
 /* A row a group, with the standard error of each number behind it. */
 static void print_csv(const struct gb_runset *set)
 {
-    printf("group,beds");
+    gb_visible_print(stdout, "group,beds");
     for (const struct gb_die_summary_row *row = gb_die_summary_table(); row->name;
          row++) {
-        printf(",%s,%s_se", row->name, row->name);
+        gb_visible_print(stdout, ",%s,%s_se", row->name, row->name);
     }
-    printf("\n");
+    gb_visible_print(stdout, "\n");
     for (size_t g = 0; g < set->groups; g++) {
-        printf("%zu,%zu", g + 1, gb_runset_members(set, g));
+        gb_visible_print(stdout, "%zu,%zu", g + 1, gb_runset_members(set, g));
         for (const struct gb_die_summary_row *row = gb_die_summary_table(); row->name;
              row++) {
             double mean = 0.0, error = 0.0;
             gb_die_summary_mean(row, set, g, &mean, &error);
             print_value(mean, error, TRUE);
         }
-        printf("\n");
+        gb_visible_print(stdout, "\n");
     }
 }
 

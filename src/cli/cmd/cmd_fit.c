@@ -5,12 +5,13 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
-#include "cli/output/fit_output.h"
-#include "cli/output/json_output.h"
 #include "cli/lab_input.h"
 #include "cli/options.h"
+#include "cli/output/fit_output.h"
+#include "cli/output/json_output.h"
 #include "figures/figures.h"
 #include "figures/plotting.h"
 #include "figures/runs/compaction_series.h"
@@ -157,15 +158,14 @@ static bool read_data(struct gb_compaction_data *data, const struct request *req
 static void print_refusals(const struct gb_compaction_fits *fits)
 {
     for (size_t i = fits->fitted; i < fits->count; i++) {
-        fprintf(stderr, "greenbody: %s\n", fits->fit[i].refusal.text);
+        gb_visible_line(stderr, "greenbody: %s", fits->fit[i].refusal.text);
     }
 }
 
 static bool print(GString *text, struct gb_error *err)
 {
-    const bool good =
-        (fwrite(text->str, 1, text->len, stdout) == text->len && fflush(stdout) == 0) ||
-        gb_options_output_failed(err);
+    const bool good = (gb_visible_put(stdout, text->str) && fflush(stdout) == 0) ||
+                      gb_options_output_failed(err);
     g_string_free(text, TRUE);
     return good;
 }

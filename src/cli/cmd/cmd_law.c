@@ -3,6 +3,7 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "study/law/law_rows.h"
@@ -19,10 +20,10 @@ enum { VALUES_MAX = 64 };
 static bool print_row(const double *value, int columns, void *data, struct gb_error *err)
 {
     if (data != NULL) {
-        printf("%s,", (const char *)data);
+        gb_visible_print(stdout, "%s,", (const char *)data);
     }
     for (int k = 0; k < columns; k++) {
-        printf("%.17g%c", value[k], k + 1 < columns ? ',' : '\n');
+        gb_visible_print(stdout, "%.17g%c", value[k], k + 1 < columns ? ',' : '\n');
     }
     return !ferror(stdout) || gb_options_output_failed(err);
 }
@@ -67,7 +68,7 @@ static bool print_scenes(const struct request *request, const struct gb_params *
             return false;
         }
     }
-    printf("%s,%s\n", variation->pair[0], request->rows.law->header);
+    gb_visible_print(stdout, "%s,%s\n", variation->pair[0], request->rows.law->header);
     for (int i = 0; variation->values[i] != NULL; i++) {
         struct gb_params scene = *params;
         if (!set_varied(&scene, variation, i, err) ||
@@ -99,7 +100,7 @@ static bool print_law(const struct request *request, const struct gb_params *par
     if (!gb_law_rows_check(&request->rows, params, err)) {
         return false;
     }
-    puts(request->rows.law->header);
+    gb_visible_print(stdout, "%s\n", request->rows.law->header);
     return gb_law_rows_compute(&request->rows, params, print_row, NULL, err);
 }
 

@@ -3,11 +3,12 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "cli/commands.h"
-#include "cli/output/json_output.h"
 #include "cli/moduli_folder.h"
-#include "cli/output/moduli_output.h"
 #include "cli/options.h"
+#include "cli/output/json_output.h"
+#include "cli/output/moduli_output.h"
 #include "cli/signals.h"
 #include "figures/states.h"
 #include "io/preset.h"
@@ -42,10 +43,10 @@ static void print_progress(const struct collector *collector,
         return;
     }
     if (collector->total > 0) {
-        fprintf(stderr, "%u of %u states: density %.4f, p %.6g MPa\n", collector->at,
-                collector->total, density, p);
+        gb_visible_line(stderr, "%u of %u states: density %.4f, p %.6g MPa",
+                        collector->at, collector->total, density, p);
     } else {
-        fprintf(stderr, "moduli: density %.4f, p %.6g MPa\n", density, p);
+        gb_visible_line(stderr, "moduli: density %.4f, p %.6g MPa", density, p);
     }
 }
 
@@ -75,14 +76,14 @@ static void print_states(const struct request *request, const GArray *states)
         if (request->json) {
             gb_json_output_table(text->str);
         } else {
-            fputs(text->str, stdout);
+            gb_visible_put(stdout, text->str);
         }
         g_string_free(text, TRUE);
         return;
     }
     for (guint s = 0; s < states->len; s++) {
         if (s > 0) {
-            putchar('\n');
+            gb_visible_put(stdout, "\n");
         }
         gb_moduli_output_state(&g_array_index(states, struct gb_moduli_state, s));
     }
@@ -190,9 +191,9 @@ static bool run_directory(const struct request *request, const char *directory,
         good = gb_moduli_table_file(directory, path + strspn(path, "/"), &sink, err);
     }
     if (good && collector->state->len == 0 && !request->quiet) {
-        fprintf(stderr,
-                "moduli: all states are in %s/" GB_MODULI_STATES_FILE " already\n",
-                request->out);
+        gb_visible_print(
+            stderr, "moduli: all states are in %s/" GB_MODULI_STATES_FILE " already\n",
+            request->out);
     }
     if (paths != NULL) {
         g_ptr_array_unref(paths);

@@ -6,6 +6,7 @@
 #include <glib.h>
 
 #include "base/alloc.h"
+#include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -147,12 +148,12 @@ static bool write_packing(const struct pack *pack, struct gb_error *err)
 static void print_contacts(const struct gb_connectivity *contacts, int64_t count)
 {
     enum { BINS = sizeof contacts->histogram / sizeof contacts->histogram[0] };
-    printf("coordination   %.6g\n", contacts->coordination);
+    gb_visible_print(stdout, "coordination   %.6g\n", contacts->coordination);
     for (int k = 0; k < BINS; k++) {
         if (contacts->histogram[k] > 0) {
-            printf("  %2d%s contacts %8" PRId64 "  %6.2f %%\n", k,
-                   k == BINS - 1 ? "+" : " ", contacts->histogram[k],
-                   100.0 * (double)contacts->histogram[k] / (double)count);
+            gb_visible_print(stdout, "  %2d%s contacts %8" PRId64 "  %6.2f %%\n", k,
+                             k == BINS - 1 ? "+" : " ", contacts->histogram[k],
+                             100.0 * (double)contacts->histogram[k] / (double)count);
         }
     }
 }
@@ -163,27 +164,30 @@ static void print_summary(const struct gb_packing *packing, const char *director
     const struct gb_connectivity *contacts = &packing->connectivity;
     const bool planar = state->dimension == 2;
     const char *const axes[] = {"x ", "y ", "z "};
-    printf("particles      %" PRId64 ", seed %" PRIu64 "\n", state->count, state->seed);
+    gb_visible_print(stdout, "particles      %" PRId64 ", seed %" PRIu64 "\n",
+                     state->count, state->seed);
     if (planar) {
-        printf("cell           %.5g x %.5g d\n", state->cell[0], state->cell[2]);
+        gb_visible_print(stdout, "cell           %.5g x %.5g d\n", state->cell[0],
+                         state->cell[2]);
     } else {
-        printf("cell           %.5g x %.5g x %.5g d\n", state->cell[0], state->cell[1],
-               state->cell[2]);
+        gb_visible_print(stdout, "cell           %.5g x %.5g x %.5g d\n", state->cell[0],
+                         state->cell[1], state->cell[2]);
     }
-    printf("density        %.6g\n", state->point.density);
+    gb_visible_print(stdout, "density        %.6g\n", state->point.density);
     print_contacts(contacts, state->count);
-    printf("clusters       %" PRId64 ", the largest of %" PRId64 " particles\n",
-           contacts->clusters, contacts->largest);
-    printf("spans along    ");
+    gb_visible_print(stdout,
+                     "clusters       %" PRId64 ", the largest of %" PRId64 " particles\n",
+                     contacts->clusters, contacts->largest);
+    gb_visible_print(stdout, "spans along    ");
     bool any = false;
     for (int k = 0; k < 3; k++) {
-        fputs(contacts->percolates[k] ? axes[k] : "", stdout);
+        gb_visible_put(stdout, contacts->percolates[k] ? axes[k] : "");
         any = any || contacts->percolates[k];
     }
-    puts(any ? "" : "no axis");
-    printf("mean g(r)      %.5g for r = %.4g to %.4g d\n", packing->g_end,
-           fmax(0.0, packing->r_max - 1.0), packing->r_max);
-    printf("written to     %s\n", directory);
+    gb_visible_put(stdout, any ? "\n" : "no axis\n");
+    gb_visible_print(stdout, "mean g(r)      %.5g for r = %.4g to %.4g d\n",
+                     packing->g_end, fmax(0.0, packing->r_max - 1.0), packing->r_max);
+    gb_visible_print(stdout, "written to     %s\n", directory);
 }
 
 static bool pack_bed(struct pack *pack, struct gb_error *err)
@@ -196,9 +200,9 @@ static bool pack_bed(struct pack *pack, struct gb_error *err)
     }
     gb_pack_bed_print(pack->packing.state);
     if (pack->bed.filling->len > 0) {
-        printf("filling        %u states\n", pack->bed.filling->len);
+        gb_visible_print(stdout, "filling        %u states\n", pack->bed.filling->len);
     }
-    printf("written to     %s\n", pack->directory);
+    gb_visible_print(stdout, "written to     %s\n", pack->directory);
     return true;
 }
 

@@ -3,6 +3,7 @@
 #include <glib.h>
 
 #include "base/file.h"
+#include "base/text/visible.h"
 #include "cli/batch_progress.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -79,8 +80,8 @@ static void print_estimate(const struct command *command)
     if (runs > 0 && !request->quiet) {
         gb_cost_duration(all_s, cores, sizeof cores);
         gb_cost_duration(all_s / (double)MIN(workers, runs), total, sizeof total);
-        fprintf(stderr, "estimated: about %s, %zu runs of %s of one core\n", total, runs,
-                cores);
+        gb_visible_line(stderr, "estimated: about %s, %zu runs of %s of one core", total,
+                        runs, cores);
     }
 }
 
@@ -144,7 +145,7 @@ static bool perform(struct command *command, char **words, const char *line,
         return gb_error_set(err, stopped.code, "%s", stopped.text);
     }
     if (!request->quiet) {
-        fprintf(stderr, "written to %s/papers.md\n", request->out);
+        gb_visible_line(stderr, "written to %s/papers.md", request->out);
     }
     return check_runs(command, err);
 }

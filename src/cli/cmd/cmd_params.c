@@ -1,6 +1,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -34,22 +35,23 @@ static void write_row(const struct gb_field *field, char cells[COLUMNS][CELL])
 
 static void print_markdown(const struct gb_field *fields, size_t count)
 {
-    puts(
-        "| key | default | range | unit | meaning | source |\n|---|---|---|---|---|---|");
+    gb_visible_put(
+        stdout,
+        "| key | default | range | unit | meaning | source |\n|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < count; i++) {
         char cells[COLUMNS][CELL];
         write_row(&fields[i], cells);
-        printf("| `%s` | %s | %s | %s | %s | %s |\n", cells[0], cells[1], cells[2],
-               cells[3], cells[4], cells[5]);
+        gb_visible_print(stdout, "| `%s` | %s | %s | %s | %s | %s |\n", cells[0],
+                         cells[1], cells[2], cells[3], cells[4], cells[5]);
     }
 }
 
 static void print_line(char cells[COLUMNS][CELL], const int width[COLUMNS])
 {
     for (int k = 0; k < COLUMNS - 1; k++) {
-        printf("%-*s  ", width[k], cells[k]);
+        gb_visible_print(stdout, "%-*s  ", width[k], cells[k]);
     }
-    puts(cells[COLUMNS - 1]);
+    gb_visible_print(stdout, "%s\n", cells[COLUMNS - 1]);
 }
 
 static void print_plain(const struct gb_field *fields, size_t count)

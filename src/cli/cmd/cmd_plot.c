@@ -6,6 +6,7 @@
 #include <glib.h>
 
 #include "base/file.h"
+#include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/lab_input.h"
@@ -141,9 +142,8 @@ static bool write_series(const struct gb_series *series, const struct request *r
                gb_plotting_write(series, &page, request->output, err);
     }
     GString *text = gb_series_csv(series);
-    const bool good =
-        (fwrite(text->str, 1, text->len, stdout) == text->len && fflush(stdout) == 0) ||
-        gb_options_output_failed(err);
+    const bool good = (gb_visible_put(stdout, text->str) && fflush(stdout) == 0) ||
+                      gb_options_output_failed(err);
     g_string_free(text, TRUE);
     return good;
 }

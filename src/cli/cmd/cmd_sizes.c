@@ -5,6 +5,7 @@
 #include <glib.h>
 
 #include "base/table.h"
+#include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -69,24 +70,26 @@ static bool read_histogram(struct histogram *histogram, const char *path,
 /* As keys of a preset, rounded to their accuracy. */
 static void print_keys(const struct gb_lognormal *law, const char *unit)
 {
-    printf("particles.distribution = lognormal\n"
-           "particles.diameter = %.4g %s\n"
-           "particles.sigma = %.4g\n",
-           exp(law->m), unit, law->sigma);
+    gb_visible_print(stdout,
+                     "particles.distribution = lognormal\n"
+                     "particles.diameter = %.4g %s\n"
+                     "particles.sigma = %.4g\n",
+                     exp(law->m), unit, law->sigma);
 }
 
 static void print_law(const struct gb_lognormal *law, const char *unit)
 {
-    printf("# P1 (17), sizes in %s: m = %.4f", unit, law->m);
+    gb_visible_print(stdout, "# P1 (17), sizes in %s: m = %.4f", unit, law->m);
     if (isfinite(law->m_error)) {
-        printf(" +- %.4f, sigma = %.4f +- %.4f, correlation %.2f\n", law->m_error,
-               law->sigma, law->sigma_error, law->correlation);
-        printf("# chi-squared %.3g for %zu degrees of freedom\n", law->chi_squared,
-               law->degrees);
+        gb_visible_print(stdout, " +- %.4f, sigma = %.4f +- %.4f, correlation %.2f\n",
+                         law->m_error, law->sigma, law->sigma_error, law->correlation);
+        gb_visible_print(stdout, "# chi-squared %.3g for %zu degrees of freedom\n",
+                         law->chi_squared, law->degrees);
     } else {
-        printf(", sigma = %.4f; no errors from shares\n", law->sigma);
+        gb_visible_print(stdout, ", sigma = %.4f; no errors from shares\n", law->sigma);
     }
-    printf("# most frequent size %.4g %s\n", exp(law->m - law->sigma * law->sigma), unit);
+    gb_visible_print(stdout, "# most frequent size %.4g %s\n",
+                     exp(law->m - law->sigma * law->sigma), unit);
 }
 
 static bool fit(char **words, struct gb_error *err)

@@ -5,6 +5,7 @@
 #include <glib.h>
 
 #include "base/file.h"
+#include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "study/stability/stability.h"
@@ -35,15 +36,18 @@ static void print_row(const struct gb_stability_row *row)
     if (isfinite(row->exact)) {
         g_snprintf(exact, sizeof exact, "%.4g", row->exact);
     }
-    printf("%-8s  %-7s  %-8s  %7.2g  %11s  %8.4g  %8.4g  %6.3f  %8.4g\n", row->method,
-           row->scene, row->law, row->damping, exact, row->theory, row->measured,
-           row->measured / row->theory, row->used);
+    gb_visible_print(stdout,
+                     "%-8s  %-7s  %-8s  %7.2g  %11s  %8.4g  %8.4g  %6.3f  %8.4g\n",
+                     row->method, row->scene, row->law, row->damping, exact, row->theory,
+                     row->measured, row->measured / row->theory, row->used);
 }
 
 static bool measure(GString *csv, struct gb_error *err)
 {
-    puts("method    scene    law       damping  closed form    theory  measured   ratio "
-         "     used");
+    gb_visible_put(
+        stdout,
+        "method    scene    law       damping  closed form    theory  measured   ratio "
+        "     used\n");
     for (int i = 0; i < gb_stability_rows(); i++) {
         struct gb_stability_row row;
         if (!gb_stability_measure(i, &row, err)) {

@@ -3,6 +3,7 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "cli/batch_progress.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -116,7 +117,7 @@ static bool write_sensitivities(struct command *command, struct gb_error *err)
         good = gb_param_sweep_put(
             command->request->out, "sensitivity.csv",
             gb_sensitivity_text_table(&sensitivity, &command->sweep), err);
-        fputs(text->str, stdout);
+        gb_visible_put(stdout, text->str);
         g_string_free(text, TRUE);
     }
     gb_sensitivity_finish(&sensitivity);
@@ -128,10 +129,10 @@ static void print_missed(const struct command *command)
     const struct gb_param_sweep *sweep = &command->sweep;
     const size_t missed = gb_sweep_target_missed(&sweep->target, &sweep->ensemble);
     if (missed > 0 && !command->request->quiet) {
-        fprintf(stderr,
-                "%zu of %zu points: the standard error is still above %g; more "
-                "--replicas reduce it\n",
-                missed, sweep->ensemble.points, sweep->target.standard_error);
+        gb_visible_line(stderr,
+                        "%zu of %zu points: the standard error is still above %g; more "
+                        "--replicas reduce it",
+                        missed, sweep->ensemble.points, sweep->target.standard_error);
     }
 }
 
@@ -154,7 +155,7 @@ static bool perform(struct command *command, char **words, struct gb_error *err)
         return false;
     }
     if (!request->quiet && command->estimate[0] != '\0') {
-        fprintf(stderr, "%s\n", command->estimate);
+        gb_visible_line(stderr, "%s", command->estimate);
     }
     const bool worked = gb_batch_progress_work(&command->batch, &command->sweep.ensemble,
                                                request->jobs, &stopped);

@@ -3,6 +3,7 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/signals.h"
@@ -12,15 +13,17 @@ enum { DIFFERENT = 1 };
 
 static int print_result(const struct gb_verify *verify)
 {
-    printf("repeated from step %" PRId64 " to step %" PRId64 "\n"
-           "kept      %016" PRIx64 "\n"
-           "repeated  %016" PRIx64 "\n",
-           verify->from, verify->to, verify->kept, verify->repeated);
+    gb_visible_print(stdout,
+                     "repeated from step %" PRId64 " to step %" PRId64 "\n"
+                     "kept      %016" PRIx64 "\n"
+                     "repeated  %016" PRIx64 "\n",
+                     verify->from, verify->to, verify->kept, verify->repeated);
     if (verify->equal) {
-        puts("equal");
+        gb_visible_put(stdout, "equal\n");
         return 0;
     }
-    printf("different: first in %s, row %" PRId64 "\n", verify->name, verify->row);
+    gb_visible_print(stdout, "different: first in %s, row %" PRId64 "\n", verify->name,
+                     verify->row);
     return DIFFERENT;
 }
 

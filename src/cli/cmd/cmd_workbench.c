@@ -3,6 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/screen_options.h"
@@ -41,7 +42,7 @@ void gb_cmd_workbench_keys(void)
     const size_t count = gb_keys_count();
     for (size_t i = 0; i < count; i++) {
         const struct gb_key key = gb_keys_at(i);
-        printf("%-10s%s\n", key.name, key.help);
+        gb_visible_print(stdout, "%-10s%s\n", key.name, key.help);
     }
 }
 
@@ -49,8 +50,9 @@ void gb_cmd_workbench_views(void)
 {
     for (size_t i = 0; i < gb_views_count(); i++) {
         const struct gb_plot_view *view = gb_views_at(i);
-        printf("%s %s\n", view->key,
-               view->title_quasistatic != NULL ? view->title_quasistatic : view->title);
+        gb_visible_print(stdout, "%s %s\n", view->key,
+                         view->title_quasistatic != NULL ? view->title_quasistatic
+                                                         : view->title);
     }
 }
 

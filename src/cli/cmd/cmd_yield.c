@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/compact_options.h"
 #include "cli/options.h"
@@ -17,12 +18,14 @@ struct request {
 
 static void print_summary(const struct gb_yield_study *study)
 {
-    puts("density  offset %  centre p MPa     half axis p MPa  half axis q MPa  "
-         "dilatancy       flow from normal");
+    gb_visible_put(
+        stdout, "density  offset %  centre p MPa     half axis p MPa  half axis q MPa  "
+                "dilatancy       flow from normal\n");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
         const struct gb_fit_value *value = surface->quantity;
-        printf(
+        gb_visible_print(
+            stdout,
             "%.4f   %7g  %7.2f +- %5.2f  %7.2f +- %5.2f  %7.2f +- %5.2f  "
             "%5.3f +- %5.3f  %4.1f +- %3.1f\n",
             surface->density.value, 100.0 * surface->offset,

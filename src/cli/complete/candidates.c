@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text/visible.h"
 #include "io/preset_folders.h"
 
 /* A description takes one line of the list. */
@@ -11,11 +12,13 @@ enum { DOC = 90 };
 void gb_candidates_add_any(const struct gb_candidates *to, const char *candidate,
                            const char *doc)
 {
-    if (strpbrk(candidate, "\t\n\r") == NULL) {
-        printf("%s%s\t%.*s\n", to->before, candidate,
-               doc != NULL ? MIN((int)strcspn(doc, "\n"), DOC) : 0,
-               doc != NULL ? doc : "");
+    char *shown = gb_visible_text(candidate, "");
+    if (strcmp(shown, candidate) == 0) { /* an escape would complete another word */
+        gb_visible_print(stdout, "%s%s\t%.*s\n", to->before, candidate,
+                         doc != NULL ? MIN((int)strcspn(doc, "\n"), DOC) : 0,
+                         doc != NULL ? doc : "");
     }
+    g_free(shown);
 }
 
 void gb_candidates_add(const struct gb_candidates *to, const char *candidate,

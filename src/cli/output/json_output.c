@@ -5,12 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text/visible.h"
 #include "io/status_json.h"
 
 static void print(JsonNode *root)
 {
     char *text = json_to_string(root, TRUE);
-    puts(text);
+    gb_visible_print(stdout, "%s\n", text);
     g_free(text);
 }
 

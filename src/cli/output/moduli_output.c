@@ -5,6 +5,8 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
+
 /* "123.4" or "123.4 +- 0.5". */
 static void print_value(const struct gb_moduli_state *state, const char *column,
                         int digits)
@@ -13,13 +15,13 @@ static void print_value(const struct gb_moduli_state *state, const char *column,
     const double error = gb_moduli_states_error(state, k);
     char text[64];
     if (!isfinite(gb_moduli_states_mean(state, k))) {
-        printf("-");
+        gb_visible_print(stdout, "-");
         return;
     }
     g_snprintf(text, sizeof text, "%.*g", digits, gb_moduli_states_mean(state, k));
-    printf("%s", text);
+    gb_visible_print(stdout, "%s", text);
     if (isfinite(error)) {
-        printf(" +- %.2g", error);
+        gb_visible_print(stdout, " +- %.2g", error);
     }
 }
 
@@ -31,29 +33,29 @@ static double plain(const struct gb_moduli_state *state, const char *column)
 static void print_matrix(const struct gb_moduli_state *state)
 {
     static const char *const axes[] = {"xx", "yy", "zz", "yz", "xz", "xy"};
-    printf("C, GPa ");
+    gb_visible_print(stdout, "C, GPa ");
     for (int n = 0; n < 6; n++) {
-        printf("%11s", axes[n]);
+        gb_visible_print(stdout, "%11s", axes[n]);
     }
-    putchar('\n');
+    gb_visible_put(stdout, "\n");
     for (int m = 0; m < 6; m++) {
-        printf("    %s ", axes[m]);
+        gb_visible_print(stdout, "    %s ", axes[m]);
         for (int n = 0; n < 6; n++) {
-            printf("%11.5f", state->c_gpa[m][n] / state->count);
+            gb_visible_print(stdout, "%11.5f", state->c_gpa[m][n] / state->count);
         }
-        putchar('\n');
+        gb_visible_put(stdout, "\n");
     }
 }
 
 static void print_line(const struct gb_moduli_state *state, const char *title,
                        const char *const columns[][2], const char *unit)
 {
-    printf("%-15s", title);
+    gb_visible_print(stdout, "%-15s", title);
     for (int k = 0; columns[k][0] != NULL; k++) {
-        printf("%s%s ", k > 0 ? ", " : "", columns[k][1]);
+        gb_visible_print(stdout, "%s%s ", k > 0 ? ", " : "", columns[k][1]);
         print_value(state, columns[k][0], 5);
     }
-    printf("%s%s\n", unit[0] ? " " : "", unit);
+    gb_visible_print(stdout, "%s%s\n", unit[0] ? " " : "", unit);
 }
 
 static void print_derived(const struct gb_moduli_state *state)
@@ -85,24 +87,29 @@ static void print_derived(const struct gb_moduli_state *state)
 
 void gb_moduli_output_state(const struct gb_moduli_state *state)
 {
-    printf("density        ");
+    gb_visible_print(stdout, "density        ");
     print_value(state, "density", 6);
-    printf(", p ");
+    gb_visible_print(stdout, ", p ");
     print_value(state, "p_MPa", 6);
-    printf(" MPa (x %.5g, y %.5g, z %.5g)\n", plain(state, "px_MPa"),
-           plain(state, "py_MPa"), plain(state, "pz_MPa"));
+    gb_visible_print(stdout, " MPa (x %.5g, y %.5g, z %.5g)\n", plain(state, "px_MPa"),
+                     plain(state, "py_MPa"), plain(state, "pz_MPa"));
     if (state->count > 1) {
-        printf("replicas       %d, errors are standard errors of the mean\n",
-               state->count);
+        gb_visible_print(stdout,
+                         "replicas       %d, errors are standard errors of the mean\n",
+                         state->count);
     }
-    printf("probe          strain %.3g; half of it differs by %.1e of the largest C\n",
-           plain(state, "probe_strain"), plain(state, "sizes_differ"));
-    printf("state          residual %.1e, relaxed by %.2g d (rms), %.2g d at most\n",
-           plain(state, "residual"), plain(state, "moved_rms_d"),
-           plain(state, "moved_most_d"));
+    gb_visible_print(
+        stdout,
+        "probe          strain %.3g; half of it differs by %.1e of the largest C\n",
+        plain(state, "probe_strain"), plain(state, "sizes_differ"));
+    gb_visible_print(
+        stdout, "state          residual %.1e, relaxed by %.2g d (rms), %.2g d at most\n",
+        plain(state, "residual"), plain(state, "moved_rms_d"),
+        plain(state, "moved_most_d"));
     if (isfinite(plain(state, "elastic_range"))) {
-        printf("elastic range  %s%.3g (a secant has lost 5 %%)\n",
-               state->range_open ? "above " : "", plain(state, "elastic_range"));
+        gb_visible_print(stdout, "elastic range  %s%.3g (a secant has lost 5 %%)\n",
+                         state->range_open ? "above " : "",
+                         plain(state, "elastic_range"));
     }
     print_matrix(state);
     print_derived(state);

@@ -7,6 +7,7 @@
 
 #include <glib/gstdio.h>
 
+#include "base/text/visible.h"
 #include "cli/signals.h"
 #include "run/experiment.h"
 
@@ -58,7 +59,7 @@ static bool is_poured(struct gb_experiment *experiment)
     char text[GB_EVENT_TEXT];
     bool poured = false;
     while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
-        fprintf(stderr, "  %s\n", text);
+        gb_visible_line(stderr, "  %s", text);
         poured = poured || g_str_has_prefix(text, "poured");
     }
     return poured;
@@ -128,10 +129,12 @@ bool gb_pack_bed_write(const struct gb_pack_bed *bed, const char *directory,
 void gb_pack_bed_print(const struct gb_state *state)
 {
     const struct gb_point *point = &state->point;
-    printf("particles      %" PRId64 ", seed %" PRIu64 "\n", state->count, state->seed);
-    printf("die            %.5g um wide, powder %.5g um high\n",
-           2e6 * state->die_radius * state->metre_per_length, 1e6 * point->height_m);
-    printf("density        %.6g\n", point->density);
-    printf("central        %.6g\n", point->central);
-    printf("coordination   %.6g\n", point->coordination);
+    gb_visible_print(stdout, "particles      %" PRId64 ", seed %" PRIu64 "\n",
+                     state->count, state->seed);
+    gb_visible_print(stdout, "die            %.5g um wide, powder %.5g um high\n",
+                     2e6 * state->die_radius * state->metre_per_length,
+                     1e6 * point->height_m);
+    gb_visible_print(stdout, "density        %.6g\n", point->density);
+    gb_visible_print(stdout, "central        %.6g\n", point->central);
+    gb_visible_print(stdout, "coordination   %.6g\n", point->coordination);
 }

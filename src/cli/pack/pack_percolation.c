@@ -6,6 +6,7 @@
 
 #include <glib.h>
 
+#include "base/text/visible.h"
 #include "cli/options.h"
 #include "cli/signals.h"
 #include "measure/fit/average.h"
@@ -38,7 +39,8 @@ static bool find(const struct gb_params *params, struct gb_model *model, double 
 
 static void print_row(const struct gb_model *model, double count)
 {
-    printf("%" PRIu64 ",%.0f,%.6f\n", model->seed.value, count, density_of(model, count));
+    gb_visible_print(stdout, "%" PRIu64 ",%.0f,%.6f\n", model->seed.value, count,
+                     density_of(model, count));
 }
 
 static void print_mean(const struct gb_model *model, const double *count, int cells)
@@ -46,16 +48,18 @@ static void print_mean(const struct gb_model *model, const double *count, int ce
     double mean = NAN;
     double error = NAN;
     gb_average_values(count, (size_t)cells, &mean, &error);
-    printf("# mean %.6g particles, density %.4f", mean, density_of(model, mean));
+    gb_visible_print(stdout, "# mean %.6g particles, density %.4f", mean,
+                     density_of(model, mean));
     if (cells > 1) {
-        printf("; standard error %.2g, %.1g; standard deviation %.3g", error,
-               density_of(model, error), error * sqrt((double)cells));
+        gb_visible_print(stdout, "; standard error %.2g, %.1g; standard deviation %.3g",
+                         error, density_of(model, error), error * sqrt((double)cells));
     }
-    printf("; %d cell%s of %.5g x ", cells, cells > 1 ? "s" : "", model->edges[0]);
+    gb_visible_print(stdout, "; %d cell%s of %.5g x ", cells, cells > 1 ? "s" : "",
+                     model->edges[0]);
     if (model->dimension == 3) {
-        printf("%.5g x ", model->edges[1]);
+        gb_visible_print(stdout, "%.5g x ", model->edges[1]);
     }
-    printf("%.5g d\n", model->edges[2]);
+    gb_visible_print(stdout, "%.5g d\n", model->edges[2]);
 }
 
 bool gb_pack_percolation(const struct gb_params *params, int cells, struct gb_error *err)
@@ -71,8 +75,10 @@ bool gb_pack_percolation(const struct gb_params *params, int cells, struct gb_er
         scene.seed = params->seed + (uint64_t)k;
         good = find(&scene, &model, &count[k], err);
         if (good && k == 0) {
-            puts("# particles at which the growing cluster joins its images along all "
-                 "axes, P1 section III\nseed,particles,density");
+            gb_visible_put(
+                stdout,
+                "# particles at which the growing cluster joins its images along all "
+                "axes, P1 section III\nseed,particles,density\n");
         }
         if (good) {
             print_row(&model, count[k]);

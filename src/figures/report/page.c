@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "base/text/visible.h"
+
 /* For screen and print; no external font, script or picture. */
 static const char style[] =
     "body{font:16px/1.5 'DejaVu Sans',Verdana,sans-serif;color:#1a1c20;background:#fff;"
@@ -27,18 +29,23 @@ static const char style[] =
 
 static char *escape(const char *text)
 {
-    return g_markup_escape_text(text, -1);
+    char *shown = gb_visible_text(text, "\n\t");
+    char *safe = g_markup_escape_text(shown, -1);
+    g_free(shown);
+    return safe;
 }
 
 /* Escapes the characters with a meaning in Markdown. */
 static void append_plain(GString *out, const char *text)
 {
-    for (const char *c = text; *c != '\0'; c++) {
+    char *shown = gb_visible_text(text, "\n\t");
+    for (const char *c = shown; *c != '\0'; c++) {
         if (strchr("\\`*_{}[]<>#|", *c) != NULL) {
             g_string_append_c(out, '\\');
         }
         g_string_append_c(out, *c == '\n' ? ' ' : *c);
     }
+    g_free(shown);
 }
 
 void gb_page_begin(struct gb_page *page, const char *title, const char *subtitle)

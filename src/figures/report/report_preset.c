@@ -1,18 +1,21 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/text/visible.h"
 #include "figures/provenance.h"
 #include "figures/report/report.h"
 
 static void show(struct gb_page *page, const char *text)
 {
-    char *safe = g_markup_escape_text(text, -1);
+    char *shown = gb_visible_text(text, "\n\t");
+    char *safe = g_markup_escape_text(shown, -1);
     g_string_append_printf(page->html,
                            "<details><summary>preset.ini of the first run</summary>"
                            "<pre>%s</pre></details>\n",
                            safe);
-    g_string_append_printf(page->markdown, "\n```\n%s\n```\n", text);
+    g_string_append_printf(page->markdown, "\n```\n%s\n```\n", shown);
     g_free(safe);
+    g_free(shown);
 }
 
 bool gb_report_preset(struct gb_report *report, struct gb_error *err)

@@ -1,4 +1,5 @@
 #include "tui/session/run_lifecycle.h"
+#include "base/text/visible.h"
 #include "tui/session/session_quick.h"
 
 #include <glib.h>
@@ -58,8 +59,9 @@ void gb_run_lifecycle_print_runs(FILE *out, const char *folder)
 {
     const int runs = count_runs(folder);
     char *size = g_format_size((guint64)bytes_of(folder));
-    fprintf(out, "runs       %s: %d kept, %s on the disk; the program removes none\n",
-            folder, runs, size);
+    gb_visible_print(out,
+                     "runs       %s: %d kept, %s on the disk; the program removes none\n",
+                     folder, runs, size);
     g_free(size);
 }
 
@@ -162,13 +164,13 @@ void gb_run_lifecycle_print_resume_hint(const struct gb_session *session)
     const char *directory =
         session->runner != NULL ? gb_runner_directory(session->runner) : NULL;
     if (directory != NULL && session->attached == NULL && gb_session_live(session)) {
-        fprintf(stderr,
-                "greenbody: the run is stored; `greenbody resume %s` continues it\n",
-                directory);
+        gb_visible_line(
+            stderr, "greenbody: the run is stored; `greenbody resume %s` continues it",
+            directory);
     }
     if (session->child.pid != 0 && session->child.kind == GB_CHILD_COMMAND_LONG) {
-        fprintf(stderr,
-                "greenbody: %s: continued in %s; `greenbody attach` shows the runs\n",
-                session->child.name, session->child.path);
+        gb_visible_line(
+            stderr, "greenbody: %s: continued in %s; `greenbody attach` shows the runs",
+            session->child.name, session->child.path);
     }
 }

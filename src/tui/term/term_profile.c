@@ -10,6 +10,7 @@
 #include <term.h>
 #include <unistd.h>
 
+#include "base/text/visible.h"
 #include "tui/term/pixels.h"
 #include "tui/term/term_tty.h"
 
@@ -111,14 +112,14 @@ static void print_size(FILE *out, int fd)
 {
     struct winsize size = {0};
     if (!isatty(fd) || ioctl(fd, TIOCGWINSZ, &size) != 0) {
-        fprintf(out, "size       standard output is no terminal\n");
+        gb_visible_print(out, "size       standard output is no terminal\n");
         return;
     }
-    fprintf(out, "size       %d x %d characters", size.ws_col, size.ws_row);
+    gb_visible_print(out, "size       %d x %d characters", size.ws_col, size.ws_row);
     if (size.ws_xpixel > 0) {
-        fprintf(out, ", %d x %d pixels", size.ws_xpixel, size.ws_ypixel);
+        gb_visible_print(out, ", %d x %d pixels", size.ws_xpixel, size.ws_ypixel);
     }
-    fprintf(out, "; 80 x 24 shows everything, 40 x 12 is the least\n");
+    gb_visible_print(out, "; 80 x 24 shows everything, 40 x 12 is the least\n");
 }
 
 static void print_terminal(FILE *out, const struct gb_term_profile *profile,
@@ -129,24 +130,26 @@ static void print_terminal(FILE *out, const struct gb_term_profile *profile,
                         : profile->braille               ? "braille"
                         : profile->utf8                  ? "block"
                                                          : "ascii";
-    fprintf(out, "terminal   TERM=%s, taken as %s%s\n", profile->own, profile->type,
-            profile->inside ? ", inside of tmux or screen" : "");
-    fprintf(out, "colours    %d of terminfo, COLORTERM=%s, NO_COLOR=%s, --color=%s: %s\n",
-            profile->colours, from_env("COLORTERM"), from_env("NO_COLOR"),
-            gb_settings_word(settings, "color"),
-            !profile->coloured        ? "none are used"
-            : profile->colours >= 256 ? "256 are used"
-            : profile->colours >= 16  ? "16 are used"
-                                      : "8 are used");
-    fprintf(out, "plots      %s\n", graph);
-    fprintf(out, "mouse      %s, terminfo knows it: %s\n",
-            gb_settings_word(settings, "mouse"), yes_no(profile->can_mouse));
-    fprintf(out, "images     %s (libchafa: %s, --images=%s)\n",
-            profile->images == GB_IMAGES_SIXEL   ? "sixel"
-            : profile->images == GB_IMAGES_KITTY ? "kitty"
-                                                 : "none, the packing is drawn in cells",
-            yes_no(gb_pixels_available()), gb_settings_word(settings, "images"));
-    fprintf(out, "frames     at most %d a second\n", settings->slow ? 2 : 10);
+    gb_visible_print(out, "terminal   TERM=%s, taken as %s%s\n", profile->own,
+                     profile->type, profile->inside ? ", inside of tmux or screen" : "");
+    gb_visible_print(
+        out, "colours    %d of terminfo, COLORTERM=%s, NO_COLOR=%s, --color=%s: %s\n",
+        profile->colours, from_env("COLORTERM"), from_env("NO_COLOR"),
+        gb_settings_word(settings, "color"),
+        !profile->coloured        ? "none are used"
+        : profile->colours >= 256 ? "256 are used"
+        : profile->colours >= 16  ? "16 are used"
+                                  : "8 are used");
+    gb_visible_print(out, "plots      %s\n", graph);
+    gb_visible_print(out, "mouse      %s, terminfo knows it: %s\n",
+                     gb_settings_word(settings, "mouse"), yes_no(profile->can_mouse));
+    gb_visible_print(out, "images     %s (libchafa: %s, --images=%s)\n",
+                     profile->images == GB_IMAGES_SIXEL ? "sixel"
+                     : profile->images == GB_IMAGES_KITTY
+                         ? "kitty"
+                         : "none, the packing is drawn in cells",
+                     yes_no(gb_pixels_available()), gb_settings_word(settings, "images"));
+    gb_visible_print(out, "frames     at most %d a second\n", settings->slow ? 2 : 10);
 }
 
 void gb_term_profile_print(FILE *out, int fd, const struct gb_settings *settings)
@@ -156,18 +159,18 @@ void gb_term_profile_print(FILE *out, int fd, const struct gb_settings *settings
     const bool works = gb_term_profile_detect(&profile, fd, settings, &err);
     char *path = gb_settings_path();
     char *log = gb_term_tty_log();
-    fprintf(out, "locale     %s, %s: UTF-8 %s%s\n", setlocale(LC_CTYPE, NULL),
-            nl_langinfo(CODESET), profile.utf8 ? "is used" : "is not used",
-            settings->ascii ? " (--ascii)" : "");
+    gb_visible_print(out, "locale     %s, %s: UTF-8 %s%s\n", setlocale(LC_CTYPE, NULL),
+                     nl_langinfo(CODESET), profile.utf8 ? "is used" : "is not used",
+                     settings->ascii ? " (--ascii)" : "");
     print_size(out, fd);
     if (works) {
         print_terminal(out, &profile, settings);
     } else {
-        fprintf(out, "terminal   none: %s\n", err.text);
+        gb_visible_print(out, "terminal   none: %s\n", err.text);
     }
-    fprintf(out, "settings   %s%s\n", path,
-            g_file_test(path, G_FILE_TEST_EXISTS) ? "" : " (not there)");
-    fprintf(out, "log        %s\n", log);
+    gb_visible_print(out, "settings   %s%s\n", path,
+                     g_file_test(path, G_FILE_TEST_EXISTS) ? "" : " (not there)");
+    gb_visible_print(out, "log        %s\n", log);
     g_free(log);
     g_free(path);
 }
