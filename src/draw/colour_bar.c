@@ -60,6 +60,19 @@ static void draw_arrow(const struct gb_caption_pen *pen, const struct gb_frame *
     cairo_stroke(pen->cairo);
 }
 
+static void draw_tick(const struct gb_caption_pen *pen, const struct gb_frame *bar,
+                      double y, const char *label)
+{
+    gb_caption_pen_set_foreground(pen);
+    cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
+    cairo_move_to(pen->cairo, bar->left + bar->width, y);
+    cairo_line_to(pen->cairo, bar->left + bar->width + 0.3 * pen->unit, y);
+    cairo_stroke(pen->cairo);
+    gb_text_write(&pen->text, label, 0.85 * pen->unit, 0.0,
+                  (double[2]){bar->left + bar->width + 0.5 * pen->unit, y},
+                  (double[2]){0.0, 0.5}, 0);
+}
+
 static void draw_ticks(const struct gb_caption_pen *pen, const struct gb_frame *bar,
                        const struct gb_picture_style_scale *scale)
 {
@@ -68,20 +81,26 @@ static void draw_ticks(const struct gb_caption_pen *pen, const struct gb_frame *
     gb_figure_axis_fit(&axis, GB_FIGURE_AXIS_LINEAR, scale->low, scale->high, 6, exact);
     axis.from = bar->top + bar->height;
     axis.to = bar->top;
-    gb_caption_pen_set_foreground(pen);
-    cairo_set_line_width(pen->cairo, fmax(0.05 * pen->unit, 1.0));
     for (int k = 0; k < axis.ticks; k++) {
-        const double y = gb_figure_axis_position(&axis, axis.tick[k]);
-        cairo_move_to(pen->cairo, bar->left + bar->width, y);
-        cairo_line_to(pen->cairo, bar->left + bar->width + 0.3 * pen->unit, y);
-        cairo_stroke(pen->cairo);
         char plain[48]; /* no space for a power of ten */
         snprintf(plain, sizeof plain, "%.4g", axis.tick[k]);
-        gb_text_write(&pen->text, axis.power == 0 ? axis.label[k] : plain,
-                      0.85 * pen->unit, 0.0,
-                      (double[2]){bar->left + bar->width + 0.5 * pen->unit, y},
-                      (double[2]){0.0, 0.5}, 0);
+        draw_tick(pen, bar, gb_figure_axis_position(&axis, axis.tick[k]),
+                  axis.power == 0 ? axis.label[k] : plain);
     }
+}
+
+/* One colour, one tick. */
+static void draw_one_value(const struct gb_caption_pen *pen, const struct gb_frame *bar,
+                           double value)
+{
+    uint8_t rgb[3];
+    char label[48];
+    gb_palette_field(0.5, rgb);
+    cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+    cairo_rectangle(pen->cairo, bar->left, bar->top, bar->width, bar->height);
+    cairo_fill(pen->cairo);
+    snprintf(label, sizeof label, "%.4g", value);
+    draw_tick(pen, bar, bar->top + 0.5 * bar->height, label);
 }
 
 static void draw_gradient(const struct gb_caption_pen *pen, const struct gb_frame *bar,
@@ -114,6 +133,8 @@ void gb_colour_bar_draw(const struct gb_caption_pen *pen, const struct gb_frame 
     }
     if (scale->whole) {
         draw_cells(pen, bar, scale);
+    } else if (!(scale->high > scale->low)) {
+        draw_one_value(pen, bar, scale->low);
     } else {
         draw_gradient(pen, bar, scale);
     }

@@ -16,6 +16,9 @@
 static const double low_quantile = 0.02;
 static const double high_quantile = 0.98;
 
+/* Values that differ by less than this fraction are one value. */
+static const double one_value = 1e-9;
+
 /* Diameters below this are shown in nm, others in um; m. */
 static const double nanometre_below = 0.5e-6;
 
@@ -26,9 +29,15 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+static bool is_one_value(const struct gb_picture_style_scale *scale)
+{
+    return !(scale->high - scale->low >
+             one_value * fmax(fabs(scale->low), fabs(scale->high)));
+}
+
 enum scale_start { FROM_QUANTILE, FROM_ZERO };
 
-/* Ends of the scale from the values, or those of the request. */
+/* Ends of the scale from the values, or those of the request; equal for one value. */
 static bool fit_scale(struct gb_picture_style_scale *scale, const double *value,
                       size_t count, enum scale_start start,
                       const struct gb_picture_style_request *request,
@@ -47,11 +56,15 @@ static bool fit_scale(struct gb_picture_style_scale *scale, const double *value,
         scale->low = request->low;
         scale->high = request->high;
     }
-    if (!(scale->high > scale->low)) {
-        scale->high = scale->low + fmax(fabs(scale->low) * 1e-3, 1e-12);
+    if (is_one_value(scale)) { /* outliers are the only other values */
+        scale->low = fmin(scale->low, sorted[0]);
+        scale->high = sorted[count - 1];
     }
-    scale->below = sorted[0] < scale->low;
-    scale->above = sorted[count - 1] > scale->high;
+    if (is_one_value(scale)) {
+        scale->low = scale->high;
+    }
+    scale->below = scale->low < scale->high && sorted[0] < scale->low;
+    scale->above = scale->low < scale->high && sorted[count - 1] > scale->high;
     gb_alloc_free(sorted);
     return true;
 }
@@ -65,8 +78,9 @@ static bool colour_values(struct gb_picture_style *style, const double *value,
     if (!fit_scale(scale, value, style->count, start, request, err)) {
         return false;
     }
+    const double span = scale->high - scale->low;
     for (size_t i = 0; i < style->count; i++) {
-        gb_palette_field((value[i] - scale->low) / (scale->high - scale->low),
+        gb_palette_field(span > 0.0 ? (value[i] - scale->low) / span : 0.5,
                          &style->colour[3 * i]);
     }
     return true;

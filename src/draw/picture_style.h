@@ -41,7 +41,7 @@ void gb_picture_style_init(struct gb_picture_style_request *request);
 struct gb_picture_style_scale {
     const char *title; /* with its unit; NULL: no bar */
     bool whole;        /* one cell for each of 0, 1, ..., high */
-    double low, high;  /* values at the ends */
+    double low, high;  /* values at the ends; equal: all particles have this value */
     bool below, above; /* values exist beyond the ends */
 };
 

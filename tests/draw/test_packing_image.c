@@ -9,6 +9,7 @@
 #include "draw/image/palette.h"
 #include "draw/image/png.h"
 #include "draw/packing_image.h"
+#include "draw/picture_colours.h"
 
 enum { SIDE = 400 };
 
@@ -218,6 +219,32 @@ static void test_colour_bar(void)
     gb_state_destroy(state);
 }
 
+/* Particles of one size: a bar of one colour, that of the particles. */
+static void test_one_value(void)
+{
+    struct gb_state *state = packing(3);
+    struct gb_packing_image packing_image;
+    struct gb_caption_layout layout;
+    uint8_t rgb[3];
+    gb_packing_image_init(&packing_image);
+    packing_image.width = 800;
+    packing_image.height = 600;
+    packing_image.style.particles = gb_picture_colours_find("size");
+    for (int i = 0; i < 3; i++) {
+        state->radius[i] = 1.0;
+    }
+    struct gb_image *image = paint(&packing_image, state);
+    gb_caption_arrange(800, 600, true, &layout);
+    gb_palette_field(0.5, rgb);
+    for (double part = 0.05; part < 1.0; part += 0.1) {
+        const uint8_t *pixel = at(image, layout.bar.left + 0.5 * layout.bar.width,
+                                  layout.bar.top + part * layout.bar.height);
+        g_assert_cmpint(memcmp(pixel, rgb, 3), ==, 0);
+    }
+    gb_image_destroy(image);
+    gb_state_destroy(state);
+}
+
 static void test_scale_bar(void)
 {
     char label[64];
@@ -360,6 +387,7 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/snapshot/same-bits", test_same_bits);
     g_test_add_func("/draw/snapshot/tiles", test_tiles);
     g_test_add_func("/draw/snapshot/colour-bar", test_colour_bar);
+    g_test_add_func("/draw/snapshot/one-value", test_one_value);
     g_test_add_func("/draw/snapshot/scale-bar", test_scale_bar);
     g_test_add_func("/draw/snapshot/planar", test_planar);
     g_test_add_func("/draw/snapshot/odd-sizes", test_odd_sizes);

@@ -117,6 +117,35 @@ static void test_colours(void)
     gb_state_destroy(state);
 }
 
+/* Particles of one size have a scale of one value, also when the last bit differs; one
+ * outlier of many is an end of the scale. */
+static void test_one_size(void)
+{
+    struct gb_picture_style_request request;
+    struct gb_state *state = row();
+    uint8_t rgb[3];
+    gb_picture_style_init(&request);
+    request.particles = gb_picture_colours_find("size");
+    for (int i = 0; i < 4; i++) {
+        state->radius[i] = i == 3 ? nextafter(0.5, 1.0) : 0.5;
+    }
+    struct gb_picture_style *style = create_style(state, &request);
+    g_assert_cmpfloat(style->scale.low, ==, style->scale.high);
+    g_assert_cmpfloat_with_epsilon(style->scale.low, 10.0, 1e-9);
+    g_assert_false(style->scale.below || style->scale.above);
+    gb_palette_field(0.5, rgb);
+    for (int i = 0; i < 4; i++) {
+        g_assert_cmpint(memcmp(style->colour + 3 * i, rgb, 3), ==, 0);
+    }
+    gb_picture_style_destroy(style);
+    state->radius[0] = 0.4;
+    style = create_style(state, &request);
+    g_assert_cmpfloat_with_epsilon(style->scale.low, 8.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(style->scale.high, 10.0, 1e-9);
+    gb_picture_style_destroy(style);
+    gb_state_destroy(state);
+}
+
 /* The strain of the cell moves nothing; a step through the wall is short. */
 static void test_displacement(void)
 {
@@ -195,6 +224,7 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/picture_style/rods", test_rods);
     g_test_add_func("/draw/picture_style/pressure", test_pressure);
     g_test_add_func("/draw/picture_style/colours", test_colours);
+    g_test_add_func("/draw/picture_style/one-size", test_one_size);
     g_test_add_func("/draw/picture_style/displacement", test_displacement);
     g_test_add_func("/draw/picture_style/selection", test_selection);
     g_test_add_func("/draw/picture_style/parse", test_parse);
