@@ -24,7 +24,8 @@
     }
 #define RATE_AXIS                                                                        \
     {                                                                                    \
-        .name = "rate_per_s", .label = "densification rate <i>v</i> (1/s)", .log = true  \
+        .name = "rate_per_s", .label = "densification rate <i>v</i> (1/s)", .log = true, \
+        .several = true                                                                  \
     }
 
 /* Keys of what follows the loading branch. */
@@ -288,6 +289,7 @@ static void set_axis(struct gb_series_axis *axis, const struct gb_series_axis *r
         axis->name = row->name;
         axis->label = row->label;
         axis->log = row->log;
+        axis->several = row->several;
     }
 }
 

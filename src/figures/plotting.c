@@ -91,7 +91,8 @@ bool gb_plotting_write(const struct gb_series *series,
     char *csv = csv_path(output);
     GString *text = gb_series_csv(series);
     const bool good =
-        (writer == NULL || write_figure(series, page, writer, output, err)) &&
+        (writer == NULL || (gb_series_check_drawable(series, page->name, err) &&
+                            write_figure(series, page, writer, output, err))) &&
         gb_file_replace(csv, text->str, text->len, err);
     g_string_free(text, TRUE);
     g_free(csv);

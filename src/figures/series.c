@@ -208,6 +208,40 @@ void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
     };
 }
 
+/* Whether a curve has a point at another abscissa than *first, which is NaN before the first
+ * point. */
+static bool has_another(const struct gb_figure_curve *curve, double *first)
+{
+    for (size_t k = 0; k < curve->count; k++) {
+        if (!isfinite(curve->x[k]) || !isfinite(curve->y[k])) {
+            continue;
+        }
+        *first = isnan(*first) ? curve->x[k] : *first;
+        if (curve->x[k] != *first) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool gb_series_check_drawable(const struct gb_series *series, const char *figure,
+                              struct gb_error *err)
+{
+    struct gb_figure drawn;
+    struct gb_figure_curve *curves = NULL;
+    double first = NAN;
+    bool another = !series->x.several;
+    gb_series_figure(series, &drawn, &curves);
+    for (size_t k = 0; k < drawn.count && !another; k++) {
+        another = has_another(&curves[k], &first);
+    }
+    g_free(curves);
+    return another || gb_error_set(err, GB_ERR_INPUT,
+                                   "%s: all points have %s = %.4g; a figure takes two "
+                                   "values of it or more, a CSV one",
+                                   figure, series->x.name, first);
+}
+
 static void append_notes(GString *text, const char *notes)
 {
     char **lines = g_strsplit(notes, "\n", -1);

@@ -26,6 +26,7 @@ struct gb_series_axis {
     const char *name, *label;
     bool log;
     double low, high; /* NaN: from the data */
+    bool several;     /* a figure needs two values on it at least */
 };
 
 /* The data of a figure: comment lines and columns of numbers (NaN: no value), and the
@@ -79,6 +80,10 @@ void gb_series_grow(struct gb_series *series, size_t rows);
  * below last. */
 void gb_series_figure(const struct gb_series *series, struct gb_figure *figure,
                       struct gb_figure_curve **curves);
+
+/* Whether the curves have as many abscissas as the axis needs.  Errors: GB_ERR_INPUT. */
+bool gb_series_check_drawable(const struct gb_series *series, const char *figure,
+                              struct gb_error *err);
 
 /* CSV: comments, a header row, the numbers.  g_string_free. */
 GString *gb_series_csv(const struct gb_series *series);

@@ -273,6 +273,44 @@ static void test_figures(void)
     }
 }
 
+static bool is_there(const char *name)
+{
+    char *path = g_build_filename(folder, name, NULL);
+    const bool there = g_file_test(path, G_FILE_TEST_EXISTS);
+    g_free(path);
+    return there;
+}
+
+/* Against the rate one rate is a dot: refused before a file is written; its numbers are in
+ * a CSV, the fit also beside the decay. */
+static void test_one_rate(void)
+{
+    static const char *const figures[] = {"rate", "relaxation", "relaxation-amplitude"};
+    for (size_t k = 0; k < G_N_ELEMENTS(figures); k++) {
+        char *words = g_strdup_printf("a1 a2 --figure %s -o dot.svg", figures[k]);
+        char *reason = g_strdup_printf(
+            "greenbody: %s: all points have rate_per_s = 6.8e+08; a figure takes two "
+            "values of it or more, a CSV one\n",
+            figures[k]);
+        struct result result = call(words);
+        g_assert_cmpstr(result.err, ==, reason);
+        g_assert_cmpint(result.status, ==, 2);
+        g_assert_false(is_there("dot.svg") || is_there("dot.csv"));
+        program_finish(&result);
+        g_free(reason);
+        g_free(words);
+    }
+    struct result result = fine("a1 a2 --figure relaxation -o dot.csv");
+    program_finish(&result);
+    g_assert_true(is_there("dot.csv"));
+    result = fine("a1 b1 --figure relaxation -o two.svg");
+    program_finish(&result);
+    result = fine("a1 a2 --figure decay");
+    g_assert_nonnull(strstr(result.out, "# group 1: fit of P2 (4), p0 = 2603.9 ("));
+    g_assert_nonnull(strstr(result.out, ", tau2 = 4.930"));
+    program_finish(&result);
+}
+
 static void test_data(void)
 {
     write_in(".", "lab.csv",
@@ -481,6 +519,7 @@ int main(int argc, char **argv)
     g_test_add_func("/plot/difference", test_difference);
     g_test_add_func("/plot/rate", test_rate);
     g_test_add_func("/plot/relaxation", test_relaxation);
+    g_test_add_func("/plot/one-rate", test_one_rate);
     g_test_add_func("/plot/output", test_output);
     g_test_add_func("/plot/figures", test_figures);
     g_test_add_func("/plot/data", test_data);

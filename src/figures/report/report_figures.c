@@ -51,7 +51,7 @@ static bool compute(struct gb_series *series, const struct gb_report *report,
         (void)gb_plotting_data(series, report->data, NULL); /* where it has the columns */
     }
     g_free(set.run);
-    return done;
+    return done && gb_series_check_drawable(series, row->name, cause);
 }
 
 static bool is_missing_data(const struct gb_error *cause)

@@ -28,6 +28,28 @@ static void fill_columns(const double *t, const double *p, size_t count,
     }
 }
 
+static void note_value(GString *text, const char *name, const struct gb_fit_value *value,
+                       const char *unit)
+{
+    g_string_append_printf(text, ", %s = %.5g (%.5g to %.5g) %s", name, value->value,
+                           value->low, value->high, unit);
+}
+
+/* The parameters of a fit with their 95 % intervals. */
+static void note_fit(struct gb_series *series, size_t group,
+                     const struct gb_fit_decay *fit)
+{
+    static const char *const names[GB_FIT_TERMS][2] = {{"p1", "tau1"}, {"p2", "tau2"}};
+    GString *text = g_string_new(NULL);
+    note_value(text, "p0", &fit->p0, "MPa");
+    for (int k = 0; k < fit->terms; k++) {
+        note_value(text, names[k][0], &fit->amplitude[k], "MPa");
+        note_value(text, names[k][1], &fit->tau[k], "ns");
+    }
+    gb_series_note(series, "group %zu: fit of P2 (4)%s", group + 1, text->str);
+    g_string_free(text, TRUE);
+}
+
 /* The mean of a group and its fit, where it converges. */
 static bool draw_group(struct gb_series *series, const struct gb_runset *set,
                        size_t group, struct gb_error *err)
@@ -49,6 +71,9 @@ static bool draw_group(struct gb_series *series, const struct gb_runset *set,
     if (good) {
         const bool fitted = gb_fit_decay(&fit, t, p, count, NULL);
         fill_columns(t, p, count, fitted ? &fit : NULL, column);
+        if (fitted) {
+            note_fit(series, group, &fit);
+        }
     }
     gb_alloc_free(t);
     gb_alloc_free(p);
