@@ -23,6 +23,23 @@ static bool check_file(const char *path, enum gb_plotting_existing existing,
     return gb_file_check_target(path, err);
 }
 
+/* The CSV of the same figure in another format has the same data. */
+static bool check_twin(const char *csv, enum gb_plotting_existing existing,
+                       const GString *text, struct gb_error *err)
+{
+    char *old = NULL;
+    gsize length = 0;
+    if (existing == GB_PLOTTING_REPLACE ||
+        !g_file_get_contents(csv, &old, &length, NULL)) {
+        return true;
+    }
+    const bool same = length == text->len && memcmp(old, text->str, length) == 0;
+    g_free(old);
+    return same || gb_error_set(err, GB_ERR_INPUT,
+                                "%.300s: exists with other data; --force replaces it",
+                                csv);
+}
+
 bool gb_plotting_check(const char *output, enum gb_plotting_existing existing,
                        struct gb_error *err)
 {
@@ -34,7 +51,7 @@ bool gb_plotting_check(const char *output, enum gb_plotting_existing existing,
         return false;
     }
     char *csv = csv_path(output);
-    const bool good = check_file(output, existing, err) && check_file(csv, existing, err);
+    const bool good = check_file(output, existing, err) && gb_file_check_target(csv, err);
     g_free(csv);
     return good;
 }
@@ -91,7 +108,8 @@ bool gb_plotting_write(const struct gb_series *series,
     char *csv = csv_path(output);
     GString *text = gb_series_csv(series);
     const bool good =
-        (writer == NULL || (gb_series_check_drawable(series, page->name, err) &&
+        (writer == NULL || (check_twin(csv, page->existing, text, err) &&
+                            gb_series_check_drawable(series, page->name, err) &&
                             write_figure(series, page, writer, output, err))) &&
         gb_file_replace(csv, text->str, text->len, err);
     g_string_free(text, TRUE);

@@ -229,6 +229,14 @@ static void test_relaxation(void)
     program_finish(&result);
 }
 
+static bool is_there(const char *name)
+{
+    char *path = g_build_filename(folder, name, NULL);
+    const bool there = g_file_test(path, G_FILE_TEST_EXISTS);
+    g_free(path);
+    return there;
+}
+
 static void test_output(void)
 {
     struct result result = fine("a1 --figure time -o x.csv");
@@ -273,12 +281,22 @@ static void test_figures(void)
     }
 }
 
-static bool is_there(const char *name)
+/* A second format beside the first has the same CSV and needs no --force; other data do. */
+static void test_second_format(void)
 {
-    char *path = g_build_filename(folder, name, NULL);
-    const bool there = g_file_test(path, G_FILE_TEST_EXISTS);
-    g_free(path);
-    return there;
+    struct result result = fine("a1 a2 --figure densification -o both.pdf");
+    program_finish(&result);
+    result = fine("a1 a2 --figure densification -o both.svg");
+    program_finish(&result);
+    g_assert_true(is_there("both.svg"));
+    result = call("a1 b1 --figure densification -o both.png");
+    g_assert_cmpint(result.status, ==, 2);
+    g_assert_cmpstr(result.err, ==,
+                    "greenbody: both.csv: exists with other data; --force replaces it\n");
+    g_assert_false(is_there("both.png"));
+    program_finish(&result);
+    result = fine("a1 b1 --figure densification -o both.png --force");
+    program_finish(&result);
 }
 
 /* Against the rate one rate is a dot: refused before a file is written; its numbers are in
@@ -522,6 +540,7 @@ int main(int argc, char **argv)
     g_test_add_func("/plot/one-rate", test_one_rate);
     g_test_add_func("/plot/output", test_output);
     g_test_add_func("/plot/figures", test_figures);
+    g_test_add_func("/plot/second-format", test_second_format);
     g_test_add_func("/plot/data", test_data);
     g_test_add_func("/plot/laws", test_laws);
     g_test_add_func("/plot/refused", test_refused);

@@ -81,6 +81,11 @@ static bool parse_initial(struct request *request, struct gb_error *err)
                request->initial);
 }
 
+static enum gb_plotting_existing existing_files(const struct request *request)
+{
+    return request->force ? GB_PLOTTING_REPLACE : GB_PLOTTING_KEEP;
+}
+
 static bool parse(struct request *request, struct gb_error *err)
 {
     return parse_equation(request, err) &&
@@ -88,9 +93,7 @@ static bool parse(struct request *request, struct gb_error *err)
            parse_pressure("--to", request->to, &request->window.to, err) &&
            parse_initial(request, err) &&
            (request->output == NULL ||
-            gb_plotting_check(request->output,
-                              request->force ? GB_PLOTTING_REPLACE : GB_PLOTTING_KEEP,
-                              err));
+            gb_plotting_check(request->output, existing_files(request), err));
 }
 
 static bool read_runs(struct gb_compaction_data *data, const struct request *request,
@@ -171,17 +174,19 @@ static bool print(GString *text, struct gb_error *err)
 }
 
 /* The figure of the same name, with its data beside it. */
-static bool write_figure(const struct gb_compaction_series *one, const char *output,
-                         struct gb_error *err)
+static bool write_figure(const struct gb_compaction_series *one,
+                         const struct request *request, struct gb_error *err)
 {
     const struct gb_figures_row *row = gb_figures_find("fit");
-    const struct gb_plotting_page page = {
-        .width = 1600, .height = 1200, .name = row->name};
+    const struct gb_plotting_page page = {.width = 1600,
+                                          .height = 1200,
+                                          .name = row->name,
+                                          .existing = existing_files(request)};
     struct gb_series series = {0};
     bool good = gb_compaction_series_fit(&series, one, 1, err);
     if (good) {
         gb_figures_axes(row, &series);
-        good = gb_plotting_write(&series, &page, output, err);
+        good = gb_plotting_write(&series, &page, request->output, err);
     }
     gb_series_finish(&series);
     return good;
@@ -212,7 +217,7 @@ static bool fit(struct request *request, char **words, struct gb_error *err)
         parse(request, err) && read_data(&data, request, words, err) &&
         gb_compaction_series_init(&one, &data, request->only,
                                   data.curves > 0 ? "simulated" : "measured", err) &&
-        (request->output == NULL || write_figure(&one, request->output, err)) &&
+        (request->output == NULL || write_figure(&one, request, err)) &&
         print_fits(&one, request->csv, request->json, err);
     gb_compaction_series_finish(&one);
     return good;

@@ -97,6 +97,11 @@ static bool check_count(guint count, struct gb_error *err)
                         DIRECTORIES_MAX);
 }
 
+static enum gb_plotting_existing existing_files(const struct request *request)
+{
+    return request->force ? GB_PLOTTING_REPLACE : GB_PLOTTING_KEEP;
+}
+
 /* All checks that are possible before the runs are read. */
 static bool check_request(const struct request *request,
                           const struct gb_figures_row *figure, char **words,
@@ -106,9 +111,7 @@ static bool check_request(const struct request *request,
             check_count(g_strv_length(words), err)) &&
            check_options(request, figure, err) &&
            (request->output == NULL ||
-            gb_plotting_check(request->output,
-                              request->force ? GB_PLOTTING_REPLACE : GB_PLOTTING_KEEP,
-                              err));
+            gb_plotting_check(request->output, existing_files(request), err));
 }
 
 /* The directories to read; the reference is added where it is none of them.  Returns its
@@ -135,7 +138,8 @@ static bool write_series(const struct gb_series *series, const struct request *r
                                     .height = 1200,
                                     .name = figure->name,
                                     .title = request->title,
-                                    .set = set};
+                                    .set = set,
+                                    .existing = existing_files(request)};
     if (request->output != NULL) {
         return (request->size == NULL ||
                 gb_image_parse_size(request->size, &page.width, &page.height, err)) &&
