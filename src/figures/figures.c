@@ -135,7 +135,6 @@ static const struct gb_figures_row table[] = {
     {"force-angle", "mean normal force against the contact angle to z", "P1 Fig. 14",
      GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,
      .x = {.name = "angle_deg", .label = "angle of the contact to <i>z</i> (degrees)"},
-     .y = {.name = "force_nN", .label = "mean normal force <i>f<sub>n</sub></i> (nN)"},
      .compute = gb_figures_force_angle},
     {"sizes", "particle sizes by number, with the log-normal law",
      "P1 Fig. 10, P3 Fig. 14", GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,

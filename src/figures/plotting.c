@@ -35,9 +35,9 @@ static bool check_twin(const char *csv, enum gb_plotting_existing existing,
     }
     const bool same = length == text->len && memcmp(old, text->str, length) == 0;
     g_free(old);
-    return same || gb_error_set(err, GB_ERR_INPUT,
-                                "%.300s: exists with other data; --force replaces it",
-                                csv);
+    return same ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "%.300s: exists with other data; --force replaces it", csv);
 }
 
 bool gb_plotting_check(const char *output, enum gb_plotting_existing existing,

@@ -581,6 +581,27 @@ static void test_series(void)
     gb_series_finish(&series);
 }
 
+/* Forces between grains of 50 um are in mN: 0.01 * 1e9 Pa * (5e-5 m)^2 = 25 mN. */
+static void test_force_unit(void)
+{
+    static const char *const runs[] = {"coarse", NULL};
+    struct gb_series series = {0};
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    write_quasistatic("coarse", 1, "50 um", 0.0);
+    char *path = figure_folder_path("coarse", "state.h5");
+    g_assert_true(gb_state_read(&state, path, &err));
+    state->metre_per_length = 5e-5;
+    g_assert_true(gb_state_write(state, NULL, path, &err));
+    g_assert_true(figure_folder_named("force-angle", runs, &series, &err));
+    g_assert_cmpfloat_with_epsilon(csv_cell(&series, "force_mN_1", 0), 25.0, 1e-9);
+    g_assert_cmpstr(series.y.name, ==, "force_mN");
+    g_assert_true(g_str_has_suffix(series.y.label, "(mN)"));
+    gb_series_finish(&series);
+    gb_state_destroy(state);
+    g_free(path);
+}
+
 /* Points, curve and residuals agree; the panel below lies under the frame. */
 static void test_fit(void)
 {
@@ -666,8 +687,7 @@ static void test_formats(void)
     static const char *const runs[] = {"a1", NULL};
     struct gb_series series = {0};
     struct gb_error err = {0};
-    const struct gb_plotting_page page = {400, 300, "time", NULL, NULL,
-                                          GB_PLOTTING_KEEP};
+    const struct gb_plotting_page page = {400, 300, "time", NULL, NULL, GB_PLOTTING_KEEP};
     g_assert_true(figure_folder_named("time", runs, &series, &err));
     for (const struct gb_output_formats_row *row = gb_output_formats_table();
          row->extension; row++) {
@@ -770,6 +790,7 @@ int main(int argc, char **argv)
     g_test_add_func("/figures/strength_at", test_strength_at);
     g_test_add_func("/figures/errors", test_errors);
     g_test_add_func("/figures/series", test_series);
+    g_test_add_func("/figures/force-unit", test_force_unit);
     g_test_add_func("/figures/fit", test_fit);
     g_test_add_func("/figures/moduli", test_moduli);
     g_test_add_func("/figures/formats", test_formats);

@@ -42,10 +42,8 @@ static bool write_figure(const char *folder, const char *name, const char *file,
     const struct gb_figures_row *row = gb_figures_find(name);
     char *words[] = {(char *)(size_t)folder, NULL};
     const struct gb_figures_input input = {.words = words};
-    const struct gb_plotting_page page = {.width = WIDTH,
-                                          .height = HEIGHT,
-                                          .name = name,
-                                          .existing = GB_PLOTTING_REPLACE};
+    const struct gb_plotting_page page = {
+        .width = WIDTH, .height = HEIGHT, .name = name, .existing = GB_PLOTTING_REPLACE};
     struct gb_series series = {.rows = 0};
     char *path = g_build_filename(folder, file, NULL);
     const bool good = gb_figures_run(row, &series, &input, err) &&
