@@ -26,7 +26,8 @@ bool gb_parameters_copy(struct gb_parameters **out,
                         const struct gb_parameters *parameters, struct gb_error *err);
 void gb_parameters_destroy(struct gb_parameters *parameters); /* NULL is fine */
 
-/* Sets "group.key=value" or "key=value", the value with its unit: "loading.until=100 MPa".
+/* Sets "group.key=value" or "key=value", the value with its unit: "loading.until=100 MPa";
+ * "material=yttria", a name or a file, sets all keys of [material].
  * Errors: GB_ERR_INPUT with what is accepted; the parameters are unchanged then. */
 bool gb_parameters_set(struct gb_parameters *parameters, const char *assignment,
                        struct gb_error *err);

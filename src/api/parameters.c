@@ -5,6 +5,7 @@
 #include "api/parameters_private.h"
 #include "base/alloc.h"
 #include "base/units.h"
+#include "io/material.h"
 #include "io/preset_folders.h"
 
 static struct gb_params *params_of(const struct gb_parameters *parameters)
@@ -64,7 +65,7 @@ void gb_parameters_destroy(struct gb_parameters *parameters)
 bool gb_parameters_set(struct gb_parameters *parameters, const char *assignment,
                        struct gb_error *err)
 {
-    return gb_params_assign(params_of(parameters), assignment, err);
+    return gb_material_assign(params_of(parameters), assignment, err);
 }
 
 bool gb_parameters_get(const struct gb_parameters *parameters, const char *key,

@@ -22,6 +22,14 @@
 #include "io/preset_folders.h"
 #include "pack/kernel/simd.h"
 
+static void print_names(char **names)
+{
+    for (int i = 0; names[i]; i++) {
+        gb_visible_print(stdout, "  %s\n", names[i]);
+    }
+    g_strfreev(names);
+}
+
 static void print_help(void)
 {
     gb_visible_put(
@@ -34,12 +42,10 @@ static void print_help(void)
         "\n"
         "Commands:\n");
     gb_commands_print(stdout);
-    char **presets = gb_preset_folders_list();
     gb_visible_put(stdout, "\nPresets:\n");
-    for (int i = 0; presets[i]; i++) {
-        gb_visible_print(stdout, "  %s\n", presets[i]);
-    }
-    g_strfreev(presets);
+    print_names(gb_preset_folders_list());
+    gb_visible_put(stdout, "\nMaterials, as material=NAME among the keys:\n");
+    print_names(gb_preset_folders_list_materials());
     gb_visible_put(
         stdout,
         "\nOptions:\n"

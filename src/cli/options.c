@@ -9,6 +9,7 @@
 #include "base/text/visible.h"
 #include "cli/complete/completion.h"
 #include "draw/image/png.h"
+#include "io/material.h"
 #include "io/preset_folders.h"
 
 static GOptionContext *make_context(const struct gb_options_page *page,
@@ -122,7 +123,7 @@ static bool is_assignment(const char *word)
 static bool assign_sets(struct gb_params *params, char **sets, struct gb_error *err)
 {
     for (int i = 0; sets != NULL && sets[i] != NULL; i++) {
-        if (!gb_params_assign(params, sets[i], err)) {
+        if (!gb_material_assign(params, sets[i], err)) {
             return false;
         }
     }
@@ -132,7 +133,7 @@ static bool assign_sets(struct gb_params *params, char **sets, struct gb_error *
 static bool assign_words(struct gb_params *params, char **words, struct gb_error *err)
 {
     for (int i = 0; words != NULL && words[i] != NULL; i++) {
-        if (is_assignment(words[i]) && !gb_params_assign(params, words[i], err)) {
+        if (is_assignment(words[i]) && !gb_material_assign(params, words[i], err)) {
             return false;
         }
     }

@@ -270,6 +270,21 @@ const char *gb_preset_path(const struct gb_preset *preset)
     return preset->path;
 }
 
+bool gb_preset_has(const struct gb_preset *preset, const char *group, const char *key)
+{
+    return gb_key_lines_find(&preset->lines, group, key) != NULL;
+}
+
+const char *gb_preset_other_group(const struct gb_preset *preset, const char *group)
+{
+    for (size_t i = 0; i < preset->lines.count; i++) {
+        if (strcmp(preset->lines.item[i].group, group) != 0) {
+            return preset->lines.item[i].group;
+        }
+    }
+    return NULL;
+}
+
 /* Does the text of the file, read at path, still say what params hold?  Compared in
  * written form, so that "0.1nm" and "0.10 nm" stay as typed; the name of a table of sizes
  * stays only where the table lies beside the preset. */

@@ -25,6 +25,12 @@ void gb_preset_destroy(struct gb_preset *preset); /* NULL is fine */
 struct gb_params *gb_preset_params(struct gb_preset *preset);
 const char *gb_preset_path(const struct gb_preset *preset); /* "" without a file */
 
+/* Whether the file has a line for the key. */
+bool gb_preset_has(const struct gb_preset *preset, const char *group, const char *key);
+
+/* The first group of the file that is another than `group`, or NULL. */
+const char *gb_preset_other_group(const struct gb_preset *preset, const char *group);
+
 enum gb_preset_extent {
     GB_PRESET_CHANGED_KEYS, /* missing keys are added where they differ from the default */
     GB_PRESET_ALL_KEYS      /* every missing key is added */

@@ -10,6 +10,9 @@
 /* What belongs to the program, by name, in the order of search. */
 enum { ABOVE = 3 };
 
+/* Folder of materials in a folder of presets. */
+static const char materials[] = "materials";
+
 static void add_once(GPtrArray *list, char *folder)
 {
     if (g_ptr_array_find_with_equal_func(list, folder, g_str_equal, NULL)) {
@@ -112,18 +115,40 @@ static char *find_in(const char *folder, const char *name)
     return NULL;
 }
 
-char *gb_preset_folders_find(const char *name)
+/* `part` of each folder of presets: the folder itself (NULL), or a folder in it. */
+static char **folders_of(const char *part)
+{
+    char **list = gb_preset_folders();
+    for (int i = 0; list[i] != NULL && part != NULL; i++) {
+        char *folder = g_build_filename(list[i], part, NULL);
+        g_free(list[i]);
+        list[i] = folder;
+    }
+    return list;
+}
+
+static char *find_named(const char *part, const char *name)
 {
     if (*name == '\0' || strchr(name, '/')) {
         return NULL;
     }
-    char **list = gb_preset_folders();
+    char **list = folders_of(part);
     char *path = NULL;
     for (int i = 0; list[i] && !path; i++) {
         path = find_in(list[i], name);
     }
     g_strfreev(list);
     return path;
+}
+
+char *gb_preset_folders_find(const char *name)
+{
+    return find_named(NULL, name);
+}
+
+char *gb_preset_folders_find_material(const char *name)
+{
+    return find_named(materials, name);
 }
 
 char *gb_preset_folders_find_data(const char *file)
@@ -158,10 +183,10 @@ static void list_folder(const char *folder, GHashTable *names)
     g_dir_close(dir);
 }
 
-char **gb_preset_folders_list(void)
+static char **list_named(const char *part)
 {
     GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
-    char **list = gb_preset_folders();
+    char **list = folders_of(part);
     for (int i = 0; list[i]; i++) {
         list_folder(list[i], names);
     }
@@ -172,4 +197,14 @@ char **gb_preset_folders_list(void)
     g_hash_table_destroy(names);
     qsort(found, count, sizeof *found, compare_names);
     return found;
+}
+
+char **gb_preset_folders_list(void)
+{
+    return list_named(NULL);
+}
+
+char **gb_preset_folders_list_materials(void)
+{
+    return list_named(materials);
 }

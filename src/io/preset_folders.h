@@ -11,11 +11,18 @@ char **gb_preset_folders(void);
 /* Path of a preset by name in newly allocated memory (g_free), or NULL. */
 char *gb_preset_folders_find(const char *name);
 
+/* Path of a material by name in the folder materials/ of these folders, in newly allocated
+ * memory (g_free), or NULL. */
+char *gb_preset_folders_find_material(const char *name);
+
 /* Path of a file of data that belongs to the program, found in the same way
  * (GB_DATA_DIR, share/greenbody/data, assets/data; g_free), or NULL. */
 char *gb_preset_folders_find_data(const char *file);
 
 /* Names of all presets that can be found, sorted, NULL-terminated (g_strfreev). */
 char **gb_preset_folders_list(void);
+
+/* The same of all materials. */
+char **gb_preset_folders_list_materials(void);
 
 #endif

@@ -30,7 +30,8 @@ root=$here/dest$prefix
 
 all_there() {
     for file in bin/greenbody share/man/man1/greenbody.1 share/man/man1/greenbody-run.1 \
-        share/greenbody/presets/default.ini share/greenbody/data/papers.csv \
+        share/greenbody/presets/default.ini \
+        share/greenbody/presets/materials/yttria.ini share/greenbody/data/papers.csv \
         share/bash-completion/completions/greenbody share/zsh/site-functions/_greenbody \
         share/fish/vendor_completions.d/greenbody.fish include/greenbody/greenbody.h; do
         [ -f "$root/$file" ] || {

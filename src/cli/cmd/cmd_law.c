@@ -6,6 +6,7 @@
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "io/material.h"
 #include "study/law/law_rows.h"
 
 /* The options of the command line. */
@@ -52,7 +53,7 @@ static bool set_varied(struct gb_params *scene, const struct variation *variatio
                        struct gb_error *err)
 {
     char *assignment = g_strdup_printf("%s=%s", variation->pair[0], variation->values[i]);
-    const bool good = gb_params_assign(scene, assignment, err);
+    const bool good = gb_material_assign(scene, assignment, err);
     g_free(assignment);
     return good;
 }

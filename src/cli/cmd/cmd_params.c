@@ -5,11 +5,18 @@
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "io/material.h"
+#include "io/preset_folders.h"
 
-enum { COLUMNS = 6, CELL = 320 };
+enum { CELL = 320 };
 
-static const char *const titles[COLUMNS] = {"key",  "default", "range",
-                                            "unit", "meaning", "source"};
+/* Rows of cells, each NULL-terminated and of one length; the first one has the titles. */
+static GPtrArray *begin_table(const char *const *titles)
+{
+    GPtrArray *rows = g_ptr_array_new_with_free_func((GDestroyNotify)g_strfreev);
+    g_ptr_array_add(rows, g_strdupv((char **)(uintptr_t)titles));
+    return rows;
+}
 
 static void write_unit(const struct gb_field *field, char *out, size_t size)
 {
@@ -23,64 +30,112 @@ static void write_unit(const struct gb_field *field, char *out, size_t size)
     }
 }
 
-static void write_row(const struct gb_field *field, char cells[COLUMNS][CELL])
+static GPtrArray *list_keys(void)
 {
-    snprintf(cells[0], CELL, "%s.%s", field->group, field->key);
-    g_strlcpy(cells[1], *field->fallback ? field->fallback : "-", CELL);
-    gb_params_accepted(field, cells[2], CELL);
-    write_unit(field, cells[3], CELL);
-    g_strlcpy(cells[4], field->meaning, CELL);
-    g_strlcpy(cells[5], field->source, CELL);
-}
-
-static void print_markdown(const struct gb_field *fields, size_t count)
-{
-    gb_visible_put(
-        stdout,
-        "| key | default | range | unit | meaning | source |\n|---|---|---|---|---|---|\n");
+    static const char *const titles[] = {"key",     "default", "range", "unit",
+                                         "meaning", "source",  NULL};
+    size_t count = 0;
+    const struct gb_field *field = gb_params_fields(&count);
+    GPtrArray *rows = begin_table(titles);
     for (size_t i = 0; i < count; i++) {
-        char cells[COLUMNS][CELL];
-        write_row(&fields[i], cells);
-        gb_visible_print(stdout, "| `%s` | %s | %s | %s | %s | %s |\n", cells[0],
-                         cells[1], cells[2], cells[3], cells[4], cells[5]);
+        char **cell = g_new0(char *, G_N_ELEMENTS(titles));
+        char text[CELL];
+        cell[0] = g_strdup_printf("%s.%s", field[i].group, field[i].key);
+        cell[1] = g_strdup(*field[i].fallback ? field[i].fallback : "-");
+        cell[2] = g_strdup(gb_params_accepted(&field[i], text, sizeof text));
+        write_unit(&field[i], text, sizeof text);
+        cell[3] = g_strdup(text);
+        cell[4] = g_strdup(field[i].meaning);
+        cell[5] = g_strdup(field[i].source);
+        g_ptr_array_add(rows, cell);
+    }
+    return rows;
+}
+
+/* The values of a material, and its file; of one that cannot be read, why. */
+static char **describe_material(const char *name, const char *const *titles)
+{
+    struct gb_params params;
+    struct gb_error err = {0};
+    const guint last = g_strv_length((char **)(uintptr_t)titles) - 1;
+    char **cell = g_new0(char *, last + 2);
+    gb_params_init(&params);
+    const bool good = gb_material_apply(&params, name, &err);
+    cell[0] = g_strdup(name);
+    for (guint k = 1; k < last; k++) {
+        char text[GB_PARAMS_VALUE_MAX] = "-";
+        if (good) {
+            gb_params_format(&params, gb_params_find(GB_MATERIAL_GROUP, titles[k]), text,
+                             sizeof text);
+        }
+        cell[k] = g_strdup(text);
+    }
+    cell[last] = good ? gb_material_path(name, NULL) : g_strdup(err.text);
+    return cell;
+}
+
+static GPtrArray *list_materials(void)
+{
+    static const char *const titles[] = {"material", "young", "poisson", "density", "d0",
+                                         "epsilon",  "yield", "file",    NULL};
+    GPtrArray *rows = begin_table(titles);
+    char **names = gb_preset_folders_list_materials();
+    for (int i = 0; names[i] != NULL; i++) {
+        g_ptr_array_add(rows, describe_material(names[i], titles));
+    }
+    g_strfreev(names);
+    return rows;
+}
+
+static void print_markdown(const GPtrArray *rows)
+{
+    for (guint i = 0; i < rows->len; i++) {
+        char **cell = g_ptr_array_index(rows, i);
+        gb_visible_print(stdout, i > 0 ? "| `%s` |" : "| %s |", cell[0]);
+        for (int k = 1; cell[k] != NULL; k++) {
+            gb_visible_print(stdout, " %s |", cell[k]);
+        }
+        for (int k = 0; i == 0 && cell[k] != NULL; k++) {
+            gb_visible_put(stdout, k > 0 ? "---|" : "\n|---|");
+        }
+        gb_visible_put(stdout, "\n");
     }
 }
 
-static void print_line(char cells[COLUMNS][CELL], const int width[COLUMNS])
+static int width_of(const GPtrArray *rows, int column)
 {
-    for (int k = 0; k < COLUMNS - 1; k++) {
-        gb_visible_print(stdout, "%-*s  ", width[k], cells[k]);
+    int width = 0;
+    for (guint i = 0; i < rows->len; i++) {
+        char **cell = g_ptr_array_index(rows, i);
+        width = MAX(width, (int)strlen(cell[column]));
     }
-    gb_visible_print(stdout, "%s\n", cells[COLUMNS - 1]);
+    return width;
 }
 
-static void print_plain(const struct gb_field *fields, size_t count)
+static void print_plain(const GPtrArray *rows)
 {
-    char cells[COLUMNS][CELL];
-    int width[COLUMNS];
-    for (int k = 0; k < COLUMNS; k++) {
-        width[k] = (int)strlen(titles[k]);
+    const guint columns = g_strv_length(g_ptr_array_index(rows, 0));
+    int *width = g_new(int, columns);
+    for (guint k = 0; k < columns; k++) {
+        width[k] = k + 1 < columns ? width_of(rows, (int)k) : 0;
     }
-    for (size_t i = 0; i < count; i++) {
-        write_row(&fields[i], cells);
-        for (int k = 0; k < COLUMNS; k++) {
-            width[k] = MAX(width[k], (int)strlen(cells[k]));
+    for (guint i = 0; i < rows->len; i++) {
+        char **cell = g_ptr_array_index(rows, i);
+        for (guint k = 0; k < columns; k++) {
+            gb_visible_print(stdout, "%-*s%s", width[k], cell[k],
+                             k + 1 < columns ? "  " : "\n");
         }
     }
-    for (int k = 0; k < COLUMNS; k++) {
-        g_strlcpy(cells[k], titles[k], CELL);
-    }
-    print_line(cells, width);
-    for (size_t i = 0; i < count; i++) {
-        write_row(&fields[i], cells);
-        print_line(cells, width);
-    }
+    g_free(width);
 }
 
 int gb_cmd_params(int argc, char **argv)
 {
-    gboolean markdown = FALSE;
+    gboolean markdown = FALSE, materials = FALSE;
     const GOptionEntry entries[] = {
+        {"materials", 0, 0, G_OPTION_ARG_NONE, &materials,
+         "the materials that material=NAME takes, with their files, instead of the keys",
+         NULL},
         {"markdown", 0, 0, G_OPTION_ARG_NONE, &markdown, "a Markdown table", NULL},
         {0},
     };
@@ -89,7 +144,7 @@ int gb_cmd_params(int argc, char **argv)
         .summary =
             "Every preset key: default, range, unit, meaning, source.\n"
             "Keys are written under [group] in a preset, or as group.key=value on the\n"
-            "command line.",
+            "command line; material=NAME sets all keys of [material].",
     };
     char **words = NULL;
     int status = 0;
@@ -103,12 +158,12 @@ int gb_cmd_params(int argc, char **argv)
         return gb_options_fail(&err);
     }
     g_strfreev(words);
-    size_t count = 0;
-    const struct gb_field *fields = gb_params_fields(&count);
+    GPtrArray *rows = materials ? list_materials() : list_keys();
     if (markdown) {
-        print_markdown(fields, count);
+        print_markdown(rows);
     } else {
-        print_plain(fields, count);
+        print_plain(rows);
     }
+    g_ptr_array_unref(rows);
     return 0;
 }

@@ -3,6 +3,8 @@
 #include "base/units.h"
 #include "cli/complete/candidates.h"
 #include "greenbody/params.h"
+#include "io/material.h"
+#include "io/preset_folders.h"
 
 /* Each name of a list "a, b, c" from the table of units. */
 static void add_units(const struct gb_candidates *to, const char *number,
@@ -67,6 +69,17 @@ static void add_values(const struct gb_candidates *to, const struct gb_field *fi
     add_number(to, field);
 }
 
+static void add_materials(const struct gb_candidates *to)
+{
+    static const char *const files[] = {".ini", NULL};
+    char **names = gb_preset_folders_list_materials();
+    for (int i = 0; names[i] != NULL; i++) {
+        gb_candidates_add(to, names[i], "material");
+    }
+    g_strfreev(names);
+    gb_candidates_paths(to, GB_CANDIDATES_FILE, files);
+}
+
 static void complete_value(const struct gb_candidates *to, const char *equals)
 {
     char *name = g_strndup(to->prefix, (gsize)(equals - to->prefix));
@@ -79,12 +92,23 @@ static void complete_value(const struct gb_candidates *to, const char *equals)
     }
     char *before =
         g_strdup_printf("%s%.*s", to->before, (int)(last - to->prefix), to->prefix);
+    const struct gb_candidates part = {.prefix = last, .before = before};
     if (field != NULL) {
-        add_values(&(struct gb_candidates){.prefix = last, .before = before}, field);
+        add_values(&part, field);
+    } else if (strcmp(name, GB_MATERIAL_GROUP) == 0) {
+        add_materials(&part);
     }
     g_free(before);
     g_strfreev(parts);
     g_free(name);
+}
+
+/* "material=": all keys of the group by a name. */
+static void add_whole(const struct gb_candidates *to, const char *group)
+{
+    if (strcmp(group, GB_MATERIAL_GROUP) == 0) {
+        gb_candidates_add(to, GB_MATERIAL_GROUP "=", "all keys of this group by a name");
+    }
 }
 
 /* Groups for a beginning of a group, keys for a group, and keys by their own names. */
@@ -101,6 +125,7 @@ static void complete_name(const struct gb_candidates *to)
             gb_candidates_add(to, key, fields[i].meaning);
         } else if (strcmp(last, fields[i].group) != 0) {
             gb_candidates_add(to, group, "keys of this group");
+            add_whole(to, fields[i].group);
         }
         if (!in_group && *to->prefix != '\0' &&
             g_str_has_prefix(fields[i].key, to->prefix)) {

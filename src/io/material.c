@@ -1,0 +1,113 @@
+#include "io/material.h"
+
+#include <string.h>
+
+#include <glib.h>
+
+#include "io/preset.h"
+#include "io/preset_folders.h"
+
+/* Keys without which a file is no material. */
+static const char *const needed[] = {"name", "young",      "poisson", "density",
+                                     "d0",   "n_d0_cubed", "epsilon"};
+
+static bool is_file(const char *path)
+{
+    return g_file_test(path, G_FILE_TEST_EXISTS) &&
+           !g_file_test(path, G_FILE_TEST_IS_DIR);
+}
+
+static void *no_such(const char *name, char **known, struct gb_error *err)
+{
+    char *list = g_strjoinv(", ", known);
+    gb_error_set(err, GB_ERR_INPUT,
+                 "material=%.60s: no such material; must be one of %.300s, or a file",
+                 name, known[0] != NULL ? list : "none");
+    g_free(list);
+    return NULL;
+}
+
+/* Names differ from file names only in case. */
+static char *find_any_case(const char *name, struct gb_error *err)
+{
+    char **known = gb_preset_folders_list_materials();
+    char *path = NULL;
+    for (int i = 0; known[i] != NULL && path == NULL; i++) {
+        if (g_ascii_strcasecmp(known[i], name) == 0) {
+            path = gb_preset_folders_find_material(known[i]);
+        }
+    }
+    path = path != NULL ? path : no_such(name, known, err);
+    g_strfreev(known);
+    return path;
+}
+
+char *gb_material_path(const char *name_or_path, struct gb_error *err)
+{
+    const bool path = strchr(name_or_path, '/') != NULL ||
+                      (g_str_has_suffix(name_or_path, ".ini") && is_file(name_or_path));
+    char *found = path ? NULL : gb_preset_folders_find_material(name_or_path);
+    if (path) { /* an error follows from opening it */
+        return g_strdup(name_or_path);
+    }
+    return found != NULL ? found : find_any_case(name_or_path, err);
+}
+
+static bool check(const struct gb_preset *file, struct gb_error *err)
+{
+    const char *path = gb_preset_path(file);
+    const char *other = gb_preset_other_group(file, GB_MATERIAL_GROUP);
+    if (other != NULL) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%.300s: [%.40s]: a material has the group [material] only",
+                            path, other);
+    }
+    for (size_t i = 0; i < G_N_ELEMENTS(needed); i++) {
+        if (!gb_preset_has(file, GB_MATERIAL_GROUP, needed[i])) {
+            return gb_error_set(err, GB_ERR_INPUT,
+                                "%.300s: no material.%s: a material needs name, young, "
+                                "poisson, density, d0, n_d0_cubed and epsilon",
+                                path, needed[i]);
+        }
+    }
+    return true;
+}
+
+static void copy_group(struct gb_params *to, const struct gb_params *from)
+{
+    size_t count = 0;
+    const struct gb_field *fields = gb_params_fields(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(fields[i].group, GB_MATERIAL_GROUP) == 0) {
+            memcpy((char *)to + fields[i].offset, (const char *)from + fields[i].offset,
+                   fields[i].size);
+        }
+    }
+}
+
+bool gb_material_apply(struct gb_params *params, const char *name_or_path,
+                       struct gb_error *err)
+{
+    char *path = gb_material_path(name_or_path, err);
+    struct gb_preset *file = NULL;
+    const bool good =
+        path != NULL && gb_preset_load(&file, path, err) && check(file, err);
+    if (good) {
+        copy_group(params, gb_preset_params(file));
+    }
+    gb_preset_destroy(file);
+    g_free(path);
+    return good;
+}
+
+bool gb_material_assign(struct gb_params *params, const char *assignment,
+                        struct gb_error *err)
+{
+    char **part = g_strsplit(assignment, "=", 2);
+    const bool whole = part[0] != NULL && part[1] != NULL &&
+                       strcmp(g_strstrip(part[0]), GB_MATERIAL_GROUP) == 0;
+    const bool good = whole ? gb_material_apply(params, g_strstrip(part[1]), err)
+                            : gb_params_assign(params, assignment, err);
+    g_strfreev(part);
+    return good;
+}
