@@ -111,3 +111,29 @@ bool gb_material_assign(struct gb_params *params, const char *assignment,
     g_strfreev(part);
     return good;
 }
+
+char *gb_material_guessed(const char *path)
+{
+    char *text = NULL;
+    GString *keys = g_string_new(NULL);
+    bool guessed = false;
+    (void)g_file_get_contents(path, &text, NULL, NULL);
+    char **line = g_strsplit(text != NULL ? text : "", "\n", -1);
+    for (int i = 0; line[i] != NULL; i++) {
+        const char *equals = strchr(line[i], '=');
+        if (line[i][0] == '#') {
+            guessed = guessed || strstr(line[i], "(guessed)") != NULL;
+            continue;
+        }
+        if (guessed && equals != NULL) {
+            char *key = g_strndup(line[i], (gsize)(equals - line[i]));
+            g_string_append_printf(keys, "%s%s", keys->len > 0 ? ", " : "",
+                                   g_strstrip(key));
+            g_free(key);
+        }
+        guessed = false;
+    }
+    g_strfreev(line);
+    g_free(text);
+    return g_string_free(keys, FALSE);
+}

@@ -26,4 +26,8 @@ bool gb_material_assign(struct gb_params *params, const char *assignment,
  * GB_ERR_INPUT with the materials there are. */
 char *gb_material_path(const char *name_or_path, struct gb_error *err);
 
+/* Keys of the file whose comment, the lines in front of them, has "(guessed)": "epsilon,
+ * yield", "" for none; g_free. */
+char *gb_material_guessed(const char *path);
+
 #endif

@@ -113,6 +113,7 @@ for name in alumina yttria zirconia titania NiAl nickel iron copper \
     microcrystalline-cellulose polymer-binder glass; do
     is "$name is listed" listed "$name"
 done
+is 'with what is guessed' grep -q '^alumina .*  yield, hardening  ' stdout
 is 'as Markdown' sh -c '"$0" params --materials --markdown | grep -q "^| .yttria. | 179.8 GPa |"' \
     "$greenbody"
 cp here.ini config/greenbody/presets/materials/broken.ini

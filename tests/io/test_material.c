@@ -105,6 +105,28 @@ static void test_alumina(void)
     gb_preset_destroy(preset);
 }
 
+static void guessed(const char *name, const char *keys)
+{
+    char *path = gb_material_path(name, NULL);
+    char *found = gb_material_guessed(path);
+    g_assert_cmpstr(found, ==, keys);
+    g_free(found);
+    g_free(path);
+}
+
+static void test_guessed(void)
+{
+    guessed("alumina", "yield, hardening");
+    guessed("copper", "");
+    guessed("NiAl", "epsilon");
+    char *path =
+        write_own("guess.ini", "[material]\n# 5 (guessed)\n# of another\n\n"
+                               "young = 1 Pa\n# (guessed)\n poisson=0\nd0 = 1 nm\n");
+    guessed(path, "poisson");
+    g_assert_cmpint(g_remove(path), ==, 0);
+    g_free(path);
+}
+
 /* All of [material] changes, also what the file leaves out; nothing else does. */
 static void test_keys(void)
 {
@@ -252,6 +274,7 @@ int main(int argc, char **argv)
     }
     g_test_add_func("/material/lists", test_lists);
     g_test_add_func("/material/alumina", test_alumina);
+    g_test_add_func("/material/guessed", test_guessed);
     g_test_add_func("/material/keys", test_keys);
     g_test_add_func("/material/refused", test_refused);
     g_test_add_func("/material/own", test_own);

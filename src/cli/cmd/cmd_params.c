@@ -52,36 +52,45 @@ static GPtrArray *list_keys(void)
     return rows;
 }
 
+/* Columns of materials: the name, keys, and where the values come from. */
+static const char *const material_titles[] = {"material", "young",   "poisson", "density",
+                                              "d0",       "epsilon", "yield",   "guessed",
+                                              "file",     NULL};
+enum { GUESSED = 7, MATERIAL_FILE };
+
 /* The values of a material, and its file; of one that cannot be read, why. */
-static char **describe_material(const char *name, const char *const *titles)
+static char **describe_material(const char *name)
 {
     struct gb_params params;
     struct gb_error err = {0};
-    const guint last = g_strv_length((char **)(uintptr_t)titles) - 1;
-    char **cell = g_new0(char *, last + 2);
+    char **cell = g_new0(char *, G_N_ELEMENTS(material_titles));
     gb_params_init(&params);
     const bool good = gb_material_apply(&params, name, &err);
     cell[0] = g_strdup(name);
-    for (guint k = 1; k < last; k++) {
+    for (int k = 1; k < GUESSED; k++) {
         char text[GB_PARAMS_VALUE_MAX] = "-";
         if (good) {
-            gb_params_format(&params, gb_params_find(GB_MATERIAL_GROUP, titles[k]), text,
+            gb_params_format(&params,
+                             gb_params_find(GB_MATERIAL_GROUP, material_titles[k]), text,
                              sizeof text);
         }
         cell[k] = g_strdup(text);
     }
-    cell[last] = good ? gb_material_path(name, NULL) : g_strdup(err.text);
+    cell[MATERIAL_FILE] = good ? gb_material_path(name, NULL) : g_strdup(err.text);
+    cell[GUESSED] = good ? gb_material_guessed(cell[MATERIAL_FILE]) : g_strdup("");
+    if (*cell[GUESSED] == '\0') {
+        g_free(cell[GUESSED]);
+        cell[GUESSED] = g_strdup("-");
+    }
     return cell;
 }
 
 static GPtrArray *list_materials(void)
 {
-    static const char *const titles[] = {"material", "young", "poisson", "density", "d0",
-                                         "epsilon",  "yield", "file",    NULL};
-    GPtrArray *rows = begin_table(titles);
+    GPtrArray *rows = begin_table(material_titles);
     char **names = gb_preset_folders_list_materials();
     for (int i = 0; names[i] != NULL; i++) {
-        g_ptr_array_add(rows, describe_material(names[i], titles));
+        g_ptr_array_add(rows, describe_material(names[i]));
     }
     g_strfreev(names);
     return rows;

@@ -51,7 +51,8 @@ static const struct gb_field rows[] = {
      .source = "P1, P2"},
 
     {"material", "name", GB_FIELD_TEXT, AT(material), .fallback = "alumina",
-     .meaning = "name of the material", .source = "user"},
+     .meaning = "name of the material, a label: material=NAME sets all keys of it",
+     .source = "user"},
     {"material", "young", GB_FIELD_NUMBER, AT(young_pa), .dimension = GB_DIM_PRESSURE,
      RANGE(1e3, 1e13), .fallback = "382 GPa", .meaning = "Young's modulus E",
      .source = "P1 V"},

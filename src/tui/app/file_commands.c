@@ -1,13 +1,15 @@
 #include <glib.h>
 
+#include "io/material.h"
 #include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
+#include "tui/app/preset_browser_kinds.h"
 #include "tui/panel/complete.h"
 #include "tui/session/repeat.h"
 #include "tui/session/user_presets.h"
 #include "tui/view/views.h"
 
-/* Presets, measured data, pictures, reports and the shell command of the run. */
+/* Presets, materials, measured data, pictures, reports and the shell command of the run. */
 
 void gb_file_commands_save(struct gb_app *app, const struct gb_key *key)
 {
@@ -46,6 +48,7 @@ void gb_file_commands_open(struct gb_app *app, const struct gb_key *key)
 {
     (void)key;
     gb_dialog_show_presets(&app->screen.dialog, &gb_dialogs_open,
+                           &gb_preset_browser_kinds_presets,
                            gb_session_params(&app->screen.session));
 }
 
@@ -61,6 +64,30 @@ void gb_file_commands_accept_open(struct gb_app *app)
     gb_session_note(&app->screen.session, "opened %s", name);
     gb_dialog_close(dialog);
     gb_run_commands_start_scene(app);
+}
+
+void gb_file_commands_material(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    gb_dialog_show_presets(&app->screen.dialog, &gb_dialogs_material,
+                           &gb_preset_browser_kinds_materials,
+                           gb_session_params(&app->screen.session));
+}
+
+/* The quick cell follows, as after any other change of parameters. */
+void gb_file_commands_accept_material(struct gb_app *app)
+{
+    struct gb_dialog *dialog = &app->screen.dialog;
+    struct gb_session *session = &app->screen.session;
+    struct gb_error err = {0};
+    const char *name = gb_dialog_answer(dialog);
+    if (!gb_material_apply(gb_session_params(session), name, &err)) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
+        return;
+    }
+    gb_session_note(session, "material %s", name);
+    gb_dialog_close(dialog);
+    gb_panel_params_edit_changed(session, &app->screen.message);
 }
 
 void gb_file_commands_data(struct gb_app *app, const struct gb_key *key)

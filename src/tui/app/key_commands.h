@@ -51,15 +51,17 @@ void gb_run_commands_start_scene(struct gb_app *app);
 /* Starts the full cell when its quick cell has finished; an expensive one waits for r. */
 void gb_run_commands_follow_quick(struct gb_app *app);
 
-/* file_commands.c: presets, measured data, pictures, reports. */
+/* file_commands.c: presets, materials, measured data, pictures, reports. */
 void gb_file_commands_save(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_open(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_material(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_data(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_picture(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_report(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_shell(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_accept_save(struct gb_app *app);
 void gb_file_commands_accept_open(struct gb_app *app);
+void gb_file_commands_accept_material(struct gb_app *app);
 void gb_file_commands_accept_data(struct gb_app *app);
 void gb_file_commands_accept_reading(struct gb_app *app);
 

@@ -5,11 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/units.h"
-#include "io/preset_folders.h"
 #include "tui/session/overlay/previous_curve.h"
 
-enum { LIST_COLS = 26, PREVIEW_FROM = LIST_COLS + 24, HEAD_LINES = 4, DIFFERENCE = 400 };
+enum { LIST_COLS = 28, PREVIEW_FROM = LIST_COLS + 24, HEAD_LINES = 4, DIFFERENCE = 400 };
 
 static int length_of(char **names)
 {
@@ -22,9 +20,8 @@ const char *gb_preset_browser_selected(const struct gb_preset_browser *browser)
 }
 
 /* Comment lines at the beginning of the file: source and purpose. */
-static char *read_head(const char *name)
+static char *read_head(const char *path)
 {
-    char *path = gb_preset_folders_find(name);
     char *content = NULL;
     GString *head = g_string_new(NULL);
     if (path != NULL && g_file_get_contents(path, &content, NULL, NULL)) {
@@ -36,7 +33,6 @@ static char *read_head(const char *name)
         g_strfreev(lines);
     }
     g_free(content);
-    g_free(path);
     return g_string_free(head, FALSE);
 }
 
@@ -56,8 +52,12 @@ static void read_preview(struct gb_preset_browser *browser)
     if (name == NULL) {
         return;
     }
-    if (gb_preset_load(&browser->preset, name, &err)) {
-        browser->head = read_head(name);
+    if (browser->kind->load(&browser->preset, name, &browser->current, &err)) {
+        char *path = browser->kind->find(name);
+        browser->head = read_head(path);
+        browser->kind->describe(browser->preset, path, browser->told,
+                                sizeof browser->told);
+        g_free(path);
     } else {
         browser->preset = NULL;
         browser->head = g_strdup(err.text);
@@ -88,11 +88,14 @@ static void apply_filter(struct gb_preset_browser *browser)
 }
 
 void gb_preset_browser_init(struct gb_preset_browser *browser,
+                            const struct gb_preset_browser_kind *kind,
                             const struct gb_params *current)
 {
     memset(browser, 0, sizeof *browser);
-    browser->names = gb_preset_folders_list();
+    browser->kind = kind;
+    browser->names = kind->list();
     browser->shown = g_new0(int, (gsize)length_of(browser->names) + 1);
+    browser->current = *current;
     browser->base = *current;
     g_strlcpy(browser->base_name, "the current parameters", sizeof browser->base_name);
     gb_prompt_set(&browser->filter, "");
@@ -123,7 +126,7 @@ static void draw_list(struct gb_preset_browser *browser, const struct gb_paint *
     scroll_to_focus(browser);
     if (browser->count == 0) {
         gb_paint_text(paint, 2, 0, GB_STYLE_DIM,
-                      length_of(browser->names) > 0 ? "no match" : "no presets found");
+                      length_of(browser->names) > 0 ? "no match" : browser->kind->empty);
     }
     for (int i = 0; i < browser->page && browser->top + i < browser->count; i++) {
         const int at = browser->top + i;
@@ -131,20 +134,6 @@ static void draw_list(struct gb_preset_browser *browser, const struct gb_paint *
                       at == browser->focus ? GB_STYLE_SELECTED : GB_STYLE_PLAIN,
                       browser->names[browser->shown[at]]);
     }
-}
-
-static void write_scene(const struct gb_params *params, char *text, size_t size)
-{
-    char diameter[32];
-    char until[48];
-    char geometry[32];
-    gb_units_format_short(params->diameter_m, GB_DIM_LENGTH, 4, diameter,
-                          sizeof diameter);
-    gb_params_format(params, gb_params_find("loading", "until"), until, sizeof until);
-    gb_params_format(params, gb_params_find("loading", "geometry"), geometry,
-                     sizeof geometry);
-    snprintf(text, size, "%dD, %lld particles of %s, %s, until %s", params->dimension,
-             (long long)params->count, diameter, geometry, until);
 }
 
 static void draw_preview(const struct gb_preset_browser *browser,
@@ -159,9 +148,8 @@ static void draw_preview(const struct gb_preset_browser *browser,
         return;
     }
     const struct gb_params *params = gb_preset_params(browser->preset);
-    row += gb_paint_wrap(paint, row, 2, GB_STYLE_BOLD, params->title);
-    write_scene(params, text, sizeof text);
-    row += gb_paint_wrap(paint, row, 2, GB_STYLE_PLAIN, text);
+    row += gb_paint_wrap(paint, row, 2, GB_STYLE_BOLD, browser->kind->title(params));
+    row += gb_paint_wrap(paint, row, 2, GB_STYLE_PLAIN, browser->told);
     row += 1 + gb_paint_wrap(paint, row, MAX(paint->rect.rows / 3, 1), GB_STYLE_DIM,
                              browser->head);
     gb_params_diff_describe(params, &browser->base, difference, sizeof difference);

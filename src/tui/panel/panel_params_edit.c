@@ -39,6 +39,18 @@ void gb_panel_params_edit_revert(struct gb_panel_params *panel,
     gb_session_quick_start(session);
 }
 
+void gb_panel_params_edit_changed(struct gb_session *session, struct gb_message *message)
+{
+    struct gb_error err = {0};
+    message->text[0] = '\0';
+    if (gb_params_check(gb_session_params(session), &err)) {
+        gb_session_quick_start(session);
+    } else {
+        snprintf(message->text, sizeof message->text, "conflicts with %s", err.text);
+        message->style = GB_STYLE_WARN;
+    }
+}
+
 bool gb_panel_params_edit_set(struct gb_session *session, const struct gb_field *field,
                               const char *text, struct gb_message *message)
 {
@@ -48,13 +60,7 @@ bool gb_panel_params_edit_set(struct gb_session *session, const struct gb_field 
         message->style = GB_STYLE_BAD;
         return false;
     }
-    message->text[0] = '\0';
-    if (!gb_params_check(gb_session_params(session), &err)) {
-        snprintf(message->text, sizeof message->text, "conflicts with %s", err.text);
-        message->style = GB_STYLE_WARN;
-        return true;
-    }
-    gb_session_quick_start(session);
+    gb_panel_params_edit_changed(session, message);
     return true;
 }
 

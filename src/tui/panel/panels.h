@@ -71,6 +71,8 @@ void gb_panel_params_edit_key(struct gb_panel_params *panel, struct gb_session *
  * others may be changed next.  False: not valid by itself, nothing is set. */
 bool gb_panel_params_edit_set(struct gb_session *session, const struct gb_field *field,
                               const char *text, struct gb_message *message);
+/* Parameters were changed: starts the quick cell, or warns of a conflict. */
+void gb_panel_params_edit_changed(struct gb_session *session, struct gb_message *message);
 /* Increases (1) or decreases (-1) the focused value and starts the quick cell. */
 void gb_panel_params_edit_step(struct gb_panel_params *panel, struct gb_session *session,
                                int direction, struct gb_message *message);

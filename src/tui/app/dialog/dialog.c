@@ -34,11 +34,12 @@ void gb_dialog_show(struct gb_dialog *dialog, const struct gb_dialog_type *type,
 }
 
 void gb_dialog_show_presets(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const struct gb_preset_browser_kind *kind,
                             const struct gb_params *current)
 {
     gb_dialog_close(dialog);
     dialog->type = type;
-    gb_preset_browser_init(&dialog->browser, current);
+    gb_preset_browser_init(&dialog->browser, kind, current);
 }
 
 void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *type,

@@ -44,7 +44,7 @@ enum gb_dialog_note { GB_DIALOG_NOTE_ERROR, GB_DIALOG_NOTE_WARNING };
 struct gb_dialog {
     const struct gb_dialog_type *type; /* NULL: none is open */
     int top, focus, page; /* first line, focused line and lines per page of a list */
-    struct gb_preset_browser browser;
+    struct gb_preset_browser browser; /* of presets or materials */
     struct gb_leg_editor legs;
     char *text;               /* shell command shown, or file asked about; owned */
     char note[400];           /* question, or why the last answer was refused */
@@ -55,8 +55,9 @@ struct gb_dialog {
 /* text: initial content of the line, the question or the command; may be NULL. */
 void gb_dialog_show(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                     const char *text);
-/* The list of presets, compared with the parameters `current`. */
+/* The list of presets or materials, compared with the parameters `current`. */
 void gb_dialog_show_presets(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const struct gb_preset_browser_kind *kind,
                             const struct gb_params *current);
 /* The legs of the loading path of these parameters. */
 void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *type,
@@ -68,7 +69,7 @@ void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);
 enum gb_dialog_result gb_dialog_handle(struct gb_dialog *dialog,
                                        const struct gb_term_event *event);
 
-/* Selected preset, or the text of the line. */
+/* Selected preset or material, or the text of the line. */
 const char *gb_dialog_answer(struct gb_dialog *dialog);
 
 void gb_dialog_set_note(struct gb_dialog *dialog, enum gb_dialog_note kind,

@@ -18,6 +18,13 @@ const struct gb_dialog_type gb_dialogs_open = {
     .accept = gb_file_commands_accept_open,
 };
 
+const struct gb_dialog_type gb_dialogs_material = {
+    .form = &gb_dialog_forms_presets,
+    .title = "Choose a material (Enter sets it, Tab compares, Esc)",
+    .opened_by = gb_file_commands_material,
+    .accept = gb_file_commands_accept_material,
+};
+
 const struct gb_dialog_type gb_dialogs_save = {
     .form = &gb_dialog_forms_prompt,
     .title = "Save the parameters as a preset (Esc cancels)",
