@@ -4,11 +4,14 @@
 
 #include <glib.h>
 
+#include "base/table.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/output/json_output.h"
+#include "pack/kernel/simd.h"
 #include "study/bench/bench.h"
+#include "study/bench/bench_compare.h"
 #include "study/bench/bench_die.h"
 
 static const struct gb_options_page page = {
@@ -16,63 +19,164 @@ static const struct gb_options_page page = {
     .summary =
         "Measures the speed of the engine on this machine: the initial structure; one\n"
         "force evaluation with its move (forces, torques, history, relaxer) on one\n"
-        "core and on all of them, at a coordination number of a pressed packing; a\n"
-        "checkpoint of it, written in TMPDIR; the planar dynamic scene of P2 at\n"
-        "density 0.9; and the bed of P3 at 50 MPa in its die.",
+        "core and on all of them, at a coordination number of a pressed packing, of\n"
+        "1000 particles, in double precision and of many sizes; a checkpoint, written\n"
+        "in TMPDIR; the planar dynamic scene of P2 at density 0.9; and the bed of P3\n"
+        "at 50 MPa in its die.",
     .description =
         "Without a preset: 8000 particles of 9.7 nm with bridges (P1, set II).\n"
-        "Times are medians of 15 batches of 24 evaluations; several sizes are timed\n"
-        "alternately, in 5 rounds of 9 batches or more.",
+        "Times are medians of 5 rounds, in which the rows of a kind are timed in turn;\n"
+        "behind +- half of the range of the rounds.  --compare calls a row better or\n"
+        "worse where it changed by more than both ranges and by more than 3 %.",
 };
 
-struct line {
-    const char *name;
-    double value;
-    const char *unit;
+/* The figures of the main table. */
+struct figures {
+    struct gb_bench_cell cell[GB_BENCH_CELLS];
+    struct gb_bench_state state;
+    struct gb_bench_figure planar, planar_all;
+    struct gb_bench_die die;
 };
 
-static void print_lines(GString *text, const struct line *line, size_t count,
-                        gboolean csv)
+enum { ROWS_MAX = 40 };
+
+struct rows {
+    struct gb_bench_row row[ROWS_MAX];
+    size_t count;
+};
+
+static void add_row(struct rows *rows, const char *name, double value, double spread,
+                    const char *unit, enum gb_bench_goal goal)
 {
-    if (csv) {
-        g_string_append(text, "figure,value,unit\n");
-    }
-    for (size_t i = 0; i < count; i++) {
-        g_string_append_printf(text, csv ? "%s,%.6g,%s\n" : "%-34s %12.4g  %s\n",
-                               line[i].name, line[i].value, line[i].unit);
+    if (isfinite(value)) {
+        rows->row[rows->count++] = (struct gb_bench_row){name, value, spread, unit, goal};
     }
 }
 
-static void report(const struct gb_bench *bench, double planar,
-                   const struct gb_bench_die *die, double particles, gboolean csv,
-                   GString *text)
+static void add_fact(struct rows *rows, const char *name, double value, const char *unit)
 {
-    const double micro = 1e6 / particles;
-    const struct line line[] = {
-        {"particles", particles, ""},
-        {"initial structure", bench->grow_s, "s"},
-        {"timed at coordination", bench->coordination, ""},
-        {"timed at density", bench->density, ""},
-        {"evaluation and move, one core", micro * bench->evaluation_s, "us per particle"},
-        {"evaluation and move, all cores", micro * bench->evaluation_all_s,
-         "us per particle"},
-        {"cores", bench->cores, ""},
-        {"same bits on one and all cores", bench->same_bits, "(1: yes)"},
-        {"memory", bench->bytes_per_particle, "bytes per particle"},
-        {"checkpoint", bench->state.bytes_per_particle, "bytes per particle"},
-        {"checkpoint, engine blocked", 1e3 * bench->state.held, "ms"},
-        {"checkpoint, processor time of writer", 1e3 * bench->state.processor, "ms"},
-        {"checkpoint, time to write", 1e3 * bench->state.written, "ms"},
-        {"  of this the disk", 1e3 * bench->state.disk, "ms"},
-        {"planar dynamic scene, one core", 1e-6 * planar, "million particle-steps per s"},
-        {"die at coordination", die->coordination, ""},
-        {"die, Hertz, one core", 1e6 * die->hertz, "us per particle-step"},
-        {"die, Hertz with friction", 1e6 * die->hertz_friction, "us per particle-step"},
-        {"die, Storakers", 1e6 * die->storakers, "us per particle-step"},
-        {"die, Storakers with friction", 1e6 * die->storakers_friction,
-         "us per particle-step"},
-    };
-    print_lines(text, line, G_N_ELEMENTS(line), csv);
+    add_row(rows, name, value, 0.0, unit, GB_BENCH_FACT);
+}
+
+/* A time, s, in units that are `scale` s long. */
+static void add_time(struct rows *rows, const char *name, struct gb_bench_figure figure,
+                     double scale, const char *unit)
+{
+    const struct gb_bench_figure scaled = gb_bench_figure_scaled(figure, 1.0 / scale);
+    add_row(rows, name, scaled.value, scaled.spread, unit, GB_BENCH_LESS);
+}
+
+static void add_cell(struct rows *rows, const struct gb_bench_cell *cell, const char *one,
+                     const char *all)
+{
+    const double scale = 1e-6 * (double)cell->params.count;
+    add_time(rows, one, cell->one, scale, "us per particle");
+    add_time(rows, all, cell->all, scale, "us per particle");
+}
+
+static void add_state(struct rows *rows, const struct gb_bench_state *state)
+{
+    const struct {
+        const char *name;
+        double seconds;
+    } time[] = {{"checkpoint: engine blocked", state->held},
+                {"checkpoint: processor time of writer", state->processor},
+                {"checkpoint: time to write", state->written},
+                {"checkpoint: of this the disk", state->disk}};
+    add_fact(rows, "checkpoint", state->bytes_per_particle, "bytes per particle");
+    for (size_t i = 0; i < G_N_ELEMENTS(time);
+         i++) { /* a disk has no spread to rely on */
+        add_fact(rows, time[i].name, 1e3 * time[i].seconds, "ms");
+    }
+}
+
+static void add_scenes(struct rows *rows, const struct figures *figures)
+{
+    const struct gb_bench_die *die = &figures->die;
+    const struct gb_bench_figure planar = gb_bench_figure_scaled(figures->planar, 1e-6);
+    const struct gb_bench_figure all = gb_bench_figure_scaled(figures->planar_all, 1e-6);
+    const char *rate = "million particle-steps per s", *step = "us per particle-step";
+    add_row(rows, "planar dynamic scene on one core", planar.value, planar.spread, rate,
+            GB_BENCH_MORE);
+    add_row(rows, "planar dynamic scene on all cores", all.value, all.spread, rate,
+            GB_BENCH_MORE);
+    add_fact(rows, "die at coordination", die->coordination, "");
+    add_time(rows, "die: Hertz on one core", die->hertz, 1e-6, step);
+    add_time(rows, "die: Hertz with friction", die->hertz_friction, 1e-6, step);
+    add_time(rows, "die: Storakers", die->storakers, 1e-6, step);
+    add_time(rows, "die: Storakers with friction", die->storakers_friction, 1e-6, step);
+}
+
+static void make_rows(const struct figures *figures, struct rows *rows)
+{
+    const struct gb_bench_cell *scene = &figures->cell[GB_BENCH_SCENE];
+    bool same_bits = true;
+    rows->count = 0;
+    for (int i = 0; i < GB_BENCH_CELLS; i++) {
+        same_bits = same_bits && figures->cell[i].same_bits;
+    }
+    add_fact(rows, "particles", (double)scene->params.count, "");
+    add_fact(rows, "cores", (double)g_get_num_processors(), "");
+    add_fact(rows, "initial structure", scene->grow_s, "s");
+    add_fact(rows, "timed at coordination", scene->coordination, "");
+    add_fact(rows, "timed at density", scene->density, "");
+    add_fact(rows, "same bits on one and all cores", same_bits, "(1: yes)");
+    add_fact(rows, "memory", scene->bytes_per_particle, "bytes per particle");
+    add_cell(rows, scene, "evaluation and move on one core",
+             "evaluation and move on all cores");
+    add_time(rows, "  all cores while another process has one", scene->all_busy,
+             1e-6 * (double)scene->params.count, "us per particle");
+    add_cell(rows, &figures->cell[GB_BENCH_SMALL], "1000 particles on one core",
+             "1000 particles on all cores");
+    add_cell(rows, &figures->cell[GB_BENCH_DOUBLE], "double precision on one core",
+             "double precision on all cores");
+    add_cell(rows, &figures->cell[GB_BENCH_SIZES], "many sizes on one core",
+             "many sizes on all cores");
+    add_state(rows, &figures->state);
+    add_scenes(rows, figures);
+}
+
+/* CSV begins with a comment that names program and machine. */
+static void print_csv(GString *text, const struct rows *rows)
+{
+    g_string_append_printf(text, "# greenbody %s, %s\nfigure,value,unit,spread\n",
+                           GB_VERSION, gb_simd_name(gb_simd_width(0)));
+    for (size_t i = 0; i < rows->count; i++) {
+        const struct gb_bench_row *row = &rows->row[i];
+        g_string_append_printf(text, "%s,%.6g,%s,%.3g\n", row->name, row->value,
+                               row->unit, row->spread);
+    }
+}
+
+static void print_rows(GString *text, const struct rows *rows)
+{
+    for (size_t i = 0; i < rows->count; i++) {
+        const struct gb_bench_row *row = &rows->row[i];
+        char spread[32] = "";
+        if (row->spread > 0.0) {
+            g_snprintf(spread, sizeof spread, "+- %.1g", row->spread);
+        }
+        g_string_append_printf(text, "%-42s %10.4g %-10s %s\n", row->name, row->value,
+                               spread, row->unit);
+    }
+}
+
+static void print_changes(GString *text, const struct rows *rows,
+                          const struct gb_bench_change *change)
+{
+    static const char *const verdict[] = {"", "within the noise", "better", "worse"};
+    g_string_append_printf(text, "%-42s %10s %10s %7s\n", "", "before", "now", "ratio");
+    for (size_t i = 0; i < rows->count; i++) {
+        const struct gb_bench_row *row = &rows->row[i];
+        if (isfinite(change[i].before)) {
+            g_string_append_printf(text, "%-42s %10.4g %10.4g %7.3f  %s\n", row->name,
+                                   change[i].before, row->value, change[i].ratio,
+                                   verdict[change[i].verdict]);
+        } else {
+            g_string_append_printf(text, "%-42s %10s %10.4g\n", row->name, "-",
+                                   row->value);
+        }
+    }
 }
 
 /* Time of an evaluation with and without terms of the contact laws. */
@@ -84,15 +188,19 @@ static bool report_terms(const struct gb_params *params, double coordination,
         return false;
     }
     const double micro = 1e6 / (double)params->count;
-    g_string_append(text, csv ? "terms,us_per_particle,share\n"
-                              : "evaluation and move, one core\n");
+    g_string_append(text, csv ? "terms,us_per_particle,share,spread\n"
+                              : "evaluation and move on one core\n");
     for (int i = 0; i < GB_BENCH_TERMS; i++) {
-        if (isfinite(term[i].evaluation_s)) {
-            g_string_append_printf(text,
-                                   csv ? "%s,%.6g,%.4g\n"
-                                       : "  %-30s %8.4g us per particle, %5.3g of all\n",
-                                   term[i].name, micro * term[i].evaluation_s,
-                                   term[i].evaluation_s / term[0].evaluation_s);
+        const struct gb_bench_figure time =
+            gb_bench_figure_scaled(term[i].evaluation, micro);
+        const double share = time.value / (micro * term[0].evaluation.value);
+        if (isfinite(time.value) && csv) {
+            g_string_append_printf(text, "%s,%.6g,%.4g,%.3g\n", term[i].name, time.value,
+                                   share, time.spread);
+        } else if (isfinite(time.value)) {
+            g_string_append_printf(
+                text, "  %-30s %8.4g +- %.1g us per particle, %5.3g of all\n",
+                term[i].name, time.value, time.spread, share);
         }
     }
     return true;
@@ -101,7 +209,7 @@ static bool report_terms(const struct gb_params *params, double coordination,
 enum { SIZES_MAX = 16 };
 
 /* "1000, 8000": 2 to 16 numbers of particles. */
-static bool read_sizes(const char *text, struct gb_bench_size *size, size_t *sizes,
+static bool read_sizes(const char *text, struct gb_bench_cell *size, size_t *sizes,
                        struct gb_error *err)
 {
     char **parts = g_strsplit(text, ",", SIZES_MAX + 1);
@@ -109,8 +217,8 @@ static bool read_sizes(const char *text, struct gb_bench_size *size, size_t *siz
     *sizes = 0;
     for (char **part = parts; *part && good; part++) {
         good = g_ascii_string_to_signed(g_strstrip(*part), 10, 10, 10000000,
-                                        &size[*sizes].count, NULL) &&
-               (*sizes == 0 || size[*sizes].count > size[*sizes - 1].count);
+                                        &size[*sizes].params.count, NULL) &&
+               (*sizes == 0 || size[*sizes].params.count > size[*sizes - 1].params.count);
         ++*sizes;
     }
     g_strfreev(parts);
@@ -121,17 +229,18 @@ static bool read_sizes(const char *text, struct gb_bench_size *size, size_t *siz
 }
 
 /* Progress on stderr. */
-static void print_progress(void *data, int64_t count, int round)
+static void print_progress(void *data, const struct gb_bench_cell *cell, int round)
 {
-    const int64_t *last = data;
+    const struct gb_bench_cell *last = data;
     if (round == 0) {
-        gb_visible_line(stderr, "%lld particles: packing ready", (long long)count);
-    } else if (count == *last) {
+        gb_visible_line(stderr, "%lld particles: packing ready",
+                        (long long)cell->params.count);
+    } else if (cell == last) {
         gb_visible_line(stderr, "round %d of %d", round, GB_BENCH_ROUNDS);
     }
 }
 
-static void print_sizes(GString *text, const struct gb_bench_size *size, size_t sizes,
+static void print_sizes(GString *text, const struct gb_bench_cell *size, size_t sizes,
                         gboolean csv)
 {
     double particles[SIZES_MAX], one[SIZES_MAX], all[SIZES_MAX];
@@ -140,9 +249,9 @@ static void print_sizes(GString *text, const struct gb_bench_size *size, size_t 
                   : " particles   coordination   one core   all cores, us   bytes per "
                     "particle\n");
     for (size_t i = 0; i < sizes; i++) {
-        particles[i] = (double)size[i].count;
-        one[i] = size[i].evaluation_s;
-        all[i] = size[i].evaluation_all_s;
+        particles[i] = (double)size[i].params.count;
+        one[i] = size[i].one.value;
+        all[i] = size[i].all.value;
         const double micro = 1e6 / particles[i];
         g_string_append_printf(text,
                                csv ? "%.0f,%.4g,%.5g,%.5g,%.5g\n"
@@ -162,12 +271,22 @@ static bool report_sizes(const struct gb_params *params, const char *list,
                          double coordination, gboolean csv, GString *text,
                          struct gb_error *err)
 {
-    struct gb_bench_size size[SIZES_MAX];
+    struct gb_bench_cell size[SIZES_MAX];
     size_t sizes = 0;
+    for (int i = 0; i < SIZES_MAX; i++) {
+        size[i] = (struct gb_bench_cell){.params = *params};
+    }
     if (!read_sizes(list, size, &sizes, err) ||
-        !gb_bench_growth_run(size, sizes, params, coordination, print_progress,
-                             &size[sizes - 1].count, err)) {
+        !gb_bench_cells_run(size, sizes, coordination, print_progress, &size[sizes - 1],
+                            err)) {
         return false;
+    }
+    for (size_t i = 0; i < sizes; i++) {
+        if (!size[i].same_bits) {
+            return gb_error_set(err, GB_ERR_GUARD,
+                                "%lld particles: other bits on one core than on all",
+                                (long long)size[i].params.count);
+        }
     }
     print_sizes(text, size, sizes, csv);
     return true;
@@ -176,7 +295,7 @@ static bool report_sizes(const struct gb_params *params, const char *list,
 /* The options of the command line. */
 struct request {
     char **sets, **words;
-    char *sizes;
+    char *sizes, *compare;
     gboolean csv, json, terms;
     GString *text;
     double coordination;
@@ -188,22 +307,59 @@ static bool check_request(const struct request *request, struct gb_error *err)
         return gb_error_set(err, GB_ERR_INPUT, "--coordination %g: accepted 0 to 12",
                             request->coordination);
     }
-    return !(request->terms && request->sizes) ||
-           gb_error_set(err, GB_ERR_INPUT, "--terms, --sizes: accepted one of them");
+    const int tables = !!request->terms + !!request->sizes + !!request->compare;
+    if (tables > 1) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "--terms, --sizes, --compare: accepted one of them");
+    }
+    return !(request->compare && (request->csv || request->json)) ||
+           gb_error_set(err, GB_ERR_INPUT,
+                        "--compare: accepted without --csv and --json");
+}
+
+static bool measure_all(struct figures *figures, const struct gb_params *params,
+                        double coordination, struct gb_error *err)
+{
+    const int cores = (int)g_get_num_processors();
+    figures->planar_all = (struct gb_bench_figure){NAN, NAN};
+    if (!gb_bench_plan(figures->cell, params, err)) {
+        return false;
+    }
+    figures->cell[GB_BENCH_SCENE].state = &figures->state;
+    return gb_bench_cells_run(figures->cell, GB_BENCH_CELLS, coordination, NULL, NULL,
+                              err) &&
+           gb_bench_planar(1, &figures->planar, err) &&
+           (cores < 2 || gb_bench_planar(cores, &figures->planar_all, err)) &&
+           gb_bench_die_run(&figures->die, err);
 }
 
 static bool report_all(const struct request *request, const struct gb_params *params,
                        struct gb_error *err)
 {
-    struct gb_bench bench;
-    struct gb_bench_die die;
-    double planar = 0.0;
-    if (!gb_bench_run(&bench, params, request->coordination, err) ||
-        !gb_bench_planar(&planar, err) || !gb_bench_die_run(&die, err)) {
+    struct figures figures;
+    struct rows rows;
+    struct gb_bench_change change[ROWS_MAX];
+    struct gb_table *stored = NULL;
+    /* before minutes of measuring */
+    if (request->compare && !gb_table_read(&stored, request->compare, "figure", err)) {
         return false;
     }
-    report(&bench, planar, &die, (double)params->count, request->csv || request->json,
-           request->text);
+    gb_table_destroy(stored);
+    if (!measure_all(&figures, params, request->coordination, err)) {
+        return false;
+    }
+    make_rows(&figures, &rows);
+    if (request->compare &&
+        !gb_bench_compare(request->compare, rows.row, rows.count, change, err)) {
+        return false;
+    }
+    if (request->compare) {
+        print_changes(request->text, &rows, change);
+    } else if (request->csv || request->json) {
+        print_csv(request->text, &rows);
+    } else {
+        print_rows(request->text, &rows);
+    }
     return true;
 }
 
@@ -245,6 +401,8 @@ int gb_cmd_bench(int argc, char **argv)
          "instead: the cost of each term of the contact laws", NULL},
         {"sizes", 0, 0, G_OPTION_ARG_STRING, &request.sizes,
          "instead: the cost against the number of particles", "1000,8000,64000"},
+        {"compare", 0, 0, G_OPTION_ARG_FILENAME, &request.compare,
+         "what changed since a run stored with --csv", "FILE.csv"},
         gb_options_set(&request.sets),
         {0},
     };
@@ -263,5 +421,6 @@ int gb_cmd_bench(int argc, char **argv)
     g_strfreev(request.words);
     g_strfreev(request.sets);
     g_free(request.sizes);
+    g_free(request.compare);
     return status;
 }
