@@ -4,15 +4,11 @@
 
 #include <glib.h>
 
-#include "base/table.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/output/bench_output.h"
 #include "cli/output/json_output.h"
-#include "pack/kernel/simd.h"
-#include "study/bench/bench.h"
-#include "study/bench/bench_compare.h"
-#include "study/bench/bench_die.h"
 
 static const struct gb_options_page page = {
     .usage = "[PRESET] [group.key=value]...",
@@ -29,155 +25,6 @@ static const struct gb_options_page page = {
         "behind +- half of the range of the rounds.  --compare calls a row better or\n"
         "worse where it changed by more than both ranges and by more than 3 %.",
 };
-
-/* The figures of the main table. */
-struct figures {
-    struct gb_bench_cell cell[GB_BENCH_CELLS];
-    struct gb_bench_state state;
-    struct gb_bench_figure planar, planar_all;
-    struct gb_bench_die die;
-};
-
-enum { ROWS_MAX = 40 };
-
-struct rows {
-    struct gb_bench_row row[ROWS_MAX];
-    size_t count;
-};
-
-static void add_row(struct rows *rows, const char *name, double value, double spread,
-                    const char *unit, enum gb_bench_goal goal)
-{
-    if (isfinite(value)) {
-        rows->row[rows->count++] = (struct gb_bench_row){name, value, spread, unit, goal};
-    }
-}
-
-static void add_fact(struct rows *rows, const char *name, double value, const char *unit)
-{
-    add_row(rows, name, value, 0.0, unit, GB_BENCH_FACT);
-}
-
-/* A time, s, in units that are `scale` s long. */
-static void add_time(struct rows *rows, const char *name, struct gb_bench_figure figure,
-                     double scale, const char *unit)
-{
-    const struct gb_bench_figure scaled = gb_bench_figure_scaled(figure, 1.0 / scale);
-    add_row(rows, name, scaled.value, scaled.spread, unit, GB_BENCH_LESS);
-}
-
-static void add_cell(struct rows *rows, const struct gb_bench_cell *cell, const char *one,
-                     const char *all)
-{
-    const double scale = 1e-6 * (double)cell->params.count;
-    add_time(rows, one, cell->one, scale, "us per particle");
-    add_time(rows, all, cell->all, scale, "us per particle");
-}
-
-static void add_state(struct rows *rows, const struct gb_bench_state *state)
-{
-    const struct {
-        const char *name;
-        double seconds;
-    } time[] = {{"checkpoint: engine blocked", state->held},
-                {"checkpoint: processor time of writer", state->processor},
-                {"checkpoint: time to write", state->written},
-                {"checkpoint: of this the disk", state->disk}};
-    add_fact(rows, "checkpoint", state->bytes_per_particle, "bytes per particle");
-    for (size_t i = 0; i < G_N_ELEMENTS(time);
-         i++) { /* a disk has no spread to rely on */
-        add_fact(rows, time[i].name, 1e3 * time[i].seconds, "ms");
-    }
-}
-
-static void add_scenes(struct rows *rows, const struct figures *figures)
-{
-    const struct gb_bench_die *die = &figures->die;
-    const struct gb_bench_figure planar = gb_bench_figure_scaled(figures->planar, 1e-6);
-    const struct gb_bench_figure all = gb_bench_figure_scaled(figures->planar_all, 1e-6);
-    const char *rate = "million particle-steps per s", *step = "us per particle-step";
-    add_row(rows, "planar dynamic scene on one core", planar.value, planar.spread, rate,
-            GB_BENCH_MORE);
-    add_row(rows, "planar dynamic scene on all cores", all.value, all.spread, rate,
-            GB_BENCH_MORE);
-    add_fact(rows, "die at coordination", die->coordination, "");
-    add_time(rows, "die: Hertz on one core", die->hertz, 1e-6, step);
-    add_time(rows, "die: Hertz with friction", die->hertz_friction, 1e-6, step);
-    add_time(rows, "die: Storakers", die->storakers, 1e-6, step);
-    add_time(rows, "die: Storakers with friction", die->storakers_friction, 1e-6, step);
-}
-
-static void make_rows(const struct figures *figures, struct rows *rows)
-{
-    const struct gb_bench_cell *scene = &figures->cell[GB_BENCH_SCENE];
-    bool same_bits = true;
-    rows->count = 0;
-    for (int i = 0; i < GB_BENCH_CELLS; i++) {
-        same_bits = same_bits && figures->cell[i].same_bits;
-    }
-    add_fact(rows, "particles", (double)scene->params.count, "");
-    add_fact(rows, "cores", (double)g_get_num_processors(), "");
-    add_fact(rows, "initial structure", scene->grow_s, "s");
-    add_fact(rows, "timed at coordination", scene->coordination, "");
-    add_fact(rows, "timed at density", scene->density, "");
-    add_fact(rows, "same bits on one and all cores", same_bits, "(1: yes)");
-    add_fact(rows, "memory", scene->bytes_per_particle, "bytes per particle");
-    add_cell(rows, scene, "evaluation and move on one core",
-             "evaluation and move on all cores");
-    add_time(rows, "  all cores while another process has one", scene->all_busy,
-             1e-6 * (double)scene->params.count, "us per particle");
-    add_cell(rows, &figures->cell[GB_BENCH_SMALL], "1000 particles on one core",
-             "1000 particles on all cores");
-    add_cell(rows, &figures->cell[GB_BENCH_DOUBLE], "double precision on one core",
-             "double precision on all cores");
-    add_cell(rows, &figures->cell[GB_BENCH_SIZES], "many sizes on one core",
-             "many sizes on all cores");
-    add_state(rows, &figures->state);
-    add_scenes(rows, figures);
-}
-
-/* CSV begins with a comment that names program and machine. */
-static void print_csv(GString *text, const struct rows *rows)
-{
-    g_string_append_printf(text, "# greenbody %s, %s\nfigure,value,unit,spread\n",
-                           GB_VERSION, gb_simd_name(gb_simd_width(0)));
-    for (size_t i = 0; i < rows->count; i++) {
-        const struct gb_bench_row *row = &rows->row[i];
-        g_string_append_printf(text, "%s,%.6g,%s,%.3g\n", row->name, row->value,
-                               row->unit, row->spread);
-    }
-}
-
-static void print_rows(GString *text, const struct rows *rows)
-{
-    for (size_t i = 0; i < rows->count; i++) {
-        const struct gb_bench_row *row = &rows->row[i];
-        char spread[32] = "";
-        if (row->spread > 0.0) {
-            g_snprintf(spread, sizeof spread, "+- %.1g", row->spread);
-        }
-        g_string_append_printf(text, "%-42s %10.4g %-10s %s\n", row->name, row->value,
-                               spread, row->unit);
-    }
-}
-
-static void print_changes(GString *text, const struct rows *rows,
-                          const struct gb_bench_change *change)
-{
-    static const char *const verdict[] = {"", "within the noise", "better", "worse"};
-    g_string_append_printf(text, "%-42s %10s %10s %7s\n", "", "before", "now", "ratio");
-    for (size_t i = 0; i < rows->count; i++) {
-        const struct gb_bench_row *row = &rows->row[i];
-        if (isfinite(change[i].before)) {
-            g_string_append_printf(text, "%-42s %10.4g %10.4g %7.3f  %s\n", row->name,
-                                   change[i].before, row->value, change[i].ratio,
-                                   verdict[change[i].verdict]);
-        } else {
-            g_string_append_printf(text, "%-42s %10s %10.4g\n", row->name, "-",
-                                   row->value);
-        }
-    }
-}
 
 /* Time of an evaluation with and without terms of the contact laws. */
 static bool report_terms(const struct gb_params *params, double coordination,
@@ -296,7 +143,7 @@ static bool report_sizes(const struct gb_params *params, const char *list,
 struct request {
     char **sets, **words;
     char *sizes, *compare;
-    gboolean csv, json, terms;
+    gboolean csv, json, terms, roofline;
     GString *text;
     double coordination;
 };
@@ -307,18 +154,41 @@ static bool check_request(const struct request *request, struct gb_error *err)
         return gb_error_set(err, GB_ERR_INPUT, "--coordination %g: accepted 0 to 12",
                             request->coordination);
     }
-    const int tables = !!request->terms + !!request->sizes + !!request->compare;
+    const int tables =
+        !!request->terms + !!request->sizes + !!request->roofline + !!request->compare;
     if (tables > 1) {
-        return gb_error_set(err, GB_ERR_INPUT,
-                            "--terms, --sizes, --compare: accepted one of them");
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "--terms, --sizes, --roofline, --compare: accepted one of them");
     }
     return !(request->compare && (request->csv || request->json)) ||
            gb_error_set(err, GB_ERR_INPUT,
                         "--compare: accepted without --csv and --json");
 }
 
-static bool measure_all(struct figures *figures, const struct gb_params *params,
-                        double coordination, struct gb_error *err)
+static void print_table(const struct request *request,
+                        const struct gb_bench_output_rows *rows)
+{
+    (request->csv || request->json ? gb_bench_output_csv
+                                   : gb_bench_output_table)(request->text, rows);
+}
+
+static bool report_roofline(const struct request *request, const struct gb_params *params,
+                            struct gb_error *err)
+{
+    struct gb_bench_roofline roofline;
+    struct gb_bench_output_rows rows;
+    if (!gb_bench_roofline_run(&roofline, params, request->coordination, err)) {
+        return false;
+    }
+    gb_bench_output_roofline(&roofline, (double)params->count, &rows);
+    print_table(request, &rows);
+    return true;
+}
+
+static bool measure_all(struct gb_bench_output_figures *figures,
+                        const struct gb_params *params, double coordination,
+                        struct gb_error *err)
 {
     const int cores = (int)g_get_num_processors();
     figures->planar_all = (struct gb_bench_figure){NAN, NAN};
@@ -336,29 +206,27 @@ static bool measure_all(struct figures *figures, const struct gb_params *params,
 static bool report_all(const struct request *request, const struct gb_params *params,
                        struct gb_error *err)
 {
-    struct figures figures;
-    struct rows rows;
-    struct gb_bench_change change[ROWS_MAX];
-    struct gb_table *stored = NULL;
-    /* before minutes of measuring */
-    if (request->compare && !gb_table_read(&stored, request->compare, "figure", err)) {
+    struct gb_bench_output_figures figures;
+    struct gb_bench_output_rows rows;
+    struct gb_bench_change change[GB_BENCH_OUTPUT_ROWS];
+    const struct gb_bench_row scene = {"particles", (double)params->count, 0.0, "",
+                                       GB_BENCH_FACT};
+    if (request->compare && /* before a minute of measuring */
+        !gb_bench_compare(request->compare, &scene, 1, change, err)) {
         return false;
     }
-    gb_table_destroy(stored);
     if (!measure_all(&figures, params, request->coordination, err)) {
         return false;
     }
-    make_rows(&figures, &rows);
+    gb_bench_output_figures(&figures, &rows);
     if (request->compare &&
         !gb_bench_compare(request->compare, rows.row, rows.count, change, err)) {
         return false;
     }
     if (request->compare) {
-        print_changes(request->text, &rows, change);
-    } else if (request->csv || request->json) {
-        print_csv(request->text, &rows);
+        gb_bench_output_changes(request->text, &rows, change);
     } else {
-        print_rows(request->text, &rows);
+        print_table(request, &rows);
     }
     return true;
 }
@@ -382,6 +250,8 @@ static bool measure(const struct request *request, struct gb_error *err)
     } else if (done && request->sizes != NULL) {
         done = report_sizes(params, request->sizes, request->coordination,
                             request->csv || request->json, request->text, err);
+    } else if (done && request->roofline) {
+        done = report_roofline(request, params, err);
     } else if (done) {
         done = report_all(request, params, err);
     }
@@ -401,6 +271,8 @@ int gb_cmd_bench(int argc, char **argv)
          "instead: the cost of each term of the contact laws", NULL},
         {"sizes", 0, 0, G_OPTION_ARG_STRING, &request.sizes,
          "instead: the cost against the number of particles", "1000,8000,64000"},
+        {"roofline", 0, 0, G_OPTION_ARG_NONE, &request.roofline,
+         "instead: counted work beside peak and bandwidth of one core", NULL},
         {"compare", 0, 0, G_OPTION_ARG_FILENAME, &request.compare,
          "what changed since a run stored with --csv", "FILE.csv"},
         gb_options_set(&request.sets),
