@@ -19,19 +19,16 @@ static const struct {
     {"loading.geometry", "%s"},
     {"loading.rate", "<i>v</i> = %s"},
     {"contact.normal", "%s"},
+    {"material.name", "%s"},
     {"numerics.fidelity", "%s"},
     {"contact.bridge_radius", "bridge radius %s"},
     {"contact.relative_motion", "%s motion"},
 };
 
 /* Keys that follow from others or carry no information in a figure. */
-static const char *const omitted[] = {"structure.base",
-                                      "loading.until",
-                                      "loading.unload_from",
-                                      "material.name",
-                                      "output.",
-                                      "loading.record",
-                                      NULL};
+static const char *const omitted[] = {"structure.base",      "loading.until",
+                                      "loading.unload_from", "output.",
+                                      "loading.record",      NULL};
 
 /* Longest label, characters. */
 enum { MAX_LENGTH = 60 };

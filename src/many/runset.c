@@ -205,6 +205,24 @@ static bool differs_somewhere(const struct gb_runset *set, const struct gb_field
     return false;
 }
 
+bool gb_runset_follows_material(const struct gb_runset *set, const struct gb_field *field)
+{
+    if (strcmp(field->group, "material") != 0 || strcmp(field->key, "name") == 0) {
+        return false;
+    }
+    for (size_t g = 1; g < set->groups; g++) {
+        const struct gb_params *one = &gb_runset_first(set, g)->params;
+        for (size_t h = 0; h < g; h++) {
+            const struct gb_params *other = &gb_runset_first(set, h)->params;
+            if (strcmp(one->material, other->material) == 0 &&
+                !gb_key_difference_equal(field, one, other)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 enum compared { WITH_ALL_GROUPS, WITH_SAME_TITLE };
 
 static char *label_among(const struct gb_runset *set, size_t group,
@@ -217,6 +235,7 @@ static char *label_among(const struct gb_runset *set, size_t group,
     const struct gb_field *fields = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
         if (!gb_key_difference_bookkeeping(&fields[i]) &&
+            !gb_runset_follows_material(set, &fields[i]) &&
             differs_somewhere(set, &fields[i], params, title)) {
             char value[GB_PARAMS_VALUE_MAX];
             g_string_append_printf(

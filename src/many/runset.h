@@ -52,8 +52,13 @@ bool gb_runset_same(const struct gb_params *a, const struct gb_params *b);
 const struct gb_runset_run *gb_runset_first(const struct gb_runset *set, size_t group);
 size_t gb_runset_members(const struct gb_runset *set, size_t group);
 
+/* Whether groups of one material.name have one value of the key, another one of [material]:
+ * the name tells it. */
+bool gb_runset_follows_material(const struct gb_runset *set,
+                                const struct gb_field *field);
+
 /* What tells a group from the others: "contact.mu = 0.2, loading.rate = 68 1/us"; "" for
- * a single group.  Caller g_frees. */
+ * a single group.  Keys that follow from the material are left out.  Caller g_frees. */
 char *gb_runset_label(const struct gb_runset *set, size_t group);
 
 /* The same, from the groups of the same title alone. */

@@ -68,6 +68,30 @@ sweep() {
 }
 is 'of a sweep' sweep
 is 'both runs of it have it' [ "$(grep -lrx --include=preset.ini 'name = yttria' sweep | wc -l)" -ge 2 ]
+grid() {
+    # shellcheck disable=SC2086
+    "$greenbody" sweep $scene loading.until=20MPa --vary material=alumina,yttria \
+        --vary contact.mu=0.1,0.3 --out grid >stdout 2>stderr
+}
+is 'materials are varied' grid
+is 'each has its runs' value density '5020 kg/m3' "$(ls -d grid/material-yttria_mu-0.3*)"
+is 'and its rows' grep -q '^[0-9]*,yttria,0\.3,' grid/sweep.csv
+labelled() {
+    "$greenbody" plot grid --figure densification -o grid.csv >stdout 2>stderr &&
+        grep -qx '# group 1: 1 runs, material.name = alumina, contact.mu = 0.1' grid.csv
+}
+is 'the name alone tells them apart in a figure' labelled
+other_axis() {
+    "$greenbody" plot grid --figure sweep --pressure '5 MPa' -o map.csv >stdout 2>stderr &&
+        grep -q '^contact.mu,density' map.csv
+}
+is 'what follows from it is no axis' other_axis
+names_have_no_range() {
+    # shellcheck disable=SC2086
+    refuses "$greenbody" sweep $scene --design sobol:4 --vary material=a:b --out wrong &&
+        grep -q 'material=a:b: accepted in a grid' stderr
+}
+is 'names have no range' names_have_no_range
 of_law() {
     "$greenbody" law hertz material=yttria --at h=0.01 >stdout 2>stderr &&
         "$greenbody" law hertz young='179.8 GPa' poisson=0.299 --at h=0.01 | cmp -s - stdout

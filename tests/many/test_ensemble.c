@@ -191,6 +191,30 @@ static void test_axes(void)
     gb_axes_finish(&axes);
 }
 
+/* All keys of a material, in front of those of other axes. */
+static void test_axes_material(void)
+{
+    struct gb_axes axes = {0};
+    add(&axes, "material.young=5;6 GPa");
+    add(&axes, "material=yttria,microcrystalline-cellulose");
+    g_assert_cmpuint(gb_axes_points(&axes), ==, 4);
+    char *name = gb_axes_name(&axes, 3);
+    g_assert_cmpstr(name, ==, "young-6GPa_material-microcrystalline-cellulose");
+    g_free(name);
+    char *column = gb_axes_column(&axes, 1);
+    char cell[GB_PARAMS_VALUE_MAX];
+    g_assert_cmpstr(column, ==, "material.name");
+    g_assert_cmpstr(gb_axes_cell(&axes, 2, 1, cell, sizeof cell), ==, "yttria");
+    g_free(column);
+    struct gb_params params = scene_params(NULL, NULL);
+    g_assert_true(gb_axes_apply(&axes, 2, &params, NULL));
+    g_assert_cmpstr(params.material, ==, "yttria");
+    g_assert_cmpfloat(params.density_kg_m3, ==, 5020.0);
+    g_assert_cmpfloat(params.young_pa, ==, 6e9);
+    g_assert_false(gb_axes_add(&axes, "material.name=a;b", NULL));
+    gb_axes_finish(&axes);
+}
+
 /* Points of a Sobol sequence: one value of each key at a point, a longer design contains
  * the shorter, whole numbers for keys that count. */
 static void test_axes_design(void)
@@ -228,8 +252,8 @@ static void test_axes_design(void)
     gb_axes_finish(&axes);
     gb_axes_finish(&longer);
     static const char *const bad[] = {"contact.mu=0.1:0.2:3", "contact.mu=0.1;0.2",
-                                      "contact.mu=0.1", "loading.geometry=0:1",
-                                      "contact.mu=0.1:0.1"};
+                                      "contact.mu=0.1",       "loading.geometry=0:1",
+                                      "contact.mu=0.1:0.1",   "material=iron;copper"};
     for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
         struct gb_axes refused = {.design = 8};
         g_assert_false(gb_axes_add(&refused, bad[i], &err));
@@ -267,7 +291,11 @@ static void test_axes_refuse(void)
                                       "output.checkpoint_every=1;2 s",
                                       "numerics.threads=1;2",
                                       "loading.unload_from=100 MPa",
-                                      "loading.geometry=uniaxial;sideways"};
+                                      "loading.geometry=uniaxial;sideways",
+                                      "material=",
+                                      "material=iron;iron",
+                                      "material=iron;rust",
+                                      "material=1:2:3"};
     for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
         struct gb_axes axes = {0};
         struct gb_error err = {0};
@@ -562,6 +590,7 @@ int main(int argc, char **argv)
     folder = g_dir_make_tmp("greenbody-ensemble-XXXXXX", NULL);
     g_assert_nonnull(folder);
     g_test_add_func("/axes/values", test_axes);
+    g_test_add_func("/axes/material", test_axes_material);
     g_test_add_func("/axes/refuse", test_axes_refuse);
     g_test_add_func("/ensemble/design", test_axes_design);
     g_test_add_func("/sweeptable/pressures", test_pressures);

@@ -58,21 +58,29 @@ static size_t count_values(const struct gb_runset *set, const struct gb_field *f
     return count;
 }
 
-/* The key with the most values. */
-static const struct gb_field *find_key(const struct gb_runset *set, struct gb_error *err)
+/* The key with the most values, of those that follow from the material or of the others. */
+static const struct gb_field *most_values(const struct gb_runset *set, bool follows)
 {
     size_t rows = 0;
     size_t max = 1;
     const struct gb_field *fields = gb_params_fields(&rows);
     const struct gb_field *found = NULL;
     for (size_t i = 0; i < rows; i++) {
-        const size_t values =
-            gb_key_difference_bookkeeping(&fields[i]) ? 0 : count_values(set, &fields[i]);
+        const bool other = gb_key_difference_bookkeeping(&fields[i]) ||
+                           gb_runset_follows_material(set, &fields[i]) != follows;
+        const size_t values = other ? 0 : count_values(set, &fields[i]);
         if (values > max) {
             max = values;
             found = &fields[i];
         }
     }
+    return found;
+}
+
+static const struct gb_field *find_key(const struct gb_runset *set, struct gb_error *err)
+{
+    const struct gb_field *found = most_values(set, false);
+    found = found != NULL ? found : most_values(set, true);
     if (found == NULL) {
         gb_error_set(err, GB_ERR_INPUT,
                      "sweep: no number differs between the runs; accepted runs that "

@@ -1,13 +1,14 @@
 #include "many/sweep/axes.h"
 
-#include <gsl/gsl_qrng.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/units.h"
+#include "io/material.h"
 #include "many/key_difference.h"
 #include "many/runset.h"
+#include "many/sweep/sobol.h"
 
 enum { DESIGN_LEAST = 2 };
 
@@ -53,16 +54,27 @@ static const char *unit_of(const char *text, double *value)
     return end + strspn(end, " \t");
 }
 
+static bool set_value(const struct gb_axis *axis, struct gb_params *params,
+                      const char *value, struct gb_error *err)
+{
+    return axis->material ? gb_material_apply(params, value, err)
+                          : gb_params_set(params, axis->field, value, err);
+}
+
 /* Takes one value if the key does; *params holds the fallbacks. */
 static bool add_value(struct gb_axis *axis, const char *text, struct gb_error *err)
 {
     struct gb_params params;
     char value[GB_PARAMS_VALUE_MAX];
     gb_params_init(&params);
-    if (!gb_params_set(&params, axis->field, text, err)) {
+    if (!set_value(axis, &params, text, err)) {
         return false;
     }
-    gb_params_format(&params, axis->field, value, sizeof value);
+    if (axis->material) {
+        g_strlcpy(value, text, sizeof value);
+    } else {
+        gb_params_format(&params, axis->field, value, sizeof value);
+    }
     for (guint i = 0; i < axis->values->len && axis->share == NULL; i++) {
         if (strcmp(g_ptr_array_index(axis->values, i), value) == 0) {
             return gb_error_set(err, GB_ERR_INPUT, "%s.%s = %.80s is given twice",
@@ -104,8 +116,8 @@ static bool is_decimal_comma(const struct gb_axis *axis, const char *values)
  * cannot have one. */
 static const char *separator_of(const struct gb_axis *axis, const char *values)
 {
-    const bool free_text =
-        axis->field->type == GB_FIELD_TEXT && axis->field->choices == NULL;
+    const bool free_text = axis->field->type == GB_FIELD_TEXT &&
+                           axis->field->choices == NULL && !axis->material;
     return free_text || strchr(values, ';') != NULL ? ";" : ",";
 }
 
@@ -204,24 +216,6 @@ static bool read_design_range(char **parts, struct range *range)
     return read_range(with_count, range) && range->from != range->to;
 }
 
-/* Coordinate `axis` of the points of a Sobol sequence, [0, 1). */
-static bool sobol(size_t axis, size_t points, double *share, struct gb_error *err)
-{
-    const unsigned int dimension = (unsigned int)axis + 1;
-    double coordinate[GB_AXES_MOST];
-    void *state = gb_alloc_array(1, gsl_qrng_sobol->state_size(dimension), err);
-    if (state == NULL) {
-        return false;
-    }
-    gsl_qrng_sobol->init_state(state, dimension);
-    for (size_t p = 0; p < points; p++) {
-        gsl_qrng_sobol->get(state, dimension, coordinate);
-        share[p] = coordinate[axis];
-    }
-    gb_alloc_free(state);
-    return true;
-}
-
 static bool add_designed(struct gb_axis *axis, const struct range *range, double share,
                          struct gb_error *err)
 {
@@ -244,7 +238,7 @@ static bool add_design(struct gb_axes *axes, const char *text, const char *value
     axis->share = gb_alloc_array(axes->design, sizeof *axis->share, err);
     bool good = axis->share != NULL &&
                 (read_design_range(parts, &range) || refuse_range(text, err)) &&
-                sobol(axes->count - 1, axes->design, axis->share, err);
+                gb_sobol_coordinate(axes->count - 1, axes->design, axis->share, err);
     for (size_t p = 0; good && p < axes->design; p++) {
         good = add_designed(axis, &range, axis->share[p], err);
     }
@@ -289,18 +283,26 @@ bool gb_axes_add(struct gb_axes *axes, const char *text, struct gb_error *err)
                             text, GB_AXES_MOST);
     }
     char *name = g_strstrip(g_strndup(text, (gsize)(equals - text)));
-    const struct gb_field *field = find_field(axes, name, err);
+    const bool material = strcmp(name, GB_MATERIAL_GROUP) == 0;
+    const struct gb_field *field =
+        find_field(axes, material ? GB_MATERIAL_GROUP ".name" : name, err);
     g_free(name);
     if (field == NULL) {
         return false;
     }
+    if (material && axes->design > 0) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%.120s: accepted in a grid, names have no range", text);
+    }
     struct gb_axis *axis = &axes->axis[axes->count++];
-    *axis = (struct gb_axis){field, .values = g_ptr_array_new_with_free_func(g_free)};
+    *axis = (struct gb_axis){field, .values = g_ptr_array_new_with_free_func(g_free),
+                             .material = material};
     if (axes->design > 0) {
         return add_design(axes, text, equals + 1, err);
     }
-    return strchr(equals, ':') != NULL ? add_range(axis, text, equals + 1, err)
-                                       : add_list(axis, text, equals + 1, err);
+    return strchr(equals, ':') != NULL && !material
+               ? add_range(axis, text, equals + 1, err)
+               : add_list(axis, text, equals + 1, err);
 }
 
 void gb_axes_finish(struct gb_axes *axes)
@@ -336,9 +338,12 @@ const char *gb_axes_value(const struct gb_axes *axes, size_t point, size_t axis)
 bool gb_axes_apply(const struct gb_axes *axes, size_t point, struct gb_params *params,
                    struct gb_error *err)
 {
-    for (size_t i = 0; i < axes->count; i++) {
-        const char *value = gb_axes_value(axes, point, i);
-        if (!gb_params_set(params, axes->axis[i].field, value, err)) {
+    /* a material first: it sets keys that other axes may set again */
+    for (size_t i = 0; i < 2 * axes->count; i++) {
+        const size_t at = i % axes->count;
+        const struct gb_axis *axis = &axes->axis[at];
+        if (axis->material == (i < axes->count) &&
+            !set_value(axis, params, gb_axes_value(axes, point, at), err)) {
             return false;
         }
     }
@@ -366,7 +371,8 @@ char *gb_axes_name(const struct gb_axes *axes, size_t point)
         if (!is_key_unique(axes, i)) {
             g_string_append_printf(name, "%s.", field->group);
         }
-        g_string_append_printf(name, "%s-", field->key);
+        g_string_append_printf(name, "%s-",
+                               axes->axis[i].material ? field->group : field->key);
         for (const char *c = gb_axes_value(axes, point, i); *c != '\0'; c++) {
             if (g_ascii_isalnum(*c) || *c == '.' || *c == '-' || *c == '+') {
                 g_string_append_c(name, *c);

@@ -16,6 +16,7 @@ struct gb_axis {
     const struct gb_field *field;
     GPtrArray *values; /* char *, as a preset would write them */
     double *share;     /* of a design: place in the range at each point, 0 to 1 */
+    bool material; /* the values are names of materials, the field is that of the name */
 };
 
 struct gb_axes {
@@ -33,7 +34,8 @@ bool gb_axes_design(struct gb_axes *axes, const char *text, struct gb_error *err
  * In a design a range has no count, "contact.mu=0.05:0.4" or "...:log": coordinate k of the
  * Sobol sequence (GSL; Antonov and Saleev, USSR Comput. Maths Math. Phys. 19, 252 (1980))
  * is the share of axis k, evenly in the value or its logarithm, so that a longer design
- * contains the shorter.
+ * contains the shorter.  "material=alumina;yttria" varies all keys of [material] by name, in
+ * front of the other axes; its column is that of material.name.
  *
  * Errors: GB_ERR_INPUT with what was given and what is accepted, for values that the key
  * refuses, values given twice, and keys that make no other experiment (seed, title,

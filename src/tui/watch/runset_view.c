@@ -141,6 +141,9 @@ static void find_keys(struct gb_runset_view *runset, const struct gb_runset *set
     size_t count = 0;
     const struct gb_field *field = gb_params_fields(&count);
     for (size_t i = 0; i < count; i++) {
+        if (gb_runset_follows_material(set, &field[i])) {
+            continue;
+        }
         struct gb_runset_view_key key = {&field[i], NULL, 0};
         size_t *value_index = g_new0(size_t, set->groups + 1);
         for (size_t g = 0; g < set->groups && !gb_key_difference_bookkeeping(&field[i]);
