@@ -142,3 +142,46 @@ char *gb_number_write(double value, char buffer[GB_NUMBER_MAX])
     lay_out(digit, count, exponent, precision, buffer + (value < 0.0));
     return buffer;
 }
+
+/* Values with an error are written without a power of ten from 1e-4 to below 1e6, as by
+ * printf's %g. */
+enum { PLAIN_LOWEST = -4, PLAIN_HIGHEST = 5 };
+
+/* Decimals that give a positive error its significant digits once it is rounded; negative:
+ * zeros before the point. */
+static int decimals_of(double error, int digits)
+{
+    char text[GB_NUMBER_MAX];
+    g_snprintf(text, sizeof text, "%.*e", digits - 1, error);
+    return digits - 1 - (int)g_ascii_strtoll(strchr(text, 'e') + 1, NULL, 10);
+}
+
+/* Rounded to a decimal place, which may stand before the point; no "-0". */
+static double round_to(double value, int decimals)
+{
+    const double unit = pow(10.0, -decimals);
+    const double rounded = decimals < 0 ? unit * round(value / unit) : value;
+    return fabs(rounded) < 0.5 * unit ? 0.0 : rounded;
+}
+
+char *gb_number_error(double value, double error, int digits, const char *sign,
+                      char buffer[GB_NUMBER_ERROR_MAX])
+{
+    if (!isfinite(value) || !(error > 0.0) || isinf(error)) {
+        g_snprintf(buffer, GB_NUMBER_ERROR_MAX, "%.*g", digits + 2, value);
+        return buffer;
+    }
+    const int exponent = (int)floor(log10(fmax(fabs(value), error)));
+    const bool plain = exponent >= PLAIN_LOWEST && exponent <= PLAIN_HIGHEST;
+    const double unit = plain ? 1.0 : pow(10.0, exponent);
+    const int decimals = decimals_of(error / unit, digits);
+    const int shown = CLAMP(decimals, 0, DIGITS);
+    const int length = g_snprintf(
+        buffer, GB_NUMBER_ERROR_MAX, "%s%.*f%s%.*f", plain ? "" : "(", shown,
+        round_to(value / unit, decimals), sign, shown, round_to(error / unit, decimals));
+    if (!plain && length < GB_NUMBER_ERROR_MAX) {
+        g_snprintf(buffer + length, (gulong)(GB_NUMBER_ERROR_MAX - length), ")e%+03d",
+                   exponent);
+    }
+    return buffer;
+}

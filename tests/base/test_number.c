@@ -95,10 +95,50 @@ static void test_reads_back(void)
     g_rand_free(random);
 }
 
+/* The error with its digits, the value to the same place. */
+static void test_error(void)
+{
+    static const struct {
+        double value, error;
+        int digits;
+        const char *text;
+    } rows[] = {
+        {0.40621, 0.00651, 2, "0.4062 +- 0.0065"},
+        {0.40621, 0.00651, 1, "0.406 +- 0.007"},
+        {0.40621, 0.00996, 2, "0.406 +- 0.010"}, /* rounding adds a digit */
+        {0.40621, 0.00996, 1, "0.41 +- 0.01"},
+        {12345.0, 678.0, 2, "12350 +- 680"},
+        {12345.0, 678.0, 1, "12300 +- 700"},
+        {99.96, 12.0, 2, "100 +- 12"},
+        {-0.0004, 0.12, 2, "0.00 +- 0.12"}, /* no "-0.00" */
+        {-0.3, 0.12, 2, "-0.30 +- 0.12"},
+        {0.0, 0.012, 2, "0.000 +- 0.012"},
+        {1.2345e-9, 5e-11, 1, "(1.23 +- 0.05)e-09"},
+        {1.5e12, 2.5e10, 2, "(1.500 +- 0.025)e+12"},
+        {0.40621, 0.0, 2, "0.4062"},
+        {0.40621, -1.0, 1, "0.406"},
+    };
+    char buffer[GB_NUMBER_ERROR_MAX];
+    for (size_t k = 0; k < G_N_ELEMENTS(rows); k++) {
+        gb_number_error(rows[k].value, rows[k].error, rows[k].digits, " +- ", buffer);
+        g_assert_cmpstr(buffer, ==, rows[k].text);
+    }
+    g_assert_cmpstr(gb_number_error(3.14159, NAN, 2, "+-", buffer), ==, "3.142");
+    g_assert_cmpstr(gb_number_error(3.14159, INFINITY, 2, "+-", buffer), ==, "3.142");
+    g_assert_cmpstr(gb_number_error(NAN, 0.1, 2, "+-", buffer), ==, "nan");
+    g_assert_cmpstr(gb_number_error(7.0, 0.25, 2, "\u00b1", buffer), ==,
+                    "7.00\u00b1"
+                    "0.25");
+    /* the longest text fits */
+    gb_number_error(-DBL_MAX, 1e-300, 17, "+-", buffer);
+    g_assert_cmpuint(strlen(buffer), <, GB_NUMBER_ERROR_MAX);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/number/texts", test_texts);
+    g_test_add_func("/number/error", test_error);
     g_test_add_func("/number/reads-back", test_reads_back);
     return g_test_run();
 }

@@ -30,7 +30,8 @@ shows "what tells the groups apart" 'alpha = 0.4, contact.mu = 0.3, 2 cells'
 keys 2
 shows "2 shows the map" '2 Relative density over the varied'
 shows "one key across" 'contact.alpha'
-shows "values with their errors" '0\.[2-6][0-9]* +-[0-9]'
+shows "values with their errors" ' 0\.[2-6][0-9]* +-0\.0[0-9]*'
+shows "at a pressure of the table" 'density at 100 MPa,'
 before=$(screen | sed -n 's/.*density at \(.*\), +-.*/\1/p')
 keys Left Left
 hides "Left goes to a lower pressure" "density at $before,"
@@ -52,6 +53,11 @@ shows "until they are done" '12 runs: 12 done'
 wait
 shows "as cells of their groups" '3 cells'
 leaves "closes"
+sweep --replicas 3 --jobs 1 --at '37;130 MPa'
+start attach "$here/map"
+keys 2
+shows "the map at the pressure of --at" 'density at 130 MPa,'
+leaves "closes after it"
 with='LC_ALL=C' start attach "$here/map"
 shows "without UTF-8 it opens" 'mean and standard error'
 keys 2

@@ -3,6 +3,7 @@
 
 #include <glib.h>
 
+#include "base/number.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -11,16 +12,14 @@
 /* "1.30 +- 0.05", or as CSV "1.3012,0.0512"; empty where there is no value. */
 static void print_value(double mean, double error, gboolean csv)
 {
-    char text[64] = "-";
+    char text[GB_NUMBER_ERROR_MAX] = "-";
     if (csv) {
         gb_visible_print(stdout, isfinite(mean) ? ",%.6g" : ",", mean);
         gb_visible_print(stdout, isfinite(error) ? ",%.3g" : ",", error);
         return;
     }
-    if (isfinite(error)) {
-        g_snprintf(text, sizeof text, "%.4g +- %.2g", mean, error);
-    } else if (isfinite(mean)) {
-        g_snprintf(text, sizeof text, "%.4g", mean);
+    if (isfinite(mean)) {
+        gb_number_error(mean, error, 2, " +- ", text);
     }
     gb_visible_print(stdout, "  %-20s", text);
 }

@@ -4,6 +4,7 @@
 
 #include <glib.h>
 
+#include "base/number.h"
 #include "base/table.h"
 #include "base/text/visible.h"
 #include "base/units.h"
@@ -79,14 +80,19 @@ static void print_keys(const struct gb_lognormal *law, const char *unit)
 
 static void print_law(const struct gb_lognormal *law, const char *unit)
 {
-    gb_visible_print(stdout, "# P1 (17), sizes in %s: m = %.4f", unit, law->m);
+    char m[GB_NUMBER_ERROR_MAX];
+    char sigma[GB_NUMBER_ERROR_MAX];
+    gb_visible_print(stdout, "# P1 (17), sizes in %s: m = ", unit);
     if (isfinite(law->m_error)) {
-        gb_visible_print(stdout, " +- %.4f, sigma = %.4f +- %.4f, correlation %.2f\n",
-                         law->m_error, law->sigma, law->sigma_error, law->correlation);
+        gb_visible_print(stdout, "%s, sigma = %s, correlation %.2f\n",
+                         gb_number_error(law->m, law->m_error, 2, " +- ", m),
+                         gb_number_error(law->sigma, law->sigma_error, 2, " +- ", sigma),
+                         law->correlation);
         gb_visible_print(stdout, "# chi-squared %.3g for %zu degrees of freedom\n",
                          law->chi_squared, law->degrees);
     } else {
-        gb_visible_print(stdout, ", sigma = %.4f; no errors from shares\n", law->sigma);
+        gb_visible_print(stdout, "%.4f, sigma = %.4f; no errors from shares\n", law->m,
+                         law->sigma);
     }
     gb_visible_print(stdout, "# most frequent size %.4g %s\n",
                      exp(law->m - law->sigma * law->sigma), unit);

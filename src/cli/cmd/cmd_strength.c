@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/compact_options.h"
@@ -17,12 +18,15 @@ static void print_summary(const struct gb_strength_study *study)
     for (guint i = 0; i < study->result->len; i++) {
         const struct gb_strength_result *r =
             &g_array_index(study->result, struct gb_strength_result, i);
-        gb_visible_print(
-            stdout, "%7g %-3s  %-11s  %7.3f +- %6.3f  %8.3g  %.3g (%.3g to %.3g)\n",
-            r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
-            r->mark.by_density ? "" : "MPa", gb_strength_options_tests[r->test].name,
-            1e-6 * r->strength_pa, 1e-6 * r->strength_error_pa, 100.0 * r->strain,
-            r->weibull.modulus, r->weibull.modulus_low, r->weibull.modulus_high);
+        char strength[GB_NUMBER_ERROR_MAX];
+        gb_number_error(1e-6 * r->strength_pa, 1e-6 * r->strength_error_pa, 2, " +- ",
+                        strength);
+        gb_visible_print(stdout, "%7g %-3s  %-11s  %17s  %8.3g  %.3g (%.3g to %.3g)\n",
+                         r->mark.by_density ? r->mark.value : 1e-6 * r->mark.value,
+                         r->mark.by_density ? "" : "MPa",
+                         gb_strength_options_tests[r->test].name, strength,
+                         100.0 * r->strain, r->weibull.modulus, r->weibull.modulus_low,
+                         r->weibull.modulus_high);
     }
 }
 

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/compact_options.h"
@@ -16,25 +17,30 @@ struct request {
     double offset_percent;
 };
 
+/* A column of a value with its error. */
+static void print_value(const struct gb_fit_value *value, double unit)
+{
+    char number[GB_NUMBER_ERROR_MAX];
+    gb_number_error(value->value / unit, value->error / unit, 2, " +- ", number);
+    gb_visible_print(stdout, "  %-15s", number);
+}
+
 static void print_summary(const struct gb_yield_study *study)
 {
     gb_visible_put(
         stdout, "density  offset %  centre p MPa     half axis p MPa  half axis q MPa  "
-                "dilatancy       flow from normal\n");
+                "dilatancy        flow from normal\n");
     for (guint i = 0; i < study->surface->len; i++) {
         const struct gb_yield_surface *surface = g_ptr_array_index(study->surface, i);
         const struct gb_fit_value *value = surface->quantity;
-        gb_visible_print(
-            stdout,
-            "%.4f   %7g  %7.2f +- %5.2f  %7.2f +- %5.2f  %7.2f +- %5.2f  "
-            "%5.3f +- %5.3f  %4.1f +- %3.1f\n",
-            surface->density.value, 100.0 * surface->offset,
-            1e-6 * value[GB_YIELD_CENTRE_P].value, 1e-6 * value[GB_YIELD_CENTRE_P].error,
-            1e-6 * value[GB_YIELD_HALF_P].value, 1e-6 * value[GB_YIELD_HALF_P].error,
-            1e-6 * value[GB_YIELD_HALF_Q].value, 1e-6 * value[GB_YIELD_HALF_Q].error,
-            value[GB_YIELD_DILATANCY_COMPRESSION].value,
-            value[GB_YIELD_DILATANCY_COMPRESSION].error,
-            value[GB_YIELD_FLOW_DEVIATION].value, value[GB_YIELD_FLOW_DEVIATION].error);
+        gb_visible_print(stdout, "%.4f   %8g", surface->density.value,
+                         100.0 * surface->offset);
+        print_value(&value[GB_YIELD_CENTRE_P], 1e6);
+        print_value(&value[GB_YIELD_HALF_P], 1e6);
+        print_value(&value[GB_YIELD_HALF_Q], 1e6);
+        print_value(&value[GB_YIELD_DILATANCY_COMPRESSION], 1.0);
+        print_value(&value[GB_YIELD_FLOW_DEVIATION], 1.0);
+        gb_visible_put(stdout, "\n");
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <glib.h>
 
+#include "base/number.h"
 #include "base/text/visible.h"
 
 /* "123.4" or "123.4 +- 0.5". */
@@ -13,16 +14,17 @@ static void print_value(const struct gb_moduli_state *state, const char *column,
 {
     const int k = gb_moduli_table_find(column);
     const double error = gb_moduli_states_error(state, k);
-    char text[64];
+    char text[GB_NUMBER_ERROR_MAX];
     if (!isfinite(gb_moduli_states_mean(state, k))) {
         gb_visible_print(stdout, "-");
         return;
     }
-    g_snprintf(text, sizeof text, "%.*g", digits, gb_moduli_states_mean(state, k));
-    gb_visible_print(stdout, "%s", text);
-    if (isfinite(error)) {
-        gb_visible_print(stdout, " +- %.2g", error);
+    if (error > 0.0) {
+        gb_number_error(gb_moduli_states_mean(state, k), error, 2, " +- ", text);
+    } else {
+        g_snprintf(text, sizeof text, "%.*g", digits, gb_moduli_states_mean(state, k));
     }
+    gb_visible_print(stdout, "%s", text);
 }
 
 static double plain(const struct gb_moduli_state *state, const char *column)

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/number.h"
 #include "figures/figures_label.h"
 #include "figures/packings/state_set.h"
 
@@ -44,11 +45,9 @@ static void note_published(struct gb_series *series, const struct gb_runset *set
         const double *error = g_ptr_array_index(series->columns, 2 + 2 * g);
         for (size_t k = 0; k < G_N_ELEMENTS(published); k++) {
             const int contacts = published[k];
-            GString *text = g_string_new(NULL);
-            g_string_printf(text, "%.3g", mean[contacts]);
-            if (isfinite(error[contacts])) {
-                g_string_append_printf(text, " +- %.2g", error[contacts]);
-            }
+            char number[GB_NUMBER_ERROR_MAX];
+            GString *text = g_string_new(
+                gb_number_error(mean[contacts], error[contacts], 1, " +- ", number));
             gb_series_note(series, "group %zu: %d contacts: %s %%", g + 1, contacts,
                            text->str);
             if (k == 0 && set->groups <= CAPTION_GROUPS) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/number.h"
 
 void gb_report_table_begin(struct gb_report_table *table, const char *const *heads)
 {
@@ -30,8 +31,10 @@ void gb_report_table_put_mean(struct gb_report_table *table, double mean, double
     }
     if (!isfinite(mean)) {
         gb_report_table_put(table, "%s", "");
-    } else if (isfinite(error)) {
-        gb_report_table_put(table, "%.*f \xc2\xb1 %.*f", decimals, mean, decimals, error);
+    } else if (error > 0.0) {
+        char number[GB_NUMBER_ERROR_MAX];
+        gb_report_table_put(table, "%s",
+                            gb_number_error(mean, error, 2, " \xc2\xb1 ", number));
     } else {
         gb_report_table_put(table, "%.*f", decimals, mean);
     }

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/number.h"
 #include "figures/runs/runs_check.h"
 
 /* Mean of P3's measurements, section 2. */
@@ -98,12 +99,10 @@ static void draw_statistics(struct gb_series *series, const struct beds *beds,
         band[i] = deviation;
     }
     gb_series_draw(series, x, line, band, GB_FIGURE_LINE, beds->style, NULL);
-    if (count > 1) {
-        gb_series_caption(series, "%s: %.4f \xc2\xb1 %.4f.", beds->title, mean,
-                          deviation);
-    } else {
-        gb_series_caption(series, "%s: %.4f.", beds->title, mean);
-    }
+    char number[GB_NUMBER_ERROR_MAX];
+    gb_series_caption(series, "%s: %s.", beds->title,
+                      gb_number_error(mean, count > 1 ? deviation : (double)NAN, 2,
+                                      " \xc2\xb1 ", number));
 }
 
 static void draw_beds(struct gb_series *series, const struct beds *beds, size_t count)

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "base/units.h"
 
 enum { NAME_MAX_BYTES = 96 };
@@ -129,9 +130,10 @@ static void add_parameter(GString *text, const struct gb_calibration *calibratio
         g_string_append_printf(text, "%s: the data do not depend on it\n", name);
         return;
     }
-    g_string_append_printf(text, "%s = %.4g +- %.2g, 95 %%: %.4g to %.4g%s%s\n", name,
-                           result->value[k], result->error[k], result->low[k],
-                           result->high[k], *unit ? " " : "", unit);
+    char number[GB_NUMBER_ERROR_MAX];
+    gb_number_error(result->value[k], result->error[k], 2, " +- ", number);
+    g_string_append_printf(text, "%s = %s, 95 %%: %.4g to %.4g%s%s\n", name, number,
+                           result->low[k], result->high[k], *unit ? " " : "", unit);
     if (result->at_limit[k]) {
         g_string_append_printf(text,
                                "  at the limit of its range %.4g to %.4g: the best value "

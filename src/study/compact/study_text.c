@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/number.h"
 #include "io/text_file.h"
 
 void gb_study_text_comment(GString *text, const char *comment)
@@ -31,14 +32,6 @@ void gb_study_text_numbers(GString *text, const double *number, size_t count)
     g_string_append_c(text, '\n');
 }
 
-/* Digits behind the point that show two of the error. */
-static int digits_of(double error, double value)
-{
-    const double scale = error > 0.0 ? error : 0.01 * fabs(value);
-    const double digits = scale > 0.0 ? 1.0 - floor(log10(scale)) : 2.0;
-    return (int)fmin(6.0, fmax(0.0, digits));
-}
-
 void gb_study_text_value(GString *text, const char *head,
                          const struct gb_fit_value *value, double factor)
 {
@@ -48,11 +41,8 @@ void gb_study_text_value(GString *text, const char *head,
         g_string_append_c(text, '-');
         return;
     }
-    const int digits = digits_of(isfinite(error) ? error : 0.0, number);
-    g_string_append_printf(text, "%.*f", digits, number);
-    if (isfinite(error)) {
-        g_string_append_printf(text, " \xc2\xb1 %.*f", digits, error);
-    }
+    char buffer[GB_NUMBER_ERROR_MAX];
+    g_string_append(text, gb_number_error(number, error, 2, " \xc2\xb1 ", buffer));
 }
 
 bool gb_study_text_write(const struct gb_study_text_file *file, size_t count,

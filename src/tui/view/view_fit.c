@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "tui/view/views.h"
 
 enum { EQUATIONS = 4, SAMPLES = 96, ENTRIES = EQUATIONS + 2 };
@@ -53,11 +54,10 @@ static char *describe(const struct view *view, size_t index)
     for (size_t k = 0; k < gb_compaction_fits_values(fits, index); k++) {
         const struct gb_compaction_value value = gb_compaction_fits_value(fits, index, k);
         const double half = 0.5 * (value.value.high - value.value.low);
-        g_string_append_printf(text, " %s %.3g", value.name, value.value.value);
-        if (intervals && isfinite(half)) {
-            g_string_append_printf(text, "%s%.3g", view->panel->utf8 ? "\xc2\xb1" : "+-",
-                                   half);
-        }
+        char number[GB_NUMBER_ERROR_MAX];
+        gb_number_error(value.value.value, intervals ? half : (double)NAN, 1,
+                        view->panel->utf8 ? "\xc2\xb1" : "+-", number);
+        g_string_append_printf(text, " %s %s", value.name, number);
     }
     return g_string_free(text, FALSE);
 }

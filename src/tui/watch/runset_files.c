@@ -1,6 +1,8 @@
 #include "tui/watch/runset_files.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "many/runset.h"
 
@@ -63,6 +65,76 @@ bool gb_runset_files_any(const char *directory)
     return is;
 }
 
+/* Lines of a CSV table without comments, the header first; g_strfreev. */
+static char **read_lines(const char *directory, const char *name)
+{
+    char *path = g_build_filename(directory, name, NULL);
+    char *text = NULL;
+    GPtrArray *lines = g_ptr_array_new();
+    if (g_file_get_contents(path, &text, NULL, NULL)) {
+        char **rows = g_strsplit(g_strchomp(text), "\n", -1);
+        for (size_t i = 0; rows[i] != NULL; i++) {
+            if (rows[i][0] == '#') {
+                g_free(rows[i]);
+            } else {
+                g_ptr_array_add(lines, rows[i]);
+            }
+        }
+        g_free(rows);
+    }
+    g_ptr_array_add(lines, NULL);
+    g_free(text);
+    g_free(path);
+    return (char **)g_ptr_array_free(lines, FALSE);
+}
+
+/* Index of a name among cells, counted from the last one: values of keys before it may contain
+ * commas; 0: none. */
+static guint index_from_end(char **cells, const char *name)
+{
+    const guint count = g_strv_length(cells);
+    for (guint k = 0; k < count; k++) {
+        if (strcmp(cells[k], name) == 0) {
+            return count - k;
+        }
+    }
+    return 0;
+}
+
+static bool has_pressure(const double *pa, size_t count, double wanted)
+{
+    for (size_t k = 0; k < count; k++) {
+        if (fabs(pa[k] - wanted) <= 1e-9 * wanted) {
+            return true;
+        }
+    }
+    return false;
+}
+
+size_t gb_runset_files_pressures(const char *directory, double *pa, size_t most)
+{
+    size_t count = 0;
+    char **rows = read_lines(directory, "sweep.csv");
+    char **names = rows[0] != NULL ? g_strsplit(rows[0], ",", -1) : NULL;
+    const guint branch = names != NULL ? index_from_end(names, "branch") : 0;
+    const guint pressure = names != NULL ? index_from_end(names, "p_MPa") : 0;
+    for (size_t i = 1; branch > 0 && pressure > 0 && rows[i] != NULL && count < most;
+         i++) {
+        char **cells = g_strsplit(rows[i], ",", -1);
+        const guint length = g_strv_length(cells);
+        const bool whole = length >= MAX(branch, pressure);
+        const double mpa = whole ? g_ascii_strtod(cells[length - pressure], NULL) : 0.0;
+        if (mpa > 0.0 && strcmp(cells[length - branch], "load") == 0 &&
+            !has_pressure(pa, count, 1e6 * mpa)) {
+            pa[count++] = 1e6 * mpa;
+        }
+        g_strfreev(cells);
+    }
+    g_strfreev(names);
+    g_strfreev(rows);
+    return count;
+}
+
 /* "name value" of every cell of a row. */
 static char *line_of(char **names, char **cells)
 {
@@ -76,28 +148,15 @@ static char *line_of(char **names, char **cells)
 /* Appends the rows of a CSV table of a calibration as lines. */
 static void add_lines(GPtrArray *lines, const char *directory, const char *name)
 {
-    char *path = g_build_filename(directory, name, NULL);
-    char *text = NULL;
-    char **names = NULL;
-    char **rows = g_file_get_contents(path, &text, NULL, NULL)
-                      ? g_strsplit(g_strchomp(text), "\n", -1)
-                      : NULL;
-    for (size_t i = 0; rows != NULL && rows[i] != NULL; i++) {
-        if (rows[i][0] == '#') {
-            continue;
-        }
+    char **rows = read_lines(directory, name);
+    char **names = rows[0] != NULL ? g_strsplit(rows[0], ",", -1) : NULL;
+    for (size_t i = 1; names != NULL && rows[i] != NULL; i++) {
         char **cells = g_strsplit(rows[i], ",", -1);
-        if (names == NULL) {
-            names = cells; /* the header */
-        } else {
-            g_ptr_array_add(lines, line_of(names, cells));
-            g_strfreev(cells);
-        }
+        g_ptr_array_add(lines, line_of(names, cells));
+        g_strfreev(cells);
     }
-    g_strfreev(rows);
     g_strfreev(names);
-    g_free(text);
-    g_free(path);
+    g_strfreev(rows);
 }
 
 char **gb_runset_files_fit(const char *directory)

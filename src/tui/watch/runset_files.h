@@ -17,4 +17,8 @@ GPtrArray *gb_runset_files_list(const char *directory);
  * g_strfreev. */
 char **gb_runset_files_fit(const char *directory);
 
+/* Pressures at which the table of a sweep is read on loading, Pa; returns their number, at
+ * most `most`; 0 without a table. */
+size_t gb_runset_files_pressures(const char *directory, double *pa, size_t most);
+
 #endif

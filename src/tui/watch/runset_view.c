@@ -62,7 +62,7 @@ static GPtrArray *readable(const GPtrArray *list)
     return good;
 }
 
-static void set_levels(struct gb_runset_view *runset, const struct gb_runset *set)
+static double largest_pressure(const struct gb_runset *set)
 {
     double max_pa = 10.0 * min_pa;
     for (size_t i = 0; i < set->count; i++) {
@@ -71,9 +71,51 @@ static void set_levels(struct gb_runset_view *runset, const struct gb_runset *se
             max_pa = fmax(max_pa, 1e6 * p[k]); /* fmax ignores NaN */
         }
     }
-    for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
-        const double part = (double)k / (GB_RUNSET_VIEW_LEVELS - 1);
-        runset->level_pa[k] = min_pa * pow(max_pa / min_pa, part);
+    return max_pa;
+}
+
+/* Inserts a level where there is room; one that is there becomes one of the table. */
+static void add_level(struct gb_runset_view *runset, double pa, bool tabulated)
+{
+    size_t at = 0;
+    while (at < runset->levels && runset->level_pa[at] < pa * (1.0 - 1e-9)) {
+        at++;
+    }
+    if (at < runset->levels && runset->level_pa[at] <= pa * (1.0 + 1e-9)) {
+        runset->tabulated[at] = runset->tabulated[at] || tabulated;
+        return;
+    }
+    if (runset->levels == GB_RUNSET_VIEW_LEVELS) {
+        return;
+    }
+    for (size_t k = runset->levels++; k > at; k--) {
+        runset->level_pa[k] = runset->level_pa[k - 1];
+        runset->tabulated[k] = runset->tabulated[k - 1];
+    }
+    runset->level_pa[at] = pa;
+    runset->tabulated[at] = tabulated;
+}
+
+/* Levels of one decade. */
+static const double steps[] = {1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0,
+                               3.5, 4.0, 4.5, 5.0, 6.0, 7.0, 8.0, 9.0};
+
+static void set_levels(struct gb_runset_view *runset, const struct gb_runset *set)
+{
+    double table[GB_RUNSET_VIEW_LEVELS];
+    const double max_pa = largest_pressure(set);
+    const size_t count =
+        gb_runset_files_pressures(runset->directory, table, G_N_ELEMENTS(table));
+    add_level(runset, max_pa, false);
+    for (double decade = min_pa; decade < max_pa; decade *= 10.0) {
+        for (size_t k = 0; k < G_N_ELEMENTS(steps) && decade * steps[k] < max_pa; k++) {
+            add_level(runset, decade * steps[k], false);
+        }
+    }
+    for (size_t k = 0; k < count; k++) {
+        if (table[k] <= max_pa) {
+            add_level(runset, table[k], true);
+        }
     }
 }
 
@@ -83,7 +125,7 @@ static void average(struct gb_runset_view *runset, const struct gb_runset *set,
 {
     struct gb_runset_view_group *out = &runset->group[group];
     double *values = g_new(double, set->count);
-    for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
+    for (size_t k = 0; k < runset->levels; k++) {
         size_t count = 0;
         for (size_t i = 0; i < set->count; i++) {
             double read[GB_READING_QUANTITIES];
@@ -234,15 +276,35 @@ static size_t groups_at(const struct gb_runset_view *runset, size_t level)
     return count;
 }
 
-size_t gb_runset_view_level(const struct gb_runset_view *runset, double pressure_pa)
+enum choice { ANY_LEVEL, TABULATED };
+
+static size_t nearest(const struct gb_runset_view *runset, double pressure_pa,
+                      enum choice choice)
 {
     size_t best = 0;
-    for (size_t k = 1; k < GB_RUNSET_VIEW_LEVELS; k++) {
-        if (fabs(log(runset->level_pa[k] / pressure_pa)) <
-            fabs(log(runset->level_pa[best] / pressure_pa))) {
+    double closest = INFINITY;
+    for (size_t k = 0; k < runset->levels; k++) {
+        const double distance = fabs(log(runset->level_pa[k] / pressure_pa));
+        if (distance < closest && (choice == ANY_LEVEL || runset->tabulated[k])) {
+            closest = distance;
             best = k;
         }
     }
+    return best;
+}
+
+size_t gb_runset_view_nearest(const struct gb_runset_view *runset, double pressure_pa)
+{
+    return nearest(runset, pressure_pa, ANY_LEVEL);
+}
+
+size_t gb_runset_view_level(const struct gb_runset_view *runset, double pressure_pa)
+{
+    bool table = false;
+    for (size_t k = 0; k < runset->levels; k++) {
+        table = table || runset->tabulated[k];
+    }
+    size_t best = nearest(runset, pressure_pa, table ? TABULATED : ANY_LEVEL);
     for (size_t k = best; k > 0; k--) {
         best = groups_at(runset, k - 1) > groups_at(runset, best) ? k - 1 : best;
     }

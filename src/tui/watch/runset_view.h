@@ -11,7 +11,7 @@
 /* Summary of a directory of many runs: sweep, calibration or replicas.  Read from the
  * files of the runs, which other processes may still be writing. */
 
-enum { GB_RUNSET_VIEW_LEVELS = 48, GB_RUNSET_VIEW_VARIED = 2 };
+enum { GB_RUNSET_VIEW_LEVELS = 128, GB_RUNSET_VIEW_VARIED = 2 };
 
 struct gb_runset_view_run {
     char *name; /* of its directory */
@@ -43,7 +43,10 @@ struct gb_runset_view {
     double progress; /* mean over the existing runs */
     struct gb_runset_view_group *group;
     size_t groups;
-    double level_pa[GB_RUNSET_VIEW_LEVELS]; /* logarithmic spacing */
+    double level_pa[GB_RUNSET_VIEW_LEVELS]; /* ascending: round numbers, pressures of the
+                                             * table of the sweep, the largest */
+    bool tabulated[GB_RUNSET_VIEW_LEVELS];  /* pressures of the table */
+    size_t levels;
     struct gb_runset_view_key key[GB_RUNSET_VIEW_VARIED];
     size_t keys; /* number of varied keys; above GB_RUNSET_VIEW_VARIED: no map */
     char **fit;  /* lines of the fit of a calibration; NULL: none */
@@ -54,7 +57,11 @@ bool gb_runset_view_read(struct gb_runset_view *runset, const char *directory,
                          struct gb_error *err);
 void gb_runset_view_finish(struct gb_runset_view *runset); /* zeroed is fine */
 
-/* The level nearest to a pressure, or a lower one that more groups reached completely. */
+/* The level nearest to a pressure. */
+size_t gb_runset_view_nearest(const struct gb_runset_view *runset, double pressure_pa);
+
+/* The level of the table nearest to a pressure, without a table any level; or a lower one
+ * that more groups reached completely. */
 size_t gb_runset_view_level(const struct gb_runset_view *runset, double pressure_pa);
 
 /* The group with these values of the two varied keys; NULL: none yet. */

@@ -87,7 +87,7 @@ static void draw(struct gb_watch *watch, struct gb_term *term)
 static void move_level(struct gb_watch *watch, int by)
 {
     const int to = (int)watch->level + by;
-    watch->level = (size_t)CLAMP(to, 0, GB_RUNSET_VIEW_LEVELS - 1);
+    watch->level = (size_t)CLAMP(to, 0, MAX((int)watch->runset.levels - 1, 0));
 }
 
 static void show_view(struct gb_watch *watch, int view)
@@ -198,6 +198,9 @@ static void reread(struct gb_watch *watch)
     char *directory = g_strdup(watch->runset.directory);
     watch->error = (struct gb_error){0};
     if (gb_runset_view_read(&fresh, directory, &watch->error)) {
+        const double kept_pa = watch->runset.level_pa[watch->level];
+        watch->level = kept_pa > 0.0 ? gb_runset_view_nearest(&fresh, kept_pa)
+                                     : gb_runset_view_level(&fresh, default_pa);
         gb_runset_view_finish(&watch->runset);
         watch->runset = fresh;
     } else {

@@ -10,7 +10,7 @@ static void find_ends(const struct gb_watch *watch, double x[2], double y[2])
     x[0] = y[0] = HUGE_VAL;
     x[1] = y[1] = -HUGE_VAL;
     for (size_t g = 0; g < runset->groups; g++) {
-        for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
+        for (size_t k = 0; k < runset->levels; k++) {
             const double error = runset->group[g].error[k];
             const double mean = runset->group[g].mean[k];
             const double wide = isfinite(error) ? error : 0.0;
@@ -30,13 +30,13 @@ static void draw_curve(struct gb_watch *watch, const struct gb_runset_view_group
 {
     double x[GB_RUNSET_VIEW_LEVELS];
     double y[GB_RUNSET_VIEW_LEVELS];
-    for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
+    for (size_t k = 0; k < watch->runset.levels; k++) {
         x[k] = group->mean[k] + (off != 0.0 ? off * group->error[k] : 0.0);
         y[k] = watch->runset.level_pa[k] / 1e6;
     }
     gb_plot_line(&watch->plot, &(struct gb_plot_series){.x = x,
                                                         .y = y,
-                                                        .count = GB_RUNSET_VIEW_LEVELS,
+                                                        .count = watch->runset.levels,
                                                         .ink = ink,
                                                         .marker = marker,
                                                         .spacing = 8});

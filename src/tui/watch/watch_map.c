@@ -2,10 +2,12 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/number.h"
 #include "base/units.h"
 #include "tui/watch/watch_views.h"
 
-enum { NAME_COLS = 14, CELL_COLS = 16, CELL_COLS_MIN = 7 };
+/* Columns of a cell: with two digits of the error, with one, without it. */
+enum { NAME_COLS = 14, CELL_COLS = 20, CELL_COLS_ERROR = 15, CELL_COLS_MIN = 7 };
 
 static void write_pressure(const struct gb_watch *watch, char *text, size_t size)
 {
@@ -28,7 +30,7 @@ static struct range range_of(const struct gb_watch *watch)
     return range;
 }
 
-/* "▓▓ 0.5120 +-30": darker is denser; "▓0.512" in narrow columns. */
+/* "▓▓ 0.5120 +-0.0030": darker is denser; "▓0.512 +-0.003" and "▓0.512" in narrow columns. */
 static void draw_cell(const struct gb_watch *watch, const struct gb_paint *paint, int row,
                       int col, int cols, const struct gb_runset_view_group *group,
                       struct range range)
@@ -42,11 +44,14 @@ static void draw_cell(const struct gb_watch *watch, const struct gb_paint *paint
             range.max > range.min ? (mean - range.min) / (range.max - range.min) : 1.0;
         const char *shade = shades[(int)fmin(3.0, floor(4.0 * part))];
         const bool wide = cols >= CELL_COLS;
-        const int n = wide ? snprintf(text, sizeof text, "%s%s %.4f", shade, shade, mean)
-                           : snprintf(text, sizeof text, "%s%.3f", shade, mean);
-        if (isfinite(error) && wide) {
-            snprintf(text + n, sizeof text - (size_t)n, " +-%.0f", 1e4 * error);
+        char number[GB_NUMBER_ERROR_MAX];
+        if (error > 0.0 && cols >= CELL_COLS_ERROR) {
+            gb_number_error(mean, error, wide ? 2 : 1, " +-", number);
+        } else {
+            snprintf(number, sizeof number, "%.*f", wide ? 4 : 3, mean);
         }
+        snprintf(text, sizeof text, "%s%s%s%.40s", shade, wide ? shade : "",
+                 wide ? " " : "", number);
     }
     gb_paint_cell(paint, row, col, cols, GB_STYLE_PLAIN, text);
 }
@@ -57,7 +62,9 @@ static void draw_matrix(const struct gb_watch *watch, const struct gb_paint *pai
     const struct gb_runset_view_key *across = &runset->key[0], *down = &runset->key[1];
     const struct range range = range_of(watch);
     const int room = (paint->rect.cols - NAME_COLS - 1) / (int)across->count;
-    const int cols = room >= CELL_COLS ? CELL_COLS : MAX(room, CELL_COLS_MIN);
+    const int cols = room >= CELL_COLS         ? CELL_COLS
+                     : room >= CELL_COLS_ERROR ? CELL_COLS_ERROR
+                                               : MAX(room, CELL_COLS_MIN);
     char text[128];
     snprintf(text, sizeof text, "%s.%s \u2192", across->field->group, across->field->key);
     gb_paint_text(paint, 3, NAME_COLS + 1, GB_STYLE_DIM, text);
@@ -95,7 +102,7 @@ void gb_watch_map_draw(struct gb_watch *watch, const struct gb_paint *paint)
     char pressure[32];
     write_pressure(watch, pressure, sizeof pressure);
     gb_paint_format(paint, 1, 1, GB_STYLE_PLAIN,
-                    "relative density at %s, +- standard error in 0.0001", pressure);
+                    "relative density at %s, +- standard error", pressure);
     if (watch->runset.keys == GB_RUNSET_VIEW_VARIED) {
         draw_matrix(watch, paint);
     } else {
