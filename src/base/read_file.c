@@ -29,9 +29,7 @@ static bool load(int file, const char *path, size_t most, char **text, size_t *l
                  struct gb_error *err)
 {
     struct stat info = {0};
-    if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode)) {
-        return gb_error_set(err, GB_ERR_INPUT, "%s: is not a regular file", path);
-    }
+    (void)fstat(file, &info);
     const size_t size = (size_t)info.st_size;
     if (size > most) {
         return gb_error_set(err, GB_ERR_INPUT, "%s: must be at most %zu bytes", path,
@@ -52,14 +50,28 @@ static bool load(int file, const char *path, size_t most, char **text, size_t *l
 }
 
 /* Not blocking, so that a fifo is refused instead of waited for. */
-bool gb_read_file(const char *path, size_t most, char **text, size_t *length,
-                  struct gb_error *err)
+int gb_read_file_open(const char *path, struct gb_error *err)
 {
+    struct stat info = {0};
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) {
         const bool absent = errno == ENOENT || errno == ENOTDIR;
-        return gb_error_set(err, absent ? GB_ERR_INPUT : GB_ERR_MACHINE, "%s: %s", path,
-                            g_strerror(errno));
+        gb_error_set(err, absent ? GB_ERR_INPUT : GB_ERR_MACHINE, "%s: %s", path,
+                     g_strerror(errno));
+    } else if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode)) {
+        gb_error_set(err, GB_ERR_INPUT, "%s: is not a regular file", path);
+        close(file);
+        return -1;
+    }
+    return file;
+}
+
+bool gb_read_file(const char *path, size_t most, char **text, size_t *length,
+                  struct gb_error *err)
+{
+    const int file = gb_read_file_open(path, err);
+    if (file < 0) {
+        return false;
     }
     const bool good = load(file, path, most, text, length, err);
     close(file);

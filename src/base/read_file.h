@@ -12,4 +12,8 @@
 bool gb_read_file(const char *path, size_t most, char **text, size_t *length,
                   struct gb_error *err);
 
+/* Descriptor of a regular file for reading; -1 with err as above.  Pipes, devices and
+ * folders are refused without waiting for their other end. */
+int gb_read_file_open(const char *path, struct gb_error *err);
+
 #endif

@@ -1,9 +1,12 @@
 #include "figures/plotting.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "base/file.h"
+#include "base/read_file.h"
 #include "figures/output_formats.h"
 #include "figures/provenance.h"
 
@@ -28,13 +31,13 @@ static bool check_twin(const char *csv, enum gb_plotting_existing existing,
                        const GString *text, struct gb_error *err)
 {
     char *old = NULL;
-    gsize length = 0;
+    size_t length = 0;
     if (existing == GB_PLOTTING_REPLACE ||
-        !g_file_get_contents(csv, &old, &length, NULL)) {
+        !gb_read_file(csv, SIZE_MAX, &old, &length, NULL)) {
         return true;
     }
     const bool same = length == text->len && memcmp(old, text->str, length) == 0;
-    g_free(old);
+    gb_alloc_free(old);
     return same ||
            gb_error_set(err, GB_ERR_INPUT,
                         "%.300s: exists with other data; --force replaces it", csv);

@@ -2,17 +2,22 @@
 
 #include <glib.h>
 
+#include "base/alloc.h"
+#include "base/read_file.h"
+
+enum { BYTES_MAX = 1 << 24 };
+
 static char *read_preset(const char *folder)
 {
     char *text = NULL;
+    size_t length = 0;
     char *file = g_build_filename(folder, "preset.ini", NULL);
-    if (!g_file_get_contents(file, &text, NULL, NULL) ||
-        !g_utf8_validate(text, -1, NULL)) {
-        g_free(text);
-        text = NULL;
-    }
+    const bool good = gb_read_file(file, BYTES_MAX, &text, &length, NULL) &&
+                      g_utf8_validate(text, -1, NULL);
+    char *copy = good ? g_strdup(text) : NULL;
+    gb_alloc_free(text);
     g_free(file);
-    return text;
+    return copy;
 }
 
 char *gb_provenance_preset(const char *path)

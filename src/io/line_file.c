@@ -80,10 +80,14 @@ bool gb_line_file_reopen(struct gb_line_file *rows, const char *directory,
                          const char *name, off_t length, struct gb_error *err)
 {
     begin(rows, directory, name);
-    rows->fd = open(rows->path, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+    rows->fd = open(rows->path, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (rows->fd < 0) {
         return gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be opened: %s", rows->path,
                             g_strerror(errno));
+    }
+    struct stat info;
+    if (fstat(rows->fd, &info) != 0 || !S_ISREG(info.st_mode)) {
+        return gb_error_set(err, GB_ERR_INPUT, "%s: is not a regular file", rows->path);
     }
     if (length < 0 || !read_lines(rows, length)) {
         return gb_error_set(err, GB_ERR_INPUT,

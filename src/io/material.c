@@ -4,8 +4,12 @@
 
 #include <glib.h>
 
+#include "base/alloc.h"
+#include "base/read_file.h"
 #include "io/preset.h"
 #include "io/preset_folders.h"
+
+enum { BYTES_MAX = 1 << 20 };
 
 /* Keys without which a file is no material. */
 static const char *const needed[] = {"name", "young",      "poisson", "density",
@@ -117,7 +121,8 @@ char *gb_material_guessed(const char *path)
     char *text = NULL;
     GString *keys = g_string_new(NULL);
     bool guessed = false;
-    (void)g_file_get_contents(path, &text, NULL, NULL);
+    size_t length = 0;
+    (void)gb_read_file(path, BYTES_MAX, &text, &length, NULL);
     char **line = g_strsplit(text != NULL ? text : "", "\n", -1);
     for (int i = 0; line[i] != NULL; i++) {
         const char *equals = strchr(line[i], '=');
@@ -134,6 +139,6 @@ char *gb_material_guessed(const char *path)
         guessed = false;
     }
     g_strfreev(line);
-    g_free(text);
+    gb_alloc_free(text);
     return g_string_free(keys, FALSE);
 }

@@ -2,9 +2,11 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <glib.h>
@@ -59,12 +61,27 @@ static bool read_some(int file, GString *text, size_t limit)
     return true;
 }
 
+/* One in a folder, where reading would wait for a writer; pipes of a shell have theirs. */
+static bool is_named_pipe(int file)
+{
+    struct stat info;
+    struct statfs system;
+    return fstat(file, &info) == 0 && S_ISFIFO(info.st_mode) &&
+           fstatfs(file, &system) == 0 && system.f_type != PIPEFS_MAGIC;
+}
+
 static bool read_file(const char *path, GString *text, struct gb_error *err)
 {
-    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) {
         return fail_errno(path, errno, err);
     }
+    if (is_named_pipe(file)) {
+        close(file);
+        return gb_error_set(err, GB_ERR_INPUT, "%s: is a named pipe; accepted: a file",
+                            path);
+    }
+    (void)fcntl(file, F_SETFL, 0); /* blocks again */
     const bool good = read_some(file, text, PRESET_BYTES_MAX);
     const int number = errno;
     close(file);

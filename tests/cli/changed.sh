@@ -57,11 +57,21 @@ overwritten() { # the same file, the same length
 events_removed() {
     rm out/events.log
 }
+curve_is_pipe() {
+    rm out/curve.csv
+    mkfifo out/curve.csv
+}
+events_are_pipe() {
+    rm out/events.log
+    mkfifo out/events.log
+}
 changes 'an editor' curve.csv replaced
 changes 'rm' curve.csv removed
 changes 'truncate' curve.csv cut_off
 changes 'one byte' curve.csv overwritten
 changes 'rm of events' events.log events_removed
+changes 'a pipe' curve.csv curve_is_pipe
+changes 'a pipe for events' events.log events_are_pipe
 
 # --- a curve that was changed afterwards ------------------------------------------------
 sed -i '300y/3/4/' out/curve.csv # digits of one row

@@ -190,10 +190,14 @@ result 'killed: its status still says that it runs' $?
 rm -rf "$here/state"
 mkdir -p "$here/state/greenbody"
 mkfifo "$here/state/greenbody/workbench.log"
-term new-session -d -x 100 -y 30 "$greenbody attach $run"
+term new-session -d -x 100 -y 30 "exec $greenbody attach $run"
 is 'killed: attach says that its engine is gone' has 'ended without a final'
 is 'killed: and that it is stopped' has 'stopped'
-term kill-server
+is 'log: the screen says that there is none' has 'nothing is logged: .*is not a regular'
+watcher=$(term display -p '#{pane_pid}')
+kill -TERM "$watcher"
+is 'log: TERM ends it' gone "$watcher"
+term kill-server 2>/dev/null
 rm -rf "$here/state"
 run=$here/quiet
 

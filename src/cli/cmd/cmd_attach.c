@@ -51,8 +51,8 @@ static int print_progress(const char *directory, struct gb_error *err)
             gb_progress_show(&progress, shot);
         }
     }
-    if (shot->error.code ==
-        GB_ERR_MACHINE) { /* error of reading; the error of the run is printed below */
+    if (shot->error.code == GB_ERR_MACHINE || shot->error.code == GB_ERR_INPUT) {
+        /* an error of reading; that of the run is printed below */
         *err = shot->error;
         gb_progress_clear(&progress);
         gb_runner_destroy(runner);

@@ -1,4 +1,7 @@
+#include "base/alloc.h"
 #include "base/file.h"
+#include "base/read_file.h"
+#include "base/table.h"
 #include "figures/report/report.h"
 #include "figures/report/report_table.h"
 
@@ -7,17 +10,17 @@ static bool copy_file(const struct gb_report *report, size_t run, const char *na
                       char **sum, struct gb_error *err)
 {
     char *text = NULL;
-    gsize size = 0;
+    size_t size = 0;
     char *from = g_build_filename(report->set->run[run].directory, name, NULL);
     char *to = g_strdup_printf("%s/runs/%zu-%s", report->folder, run + 1, name);
     bool good = true;
     *sum = g_strdup("");
-    if (g_file_get_contents(from, &text, &size, NULL)) {
+    if (gb_read_file(from, GB_TABLE_BYTES_MAX, &text, &size, NULL)) {
         g_free(*sum);
         *sum = g_compute_checksum_for_data(G_CHECKSUM_SHA256, (const guchar *)text, size);
         good = gb_file_replace(to, text, size, err);
     }
-    g_free(text);
+    gb_alloc_free(text);
     g_free(to);
     g_free(from);
     return good;

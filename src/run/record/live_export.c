@@ -58,11 +58,14 @@ static bool open_file(struct gb_live_export *live, const char *directory, int wh
     char *path = g_build_filename(directory, name, NULL);
     const off_t length = (off_t)live->extent.bytes[which];
     struct stat info;
-    const int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    const int fd =
+        open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     g_free(path);
     g_free(name);
     if (fd < 0 || fstat(fd, &info) != 0) {
         tell(live, "trajectory", which, g_strerror(errno));
+    } else if (!S_ISREG(info.st_mode)) {
+        tell(live, "trajectory", which, "is not a regular file");
     } else if (info.st_size < length) {
         tell(live, "trajectory", which, "is shorter than the checkpoint left it");
     } else if (ftruncate(fd, length) != 0) {

@@ -5,9 +5,12 @@
 
 #include <glib.h>
 #include <glib/gstdio.h>
+#include <stdint.h>
 
+#include "base/alloc.h"
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/read_file.h"
 #include "io/store.h"
 #include "run/checkpoint.h"
 #include "run/experiment_private.h"
@@ -34,17 +37,12 @@ static bool copy_file(const char *directory, double *seconds, gsize *bytes,
     char *from = g_build_filename(directory, "state.h5", NULL);
     char *to = g_build_filename(directory, "again.h5", NULL);
     char *data = NULL;
-    GError *failure = NULL;
-    bool good = g_file_get_contents(from, &data, bytes, &failure);
-    if (!good) {
-        gb_error_set(err, GB_ERR_MACHINE, "%s", failure->message);
-        g_error_free(failure);
-    }
+    bool good = gb_read_file(from, SIZE_MAX, &data, bytes, err);
     const double start = gb_clock_s();
     good = good && gb_file_replace(to, data, *bytes, err);
     *seconds = gb_clock_s() - start;
     (void)g_unlink(to);
-    g_free(data);
+    gb_alloc_free(data);
     g_free(to);
     g_free(from);
     return good;

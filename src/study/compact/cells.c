@@ -4,9 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "base/file.h"
+#include "base/read_file.h"
 #include "io/text_file.h"
 #include "many/ensemble.h"
+
+enum { QUESTION_BYTES_MAX = 1 << 24 };
 
 static const double poll_s = 0.2;
 static const char group[] = "cell";
@@ -88,10 +92,11 @@ static bool is_done(const struct gb_cells *cells, const struct gb_cells_item *ce
     char *question = path_of(cells, cell, ".ini");
     char *answer = path_of(cells, cell, ".csv");
     char *text = NULL;
-    const bool done = g_file_get_contents(question, &text, NULL, NULL) &&
+    size_t length = 0;
+    const bool done = gb_read_file(question, QUESTION_BYTES_MAX, &text, &length, NULL) &&
                       strcmp(text, cell->question) == 0 &&
                       g_file_test(answer, G_FILE_TEST_IS_REGULAR);
-    g_free(text);
+    gb_alloc_free(text);
     g_free(answer);
     g_free(question);
     return done;
@@ -206,11 +211,15 @@ bool gb_cells_question(GKeyFile **question, const char *path, struct gb_error *e
 {
     char *file = g_strconcat(path, ".ini", NULL);
     GError *error = NULL;
+    char *text = NULL;
+    size_t length = 0;
     *question = g_key_file_new();
     const bool good =
-        g_key_file_load_from_file(*question, file, G_KEY_FILE_NONE, &error) ||
-        gb_error_set(err, GB_ERR_MACHINE, "%.300s: %.200s", file, error->message);
+        gb_read_file(file, QUESTION_BYTES_MAX, &text, &length, err) &&
+        (g_key_file_load_from_data(*question, text, length, G_KEY_FILE_NONE, &error) ||
+         gb_error_set(err, GB_ERR_MACHINE, "%.300s: %.200s", file, error->message));
     g_clear_error(&error);
+    gb_alloc_free(text);
     if (!good) {
         g_key_file_free(*question);
         *question = NULL;

@@ -14,6 +14,7 @@
 #include "tui/app/key_commands.h"
 #include "tui/app/mouse.h"
 #include "tui/session/run_lifecycle.h"
+#include "tui/term/term_tty.h"
 
 /* At most ten frames within any second, two with --slow.  Updates of the engine are
  * spaced wider, so that a frame is left for the answer to a key. */
@@ -143,6 +144,10 @@ static void first_focus(struct gb_screen *screen)
 static bool open_first(struct gb_app *app, struct gb_error *err)
 {
     struct gb_session *session = &app->screen.session;
+    struct gb_error log = {0};
+    if (!gb_term_tty_check_log(&log)) {
+        gb_session_note(session, "%s", log.text);
+    }
     if (session->attached != NULL) {
         return gb_run_lifecycle_attach(session, err);
     }

@@ -5,9 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/alloc.h"
+#include "base/read_file.h"
 #include "tui/session/overlay/previous_curve.h"
 
 enum { LIST_COLS = 28, PREVIEW_FROM = LIST_COLS + 24, HEAD_LINES = 4, DIFFERENCE = 400 };
+enum { BYTES_MAX = 1 << 20 }; /* of a preset */
 
 static int length_of(char **names)
 {
@@ -23,8 +26,9 @@ const char *gb_preset_browser_selected(const struct gb_preset_browser *browser)
 static char *read_head(const char *path)
 {
     char *content = NULL;
+    size_t length = 0;
     GString *head = g_string_new(NULL);
-    if (path != NULL && g_file_get_contents(path, &content, NULL, NULL)) {
+    if (path != NULL && gb_read_file(path, BYTES_MAX, &content, &length, NULL)) {
         char **lines = g_strsplit(content, "\n", HEAD_LINES + 1);
         for (int i = 0; i < HEAD_LINES && lines[i] != NULL && lines[i][0] == '#'; i++) {
             g_string_append_printf(head, "%s%s", head->len > 0 ? " " : "",
@@ -32,7 +36,7 @@ static char *read_head(const char *path)
         }
         g_strfreev(lines);
     }
-    g_free(content);
+    gb_alloc_free(content);
     return g_string_free(head, FALSE);
 }
 

@@ -4,6 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/alloc.h"
+#include "base/read_file.h"
+
+enum { BYTES_MAX = 1 << 20 };
+
 static const char *const when[] = {"auto", "always", "never", NULL};
 static const char *const graphs[] = {"auto", "braille", "block", "ascii", NULL};
 static const char *const images[] = {"auto", "none", "sixel", "kitty", NULL};
@@ -96,16 +101,23 @@ static bool take_all(struct gb_settings *settings, GKeyFile *file, const char *p
 bool gb_settings_read(struct gb_settings *settings, const char *path,
                       struct gb_error *err)
 {
+    char *text = NULL;
+    size_t length = 0;
+    if (!g_file_test(path, G_FILE_TEST_EXISTS)) {
+        return true;
+    }
+    if (!gb_read_file(path, BYTES_MAX, &text, &length, err)) {
+        return false;
+    }
     GKeyFile *file = g_key_file_new();
     GError *error = NULL;
-    bool good = true;
-    if (g_key_file_load_from_file(file, path, G_KEY_FILE_NONE, &error)) {
-        good = take_all(settings, file, path, err);
-    } else if (!g_error_matches(error, G_FILE_ERROR, G_FILE_ERROR_NOENT)) {
-        good = gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, error->message);
-    }
+    const bool good =
+        g_key_file_load_from_data(file, text, length, G_KEY_FILE_NONE, &error)
+            ? take_all(settings, file, path, err)
+            : gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, error->message);
     g_clear_error(&error);
     g_key_file_free(file);
+    gb_alloc_free(text);
     return good;
 }
 

@@ -170,7 +170,11 @@ void gb_term_profile_print(FILE *out, int fd, const struct gb_settings *settings
     }
     gb_visible_print(out, "settings   %s%s\n", path,
                      g_file_test(path, G_FILE_TEST_EXISTS) ? "" : " (not there)");
-    gb_visible_print(out, "log        %s\n", log);
+    if (gb_term_tty_check_log(&err)) {
+        gb_visible_print(out, "log        %s\n", log);
+    } else {
+        gb_visible_print(out, "log        %s\n", err.text);
+    }
     g_free(log);
     g_free(path);
 }

@@ -1,5 +1,6 @@
 #include "tui/term/term_tty.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <glib.h>
 #include <ncurses.h>
@@ -21,6 +22,7 @@ static int open_file(const char *path, int flags)
     const int fd = open(path, flags | O_CLOEXEC | O_NONBLOCK, 0600);
     if (fd >= 0 && (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode))) {
         close(fd);
+        errno = ENXIO; /* as where a pipe has no reader */
         return -1;
     }
     return fd;
@@ -34,18 +36,32 @@ int gb_term_tty_read_log(void)
     return fd;
 }
 
+/* -1 with errno; ENXIO: it is no file. */
 static int open_log(void)
 {
     char *path = gb_term_tty_log();
     char *folder = g_path_get_dirname(path);
     g_mkdir_with_parents(folder, 0700);
-    int fd = open_file(path, O_WRONLY | O_CREAT | O_APPEND);
-    if (fd < 0) {
-        fd = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    }
+    const int fd = open_file(path, O_WRONLY | O_CREAT | O_APPEND);
     g_free(path);
     g_free(folder);
     return fd;
+}
+
+bool gb_term_tty_check_log(struct gb_error *err)
+{
+    const int log = open_log();
+    const int why = errno;
+    if (log >= 0) {
+        close(log);
+        return true;
+    }
+    char *path = gb_term_tty_log();
+    gb_error_set(
+        err, GB_ERR_MACHINE, "nothing is logged: workbench.log: %s (%.300s)",
+        why == ENXIO || why == EISDIR ? "is not a regular file" : g_strerror(why), path);
+    g_free(path);
+    return false;
 }
 
 /* Libraries print to standard error and standard output, which would corrupt the
@@ -53,7 +69,8 @@ static int open_log(void)
 void gb_term_tty_redirect(void)
 {
     fflush(stdout);
-    const int log = open_log();
+    int log = open_log();
+    log = log >= 0 ? log : open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (log >= 0) {
         dup2(log, STDOUT_FILENO);
         dup2(log, STDERR_FILENO);

@@ -11,6 +11,9 @@ char *gb_term_tty_log(void);
 /* Descriptor of the log for reading; -1: error. */
 int gb_term_tty_read_log(void);
 
+/* Can the log be written?  Otherwise err says why nothing is logged, and the rest works. */
+bool gb_term_tty_check_log(struct gb_error *err);
+
 /* Redirects standard output and error to a log file
  * ($XDG_STATE_HOME/greenbody/workbench.log, or /dev/null). */
 void gb_term_tty_redirect(void);

@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/alloc.h"
+#include "base/read_file.h"
+#include "base/table.h"
 #include "many/runset.h"
 
 static bool has_file(const char *directory, const char *name)
@@ -70,8 +73,9 @@ static char **read_lines(const char *directory, const char *name)
 {
     char *path = g_build_filename(directory, name, NULL);
     char *text = NULL;
+    size_t length = 0;
     GPtrArray *lines = g_ptr_array_new();
-    if (g_file_get_contents(path, &text, NULL, NULL)) {
+    if (gb_read_file(path, GB_TABLE_BYTES_MAX, &text, &length, NULL)) {
         char **rows = g_strsplit(g_strchomp(text), "\n", -1);
         for (size_t i = 0; rows[i] != NULL; i++) {
             if (rows[i][0] == '#') {
@@ -83,7 +87,7 @@ static char **read_lines(const char *directory, const char *name)
         g_free(rows);
     }
     g_ptr_array_add(lines, NULL);
-    g_free(text);
+    gb_alloc_free(text);
     g_free(path);
     return (char **)g_ptr_array_free(lines, FALSE);
 }
