@@ -1,14 +1,17 @@
+#include <glib.h>
 #include <math.h>
-#include <stdio.h>
 
 #include "tui/view/views.h"
 
-enum {
-    INK_ALL = GB_PLOT_INK_SERIES,
-    INK_FRONT = GB_PLOT_INK_SERIES + 1,
-    INK_CHOSEN = GB_PLOT_INK_SERIES + 4
+/* Kinds of settings in the order in which they are drawn. */
+enum kind { NOISE, SETTING, FRONT, CHOSEN, KINDS };
+
+static const struct gb_plot_entry kinds[KINDS] = {
+    [NOISE] = {GB_PLOT_INK_DIM, 8, "error within its noise"},
+    [SETTING] = {GB_PLOT_INK_SERIES, 2, "setting"},
+    [FRONT] = {GB_PLOT_INK_SERIES + 1, 1, "Pareto-optimal"},
+    [CHOSEN] = {GB_PLOT_INK_SERIES + 4, 3, ""}, /* its name */
 };
-enum { MARK_ALL = 2, MARK_FRONT = 1, MARK_CHOSEN = 3 };
 
 static void extend(double ends[2], double value)
 {
@@ -18,27 +21,49 @@ static void extend(double ends[2], double value)
     }
 }
 
-static void draw_point(struct gb_plot *plot, double x, double y, int ink, int marker)
+static enum kind kind_of(const struct gb_chart_csv *chart, size_t i)
 {
-    const struct gb_plot_series point = {
-        .x = &x, .y = &y, .count = 1, .ink = ink, .marker = marker, .points = true};
-    gb_plot_line(plot, &point);
+    return i == chart->chosen ? CHOSEN
+           : chart->front[i]  ? FRONT
+           : chart->noise[i]  ? NOISE
+                              : SETTING;
 }
 
+/* Draws the settings of a kind; returns their number. */
+static size_t draw_kind(struct gb_plot *plot, const struct gb_chart_csv *chart,
+                        enum kind kind)
+{
+    size_t drawn = 0;
+    for (size_t i = 0; i < chart->count; i++) {
+        if (kind_of(chart, i) == kind && chart->error[i] > 0.0) {
+            gb_plot_line(plot, &(struct gb_plot_series){.x = &chart->seconds[i],
+                                                        .y = &chart->error[i],
+                                                        .count = 1,
+                                                        .ink = kinds[kind].ink,
+                                                        .marker = kinds[kind].marker,
+                                                        .points = true});
+            drawn++;
+        }
+    }
+    return drawn;
+}
+
+/* Settings and their legend. */
 static void draw_settings(struct gb_plot *plot, const struct gb_chart_csv *chart)
 {
-    for (size_t i = 0; i < chart->count; i++) {
-        if (i == chart->chosen) {
+    struct gb_plot_entry entry[KINDS];
+    int entries = 0;
+    for (enum kind kind = NOISE; kind < KINDS; kind++) {
+        if (draw_kind(plot, chart, kind) == 0) {
             continue;
         }
-        draw_point(plot, chart->seconds[i], chart->error[i],
-                   chart->front[i] ? INK_FRONT : INK_ALL,
-                   chart->front[i] ? MARK_FRONT : MARK_ALL);
+        entry[entries] = kinds[kind];
+        if (kind == CHOSEN) {
+            g_strlcpy(entry[entries].name, chart->name, sizeof entry[entries].name);
+        }
+        entries++;
     }
-    if (chart->chosen < chart->count) {
-        draw_point(plot, chart->seconds[chart->chosen], chart->error[chart->chosen],
-                   INK_CHOSEN, MARK_CHOSEN);
-    }
+    gb_plot_legend(plot, entry, entries);
 }
 
 void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *session)
@@ -65,9 +90,4 @@ void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *se
     gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LOG, "CPU time per cell, s",
                  "density error bound");
     draw_settings(plot, chart);
-    struct gb_plot_entry entry[3] = {{INK_ALL, MARK_ALL, "setting"},
-                                     {INK_FRONT, MARK_FRONT, "Pareto-optimal"},
-                                     {INK_CHOSEN, MARK_CHOSEN, ""}};
-    snprintf(entry[2].name, sizeof entry[2].name, "%s", chart->name);
-    gb_plot_legend(plot, entry, chart->chosen < chart->count ? 3 : 2);
 }

@@ -36,6 +36,7 @@ static bool fill(struct gb_chart_csv *chart, const struct gb_table *table,
     enum { SECONDS, ERROR, FRONT, CHOSEN, COLUMNS };
     static const char *const names[COLUMNS] = {"cpu_s", "bound", "front", "chosen"};
     const double *column[COLUMNS];
+    const double *noise = gb_table_column(table, "noise_limited", NULL);
     const size_t rows = gb_table_rows(table);
     if (!find_columns(table, names, column, COLUMNS, err)) {
         return false;
@@ -43,7 +44,9 @@ static bool fill(struct gb_chart_csv *chart, const struct gb_table *table,
     chart->seconds = gb_alloc_array(rows + 1, sizeof(double), err);
     chart->error = gb_alloc_array(rows + 1, sizeof(double), err);
     chart->front = gb_alloc_array(rows + 1, sizeof(bool), err);
-    if (chart->seconds == NULL || chart->error == NULL || chart->front == NULL) {
+    chart->noise = gb_alloc_array(rows + 1, sizeof(bool), err);
+    if (chart->seconds == NULL || chart->error == NULL || chart->front == NULL ||
+        chart->noise == NULL) {
         return false;
     }
     chart->count = rows;
@@ -52,6 +55,7 @@ static bool fill(struct gb_chart_csv *chart, const struct gb_table *table,
         chart->seconds[i] = column[SECONDS][i];
         chart->error[i] = column[ERROR][i];
         chart->front[i] = column[FRONT][i] > 0.0;
+        chart->noise[i] = noise != NULL && noise[i] > 0.0;
         if (column[CHOSEN][i] > 0.0) {
             chart->chosen = i;
             write_name(chart, table, i);
@@ -83,6 +87,7 @@ void gb_chart_csv_destroy(struct gb_chart_csv *chart)
         gb_alloc_free(chart->seconds);
         gb_alloc_free(chart->error);
         gb_alloc_free(chart->front);
+        gb_alloc_free(chart->noise);
         gb_alloc_free(chart);
     }
 }

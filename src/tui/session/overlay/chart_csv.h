@@ -11,6 +11,7 @@ struct gb_chart_csv {
     size_t count;
     double *seconds, *error; /* CPU time of one cell; bound of the density error */
     bool *front;             /* on the Pareto front */
+    bool *noise;             /* no error exceeds two standard errors */
     size_t chosen;           /* count: none */
     char name[64]; /* of the recommended one: "fire, step 0.1 %, tolerance 0.02" */
 };
