@@ -11,12 +11,12 @@ enum { ROWS = 20, COLS = 78 };
 static char *draw(void (*view)(struct gb_panel_plot *, const struct gb_session *),
                   const struct gb_session *session, int rows, int cols)
 {
-    struct gb_panel_plot panel = {.utf8 = false};
+    struct gb_panel_plot panel = {.view = gb_views_at(0), .utf8 = false};
     gb_plot_init(&panel.plot);
     g_assert_true(gb_plot_resize(&panel.plot, rows, cols, GB_PLOT_ASCII, NULL));
     view(&panel, session);
     char *text = gb_plot_dump(&panel.plot);
-    gb_plot_finish(&panel.plot);
+    gb_panel_plot_finish(&panel);
     return text;
 }
 
@@ -83,9 +83,32 @@ static void test_chart_noise(void)
     g_string_free(csv, TRUE);
 }
 
+/* The mean of replicas ends where its levels do: from 0.3 to 0.5, not at zero. */
+static void test_replicas(void)
+{
+    struct gb_preset *preset = NULL;
+    struct gb_session session;
+    struct gb_runset_view_group group = {
+        .members = 2, .mean = {0.3, 0.4, 0.5}, .error = {0.01, 0.01, 0.01}};
+    g_assert_true(gb_preset_create(&preset, NULL));
+    gb_session_init(&session, preset);
+    session.replica_band.directory = (char[]){"cells"};
+    session.replica_band.runset = (struct gb_runset_view){
+        .group = &group, .groups = 1, .level_pa = {1e7, 1e8, 1e9}, .levels = 3};
+    char *text = draw(gb_view_curve_draw, &session, ROWS, COLS);
+    g_test_message("%s", text);
+    g_assert_nonnull(strstr(text, "0.3"));
+    g_assert_null(strstr(text, "0.1"));
+    g_free(text);
+    session.replica_band = (struct gb_replica_band){0};
+    gb_session_finish(&session);
+    gb_preset_destroy(preset);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/views/chart-noise", test_chart_noise);
+    g_test_add_func("/views/replicas", test_replicas);
     return g_test_run();
 }

@@ -116,7 +116,7 @@ static void extend_by_overlays(struct ends *ends, const struct gb_view_curve *vi
         }
     }
     const struct gb_runset_view_group *band = gb_view_curve_replicas(view);
-    for (size_t k = 0; band != NULL && k < GB_RUNSET_VIEW_LEVELS; k++) {
+    for (size_t k = 0; band != NULL && k < session->replica_band.runset.levels; k++) {
         extend(ends, band->mean[k], session->replica_band.runset.level_pa[k]);
     }
 }

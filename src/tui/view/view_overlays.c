@@ -84,7 +84,7 @@ static void shift_mean(const struct gb_view_curve *view, double errors,
                        double x[GB_RUNSET_VIEW_LEVELS], double y[GB_RUNSET_VIEW_LEVELS])
 {
     const struct gb_runset_view_group *group = gb_view_curve_replicas(view);
-    for (size_t k = 0; k < GB_RUNSET_VIEW_LEVELS; k++) {
+    for (size_t k = 0; k < view->session->replica_band.runset.levels; k++) {
         x[k] = group->mean[k] + (errors != 0.0 ? errors * group->error[k] : 0.0);
         y[k] = view->session->replica_band.runset.level_pa[k] / view->unit_pa;
     }
@@ -101,8 +101,10 @@ void gb_view_overlays_replicas(struct gb_view_curve *view)
     if (group == NULL) {
         return;
     }
-    struct gb_plot_series series = {
-        .x = x, .y = y, .count = GB_RUNSET_VIEW_LEVELS, .ink = GB_PLOT_INK_DIM};
+    struct gb_plot_series series = {.x = x,
+                                    .y = y,
+                                    .count = view->session->replica_band.runset.levels,
+                                    .ink = GB_PLOT_INK_DIM};
     for (double sign = -1.0; sign <= 1.0; sign += 2.0) {
         shift_mean(view, sign, x, y);
         gb_plot_line(&view->panel->plot, &series);
