@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <math.h>
 #include <signal.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -195,10 +196,26 @@ bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
     return true;
 }
 
+/* A process that has ended and whose parent has not asked for its status. */
+static bool is_zombie(long long pid)
+{
+    char line[512] = "";
+    char *path = g_strdup_printf("/proc/%lld/stat", pid);
+    FILE *stat_file = fopen(path, "re");
+    if (stat_file != NULL) {
+        (void)!fgets(line, sizeof line, stat_file);
+        fclose(stat_file);
+    }
+    g_free(path);
+    const char *name_end = strrchr(line, ')'); /* a name may hold ") Z" */
+    return name_end != NULL && g_str_has_prefix(name_end, ") Z");
+}
+
 bool gb_follow_engine_gone(const struct gb_follow_engine *engine)
 {
-    return engine->here && engine->pid > 1 && kill((pid_t)engine->pid, 0) != 0 &&
-           errno == ESRCH;
+    return engine->here && engine->pid > 1 &&
+           ((kill((pid_t)engine->pid, 0) != 0 && errno == ESRCH) ||
+            is_zombie(engine->pid));
 }
 
 /* Has the process that directory open?  Every engine has, for its lock.  The number in a

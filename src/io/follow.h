@@ -30,7 +30,7 @@ struct gb_follow_engine {
 bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
                       struct gb_follow_engine *engine, struct gb_error *err);
 
-/* A process of that number is no more on this machine; false where that cannot be told. */
+/* The process of that number has ended, on this machine; false where that cannot be told. */
 bool gb_follow_engine_gone(const struct gb_follow_engine *engine);
 
 /* Asks the engine of a run under way to stop with a checkpoint.  Errors: GB_ERR_INPUT

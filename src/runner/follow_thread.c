@@ -18,7 +18,8 @@ static bool read_run(struct gb_runner *runner)
     struct gb_follow_engine engine = {0};
     struct gb_error err = {0};
     if (!gb_follow_status(runner->directory, shown, &engine, &err) ||
-        !gb_follow_curve(runner->directory, &runner->params, runner->simulation->curve, &err)) {
+        !gb_follow_curve(runner->directory, &runner->params, runner->simulation->curve,
+                         &err)) {
         if (shown->error.code == GB_OK) {
             gb_runner_publish_event(runner, err.text);
         }
@@ -65,8 +66,11 @@ static bool refresh(struct gb_runner *runner, double *changed_s)
     if (shown->state <= GB_RUN_PAUSED &&
         (gone || gb_clock_s() - *changed_s > silence_s) &&
         !gb_rundir_busy(runner->directory)) {
-        gb_runner_publish_event(runner, "the engine of this run ended without a final "
-                                        "status; t resumes from the last checkpoint");
+        gb_error_set(&shown->error, GB_ERR_CANCELLED,
+                     "its engine has ended without a final status: t here or `greenbody "
+                     "resume %s` continues the run",
+                     runner->directory);
+        gb_runner_publish_event(runner, shown->error.text);
         shown->state = GB_RUN_STOPPED;
     }
     return shown->state <= GB_RUN_PAUSED;

@@ -2,6 +2,7 @@
 
 #include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
+#include "tui/session/run_lifecycle.h"
 
 /* Mouse, help and quitting. */
 
@@ -44,15 +45,8 @@ void gb_screen_commands_leave(struct gb_app *app, int status)
 
 void gb_screen_commands_ask_quit(struct gb_app *app)
 {
-    const struct gb_session *session = &app->screen.session;
-    const bool stored =
-        session->runner != NULL && gb_runner_directory(session->runner) != NULL;
-    const char *text =
-        session->attached != NULL ? "The attached run belongs to another process; it "
-                                    "continues."
-        : stored ? "A run is live. It stops with a checkpoint; `greenbody resume` "
-                   "continues it."
-                 : "A run is live; its results so far are not stored.";
+    char text[sizeof app->screen.dialog.note];
+    gb_run_lifecycle_quit_text(&app->screen.session, text, sizeof text);
     gb_dialog_show(&app->screen.dialog, &gb_dialogs_quit, text);
 }
 

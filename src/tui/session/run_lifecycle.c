@@ -1,6 +1,4 @@
 #include "tui/session/run_lifecycle.h"
-#include "base/text/visible.h"
-#include "tui/session/session_quick.h"
 
 #include <glib.h>
 #include <signal.h>
@@ -8,8 +6,10 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#include "base/text/visible.h"
 #include "io/rundir.h"
 #include "io/store.h"
+#include "tui/session/session_quick.h"
 
 enum { STATUS_SIGNAL = 128 };
 
@@ -113,6 +113,44 @@ void gb_run_lifecycle_take_over(struct gb_session *session, struct gb_message *m
     gb_session_replace(session, runner);
     gb_session_note(session, "continues here: %s", session->attached);
     session->attached = NULL;
+}
+
+/* Does the screen show the run of another process?  An attached screen may have started a
+ * run of its own. */
+static bool shows_other(const struct gb_session *session)
+{
+    return session->attached != NULL && session->runner != NULL &&
+           g_strcmp0(gb_runner_directory(session->runner), session->attached) == 0;
+}
+
+/* How the engines of this process end. */
+static char *describe_end(const struct gb_session *session)
+{
+    const bool runs = gb_session_run_is_live(session) && !shows_other(session);
+    const char *directory = runs ? gb_runner_directory(session->runner) : NULL;
+    if (directory != NULL) {
+        return g_strdup_printf("The run ends, with a checkpoint: `greenbody resume "
+                               "%.200s` continues it later. ",
+                               directory);
+    }
+    const bool ends = runs || gb_quick_cell_live(&session->quick_cell);
+    return g_strdup(ends ? "The run ends and is not stored. " : "");
+}
+
+void gb_run_lifecycle_quit_text(const struct gb_session *session, char *text, size_t size)
+{
+    char *own = describe_end(session);
+    const bool other = session->attached != NULL &&
+                       ((shows_other(session) && gb_session_run_is_live(session)) ||
+                        gb_rundir_busy(session->attached));
+    const bool child =
+        session->child.pid != 0 && session->child.kind == GB_CHILD_COMMAND_LONG;
+    g_snprintf(text, size, "%s%s%s%s", own,
+               other ? "The attached run goes on in its process. " : "",
+               child ? session->child.name : "",
+               child ? ": continued by a process of its own." : "");
+    g_strchomp(text);
+    g_free(own);
 }
 
 static bool survives_hangup(const struct gb_session *session)

@@ -26,6 +26,10 @@ void gb_run_lifecycle_take_over(struct gb_session *session, struct gb_message *m
  * output.on_hangup says; the function waits for it.  Returns the exit status. */
 int gb_run_lifecycle_run_detached(struct gb_session *session);
 
+/* What quitting does to what is live: engines of this process end, others go on. */
+void gb_run_lifecycle_quit_text(const struct gb_session *session, char *text,
+                                size_t size);
+
 /* Prints on standard error, after the screen is closed, how a live run is resumed. */
 void gb_run_lifecycle_print_resume_hint(const struct gb_session *session);
 

@@ -33,7 +33,9 @@ static void read_states(struct gb_runset_view *runset, GPtrArray *list)
             g_strlcpy(run->error, shot.error.text, sizeof run->error);
             if (run->state <= GB_RUN_PAUSED && gb_follow_engine_gone(&engine)) {
                 run->state = GB_RUN_STOPPED;
-                g_strlcpy(run->error, "its engine ended without a final status",
+                g_strlcpy(run->error,
+                          "its engine has ended; the command of these runs, repeated, "
+                          "does it again",
                           sizeof run->error);
             }
         }
