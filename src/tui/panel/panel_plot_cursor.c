@@ -6,6 +6,7 @@
 #include "scene/loading_kind.h"
 #include "scene/path/path.h"
 #include "tui/panel/panels.h"
+#include "tui/term/text_fit.h"
 #include "tui/view/views.h"
 
 /* The cursor along the points of the curve, and its line of values. */
@@ -138,9 +139,10 @@ static bool describe_misfit(const struct gb_session *session, struct gb_message 
     }
     char *name = g_path_get_basename(session->measured->path);
     gb_session_misfit(session, &misfit);
-    int n =
-        snprintf(message->text, sizeof message->text, "%.60s: %zu of %zu points reached",
-                 name, misfit.reached, session->measured->count);
+    char file[64];
+    int n = snprintf(message->text, sizeof message->text, "%s: %zu of %zu points reached",
+                     gb_text_fit_copy(file, sizeof file, name), misfit.reached,
+                     session->measured->count);
     if (misfit.reached > 0) {
         n += snprintf(message->text + n, sizeof message->text - (size_t)n,
                       "; at equal pressure: RMS misfit %.2f %% of theoretical density, "

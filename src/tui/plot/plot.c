@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "tui/plot/plot_raster.h"
+#include "tui/term/text_fit.h"
 
 enum { TICK_COLS = 9, TICKS_MAX = 12 };
 
@@ -78,9 +79,11 @@ void gb_plot_put(struct gb_plot *plot, int row, int col, uint32_t ch, int ink)
 
 void gb_plot_text(struct gb_plot *plot, int row, int col, int ink, const char *text)
 {
-    for (const char *at = text; *at != '\0'; at = g_utf8_next_char(at)) {
+    char *fitted = gb_text_fit(text, MAX(plot->cols - col, 0));
+    for (const char *at = fitted; *at != '\0'; at = g_utf8_next_char(at)) {
         gb_plot_put(plot, row, col++, g_utf8_get_char(at), ink);
     }
+    g_free(fitted);
 }
 
 static uint32_t line_char(const struct gb_plot *plot, uint32_t wide, uint32_t ascii)

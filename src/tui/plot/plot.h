@@ -87,7 +87,7 @@ void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int
 /* Cross hairs at a point, drawn into empty cells only. */
 void gb_plot_cursor(struct gb_plot *plot, double x, double y);
 
-/* Text inside the picture, UTF-8, cut at its edge. */
+/* Text inside the picture, UTF-8, at its edge cut with an ellipsis. */
 void gb_plot_text(struct gb_plot *plot, int row, int col, int ink, const char *text);
 
 /* One character, drawn if inside the picture; lines do not overwrite it. */

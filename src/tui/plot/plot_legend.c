@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "tui/plot/plot.h"
+#include "tui/term/text_fit.h"
 
 /* A candidate position of the legend. */
 struct box {
@@ -101,12 +102,12 @@ static int arrange(const struct gb_plot *plot, struct box *box, int count)
 static void write_entry(struct gb_plot *plot, int row, int col, int width,
                         const struct gb_plot_entry *entry)
 {
-    char name[GB_PLOT_NAME];
-    g_utf8_strncpy(name, entry->name, (gsize)(width - 2));
+    char *name = gb_text_fit(entry->name, width - 2);
     gb_plot_put(plot, row, col,
                 entry->marker ? gb_plot_mark_char(plot, entry->marker) : ' ', entry->ink);
     gb_plot_put(plot, row, col + 1, ' ', GB_PLOT_INK_NONE);
     gb_plot_text(plot, row, col + 2, entry->ink, name);
+    g_free(name);
 }
 
 static int entry_width(const struct gb_plot *plot, const struct gb_plot_entry *entry,
@@ -116,7 +117,7 @@ static int entry_width(const struct gb_plot *plot, const struct gb_plot_entry *e
     for (int i = 0; i < count; i++) {
         width = MAX(width, 2 + (int)g_utf8_strlen(entry[i].name, -1));
     }
-    return MIN(width, 2 * plot->field_cols / 3);
+    return MIN(width, plot->field_cols - 2);
 }
 
 int gb_plot_legend_foot(const struct gb_plot *plot, const struct gb_plot_entry *entry,

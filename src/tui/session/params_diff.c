@@ -3,6 +3,8 @@
 #include <glib.h>
 #include <string.h>
 
+#include "tui/term/text_fit.h"
+
 bool gb_params_diff_same(const struct gb_params *a, const struct gb_params *b,
                          const struct gb_field *field)
 {
@@ -45,7 +47,7 @@ char *gb_params_diff_describe(const struct gb_params *own, const struct gb_param
                                    value);
         }
     }
-    g_strlcpy(text, all->len > 0 ? all->str : "same parameters", size);
+    gb_text_fit_copy(text, size, all->len > 0 ? all->str : "same parameters");
     g_string_free(all, TRUE);
     return text;
 }

@@ -10,6 +10,7 @@
 #include "tui/session/session_quick.h"
 #include "tui/session/session_refresh.h"
 #include "tui/term/crash.h"
+#include "tui/term/text_fit.h"
 
 void gb_session_init(struct gb_session *session, struct gb_preset *preset)
 {
@@ -87,10 +88,12 @@ void gb_session_describe_previous(struct gb_session *session,
 {
     for (int i = 0; i < session->previous_count; i++) {
         struct gb_previous_curve *previous = &session->previous[i];
+        const char *head = previous->quick ? "quick: " : "";
         char text[GB_PARAMS_DIFF_TEXT];
         gb_params_diff_describe(&previous->params, params, text, sizeof text);
-        snprintf(previous->difference, sizeof previous->difference, "%s%.80s",
-                 previous->quick ? "quick: " : "", text);
+        char *whole = g_strconcat(head, text, NULL);
+        gb_text_fit_copy(previous->difference, sizeof previous->difference, whole);
+        g_free(whole);
     }
 }
 

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "tui/term/text_fit.h"
+
 /* ASCII replacements of the symbols of the screen, for terminals without UTF-8. */
 static const struct {
     gunichar sign;
@@ -76,6 +78,11 @@ int gb_paint_text(const struct gb_paint *paint, int row, int col, enum gb_style 
                   const char *text)
 {
     char *valid = g_utf8_make_valid(text, -1);
+    if (col >= 0 && gb_paint_width(valid) > paint->rect.cols - col) {
+        char *whole = valid;
+        valid = gb_text_fit(whole, paint->rect.cols - col);
+        g_free(whole);
+    }
     pen(paint, style);
     for (const char *at = valid; *at != '\0'; at = g_utf8_next_char(at)) {
         const gunichar ch = g_utf8_get_char(at);
@@ -106,23 +113,12 @@ int gb_paint_cell(const struct gb_paint *paint, int row, int col, int cols,
                   enum gb_style style, const char *text)
 {
     char *valid = g_utf8_make_valid(text, -1);
-    const bool cut = gb_paint_width(valid) > cols;
-    int left = cut ? cols - 1 : cols;
-    const char *at = valid;
-    GString *fitted = g_string_new(NULL);
-    while (*at != '\0' && gb_paint_char_width(g_utf8_get_char(at)) <= left) {
-        left -= gb_paint_char_width(g_utf8_get_char(at));
-        g_string_append_unichar(fitted, g_utf8_get_char(at));
-        at = g_utf8_next_char(at);
-    }
-    for (; left > 0; left--) {
-        g_string_append_c(fitted, ' ');
-    }
-    if (cut && cols > 0) {
-        g_string_append_unichar(fitted, 0x2026);
-    }
-    col = gb_paint_text(paint, row, col, style, fitted->str);
-    g_string_free(fitted, TRUE);
+    char *fitted = gb_text_fit(valid, cols);
+    char *padded =
+        g_strdup_printf("%s%*s", fitted, MAX(cols - gb_paint_width(fitted), 0), "");
+    col = gb_paint_text(paint, row, col, style, padded);
+    g_free(padded);
+    g_free(fitted);
     g_free(valid);
     return col;
 }

@@ -6,7 +6,7 @@
 #include "tui/term/term.h"
 
 /* Drawing into a rectangle of the screen.  Rows and columns count from its top left
- * corner; drawing outside is clipped.  Control characters become '?'; without UTF-8,
+ * corner; drawing outside is clipped, a text on the right with an ellipsis.  Control characters become '?'; without UTF-8,
  * symbols are replaced by ASCII. */
 struct gb_paint {
     const struct gb_term *term;

@@ -1,6 +1,7 @@
 #include <glib.h>
 #include <math.h>
 
+#include "tui/term/text_fit.h"
 #include "tui/view/views.h"
 
 /* Kinds of settings in the order in which they are drawn. */
@@ -59,7 +60,7 @@ static void draw_settings(struct gb_plot *plot, const struct gb_chart_csv *chart
         }
         entry[entries] = kinds[kind];
         if (kind == CHOSEN) {
-            g_strlcpy(entry[entries].name, chart->name, sizeof entry[entries].name);
+            gb_text_fit_copy(entry[entries].name, GB_PLOT_NAME, chart->name);
         }
         entries++;
     }

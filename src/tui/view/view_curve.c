@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/loading_kind.h"
+#include "tui/term/text_fit.h"
 #include "tui/view/view_legs.h"
 
 /* Largest ratio of pressures on a logarithmic axis: smaller pressures come from single
@@ -21,7 +22,7 @@ void gb_view_curve_add(struct gb_view_curve *view, const struct gb_plot_series *
         struct gb_plot_entry *entry = &view->entry[view->entries++];
         entry->ink = series->ink;
         entry->marker = series->marker;
-        g_strlcpy(entry->name, name, sizeof entry->name);
+        gb_text_fit_copy(entry->name, sizeof entry->name, name);
     }
 }
 

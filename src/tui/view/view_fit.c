@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "tui/term/text_fit.h"
 #include "tui/view/views.h"
 
 enum { EQUATIONS = 4, SAMPLES = 96, ENTRIES = EQUATIONS + 2 };
@@ -41,7 +42,7 @@ static void add(struct view *view, const struct line *line, const char *name)
     struct gb_plot_entry *entry = &view->entry[view->entries];
     entry->ink = GB_PLOT_INK_SERIES + view->entries % GB_PLOT_COLOURS;
     entry->marker = MARK_LOAD + view->entries;
-    g_strlcpy(entry->name, name, sizeof entry->name);
+    gb_text_fit_copy(entry->name, sizeof entry->name, name);
     view->line[view->entries++] = *line;
 }
 

@@ -46,7 +46,7 @@ static void write_difference(const struct gb_session *session,
         gb_params_diff_count(params, gb_runner_params(session->runner)) > 0) {
         gb_params_diff_describe(params, gb_runner_params(session->runner), difference,
                                 sizeof difference);
-        snprintf(text, size, ": %.40s", difference);
+        snprintf(text, size, ": %s", difference);
     }
 }
 
@@ -56,8 +56,8 @@ void gb_view_overlays_quick(struct gb_view_curve *view)
     const struct gb_session *session = view->session;
     const struct gb_quick_cell *quick = &session->quick_cell;
     struct gb_panel_plot *panel = view->panel;
-    char difference[48];
-    char name[GB_PLOT_NAME];
+    char difference[GB_PARAMS_DIFF_TEXT + 2];
+    char name[sizeof difference + 48];
     if (!gb_view_curve_quick_shown(view) ||
         !gb_panel_plot_reserve(panel, quick->points)) {
         return;
@@ -96,8 +96,8 @@ void gb_view_overlays_replicas(struct gb_view_curve *view)
     const struct gb_runset_view_group *group = gb_view_curve_replicas(view);
     double x[GB_RUNSET_VIEW_LEVELS];
     double y[GB_RUNSET_VIEW_LEVELS];
-    char difference[48];
-    char name[GB_PLOT_NAME];
+    char difference[GB_PARAMS_DIFF_TEXT + 2];
+    char name[sizeof difference + 48];
     if (group == NULL) {
         return;
     }

@@ -2,6 +2,9 @@
 
 #include <glib.h>
 #include <stdio.h>
+#include <string.h>
+
+#include "tui/term/text_fit.h"
 
 static const struct gb_watch_view views[] = {
     {"Pressure against relative density: mean and standard error",
@@ -35,6 +38,9 @@ int gb_watch_views_first(const struct gb_watch *watch)
 void gb_watch_views_group_name(const struct gb_runset_view_group *group, char *name,
                                size_t size)
 {
-    snprintf(name, size, "%.40s%s%zu %s", group->label, *group->label != '\0' ? ", " : "",
+    char cells[40];
+    snprintf(cells, sizeof cells, "%s%zu %s", *group->label != '\0' ? ", " : "",
              group->members, group->members == 1 ? "cell" : "cells");
+    gb_text_fit_copy(name, size - strlen(cells), group->label);
+    strcat(name, cells);
 }
