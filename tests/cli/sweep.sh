@@ -116,10 +116,20 @@ two_work() { # directory
     [ "$(find . -path "./$1/*/status.json" | wc -l)" -ge 2 ]
 }
 
+# The command and both workers, which the kernel would call "exe" after the file.
+three_named() {
+    for process in $pid $(pgrep -P $pid); do
+        cat "/proc/$process/comm"
+    done >names
+    [ "$(grep -cx greenbody names)" -eq 3 ]
+}
+
+ln -s "$greenbody" exe
 # shellcheck disable=SC2086  # a list of words
-"$greenbody" sweep $endless --replicas 4 --jobs 2 --yes --out long >stdout 2>stderr &
+./exe sweep $endless --replicas 4 --jobs 2 --yes --out long >stdout 2>stderr &
 pid=$!
 until_true two_work long
+is 'processes are called greenbody' three_named
 kill -TERM $pid
 wait $pid
 is 'SIGTERM: status 143' [ $? -eq 143 ]

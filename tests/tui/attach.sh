@@ -79,12 +79,40 @@ own_has_rows() {
     grep -qs '^load,[2-9]' "$here"/state/greenbody/runs/*/curve.csv
 }
 until_true own_has_rows
+keys R
+shows 'R asks how many cells' 'Replicas of this scene'
+keys C-u
+keys -l 3
+keys Enter
+# processes whose first word is greenbody, of a folder that no other test has
+children() {
+    pgrep -f "^greenbody sweep .*$here/state"
+}
+no_children() {
+    ! children >"$here/children"
+}
+works() {
+    find "$here/state" -name status.json | grep -q replicas
+}
+until_true works
+are_named() { # the command and its workers
+    [ "$(children | wc -l)" -gt 1 ] && for child in $(children); do
+        [ "$(cat "/proc/$child/comm")" = greenbody ] || return 1
+    done
+}
+until_true are_named
+result 'replicas are of processes called greenbody' $?
 keys q
 shows 'q asks' 'Quit?'
 shows 'it ends' 'The run ends, with a checkpoint'
-is 'and does not go on' has_not 'goes on'
+is 'the replicas do not' has 'replicas: continued by a process'
 keys y
 shows 'y quits' 'status=0'
+children >"$here/children"
+result 'and the replicas go on' $?
+# shellcheck disable=SC2046  # words
+kill -TERM $(children)
+until_true no_children
 is 'with a checkpoint' [ -s "$(echo "$here"/state/greenbody/runs/*/state.h5)" ]
 
 echo "1..$tests"
