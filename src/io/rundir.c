@@ -164,6 +164,23 @@ static void remove_made(const char *path, const char *made)
     g_free(at);
 }
 
+/* The names of new folders, from full up to the one below `above`, outlast a power failure. */
+static void sync_names(const char *full, const char *above)
+{
+    char *at = g_strdup(full);
+    while (strcmp(at, above) != 0 && at[1] != '\0') {
+        char *up = g_path_get_dirname(at);
+        const int fd = open_directory(up);
+        if (fd >= 0) {
+            (void)fsync(fd); /* some file systems cannot */
+            close(fd);
+        }
+        g_free(at);
+        at = up;
+    }
+    g_free(at);
+}
+
 /* Makes path, which does not exist, with its parents; only one of two processes that do
  * so at the same time succeeds.  Sets dir->made. */
 static bool make_missing(struct gb_rundir *dir, struct gb_error *err)
@@ -176,6 +193,7 @@ static bool make_missing(struct gb_rundir *dir, struct gb_error *err)
     char *made = g_strndup(full, length);
     bool ok = g_mkdir_with_parents(parent, 0777) == 0 && g_mkdir(full, 0777) == 0;
     if (ok) {
+        sync_names(full, above);
         dir->made = g_steal_pointer(&made);
     } else {
         const int why = errno;

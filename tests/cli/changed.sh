@@ -107,5 +107,18 @@ rm -f out/state-before.h5
 "$greenbody" resume --before out >stdout 2>stderr
 is 'without one it says so' grep -q 'has no state-before.h5' stderr
 
+# --- links ------------------------------------------------------------------------------------
+for file in curve.csv events.log; do
+    rm -rf linked
+    cp -a whole linked
+    printf 'mine\n' >target
+    mv linked/$file linked/real
+    ln -s "$here/target" linked/$file
+    "$greenbody" resume linked >stdout 2>stderr
+    is "a link as $file is refused" [ $? -eq 3 ]
+    is 'with its name' grep -q "$file: cannot be opened" stderr
+    is 'and not written through' [ "$(cat target)" = mine ]
+done
+
 echo "1..$tests"
 exit $bad

@@ -57,6 +57,21 @@ if command -v ffmpeg >/dev/null; then
     [ -s film.gif ] && [ ! -e film.gif.part.gif ]
     result "it is there" $?
 fi
+# ffmpeg gets words, not a line of a shell, and a name cannot be an option of it.
+mkdir stub
+cat >stub/ffmpeg <<'STUB'
+#!/bin/sh
+printf '%s\n' "$@" >words
+cat >/dev/null
+for last; do :; done
+: >"${last#file:}"
+STUB
+chmod +x stub/ffmpeg
+# shellcheck disable=SC2016  # a name
+PATH=$here/stub:$PATH good "a film of any name" snapshot a --sequence -o '-y $(touch hit).gif'
+# shellcheck disable=SC2016
+[ ! -e hit ] && grep -qxF 'file:-y $(touch hit).gif.part.gif' words
+result "which ffmpeg gets as one word" $?
 mkdir empty
 PATH=$here/empty "$greenbody" snapshot a --sequence -o other.mp4 >stdout 2>stderr
 [ $? -eq 3 ] && [ "$(wc -l <stderr)" -eq 1 ] && grep -qF "needs the program ffmpeg" stderr

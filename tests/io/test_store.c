@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <math.h>
 #include <signal.h>
 #include <string.h>
@@ -9,6 +10,7 @@
 #include <glib/gstdio.h>
 #include <json-glib/json-glib.h>
 
+#include "io/follow.h"
 #include "io/preset.h"
 #include "io/rundir.h"
 #include "io/status_json.h"
@@ -392,6 +394,44 @@ static void test_foreign_status(void)
     g_free(path);
 }
 
+/* A process named by a forged or old status.json is not asked to stop, unless it has the
+ * directory open; one that has is. */
+static void test_named_process(void)
+{
+    for (int works = 0; works < 2; works++) {
+        struct gb_error err = {0};
+        int status = 0;
+        int ready[2];
+        g_assert_cmpint(pipe(ready), ==, 0);
+        const pid_t named = fork();
+        if (named == 0) {
+            const int there = works ? open(base, O_RDONLY | O_DIRECTORY) : -1;
+            g_assert_cmpint(write(ready[1], "r", 1), ==, 1);
+            while (there >= -1) {
+                pause();
+            }
+        }
+        char sign = '\0';
+        g_assert_cmpint(read(ready[0], &sign, 1), ==, 1);
+        char *path = in_base("status.json");
+        char *text = g_strdup_printf("{\"pid\" : %d, \"host\" : \"%s\"}", (int)named,
+                                     g_get_host_name());
+        g_assert_true(g_file_set_contents(path, text, -1, NULL));
+        g_assert_true(gb_follow_request_stop(base, &err) == (works == 1));
+        if (works == 0) {
+            g_assert_nonnull(strstr(err.text, "does not work there"));
+            g_assert_cmpint(waitpid(named, &status, WNOHANG), ==, 0);
+            kill(named, SIGKILL);
+        }
+        g_assert_cmpint(waitpid(named, &status, 0), ==, named);
+        g_assert_cmpint(WTERMSIG(status), ==, works ? SIGTERM : SIGKILL);
+        close(ready[0]);
+        close(ready[1]);
+        g_free(text);
+        g_free(path);
+    }
+}
+
 /* The process that asks all the time whether a run is under way. */
 static pid_t ask_for_ever(void)
 {
@@ -448,6 +488,7 @@ int main(int argc, char **argv)
         {"/store/status", test_status},
         {"/store/foreign-status", test_foreign_status},
         {"/store/existing", test_existing},
+        {"/store/named-process", test_named_process},
         {"/store/busy-probe", test_busy_probe},
         {"/store/foreign", test_foreign},
         {"/store/discard", test_discard},

@@ -46,6 +46,26 @@ told_started() {
 }
 until_true told_started
 result 'r starts a run of this process' $?
+starts_replicas() {
+    keys R
+    shows 'R asks how many cells' 'Replicas of this scene'
+    keys C-u
+    keys -l 3
+    keys Enter
+}
+starts_replicas
+# processes whose first word is greenbody, of a folder that no other test has
+children() {
+    pgrep -f "^greenbody sweep .*$here/state"
+}
+no_children() {
+    ! children >"$here/children"
+}
+until_true children >"$here/children"
+result 'replicas of an attached screen are kept in the folder of runs' $?
+# shellcheck disable=SC2046  # words
+kill -TERM $(children)
+until_true no_children
 keys q
 shows 'q asks again' 'Quit?'
 shows 'this one ends' 'The run ends and is not stored'
@@ -79,18 +99,8 @@ own_has_rows() {
     grep -qs '^load,[2-9]' "$here"/state/greenbody/runs/*/curve.csv
 }
 until_true own_has_rows
-keys R
-shows 'R asks how many cells' 'Replicas of this scene'
-keys C-u
-keys -l 3
-keys Enter
-# processes whose first word is greenbody, of a folder that no other test has
-children() {
-    pgrep -f "^greenbody sweep .*$here/state"
-}
-no_children() {
-    ! children >"$here/children"
-}
+rm -rf "$here"/state/greenbody/runs/*replicas*
+starts_replicas
 works() {
     find "$here/state" -name status.json | grep -q replicas
 }

@@ -5,6 +5,7 @@
 #include "io/store.h"
 #include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
+#include "tui/session/run_lifecycle.h"
 #include "tui/view/views.h"
 
 /* Replicas of the scene shown, its calibration to the measured data, moduli of the run: the
@@ -88,7 +89,7 @@ static char *new_directory(const struct gb_session *session, const char *name)
     char *prefix = g_strdup_printf("%s-%s", base, name);
     char *folder = session->folder != NULL
                        ? g_strdup(session->folder)
-                       : g_build_filename(g_get_tmp_dir(), "greenbody", NULL);
+                       : gb_run_lifecycle_folder(); /* attached to a run */
     char *directory = gb_store_new_directory(folder, prefix);
     g_free(folder);
     g_free(prefix);
