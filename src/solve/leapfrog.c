@@ -5,6 +5,7 @@
 
 #include "base/portable.h"
 #include "law/critical_step.h"
+#include "pack/kernel/bed_motion.h"
 #include "scene/tolerances.h"
 
 void gb_leapfrog_init(struct gb_leapfrog *leapfrog, double safety, double given)
@@ -53,44 +54,6 @@ static double next_step(const struct gb_leapfrog *leapfrog, const struct gb_bed 
     return fmin(fmin(allowed, most), leapfrog->limit);
 }
 
-/* Largest components of the displacements since the lists were made, squared and added: a
- * bound that needs no square of every particle. */
-static double drift(struct gb_bed *bed, double step)
-{
-    double most[4] = {0.0};
-    for (int64_t i = 0; i < bed->count; i++) {
-        double *x = bed->position[i];
-        const double *v = bed->velocity[i], *from = bed->listed_position[i];
-        for (int c = 0; c < 4; c++) {
-            x[c] += step * v[c];
-            const double moved = fabs(x[c] - from[c]);
-            most[c] = moved > most[c] ? moved : most[c];
-        }
-    }
-    return most[0] * most[0] + most[1] * most[1] + most[2] * most[2];
-}
-
-/* Returns the bound of the fastest particle. */
-static double kick(struct gb_bed *bed, double step, double gravity, double drag)
-{
-    const double fall[4] = {0.0, 0.0, -gravity * step, 0.0};
-    const double slow = fmax(1.0 - step * drag, 0.0);
-    double most[4] = {0.0};
-    for (int64_t i = 0; i < bed->count; i++) {
-        double *v = bed->velocity[i], *w = bed->spin[i];
-        const double *f = bed->force[i], *m = bed->torque[i];
-        const double speed_factor = step * bed->inverse_mass[i],
-                     spin_factor = step * bed->inverse_inertia[i];
-        for (int c = 0; c < 4; c++) {
-            v[c] = slow * v[c] + (speed_factor * f[c] + fall[c]);
-            w[c] = slow * w[c] + spin_factor * m[c];
-            const double fast = fabs(v[c]);
-            most[c] = fast > most[c] ? fast : most[c];
-        }
-    }
-    return sqrt(most[0] * most[0] + most[1] * most[1] + most[2] * most[2]);
-}
-
 bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
                       struct gb_error *err)
 {
@@ -100,14 +63,23 @@ bool gb_leapfrog_step(struct gb_leapfrog *leapfrog, struct gb_bed *bed,
         }
         leapfrog->step = next_step(leapfrog, bed);
     }
-    leapfrog->moved2 = drift(bed, leapfrog->step);
+    leapfrog->moved2 = gb_bed_motion_drift(
+        bed->position, (const gb_bed_row *)bed->velocity,
+        (const gb_bed_row *)bed->listed_position, bed->count, leapfrog->step);
     bed->die.punch_position += leapfrog->step * bed->die.punch_velocity;
     bed->die.top += leapfrog->step * bed->die.side_velocity;
     if (!gb_bed_evaluate(bed, leapfrog->step, leapfrog->moved2, err)) {
         return false;
     }
     const double next = next_step(leapfrog, bed), half = 0.5 * (leapfrog->step + next);
-    leapfrog->fastest = kick(bed, half, leapfrog->gravity, leapfrog->drag);
+    const struct gb_bed_motion_kick by = {.force = (const gb_bed_row *)bed->force,
+                                          .torque = (const gb_bed_row *)bed->torque,
+                                          .inverse_mass = bed->inverse_mass,
+                                          .inverse_inertia = bed->inverse_inertia,
+                                          .step = half,
+                                          .gravity = leapfrog->gravity,
+                                          .drag = leapfrog->drag};
+    leapfrog->fastest = gb_bed_motion_kick(bed->velocity, bed->spin, bed->count, &by);
     if (leapfrog->punch_mass > 0.0) {
         bed->die.punch_velocity +=
             half * (bed->tally.punch - leapfrog->load) / leapfrog->punch_mass;

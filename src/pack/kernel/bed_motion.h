@@ -1,0 +1,30 @@
+#ifndef GB_PACK_KERNEL_BED_MOTION_H
+#define GB_PACK_KERNEL_BED_MOTION_H
+
+#include <stdint.h>
+
+#include "pack/kernel/bed_batch.h"
+
+/* Velocities and positions of the particles of a bed, in rows (bed_batch.h). */
+
+/* Central differences of positions x: x += step v.  Returns the sum of the squares of the
+ * largest components of x - from, a bound of the squared displacements that needs no
+ * square of every particle. */
+double gb_bed_motion_drift(gb_bed_row *x, const gb_bed_row *v, const gb_bed_row *from,
+                           int64_t count, double step);
+
+/* What changes velocities and spins. */
+struct gb_bed_motion_kick {
+    const gb_bed_row *force, *torque;
+    const double *inverse_mass, *inverse_inertia;
+    double step;
+    double gravity; /* along -z */
+    double drag;    /* speed lost per time */
+};
+
+/* v += step f/m and w += step m/I for velocities v and spins w.  Returns a bound of the
+ * speed of the fastest particle, from the largest components. */
+double gb_bed_motion_kick(gb_bed_row *v, gb_bed_row *w, int64_t count,
+                          const struct gb_bed_motion_kick *by);
+
+#endif
