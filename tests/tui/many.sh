@@ -85,6 +85,10 @@ keys -l 'three'
 keys Enter
 shows "which is a number" 'must be between 2 and 1000'
 keys C-u
+keys -l '3 0.002@100'
+keys Enter
+shows "a pressure without its unit is refused" 'as in 0.002@100MPa'
+keys C-u
 keys -l '3'
 keys Enter
 shows "their mean lies over the plot" 'mean of 3 cells'
@@ -98,12 +102,23 @@ shows "which lies over the plot" 'measured, RMS misfit'
 keys C
 shows "C asks for the keys" 'Calibration to the measured'
 keys C-u
-keys -l 'contact.nu'
+keys -l 'nuu'
 keys Enter
-told "an unknown key is refused by name" 'contact.nu: no such key'
+shows "an unknown key is refused by name, in the dialog" 'nuu: no such key'
+shows "and to the end of the line" 'group.key=value'
+mv "$here/lab.csv" "$here/gone.csv"
+keys C-u
+keys -l 'mu,alpha'
+keys Enter
+term resize-window -x 200 -y 60
+shows "a failure of the fit is an event" 'No such'
+is "once, behind the one of its start" [ "$(screen | grep -c 's: calibration:')" -eq 2 ]
+term resize-window -x 80 -y 24
+until_true fits_80
+mv "$here/gone.csv" "$here/lab.csv"
 keys C
 keys C-u
-keys -l 'contact.mu=0.05:0.4'
+keys -l 'mu=0.05:0.4'
 keys Enter
 told "how far the fit is" 'round 1'
 fitted() {

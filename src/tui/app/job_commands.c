@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "io/store.h"
+#include "many/sweep/sweep_target.h"
+#include "study/calibrate/free_keys.h"
 #include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
 #include "tui/session/run_lifecycle.h"
@@ -13,7 +15,7 @@
 
 /* P1 averages ten cells; a standard error of 0.002 separates two powders of one study. */
 static const char default_replicas[] = "10 0.002@100MPa";
-static const char default_keys[] = "contact.mu,contact.alpha";
+static const char default_keys[] = "mu,alpha";
 
 enum { REPLICAS_MIN = 2, REPLICAS_MAX = 1000 };
 
@@ -130,20 +132,33 @@ static bool start_job(struct gb_app *app, const char *name, const char **words,
     return started;
 }
 
+/* "0.002@100MPa"; NULL or blank: none. */
+static bool is_target(const char *text, struct gb_error *err)
+{
+    struct gb_sweep_target target = {0};
+    const bool good =
+        text == NULL || *text == '\0' || gb_sweep_target_parse(&target, text, err);
+    gb_sweep_target_finish(&target);
+    return good;
+}
+
 void gb_job_commands_accept_replicas(struct gb_app *app)
 {
     struct gb_dialog *dialog = &app->screen.dialog;
     char *answer = g_strdup(gb_dialog_answer(dialog));
     char **parts = g_strsplit(g_strstrip(answer), " ", 2);
     guint64 cells = 0;
+    struct gb_error err = {0};
     if (parts[0] == NULL || !g_ascii_string_to_unsigned(parts[0], 10, REPLICAS_MIN,
                                                         REPLICAS_MAX, &cells, NULL)) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR,
                            "the number of cells must be between %d and %d; then, if "
                            "wanted, a standard error at a pressure: 0.002@100MPa",
                            REPLICAS_MIN, REPLICAS_MAX);
+    } else if (parts[1] != NULL && !is_target(g_strstrip(parts[1]), &err)) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
     } else {
-        const bool target = parts[1] != NULL && *g_strstrip(parts[1]) != '\0';
+        const bool target = parts[1] != NULL && *parts[1] != '\0';
         const char *words[] = {"sweep",
                                NULL,
                                "-o",
@@ -161,12 +176,20 @@ void gb_job_commands_accept_replicas(struct gb_app *app)
 
 void gb_job_commands_accept_calibrate(struct gb_app *app)
 {
-    const struct gb_session *session = &app->screen.session;
+    struct gb_session *session = &app->screen.session;
+    struct gb_dialog *dialog = &app->screen.dialog;
+    struct gb_free_keys parsed;
+    struct gb_error err = {0};
     if (session->measured == NULL) { /* removed while the dialog was open */
-        gb_dialog_close(&app->screen.dialog);
+        gb_dialog_close(dialog);
         return;
     }
-    char *keys = g_strdup(gb_dialog_answer(&app->screen.dialog));
+    if (!gb_free_keys_parse(&parsed, gb_dialog_answer(dialog), gb_session_params(session),
+                            &err)) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
+        return;
+    }
+    char *keys = g_strdup(gb_dialog_answer(dialog));
     const bool read = *session->reading != '\0';
     const char *words[] = {"calibrate",
                            NULL,

@@ -101,14 +101,23 @@ static bool is_progress(const char *line)
            (strstr(line, " runs, ") != NULL || strstr(line, " states: ") != NULL);
 }
 
+static const char error_prefix[] = "greenbody: ";
+
+/* The reason of a failure, the last line of a command. */
+static bool is_error(const char *line)
+{
+    return g_str_has_prefix(line, error_prefix);
+}
+
 static void write_outcome(const struct gb_child_command *child, int status, char *text,
                           size_t size)
 {
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         snprintf(text, size, "%s saved: %s", child->name, child->path);
     } else {
-        snprintf(text, size, "%s: %s", child->name,
-                 child->line[0] != '\0' ? child->line : "stopped");
+        const char *line =
+            is_error(child->line) ? child->line + strlen(error_prefix) : child->line;
+        snprintf(text, size, "%s: %s", child->name, *line != '\0' ? line : "stopped");
     }
 }
 
@@ -124,7 +133,8 @@ enum gb_child_command_event gb_child_command_poll(struct gb_child_command *child
             g_strlcpy(child->progress, child->line, sizeof child->progress);
             return GB_CHILD_COMMAND_PROGRESS;
         }
-        if (child->kind == GB_CHILD_COMMAND_LONG) {
+        /* an error is part of the outcome */
+        if (child->kind == GB_CHILD_COMMAND_LONG && !is_error(child->line)) {
             snprintf(text, size, "%s: %s", child->name, child->line);
             return GB_CHILD_COMMAND_OUTPUT;
         }

@@ -47,7 +47,7 @@ struct gb_dialog {
     struct gb_preset_browser browser; /* of presets or materials */
     struct gb_leg_editor legs;
     char *text;               /* shell command shown, or file asked about; owned */
-    char note[400];           /* question, or why the last answer was refused */
+    char note[480];           /* question, or why the last answer was refused */
     enum gb_dialog_note kind; /* of the note; after a warning the same answer is taken */
     struct gb_prompt prompt;
 };

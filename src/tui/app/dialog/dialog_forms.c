@@ -12,8 +12,8 @@ enum {
     LEGS_ROWS = 40,
     LEGS_COLS = 110,
     LEGS_PAGE = 5,
-    FAR = 100000, /* beyond any list */
-    PROMPT_ROWS = 8,
+    FAR = 100000,    /* beyond any list */
+    PROMPT_ROWS = 5, /* without the note */
     PROMPT_COLS = 64,
     NAME_COLS = 10,
     NOTE_ROWS = 3
@@ -48,6 +48,15 @@ static void draw_note(const struct gb_dialog *dialog, const struct gb_paint *pai
                                                              : GB_STYLE_BAD,
                       dialog->note);
     }
+}
+
+/* Rows of the note in a box of PROMPT_COLS columns, at most `most`. */
+static int note_rows(const struct gb_dialog *dialog, const struct gb_paint *screen,
+                     int most)
+{
+    struct gb_paint probe = *screen;
+    probe.rect.cols = MIN(PROMPT_COLS, screen->rect.cols - 2) - 4;
+    return gb_paint_wrap_rows(&probe, most, dialog->note);
 }
 
 /* A note on the last answer no longer applies to an edited one. */
@@ -172,12 +181,13 @@ const struct gb_dialog_form gb_dialog_forms_legs = {draw_legs, edit_legs, go_in_
 
 static void draw_prompt(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
+    const int rows = MAX(note_rows(dialog, screen, screen->rect.rows - 7), NOTE_ROWS);
     const struct gb_paint frame =
-        box(screen, PROMPT_ROWS, PROMPT_COLS, dialog->type->title);
+        box(screen, PROMPT_ROWS + rows, PROMPT_COLS, dialog->type->title);
     const struct gb_paint paint = inside(&frame);
     gb_paint_text(&paint, 0, 1, GB_STYLE_PLAIN, dialog->type->label);
     gb_prompt_draw(&dialog->prompt, &paint, 1, 1, paint.rect.cols - 2);
-    draw_note(dialog, &paint, 3, NOTE_ROWS);
+    draw_note(dialog, &paint, 3, rows);
 }
 
 static void complete(struct gb_dialog *dialog)
@@ -258,9 +268,7 @@ static void draw_answers(const struct gb_dialog *dialog, const struct gb_paint *
 /* The height follows from the wrapped question. */
 static void draw_question(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
-    struct gb_paint probe = *screen;
-    probe.rect.cols = MIN(PROMPT_COLS, screen->rect.cols - 2) - 4;
-    const int rows = gb_paint_wrap_rows(&probe, screen->rect.rows - 5, dialog->note);
+    const int rows = note_rows(dialog, screen, screen->rect.rows - 5);
     const struct gb_paint frame = box(screen, rows + 4, PROMPT_COLS, dialog->type->title);
     const struct gb_paint paint = inside(&frame);
     gb_paint_wrap(&paint, 0, paint.rect.rows - 2, GB_STYLE_PLAIN, dialog->note);
