@@ -302,6 +302,23 @@
  * was missed passes.  0: every run misses it. */
 #define GB_DIE_GOAL_TOLERANCE 0.05
 
+/* Relative density under the punch that ends a run: the contacts of P3 deform one by one,
+ * and spheres that overlap by more than all pores have no such contacts.  Larger: points
+ * without a meaning are recorded. */
+#define GB_DIE_DENSITY_MAX 1.0
+
+/* Rise of a pressing punch above the height where it began, as a share of that, beyond
+ * which the powder has thrown it off.  Smaller: the bounce of a light punch at the first
+ * touch halves the time step.  Larger: points without contact are recorded. */
+#define GB_PUNCH_RISE_MAX 0.1
+
+/* Mean pressure carried since the last point, over that of the ramp at the point, below
+ * which the powder does not follow the punch, and the mean is not moved on to the pressure
+ * of the point.  Of a ramp with the square of time the first mean is a third: above that,
+ * first points of every die are recorded as means.  0: a punch that touches nothing carries
+ * half the ramp. */
+#define GB_PUNCH_FOLLOWS_MIN 0.25
+
 /* Time constants of a drag on the powder while gravity is reduced and after it, as shares
  * of the time of the reduction.  Without drag a bed of smooth spheres rotates about the
  * axis of the die without end: spheres at the wall roll, and no friction stops the others.

@@ -44,7 +44,7 @@ static double slope_of(curve *f, const void *law, double x, double step, double 
 /* Digits of the functions in units of the last place of their summands, and largest share
  * of the slope, or of the mean slope from 0, that the error bound may be: a wider one would
  * prove nothing. */
-static const double last_places = 8.0, widest = 2e-6;
+static const double last_digits = 8.0, widest = 2e-6;
 
 /* At x, where the law is smooth over `room` to both sides. */
 static void check_slope(const struct integral *integral, const void *law, double x,
@@ -54,7 +54,7 @@ static void check_slope(const struct integral *integral, const void *law, double
     double left_out;
     const double got = slope_of(integral->whole, law, x, step, &left_out);
     const double want = integral->slope(law, x);
-    const double bound = left_out + last_places * DBL_EPSILON *
+    const double bound = left_out + last_digits * DBL_EPSILON *
                                         (integral->magnitude / step +
                                          (1.0 + integral->condition) * fabs(want));
     if (!(bound <= widest * (fabs(want) + integral->magnitude / x)) ||

@@ -12,7 +12,8 @@ struct die_loading {
     struct gb_loading base;
     struct gb_die_stages *stages;
     bool not_quasistatic; /* forces on floor and punch differed at the last point */
-    double highest;       /* pressure that the powder has carried on loading, E */
+    double highest;       /* pressure that the powder has carried on loading, E, and */
+    double last;          /* at the last point of it */
 };
 
 static struct die_loading *own(struct gb_loading *loading)
@@ -125,6 +126,7 @@ static enum gb_step_outcome after_point(struct gb_loading *loading,
     }
     own(loading)->not_quasistatic = not_quasistatic;
     own(loading)->highest = fmax(own(loading)->highest, now.carried);
+    own(loading)->last = now.carried;
     return GB_STEP_MORE;
 }
 
@@ -135,13 +137,14 @@ static bool record_stages(struct gb_loading *loading, struct gb_record *record,
         {"die/unsteady", GB_RECORD_BOOL, 1, offsetof(struct die_loading, not_quasistatic),
          "1"},
     };
-    static const struct gb_record_member highest[] = {
+    static const struct gb_record_member carried[] = {
         {"die/highest", GB_RECORD_DOUBLE, 1, offsetof(struct die_loading, highest), "E"},
+        {"die/last", GB_RECORD_DOUBLE, 1, offsetof(struct die_loading, last), "E"},
     };
     /* records of earlier versions have none */
-    const bool known = !record->loading || gb_record_find(record, "die/highest");
+    const bool known = !record->loading || gb_record_find(record, "die/last");
     return gb_record_members(record, members, 1, loading, err) &&
-           (!known || gb_record_members(record, highest, 1, loading, err)) &&
+           (!known || gb_record_members(record, carried, 2, loading, err)) &&
            gb_die_stages_record(own(loading)->stages, loading->bed, record, err);
 }
 
@@ -178,20 +181,24 @@ static double progress(const struct gb_loading *loading, double pressure, double
     return stages_report(loading).progress;
 }
 
-/* The ramp of the punch ends by time, whatever the powder carries. */
+/* The ramp of the punch ends by time, whatever the powder carries: never enough, or once,
+ * under a punch that bounces. */
 static bool missed(const struct gb_loading *loading, char *text, size_t size)
 {
+    const struct die_loading *die = (const struct die_loading *)(const void *)loading;
     char until[64], carried[64];
-    const double wanted = loading->params->until_pressure_pa;
-    const double highest = ((const struct die_loading *)(const void *)loading)->highest *
-                           loading->model->pascal_per_stress;
+    const double wanted = loading->params->until_pressure_pa,
+                 enough = wanted * (1.0 - GB_DIE_GOAL_TOLERANCE),
+                 scale = loading->model->pascal_per_stress;
+    const bool never = scale * die->highest < enough;
     gb_units_format_short(wanted, GB_DIM_PRESSURE, 6, until, sizeof until);
-    gb_units_format_short(highest, GB_DIM_PRESSURE, 4, carried, sizeof carried);
+    gb_units_format_short(scale * (never ? die->highest : die->last), GB_DIM_PRESSURE, 4,
+                          carried, sizeof carried);
     snprintf(text, size,
-             "not reached: loading.until = %s; the powder carries at most %s (a longer "
+             "not reached: loading.until = %s; the powder carries %s%s (a longer "
              "loading.time is nearer to equilibrium)",
-             until, carried);
-    return highest < wanted * (1.0 - GB_DIE_GOAL_TOLERANCE);
+             until, never ? "at most " : "", carried);
+    return never || scale * die->last < enough;
 }
 
 const struct gb_loading_mode gb_loading_die = {

@@ -152,6 +152,11 @@ bool gb_die_cycle_contains(enum gb_die_stages_stage stage)
     return (int)stage >= 0 && stage < GB_DIE_STAGES_COUNT && rows[stage].share != NULL;
 }
 
+bool gb_die_cycle_presses(const struct gb_die_stages *stages)
+{
+    return row_of(stages)->share == ramp_share;
+}
+
 double gb_die_cycle_height(const struct gb_die_stages *stages, const struct gb_bed *bed)
 {
     double axial = 0.0, radial = 0.0;
@@ -170,7 +175,7 @@ double gb_die_cycle_height(const struct gb_die_stages *stages, const struct gb_b
 double gb_die_cycle_wall(const struct gb_die_stages *stages, const struct gb_bed *bed)
 {
     const enum gb_die_stages_stage stage = stages->now.stage;
-    if (stage == GB_DIE_STAGES_PRESS || stage == GB_DIE_STAGES_UNLOAD) {
+    if (gb_die_cycle_presses(stages)) {
         return bed->die.punch_position;
     }
     const double height = stages->now.height;
@@ -199,7 +204,7 @@ bool gb_die_cycle_due(struct gb_die_stages *stages, const struct gb_bed *bed)
 {
     struct gb_die_progress *now = &stages->now;
     const struct row *row = row_of(stages);
-    if (row->share == ramp_share) {
+    if (gb_die_cycle_presses(stages)) {
         return ramp_due(stages);
     }
     const double share = row->share(stages, bed);

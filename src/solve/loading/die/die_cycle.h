@@ -15,6 +15,9 @@
 /* Is this a stage of the table? */
 bool gb_die_cycle_contains(enum gb_die_stages_stage stage);
 
+/* Does the pressure of the punch rise or fall in this stage? */
+bool gb_die_cycle_presses(const struct gb_die_stages *stages);
+
 /* Height of the powder: of the punch, of the highest particle before pressing, or of the
  * compact by its springback. */
 double gb_die_cycle_height(const struct gb_die_stages *stages, const struct gb_bed *bed);

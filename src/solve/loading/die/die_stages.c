@@ -89,6 +89,58 @@ static void write_escape(const struct gb_bed *bed, int64_t i, char *why, size_t 
     }
 }
 
+/* The punch far above the powder that it has to press: a light one on stiff contacts is
+ * thrown off where the time step is too long for it. */
+static bool thrown_off(const struct gb_die_stages *stages, const struct gb_bed *bed)
+{
+    return stages->now.stage == GB_DIE_STAGES_PRESS &&
+           bed->die.punch_position > (1.0 + GB_PUNCH_RISE_MAX) * stages->now.height0;
+}
+
+/* Relative density under a pressing punch; 0 elsewhere. */
+static double pressed_density(struct gb_die_stages *stages, const struct gb_bed *bed)
+{
+    const double section = M_PI * bed->die.radius * bed->die.radius;
+    if (!gb_die_cycle_presses(stages)) {
+        return 0.0;
+    }
+    if (!(stages->solid_volume > 0.0)) {
+        stages->solid_volume = gb_bed_solid_volume(bed);
+    }
+    return stages->solid_volume / (section * bed->die.punch_position);
+}
+
+/* No time step helps against a pressure at which the contact laws do not hold: the end, at
+ * the last good state. */
+static enum gb_step_outcome stop_dense(struct gb_die_stages *stages, struct gb_bed *bed,
+                                       double density, struct gb_error *err)
+{
+    if (!gb_bed_copy_restore(bed, stages->kept, err)) {
+        return GB_STEP_STOPPED;
+    }
+    stages->now = stages->good;
+    gb_error_set(err, GB_ERR_GUARD,
+                 "relative density %.6g under the punch: the contact laws hold up to %g; "
+                 "accepted: a lower loading.until or a higher material.young",
+                 density, GB_DIE_DENSITY_MAX);
+    return GB_STEP_STOPPED;
+}
+
+/* What a step may not leave behind, checked at every step: MORE if nothing does. */
+static enum gb_step_outcome check_punch(struct gb_die_stages *stages, struct gb_bed *bed,
+                                        char *text, size_t size, struct gb_error *err)
+{
+    const double density = pressed_density(stages, bed);
+    if (thrown_off(stages, bed)) {
+        return halve_time_step(
+            stages, bed,
+            "the powder has thrown off the punch, which is light (die.punch_mass)", text,
+            size, err);
+    }
+    return density > GB_DIE_DENSITY_MAX ? stop_dense(stages, bed, density, err)
+                                        : GB_STEP_MORE;
+}
+
 /* A stage before pressing: pressing begins with a recorded point, every other stage with
  * a state to go back to. */
 static enum gb_step_outcome check_stage(struct gb_die_stages *stages, struct gb_bed *bed,
@@ -131,6 +183,10 @@ static enum gb_step_outcome step_once(struct gb_die_stages *stages, struct gb_be
             write_escape(bed, lost, why, sizeof why);
             return halve_time_step(stages, bed, why, text, size, err);
         }
+    }
+    const enum gb_step_outcome punch = check_punch(stages, bed, text, size, err);
+    if (punch != GB_STEP_MORE || text[0] != '\0') {
+        return punch;
     }
     if (gb_die_cycle_contains(now->stage)) {
         gb_punch_follow(&now->punch, &now->leapfrog, bed, gb_die_cycle_wall(stages, bed));
@@ -179,6 +235,16 @@ enum gb_step_outcome gb_die_stages_advance(struct gb_die_stages *stages,
     return GB_STEP_MORE;
 }
 
+/* Mean pressure carried since the last point, moved on to the pressure of the point as the
+ * ramp has risen.  A punch whose inertia takes most of the ramp tells nothing of what the
+ * powder would carry at the point: the mean itself. */
+static double carried_at_point(const struct gb_punch *punch, double wanted, double weight)
+{
+    return punch->carried < GB_PUNCH_FOLLOWS_MIN * wanted * weight
+               ? punch->carried / weight
+               : wanted + (punch->carried - punch->wanted) / weight;
+}
+
 struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *stages,
                                                  const struct gb_bed *bed)
 {
@@ -196,7 +262,7 @@ struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *sta
         .height0 = now->height0,
         .floor_over_punch = punch->carried > 0.0 ? punch->floor / punch->carried : NAN,
         .wanted = wanted,
-        .carried = wanted + (punch->carried - punch->wanted) / weight,
+        .carried = carried_at_point(punch, wanted, weight),
         .side = {punch->side[0] / weight, punch->side[1] / weight},
         .floor = pressed ? punch->floor / weight : (double)NAN,
         .contact = pressed ? gb_die_cycle_wall(stages, bed) : (double)NAN,

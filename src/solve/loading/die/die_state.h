@@ -36,6 +36,7 @@ struct gb_die_stages {
     struct gb_die_progress now, good;
     struct gb_bed_copy *kept;        /* the bed of `good` */
     struct gb_die_surface side, top; /* of the compact, against wall and punch */
+    double solid_volume; /* of the spheres; 0: not summed yet */
     int halvings;
     bool have_good;
 };
