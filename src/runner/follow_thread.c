@@ -45,6 +45,20 @@ static void lose_directory(struct gb_runner *runner)
     shown->state = GB_RUN_FAILED;
 }
 
+/* Of an engine that has gone; where its files cannot be read, that is told already. */
+static void tell_end(struct gb_runner *runner)
+{
+    struct gb_snapshot *shown = &gb_runner_loop(runner)->snapshot;
+    const enum gb_status told = shown->error.code;
+    if (told == GB_OK || told == GB_ERR_CANCELLED) { /* none, or one of its status */
+        gb_error_set(&shown->error, GB_ERR_CANCELLED,
+                     "its engine has ended without a final status: t here or `greenbody "
+                     "resume %s` continues the run",
+                     runner->directory);
+        gb_runner_publish_event(runner, shown->error.text);
+    }
+}
+
 /* Reads the directory; false when no engine works there any more.
  *
  * changed_s  clock reading at the last change of the status */
@@ -66,11 +80,7 @@ static bool refresh(struct gb_runner *runner, double *changed_s)
     if (shown->state <= GB_RUN_PAUSED &&
         (gone || gb_clock_s() - *changed_s > silence_s) &&
         !gb_rundir_busy(runner->directory)) {
-        gb_error_set(&shown->error, GB_ERR_CANCELLED,
-                     "its engine has ended without a final status: t here or `greenbody "
-                     "resume %s` continues the run",
-                     runner->directory);
-        gb_runner_publish_event(runner, shown->error.text);
+        tell_end(runner);
         shown->state = GB_RUN_STOPPED;
     }
     return shown->state <= GB_RUN_PAUSED;
