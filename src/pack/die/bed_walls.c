@@ -50,7 +50,7 @@ GB_SIMD_LOOP void smooth_overlaps_loop(const struct gb_die *die,
         const double beside = round ? rho + radius - bore : -INFINITY;
         const double overlap = side ? beside : plane;
         b->unit[0][k] = round ? (off_axis ? -x / over : -1.0) : 0.0;
-        b->unit[1][k] = round & off_axis ? -y / over : 0.0;
+        b->unit[1][k] = (round & off_axis) ? -y / over : 0.0;
         b->unit[2][k] = round ? 0.0 : above ? -1.0 : 1.0;
         b->overlap[k] = overlap > -radius ? overlap : -radius;
     }

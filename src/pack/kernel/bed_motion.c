@@ -1,37 +1,27 @@
 #include "pack/kernel/bed_motion.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "pack/kernel/simd.h"
 
 /* A row is one vector; the compiler divides it where the processor has shorter ones, with
- * the same bits. */
-typedef double row __attribute__((vector_size(32)));
-typedef int64_t bits __attribute__((vector_size(32)));
+ * the same bits.  Macros, for a function that returns such a vector has another calling
+ * convention on every level. */
+typedef double row __attribute__((vector_size(32), aligned(8), may_alias));
+typedef int64_t bits __attribute__((vector_size(32), aligned(8), may_alias));
 
-GB_SIMD_LOOP row load(const double *from)
-{
-    row x;
-    memcpy(&x, from, sizeof x);
-    return x;
-}
+#define ROW(rows, i)  (*(row *)(rows)[i])
+#define READ(rows, i) (*(const row *)(rows)[i])
 
-GB_SIMD_LOOP void store(double *to, row x)
-{
-    memcpy(to, &x, sizeof x);
-}
+/* most = the larger of |x| and most; most where x is not a number. */
+#define LARGER_MAGNITUDE(x, most)                                                        \
+    do {                                                                                 \
+        const row size_ = (row)((bits)(x) & ~(bits)(row){-0.0, -0.0, -0.0, -0.0});       \
+        const bits larger_ = size_ > (most);                                             \
+        (most) = (row)(((bits)size_ & larger_) | ((bits)(most) & ~larger_));             \
+    } while (0)
 
-/* The larger of |x| and most; most where x is not a number. */
-GB_SIMD_LOOP row larger_magnitude(row x, row most)
-{
-    const bits sign = (bits)(row){-0.0, -0.0, -0.0, -0.0};
-    const row size = (row)((bits)x & ~sign);
-    const bits larger = size > most;
-    return (row)(((bits)size & larger) | ((bits)most & ~larger));
-}
-
-GB_SIMD_LOOP double square(row x)
+GB_SIMD_LOOP double square(const double *x)
 {
     return x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
 }
@@ -42,11 +32,11 @@ GB_SIMD_LOOP void drift_loop(gb_bed_row *restrict x, const gb_bed_row *restrict 
 {
     row most = {0.0, 0.0, 0.0, 0.0};
     for (int64_t i = 0; i < count; i++) {
-        const row now = load(x[i]) + step * load(v[i]);
-        store(x[i], now);
-        most = larger_magnitude(now - load(from[i]), most);
+        const row now = READ(x, i) + step * READ(v, i);
+        ROW(x, i) = now;
+        LARGER_MAGNITUDE(now - READ(from, i), most);
     }
-    *moved2 = square(most);
+    *moved2 = square((const double *)&most);
 }
 GB_SIMD_WIDTHS(drift,
                (gb_bed_row * x, const gb_bed_row *v, const gb_bed_row *from,
@@ -71,12 +61,12 @@ GB_SIMD_LOOP void kick_loop(gb_bed_row *restrict v, gb_bed_row *restrict w, int6
                                                         by->inverse_inertia;
     row most = {0.0, 0.0, 0.0, 0.0};
     for (int64_t i = 0; i < count; i++) {
-        const row speed = slow * load(v[i]) + ((step * mass[i]) * load(force[i]) + fall);
-        store(v[i], speed);
-        store(w[i], slow * load(w[i]) + (step * inertia[i]) * load(torque[i]));
-        most = larger_magnitude(speed, most);
+        const row speed = slow * READ(v, i) + ((step * mass[i]) * READ(force, i) + fall);
+        ROW(v, i) = speed;
+        ROW(w, i) = slow * READ(w, i) + (step * inertia[i]) * READ(torque, i);
+        LARGER_MAGNITUDE(speed, most);
     }
-    *fastest2 = square(most);
+    *fastest2 = square((const double *)&most);
 }
 GB_SIMD_WIDTHS(kick,
                (gb_bed_row * v, gb_bed_row *w, int64_t count,
