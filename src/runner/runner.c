@@ -148,9 +148,9 @@ const char *gb_runner_directory(const struct gb_runner *runner)
     return runner->directory;
 }
 
-void gb_runner_destroy(struct gb_runner *runner)
+void gb_runner_stop(struct gb_runner *runner)
 {
-    if (runner == NULL) {
+    if (runner->joined) {
         return;
     }
     pthread_mutex_lock(&runner->mutex);
@@ -158,6 +158,15 @@ void gb_runner_destroy(struct gb_runner *runner)
     pthread_cond_signal(&runner->wake);
     pthread_mutex_unlock(&runner->mutex);
     pthread_join(runner->thread, NULL);
+    runner->joined = true;
+}
+
+void gb_runner_destroy(struct gb_runner *runner)
+{
+    if (runner == NULL) {
+        return;
+    }
+    gb_runner_stop(runner);
     pthread_cond_destroy(&runner->wake);
     pthread_mutex_destroy(&runner->mutex);
     free_runner(runner);

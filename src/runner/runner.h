@@ -45,7 +45,10 @@ bool gb_runner_follow(struct gb_runner **out, const char *directory,
                       struct gb_error *err);
 /* The directory in which the run is recorded, or that is followed; NULL: none. */
 const char *gb_runner_directory(const struct gb_runner *runner);
-/* Asks the engine to stop, waits for it (at most one slice), frees all.  NULL is fine. */
+/* Asks the engine to stop and waits for it (at most one slice).  Curve, snapshot, events and
+ * view sample stay; commands have no effect any more. */
+void gb_runner_stop(struct gb_runner *runner);
+/* gb_runner_stop, and frees all.  NULL is fine. */
 void gb_runner_destroy(struct gb_runner *runner);
 
 /* Queues a command; false when the ring is full. */

@@ -22,6 +22,7 @@ struct gb_runner {
     char *directory; /* NULL: not recorded */
     bool resumed;    /* continues the run in its directory */
     pthread_t thread;
+    bool joined; /* the thread has ended; of the screen */
 
     /* shared without a lock: see publish.h */
     struct gb_publish publish;

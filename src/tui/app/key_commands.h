@@ -14,6 +14,8 @@ void gb_pane_commands_find(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_list_all(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_increase(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_decrease(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_undo(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_redo(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_revert(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_accept_find(struct gb_app *app);
 

@@ -5,7 +5,7 @@
 #include "tui/app/key_commands.h"
 #include "tui/view/views.h"
 
-enum { CTRL_L = 'L' & 31 };
+enum { CTRL_L = 'L' & 31, CTRL_R = 'R' & 31 };
 
 /* clang-format off: one key per block */
 
@@ -117,11 +117,25 @@ static const struct gb_key before_views[] = {
      GB_KEY_ANY_PANE,
      gb_pane_commands_decrease,
      GB_ACTION_NONE},
-    {{'u'},
-     "u",
+    {{'u', '<'},
+     "u <",
      NULL,
-     "undo: the value that the run uses",
-     GB_KEY_PARAMS | GB_KEY_LEGS,
+     "undo the last change, with its curve",
+     GB_KEY_ANY_PANE | GB_KEY_LEGS,
+     gb_pane_commands_undo,
+     GB_ACTION_NONE},
+    {{CTRL_R, '>'},
+     "^R >",
+     NULL,
+     "redo the change undone",
+     GB_KEY_ANY_PANE,
+     gb_pane_commands_redo,
+     GB_ACTION_NONE},
+    {{'B'},
+     "B",
+     NULL,
+     "back to the value that the run uses",
+     GB_KEY_PARAMS,
      gb_pane_commands_revert,
      GB_ACTION_NONE},
     {{'r'},

@@ -1,6 +1,9 @@
+#include <glib.h>
+
 #include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
 #include "tui/app/panes.h"
+#include "tui/session/session_recall.h"
 
 /* Focus, navigation and the parameters. */
 
@@ -72,13 +75,40 @@ void gb_pane_commands_decrease(struct gb_app *app, const struct gb_key *key)
     gb_panel_params_edit_step(&screen->params, &screen->session, -1, &screen->message);
 }
 
+/* A warning of a conflict is kept. */
+static void step(struct gb_screen *screen, int direction)
+{
+    char text[sizeof screen->message.text];
+    struct gb_session *session = &screen->session;
+    const bool moved = gb_session_step(session, direction, text, sizeof text);
+    if (moved) {
+        gb_panel_params_edit_changed(session, &screen->message);
+    }
+    if (!moved || screen->message.text[0] == '\0') {
+        g_strlcpy(screen->message.text, text, sizeof screen->message.text);
+        screen->message.style = moved ? GB_STYLE_PLAIN : GB_STYLE_WARN;
+    }
+}
+
+void gb_pane_commands_undo(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    if (app->screen.dialog.type == &gb_dialogs_legs) {
+        gb_leg_editor_undo(&app->screen.dialog.legs);
+        return;
+    }
+    step(&app->screen, -1);
+}
+
+void gb_pane_commands_redo(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    step(&app->screen, 1);
+}
+
 void gb_pane_commands_revert(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_screen *screen = &app->screen;
     (void)key;
-    if (screen->dialog.type == &gb_dialogs_legs) {
-        gb_leg_editor_undo(&screen->dialog.legs);
-        return;
-    }
     gb_panel_params_edit_revert(&screen->params, &screen->session, &screen->message);
 }

@@ -233,7 +233,7 @@ void gb_panel_params_describe(const struct gb_panel_params *panel,
         gb_params_format(gb_runner_params(session->runner), field, value, sizeof value);
         snprintf(message->text, sizeof message->text,
                  "%s: %s.  * changed: the quick cell runs first, the full one follows or "
-                 "waits for r; the run uses %s (u reverts)",
+                 "waits for r; the run uses %s (B goes back)",
                  field->key, field->meaning, value[0] != '\0' ? value : "none");
     } else {
         snprintf(message->text, sizeof message->text, "%s: %s.  %s; default %s.  [%s]",

@@ -31,6 +31,23 @@ void gb_quick_cell_drop(struct gb_quick_cell *quick_cell)
     memset(quick_cell, 0, sizeof *quick_cell);
 }
 
+static void take(struct gb_quick_cell *quick_cell, const struct gb_snapshot *snapshot)
+{
+    quick_cell->now = *snapshot;
+    quick_cell->points = gb_curve_count(gb_runner_curve(quick_cell->runner));
+    quick_cell->sample = gb_runner_view_sample(quick_cell->runner, NULL);
+}
+
+void gb_quick_cell_adopt(struct gb_quick_cell *quick_cell,
+                         const struct gb_params *full_params, struct gb_runner *runner)
+{
+    const struct gb_snapshot *snapshot = gb_runner_snapshot(runner, NULL);
+    quick_cell->full_params = *full_params;
+    quick_cell->runner = runner;
+    quick_cell->state = snapshot->state;
+    take(quick_cell, snapshot);
+}
+
 enum gb_quick_cell_news gb_quick_cell_refresh(struct gb_quick_cell *quick_cell,
                                               bool frozen)
 {
@@ -45,9 +62,7 @@ enum gb_quick_cell_news gb_quick_cell_refresh(struct gb_quick_cell *quick_cell,
     const bool shown = quick_cell->missed && !frozen;
     if (shown) {
         quick_cell->missed = false;
-        quick_cell->now = *snapshot;
-        quick_cell->points = gb_curve_count(gb_runner_curve(quick_cell->runner));
-        quick_cell->sample = gb_runner_view_sample(quick_cell->runner, NULL);
+        take(quick_cell, snapshot);
     }
     if (was_live && !gb_quick_cell_live(quick_cell)) {
         return GB_QUICK_CELL_ENDED;

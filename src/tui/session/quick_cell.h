@@ -26,6 +26,9 @@ enum gb_quick_cell_start {
 enum gb_quick_cell_start gb_quick_cell_start(struct gb_quick_cell *quick_cell,
                                              const struct gb_params *full_params,
                                              struct gb_error *err);
+/* Takes over a quick cell that has finished; there must be none. */
+void gb_quick_cell_adopt(struct gb_quick_cell *quick_cell,
+                         const struct gb_params *full_params, struct gb_runner *runner);
 void gb_quick_cell_drop(struct gb_quick_cell *quick_cell);
 
 enum gb_quick_cell_news {

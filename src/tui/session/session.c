@@ -8,6 +8,7 @@
 #include "tui/session/cost_confirm.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/session/session_quick.h"
+#include "tui/session/session_recall.h"
 #include "tui/session/session_refresh.h"
 #include "tui/term/crash.h"
 #include "tui/term/text_fit.h"
@@ -18,6 +19,7 @@ void gb_session_init(struct gb_session *session, struct gb_preset *preset)
     session->preset = preset;
     session->now.seconds_left = -1.0;
     session->auto_start = true;
+    gb_param_steps_note(&session->steps, preset);
 }
 
 void gb_session_finish(struct gb_session *session)
@@ -32,7 +34,11 @@ void gb_session_finish(struct gb_session *session)
     gb_measured_destroy(session->measured);
     g_free(session->reading);
     gb_chart_csv_destroy(session->chart);
-    gb_preset_destroy(session->opened);
+    gb_kept_runs_finish(&session->kept);
+    gb_param_steps_finish(&session->steps);
+    if (session->opened != NULL) {
+        g_ptr_array_unref(session->opened);
+    }
     session->runner = NULL;
     session->opened = NULL;
 }
@@ -78,8 +84,15 @@ void gb_session_keep_curve(struct gb_session *session, const struct gb_params *p
                 (GB_SESSION_PREVIOUS - 1) * sizeof session->previous[0]);
         session->previous_count--;
     }
-    previous.marker = (char)('a' + session->previous_total++ % 26);
     previous.quick = cell == GB_SESSION_QUICK_CELL;
+    if (!previous.quick && session->run_marker != '\0') {
+        previous.marker = session->run_marker;
+    } else {
+        previous.marker = (char)('a' + session->previous_total++ % 26);
+    }
+    if (!previous.quick) {
+        session->run_marker = previous.marker;
+    }
     session->previous[session->previous_count++] = previous;
 }
 
@@ -107,17 +120,16 @@ bool gb_session_cost_question(struct gb_session *session, char *text, size_t siz
                                     session->particle_steps_per_s, text, size);
 }
 
-void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
+void gb_session_adopt(struct gb_session *session, struct gb_runner *runner)
 {
     if (session->runner != NULL) {
         gb_session_keep_curve(session, gb_runner_params(session->runner), session->runner,
                               GB_SESSION_FULL_CELL);
-        gb_runner_destroy(session->runner);
+        gb_session_keep_run(session);
     }
     session->runner = runner;
     gb_runner_send(runner, GB_COMMAND_WATCH);
     gb_crash_set_run(gb_runner_directory(runner));
-    session->runs++;
     session->yielded = false;
     session->start_due = false;
     session->frozen = false;
@@ -132,6 +144,13 @@ void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
     gb_session_describe_previous(session, gb_runner_params(runner));
 }
 
+void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
+{
+    gb_session_adopt(session, runner);
+    session->run_marker = '\0';
+    session->runs++;
+}
+
 bool gb_session_start(struct gb_session *session, struct gb_error *err)
 {
     const struct gb_params *params = gb_session_params(session);
@@ -141,10 +160,10 @@ bool gb_session_start(struct gb_session *session, struct gb_error *err)
     }
     if (session->quick_cell.runner != NULL &&
         !gb_session_quick_matches(session, params)) {
-        gb_quick_cell_drop(&session->quick_cell);
+        gb_session_keep_quick(session);
     }
-    session->whatifs = 0;
     gb_session_replace(session, runner);
+    session->whatifs = 0;
     gb_session_note(session, "run %d started", session->runs);
     return true;
 }
@@ -180,14 +199,22 @@ struct gb_session_shown gb_session_shown(const struct gb_session *session)
                                      false};
 }
 
+static void destroy_preset(void *preset)
+{
+    gb_preset_destroy(preset);
+}
+
+/* Earlier presets stay: an undo goes back to them. */
 bool gb_session_open(struct gb_session *session, const char *name, struct gb_error *err)
 {
     struct gb_preset *preset = NULL;
     if (!gb_preset_load(&preset, name, err)) {
         return false;
     }
-    gb_preset_destroy(session->opened);
-    session->opened = preset;
+    if (session->opened == NULL) {
+        session->opened = g_ptr_array_new_with_free_func(destroy_preset);
+    }
+    g_ptr_array_add(session->opened, preset);
     session->preset = preset;
     return true;
 }

@@ -1,6 +1,8 @@
 #ifndef GB_TUI_SESSION_SESSION_H
 #define GB_TUI_SESSION_SESSION_H
 
+#include <glib.h>
+
 #include "io/lab/lab_reader.h"
 #include "io/measured.h"
 #include "io/preset.h"
@@ -10,6 +12,8 @@
 #include "tui/session/overlay/chart_csv.h"
 #include "tui/session/overlay/previous_curve.h"
 #include "tui/session/overlay/replica_band.h"
+#include "tui/session/past/kept_runs.h"
+#include "tui/session/past/param_steps.h"
 #include "tui/session/quick_cell.h"
 
 /* State of the workbench without its screen: the parameters being edited, the current
@@ -19,7 +23,7 @@ enum {
     GB_SESSION_WHATIF = 800,
     GB_SESSION_PREVIOUS = 6,
     GB_SESSION_LOG = 200,
-    GB_SESSION_WHATIFS = 16
+    GB_SESSION_WHATIFS = GB_KEPT_RUN_WHATIFS
 };
 
 /* The cell that a curve comes from. */
@@ -27,7 +31,7 @@ enum gb_session_cell { GB_SESSION_FULL_CELL, GB_SESSION_QUICK_CELL };
 
 struct gb_session {
     struct gb_preset *preset; /* the preset being edited */
-    struct gb_preset *opened; /* preset opened in the workbench; owned */
+    GPtrArray *opened;        /* presets opened in the workbench; owned, NULL: none */
     struct gb_runner *runner; /* NULL before the first start */
     const char *folder;   /* parent of the run directories; NULL: runs are not stored */
     const char *attached; /* directory of the run shown first; NULL: none */
@@ -44,6 +48,9 @@ struct gb_session {
     bool start_due;  /* the full cell is due */
     struct gb_previous_curve previous[GB_SESSION_PREVIOUS];
     int previous_count, previous_total; /* number of previous curves, and of all so far */
+    char run_marker;            /* that the run had as a previous curve; 0: none */
+    struct gb_kept_runs kept;   /* runs and quick cells that can be shown again */
+    struct gb_param_steps steps; /* changes of the parameters */
     char whatif_text
         [GB_SESSION_WHATIF]; /* what-if that waits for the next point; "": none */
     size_t whatif_at[GB_SESSION_WHATIFS]; /* points of the curve where a what-if began */
@@ -87,8 +94,10 @@ struct gb_session_shown gb_session_shown(const struct gb_session *session);
  * previous curve.  After an error the current run continues. */
 bool gb_session_start(struct gb_session *session, struct gb_error *err);
 
-/* Replaces the current run, whose curve becomes a previous curve. */
+/* Replaces the current run, whose curve becomes a previous curve, by a new one. */
 void gb_session_replace(struct gb_session *session, struct gb_runner *runner);
+/* The same, by one that was shown before. */
+void gb_session_adopt(struct gb_session *session, struct gb_runner *runner);
 
 /* Adds the curve of a run or quick cell to the previous curves, unless it has fewer than two
  * points or memory is short. */

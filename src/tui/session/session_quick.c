@@ -4,6 +4,7 @@
 
 #include "run/cost.h"
 #include "tui/session/cost_confirm.h"
+#include "tui/session/session_recall.h"
 
 /* A live run is not replaced automatically after this computing time, s. */
 static const double replaced_max_s = 60.0;
@@ -22,8 +23,7 @@ static bool full_run_started(const struct gb_session *session)
            gb_session_quick_matches(session, gb_runner_params(session->runner));
 }
 
-/* Keeps the curve of the quick cell unless the full run of its scene has been started. */
-static void keep_quick_curve(struct gb_session *session)
+void gb_session_quick_keep_curve(struct gb_session *session)
 {
     if (session->quick_cell.runner != NULL && !full_run_started(session)) {
         gb_session_keep_curve(session, &session->quick_cell.full_params,
@@ -64,14 +64,15 @@ bool gb_session_quick_start(struct gb_session *session)
     struct gb_error err = {0};
     session->start_due = false;
     if (session->runner != NULL && gb_session_changes(session) == 0) {
-        gb_quick_cell_drop(&session->quick_cell);
+        gb_session_keep_quick(session);
         set_engine(session, ENGINE_CONTINUES);
         return false;
     }
     if (!gb_params_check(params, NULL)) {
         return false;
     }
-    keep_quick_curve(session);
+    gb_session_quick_keep_curve(session);
+    gb_session_keep_quick(session);
     set_engine(session,
                gb_session_run_is_live(session) ? ENGINE_WAITS : ENGINE_CONTINUES);
     session->pause_wanted = false;

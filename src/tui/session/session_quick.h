@@ -22,6 +22,10 @@ bool gb_session_quick_matches(const struct gb_session *session,
 bool gb_session_quick_cost(const struct gb_session *session, double *seconds, char *text,
                            size_t size);
 
+/* Keeps the curve of the quick cell as a previous one unless the full run of its scene has
+ * been started. */
+void gb_session_quick_keep_curve(struct gb_session *session);
+
 /* After the end of the quick cell: reports it, and decides on the full run. */
 void gb_session_quick_finish(struct gb_session *session);
 

@@ -76,6 +76,7 @@ static bool refresh_child(struct gb_session *session)
 bool gb_session_refresh(struct gb_session *session)
 {
     const enum gb_run_state before = session->quick_cell.state;
+    gb_param_steps_note(&session->steps, session->preset);
     const enum gb_quick_cell_news news =
         gb_quick_cell_refresh(&session->quick_cell, session->frozen);
     session->waiting = session->waiting && session->quick_cell.state == before;
