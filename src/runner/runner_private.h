@@ -19,8 +19,8 @@ struct gb_runner {
     /* const once the thread runs */
     struct gb_params params;
     struct gb_simulation *simulation; /* of the thread, except for the curve */
-    char *directory; /* NULL: not recorded */
-    bool resumed;    /* continues the run in its directory */
+    char *directory;                  /* NULL: not recorded */
+    bool resumed;                     /* continues the run in its directory */
     pthread_t thread;
     bool joined; /* the thread has ended; of the screen */
 
@@ -43,10 +43,10 @@ struct gb_runner {
 
     /* of the thread alone */
     bool paused, stop;
-    bool yielded;             /* sleeps while another engine computes */
-    bool view_wanted;         /* view samples are taken */
-    bool store_wanted;        /* state.h5 is written between two slices */
-    bool fork_wanted;         /* the state of the next loading point is handed over */
+    bool yielded;      /* sleeps while another engine computes */
+    bool view_wanted;  /* view samples are taken */
+    bool store_wanted; /* state.h5 is written between two slices */
+    bool fork_wanted;  /* the state of the next loading point is handed over */
     double published_s, publish_cost_s; /* clock reading; seconds that filling took */
     double sampled_s, sample_cost_s;    /* the same of the view sample */
 };

@@ -80,7 +80,7 @@ static void step(struct gb_screen *screen, int direction)
 {
     char text[sizeof screen->message.text];
     struct gb_session *session = &screen->session;
-    const bool moved = gb_session_step(session, direction, text, sizeof text);
+    const bool moved = gb_session_recall_step(session, direction, text, sizeof text);
     if (moved) {
         gb_panel_params_edit_changed(session, &screen->message);
     }

@@ -125,7 +125,7 @@ void gb_session_adopt(struct gb_session *session, struct gb_runner *runner)
     if (session->runner != NULL) {
         gb_session_keep_curve(session, gb_runner_params(session->runner), session->runner,
                               GB_SESSION_FULL_CELL);
-        gb_session_keep_run(session);
+        gb_session_recall_keep_run(session);
     }
     session->runner = runner;
     gb_runner_send(runner, GB_COMMAND_WATCH);
@@ -160,7 +160,7 @@ bool gb_session_start(struct gb_session *session, struct gb_error *err)
     }
     if (session->quick_cell.runner != NULL &&
         !gb_session_quick_matches(session, params)) {
-        gb_session_keep_quick(session);
+        gb_session_recall_keep_quick(session);
     }
     gb_session_replace(session, runner);
     session->whatifs = 0;

@@ -48,8 +48,8 @@ struct gb_session {
     bool start_due;  /* the full cell is due */
     struct gb_previous_curve previous[GB_SESSION_PREVIOUS];
     int previous_count, previous_total; /* number of previous curves, and of all so far */
-    char run_marker;            /* that the run had as a previous curve; 0: none */
-    struct gb_kept_runs kept;   /* runs and quick cells that can be shown again */
+    char run_marker;             /* that the run had as a previous curve; 0: none */
+    struct gb_kept_runs kept;    /* runs and quick cells that can be shown again */
     struct gb_param_steps steps; /* changes of the parameters */
     char whatif_text
         [GB_SESSION_WHATIF]; /* what-if that waits for the next point; "": none */

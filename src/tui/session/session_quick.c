@@ -64,7 +64,7 @@ bool gb_session_quick_start(struct gb_session *session)
     struct gb_error err = {0};
     session->start_due = false;
     if (session->runner != NULL && gb_session_changes(session) == 0) {
-        gb_session_keep_quick(session);
+        gb_session_recall_keep_quick(session);
         set_engine(session, ENGINE_CONTINUES);
         return false;
     }
@@ -72,7 +72,7 @@ bool gb_session_quick_start(struct gb_session *session)
         return false;
     }
     gb_session_quick_keep_curve(session);
-    gb_session_keep_quick(session);
+    gb_session_recall_keep_quick(session);
     set_engine(session,
                gb_session_run_is_live(session) ? ENGINE_WAITS : ENGINE_CONTINUES);
     session->pause_wanted = false;

@@ -9,7 +9,7 @@
 /* Parameters that an undo names; more are counted. */
 enum { NAMED_MAX = 3 };
 
-void gb_session_keep_run(struct gb_session *session)
+void gb_session_recall_keep_run(struct gb_session *session)
 {
     const char *directory = gb_runner_directory(session->runner);
     const bool followed = session->attached != NULL && directory != NULL &&
@@ -28,7 +28,7 @@ void gb_session_keep_run(struct gb_session *session)
     }
 }
 
-void gb_session_keep_quick(struct gb_session *session)
+void gb_session_recall_keep_quick(struct gb_session *session)
 {
     struct gb_quick_cell *cell = &session->quick_cell;
     if (cell->runner != NULL && cell->state == GB_RUN_DONE) {
@@ -75,7 +75,7 @@ static bool recall_run(struct gb_session *session, const struct gb_params *param
     }
     if (!gb_session_quick_matches(session, params)) {
         gb_session_quick_keep_curve(session);
-        gb_session_keep_quick(session);
+        gb_session_recall_keep_quick(session);
     }
     const char *directory = gb_runner_directory(run.runner);
     if (run.stopped && directory != NULL && gb_runner_resume(&resumed, directory, &err)) {
@@ -101,7 +101,7 @@ static bool recall_quick(struct gb_session *session, const struct gb_params *par
         return false;
     }
     gb_session_quick_keep_curve(session);
-    gb_session_keep_quick(session);
+    gb_session_recall_keep_quick(session);
     gb_quick_cell_adopt(&session->quick_cell, &run.params, run.runner);
     forget_previous(session, params, true);
     gb_session_describe_previous(session, params);
@@ -109,7 +109,7 @@ static bool recall_quick(struct gb_session *session, const struct gb_params *par
     return true;
 }
 
-void gb_session_answer(struct gb_session *session)
+void gb_session_recall_answer(struct gb_session *session)
 {
     const struct gb_params params = *gb_session_params(session);
     session->start_due = false;
@@ -120,7 +120,8 @@ void gb_session_answer(struct gb_session *session)
     }
 }
 
-bool gb_session_step(struct gb_session *session, int direction, char *text, size_t size)
+bool gb_session_recall_step(struct gb_session *session, int direction, char *text,
+                            size_t size)
 {
     const char *verb = direction < 0 ? "undo" : "redo";
     const struct gb_params before = *gb_session_params(session);

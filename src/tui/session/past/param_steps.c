@@ -58,7 +58,9 @@ struct gb_preset *gb_param_steps_move(struct gb_param_steps *steps, int directio
 
 int gb_param_steps_left(const struct gb_param_steps *steps, int direction)
 {
-    return steps->count == 0 ? 0 : direction < 0 ? steps->at : steps->count - 1 - steps->at;
+    return steps->count == 0 ? 0
+           : direction < 0   ? steps->at
+                             : steps->count - 1 - steps->at;
 }
 
 void gb_param_steps_finish(struct gb_param_steps *steps)

@@ -16,7 +16,7 @@ struct gb_param_step {
 
 struct gb_param_steps {
     struct gb_param_step *step[GB_PARAM_STEPS]; /* owned; NULL from count on */
-    int count, at; /* number of steps; the one on screen */
+    int count, at;                              /* number of steps; the one on screen */
 };
 
 /* Adds a step if preset or parameters differ from those on screen: undone steps are
