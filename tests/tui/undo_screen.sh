@@ -91,14 +91,14 @@ leaves "quits"
 # --- a run that was replaced goes on where it was
 start "$long"
 is "a long run starts" until_true runs_fully
-grows "its curve grows"
+shows "its curve grows" 'density 0\.2[5-9]'
 keys g
 is "focus reaches mu" go_to mu
 keys Enter C-u 0.2 Enter r
 told "another one replaces it" 'run 2 started'
 keys u
 told "u goes on with the first" 'the stopped run continues'
-grows "with its curve"
+shows "with its curve" 'density 0\.[23]'
 is "it runs" until_true runs_fully
 leaves "quits"
 
