@@ -115,8 +115,28 @@ static GString *shorten(char *full, const char *except)
     return label;
 }
 
+static bool has_title_of_another(const struct gb_runset *set, size_t group)
+{
+    const char *title = gb_runset_first(set, group)->params.title;
+    for (size_t g = 0; g < set->groups; g++) {
+        if (g != group && strcmp(gb_runset_first(set, g)->params.title, title) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void append_directory(GString *label, const struct gb_runset *set, size_t group)
+{
+    char *name = g_path_get_basename(gb_runset_first(set, group)->directory);
+    char *escaped = g_markup_escape_text(name, -1);
+    g_string_append_printf(label, ": %s", escaped);
+    g_free(escaped);
+    g_free(name);
+}
+
 /* Groups with many differences are named by their titles, and groups of one title by
- * their differences. */
+ * their differences, or by the directory of the first run where there are too many. */
 static void use_title(GString *label, const struct gb_runset *set, size_t group,
                       const char *except)
 {
@@ -125,6 +145,8 @@ static void use_title(GString *label, const struct gb_runset *set, size_t group,
     g_string_assign(label, title);
     if (differences->len > 0 && visible_length(differences->str) <= MAX_LENGTH) {
         g_string_append_printf(label, ": %s", differences->str);
+    } else if (has_title_of_another(set, group)) {
+        append_directory(label, set, group);
     }
     g_string_free(differences, TRUE);
     g_free(title);

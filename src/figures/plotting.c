@@ -134,6 +134,18 @@ static const double *find_error(const struct gb_table *table, const char *name)
     return column;
 }
 
+static bool has_label(const struct gb_series *series, const char *label)
+{
+    for (guint k = 0; k < series->curves->len; k++) {
+        const char *other =
+            g_array_index(series->curves, struct gb_series_curve, k).label;
+        if (other != NULL && strcmp(other, label) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Rows of one word of the column of words as columns and a curve. */
 static void draw_words(struct gb_series *series, const struct data *data,
                        const char *word, int style)
@@ -155,13 +167,16 @@ static void draw_words(struct gb_series *series, const struct data *data,
             filled++;
         }
     }
-    char *label = g_markup_escape_text(*word != '\0' ? word : "measured", -1);
+    char *escaped = g_markup_escape_text(*word != '\0' ? word : "measured", -1);
+    char *label =
+        g_strconcat(escaped, has_label(series, escaped) ? ", points" : "", NULL);
     struct gb_series_curve *curve =
         gb_series_draw(series, x, y, y_error, GB_FIGURE_POINTS, style, label);
     curve->open = true;
     curve->x_error = curve->error + 1;
     curve->rows = filled;
     g_free(label);
+    g_free(escaped);
 }
 
 /* A curve for every word, in the order of the table. */

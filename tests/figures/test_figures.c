@@ -602,6 +602,55 @@ static void test_force_unit(void)
     g_free(path);
 }
 
+/* No two curves of a series have one label. */
+static void assert_labels_differ(const struct gb_series *series)
+{
+    for (guint i = 0; i < series->curves->len; i++) {
+        const char *one = g_array_index(series->curves, struct gb_series_curve, i).label;
+        for (guint k = 0; one != NULL && k < i; k++) {
+            g_assert_cmpstr(
+                one, !=, g_array_index(series->curves, struct gb_series_curve, k).label);
+        }
+        g_test_message("%s", one != NULL ? one : "-");
+    }
+}
+
+/* Runs of one title with too many differences for a legend are told apart by their
+ * directories, points by the word from a line of the same name. */
+static void test_labels(void)
+{
+    static const char *const runs[] = {"first", "second", NULL};
+    static const char *const keys[] = {
+        "mu = 0.1\nalpha = 0.24\nbridge_length = 0.008 d\n[material]\n"
+        "young = 382 GPa\npoisson = 0.25\nd0 = 0.392 nm\n",
+        "mu = 0.2\nalpha = 0.34\nbridge_length = 0.009 d\n[material]\n"
+        "young = 183 GPa\npoisson = 0.35\nd0 = 0.492 nm\n"};
+    struct gb_series series = {0};
+    struct gb_table *table = NULL;
+    struct gb_error err = {0};
+    for (int k = 0; k < 2; k++) {
+        char *preset = g_strdup_printf("[scene]\ntitle = one <powder>\n[contact]\n%s"
+                                       "[loading]\ngeometry = uniaxial\n",
+                                       keys[k]);
+        figure_folder_write(runs[k], "preset.ini", preset);
+        write_curve(runs[k], 0.0, "");
+        g_free(preset);
+    }
+    g_assert_true(figure_folder_named("densification", runs, &series, &err));
+    assert_labels_differ(&series);
+    g_assert_cmpstr(g_array_index(series.curves, struct gb_series_curve, 0).label, ==,
+                    "one &lt;powder&gt;: first");
+    figure_folder_write("first", "lab.csv",
+                        "density,p_MPa,series\n0.5,100,one <powder>: first\n");
+    char *path = figure_folder_path("first", "lab.csv");
+    g_assert_true(gb_table_read(&table, path, "series", &err));
+    g_assert_true(gb_plotting_data(&series, table, &err));
+    assert_labels_differ(&series);
+    gb_table_destroy(table);
+    gb_series_finish(&series);
+    g_free(path);
+}
+
 /* Points, curve and residuals agree; the panel below lies under the frame. */
 static void test_fit(void)
 {
@@ -791,6 +840,7 @@ int main(int argc, char **argv)
     g_test_add_func("/figures/errors", test_errors);
     g_test_add_func("/figures/series", test_series);
     g_test_add_func("/figures/force-unit", test_force_unit);
+    g_test_add_func("/figures/labels", test_labels);
     g_test_add_func("/figures/fit", test_fit);
     g_test_add_func("/figures/moduli", test_moduli);
     g_test_add_func("/figures/formats", test_formats);
