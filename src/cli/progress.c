@@ -88,14 +88,10 @@ static int terminal_width(void)
     return WIDTH_UNKNOWN;
 }
 
-void gb_progress_show(struct gb_progress *progress, const struct gb_snapshot *snapshot)
+/* Replaces the line of a terminal; a line more elsewhere. */
+static void write_line(struct gb_progress *progress, double seconds, char *line)
 {
-    char line[LINE_MAX_BYTES];
-    if (progress->quiet) {
-        return;
-    }
-    progress->line_at = snapshot->seconds;
-    format_line(snapshot, line, sizeof line);
+    progress->line_at = seconds;
     if (!progress->terminal) {
         gb_visible_line(stderr, "%s", line);
         return;
@@ -108,4 +104,28 @@ void gb_progress_show(struct gb_progress *progress, const struct gb_snapshot *sn
     const int before = progress->shown < width ? progress->shown : width;
     gb_visible_rewrite(stderr, before, line);
     progress->shown = length > before ? length : before;
+}
+
+void gb_progress_show(struct gb_progress *progress, const struct gb_snapshot *snapshot)
+{
+    char line[LINE_MAX_BYTES];
+    if (!progress->quiet) {
+        format_line(snapshot, line, sizeof line);
+        write_line(progress, snapshot->seconds, line);
+    }
+}
+
+void gb_progress_count(struct gb_progress *progress, size_t done, size_t total,
+                       const char *what, double seconds)
+{
+    char line[LINE_MAX_BYTES];
+    char left[48];
+    const bool last = done == total && progress->terminal && !progress->quiet;
+    if (!last && !gb_progress_due(progress, seconds)) {
+        return;
+    }
+    format_left(seconds / (double)done * (double)(total - done), left, sizeof left);
+    snprintf(line, sizeof line, "%zu of %zu %s  %.0f %%  %s", done, total, what,
+             100.0 * (double)done / (double)total, left);
+    write_line(progress, seconds, line);
 }

@@ -26,6 +26,11 @@ bool gb_progress_due(const struct gb_progress *progress, double seconds);
 /* Shows the progress of the run. */
 void gb_progress_show(struct gb_progress *progress, const struct gb_snapshot *snapshot);
 
+/* "12 of 40 frames  30 %  8 s left" when it is due, and behind the last one on a terminal;
+ * seconds since the first began. */
+void gb_progress_count(struct gb_progress *progress, size_t done, size_t total,
+                       const char *what, double seconds);
+
 /* Removes the rewritten line. */
 void gb_progress_clear(struct gb_progress *progress);
 

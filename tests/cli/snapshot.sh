@@ -52,6 +52,16 @@ refused "two numbers in a name" "accepted one number" snapshot a --sequence -o %
 refused "no frames a second" "0.1 to 100" snapshot a --sequence --fps 0 -o g.png
 refused "a sequence of one state" "output.snapshots_at" snapshot a/state.h5 --sequence \
     -o g.png
+on_terminal() { # words of the program: what it says on a terminal
+    python3 -c 'import pty, sys; sys.exit(pty.spawn(sys.argv[1:]) >> 8)' "$greenbody" "$@" \
+        </dev/null >stdout 2>stderr
+}
+frames=$(ls f-*.png | wc -l)
+on_terminal snapshot a --sequence -o shown.png --size 200x200 &&
+    grep -q "$frames of $frames frames  100 %  0 s left" stdout
+result "progress of the frames on a terminal" $?
+on_terminal snapshot a --sequence -q -o silent.png --size 200x200 && ! grep -q frames stdout
+result "none with --quiet" $?
 if command -v ffmpeg >/dev/null; then
     good "a film" snapshot a --sequence -o film.gif --size 201x203
     [ -s film.gif ] && [ ! -e film.gif.part.gif ]

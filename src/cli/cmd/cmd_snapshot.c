@@ -4,8 +4,10 @@
 #include <glib.h>
 
 #include "base/built_with.h"
+#include "base/clock.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/progress.h"
 
 #if GB_WITH_PICTURES
 
@@ -20,7 +22,7 @@
 /* The options of the command line. */
 struct request {
     char *at, *view, *size, *background, *output, *color, *show, *slice, *cut, *since;
-    gboolean force, bare, rose, sequence;
+    gboolean force, bare, rose, sequence, quiet;
     double fps;
 };
 
@@ -136,14 +138,30 @@ static bool write_picture(const struct request *request,
     return done;
 }
 
+/* Progress of the frames, with its start. */
+struct frames {
+    struct gb_progress progress;
+    double from_s;
+};
+
+static void on_frame(size_t done, size_t total, void *data)
+{
+    struct frames *frames = data;
+    gb_progress_count(&frames->progress, done, total, "frames",
+                      gb_clock_s() - frames->from_s);
+}
+
 static bool take_sequence(const struct request *request,
                           struct gb_packing_image *packing_image, char **words,
                           struct gb_error *err)
 {
+    struct frames frames = {.from_s = gb_clock_s()};
     const struct gb_sequence sequence = {.directory = words[0],
                                          .output = request->output,
                                          .frames_per_s = request->fps,
-                                         .force = request->force};
+                                         .force = request->force,
+                                         .progress = on_frame,
+                                         .data = &frames};
     struct gb_state *since = NULL;
     if (words[1] != NULL || request->at != NULL || request->rose) {
         return gb_error_set(
@@ -157,7 +175,9 @@ static bool take_sequence(const struct request *request,
     bool done =
         request->since == NULL || read_since(&since, request->since, words[0], err);
     packing_image->style.since = since;
+    gb_progress_init(&frames.progress, request->quiet);
     done = done && gb_sequence_write(&sequence, packing_image, err);
+    gb_progress_clear(&frames.progress);
     gb_state_destroy(since);
     return done;
 }
@@ -242,6 +262,7 @@ int gb_cmd_snapshot(int argc, char **argv)
          "a kept state, as \"p=100 MPa\" or \"density=0.5\" (default: the last)",
          "POINT"},
         {"sequence", 0, 0, G_OPTION_ARG_NONE, &request.sequence, sequence, NULL},
+        gb_options_quiet(&request.quiet),
         {"fps", 0, 0, G_OPTION_ARG_DOUBLE, &request.fps, "frames a second (8)", "N"},
         {"since", 0, 0, G_OPTION_ARG_STRING, &request.since,
          "displacement from this state: a point of the run, or another directory",

@@ -133,6 +133,9 @@ static bool render_all(struct job *job, struct gb_error *err)
     }
     for (guint k = 0; k < job->paths->len && done; k++) {
         done = render_frame(job, k, err);
+        if (done && job->sequence->progress != NULL) {
+            job->sequence->progress(k + 1, job->paths->len, job->sequence->data);
+        }
     }
     gb_renderer_close(job->packing_image->renderer);
     job->packing_image->renderer = NULL;

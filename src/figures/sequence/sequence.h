@@ -10,6 +10,9 @@ struct gb_sequence {
     const char *output; /* x.png: animated; x-%03d.png: one file per frame; a video */
     double frames_per_s;
     bool force; /* replaces existing files */
+    /* Called after each frame; NULL: not called. */
+    void (*progress)(size_t done, size_t total, void *data);
+    void *data;
 };
 
 bool gb_sequence_write(const struct gb_sequence *sequence,
