@@ -63,6 +63,18 @@ static inline int64_t transform_particle(const struct transform *t, int64_t coun
     return c * count + (t->order ? t->order[i] : i);
 }
 
+/* A random order of particles; g_free. */
+static inline int64_t *transform_random_order(int64_t count, GRand *random)
+{
+    int64_t *order = g_new(int64_t, (gsize)count);
+    for (int64_t i = 0; i < count; i++) {
+        const int64_t j = g_rand_int_range(random, 0, (gint32)(i + 1));
+        order[i] = order[j];
+        order[j] = i;
+    }
+    return order;
+}
+
 /* A packing with its model, which the world needs as long as it lives. */
 struct packed {
     struct gb_model model;

@@ -201,12 +201,7 @@ static void check_ordered(GRand *random)
 {
     const struct gb_model model = random_model(random, random_dimension(random));
     struct transform t = transform_none;
-    t.order = g_new(int64_t, (gsize)model.count);
-    for (int64_t i = 0; i < model.count; i++) {
-        const int64_t j = g_rand_int_range(random, 0, (gint32)(i + 1));
-        t.order[i] = t.order[j];
-        t.order[j] = i;
-    }
+    t.order = transform_random_order(model.count, random);
     check_moves(random, &model, &t);
     g_free(t.order);
 }
