@@ -63,6 +63,16 @@ static inline int64_t transform_particle(const struct transform *t, int64_t coun
     return c * count + (t->order ? t->order[i] : i);
 }
 
+/* A quarter rotation about an axis of the cell; of discs about theirs. */
+static inline void transform_rotate(struct transform *t, int dimension, GRand *random)
+{
+    const int about = dimension == 2 ? 1 : cases_choice(random, 3);
+    const int one = (about + 1) % 3, two = (about + 2) % 3;
+    t->axis[one] = two;
+    t->axis[two] = one;
+    t->sign[cases_choice(random, 2) == 0 ? one : two] = -1.0;
+}
+
 /* A random order of particles; g_free. */
 static inline int64_t *transform_random_order(int64_t count, GRand *random)
 {

@@ -177,12 +177,8 @@ static const char *random_dimension(GRand *random)
 static void check_rotated(GRand *random)
 {
     const struct gb_model model = random_model(random, random_dimension(random));
-    const int about = model.dimension == 2 ? 1 : cases_choice(random, 3);
-    const int one = (about + 1) % 3, two = (about + 2) % 3;
     struct transform t = transform_none;
-    t.axis[one] = two;
-    t.axis[two] = one;
-    t.sign[cases_choice(random, 2) == 0 ? one : two] = -1.0;
+    transform_rotate(&t, model.dimension, random);
     g_assert_cmpfloat(transform_parity(&t), ==, 1.0);
     check_moves(random, &model, &t);
 }

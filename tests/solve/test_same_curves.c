@@ -126,9 +126,7 @@ static void check_rotated(GRand *random)
 {
     const struct gb_model model = random_model(random);
     struct transform t = transform_none;
-    t.axis[0] = 2;
-    t.axis[2] = 0;
-    t.sign[2 * cases_choice(random, 2)] = -1.0;
+    transform_rotate(&t, model.dimension, random);
     check_curves(random, &model, &t);
 }
 
@@ -159,22 +157,22 @@ static void check_doubled(GRand *random)
 
 static void test_rotated(void)
 {
-    cases_run(4, 100, check_rotated);
+    cases_run(8, 100, check_rotated);
 }
 
 static void test_mirrored(void)
 {
-    cases_run(4, 100, check_mirrored);
+    cases_run(8, 100, check_mirrored);
 }
 
 static void test_ordered(void)
 {
-    cases_run(4, 100, check_ordered);
+    cases_run(8, 100, check_ordered);
 }
 
 static void test_doubled(void)
 {
-    cases_run(4, 100, check_doubled);
+    cases_run(8, 100, check_doubled);
 }
 
 int main(int argc, char **argv)
