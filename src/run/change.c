@@ -88,6 +88,21 @@ bool gb_change_allowed(const struct gb_params *params, const struct gb_params *c
            fits(&now, &next, err);
 }
 
+bool gb_change_check_all(const struct gb_params *params, const struct gb_model *model,
+                         struct gb_error *err)
+{
+    struct gb_params effective;
+    struct gb_model next;
+    for (int64_t step = gb_changes_next(params, -1); step >= 0;
+         step = gb_changes_next(params, step)) {
+        gb_changes_effective(params, step, &effective);
+        if (!gb_model_init(&next, &effective, err) || !fits(model, &next, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool gb_change_apply(struct gb_experiment *experiment, struct gb_error *err)
 {
     struct gb_experiment *next = NULL;

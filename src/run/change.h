@@ -20,6 +20,11 @@ bool gb_change_apply(struct gb_experiment *experiment, struct gb_error *err);
 bool gb_change_allowed(const struct gb_params *params, const struct gb_params *changed,
                        int64_t step, struct gb_error *err);
 
+/* Whether a run that begins with this model can take all its changes.  Errors:
+ * GB_ERR_INPUT as above; a step on an unloading branch is found when the run is there. */
+bool gb_change_check_all(const struct gb_params *params, const struct gb_model *model,
+                         struct gb_error *err);
+
 /* Last part of a resume: when a change was due at the step of the record, the next strain
  * step is decided again with the changed parameters. */
 bool gb_change_order(struct gb_experiment *experiment, struct gb_error *err);

@@ -50,7 +50,8 @@ bool gb_experiment_create(struct gb_experiment **out, const struct gb_params *pa
     if (!experiment) {
         return false;
     }
-    if (!gb_loading_create(&experiment->loading, &experiment->params, experiment->model,
+    if (!gb_change_check_all(&experiment->params, experiment->model, err) ||
+        !gb_loading_create(&experiment->loading, &experiment->params, experiment->model,
                            cancelled, data, err)) {
         gb_experiment_destroy(experiment);
         return false;

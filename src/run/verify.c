@@ -81,12 +81,26 @@ static bool check_curve(const char *directory, const struct gb_params *params,
            gb_store_check_curve(directory, &journal.extent, err);
 }
 
+static bool has_checkpoint(const char *directory)
+{
+    char *path = g_build_filename(directory, "state.h5", NULL);
+    const bool there = g_file_test(path, G_FILE_TEST_EXISTS);
+    g_free(path);
+    return there;
+}
+
 static bool verify_locked(struct gb_verify *verify, const char *directory,
                           struct pair *pair, bool (*cancelled)(void *data), void *data,
                           struct gb_error *err)
 {
     struct gb_params params;
     struct gb_experiment *experiment = NULL;
+    if (!has_checkpoint(directory)) {
+        return gb_error_set(err, GB_ERR_INPUT,
+                            "%.300s: there is no checkpoint yet, nothing to repeat; "
+                            "greenbody resume starts the run again",
+                            directory);
+    }
     if (!gb_run_recorder_read(directory, "state.h5", &params, &pair->kept, err)) {
         return false;
     }

@@ -120,5 +120,16 @@ for file in curve.csv events.log; do
     is 'and not written through' [ "$(cat target)" = mine ]
 done
 
+# --- found before anything is written, and before there is anything to repeat ---------------
+in_patience "$greenbody" run "${scene[@]}" 'loading.changes=5 contact.mu=0.2; 9 contact.bridge_length=1 d' \
+    --quiet --out none >stdout 2>stderr
+[ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && [ ! -e none ] &&
+    grep -q 'loading.changes: .*friction are there from the start' stderr
+result 'a change that no run can take is refused at the start' $?
+rm whole/state*.h5
+"$greenbody" verify whole >stdout 2>stderr
+[ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && grep -q 'whole: there is no checkpoint yet' stderr
+result 'verify without a checkpoint says so' $?
+
 echo "1..$tests"
 exit $bad

@@ -159,6 +159,23 @@ bool gb_changes_due(const struct gb_params *params, int64_t step)
     return asking.due;
 }
 
+static bool compare_later(const struct entry *entry, void *data)
+{
+    int64_t *step = data;
+    const bool later = entry->step > *step;
+    *step = later ? entry->step : *step;
+    return !later;
+}
+
+int64_t gb_changes_next(const struct gb_params *params, int64_t step)
+{
+    int64_t next = step;
+    if (params->changes[0] != '\0') {
+        visit(params, INT64_MAX, compare_later, &next, NULL);
+    }
+    return next > step ? next : -1;
+}
+
 /* "mu=0.3" becomes "contact.mu=0.3" where the key is one of the allowed. */
 static char *with_group(const char *assignment)
 {

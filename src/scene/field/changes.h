@@ -22,6 +22,9 @@ void gb_changes_effective(const struct gb_params *params, int64_t step,
 /* Whether a change follows exactly this step. */
 bool gb_changes_due(const struct gb_params *params, int64_t step);
 
+/* The first step after `step` that a change follows; -1 when there is none. */
+int64_t gb_changes_next(const struct gb_params *params, int64_t step);
+
 /* Adds entries "step key=value" for assignments "mu=0.3; loading.geometry=isotropic" (the
  * groups contact and loading may be left out).  On error params is untouched. */
 bool gb_changes_add(struct gb_params *params, int64_t step, const char *assignments,
