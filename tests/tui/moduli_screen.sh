@@ -47,7 +47,7 @@ shows 'a packing of 1000 is pressed' 'running'
 keys Y
 shows 'a live run is measured once it has stored its state' 'measuring the first state'
 keys Y
-told 'Y again stops it' 'moduli: \(greenbody\|stopped\)'
+told 'Y again stops it' 'moduli: \(cancelled\|stopped\)'
 shows 'the run goes on' 'running'
 leaves 'quits a live run'
 
