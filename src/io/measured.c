@@ -144,8 +144,8 @@ void gb_measured_destroy(struct gb_measured *measured)
     }
 }
 
-/* Density at which loading first reaches a pressure, between two points; NaN: not yet. */
-static double density_at(const struct gb_curve *curve, size_t points, double pressure_pa)
+double gb_measured_density_at(const struct gb_curve *curve, size_t points,
+                              double pressure_pa)
 {
     const struct gb_point *before = NULL;
     for (size_t i = 0; i < points; i++) {
@@ -170,7 +170,8 @@ void gb_measured_compare(const struct gb_measured *measured, const struct gb_cur
     double weighted = 0.0;
     *out = (struct gb_measured_misfit){0, NAN, NAN, NAN};
     for (size_t i = 0; i < measured->count; i++) {
-        const double found = density_at(curve, points, measured->pressure_pa[i]);
+        const double found =
+            gb_measured_density_at(curve, points, measured->pressure_pa[i]);
         if (!isnan(found)) {
             const double off = found - measured->density[i];
             const double error = measured->density_error[i];

@@ -30,6 +30,11 @@ struct gb_measured_misfit {
     double weighted; /* rms over the errors; NaN unless all reached points have one */
 };
 
+/* Density at which the first `points` points of a curve first reach a pressure on loading,
+ * between two points; NaN: not yet. */
+double gb_measured_density_at(const struct gb_curve *curve, size_t points,
+                              double pressure_pa);
+
 void gb_measured_compare(const struct gb_measured *measured, const struct gb_curve *curve,
                          size_t points, struct gb_measured_misfit *out);
 

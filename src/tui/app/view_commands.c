@@ -1,3 +1,5 @@
+#include "base/units.h"
+#include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
 #include "tui/view/views.h"
 
@@ -48,5 +50,29 @@ void gb_view_commands_glyphs(struct gb_app *app, const struct gb_key *key)
     (void)key;
     if (plot->utf8) {
         plot->glyphs = (plot->glyphs + 1) % GB_PLOT_GLYPHS;
+    }
+}
+
+void gb_view_commands_pressure(struct gb_app *app, const struct gb_key *key)
+{
+    (void)key;
+    gb_dialog_show(&app->screen.dialog, &gb_dialogs_pressure, NULL);
+}
+
+void gb_view_commands_accept_pressure(struct gb_app *app)
+{
+    struct gb_screen *screen = &app->screen;
+    struct gb_error err = {0};
+    double pressure_pa = 0.0;
+    if (!gb_units_parse(gb_dialog_answer(&screen->dialog), GB_DIM_PRESSURE, &pressure_pa,
+                        &err)) {
+        gb_dialog_set_note(&screen->dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
+    } else if (!(pressure_pa > 0.0)) {
+        gb_dialog_set_note(&screen->dialog, GB_DIALOG_NOTE_ERROR,
+                           "the pressure must be above 0");
+    } else {
+        gb_dialog_close(&screen->dialog);
+        gb_panel_plot_pressure_set(&screen->plot, &screen->session, pressure_pa);
+        screen->focus = GB_PANE_PLOT;
     }
 }

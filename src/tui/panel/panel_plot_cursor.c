@@ -45,6 +45,7 @@ void gb_panel_plot_cursor_navigate(struct gb_panel_plot *panel,
                                    const struct gb_session *session,
                                    enum gb_action action)
 {
+    panel->at_pa = 0.0;
     switch (action) {
     case GB_ACTION_LEFT:
     case GB_ACTION_UP:
@@ -112,6 +113,7 @@ void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
             nearest = distance;
             panel->cursor = i;
             panel->cursor_on = true;
+            panel->at_pa = 0.0;
         }
     }
 }
@@ -208,12 +210,14 @@ void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
 {
     const struct gb_plot_view *view = panel->view;
     message->style = GB_STYLE_DIM;
-    if (panel->cursor_on && panel->cursor < gb_session_shown(session).points &&
-        has_cursor(panel)) {
+    if (gb_panel_plot_pressure_shown(panel)) {
+        gb_panel_plot_pressure_describe(panel, session, message);
+    } else if (panel->cursor_on && panel->cursor < gb_session_shown(session).points &&
+               has_cursor(panel)) {
         describe_point(panel, session, message);
     } else if (!(view->options & GB_VIEW_PRESSURE_AXIS) ||
                !describe_misfit(session, message)) {
-        snprintf(message->text, sizeof message->text,
-                 "%s; v and V change the view", view->hint);
+        snprintf(message->text, sizeof message->text, "%s; v and V change the view",
+                 view->hint);
     }
 }

@@ -83,7 +83,7 @@ void gb_panel_params_edit_revert(struct gb_panel_params *panel,
 struct gb_params gb_panel_params_edit_params(struct gb_panel_params *panel,
                                              struct gb_session *session);
 
-/* --- plot: panel_plot.c, panel_plot_cursor.c ---------------------------------------- */
+/* --- plot: panel_plot.c, panel_plot_cursor.c, panel_plot_pressure.c ---------------------------------------- */
 
 /* Contact laws below the curve, if there is room. */
 enum { GB_PANEL_INSETS = 2 };
@@ -97,6 +97,7 @@ struct gb_panel_plot {
     enum gb_plot_glyphs glyphs;
     bool cursor_on;
     size_t cursor;        /* point of the curve */
+    double at_pa;         /* pressure that was typed; 0: none */
     double unit_pa;       /* of the pressure axis */
     struct gb_rect field; /* the view's cells on the screen */
     struct gb_plot plot, inset[GB_PANEL_INSETS];
@@ -127,6 +128,19 @@ void gb_panel_plot_cursor_navigate(struct gb_panel_plot *panel,
 /* Moves the cursor to the point nearest to a cell of the pane. */
 void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
                                 const struct gb_session *session, int row, int col);
+/* panel_plot_pressure.c: puts the cursor at a pressure, in the view of pressure against
+ * density where the present one has no pressure axis. */
+void gb_panel_plot_pressure_set(struct gb_panel_plot *panel,
+                                const struct gb_session *session, double pressure_pa);
+/* Whether the cursor is at a typed pressure. */
+bool gb_panel_plot_pressure_shown(const struct gb_panel_plot *panel);
+/* Density there of the first curve that has reached it; NaN: none. */
+double gb_panel_plot_pressure_density(const struct gb_panel_plot *panel,
+                                      const struct gb_session *session);
+/* The densities of all curves there, with their errors. */
+void gb_panel_plot_pressure_describe(const struct gb_panel_plot *panel,
+                                     const struct gb_session *session,
+                                     struct gb_message *message);
 /* x coordinate of a point in the view: relative density, ns or step. */
 double gb_panel_plot_cursor_x(const struct gb_panel_plot *panel,
                               const struct gb_session *session,

@@ -185,7 +185,12 @@ static void draw_cursor(const struct gb_view_curve *view)
 {
     const struct gb_session_shown shown = gb_session_shown(view->session);
     struct gb_panel_plot *panel = view->panel;
-    if (panel->cursor_on && panel->cursor < shown.points) {
+    if (gb_panel_plot_pressure_shown(panel) && !against_time(view)) {
+        const double density = gb_panel_plot_pressure_density(panel, view->session);
+        if (isfinite(density)) {
+            gb_plot_cursor(&panel->plot, density, panel->at_pa / view->unit_pa);
+        }
+    } else if (panel->cursor_on && panel->cursor < shown.points) {
         const struct gb_point *point = gb_curve_at(shown.curve, panel->cursor);
         gb_plot_cursor(&panel->plot, gb_view_curve_x(view, point),
                        point->p_pa / view->unit_pa);

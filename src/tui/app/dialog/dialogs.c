@@ -66,6 +66,14 @@ const struct gb_dialog_type gb_dialogs_find = {
     .accept = gb_pane_commands_accept_find,
 };
 
+const struct gb_dialog_type gb_dialogs_pressure = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "Densities at a pressure (Esc cancels)",
+    .label = "Pressure, as 100 MPa:",
+    .opened_by = gb_view_commands_pressure,
+    .accept = gb_view_commands_accept_pressure,
+};
+
 const struct gb_dialog_type gb_dialogs_replicas = {
     .form = &gb_dialog_forms_prompt,
     .title = "Replicas of this scene (Esc cancels)",

@@ -11,6 +11,7 @@ void gb_previous_curve_finish(struct gb_previous_curve *previous)
     gb_alloc_free(previous->density);
     gb_alloc_free(previous->pressure_pa);
     gb_alloc_free(previous->elapsed);
+    gb_alloc_free(previous->loading);
     memset(previous, 0, sizeof *previous);
 }
 
@@ -31,10 +32,12 @@ static void copy_branches(struct gb_previous_curve *previous,
         if (i > 0 && point->branch != branch && (point->branch > 0 || branch > 0)) {
             previous->density[n] = NAN;
             previous->elapsed[n] = NAN;
+            previous->loading[n] = false;
             previous->pressure_pa[n++] = NAN;
         }
         branch = point->branch;
         previous->density[n] = point->density;
+        previous->loading[n] = branch <= 0;
         previous->elapsed[n] = gb_previous_curve_elapsed(previous->params.kind, point);
         previous->pressure_pa[n++] = point->p_pa;
     }
@@ -50,8 +53,9 @@ bool gb_previous_curve_copy(struct gb_previous_curve *previous,
     previous->density = gb_alloc_array(2 * count, sizeof(double), NULL);
     previous->pressure_pa = gb_alloc_array(2 * count, sizeof(double), NULL);
     previous->elapsed = gb_alloc_array(2 * count, sizeof(double), NULL);
+    previous->loading = gb_alloc_array(2 * count, sizeof(bool), NULL);
     if (previous->density == NULL || previous->pressure_pa == NULL ||
-        previous->elapsed == NULL) {
+        previous->elapsed == NULL || previous->loading == NULL) {
         gb_previous_curve_finish(previous);
         return false;
     }

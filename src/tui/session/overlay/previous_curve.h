@@ -13,6 +13,7 @@ struct gb_previous_curve {
     char difference[GB_PARAMS_DIFF_TEXT]; /* its different values */
     size_t count;
     double *density, *pressure_pa; /* NaN between branches */
+    bool *loading;                 /* no unloading branch */
     double *elapsed;               /* gb_previous_curve_elapsed of the points */
 };
 

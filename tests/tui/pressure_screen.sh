@@ -1,0 +1,57 @@
+#!/bin/sh
+# The densities at a pressure: the cursor at a typed one, and the table, in a real terminal.
+# Usage: pressure_screen.sh GREENBODY PRESET_FOLDER
+. "$(dirname "$0")/terminal.sh"
+
+at_80x24() {
+    term resize-window -x 80 -y 24
+    until_true fits_80
+}
+
+reads() { # text that may be wrapped
+    screen | tr -s '\n ' ' ' | grep -q -- "$1"
+}
+
+open_terminal
+printf 'density,density_error,p_MPa\n0.3,0.01,50\n0.4,0.02,200\n' >"$here/lab.csv"
+start default particles.count=1000 loading.until=200MPa loading.unload_from=100MPa
+shows "opens" '✓ done'
+keys g
+is "focus reaches mu" go_to mu
+keys Enter C-u 0.4 Enter
+shows "a second run is started" 'run 2 started'
+shows "and comes to its end" '✓ done'
+shows "the first is a previous one" 'a mu 0\.1'
+keys e "$here/lab.csv" Enter
+shows "points are measured" '▲ measured'
+
+# --- the cursor at a pressure
+keys @
+shows "@ asks for a pressure" 'Densities at a pressure'
+keys 100 Enter
+shows "a number without unit is refused" '100.*: *[a-z]'
+keys C-u '-5 MPa' Enter
+shows "and a negative one" 'must be above 0'
+keys C-u '100 MPa' Enter
+shows "the line says where" 'density at 100 MPa: run 0\.[34]'
+shows "with the scatter of one cell" 'run 0\.[0-9]* +- 0\.0064'
+shows "the previous run too" ' a 0\.[0-9]* +- 0\.0064'
+is "the measurement with its error" until_true reads 'measured 0\.350 +- 0\.015'
+shows "the cursor stands there" '┼'
+term resize-window -x 60 -y 20
+shows "60 x 20 has all of it" 'measured 0\.350'
+shows "and the cursor" '┼'
+at_80x24
+keys @ '150 MPa' Enter
+shows "another pressure is typed at once" 'density at 150 MPa'
+keys 2 @ '1 GPa' Enter
+shows "from another view it is that of the pressure" '1 Pressure against'
+shows "what is not reached has no number" 'density at 1 GPa: run -'
+keys Left
+shows "an arrow goes to a point of the curve" 'point [0-9]* of'
+keys Escape
+hides "Esc ends it" 'point [0-9]* of'
+leaves "quits"
+
+echo "1..$tests"
+exit "$bad"
