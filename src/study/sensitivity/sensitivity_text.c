@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/number.h"
 #include "many/sweep/sweep_readings.h"
 
 static void add_number(GString *text, double value)
@@ -69,12 +70,18 @@ find_last_density(const struct gb_sensitivity *sensitivity)
     return found;
 }
 
-static void add_share(GString *text, double share, double error)
+/* Columns of a share with its error. */
+enum { SHARE_COLS = 16 };
+
+static void add_share(GString *text, int width, double share, double error)
 {
-    g_string_append_printf(text, "   %6.3f", share);
-    if (isfinite(error)) {
-        g_string_append_printf(text, " +- %.3f", error);
+    char number[GB_NUMBER_ERROR_MAX];
+    if (error > 0.0) {
+        gb_number_error(share, error, 2, " +- ", number);
+    } else {
+        g_snprintf(number, sizeof number, "%.3f", share);
     }
+    g_string_append_printf(text, "   %-*s", width, number);
 }
 
 GString *gb_sensitivity_text_lines(const struct gb_sensitivity *sensitivity,
@@ -100,8 +107,8 @@ GString *gb_sensitivity_text_lines(const struct gb_sensitivity *sensitivity,
         const gsize begin = text->len;
         add_key(text, sweep, k);
         g_string_append_printf(text, "%*s", MAX(1, 26 - (int)(text->len - begin)), "");
-        add_share(text, indices->first[k], indices->first_error[k]);
-        add_share(text, indices->total[k], indices->total_error[k]);
+        add_share(text, SHARE_COLS, indices->first[k], indices->first_error[k]);
+        add_share(text, 0, indices->total[k], indices->total_error[k]);
         g_string_append_c(text, '\n');
     }
     if (indices->unexplained > 0.1) {
