@@ -51,6 +51,25 @@ keys Left
 shows "an arrow goes to a point of the curve" 'point [0-9]* of'
 keys Escape
 hides "Esc ends it" 'point [0-9]* of'
+
+# --- the table
+keys '#'
+shows "# opens the table" 'Densities of the curves'
+shows "at four pressures" '10 MPa  *50 MPa  *100 MPa  *500 MPa'
+shows "the run first, nothing beyond its end" '│ run .* 0\.[0-9]*  *0\.[0-9]*  *0\.[0-9]*  *- '
+shows "with the scatter of one cell" '+- cell .* 0\.0064'
+shows "the measurement between its points" '│ measured  *-  *0\.3000  *0\.3500  *- '
+shows "with its errors" '+- error .* 0\.0100  *0\.0150'
+shows "the difference to the run, and beyond what" '│ *- run .*[0-9]!'
+term resize-window -x 60 -y 20
+shows "60 x 20 has all columns" '10 MPa  *50 MPa  *100 MPa  *500 MPa'
+shows "and what the signs mean" '! beyond two.*│$'
+keys G
+shows "and scrolls to the previous run" '│ a mu 0\.1 .* 0\.'
+shows "whose difference is within the scatter" '│ *- run .*[0-9]~'
+at_80x24
+keys '#'
+hides "# closes it" 'Densities of the curves'
 leaves "quits"
 
 echo "1..$tests"

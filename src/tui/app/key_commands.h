@@ -37,6 +37,7 @@ void gb_view_commands_log(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_previous_curves(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_glyphs(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_pressure(struct gb_app *app, const struct gb_key *key);
+void gb_view_commands_densities(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_accept_pressure(struct gb_app *app);
 
 /* run_commands.c: run and quick cell. */

@@ -76,3 +76,11 @@ void gb_view_commands_accept_pressure(struct gb_app *app)
         screen->focus = GB_PANE_PLOT;
     }
 }
+
+void gb_view_commands_densities(struct gb_app *app, const struct gb_key *key)
+{
+    struct gb_screen *screen = &app->screen;
+    (void)key;
+    gb_dialog_show_densities(&screen->dialog, &gb_dialogs_densities, &screen->session,
+                             screen->plot.hide_previous);
+}

@@ -50,6 +50,15 @@ void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *
     gb_leg_editor_init(&dialog->legs, params->path, params->dimension, glyphs);
 }
 
+void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                              const struct gb_session *session, bool hide_previous)
+{
+    gb_dialog_close(dialog);
+    dialog->type = type;
+    dialog->session = session;
+    dialog->hide_previous = hide_previous;
+}
+
 void gb_dialog_close(struct gb_dialog *dialog)
 {
     gb_preset_browser_finish(&dialog->browser);

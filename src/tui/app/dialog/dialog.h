@@ -8,6 +8,7 @@
 #include "tui/term/paint.h"
 
 struct gb_dialog;
+struct gb_session;
 
 enum gb_dialog_result {
     GB_DIALOG_OPEN,     /* incomplete */
@@ -46,6 +47,8 @@ struct gb_dialog {
     int top, focus, page; /* first line, focused line and lines per page of a list */
     struct gb_preset_browser browser; /* of presets or materials */
     struct gb_leg_editor legs;
+    const struct gb_session *session; /* of the table of densities */
+    bool hide_previous;               /* in that table */
     char *text;               /* shell command shown, or file asked about; owned */
     char note[480];           /* question, or why the last answer was refused */
     enum gb_dialog_note kind; /* of the note; after a warning the same answer is taken */
@@ -62,6 +65,9 @@ void gb_dialog_show_presets(struct gb_dialog *dialog, const struct gb_dialog_typ
 /* The legs of the loading path of these parameters. */
 void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                          const struct gb_params *params, enum gb_plot_glyphs glyphs);
+/* The table of densities, drawn anew with each frame. */
+void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                              const struct gb_session *session, bool hide_previous);
 void gb_dialog_close(struct gb_dialog *dialog);
 
 void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);

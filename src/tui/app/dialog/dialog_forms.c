@@ -4,9 +4,12 @@
 #include <stdio.h>
 
 #include "tui/panel/complete.h"
+#include "tui/panel/density_table.h"
 
 enum {
     HELP_COLS = 60,
+    DENSITIES_ROWS = 36,
+    DENSITIES_COLS = 80,
     PRESETS_ROWS = 34,
     PRESETS_COLS = 84,
     LEGS_ROWS = 40,
@@ -107,14 +110,27 @@ static int list_step(enum gb_action action, int page)
     }
 }
 
-/* No upper limit here: draw_help limits the position. */
-static enum gb_dialog_result scroll_help(struct gb_dialog *dialog, int code)
+/* No upper limit here: drawing limits the position. */
+static enum gb_dialog_result scroll(struct gb_dialog *dialog, int code)
 {
     dialog->focus = MAX(dialog->focus + list_step(gb_keys_action(code), dialog->page), 0);
     return GB_DIALOG_OPEN;
 }
 
-const struct gb_dialog_form gb_dialog_forms_help = {draw_help, NULL, scroll_help};
+const struct gb_dialog_form gb_dialog_forms_help = {draw_help, NULL, scroll};
+
+/* --- table of densities ------------------------------------------------------------ */
+
+static void draw_densities(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    const struct gb_paint frame =
+        box(screen, DENSITIES_ROWS, DENSITIES_COLS, dialog->type->title);
+    const struct gb_paint paint = inside(&frame);
+    dialog->page = gb_density_table_draw(&paint, dialog->session, dialog->hide_previous,
+                                         &dialog->focus);
+}
+
+const struct gb_dialog_form gb_dialog_forms_densities = {draw_densities, NULL, scroll};
 
 /* --- presets ---------------------------------------------------------------------- */
 

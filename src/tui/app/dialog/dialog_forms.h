@@ -4,11 +4,12 @@
 #include "tui/app/dialog/dialog.h"
 
 /* The kinds of dialogs. */
-extern const struct gb_dialog_form gb_dialog_forms_help;     /* the key table */
-extern const struct gb_dialog_form gb_dialog_forms_presets;  /* list with a preview */
-extern const struct gb_dialog_form gb_dialog_forms_legs;     /* legs of a loading path */
-extern const struct gb_dialog_form gb_dialog_forms_prompt;   /* input line */
-extern const struct gb_dialog_form gb_dialog_forms_command;  /* shell command */
-extern const struct gb_dialog_form gb_dialog_forms_question; /* y or n */
+extern const struct gb_dialog_form gb_dialog_forms_help;      /* the key table */
+extern const struct gb_dialog_form gb_dialog_forms_densities; /* the table */
+extern const struct gb_dialog_form gb_dialog_forms_presets;   /* list with a preview */
+extern const struct gb_dialog_form gb_dialog_forms_legs;      /* legs of a loading path */
+extern const struct gb_dialog_form gb_dialog_forms_prompt;    /* input line */
+extern const struct gb_dialog_form gb_dialog_forms_command;   /* shell command */
+extern const struct gb_dialog_form gb_dialog_forms_question;  /* y or n */
 
 #endif

@@ -74,6 +74,12 @@ const struct gb_dialog_type gb_dialogs_pressure = {
     .accept = gb_view_commands_accept_pressure,
 };
 
+const struct gb_dialog_type gb_dialogs_densities = {
+    .form = &gb_dialog_forms_densities,
+    .title = "Densities of the curves (Up, Down; Esc closes)",
+    .opened_by = gb_view_commands_densities,
+};
+
 const struct gb_dialog_type gb_dialogs_replicas = {
     .form = &gb_dialog_forms_prompt,
     .title = "Replicas of this scene (Esc cancels)",

@@ -1,0 +1,15 @@
+#ifndef GB_TUI_PANEL_DENSITY_TABLE_H
+#define GB_TUI_PANEL_DENSITY_TABLE_H
+
+#include "tui/session/session.h"
+#include "tui/term/paint.h"
+
+/* Densities of all curves on the plot at round pressures, their differences to the present
+ * run, and whether these exceed the errors. */
+
+/* Draws the lines from *top on, which is limited to what there is; returns the number of
+ * lines that scroll. */
+int gb_density_table_draw(const struct gb_paint *paint, const struct gb_session *session,
+                          bool hide_previous, int *top);
+
+#endif
