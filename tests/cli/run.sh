@@ -153,6 +153,24 @@ rm -rf out
 "$greenbody" run p3-hertz-mu0 particles.count=60 numerics.fidelity=fast --out out >stdout 2>stderr
 is 'one that is slow enough: status 0' [ $? -eq 0 ]
 rm -rf out
+# name, status, text of an event, keys...: a die whose recorded densities are those of powder
+die_ends() {
+    what=$1
+    status=$2
+    text=$3
+    shift 3
+    "$greenbody" run p3-hertz-mu0 particles.count=60 numerics.fidelity=fast "$@" \
+        --out out >stdout 2>stderr
+    is "$what: status $status" [ $? -eq "$status" ]
+    is "$what: an event" grep -q "$text" out/events.log
+    is "$what: every density" awk -F, '/^(relax|load),/ { n++; bad += $3 > 1 || $3 < 0.15 }
+        END { exit bad > 0 || n < 3 }' out/curve.csv
+    rm -rf out
+}
+die_ends 'a die pressed beyond its pores' 1 'relative density .* contact laws hold up to 1' \
+    'loading.until=1000 GPa' 'loading.record_pressure=1 GPa'
+die_ends 'a punch too light for the time step' 0 'thrown off the punch' die.punch_mass=0.001
+
 misses 'no equilibrium' '[1-9][0-9]* of [0-9]* points are not in equilibrium' \
     numerics.max_evaluations=10 loading.unload_from=
 points=$(awk -F, '$37 == 1' out/curve.csv | wc -l)

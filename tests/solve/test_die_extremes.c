@@ -36,8 +36,9 @@ static double density_of(const struct gb_loading *loading, double height)
     return gb_bed_solid_volume(bed) / (M_PI * bed->die.radius * bed->die.radius * height);
 }
 
-/* To the end, whatever that is. */
-static struct outcome press(const struct gb_params *params)
+/* To the end, whatever that is; disturb, unless NULL, may change the bed at every point. */
+static struct outcome press(const struct gb_params *params,
+                            void (*disturb)(struct gb_loading *loading, int point))
 {
     const struct gb_model model = scene_model(params);
     struct outcome outcome = {.how = GB_STEP_MORE, .events = g_string_new(NULL)};
@@ -52,6 +53,9 @@ static struct outcome press(const struct gb_params *params)
             outcome.density[outcome.count] = density_of(loading, point.height);
             outcome.point[outcome.count++] = point;
             outcome.how = loading->mode->after_point(loading, &queue, &outcome.err);
+            if (disturb) {
+                disturb(loading, outcome.count - 1);
+            }
         }
         take_events(&queue, outcome.events);
     }
@@ -86,7 +90,7 @@ static void test_dense(void)
     for (size_t k = 0; k < G_N_ELEMENTS(normals); k++) {
         const struct gb_params params = die_params(
             "loading.until=200 GPa", "loading.record_pressure=500 MPa", normals[k], NULL);
-        struct outcome outcome = press(&params);
+        struct outcome outcome = press(&params, NULL);
         g_assert_cmpint(outcome.how, ==, GB_STEP_STOPPED);
         g_assert_cmpint(outcome.err.code, ==, GB_ERR_GUARD);
         g_assert_nonnull(strstr(outcome.err.text, "relative density"));
@@ -103,7 +107,7 @@ static void test_light_punch(void)
     const struct gb_params params =
         die_params("particles.count=60", "die.punch_mass=0.001",
                    "loading.record_pressure=500 kPa", NULL);
-    struct outcome outcome = press(&params);
+    struct outcome outcome = press(&params, NULL);
     check_densities(&outcome);
     g_assert_true(outcome.how == GB_STEP_STOPPED || outcome.how == GB_STEP_DONE);
     if (outcome.how == GB_STEP_STOPPED) {
@@ -121,7 +125,7 @@ static void test_light_punch(void)
 static void test_sudden(void)
 {
     const struct gb_params params = die_params("loading.time=1 ns", NULL);
-    struct outcome outcome = press(&params);
+    struct outcome outcome = press(&params, NULL);
     g_assert_cmpint(outcome.how, ==, GB_STEP_DONE);
     g_assert_true(outcome.missed);
     g_assert_nonnull(strstr(outcome.events->str, "not quasi-static"));
@@ -134,11 +138,41 @@ static void test_sudden(void)
     finish(&outcome);
 }
 
+/* A heavy punch is knocked up at the last point but one, at 5 m/s. */
+static void knock(struct gb_loading *loading, int point)
+{
+    const struct gb_model *model = loading->model;
+    if (point == 39) {
+        loading->bed->die.punch_velocity =
+            5.0 * model->die.second_per_time / model->metre_per_length;
+    }
+}
+
+/* The pressure was carried nearly to the end, and not at the end. */
+static void test_bounce(void)
+{
+    const struct gb_params params =
+        die_params("die.punch_mass=100", "loading.until=20 MPa",
+                   "loading.record_pressure=500 kPa", NULL);
+    struct outcome calm = press(&params, NULL), outcome = press(&params, knock);
+    g_assert_cmpint(calm.how, ==, GB_STEP_DONE);
+    g_assert_false(calm.missed);
+    g_assert_cmpint(outcome.how, ==, GB_STEP_DONE);
+    g_assert_cmpint(outcome.count, ==, calm.count);
+    g_assert_true(outcome.missed);
+    g_assert_null(strstr(outcome.goal, "at most"));
+    g_assert_cmpfloat(outcome.point[outcome.count - 1].pressure[2], <,
+                      0.5 * calm.point[calm.count - 1].pressure[2]);
+    finish(&calm);
+    finish(&outcome);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/die/extremes/dense", test_dense);
     g_test_add_func("/die/extremes/light_punch", test_light_punch);
     g_test_add_func("/die/extremes/sudden", test_sudden);
+    g_test_add_func("/die/extremes/bounce", test_bounce);
     return g_test_run();
 }
