@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "draw/caption_pen.h"
 #include "draw/colour_bar.h"
+#include "draw/image/print_size.h"
 
 /* Minimum length of the shorter side for readable text, pixels. */
 static const int min_annotated_px = 240;
@@ -25,7 +26,7 @@ static void format_short(double value, enum gb_dimension dimension, int digits,
     }
 }
 
-void gb_caption_arrange(int width, int height, bool annotated,
+void gb_caption_arrange(int width, int height, int per_inch, bool annotated,
                         struct gb_caption_layout *layout)
 {
     const double shorter = width < height ? width : height;
@@ -35,7 +36,8 @@ void gb_caption_arrange(int width, int height, bool annotated,
     if (!annotated || shorter < min_annotated_px) {
         return;
     }
-    const double unit = fmax(shorter / 44.0, 10.0);
+    const double unit = per_inch > 0 ? gb_print_size_pixels(per_inch, GB_PRINT_SIZE_TEXT)
+                                     : fmax(shorter / 44.0, 10.0);
     const double column = 7.5 * unit; /* of the colour bar and its title */
     layout->unit = unit;
     layout->scene.top = 2.6 * unit;
@@ -111,21 +113,29 @@ static void draw_scale_bar(const struct gb_caption_pen *pen, const struct gb_sce
     gb_caption_pen_line(pen, text, x + length + 0.6 * pen->unit, y, 0.0, 0.85, 0.0);
 }
 
-static void point_text(const struct gb_state *state, char *text, size_t size)
+/* Density and pressure, in words or, where these do not fit, in symbols. */
+static void draw_point(const struct gb_caption_pen *pen, const struct gb_state *state,
+                       double x, double y, double max_width)
 {
-    char pressure[48] = "";
-    int length = snprintf(text, size, "relative density %.3f", state->point.density);
-    if (isfinite(state->point.p_pa) && length > 0 && (size_t)length < size) {
+    char words[160], symbols[96], pressure[48] = "";
+    const double density = state->point.density;
+    if (isfinite(state->point.p_pa)) {
         format_short(state->point.p_pa, GB_DIM_PRESSURE, 3, pressure, sizeof pressure);
-        snprintf(text + length, size - (size_t)length, "     pressure %s", pressure);
+        snprintf(words, sizeof words, "relative density %.3f     pressure %s", density,
+                 pressure);
+        snprintf(symbols, sizeof symbols, "\xcf\x81 %.3f   p %s", density, pressure);
+    } else {
+        snprintf(words, sizeof words, "relative density %.3f", density);
+        snprintf(symbols, sizeof symbols, "\xcf\x81 %.3f", density);
     }
+    const char *const texts[] = {words, symbols, NULL};
+    gb_caption_pen_line_that_fits(pen, texts, x, y, 0.0, 1.0, max_width);
 }
 
 static void draw_all(const struct gb_caption_pen *pen, const struct gb_image *image,
                      const struct gb_caption_layout *layout, const struct gb_scene *scene,
                      const struct gb_picture_style *style, const struct gb_state *state)
 {
-    char text[160];
     const double unit = layout->unit;
     const double left = 1.4 * unit;
     const double max_width =
@@ -133,8 +143,7 @@ static void draw_all(const struct gb_caption_pen *pen, const struct gb_image *im
     gb_colour_bar_draw(pen, &layout->bar, &style->scale);
     draw_legend(pen, style, image->width - left);
     gb_caption_pen_line(pen, state->preset, left, 1.5 * unit, 0.0, 1.05, max_width);
-    point_text(state, text, sizeof text);
-    gb_caption_pen_line(pen, text, left, image->height - 2.9 * unit, 0.0, 1.0, max_width);
+    draw_point(pen, state, left, image->height - 2.9 * unit, image->width - 2.0 * left);
     draw_scale_bar(pen, scene, state, left, image->height - 1.4 * unit,
                    fmin(9.0 * unit, 0.3 * image->width));
 }
@@ -180,7 +189,7 @@ bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout
 {
     struct gb_caption_pen pen;
     char force[48];
-    char line[96];
+    char line[96], mean[64];
     if (layout->bar.width <= 0.0) {
         return true;
     }
@@ -193,16 +202,23 @@ bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout
         const double max_width = image->width - 2.8 * unit;
         gb_colour_bar_draw(&pen, &layout->bar, &scale);
         label_axes(&pen, scene, reach);
-        gb_caption_pen_line(&pen, "mean normal force by direction", 1.4 * unit,
-                            1.5 * unit, 0.0, 1.05, max_width);
+        static const char *const titles[] = {"mean normal force by direction",
+                                             "mean normal force", "forces", NULL};
+        gb_caption_pen_line_that_fits(&pen, titles, 1.4 * unit, 1.5 * unit, 0.0, 1.05,
+                                      max_width);
         format_short(mean_n, GB_DIM_FORCE, 3, force, sizeof force);
         snprintf(line, sizeof line,
                  "\xe2\x9f\xa8"
                  "f\xe2\x9f\xa9 = %s; reference ring: f / \xe2\x9f\xa8"
                  "f\xe2\x9f\xa9 = 1",
                  force);
-        gb_caption_pen_line(&pen, line, 1.4 * unit, image->height - 2.9 * unit, 0.0, 1.0,
-                            max_width);
+        snprintf(mean, sizeof mean,
+                 "\xe2\x9f\xa8"
+                 "f\xe2\x9f\xa9 = %s",
+                 force);
+        const char *const texts[] = {line, mean, NULL};
+        gb_caption_pen_line_that_fits(&pen, texts, 1.4 * unit, image->height - 2.9 * unit,
+                                      0.0, 1.0, max_width);
     }
     return gb_caption_pen_end(&pen, image, good, err);
 }

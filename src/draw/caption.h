@@ -15,8 +15,9 @@ struct gb_caption_layout {
     double unit;           /* height of a line of text, pixels */
 };
 
-/* Layout for an image of this size. */
-void gb_caption_arrange(int width, int height, bool annotated,
+/* Layout for an image of this size; per_inch: pixels in print, whose letters have their
+ * size there (print_size.h); 0: letters by the size of the image. */
+void gb_caption_arrange(int width, int height, int per_inch, bool annotated,
                         struct gb_caption_layout *layout);
 
 /* Largest of 1, 2, 5 x 10^k m that is at most `max_m`; label: its text. */

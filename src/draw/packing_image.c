@@ -27,7 +27,9 @@ static bool render(struct gb_image *image, const struct gb_packing_image *packin
     struct gb_scene *scene = NULL;
     struct gb_picture_style *style = NULL;
     struct gb_caption_layout layout;
-    gb_caption_arrange(image->width, image->height, packing_image->annotated, &layout);
+    image->per_inch = packing_image->per_inch;
+    gb_caption_arrange(image->width, image->height, image->per_inch,
+                       packing_image->annotated, &layout);
     const bool done =
         gb_picture_style_create(&style, state, &packing_image->style, err) &&
         gb_scene_create(&scene, state, style, &packing_image->viewpoint, &layout.scene,

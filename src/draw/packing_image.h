@@ -15,12 +15,13 @@
  * caption, file). */
 struct gb_packing_image {
     int width, height;
+    int per_inch; /* pixels in print; 0: none (draw/image/print_size.h) */
     struct gb_viewpoint viewpoint;
     enum gb_background background;
     bool annotated; /* title, colour bar, scale bar, density and pressure */
     struct gb_picture_style_request style;
     struct gb_renderer *renderer; /* shared by many images; NULL: one per image */
-    const char *preset;         /* text of preset.ini, a chunk of the file; NULL: none */
+    const char *preset; /* text of preset.ini, a chunk of the file; NULL: none */
 };
 
 /* 1600 x 1200 pixels, white, view from a corner, annotated. */

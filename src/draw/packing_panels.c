@@ -26,7 +26,9 @@ static bool draw_rose(struct gb_image *image,
     struct gb_renderer *renderer = NULL;
     struct gb_scene *scene = NULL;
     struct gb_caption_layout layout;
-    gb_caption_arrange(image->width, image->height, packing_image->annotated, &layout);
+    image->per_inch = packing_image->per_inch;
+    gb_caption_arrange(image->width, image->height, image->per_inch,
+                       packing_image->annotated, &layout);
     const bool done =
         gb_rose_scene(&scene, rose, reach, &packing_image->viewpoint, &layout.scene,
                       packing_image->background, err) &&
@@ -124,6 +126,7 @@ bool gb_packing_panels_write(const struct gb_packing_image *packing_image,
     const bool done =
         gb_file_check_target(path, err) &&
         gb_image_create(&page, packing_image->width, packing_image->height, err) &&
+        (page->per_inch = packing_image->per_inch, true) &&
         fill_page(page, packing_image, content, states, count, err) &&
         gb_packing_image_save(page, packing_image, states[0], path, err);
     gb_image_destroy(page);

@@ -83,6 +83,7 @@ static bool write_figure(const struct gb_series *series,
     char *runs = run_list(page->set);
     gb_series_figure(series, &figure, &curves);
     figure.title = title;
+    figure.per_inch = page->per_inch;
     struct gb_png_text texts[5] = {{"Software", "greenbody " GB_VERSION},
                                    {"Title", page->name}};
     int count = 2;

@@ -87,6 +87,20 @@ PATH=$here/empty "$greenbody" snapshot a --sequence -o other.mp4 >stdout 2>stder
 [ $? -eq 3 ] && [ "$(wc -l <stderr)" -eq 1 ] && grep -qF "needs the program ffmpeg" stderr
 result "a film without ffmpeg" $?
 refused "exists" "exists; --force replaces it" snapshot a -o forces.png
+good "8 cm wide in print" snapshot a -o wide.png --width 8cm --dpi 300
+good "its figure" plot a --figure densification -o wide-figure.png --width 8cm
+printed='import struct, sys
+for path in sys.argv[1:]:
+    data = open(path, "rb").read()
+    at = data.find(b"pHYs") + 4
+    wide = struct.unpack(">I", data[16:20])[0]
+    assert struct.unpack(">IIB", data[at:at + 9]) == (11811, 11811, 1) and wide == 945, path'
+python3 -c "$printed" wide.png wide-figure.png
+result "as many pixels, and their density in the file" $?
+refused "a width without a unit" "8cm, 80mm, 3.3in" snapshot a -o x.png --width 8
+refused "pixels and a width" "--size, --width: accepted one of them" plot a \
+    --figure densification -o x.png --width 8cm --size 300x300
+refused "a density alone" "--dpi: accepted with --width" snapshot a -o x.png --dpi 300
 refused "size 0" "16 to 16384" snapshot a -o x.png --size 0x0
 refused "size 100000" "16 to 16384" snapshot a -o x.png --size 100000x100000
 refused "no such point" "keeps states at" snapshot a -o x.png --at "p=5 GPa"

@@ -8,6 +8,7 @@
 #include "draw/caption.h"
 #include "draw/image/palette.h"
 #include "draw/image/png.h"
+#include "draw/image/print_size.h"
 #include "draw/packing_image.h"
 #include "draw/picture_colours.h"
 
@@ -77,7 +78,8 @@ static const uint8_t *particle(const struct gb_image *image,
     struct gb_scene *scene = NULL;
     struct gb_error err = {0};
     double pixel[2];
-    gb_caption_arrange(image->width, image->height, packing_image->annotated, &layout);
+    gb_caption_arrange(image->width, image->height, image->per_inch,
+                       packing_image->annotated, &layout);
     g_assert_true(gb_scene_create(&scene, state, NULL, &packing_image->viewpoint,
                                   &layout.scene, packing_image->background, &err));
     const float *ball = &scene->sphere[4 * index];
@@ -143,7 +145,7 @@ static void test_silhouette(void)
     g_assert_true(gb_view_parse("front,flat", &packing_image.viewpoint, NULL));
     packing_image.background = GB_BACKGROUND_TRANSPARENT;
     struct gb_image *image = paint(&packing_image, state);
-    gb_caption_arrange(SIDE, SIDE, false, &layout);
+    gb_caption_arrange(SIDE, SIDE, 0, false, &layout);
     g_assert_true(gb_scene_create(&scene, state, NULL, &packing_image.viewpoint,
                                   &layout.scene, GB_BACKGROUND_TRANSPARENT, NULL));
     const double scale = gb_view_scale(&scene->view);
@@ -206,7 +208,7 @@ static void test_colour_bar(void)
     packing_image.width = 800;
     packing_image.height = 600;
     struct gb_image *image = paint(&packing_image, state);
-    gb_caption_arrange(800, 600, true, &layout);
+    gb_caption_arrange(800, 600, 0, true, &layout);
     const double step = layout.bar.height / (GB_PALETTE_CONTACTS + 1);
     for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
         uint8_t rgb[3];
@@ -234,7 +236,7 @@ static void test_one_value(void)
         state->radius[i] = 1.0;
     }
     struct gb_image *image = paint(&packing_image, state);
-    gb_caption_arrange(800, 600, true, &layout);
+    gb_caption_arrange(800, 600, 0, true, &layout);
     gb_palette_field(0.5, rgb);
     for (double part = 0.05; part < 1.0; part += 0.1) {
         const uint8_t *pixel = at(image, layout.bar.left + 0.5 * layout.bar.width,
@@ -243,6 +245,48 @@ static void test_one_value(void)
     }
     gb_image_destroy(image);
     gb_state_destroy(state);
+}
+
+/* Letters of captions and figures have their size in print, whatever the resolution. */
+static void test_print_size(void)
+{
+    static const char *const widths[] = {"8cm", "80 mm", "3.149606in"};
+    for (size_t i = 0; i < G_N_ELEMENTS(widths); i++) {
+        for (int per_inch = 150; per_inch <= 600; per_inch *= 2) {
+            struct gb_print_size size;
+            struct gb_caption_layout layout;
+            struct gb_error err = {0};
+            g_assert_true(gb_print_size_parse(widths[i], per_inch, &size, &err));
+            g_assert_cmpint(size.width, ==, (int)round(8.0 / 2.54 * per_inch));
+            g_assert_cmpint(size.height, ==, (int)round(0.75 * size.width));
+            gb_caption_arrange(size.width, size.height, per_inch, true, &layout);
+            const double point = per_inch / 72.0;
+            g_assert_cmpfloat(layout.unit, >=, 7.0 * point);
+            g_assert_cmpfloat(0.85 * layout.unit, >=, 6.0 * point); /* the smallest */
+            g_assert_cmpfloat(layout.bar.left + layout.bar.width, <, size.width);
+        }
+    }
+}
+
+static void test_print_size_refused(void)
+{
+    static const struct {
+        const char *width;
+        int per_inch;
+        const char *text;
+    } wrong[] = {{"8", 300, "8cm, 80mm, 3.3in"}, {"8 m", 300, "2.54 to 50 cm"},
+                 {"1mm", 300, "2.54 to 50 cm"},  {"8cm", 50, "100 to 1200"},
+                 {"-8cm", 300, "2.54 to 50 cm"}, {"50cm", 1200, "accepted 16384"}};
+    for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
+        struct gb_print_size size;
+        struct gb_error err = {0};
+        g_assert_false(
+            gb_print_size_parse(wrong[i].width, wrong[i].per_inch, &size, &err));
+        g_assert_cmpint(err.code, ==, GB_ERR_INPUT);
+        if (!strstr(err.text, wrong[i].text)) {
+            g_error("%s: without %s", err.text, wrong[i].text);
+        }
+    }
 }
 
 static void test_scale_bar(void)
@@ -389,6 +433,8 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/snapshot/colour-bar", test_colour_bar);
     g_test_add_func("/draw/snapshot/one-value", test_one_value);
     g_test_add_func("/draw/snapshot/scale-bar", test_scale_bar);
+    g_test_add_func("/draw/snapshot/print-size", test_print_size);
+    g_test_add_func("/draw/snapshot/print-size-refused", test_print_size_refused);
     g_test_add_func("/draw/snapshot/planar", test_planar);
     g_test_add_func("/draw/snapshot/odd-sizes", test_odd_sizes);
     g_test_add_func("/draw/snapshot/forces", test_forces);

@@ -736,7 +736,8 @@ static void test_formats(void)
     static const char *const runs[] = {"a1", NULL};
     struct gb_series series = {0};
     struct gb_error err = {0};
-    const struct gb_plotting_page page = {400, 300, "time", NULL, NULL, GB_PLOTTING_KEEP};
+    const struct gb_plotting_page page = {400, 300, "time", NULL, NULL, GB_PLOTTING_KEEP,
+                                          0};
     g_assert_true(figure_folder_named("time", runs, &series, &err));
     for (const struct gb_output_formats_row *row = gb_output_formats_table();
          row->extension; row++) {

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/lab_input.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "figures/figures.h"
 #include "figures/output_formats.h"
 #include "figures/papers/paper_points.h"
@@ -21,23 +22,24 @@ enum { DIRECTORIES_MAX = 1000 };
 
 /* The options of the command line. */
 struct request {
-    char *figure, *reference, *densities, *pressure, *output, *size, *log, *data, *title,
-        *inset;
+    char *figure, *reference, *densities, *pressure, *output, *log, *data, *title, *inset;
     char *at;
     gboolean force, paper;
+    struct gb_page_options page;
     struct gb_lab_input lab;
 };
 
 static void free_request(struct request *request)
 {
     char *const texts[] = {request->figure,   request->reference, request->densities,
-                           request->pressure, request->output,    request->size,
-                           request->log,      request->data,      request->title,
-                           request->at,       request->inset};
+                           request->pressure, request->output,    request->log,
+                           request->data,     request->title,     request->at,
+                           request->inset};
     for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
         g_free(texts[k]);
     }
     gb_lab_input_finish(&request->lab);
+    gb_page_options_finish(&request->page);
 }
 
 static const struct gb_figures_row *find_figure(const char *name, struct gb_error *err)
@@ -141,8 +143,8 @@ static bool write_series(const struct gb_series *series, const struct request *r
                                     .set = set,
                                     .existing = existing_files(request)};
     if (request->output != NULL) {
-        return (request->size == NULL ||
-                gb_image_parse_size(request->size, &page.width, &page.height, err)) &&
+        return gb_page_options_take(&request->page, &page.width, &page.height,
+                                    &page.per_inch, err) &&
                gb_plotting_write(series, &page, request->output, err);
     }
     GString *text = gb_series_csv(series);
@@ -363,8 +365,7 @@ int gb_cmd_plot(int argc, char **argv)
          "NAME"},
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output,
          "the figure, and its data beside it (standard output)", texts.output},
-        {"size", 0, 0, G_OPTION_ARG_STRING, &request.size, "pixels (1600x1200)",
-         "WIDTHxHEIGHT"},
+        GB_PAGE_OPTIONS_ENTRIES(&request.page),
         {"log", 0, 0, G_OPTION_ARG_STRING, &request.log, "axes that are logarithmic",
          "x|y|xy"},
         {"data", 0, 0, G_OPTION_ARG_FILENAME, &request.data,

@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/progress.h"
 
 #if GB_WITH_PICTURES
@@ -21,20 +22,21 @@
 
 /* The options of the command line. */
 struct request {
-    char *at, *view, *size, *background, *output, *color, *show, *slice, *cut, *since;
+    char *at, *view, *background, *output, *color, *show, *slice, *cut, *since;
     gboolean force, bare, rose, sequence, quiet;
+    struct gb_page_options page;
     double fps;
 };
 
 static void free_request(struct request *request)
 {
-    char *const texts[] = {request->at,         request->view,   request->size,
-                           request->background, request->output, request->color,
-                           request->show,       request->slice,  request->cut,
-                           request->since};
+    char *const texts[] = {request->at,     request->view,  request->background,
+                           request->output, request->color, request->show,
+                           request->slice,  request->cut,   request->since};
     for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
         g_free(texts[k]);
     }
+    gb_page_options_finish(&request->page);
 }
 
 static bool parse_background(const char *text, enum gb_background *background,
@@ -83,9 +85,8 @@ static bool parse_request(const struct request *request,
     }
     return (request->view == NULL ||
             gb_view_parse(request->view, &packing_image->viewpoint, err)) &&
-           (request->size == NULL ||
-            gb_image_parse_size(request->size, &packing_image->width,
-                                &packing_image->height, err)) &&
+           gb_page_options_take(&request->page, &packing_image->width,
+                                &packing_image->height, &packing_image->per_inch, err) &&
            (request->background == NULL ||
             parse_background(request->background, &packing_image->background, err)) &&
            parse_style(request, &packing_image->style, err);
@@ -241,8 +242,7 @@ int gb_cmd_snapshot(int argc, char **argv)
          "corner, front, side, top or AZIMUTH,ELEVATION in degrees; ,flat behind it: "
          "no perspective",
          "VIEW"},
-        {"size", 0, 0, G_OPTION_ARG_STRING, &request.size, "pixels (1600x1200)",
-         "WIDTHxHEIGHT"},
+        GB_PAGE_OPTIONS_ENTRIES(&request.page),
         {"ground", 0, 0, G_OPTION_ARG_STRING, &request.background,
          "white, dark or transparent", "COLOUR"},
         {"bare", 0, 0, G_OPTION_ARG_NONE, &request.bare, "the packing without text",

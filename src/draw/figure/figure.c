@@ -23,7 +23,8 @@ bool gb_figure_render(struct gb_image **out, const struct gb_figure *figure, int
     if (!gb_image_create(out, width, height, err)) {
         return false;
     }
-    const double unit = gb_figure_surface_pixels_per_point(width, height);
+    (*out)->per_inch = figure->per_inch;
+    const double unit = gb_figure_surface_pixels_per_point(figure, width, height);
     const double size[2] = {width / unit, height / unit};
     cairo_surface_t *surface = cairo_image_surface_create_for_data(
         (*out)->rgba, CAIRO_FORMAT_ARGB32, width, height, 4 * width);

@@ -75,6 +75,8 @@ struct gb_figure {
     const char *title, *caption;     /* NULL: none */
     struct gb_figure_axis x, y;
     struct gb_figure_second_axis top, right;
+    int per_inch; /* pixels in print, whose letters have their size there (print_size.h);
+                   * 0: a page of a size of its own */
     bool equal_scales; /* of linear axes in one unit: directions keep their angles */
     const struct gb_figure_curve *curve;
     size_t count;

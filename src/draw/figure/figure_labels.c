@@ -8,7 +8,7 @@
 #include "draw/figure/figure_marker.h"
 #include "draw/figure/figure_occupancy.h"
 
-static const double size = 8.6;    /* font size, points */
+static const double size = GB_FIGURE_LABELS_SIZE;
 static const double pitch = 12.6;  /* of legend lines */
 static const double sample = 24.0; /* length of a sample */
 static const double pad = 5.0;

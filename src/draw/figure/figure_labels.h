@@ -4,6 +4,9 @@
 #include "draw/figure/figure.h"
 #include "draw/image/text.h"
 
+/* Font size of labels, points of the page. */
+#define GB_FIGURE_LABELS_SIZE 8.6
+
 /* Labels of the curves: beside the lines where all of them have space, a legend for the
  * rest, in a free part of the frame or right of it. */
 struct gb_figure_labels {

@@ -4,13 +4,21 @@
 #include <string.h>
 
 #include "draw/figure/figure_draw.h"
+#include "draw/figure/figure_labels.h"
+#include "draw/image/print_size.h"
 
 /* Minimum size of a page in points; a page has the shape of the image. */
 static const double min_width = 420.0;
 static const double min_height = 300.0;
 
-double gb_figure_surface_pixels_per_point(int width, int height)
+/* Labels of a page are larger than they shall be in print. */
+double gb_figure_surface_pixels_per_point(const struct gb_figure *figure, int width,
+                                          int height)
 {
+    if (figure->per_inch > 0) {
+        return gb_print_size_pixels(figure->per_inch,
+                                    GB_PRINT_SIZE_TEXT / GB_FIGURE_LABELS_SIZE);
+    }
     return fmin(width / min_width, height / min_height);
 }
 

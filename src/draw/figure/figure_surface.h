@@ -6,7 +6,8 @@
 #include "draw/figure/figure.h"
 
 /* Pixels per point for an image of this size: both sides of the page have their minimum. */
-double gb_figure_surface_pixels_per_point(int width, int height);
+double gb_figure_surface_pixels_per_point(const struct gb_figure *figure, int width,
+                                          int height);
 
 /* Draws a figure onto a surface of which a point is `unit` long; size in points. */
 bool gb_figure_surface_draw(cairo_surface_t *surface, const struct gb_figure *figure,

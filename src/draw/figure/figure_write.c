@@ -51,11 +51,12 @@ static const struct vector_kind pdf = {cairo_pdf_surface_create_for_stream, set_
 
 /* Draws onto the surface, and destroys it. */
 static bool draw(cairo_surface_t *surface, const struct gb_figure *figure,
-                 const double size[2], const char *path, struct gb_error *err)
+                 const double size[2], double scale, const char *path,
+                 struct gb_error *err)
 {
     struct gb_figure_layout layout;
     const int saved = gb_mute_stderr_begin();
-    const bool good = gb_figure_surface_draw(surface, figure, size, 1.0, &layout, err);
+    const bool good = gb_figure_surface_draw(surface, figure, size, scale, &layout, err);
     cairo_surface_finish(surface);
     gb_mute_stderr_end(saved);
     const cairo_status_t status = cairo_surface_status(surface);
@@ -74,12 +75,14 @@ static bool write_vector(const struct vector_kind *kind, const struct gb_figure 
     if (!gb_file_check_target(path, err)) {
         return false;
     }
-    const double unit = gb_figure_surface_pixels_per_point(width, height);
+    const double unit = gb_figure_surface_pixels_per_point(figure, width, height);
     const double size[2] = {width / unit, height / unit};
+    const double scale = figure->per_inch > 0 ? unit * 72.0 / figure->per_inch : 1.0;
     GByteArray *bytes = g_byte_array_new();
-    cairo_surface_t *surface = kind->create(collect, bytes, size[0], size[1]);
+    cairo_surface_t *surface =
+        kind->create(collect, bytes, scale * size[0], scale * size[1]);
     kind->prepare(surface);
-    const bool good = draw(surface, figure, size, path, err) &&
+    const bool good = draw(surface, figure, size, scale, path, err) &&
                       gb_file_replace(path, bytes->data, bytes->len, err);
     g_byte_array_unref(bytes);
     return good;

@@ -11,6 +11,7 @@ enum { GB_IMAGE_MIN = 16, GB_IMAGE_MAX = 16384 }; /* pixels a side */
 /* Pixels from the top left; sRGB, colours already multiplied by their alpha. */
 struct gb_image {
     int width, height;
+    int per_inch;  /* pixels in print, a note in the file; 0: none */
     uint8_t *rgba; /* width x height x 4 */
 };
 

@@ -68,6 +68,11 @@ static void put_header(struct writer *writer, const struct gb_image *image,
         PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(writer->png, writer->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(writer->png, writer->info, text, text_count);
+    if (image->per_inch > 0) {
+        const double per_metre = image->per_inch / 0.0254;
+        const png_uint_32 whole = (png_uint_32)(per_metre + 0.5);
+        png_set_pHYs(writer->png, writer->info, whole, whole, PNG_RESOLUTION_METER);
+    }
     png_set_compression_level(writer->png, LEVEL);
     png_write_info(writer->png, writer->info);
 }

@@ -150,8 +150,8 @@ static bool write_files(const struct figure *row, const struct gb_papers_plan *p
                         struct gb_error *cause, struct gb_error *err)
 {
     const struct gb_figures_row *figure = gb_figures_find(row->figure);
-    const struct gb_plotting_page page = {WIDTH, HEIGHT,     figure->name,
-                                          NULL,  input->set, GB_PLOTTING_REPLACE};
+    const struct gb_plotting_page page = {
+        WIDTH, HEIGHT, figure->name, NULL, input->set, GB_PLOTTING_REPLACE, 0};
     struct gb_series series = {0};
     bool good = gb_figures_run(figure, &series, input, cause);
     if (good) {

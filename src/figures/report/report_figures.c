@@ -10,8 +10,8 @@ enum { WIDTH = 1600, HEIGHT = 1200 }; /* pixels of the PNG */
 static bool write_files(const struct gb_series *series, const struct gb_report *report,
                         const char *name, struct gb_error *err)
 {
-    const struct gb_plotting_page page = {WIDTH, HEIGHT,      name,
-                                          NULL,  report->set, GB_PLOTTING_REPLACE};
+    const struct gb_plotting_page page = {
+        WIDTH, HEIGHT, name, NULL, report->set, GB_PLOTTING_REPLACE, 0};
     bool good = true;
     for (size_t k = 0; k < G_N_ELEMENTS(extensions) && good; k++) {
         char *path =

@@ -1,0 +1,29 @@
+#ifndef GB_DRAW_IMAGE_PRINT_SIZE_H
+#define GB_DRAW_IMAGE_PRINT_SIZE_H
+
+#include "greenbody/status.h"
+
+/* Pixels of an image that is printed at a width. */
+struct gb_print_size {
+    int width, height; /* of the shape 4:3 */
+    int per_inch;      /* pixels per inch */
+};
+
+/* Letters of captions and labels in print, points: journals ask for 7 to 8, and no
+ * smaller than 6 anywhere. */
+#define GB_PRINT_SIZE_TEXT  7.4
+#define GB_PRINT_SIZE_LEAST 6.0
+
+/* width      "8cm", "80 mm" or "3.3 in"
+ * per_inch   100 to 1200
+ * Errors: GB_ERR_INPUT saying what is accepted, also for more pixels than an image has. */
+bool gb_print_size_parse(const char *width, int per_inch, struct gb_print_size *size,
+                         struct gb_error *err);
+
+/* Pixels of a length in points. */
+static inline double gb_print_size_pixels(int per_inch, double points)
+{
+    return points * per_inch / 72.0;
+}
+
+#endif
