@@ -52,6 +52,25 @@ shows "an arrow goes to a point of the curve" 'point [0-9]* of'
 keys Escape
 hides "Esc ends it" 'point [0-9]* of'
 
+# --- one pane alone
+keys z
+shows "z says how to go back" 'z shows all again'
+shows "the plot has all columns" '^── 1 Pressure against relative density ──'
+hides "no other pane is shown" 'State'
+keys Tab
+shows "Tab zooms the next pane" '^── State ──'
+hides "instead of the plot" '1 Pressure'
+keys Tab
+shows "and the events" '^── Events ──'
+keys 2
+shows "a view brings the plot" '^── 2 Distribution'
+term resize-window -x 60 -y 20
+shows "60 x 20 has the plot alone" '^── 2 Distribution'
+hides "without the state" 'State'
+at_80x24
+keys 1 z
+shows "z shows all again" '├── State'
+
 # --- the table
 keys '#'
 shows "# opens the table" 'Densities of the curves'

@@ -35,12 +35,15 @@ static bool overlap(const struct gb_rect *a, const struct gb_rect *b)
            a->col < b->col + b->cols && b->col < a->col + a->cols;
 }
 
-static void check(int rows, int cols, enum gb_pane focus)
+static void check(int rows, int cols, enum gb_pane focus, bool zoom)
 {
     struct gb_layout layout;
     struct gb_rect all[RECTS];
     int cells = 0;
     gb_layout_make(&layout, rows, cols, focus);
+    if (zoom) {
+        gb_layout_zoom(&layout, focus);
+    }
     collect(&layout, all);
     for (int i = 0; i < RECTS; i++) {
         if (!shown(&all[i])) {
@@ -60,7 +63,8 @@ static void test_all_sizes(void)
     for (int rows = 1; rows <= MOST_ROWS; rows++) {
         for (int cols = 1; cols <= MOST_COLS; cols++) {
             for (int focus = 0; focus < GB_PANES; focus++) {
-                check(rows, cols, (enum gb_pane)focus);
+                check(rows, cols, (enum gb_pane)focus, false);
+                check(rows, cols, (enum gb_pane)focus, true);
             }
         }
     }
@@ -91,6 +95,26 @@ static void test_promises(void)
     g_assert_cmpint(layout.kind, ==, GB_LAYOUT_TOO_SMALL);
 }
 
+/* A zoomed pane has the screen for itself, but for header, message and footer. */
+static void test_zoom(void)
+{
+    struct gb_layout layout;
+    for (int focus = 0; focus < GB_PANES; focus++) {
+        gb_layout_make(&layout, 24, 80, (enum gb_pane)focus);
+        gb_layout_zoom(&layout, (enum gb_pane)focus);
+        g_assert_cmpint(layout.kind, ==, GB_LAYOUT_ZOOMED);
+        for (int pane = 0; pane < GB_PANES; pane++) {
+            g_assert_cmpint(gb_layout_shows(&layout, (enum gb_pane)pane), ==,
+                            pane == focus);
+        }
+        g_assert_cmpint(layout.pane[focus].rows, ==, 20);
+        g_assert_cmpint(layout.pane[focus].cols, ==, 80);
+    }
+    gb_layout_make(&layout, 11, 40, GB_PANE_PLOT);
+    gb_layout_zoom(&layout, GB_PANE_PLOT);
+    g_assert_cmpint(layout.kind, ==, GB_LAYOUT_TOO_SMALL);
+}
+
 /* The pane with the focus is on the screen wherever there is one. */
 static void test_focus_is_seen(void)
 {
@@ -111,6 +135,7 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/tui/layout/all-sizes", test_all_sizes);
     g_test_add_func("/tui/layout/promises", test_promises);
+    g_test_add_func("/tui/layout/zoom", test_zoom);
     g_test_add_func("/tui/layout/focus-is-seen", test_focus_is_seen);
     return g_test_run();
 }

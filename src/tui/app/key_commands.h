@@ -10,6 +10,7 @@
 void gb_pane_commands_navigate(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_next(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_previous(struct gb_app *app, const struct gb_key *key);
+void gb_pane_commands_zoom(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_find(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_list_all(struct gb_app *app, const struct gb_key *key);
 void gb_pane_commands_increase(struct gb_app *app, const struct gb_key *key);

@@ -95,6 +95,17 @@ void gb_layout_make(struct gb_layout *layout, int rows, int cols, enum gb_pane f
     }
 }
 
+void gb_layout_zoom(struct gb_layout *layout, enum gb_pane focus)
+{
+    if (layout->kind != GB_LAYOUT_TOO_SMALL) {
+        const int first = layout->header.row + layout->header.rows;
+        memset(layout->pane, 0, sizeof layout->pane);
+        layout->kind = GB_LAYOUT_ZOOMED;
+        layout->pane[focus] =
+            rect(first, 0, layout->message.row - first, layout->header.cols);
+    }
+}
+
 bool gb_layout_shows(const struct gb_layout *layout, enum gb_pane pane)
 {
     return layout->pane[pane].rows > 0 && layout->pane[pane].cols > 0;

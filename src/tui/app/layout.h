@@ -11,6 +11,7 @@ enum gb_pane { GB_PANE_PARAMS, GB_PANE_PLOT, GB_PANE_STATE, GB_PANE_EVENTS, GB_P
 enum gb_layout_kind {
     GB_LAYOUT_TOO_SMALL, /* only a message with the required size */
     GB_LAYOUT_COMPACT,   /* plot and state, or the focused pane */
+    GB_LAYOUT_ZOOMED,    /* the focused pane alone */
     GB_LAYOUT_FULL,      /* everything, state below the plot */
     GB_LAYOUT_WIDE       /* everything, state to the right of the plot */
 };
@@ -32,6 +33,10 @@ struct gb_layout {
 
 /* Computes all rectangles.  Pure: the result depends on size and focus only. */
 void gb_layout_make(struct gb_layout *layout, int rows, int cols, enum gb_pane focus);
+
+/* Gives the focused pane all that lies between header and message; too small screens stay
+ * as they are. */
+void gb_layout_zoom(struct gb_layout *layout, enum gb_pane focus);
 
 /* Whether a pane is on the screen. */
 bool gb_layout_shows(const struct gb_layout *layout, enum gb_pane pane);

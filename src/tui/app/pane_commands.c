@@ -36,6 +36,18 @@ void gb_pane_commands_previous(struct gb_app *app, const struct gb_key *key)
     change_focus(&app->screen, -1);
 }
 
+/* Tab goes on to the next pane, which is zoomed then. */
+void gb_pane_commands_zoom(struct gb_app *app, const struct gb_key *key)
+{
+    struct gb_screen *screen = &app->screen;
+    (void)key;
+    screen->zoom = !screen->zoom;
+    g_strlcpy(screen->message.text,
+              screen->zoom ? "one pane: Tab goes to the next, z shows all again" : "",
+              sizeof screen->message.text);
+    screen->message.style = GB_STYLE_PLAIN;
+}
+
 void gb_pane_commands_find(struct gb_app *app, const struct gb_key *key)
 {
     (void)key;

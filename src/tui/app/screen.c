@@ -191,6 +191,9 @@ static void draw_too_small(const struct gb_screen *screen)
 void gb_screen_draw(struct gb_screen *screen)
 {
     gb_layout_make(&screen->layout, LINES, COLS, screen->focus);
+    if (screen->zoom) {
+        gb_layout_zoom(&screen->layout, screen->focus);
+    }
     erase();
     if (screen->layout.kind == GB_LAYOUT_TOO_SMALL) {
         draw_too_small(screen);

@@ -11,6 +11,7 @@ struct gb_screen {
     struct gb_session session;
     struct gb_layout layout;
     enum gb_pane focus;
+    bool zoom; /* the focused pane alone is shown */
     struct gb_panel_params params;
     struct gb_panel_plot plot;
     struct gb_panel_events events;
