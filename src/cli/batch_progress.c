@@ -22,7 +22,7 @@ static bool serve(struct gb_mpi_pool *mpi, int jobs, struct gb_error *err)
     struct gb_pool *local = NULL;
     gb_signals_install(GB_SIGNALS_HANGUP_ENDS);
     const bool good =
-        gb_pool_create(&local, workers, gb_single_run, NULL, err) &&
+        gb_pool_create(&local, workers, gb_single_run_missing, NULL, err) &&
         gb_mpi_pool_serve(mpi, local, workers, gb_signals_cancelled, NULL, err);
     gb_pool_destroy(local);
     return good;
@@ -156,7 +156,7 @@ bool gb_batch_progress_work(struct gb_batch_progress *batch, struct gb_ensemble 
         gb_visible_line(stderr, "%zu runs, %zu of them done before; %zu at once",
                         batch->total, batch->before, workers);
     }
-    const bool good = gb_pool_create(&pool, workers, gb_single_run, batch->mpi, err) &&
+    const bool good = gb_pool_create(&pool, workers, gb_single_run_missing, batch->mpi, err) &&
                       gb_ensemble_work(ensemble, pool, &callbacks, err);
     gb_pool_destroy(pool);
     clear_line(batch);

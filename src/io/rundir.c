@@ -12,6 +12,7 @@
 #include <glib/gstdio.h>
 
 #include "io/rundir_files.h"
+#include "io/status_json.h"
 
 static int open_directory(const char *path)
 {
@@ -71,6 +72,14 @@ static bool busy_error(const char *path, struct gb_error *err)
         path);
 }
 
+static bool is_done(const char *path)
+{
+    char *status = g_build_filename(path, "status.json", NULL);
+    const bool done = gb_status_json_is_done(status);
+    g_free(status);
+    return done;
+}
+
 /* May the files in this directory be replaced by those of a new run? */
 static bool check_content(const char *path, enum gb_rundir_mode mode,
                           struct gb_error *err)
@@ -93,6 +102,8 @@ static bool check_content(const char *path, enum gb_rundir_mode mode,
                           "%s: holds a run already; choose another directory, or --force "
                           "to replace it",
                           path);
+    } else if (entries > 0 && mode == GB_RUNDIR_MISSING && is_done(path)) {
+        ok = gb_error_set(err, GB_ERR_INPUT, "%s: holds a run that is done", path);
     }
     g_free(foreign);
     return ok;

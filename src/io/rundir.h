@@ -16,7 +16,8 @@ struct gb_rundir {
 
 enum gb_rundir_mode {
     GB_RUNDIR_KEEP,   /* an existing run is an error */
-    GB_RUNDIR_REPLACE /* an existing run is removed, unless it is still being written */
+    GB_RUNDIR_REPLACE, /* an existing run is removed, unless it is still being written */
+    GB_RUNDIR_MISSING  /* the same, but one that is done is an error, seen under the lock */
 };
 
 /* Could a run begin at path?  Changes nothing: a wrong --out is reported before minutes of

@@ -176,3 +176,17 @@ char *gb_status_json_text(const struct gb_snapshot *snapshot, int64_t points)
     g_object_unref(json);
     return whole;
 }
+
+bool gb_status_json_is_done(const char *path)
+{
+    JsonParser *parser = gb_status_json_open(path, NULL);
+    if (parser == NULL) {
+        return false;
+    }
+    JsonObject *status = json_node_get_object(json_parser_get_root(parser));
+    const bool done =
+        strcmp(json_object_get_string_member_with_default(status, "state", ""), "done") ==
+        0;
+    g_object_unref(parser);
+    return done;
+}

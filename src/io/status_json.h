@@ -16,6 +16,9 @@ char *gb_status_json_text(const struct gb_snapshot *snapshot, int64_t points);
  * GB_ERR_INPUT with path and reason, GB_ERR_MACHINE, GB_ERR_MEMORY. */
 JsonParser *gb_status_json_open(const char *path, struct gb_error *err);
 
+/* Does this status.json say that its run was done? */
+bool gb_status_json_is_done(const char *path);
+
 /* The word of a state in status.json: "running", "done", ... */
 const char *gb_status_json_word(enum gb_run_state state);
 /* State of a run by its word in status.json; stopped for other words. */

@@ -48,6 +48,27 @@ struct gb_ensemble_run *gb_ensemble_at(const struct gb_ensemble *ensemble, size_
     return &ensemble->run[replica * ensemble->points + point];
 }
 
+/* Is the directory that of a run under way, or may its files be replaced? */
+static bool is_usable(const char *directory, struct gb_error *err)
+{
+    struct gb_error why = {0};
+    for (int i = 0; i < 3; i++) { /* a run may end or begin there between the two */
+        if (gb_rundir_busy(directory) ||
+            gb_rundir_check(directory, GB_RUNDIR_REPLACE, &why)) {
+            return true;
+        }
+    }
+    return gb_error_set(err, why.code, "%s", why.text);
+}
+
+static bool other_error(const struct gb_ensemble_run *run, struct gb_error *err)
+{
+    return gb_error_set(err, GB_ERR_INPUT,
+                        "%.300s: holds a run of other parameters; choose another "
+                        "directory",
+                        run->directory);
+}
+
 bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err)
 {
     for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
@@ -55,16 +76,14 @@ bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err)
         if (!g_file_test(run->directory, G_FILE_TEST_EXISTS)) {
             continue;
         }
+        const bool busy = gb_rundir_busy(run->directory);
         const enum gb_single_run_found found =
             gb_single_run_find(&run->params, run->directory);
-        run->before = run->ended = found == GB_SINGLE_RUN_DONE;
+        run->before = run->ended = found == GB_SINGLE_RUN_DONE && !busy;
         if (found == GB_SINGLE_RUN_OTHER) {
-            return gb_error_set(err, GB_ERR_INPUT,
-                                "%.300s: holds a run of other parameters; choose another "
-                                "directory",
-                                run->directory);
+            return other_error(run, err);
         }
-        if (!run->ended && !gb_rundir_check(run->directory, GB_RUNDIR_REPLACE, err)) {
+        if (!run->ended && !is_usable(run->directory, err)) {
             return false;
         }
     }
@@ -82,13 +101,36 @@ struct queue {
     size_t from, waiting;
 };
 
+/* Whether this process has to do a run, after a look at what others have made of it.  In
+ * this order: a run that ends between the two is done. */
+static bool is_left(struct gb_ensemble_run *run)
+{
+    run->elsewhere = gb_rundir_busy(run->directory);
+    if (run->elsewhere) {
+        return false;
+    }
+    switch (gb_single_run_find(&run->params, run->directory)) {
+    case GB_SINGLE_RUN_DONE:
+        run->before = run->ended = true;
+        return false;
+    case GB_SINGLE_RUN_OTHER:
+        (void)other_error(run, &run->error);
+        run->ended = true;
+        return false;
+    case GB_SINGLE_RUN_NOT_DONE:
+        break;
+    }
+    return true;
+}
+
 /* The next run, in the order of the list; NULL when there is none now. */
 static struct gb_ensemble_run *next_run(struct gb_ensemble *ensemble, struct queue *queue)
 {
     const size_t runs = ensemble->points * ensemble->replicas;
     for (; queue->from < runs; queue->from++) {
         struct gb_ensemble_run *run = &ensemble->run[queue->from];
-        if (!run->ended && !run->submitted && !has_converged(ensemble, run->point)) {
+        if (!run->ended && !run->submitted && !run->elsewhere &&
+            !has_converged(ensemble, run->point)) {
             return run;
         }
     }
@@ -105,14 +147,29 @@ static size_t room(const struct gb_ensemble *ensemble, const struct gb_pool *poo
                                                    : gb_pool_prefetch(pool, waiting);
 }
 
+static void tell(const struct gb_ensemble *ensemble,
+                 const struct gb_ensemble_callbacks *callbacks,
+                 const struct gb_ensemble_run *run)
+{
+    if (callbacks->progress != NULL) {
+        callbacks->progress(ensemble, run, callbacks->data);
+    }
+}
+
 /* False when no worker can be started. */
 static bool submit(struct gb_ensemble *ensemble, struct gb_pool *pool,
-                   struct queue *queue, struct gb_error *err)
+                   struct queue *queue, const struct gb_ensemble_callbacks *callbacks,
+                   struct gb_error *err)
 {
     struct gb_ensemble_run *run = NULL;
     while (room(ensemble, pool, queue->waiting) > 0 &&
            (run = next_run(ensemble, queue)) != NULL) {
         const size_t ticket = (size_t)(run - ensemble->run);
+        if (!is_left(run)) {
+            queue->waiting--;
+            tell(ensemble, callbacks, run->ended ? run : NULL);
+            continue;
+        }
         if (!gb_pool_submit(pool, ticket, &run->params, run->directory, err)) {
             return gb_pool_busy(pool) > 0; /* with fewer workers then */
         }
@@ -122,13 +179,29 @@ static bool submit(struct gb_ensemble *ensemble, struct gb_pool *pool,
     return true;
 }
 
-static void tell(const struct gb_ensemble *ensemble,
-                 const struct gb_ensemble_callbacks *callbacks,
-                 const struct gb_ensemble_run *run)
+/* To be submitted again. */
+static void put_back(const struct gb_ensemble *ensemble, struct queue *queue,
+                     struct gb_ensemble_run *run)
 {
-    if (callbacks->progress != NULL) {
-        callbacks->progress(ensemble, run, callbacks->data);
+    run->submitted = run->elsewhere = false;
+    queue->from = MIN(queue->from, (size_t)(run - ensemble->run));
+    queue->waiting++;
+}
+
+/* Looks again at the runs of other processes; the number of those still waited for. */
+static size_t follow(struct gb_ensemble *ensemble, struct queue *queue)
+{
+    size_t waited_for = 0;
+    for (size_t i = 0; i < ensemble->points * ensemble->replicas; i++) {
+        struct gb_ensemble_run *run = &ensemble->run[i];
+        if (run->elsewhere && !has_converged(ensemble, run->point)) {
+            waited_for++;
+            if (!gb_rundir_busy(run->directory)) {
+                put_back(ensemble, queue, run);
+            }
+        }
     }
+    return waited_for;
 }
 
 static void receive(struct gb_ensemble *ensemble, struct gb_pool *pool,
@@ -140,10 +213,8 @@ static void receive(struct gb_ensemble *ensemble, struct gb_pool *pool,
         return;
     }
     struct gb_ensemble_run *run = &ensemble->run[report.ticket];
-    if (report.lost) { /* to be submitted again */
-        run->submitted = false;
-        queue->from = MIN(queue->from, report.ticket);
-        queue->waiting++;
+    if (report.lost || gb_single_run_is_taken(&report.error)) {
+        put_back(ensemble, queue, run);
         tell(ensemble, callbacks, NULL);
         return;
     }
@@ -174,8 +245,9 @@ bool gb_ensemble_work(struct gb_ensemble *ensemble, struct gb_pool *pool,
             stopping = true;
             gb_pool_stop(pool);
         }
-        good = good && (stopping || submit(ensemble, pool, &queue, err));
-        if (gb_pool_busy(pool) == 0) {
+        const bool waits = good && !stopping && follow(ensemble, &queue) > 0;
+        good = good && (stopping || submit(ensemble, pool, &queue, callbacks, err));
+        if (gb_pool_busy(pool) == 0 && !waits) {
             break;
         }
         receive(ensemble, pool, &queue, callbacks);

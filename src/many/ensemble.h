@@ -16,7 +16,8 @@ struct gb_ensemble_run {
     struct gb_params params;
     char *directory;
     bool submitted, ended; /* to a worker; by it, or by an earlier command */
-    bool before;           /* ended by an earlier command */
+    bool before;           /* ended by another command, earlier or meanwhile */
+    bool elsewhere;        /* another process does it; waited for */
     struct gb_error error; /* once ended; GB_OK: all stages of loading are done */
     double seconds;
 };
@@ -42,8 +43,9 @@ void gb_ensemble_finish(struct gb_ensemble *ensemble); /* zeroed is fine */
 struct gb_ensemble_run *gb_ensemble_at(const struct gb_ensemble *ensemble, size_t point,
                                        size_t replica);
 
-/* Marks the runs whose directories say that they are done.  Errors: GB_ERR_INPUT for a
- * directory with a run of other parameters, or with other files: it is left as it is. */
+/* Marks the runs whose directories say that they are done; those that another process does
+ * are left to it.  Errors: GB_ERR_INPUT for a directory with a run of other parameters, or
+ * with other files: it is left as it is. */
 bool gb_ensemble_find_done(struct gb_ensemble *ensemble, struct gb_error *err);
 
 /* Callbacks of gb_ensemble_work; NULL members are not called. */
@@ -55,7 +57,9 @@ struct gb_ensemble_callbacks {
     void *data;
 };
 
-/* Does the runs that have not ended.  One that fails is marked; the others continue.
+/* Does the runs that have not ended.  One that fails is marked; the others continue.  Those
+ * that another process does, or has done since, are not done twice: it ends when they have
+ * ended there, and does the ones that were left unfinished.
  *
  * Errors: GB_ERR_CANCELLED (the runs under way have stopped), GB_ERR_MACHINE when no
  * worker can be started at all. */

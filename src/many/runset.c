@@ -7,8 +7,8 @@
 
 #include "base/alloc.h"
 #include "io/follow.h"
+#include "io/status_json.h"
 #include "many/key_difference.h"
-#include "many/single_run.h"
 
 bool gb_runset_same(const struct gb_params *a, const struct gb_params *b)
 {
@@ -125,7 +125,7 @@ void gb_runset_expand(GPtrArray *list, const char *directory)
     while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
         char *path = g_build_filename(directory, name, NULL);
         char *status = g_build_filename(path, "status.json", NULL);
-        if (has_file(path, "preset.ini") && gb_single_run_status_is_done(status)) {
+        if (has_file(path, "preset.ini") && gb_status_json_is_done(status)) {
             g_ptr_array_add(found, g_steal_pointer(&path));
         }
         g_free(status);

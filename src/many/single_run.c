@@ -5,6 +5,7 @@
 #include <glib.h>
 
 #include "io/preset.h"
+#include "io/rundir.h"
 #include "io/status_json.h"
 #include "many/runset.h"
 #include "run/run_loop.h"
@@ -35,27 +36,56 @@ static void on_end(void *data)
     }
 }
 
+/* Text of the error that gb_single_run_is_taken knows again. */
+static const char taken_text[] = "another process does this run or has done it";
+
+/* Times that a directory that changes is tried again. */
+enum { TRIES = 3 };
+
+/* Locks the directory before the packing is built, so that another process leaves the run
+ * alone and does another one. */
+static bool claim(struct single_run *run, const struct gb_params *params,
+                  const char *directory, enum gb_rundir_mode mode, struct gb_error *err)
+{
+    for (int i = 0; i < TRIES; i++) {
+        if (gb_run_recorder_create(&run->loop.recorder, directory, params, mode, err)) {
+            return true;
+        }
+        if (mode == GB_RUNDIR_MISSING &&
+            (gb_rundir_busy(directory) ||
+             gb_single_run_find(params, directory) == GB_SINGLE_RUN_DONE)) {
+            return gb_error_set(err, GB_ERR_INPUT, "%s", taken_text);
+        }
+    }
+    return false;
+}
+
 static bool begin(struct single_run *run, const struct gb_params *params,
-                  const char *directory, struct gb_error *err)
+                  const char *directory, enum gb_rundir_mode mode, struct gb_error *err)
 {
     struct gb_experiment *experiment = NULL;
+    if (!claim(run, params, directory, mode, err)) {
+        return false;
+    }
     if (!gb_experiment_create(&experiment, params, is_cancelled, run, err)) {
+        gb_run_recorder_discard(run->loop.recorder);
+        run->loop.recorder = NULL;
         return false;
     }
     gb_run_loop_attach(&run->loop, experiment);
-    return gb_run_recorder_create(&run->loop.recorder, directory, params,
-                                  GB_RUNDIR_REPLACE, err);
+    return true;
 }
 
-bool gb_single_run(const struct gb_params *params, const char *directory,
-                   const struct gb_pool_callbacks *callbacks, struct gb_error *err)
+static bool perform(const struct gb_params *params, const char *directory,
+                    enum gb_rundir_mode mode, const struct gb_pool_callbacks *callbacks,
+                    struct gb_error *err)
 {
     struct single_run run = {.callbacks = callbacks};
     const struct gb_run_loop_hooks hooks = {
         .may_continue = may_continue, .on_end = on_end, .data = &run};
     struct gb_error failure = {0};
     gb_run_loop_init(&run.loop, &hooks);
-    const enum gb_run_outcome outcome = begin(&run, params, directory, &failure)
+    const enum gb_run_outcome outcome = begin(&run, params, directory, mode, &failure)
                                             ? gb_run_loop_run(&run.loop)
                                             : gb_run_loop_fail(&run.loop, &failure);
     gb_run_loop_finish(&run.loop);
@@ -63,18 +93,22 @@ bool gb_single_run(const struct gb_params *params, const char *directory,
            gb_error_set(err, run.loop.error.code, "%s", run.loop.error.text);
 }
 
-bool gb_single_run_status_is_done(const char *path)
+bool gb_single_run(const struct gb_params *params, const char *directory,
+                   const struct gb_pool_callbacks *callbacks, struct gb_error *err)
 {
-    JsonParser *parser = gb_status_json_open(path, NULL);
-    if (parser == NULL) {
-        return false;
-    }
-    JsonObject *status = json_node_get_object(json_parser_get_root(parser));
-    const bool done =
-        strcmp(json_object_get_string_member_with_default(status, "state", ""), "done") ==
-        0;
-    g_object_unref(parser);
-    return done;
+    return perform(params, directory, GB_RUNDIR_REPLACE, callbacks, err);
+}
+
+bool gb_single_run_missing(const struct gb_params *params, const char *directory,
+                           const struct gb_pool_callbacks *callbacks,
+                           struct gb_error *err)
+{
+    return perform(params, directory, GB_RUNDIR_MISSING, callbacks, err);
+}
+
+bool gb_single_run_is_taken(const struct gb_error *error)
+{
+    return error->code == GB_ERR_INPUT && strcmp(error->text, taken_text) == 0;
 }
 
 enum gb_single_run_found gb_single_run_find(const struct gb_params *params,
@@ -88,7 +122,7 @@ enum gb_single_run_found gb_single_run_find(const struct gb_params *params,
         if (gb_preset_params(preset)->seed != params->seed ||
             !gb_runset_same(gb_preset_params(preset), params)) {
             found = GB_SINGLE_RUN_OTHER;
-        } else if (gb_single_run_status_is_done(status)) {
+        } else if (gb_status_json_is_done(status)) {
             found = GB_SINGLE_RUN_DONE;
         }
         gb_preset_destroy(preset);

@@ -17,6 +17,14 @@
 bool gb_single_run(const struct gb_params *params, const char *directory,
                    const struct gb_pool_callbacks *callbacks, struct gb_error *err);
 
+/* The same for directories that other processes work in, too: a run that another one does or
+ * has done is left to it, with an error that gb_single_run_is_taken knows (GB_ERR_INPUT).
+ * gb_ensemble_work looks at it again. */
+bool gb_single_run_missing(const struct gb_params *params, const char *directory,
+                           const struct gb_pool_callbacks *callbacks,
+                           struct gb_error *err);
+bool gb_single_run_is_taken(const struct gb_error *error);
+
 enum gb_single_run_found {
     GB_SINGLE_RUN_DONE,
     GB_SINGLE_RUN_NOT_DONE, /* a run that was not finished, or no preset to be read */
@@ -27,8 +35,5 @@ enum gb_single_run_found {
  * differ: they change no result. */
 enum gb_single_run_found gb_single_run_find(const struct gb_params *params,
                                             const char *directory);
-
-/* Does this status.json say that its run was done? */
-bool gb_single_run_status_is_done(const char *path);
 
 #endif

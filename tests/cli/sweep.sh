@@ -143,6 +143,69 @@ kill -KILL $pid
 wait $pid 2>/dev/null
 is 'SIGKILL: the workers stop by themselves' until_true none_works killed
 
+# --- two at once in one directory --------------------------------------------------------
+# Runs of a second or more, so that one can be met.
+shared() { # more arguments
+    "$greenbody" sweep p1-nobridge-38nm particles.count=300 structure.base=auto \
+        'loading.until=20 MPa' loading.unload_from= numerics.tolerance=1e-3 --vary 'contact.mu=0.1;0.3' \
+        --replicas 2 --at '5 MPa' "$@"
+}
+
+is_done() { # directories of runs
+    for run in "$@"; do
+        grep -qs '"state" : "done"' "$run/status.json" || return 1
+    done
+}
+
+# A process that stands in its first run.
+meet() {
+    while :; do
+        rm -rf shared
+        shared --jobs 1 --out shared >/dev/null 2>first.err &
+        first=$!
+        until_true [ -e shared/mu-0.1_seed-1/preset.ini ]
+        worker=$(cat /proc/$first/task/$first/children 2>/dev/null)
+        [ -n "$worker" ] && kill -STOP $worker && ! is_done shared/mu-0.1_seed-1 && return
+        [ -n "$worker" ] && kill -CONT $worker
+        wait $first
+    done
+}
+
+shared --out alone >stdout 2>stderr
+meet
+shared --jobs 1 --out shared >stdout 2>stderr &
+second=$!
+is 'a second sweep does the runs that are left' until_true is_done shared/mu-0.1_seed-2 \
+    shared/mu-0.3_seed-1 shared/mu-0.3_seed-2
+is 'and waits for the one under way' kill -0 $second
+is 'which it leaves alone' [ ! -e shared/sweep.csv ]
+kill -CONT $worker
+wait $first
+is 'the first ends with status 0' [ $? -eq 0 ]
+wait $second
+is 'and the second' [ $? -eq 0 ]
+is 'with the table of one' cmp alone/sweep.csv shared/sweep.csv
+is 'and its list' cmp alone/runs.csv shared/runs.csv
+
+meet
+shared --jobs 1 --out shared >stdout 2>stderr &
+second=$!
+until_true is_done shared/mu-0.3_seed-2
+kill -KILL $first $worker
+wait $first 2>/dev/null
+wait $second
+is 'what a killed one leaves is done by the other' [ $? -eq 0 ]
+is 'with the same table' cmp alone/sweep.csv shared/sweep.csv
+
+rm -rf shared
+shared --jobs 2 --out shared >/dev/null 2>first.err &
+first=$!
+shared --jobs 2 --out shared >stdout 2>stderr
+is 'two from the start' [ $? -eq 0 ]
+wait $first
+is 'both' [ $? -eq 0 ]
+is 'have the same table' cmp alone/sweep.csv shared/sweep.csv
+
 # --- wrong input -------------------------------------------------------------------------
 refused 'no --out' "$greenbody" sweep default
 refused 'no preset' "$greenbody" sweep --out out

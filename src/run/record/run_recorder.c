@@ -190,13 +190,26 @@ bool gb_run_recorder_resume(struct gb_run_recorder **out,
     return true;
 }
 
+/* Ends all but the store. */
+static void end(struct gb_run_recorder *recorder)
+{
+    gb_writer_destroy(recorder->writer);
+    gb_live_export_finish(&recorder->live);
+}
+
+void gb_run_recorder_discard(struct gb_run_recorder *recorder)
+{
+    end(recorder);
+    gb_store_discard(recorder->store);
+    gb_alloc_free(recorder);
+}
+
 void gb_run_recorder_destroy(struct gb_run_recorder *recorder)
 {
     if (!recorder) {
         return;
     }
-    gb_writer_destroy(recorder->writer);
-    gb_live_export_finish(&recorder->live);
+    end(recorder);
     gb_store_destroy(recorder->store);
     gb_alloc_free(recorder);
 }

@@ -33,6 +33,9 @@ bool gb_run_recorder_resume(struct gb_run_recorder **out,
                             struct gb_experiment **experiment, const char *directory,
                             enum gb_run_recorder_from from, struct gb_error *err);
 
+/* For a run that cannot begin: removes its files and the directories made for it. */
+void gb_run_recorder_discard(struct gb_run_recorder *recorder);
+
 /* Waits for the last checkpoint.  NULL is fine. */
 void gb_run_recorder_destroy(struct gb_run_recorder *recorder);
 
