@@ -116,6 +116,20 @@ static bool read_cell(const struct gb_table *table, const struct cursor *at,
                         at->line, table->name[column], cell);
 }
 
+static bool read_whole(struct gb_table *table, const struct cursor *at, const char *cell,
+                       struct gb_error *err)
+{
+    guint64 number = 0;
+    if (!g_ascii_string_to_unsigned(cell, 10, 0, G_MAXUINT64, &number, NULL)) {
+        return gb_error_set(
+            err, GB_ERR_INPUT,
+            "%s:%d: %.40s = '%.40s': must be a whole number from 0 to 2^64 - 1",
+            table->path, at->line, table->name[table->wholes], cell);
+    }
+    table->whole[table->rows] = number;
+    return true;
+}
+
 static bool read_row(struct gb_table *table, const struct cursor *at, char *rest,
                      size_t room, struct gb_error *err)
 {
@@ -128,6 +142,9 @@ static bool read_row(struct gb_table *table, const struct cursor *at, char *rest
             }
             if (column == table->words) {
                 table->word[table->rows] = cell;
+            }
+            if (column == table->wholes && !read_whole(table, at, cell, err)) {
+                return false;
             }
         }
         column++;
@@ -150,7 +167,8 @@ static void close_gaps(struct gb_table *table, size_t room)
     }
 }
 
-static bool parse(struct gb_table *table, const char *words, struct gb_error *err)
+static bool parse(struct gb_table *table, const char *words, const char *whole,
+                  struct gb_error *err)
 {
     struct cursor at = {table->text, table->text + table->length, 0};
     const void *nul = memchr(table->text, '\0', table->length);
@@ -167,6 +185,7 @@ static bool parse(struct gb_table *table, const char *words, struct gb_error *er
     const size_t room = count_lines(&at);
     table->words = words ? find(table, words) : table->columns;
     table->units = words ? find(table, "unit") : table->columns;
+    table->wholes = whole ? find(table, whole) : table->columns;
     if (room > GB_TABLE_CELLS_MAX / table->columns) {
         return gb_error_set(err, GB_ERR_INPUT, "%s: more than %d cells", table->path,
                             GB_TABLE_CELLS_MAX);
@@ -174,7 +193,11 @@ static bool parse(struct gb_table *table, const char *words, struct gb_error *er
     table->value = gb_alloc_array(table->columns * room, sizeof *table->value, err);
     table->word = gb_alloc_array(room, sizeof *table->word, err);
     table->line = gb_alloc_array(room, sizeof *table->line, err);
-    if (table->value == NULL || table->word == NULL || table->line == NULL) {
+    table->whole = table->wholes < table->columns
+                       ? gb_alloc_array(room, sizeof *table->whole, err)
+                       : NULL;
+    if (table->value == NULL || table->word == NULL || table->line == NULL ||
+        (table->whole == NULL && table->wholes < table->columns)) {
         return false;
     }
     for (char *line = next_line(&at); line; line = next_line(&at)) {
@@ -189,13 +212,19 @@ static bool parse(struct gb_table *table, const char *words, struct gb_error *er
 bool gb_table_read(struct gb_table **out, const char *path, const char *words,
                    struct gb_error *err)
 {
+    return gb_table_read_whole(out, path, words, NULL, err);
+}
+
+bool gb_table_read_whole(struct gb_table **out, const char *path, const char *words,
+                         const char *whole, struct gb_error *err)
+{
     struct gb_table *table = gb_alloc_array(1, sizeof *table, err);
     if (table == NULL) {
         return false;
     }
     table->path = g_strdup(path);
     if (!gb_read_file(path, GB_TABLE_BYTES_MAX, &table->text, &table->length, err) ||
-        !parse(table, words, err)) {
+        !parse(table, words, whole, err)) {
         gb_table_destroy(table);
         return false;
     }
@@ -211,6 +240,7 @@ void gb_table_destroy(struct gb_table *table)
     g_free(table->path);
     gb_alloc_free(table->text);
     gb_alloc_free(table->value);
+    gb_alloc_free(table->whole);
     gb_alloc_free(table->word);
     gb_alloc_free(table->line);
     gb_alloc_free(table);
@@ -251,6 +281,11 @@ const double *gb_table_column(const struct gb_table *table, const char *name,
                  known->str);
     g_string_free(known, TRUE);
     return NULL;
+}
+
+const uint64_t *gb_table_whole(const struct gb_table *table)
+{
+    return table->whole;
 }
 
 const char *gb_table_words(const struct gb_table *table)

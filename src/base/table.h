@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "greenbody/status.h"
 
@@ -25,6 +26,10 @@ enum {
  * quotes, NUL bytes and rows of another length are refused. */
 bool gb_table_read(struct gb_table **out, const char *path, const char *words,
                    struct gb_error *err);
+/* The same with a column of whole numbers from 0 to 2^64 - 1, as of seeds, which a double
+ * does not keep; anything else in it is refused. */
+bool gb_table_read_whole(struct gb_table **out, const char *path, const char *words,
+                         const char *whole, struct gb_error *err);
 void gb_table_destroy(struct gb_table *table); /* NULL is fine */
 
 const char *gb_table_path(const struct gb_table *table);
@@ -40,6 +45,9 @@ int gb_table_line(const struct gb_table *table, size_t row);
  * the columns when there is no such. */
 const double *gb_table_column(const struct gb_table *table, const char *name,
                               struct gb_error *err);
+
+/* The column of whole numbers, as long as the table lives; NULL: there is none. */
+const uint64_t *gb_table_whole(const struct gb_table *table);
 
 /* The name of the column of words; NULL: there is none. */
 const char *gb_table_words(const struct gb_table *table);

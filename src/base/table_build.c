@@ -37,7 +37,7 @@ static bool reserve(struct gb_table *table, const struct gb_table_content *conte
     table->path = g_strdup(content->path);
     table->columns = content->columns;
     table->rows = rows;
-    table->words = table->units = content->columns;
+    table->words = table->units = table->wholes = content->columns;
     table->text = gb_alloc_array(text_length(content) + 1, 1, err);
     table->value = gb_alloc_array(content->columns * rows, sizeof *table->value, err);
     table->word = gb_alloc_array(rows, sizeof *table->word, err);

@@ -12,7 +12,9 @@ struct gb_table {
     char *name[GB_TABLE_COLUMNS_MAX]; /* into text */
     size_t words;                     /* column of words; columns: none */
     size_t units;                     /* column of units beside it, which is skipped */
+    size_t wholes;                    /* column of whole numbers; columns: none */
     double *value;                    /* columns x rows */
+    uint64_t *whole;                  /* rows; NULL without whole numbers */
     char **word;                      /* rows, into text; NULL without words */
     int *line;                        /* rows */
 };

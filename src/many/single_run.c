@@ -39,7 +39,7 @@ static void on_end(void *data)
 /* Text of the error that gb_single_run_is_taken knows again. */
 static const char taken_text[] = "another process does this run or has done it";
 
-/* Times that a directory that changes is tried again. */
+/* Times that a directory is tried in which other processes begin and end runs. */
 enum { TRIES = 3 };
 
 /* Locks the directory before the packing is built, so that another process leaves the run
@@ -47,7 +47,8 @@ enum { TRIES = 3 };
 static bool claim(struct single_run *run, const struct gb_params *params,
                   const char *directory, enum gb_rundir_mode mode, struct gb_error *err)
 {
-    for (int i = 0; i < TRIES; i++) {
+    const int tries = mode == GB_RUNDIR_MISSING ? TRIES : 1;
+    for (int i = 0; i < tries; i++) {
         if (gb_run_recorder_create(&run->loop.recorder, directory, params, mode, err)) {
             return true;
         }

@@ -48,6 +48,29 @@ static void test_good(void)
     gb_table_destroy(NULL);
 }
 
+/* Seeds, which doubles would round. */
+static void test_whole(void)
+{
+    struct gb_table *table = NULL;
+    struct gb_error err = {0};
+    write_text("seed,x\n9007199254740993,1\n18446744073709551615,2\n", -1);
+    g_assert_true(gb_table_read_whole(&table, path, NULL, "seed", &err));
+    g_assert_cmpuint(gb_table_whole(table)[0], ==, UINT64_C(9007199254740993));
+    g_assert_cmpuint(gb_table_whole(table)[1], ==, UINT64_MAX);
+    g_assert_true(gb_table_column(table, "x", &err)[1] == 2.0);
+    gb_table_destroy(table);
+    g_assert_true(gb_table_read_whole(&table, path, NULL, "other", &err));
+    g_assert_null(gb_table_whole(table));
+    gb_table_destroy(table);
+    static const char *const no_number[] = {"seed\n18446744073709551616\n", "seed\n-1\n",
+                                            "seed\n1.5\n", "seed,x\n,1\n"};
+    for (size_t i = 0; i < G_N_ELEMENTS(no_number); i++) {
+        write_text(no_number[i], -1);
+        g_assert_false(gb_table_read_whole(&table, path, NULL, "seed", &err));
+        g_assert_nonnull(strstr(err.text, ":2: seed = '"));
+    }
+}
+
 static const char *const refused[][2] = {
     {"", "no header row"},
     {"# only\n\n", "no header row"},
@@ -122,6 +145,7 @@ int main(int argc, char **argv)
     char *folder = g_dir_make_tmp("table-XXXXXX", NULL);
     path = g_build_filename(folder, "curve.csv", NULL);
     g_test_add_func("/table/good", test_good);
+    g_test_add_func("/table/whole", test_whole);
     g_test_add_func("/table/hostile", test_hostile);
     g_test_add_func("/table/no-file", test_no_file);
     const int status = g_test_run();

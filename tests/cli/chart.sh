@@ -25,8 +25,8 @@ is 'without --out nothing is done' refused "$greenbody" chart mine.ini
 is 'a key that is no setting' refused "$greenbody" chart mine.ini --vary contact.mu=0.1 \
     --out out
 is 'a budget that is no time' refused "$greenbody" chart mine.ini --budget 10 --out out
-is 'a seed that a table of numbers cannot keep' refused "$greenbody" chart mine.ini \
-    structure.seed=9007199254740993 --out out
+is 'a seed without one after it' refused "$greenbody" chart mine.ini \
+    structure.seed=18446744073709551615 --seeds 2 --out out
 is 'one seed says nothing' refused "$greenbody" chart mine.ini --seeds 1 --out out
 is 'and nothing is made' [ ! -e out ]
 
@@ -51,6 +51,19 @@ is 'another scene does not go on there' refused "$greenbody" chart mine.ini \
     contact.mu=0.3 --out out --at '20 MPa; 50 MPa' --seeds 3
 is 'nor other pressures' refused "$greenbody" chart mine.ini --at '30 MPa' --seeds 3 \
     --out out
+
+# 2^53 + 1, which no double is
+large() {
+    "$greenbody" chart mine.ini structure.seed=9007199254740993 --seeds 2 --at '20 MPa' \
+        --vary 'numerics.tolerance=0.05,0.02' --reference 'loading.step=0.5 %' --out large \
+        >stdout 2>stderr
+}
+is 'a seed above 2^53' large
+is 'keeps its value' [ "$(grep -c ',9007199254740993,0,' large/runs.csv)" -eq 3 ]
+is 'as the next one does' [ "$(grep -c ',9007199254740994,0,' large/runs.csv)" -eq 3 ]
+cp large/runs.csv large.csv
+is 'read again' large
+is 'it is the same cell' cmp -s large.csv large/runs.csv
 
 is 'the setting goes into a copy' chart --allow 1 --out out --write copy.ini
 is 'that differs in its numbers only' sh -c "diff mine.ini copy.ini | grep '^[<>]' |

@@ -191,6 +191,33 @@ static void test_axes(void)
     gb_axes_finish(&axes);
 }
 
+/* Any two values have directories of their own. */
+static void test_axes_names(void)
+{
+    static const char *const expected[] = {"name-a~2Fb", "name-ab", "name-a~20b",
+                                           "name-a~5Fb", "name-a~7E20b"};
+    struct gb_axes axes = {0};
+    add(&axes, "material.name=a/b;ab;a b;a_b;a~20b");
+    for (size_t i = 0; i < G_N_ELEMENTS(expected); i++) {
+        char *name = gb_axes_name(&axes, i);
+        g_assert_cmpstr(name, ==, expected[i]);
+        g_free(name);
+    }
+    gb_axes_finish(&axes);
+    /* longer than a file's name may be, and different at the end only */
+    char *same = g_strnfill(62, 'x');
+    char *line = g_strdup_printf("material.name=%sa;%sb", same, same);
+    add(&axes, line);
+    char *a = gb_axes_name(&axes, 0), *b = gb_axes_name(&axes, 1);
+    g_assert_cmpstr(a, !=, b);
+    g_assert_cmpuint(strlen(a), ==, strlen("name-") + 40 + 2 + 16);
+    g_free(a);
+    g_free(b);
+    g_free(same);
+    g_free(line);
+    gb_axes_finish(&axes);
+}
+
 /* All keys of a material, in front of those of other axes. */
 static void test_axes_material(void)
 {
@@ -591,6 +618,7 @@ int main(int argc, char **argv)
     g_assert_nonnull(folder);
     g_test_add_func("/axes/values", test_axes);
     g_test_add_func("/axes/material", test_axes_material);
+    g_test_add_func("/axes/names", test_axes_names);
     g_test_add_func("/axes/refuse", test_axes_refuse);
     g_test_add_func("/ensemble/design", test_axes_design);
     g_test_add_func("/sweeptable/pressures", test_pressures);

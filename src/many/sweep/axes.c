@@ -112,13 +112,17 @@ static bool is_decimal_comma(const struct gb_axis *axis, const char *values)
            comma > values && g_ascii_isdigit(comma[-1]) && g_ascii_isdigit(comma[1]);
 }
 
+bool gb_axes_is_free_text(const struct gb_axis *axis)
+{
+    return axis->material ||
+           (axis->field->type == GB_FIELD_TEXT && axis->field->choices == NULL);
+}
+
 /* What is between the values: ';', or ',' where there is none and the key's own values
  * cannot have one. */
 static const char *separator_of(const struct gb_axis *axis, const char *values)
 {
-    const bool free_text = axis->field->type == GB_FIELD_TEXT &&
-                           axis->field->choices == NULL && !axis->material;
-    return free_text || strchr(values, ';') != NULL ? ";" : ",";
+    return (gb_axes_is_free_text(axis) && !axis->material) || strchr(values, ';') != NULL ? ";" : ",";
 }
 
 static bool add_list(struct gb_axis *axis, const char *text, const char *values,
@@ -348,38 +352,6 @@ bool gb_axes_apply(const struct gb_axes *axes, size_t point, struct gb_params *p
         }
     }
     return gb_params_check(params, err);
-}
-
-/* Is the key alone enough to tell this axis from the others? */
-static bool is_key_unique(const struct gb_axes *axes, size_t axis)
-{
-    for (size_t i = 0; i < axes->count; i++) {
-        if (i != axis &&
-            strcmp(axes->axis[i].field->key, axes->axis[axis].field->key) == 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
-char *gb_axes_name(const struct gb_axes *axes, size_t point)
-{
-    GString *name = g_string_new(axes->count == 0 ? "scene" : NULL);
-    for (size_t i = 0; i < axes->count; i++) {
-        const struct gb_field *field = axes->axis[i].field;
-        g_string_append(name, i > 0 ? "_" : "");
-        if (!is_key_unique(axes, i)) {
-            g_string_append_printf(name, "%s.", field->group);
-        }
-        g_string_append_printf(name, "%s-",
-                               axes->axis[i].material ? field->group : field->key);
-        for (const char *c = gb_axes_value(axes, point, i); *c != '\0'; c++) {
-            if (g_ascii_isalnum(*c) || *c == '.' || *c == '-' || *c == '+') {
-                g_string_append_c(name, *c);
-            }
-        }
-    }
-    return g_string_free(name, FALSE);
 }
 
 /* The unit in which a column is written: that of the first value if all have it, else of

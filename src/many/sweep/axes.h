@@ -53,8 +53,15 @@ const char *gb_axes_value(const struct gb_axes *axes, size_t point, size_t axis)
 bool gb_axes_apply(const struct gb_axes *axes, size_t point, struct gb_params *params,
                    struct gb_error *err);
 
+/* Has the key words of its own, in which every character counts? */
+bool gb_axes_is_free_text(const struct gb_axis *axis);
+
 /* "mu-0.2_diameter-9.7nm": a name that depends on the values only, so that a grid can
- * grow in the same directory; "scene" without axes.  Caller g_frees. */
+ * grow in the same directory, and tells any two points apart; "scene" without axes.  Of words
+ * that may have any character (a material, a path of loading) those that are neither
+ * letters, digits, '.', '+' nor '-' become "~" and two hexadecimal digits per byte, and
+ * what is longer than a file name may be ends with "~~" and a checksum.  Caller
+ * g_frees. */
 char *gb_axes_name(const struct gb_axes *axes, size_t point);
 
 /* The same for a table: the name of a column, "contact.mu" or "particles.diameter_nm",

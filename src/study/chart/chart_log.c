@@ -105,7 +105,8 @@ static void column_name(const struct gb_chart_log *log, const char *what, int k,
 
 struct columns {
     const double *count, *step, *tolerance, *cutoff, *bits, *time_step, *step_error,
-        *seed, *failed, *evaluations, *cpu_s;
+        *failed, *evaluations, *cpu_s;
+    const uint64_t *seed;
     const double *density[GB_CHART_PRESSURES], *coordination[GB_CHART_PRESSURES];
 };
 
@@ -123,12 +124,12 @@ static bool find_columns(const struct gb_chart_log *log, const struct gb_table *
         {"bits", &c->bits},
         {"time_step_T", &c->time_step},
         {"step_error", &c->step_error},
-        {"seed", &c->seed},
         {"failed", &c->failed},
         {"evaluations", &c->evaluations},
         {"cpu_s", &c->cpu_s},
     };
-    bool good = true;
+    c->seed = gb_table_whole(table);
+    bool good = c->seed != NULL || gb_table_column(table, "seed", err) != NULL;
     for (size_t i = 0; i < G_N_ELEMENTS(wanted) && good; i++) {
         *wanted[i].column = gb_table_column(table, wanted[i].name, err);
         good = *wanted[i].column != NULL;
@@ -150,7 +151,8 @@ static bool read_runs(struct gb_chart_log *log, struct gb_error *err)
     struct gb_table *table = NULL;
     struct columns c = {0};
     const bool good =
-        gb_table_read(&table, path, "relaxer", err) && find_columns(log, table, &c, err);
+        gb_table_read_whole(&table, path, "relaxer", "seed", err) &&
+        find_columns(log, table, &c, err);
     for (size_t i = 0; good && i < gb_table_rows(table); i++) {
         struct gb_chart_run run = {
             .setting = {.count = (int64_t)c.count[i],
@@ -160,7 +162,7 @@ static bool read_runs(struct gb_chart_log *log, struct gb_error *err)
                         .single = c.bits[i] < 64.0,
                         .time_step = c.time_step[i],
                         .step_error = c.step_error[i]},
-            .seed = (uint64_t)c.seed[i],
+            .seed = c.seed[i],
             .failed = c.failed[i] != 0.0,
             .evaluations = c.evaluations[i],
             .cpu_s = c.cpu_s[i],
@@ -186,18 +188,24 @@ static void add_number(GString *text, double value)
     }
 }
 
+static void add_numbers(GString *text, const double *number, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        add_number(text, number[i]);
+    }
+}
+
 static void add_row(const struct gb_chart_log *log, GString *text,
                     const struct gb_chart_run *run)
 {
     const struct gb_chart_setting *c = &run->setting;
     g_string_append(text, c->relaxer);
-    const double number[] = {(double)c->count, c->strain_step,    c->tolerance,
-                             c->cutoff,        gb_chart_bits(c),  c->time_step,
-                             c->step_error,    (double)run->seed, (double)run->failed,
-                             run->evaluations, run->cpu_s};
-    for (size_t i = 0; i < G_N_ELEMENTS(number); i++) {
-        add_number(text, number[i]);
-    }
+    const double setting[] = {(double)c->count, c->strain_step, c->tolerance, c->cutoff,
+                              gb_chart_bits(c), c->time_step,   c->step_error};
+    const double result[] = {(double)run->failed, run->evaluations, run->cpu_s};
+    add_numbers(text, setting, G_N_ELEMENTS(setting));
+    g_string_append_printf(text, ",%" PRIu64, run->seed);
+    add_numbers(text, result, G_N_ELEMENTS(result));
     for (int k = 0; k < log->plan->pressures; k++) {
         add_number(text, run->density[k]);
         add_number(text, run->coordination[k]);

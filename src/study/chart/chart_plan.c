@@ -311,10 +311,9 @@ static bool given(const char *const *list)
     return list != NULL && list[0] != NULL;
 }
 
-/* chart.csv is read with numbers of 53 bits. */
 static bool check_seeds(const struct gb_params *params, int seeds, struct gb_error *err)
 {
-    const uint64_t most = (UINT64_C(1) << 53) - (uint64_t)seeds;
+    const uint64_t most = UINT64_MAX - (uint64_t)(seeds > 0 ? seeds - 1 : 0);
     return params->seed <= most ||
            gb_error_set(err, GB_ERR_INPUT,
                         "structure.seed = %" PRIu64 ": accepted up to %" PRIu64
