@@ -71,11 +71,11 @@ both_work() { # directory
     [ "$(find . -path "./$1/*/status.json" | wc -l)" -ge 2 ] || ! kill -0 $mpirun
 }
 
-# Of the ranks of $mpirun the second one, while it has work: then $ended is its id.
-end_second() { # directory, what ends it
+# One of the ranks of $mpirun, while it has work: then $ended is its id.
+end_rank() { # directory, what ends it, its number
     until_true both_work "$1"
     for pid in $(pgrep -P $mpirun); do
-        if tr '\0' '\n' <"/proc/$pid/environ" | grep -qx OMPI_COMM_WORLD_RANK=1 &&
+        if tr '\0' '\n' <"/proc/$pid/environ" | grep -qx "OMPI_COMM_WORLD_RANK=$3" &&
             [ -n "$(pgrep -P "$pid")" ]; then
             "$2" "$pid"
             ended=$pid
@@ -85,7 +85,7 @@ end_second() { # directory, what ends it
 
 # Larger and larger runs, until the rank is met before the work is done: how large depends on
 # how much faster the ranks are than this script.
-without() { # directory, what ends the second rank while both work
+without() { # directory, what ends a rank while both work, its number
     ended=
     count=400
     while [ -z "$ended" ] && [ $count -le 25600 ]; do
@@ -95,16 +95,18 @@ without() { # directory, what ends the second rank while both work
             --set particles.count=$count --vary 'contact.mu=0.1;0.3' --replicas 4 --yes \
             --out "$1" >stdout 2>stderr &
         mpirun=$!
-        end_second "$1" "$2"
+        end_rank "$1" "$2" "$3"
         wait $mpirun
         count=$((2 * count))
     done
-    is "$2: a rank was met" [ -n "$ended" ]
-    is "$2: all runs are done by the others" [ "$(grep -c ',done,$' "$1/runs.csv")" -eq 8 ]
+    is "$1: rank $3 was met" [ -n "$ended" ]
+    is "$1: all runs are done by the others" [ "$(grep -c ',done,$' "$1/runs.csv")" -eq 8 ]
 }
-without killed killed_at_once
-without left asked
-without lost asked_then_killed
+without killed killed_at_once 1
+without left asked 1
+without lost asked_then_killed 1
+without headless killed_at_once 0
+is 'and the means are written' [ "$(grep -c '^[12],0.[13],load,10,4,' headless/sweep.csv)" -eq 2 ]
 
 echo "1..$tests"
 exit $bad
