@@ -42,8 +42,11 @@ enum gb_batch_progress_rank gb_batch_progress_join(struct gb_batch_progress *bat
     /* errors of --jobs and signals are printed once, by the first rank */
     *status =
         serve(batch->mpi, MIN(jobs, JOBS_MAX), &err) ? 0 : gb_status_exit_code(err.code);
+    /* every rank that is left does what the command says: runs are shared by directory */
+    const bool goes_on = gb_mpi_pool_first_is_lost(batch->mpi);
     gb_mpi_pool_destroy(batch->mpi);
-    return GB_BATCH_PROGRESS_OTHER;
+    batch->mpi = NULL;
+    return goes_on ? GB_BATCH_PROGRESS_FIRST : GB_BATCH_PROGRESS_OTHER;
 }
 
 static bool is_terminal(void)

@@ -2,10 +2,20 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <glib.h>
 
 #include "base/built_with.h"
+
+struct gb_mpi_message_process gb_mpi_message_self(void)
+{
+    struct gb_mpi_message_process self = {.pid = getpid()};
+    if (gethostname(self.host, sizeof self.host - 1) != 0) {
+        self.pid = 0;
+    }
+    return self;
+}
 
 #if GB_WITH_MPI
 

@@ -29,7 +29,7 @@ struct gb_mpi_pool {
     struct member *member; /* one per rank; only of the first rank, its own unused */
     GPtrArray *posted;     /* runs whose messages are under way */
     double heartbeat_s;    /* clock of the last heartbeats sent */
-    bool any_lost;
+    bool any_lost, first_lost;
 };
 
 bool gb_mpi_pool_create(struct gb_mpi_pool **out, struct gb_error *err)
@@ -63,8 +63,14 @@ bool gb_mpi_pool_serve(struct gb_mpi_pool *mpi, struct gb_pool *local, size_t wo
 {
     enum gb_mpi_worker_end end = GB_MPI_WORKER_RANK_LOST;
     const bool good = gb_mpi_worker_serve(local, workers, cancelled, data, &end, err);
-    mpi->any_lost = end == GB_MPI_WORKER_RANK_LOST;
+    mpi->any_lost = end != GB_MPI_WORKER_ALL_ALIVE;
+    mpi->first_lost = end == GB_MPI_WORKER_FIRST_LOST;
     return good;
+}
+
+bool gb_mpi_pool_first_is_lost(const struct gb_mpi_pool *mpi)
+{
+    return mpi->first_lost;
 }
 
 static void send_members(struct gb_mpi_pool *mpi, enum gb_mpi_tag tag, int content)
@@ -103,7 +109,7 @@ static bool receive_message(struct gb_mpi_pool *mpi,
 {
     struct member *member = &mpi->member[head->rank];
     uint64_t capacity = 0;
-    int unused = 0;
+    struct gb_mpi_message_process unused;
     member->heard_s = gb_clock_s();
     switch (head->tag) {
     case GB_MPI_TAG_CAPACITY:
@@ -233,13 +239,13 @@ bool gb_mpi_pool_submit(struct gb_mpi_pool *mpi, size_t ticket,
 /* Never waits: the last heartbeat to a dead rank stays under way. */
 static void send_heartbeat(struct member *member, int rank)
 {
-    const int unused = 0;
+    const struct gb_mpi_message_process self = gb_mpi_message_self();
     if (member->heartbeat != NULL && !gb_mpi_message_is_sent(member->heartbeat)) {
         return;
     }
     g_free(member->heartbeat);
     member->heartbeat =
-        gb_mpi_message_post(rank, GB_MPI_TAG_HEARTBEAT, &unused, sizeof unused);
+        gb_mpi_message_post(rank, GB_MPI_TAG_HEARTBEAT, &self, sizeof self);
 }
 
 /* Sends heartbeats and looks for lost ranks, once in a heartbeat's interval. */

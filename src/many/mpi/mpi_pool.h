@@ -29,6 +29,10 @@ bool gb_mpi_pool_is_first(const struct gb_mpi_pool *mpi);
 bool gb_mpi_pool_serve(struct gb_mpi_pool *mpi, struct gb_pool *local, size_t workers,
                        bool (*cancelled)(void *data), void *data, struct gb_error *err);
 
+/* After gb_mpi_pool_serve: it ended because the first rank is gone.  The caller may go on
+ * without the others, which see what it does in the directories. */
+bool gb_mpi_pool_first_is_lost(const struct gb_mpi_pool *mpi);
+
 /* The rest is for the first rank; for NULL there are no workers.
  *
  * workers   of all other ranks; idle: those without a run

@@ -11,7 +11,7 @@ enum gb_mpi_tag {
     GB_MPI_TAG_CAPACITY = 1, /* uint64_t: how many runs the rank does at once */
     GB_MPI_TAG_RUN,          /* struct gb_mpi_run */
     GB_MPI_TAG_REPORT,       /* struct gb_pool_report */
-    GB_MPI_TAG_HEARTBEAT,    /* int, unused */
+    GB_MPI_TAG_HEARTBEAT,    /* struct gb_mpi_message_process: the sender */
     GB_MPI_TAG_STOP,         /* int, unused: all runs shall stop */
     GB_MPI_TAG_QUIT          /* int: 1 when a rank was lost, and MPI must not be ended */
 };

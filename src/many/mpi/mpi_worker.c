@@ -1,5 +1,9 @@
 #include "many/mpi/mpi_worker.h"
 
+#include <errno.h>
+#include <signal.h>
+#include <string.h>
+
 #include <glib.h>
 
 #include "base/clock.h"
@@ -7,8 +11,10 @@
 #include "many/mpi/mpi_protocol.h"
 #include "many/pool.h"
 
-/* The first rank may be busy for long, reading the results of a large sweep. */
+/* The first rank may be busy for long, reading the results of a large sweep; on the same
+ * machine its process shows whether it lives. */
 static const double first_lost_after_s = 600.0;
+static const double first_doubtful_after_s = 3.0;
 
 /* Why a rank does no more runs. */
 enum stop {
@@ -25,26 +31,53 @@ struct rank {
     int rank_lost;      /* content of the message quit */
     double heard_s;     /* clock of the last message of the first rank */
     double heartbeat_s; /* clock of the last heartbeat sent */
+    struct gb_mpi_message_process first;
+    GPtrArray *posted; /* messages to the first rank that are under way */
 };
 
-static void send_report(const struct gb_pool_report *report)
+/* Without waiting: the first rank may be dead. */
+static void send_first(struct rank *rank, enum gb_mpi_tag tag, const void *data,
+                       size_t size)
 {
-    gb_mpi_message_send(0, GB_MPI_TAG_REPORT, report, sizeof *report);
+    for (guint i = rank->posted->len; i > 0; i--) {
+        if (gb_mpi_message_is_sent(g_ptr_array_index(rank->posted, i - 1))) {
+            g_ptr_array_remove_index_fast(rank->posted, i - 1);
+        }
+    }
+    g_ptr_array_add(rank->posted, gb_mpi_message_post(0, (int)tag, data, size));
 }
 
-static void send_capacity(size_t workers)
+static void send_report(struct rank *rank, const struct gb_pool_report *report)
+{
+    send_first(rank, GB_MPI_TAG_REPORT, report, sizeof *report);
+}
+
+static void send_capacity(struct rank *rank, size_t workers)
 {
     const uint64_t capacity = workers;
-    gb_mpi_message_send(0, GB_MPI_TAG_CAPACITY, &capacity, sizeof capacity);
+    send_first(rank, GB_MPI_TAG_CAPACITY, &capacity, sizeof capacity);
 }
 
 static void send_heartbeat(struct rank *rank)
 {
-    const int unused = 0;
     if (gb_clock_s() - rank->heartbeat_s > gb_mpi_heartbeat_s) {
         rank->heartbeat_s = gb_clock_s();
-        gb_mpi_message_send(0, GB_MPI_TAG_HEARTBEAT, &unused, sizeof unused);
+        const struct gb_mpi_message_process self = gb_mpi_message_self();
+        send_first(rank, GB_MPI_TAG_HEARTBEAT, &self, sizeof self);
     }
+}
+
+/* Whether the first rank is known to be gone. */
+static bool first_is_gone(const struct rank *rank)
+{
+    const struct gb_mpi_message_process self = gb_mpi_message_self();
+    const double silent_s = gb_clock_s() - rank->heard_s;
+    if (silent_s <= first_doubtful_after_s || rank->first.pid <= 0) {
+        return silent_s > first_lost_after_s;
+    }
+    return silent_s > first_lost_after_s ||
+           (strcmp(self.host, rank->first.host) == 0 &&
+            kill((pid_t)rank->first.pid, 0) != 0 && errno == ESRCH);
 }
 
 /* Starts a queued run, or returns it to the first rank. */
@@ -54,10 +87,10 @@ static void start_run(struct rank *rank, const struct gb_mpi_run *run)
     if (rank->stop != RUNNING) {
         gb_error_set(&report.error, GB_ERR_CANCELLED, "stopped before it began");
         report.lost = rank->stop == LEAVING;
-        send_report(&report);
+        send_report(rank, &report);
     } else if (!gb_pool_submit(rank->local, run->ticket, &run->params, run->directory,
                                &report.error)) {
-        send_report(&report);
+        send_report(rank, &report);
     }
 }
 
@@ -82,6 +115,10 @@ static void receive_messages(struct rank *rank)
             g_queue_push_tail(rank->queue, run);
             continue;
         }
+        if (head.tag == GB_MPI_TAG_HEARTBEAT) {
+            gb_mpi_message_receive(&head, &rank->first, sizeof rank->first);
+            continue;
+        }
         gb_mpi_message_receive(&head, &rank->rank_lost, sizeof rank->rank_lost);
         if (head.tag == GB_MPI_TAG_STOP) {
             rank->stop = STOPPED_BY_FIRST;
@@ -93,7 +130,7 @@ static void receive_messages(struct rank *rank)
 static void leave(struct rank *rank)
 {
     rank->stop = rank->stop == RUNNING ? LEAVING : rank->stop;
-    send_capacity(0); /* before runs are returned, or they would be sent again */
+    send_capacity(rank, 0); /* before runs are returned, or they would be sent again */
 }
 
 /* Waits for a report of the local pool, and passes it on. */
@@ -103,7 +140,7 @@ static void report_run(struct rank *rank)
     const double seconds = gb_pool_poll_interval(rank->local);
     if (gb_pool_receive(rank->local, seconds, &report)) {
         report.lost = rank->stop == LEAVING && report.error.code == GB_ERR_CANCELLED;
-        send_report(&report);
+        send_report(rank, &report);
     }
 }
 
@@ -117,7 +154,16 @@ static bool work(struct rank *rank, bool *stopped)
     }
     report_run(rank);
     send_heartbeat(rank);
-    return gb_clock_s() - rank->heard_s <= first_lost_after_s;
+    return !first_is_gone(rank);
+}
+
+/* Runs under way end as they would have. */
+static void finish_runs(struct gb_pool *local)
+{
+    struct gb_pool_report report;
+    while (gb_pool_busy(local) > 0) {
+        (void)gb_pool_receive(local, gb_pool_poll_interval(local), &report);
+    }
 }
 
 bool gb_mpi_worker_serve(struct gb_pool *local, size_t workers,
@@ -127,7 +173,8 @@ bool gb_mpi_worker_serve(struct gb_pool *local, size_t workers,
     struct rank rank = {.local = local, .heard_s = gb_clock_s()};
     bool stopped = false, leaving = false, alive = true;
     rank.queue = g_queue_new();
-    send_capacity(workers);
+    rank.posted = g_ptr_array_new_with_free_func(g_free);
+    send_capacity(&rank, workers);
     receive_messages(&rank);
     while (alive && !rank.quit) {
         if (!leaving && cancelled(data)) {
@@ -138,11 +185,12 @@ bool gb_mpi_worker_serve(struct gb_pool *local, size_t workers,
         receive_messages(&rank);
     }
     g_queue_free_full(rank.queue, g_free);
-    *end = rank.quit && rank.rank_lost == 0 ? GB_MPI_WORKER_ALL_ALIVE
-                                            : GB_MPI_WORKER_RANK_LOST;
-    if (!rank.quit) {
-        return gb_error_set(err, GB_ERR_MACHINE, "no message of the first rank for %g s",
-                            first_lost_after_s);
+    if (!rank.quit) { /* MPI may still read what is under way */
+        *end = GB_MPI_WORKER_FIRST_LOST;
+        finish_runs(local);
+        return gb_error_set(err, GB_ERR_MACHINE, "the first rank is gone");
     }
+    g_ptr_array_unref(rank.posted);
+    *end = rank.rank_lost == 0 ? GB_MPI_WORKER_ALL_ALIVE : GB_MPI_WORKER_RANK_LOST;
     return !leaving || gb_error_set(err, GB_ERR_CANCELLED, "stopped");
 }

@@ -11,7 +11,8 @@ struct gb_pool;
 /* How a rank ended, for the shutdown of MPI. */
 enum gb_mpi_worker_end {
     GB_MPI_WORKER_ALL_ALIVE, /* the first rank said quit, and no rank was lost */
-    GB_MPI_WORKER_RANK_LOST  /* another rank, or the first one, is gone */
+    GB_MPI_WORKER_RANK_LOST, /* another rank is gone */
+    GB_MPI_WORKER_FIRST_LOST /* the first rank is gone; runs under way here have ended */
 };
 
 /* The loop of a rank other than the first; see gb_mpi_pool_serve. */
