@@ -38,6 +38,7 @@ def random_steps(rng, random_edit, random_change):
             step['after'] = round(rng.uniform(0, 1.1), 3)
             step['bytes'] = int(10 ** rng.uniform(2, 6))
             step['clock'] = rng.random() < 0.3
+            step['watch'] = rng.random() < 0.2
         elif do == 'threads':
             step['count'] = rng.choice([1, 2, 3, 4])
         elif do == 'edit':
@@ -58,7 +59,7 @@ class Life:
         self.directory = os.path.join(folder, 'life')
         self.straight = os.path.join(folder, 'straight')
         self.rows, self.status, self.length, self.filled = [], 0, 0.0, False
-        self.started = []
+        self.started, self.errors = [], {}  # processes, and the files of their stderr
 
     # --- the program ----------------------------------------------------------------------
 
@@ -70,12 +71,14 @@ class Life:
         def limited():
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
-        with open(os.path.join(self.folder, 'stderr'), 'wb') as errors:
+        errors_path = os.path.join(self.folder, f'stderr-{len(self.started)}')
+        with open(errors_path, 'wb') as errors:
             process = subprocess.Popen(
                 [self.tools.greenbody, *words], stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL, stderr=errors, cwd=self.folder, env=environment,
                 start_new_session=True, preexec_fn=limited if limit else None)
         self.started.append(process)
+        self.errors[process] = errors_path
         return process
 
     def _send(self, process, what):
@@ -99,8 +102,7 @@ class Life:
             if seconds:
                 raise TooLong() from error
             raise Broken('hang', what) from error
-        with open(os.path.join(self.folder, 'stderr'), encoding='utf-8',
-                  errors='backslashreplace') as file:
+        with open(self.errors[process], encoding='utf-8', errors='backslashreplace') as file:
             return status, file.read()
 
     def _command(self, *words):
@@ -157,8 +159,6 @@ class Life:
         self._send(process, signal.SIGSTOP)
         busy = self._has_run() and process.poll() is None
         if busy and os.path.exists(os.path.join(self.directory, 'status.json')):
-            path = os.path.join(self.folder, 'stderr')
-            shutil.copy(path, path + '-kept')
             status, stderr = self._command('resume', '--quiet', self.directory)
             ended = process.poll() is not None
             answer(status, stderr, {0, 1, 2} if ended else {2}, 'resume of a run under way')
@@ -168,6 +168,7 @@ class Life:
         end = step['end']
         written = self._written()
         process = self._begin(step, step['bytes'] if end == 'size' else None)
+        watcher = self._watch() if step.get('watch') else None
         accepted = {self.status}
         before = []
         if end == 'size':
@@ -183,8 +184,9 @@ class Life:
                     self._send(process, SIGNALS[end])
                     accepted |= {-9} if end == 'kill' else {128 + SIGNALS[end], -SIGNALS[end]}
         status, stderr = self._wait(process, what=f'run with {end}')
-        if end == 'stand':
-            stderr = stderr if status else ''
+        if watcher is not None:
+            seen, told = self._wait(watcher, what='attach')
+            self._attached(seen, told)
         # before it has begun, any program ends by the signal alone
         expect(status >= 0 or end == 'kill' or self._written() == written, 'exit status',
                f'signal {-status} ended a run that had begun')
@@ -206,14 +208,23 @@ class Life:
         answer(status, stderr, {0, 2}, 'verify')
         expect(contents(self.directory) == before, 'verify', 'changed the directory')
 
+    def _watch(self):
+        """A second process that follows a run under way, once there is one."""
+        end = time.monotonic() + self.length
+        while time.monotonic() < end and not self._has_run():
+            time.sleep(0.01)
+        return self._start(['attach', self.directory]) if self._has_run() else None
+
+    def _attached(self, status, stderr):
+        lines = [line for line in stderr.split('\n') if line.startswith('greenbody: ')]
+        expect(status in {0, 1, 2, 3} and len(lines) == (status != 0), 'attach',
+               f'status {status}, {stderr!r}')
+
     def _attach(self, _step):
         if not self._has_run():
             return
         before = contents(self.directory)
-        status, stderr = self._command('attach', self.directory)
-        lines = [line for line in stderr.split('\n') if line.startswith('greenbody: ')]
-        expect(status in {0, 1, 2, 3} and len(lines) == (status != 0), 'attach',
-               f'status {status}, {stderr!r}')
+        self._attached(*self._command('attach', self.directory))
         expect(contents(self.directory) == before, 'attach', 'changed the directory')
 
     def _threads(self, step):

@@ -62,6 +62,17 @@ def _geometry(rng, plane):
     return rng.choice(['uniaxial', 'isotropic'] if plane else ['uniaxial', 'biaxial', 'isotropic'])
 
 
+def _grains(rng, keys):
+    """Dry grains, and lattices in place of a grown structure."""
+    if rng.random() < 0.2:
+        keys['contact.normal'] = 'hertz'
+        keys['structure.density'] = 'auto'
+    if rng.random() < 0.2:
+        keys['structure.density'] = 'auto'
+        keys['structure.kind'] = rng.choice(['square', 'hexagonal'] if keys['scene.dimension'] == '2'
+                                            else ['sc', 'fcc', 'bcc', 'diamond'])
+
+
 def _quasistatic(rng, keys):
     dimension = rng.choice(['3', '3', '2'])
     keys['scene.dimension'] = dimension
@@ -83,9 +94,10 @@ def _quasistatic(rng, keys):
         keys['loading.geometry'] = _geometry(rng, dimension == '2')
     _sizes(rng, keys, (10, 'nm'))
     _contact(rng, keys)
-    if rng.random() < 0.2 and keys['particles.distribution'] == 'mono':
-        keys['contact.normal'] = 'hertz'
-        keys['structure.density'] = 'auto'
+    if keys['particles.distribution'] == 'mono':
+        _grains(rng, keys)
+    if rng.random() < 0.1:
+        keys['structure.generator'] = 'mt19937'
     if rng.random() < 0.2:
         keys['numerics.relaxer'] = rng.choice(['predict', 'fire', 'steepest'])
     if rng.random() < 0.2:
@@ -112,7 +124,14 @@ def _dynamic(rng, keys):
 
 
 def _die(rng, keys):
-    keys['particles.count'] = str(rng.randrange(20, 70))
+    keys['particles.count'] = str(rng.randrange(20, 60))
+    if rng.random() < 0.3:
+        keys['particles.distribution'] = 'lognormal'
+        keys['particles.median'] = '4.65 um'
+        keys['particles.sigma'] = f'{rng.uniform(0.05, 0.3):.3f}'
+    if rng.random() < 0.2:
+        keys['die.weld_strength'] = rng.choice(['0 Pa', '800 MPa'])
+        return 'p3-cycle'
     keys['contact.mu'] = f'{rng.uniform(0, 0.2):.3f}'
     keys['contact.mu_wall'] = f'{rng.uniform(0, 0.2):.3f}'
     keys['loading.until'] = rng.choice(PRESSURES[2:])
