@@ -13,6 +13,7 @@ static const struct gb_commands_row rows[] = {
     {runs, "run", "one run without a screen; results in a directory", gb_cmd_run},
     {runs, "resume", "continues an interrupted run", gb_cmd_resume},
     {runs, "attach", "shows a running simulation, or takes it over", gb_cmd_attach},
+    {runs, "runs", "lists live, detached and past runs", gb_cmd_runs},
     {runs, "verify", "repeats the last part of a run and compares", gb_cmd_verify},
     {many, "sweep", "a grid of parameters with replicas, in one table", gb_cmd_sweep},
     {many, "calibrate", "parameters fitted to measured densities, with intervals",

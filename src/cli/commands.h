@@ -41,6 +41,7 @@ int gb_cmd_plot(int argc, char **argv);
 int gb_cmd_report(int argc, char **argv);
 int gb_cmd_resume(int argc, char **argv);
 int gb_cmd_run(int argc, char **argv);
+int gb_cmd_runs(int argc, char **argv);
 int gb_cmd_sizes(int argc, char **argv);
 int gb_cmd_snapshot(int argc, char **argv);
 int gb_cmd_export(int argc, char **argv);

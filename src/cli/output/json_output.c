@@ -8,7 +8,7 @@
 #include "base/text/visible.h"
 #include "io/status_json.h"
 
-static void print(JsonNode *root)
+void gb_json_output_node(JsonNode *root)
 {
     char *text = json_to_string(root, TRUE);
     gb_visible_print(stdout, "%s\n", text);
@@ -87,7 +87,7 @@ void gb_json_output_table(const char *csv)
     json_builder_end_array(json);
     json_builder_end_object(json);
     JsonNode *root = json_builder_get_root(json);
-    print(root);
+    gb_json_output_node(root);
     json_node_unref(root);
     g_object_unref(json);
     for (char ***row = rows; *row != NULL; row++) {
@@ -104,7 +104,7 @@ void gb_json_output_run(const struct gb_run_loop *loop)
     char *name = g_utf8_make_valid(directory, -1);
     JsonNode *root = json_from_string(text, NULL);
     json_object_set_string_member(json_node_get_object(root), "directory", name);
-    print(root);
+    gb_json_output_node(root);
     json_node_unref(root);
     g_free(name);
     g_free(text);

@@ -1,6 +1,8 @@
 #ifndef GB_CLI_JSON_OUTPUT_H
 #define GB_CLI_JSON_OUTPUT_H
 
+#include <json-glib/json-glib.h>
+
 #include "run/run_loop.h"
 
 /* What --json prints: one object on one or more lines, ended by a newline. */
@@ -8,6 +10,9 @@
 /* Of a table of CSV: {"rows": [{column: number, text or null}, ...]}.  Comment lines are
  * left out, an empty cell is null.  A column has one type. */
 void gb_json_output_table(const char *csv);
+
+/* Of any tree. */
+void gb_json_output_node(JsonNode *root);
 
 /* Of a run that has ended: the object of its status.json, with "directory". */
 void gb_json_output_run(const struct gb_run_loop *loop);

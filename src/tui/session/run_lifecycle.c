@@ -3,10 +3,10 @@
 #include <glib.h>
 #include <signal.h>
 #include <stdio.h>
-#include <sys/stat.h>
 #include <time.h>
 
 #include "base/text/visible.h"
+#include "io/run_list.h"
 #include "io/rundir.h"
 #include "io/store.h"
 #include "tui/session/session_quick.h"
@@ -16,27 +16,6 @@ enum { STATUS_SIGNAL = 128 };
 char *gb_run_lifecycle_folder(void)
 {
     return g_build_filename(g_get_user_state_dir(), "greenbody", "runs", NULL);
-}
-
-/* Bytes on disk of a directory tree. */
-static int64_t bytes_of(const char *path)
-{
-    struct stat info;
-    if (lstat(path, &info) != 0) {
-        return 0;
-    }
-    int64_t bytes = (int64_t)info.st_blocks * 512; /* unit of st_blocks */
-    GDir *dir = S_ISDIR(info.st_mode) ? g_dir_open(path, 0, NULL) : NULL;
-    const char *name;
-    while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
-        char *inside = g_build_filename(path, name, NULL);
-        bytes += bytes_of(inside);
-        g_free(inside);
-    }
-    if (dir != NULL) {
-        g_dir_close(dir);
-    }
-    return bytes;
 }
 
 static int count_runs(const char *folder)
@@ -58,7 +37,7 @@ static int count_runs(const char *folder)
 void gb_run_lifecycle_print_runs(FILE *out, const char *folder)
 {
     const int runs = count_runs(folder);
-    char *size = g_format_size((guint64)bytes_of(folder));
+    char *size = g_format_size((guint64)gb_run_list_bytes(folder));
     gb_visible_print(out,
                      "runs       %s: %d kept, %s on the disk; the program removes none\n",
                      folder, runs, size);

@@ -1,0 +1,14 @@
+#ifndef GB_CLI_RUNS_OUTPUT_H
+#define GB_CLI_RUNS_OUTPUT_H
+
+#include <glib.h>
+
+/* A list of runs (io/run_list.h) on stdout: a line each below a head, or with --json an
+ * object {"runs": [{...}, ...]}, in which what is not there is null. */
+void gb_runs_output_table(const GPtrArray *list);
+void gb_runs_output_json(const GPtrArray *list);
+
+/* The same line, numbered from 1: a list to choose from. */
+void gb_runs_output_choices(const GPtrArray *list);
+
+#endif
