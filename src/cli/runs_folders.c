@@ -2,7 +2,7 @@
 
 #include <stdbool.h>
 
-#include "io/run_list.h"
+#include "io/runs/run_list.h"
 #include "tui/session/run_lifecycle.h"
 
 static const char working[] = "runs";

@@ -3,7 +3,7 @@
 
 #include <glib.h>
 
-/* The runs (io/run_list.h) below the folders named, or, where there are none, below that of
+/* The runs (io/runs/run_list.h) below the folders named, or, where there are none, below that of
  * the workbench and `runs` in the working folder, in which `run` without --out keeps its
  * own; sorted.  g_ptr_array_unref. */
 GPtrArray *gb_runs_folders_list(char **folders);

@@ -196,19 +196,38 @@ bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
     return true;
 }
 
-/* A process that has ended and whose parent has not asked for its status. */
-static bool is_zombie(long long pid)
+/* What the system tells of a process behind its name: " S 1 2 ..." in line; NULL: nothing. */
+static const char *read_stat(long long pid, char *line, int size)
 {
-    char line[512] = "";
     char *path = g_strdup_printf("/proc/%lld/stat", pid);
     FILE *stat_file = fopen(path, "re");
+    line[0] = '\0';
     if (stat_file != NULL) {
-        (void)!fgets(line, sizeof line, stat_file);
+        (void)!fgets(line, size, stat_file);
         fclose(stat_file);
     }
     g_free(path);
     const char *name_end = strrchr(line, ')'); /* a name may hold ") Z" */
-    return name_end != NULL && g_str_has_prefix(name_end, ") Z");
+    return name_end != NULL ? name_end + 1 : NULL;
+}
+
+/* A process that has ended and whose parent has not asked for its status. */
+static bool is_zombie(long long pid)
+{
+    char line[512];
+    const char *told = read_stat(pid, line, sizeof line);
+    return told != NULL && g_str_has_prefix(told, " Z");
+}
+
+bool gb_follow_engine_detached(const struct gb_follow_engine *engine)
+{
+    char line[512];
+    int terminal = 0; /* the fifth behind the name */
+    const char *told = engine->here && engine->pid > 1
+                           ? read_stat(engine->pid, line, sizeof line)
+                           : NULL;
+    return told != NULL && sscanf(told, " %*c %*d %*d %*d %d", &terminal) == 1 &&
+           terminal == 0;
 }
 
 bool gb_follow_engine_gone(const struct gb_follow_engine *engine)

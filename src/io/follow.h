@@ -33,6 +33,10 @@ bool gb_follow_status(const char *directory, struct gb_snapshot *snapshot,
 /* The process of that number has ended, on this machine; false where that cannot be told. */
 bool gb_follow_engine_gone(const struct gb_follow_engine *engine);
 
+/* The process has no controlling terminal: it was closed, or there never was one; false
+ * where that cannot be told. */
+bool gb_follow_engine_detached(const struct gb_follow_engine *engine);
+
 /* Asks the engine of a run under way to stop with a checkpoint.  Errors: GB_ERR_INPUT
  * when it is on another machine, or not the process that status.json names. */
 bool gb_follow_request_stop(const char *directory, struct gb_error *err);

@@ -12,7 +12,7 @@
 #include "cli/runs_folders.h"
 #include "cli/screen_options.h"
 #include "cli/signals.h"
-#include "io/run_list.h"
+#include "io/runs/run_list.h"
 #include "io/rundir.h"
 #include "runner/runner.h"
 #include "tui/app/app.h"

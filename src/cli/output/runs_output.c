@@ -8,7 +8,7 @@
 #include "base/text/visible.h"
 #include "base/units.h"
 #include "cli/output/json_output.h"
-#include "io/run_list.h"
+#include "io/runs/run_list.h"
 
 enum { NAME_COLS_MIN = 4, STATE_COLS = 14 };
 

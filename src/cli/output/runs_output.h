@@ -3,7 +3,7 @@
 
 #include <glib.h>
 
-/* A list of runs (io/run_list.h) on stdout: a line each below a head, or with --json an
+/* A list of runs (io/runs/run_list.h) on stdout: a line each below a head, or with --json an
  * object {"runs": [{...}, ...]}, in which what is not there is null. */
 void gb_runs_output_table(const GPtrArray *list);
 void gb_runs_output_json(const GPtrArray *list);

@@ -6,7 +6,7 @@
 #include <time.h>
 
 #include "base/text/visible.h"
-#include "io/run_list.h"
+#include "io/runs/run_list.h"
 #include "io/rundir.h"
 #include "io/store.h"
 #include "tui/session/session_quick.h"

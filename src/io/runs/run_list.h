@@ -1,5 +1,5 @@
-#ifndef GB_IO_RUN_LIST_H
-#define GB_IO_RUN_LIST_H
+#ifndef GB_IO_RUNS_RUN_LIST_H
+#define GB_IO_RUNS_RUN_LIST_H
 
 #include <stdbool.h>
 #include <stdint.h>

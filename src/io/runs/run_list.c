@@ -1,7 +1,6 @@
-#include "io/run_list.h"
+#include "io/runs/run_list.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -80,32 +79,13 @@ static bool is_file(const char *directory, const char *name, int64_t *modified_s
     return is;
 }
 
-/* Whether a process of this machine has a controlling terminal: the seventh field of its
- * stat, behind the name in brackets. */
-static bool has_terminal(long long pid)
-{
-    char *path = g_strdup_printf("/proc/%lld/stat", pid);
-    char *text = NULL;
-    int terminal = 0;
-    if (g_file_get_contents(path, &text, NULL, NULL)) {
-        const char *end = strrchr(text, ')');
-        if (end == NULL || sscanf(end + 1, " %*c %*d %*d %*d %d", &terminal) != 1) {
-            terminal = 0;
-        }
-    }
-    g_free(text);
-    g_free(path);
-    return terminal != 0;
-}
-
 static enum gb_run_list_engine engine_of(const char *directory,
                                          const struct gb_follow_engine *engine)
 {
     if (!gb_rundir_busy(directory)) {
         return GB_RUN_LIST_NONE;
     }
-    return engine->here && !has_terminal(engine->pid) ? GB_RUN_LIST_DETACHED
-                                                      : GB_RUN_LIST_LIVE;
+    return gb_follow_engine_detached(engine) ? GB_RUN_LIST_DETACHED : GB_RUN_LIST_LIVE;
 }
 
 static void read_last_point(struct gb_run_list_item *item, const struct gb_params *params)
