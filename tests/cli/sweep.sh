@@ -145,8 +145,8 @@ is 'SIGKILL: the workers stop by themselves' until_true none_works killed
 
 # --- two at once in one directory --------------------------------------------------------
 # Runs of half a second, so that one can be met; tried again where it was not.
-shared() { # more arguments
-    "$greenbody" sweep p1-nobridge-38nm particles.count=300 structure.base=auto \
+shared() { # more arguments; in place of its shell, so that $! is the sweep itself
+    exec "$greenbody" sweep p1-nobridge-38nm particles.count=300 structure.base=auto \
         'loading.until=10 MPa' loading.unload_from= numerics.tolerance=3e-3 --vary 'contact.mu=0.1;0.3' \
         --replicas 2 --at '5 MPa' "$@"
 }
@@ -157,7 +157,11 @@ is_done() { # directories of runs
     done
 }
 
-# A process that stands in its first run.
+stands() {
+    ! grep -qs '^State:.[RSD]' "/proc/$worker/status" # stands, or is gone
+}
+
+# A sweep whose worker stands in its first run.
 meet() {
     while :; do
         rm -rf shared
@@ -165,13 +169,17 @@ meet() {
         first=$!
         until_true [ -e shared/mu-0.1_seed-1/preset.ini ]
         worker=$(cat /proc/$first/task/$first/children 2>/dev/null)
-        [ -n "$worker" ] && kill -STOP $worker && ! is_done shared/mu-0.1_seed-1 && return
-        [ -n "$worker" ] && kill -CONT $worker
+        worker=${worker%% *}
+        if [ -n "$worker" ] && kill -STOP "$worker" && until_true stands &&
+            ! flock -n shared/mu-0.1_seed-1 true; then
+            return
+        fi
+        kill -CONT "$worker" 2>/dev/null
         wait $first
     done
 }
 
-shared --out alone >stdout 2>stderr
+(shared --out alone) >stdout 2>stderr
 meet
 shared --jobs 1 --out shared >stdout 2>stderr &
 second=$!
@@ -179,7 +187,7 @@ is 'a second sweep does the runs that are left' until_true is_done shared/mu-0.1
     shared/mu-0.3_seed-1 shared/mu-0.3_seed-2
 is 'and waits for the one under way' kill -0 $second
 is 'which it leaves alone' [ ! -e shared/sweep.csv ]
-kill -CONT $worker
+kill -CONT "$worker"
 wait $first
 is 'the first ends with status 0' [ $? -eq 0 ]
 wait $second
@@ -191,7 +199,7 @@ meet
 shared --jobs 1 --out shared >stdout 2>stderr &
 second=$!
 until_true is_done shared/mu-0.3_seed-2
-kill -KILL $first $worker
+kill -KILL $first "$worker"
 wait $first 2>/dev/null
 wait $second
 is 'what a killed one leaves is done by the other' [ $? -eq 0 ]
@@ -200,7 +208,7 @@ is 'with the same table' cmp alone/sweep.csv shared/sweep.csv
 rm -rf shared
 shared --jobs 2 --out shared >/dev/null 2>first.err &
 first=$!
-shared --jobs 2 --out shared >stdout 2>stderr
+(shared --jobs 2 --out shared) >stdout 2>stderr
 is 'two from the start' [ $? -eq 0 ]
 wait $first
 is 'both' [ $? -eq 0 ]
