@@ -3,7 +3,7 @@
 #include "tui/app/dialog/dialogs.h"
 #include "tui/app/key_commands.h"
 #include "tui/app/panes.h"
-#include "tui/session/session_recall.h"
+#include "tui/session/past/session_recall.h"
 
 /* Focus, navigation and the parameters. */
 

@@ -3,7 +3,7 @@
 
 #include "tui/app/keys.h"
 #include "tui/panel/panels.h"
-#include "tui/session/session_recall.h"
+#include "tui/session/past/session_recall.h"
 #include "tui/session/value_step.h"
 
 /* Editing of the focused parameter: typed, chosen, stepped, reverted. */

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "tui/session/cost_confirm.h"
+#include "tui/session/past/session_recall.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/session/session_quick.h"
-#include "tui/session/session_recall.h"
 #include "tui/session/session_refresh.h"
 #include "tui/term/crash.h"
 #include "tui/term/text_fit.h"

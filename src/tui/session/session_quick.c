@@ -4,7 +4,7 @@
 
 #include "run/cost.h"
 #include "tui/session/cost_confirm.h"
-#include "tui/session/session_recall.h"
+#include "tui/session/past/session_recall.h"
 
 /* A live run is not replaced automatically after this computing time, s. */
 static const double replaced_max_s = 60.0;

@@ -1,4 +1,4 @@
-#include "tui/session/session_recall.h"
+#include "tui/session/past/session_recall.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -116,6 +116,7 @@ void gb_session_recall_answer(struct gb_session *session)
     const bool on_display = session->runner != NULL && gb_session_changes(session) == 0;
     if (on_display ||
         (!recall_run(session, &params) && !recall_quick(session, &params))) {
+        forget_previous(session, &params, true); /* it is computed anew */
         gb_session_quick_start(session);
     }
 }
