@@ -329,7 +329,7 @@ enum gb_run_outcome gb_run_loop_fail(struct gb_run_loop *loop, const struct gb_e
     return GB_RUN_OUTCOME_FAILED;
 }
 
-/* The final snapshot.  Guards have reported themselves as events already; a run that is
+/* The final snapshot.  What stopped the experiment has been an event already; a run that is
  * done tells what it has not reached. */
 static void observe_end(struct gb_run_loop *loop, enum gb_run_outcome outcome)
 {
@@ -340,7 +340,8 @@ static void observe_end(struct gb_run_loop *loop, enum gb_run_outcome outcome)
         gb_run_loop_event(loop, missed);
     }
     if (outcome == GB_RUN_OUTCOME_CANCELLED ||
-        (outcome == GB_RUN_OUTCOME_FAILED && !loop->record_failed)) {
+        (outcome == GB_RUN_OUTCOME_FAILED && !loop->record_failed &&
+         loop->last != GB_STEP_STOPPED)) {
         gb_run_loop_event(loop, loop->error.text);
     }
     gb_run_loop_observe(loop,

@@ -126,6 +126,11 @@ in_patience "$greenbody" run "${scene[@]}" 'loading.changes=5 contact.mu=0.2; 9 
 [ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && [ ! -e none ] &&
     grep -q 'loading.changes: .*friction are there from the start' stderr
 result 'a change that no run can take is refused at the start' $?
+in_patience "$greenbody" run default particles.count=150 'loading.until=60 MPa' \
+    'loading.unload_from=20 MPa' 'loading.changes=195 contact.mu=0.3' --quiet --out late \
+    >stdout 2>stderr
+[ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && [ "$(grep -c 'on an unloading branch' late/events.log)" -eq 1 ]
+result 'one that only the run can find is one line and one event' $?
 rm whole/state*.h5
 "$greenbody" verify whole >stdout 2>stderr
 [ $? -eq 2 ] && [ "$(wc -l <stderr)" -eq 1 ] && grep -q 'whole: there is no checkpoint yet' stderr
