@@ -1,4 +1,5 @@
 """One case: a scene and the steps of a run directory, with what must hold after each."""
+import fcntl
 import os
 import resource
 import shutil
@@ -156,14 +157,30 @@ class Life:
             words = self._new(self.directory)
         return self._start(words, step.get('clock', False), limit)
 
+    @staticmethod
+    def _stands(process):
+        with open(f'/proc/{process.pid}/stat', encoding='utf-8') as file:
+            return file.read().rpartition(')')[2].split()[0] in 'TZ'
+
+    def _is_locked(self):
+        """Whether an engine has begun to write there."""
+        directory = os.open(self.directory, os.O_RDONLY)
+        try:
+            fcntl.flock(directory, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return False
+        except BlockingIOError:
+            return True
+        finally:
+            os.close(directory)
+
     def _stand(self, process):
         """Stopped in the middle, a run is its engine's alone; then it goes on."""
         self._send(process, signal.SIGSTOP)
-        busy = self._has_run() and process.poll() is None
-        if busy and os.path.exists(os.path.join(self.directory, 'status.json')):
+        while process.poll() is None and not self._stands(process):
+            time.sleep(0.01)
+        if self._has_run() and self._is_locked():
             status, stderr = self._command('resume', '--quiet', self.directory)
-            ended = process.poll() is not None
-            answer(status, stderr, {0, 1, 2} if ended else {2}, 'resume of a run under way')
+            answer(status, stderr, {2}, 'resume of a run under way')
         self._send(process, signal.SIGCONT)
 
     def _go(self, step):
