@@ -275,11 +275,16 @@ class Life:
     def _with_keys(self, keys):
         """The scene of other keys, unless it is refused or too long."""
         before = (self.keys, self.rows, self.status, self.length, self.filled)
+        kept = self.straight + '-kept'
+        shutil.rmtree(kept, ignore_errors=True)
+        os.rename(self.straight, kept)
         self.keys = keys
         try:
             self._undisturbed()
         except (Refused, TooLong):
             self.keys, self.rows, self.status, self.length, self.filled = before
+            shutil.rmtree(self.straight, ignore_errors=True)
+            os.rename(kept, self.straight)
             return False
         shutil.rmtree(self.directory, ignore_errors=True)
         return True
