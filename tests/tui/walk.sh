@@ -36,6 +36,7 @@ walk_keys() { # size
         esac
         keys "$name"
         keys Escape
+        [ "$name" != z ] || keys z # all panes again
     done <"$here/names"
     keys Escape
     until_true is_whole
