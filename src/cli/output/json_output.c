@@ -8,7 +8,7 @@
 #include "base/text/visible.h"
 #include "io/status_json.h"
 
-void gb_json_output_node(JsonNode *root)
+static void print_node(JsonNode *root)
 {
     char *text = json_to_string(root, TRUE);
     gb_visible_print(stdout, "%s\n", text);
@@ -76,20 +76,31 @@ static void add_rows(JsonBuilder *json, char ***rows)
     g_free(numbers);
 }
 
-void gb_json_output_table(const char *csv)
+JsonBuilder *gb_json_output_begin(const char *name)
 {
-    char ***rows = split_rows(csv);
     JsonBuilder *json = json_builder_new();
     json_builder_begin_object(json);
-    json_builder_set_member_name(json, "rows");
+    json_builder_set_member_name(json, name);
     json_builder_begin_array(json);
-    add_rows(json, rows);
+    return json;
+}
+
+void gb_json_output_end(JsonBuilder *json)
+{
     json_builder_end_array(json);
     json_builder_end_object(json);
     JsonNode *root = json_builder_get_root(json);
-    gb_json_output_node(root);
+    print_node(root);
     json_node_unref(root);
     g_object_unref(json);
+}
+
+void gb_json_output_table(const char *csv)
+{
+    char ***rows = split_rows(csv);
+    JsonBuilder *json = gb_json_output_begin("rows");
+    add_rows(json, rows);
+    gb_json_output_end(json);
     for (char ***row = rows; *row != NULL; row++) {
         g_strfreev(*row);
     }
@@ -104,7 +115,7 @@ void gb_json_output_run(const struct gb_run_loop *loop)
     char *name = g_utf8_make_valid(directory, -1);
     JsonNode *root = json_from_string(text, NULL);
     json_object_set_string_member(json_node_get_object(root), "directory", name);
-    gb_json_output_node(root);
+    print_node(root);
     json_node_unref(root);
     g_free(name);
     g_free(text);

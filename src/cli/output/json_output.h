@@ -11,8 +11,10 @@
  * left out, an empty cell is null.  A column has one type. */
 void gb_json_output_table(const char *csv);
 
-/* Of any tree. */
-void gb_json_output_node(JsonNode *root);
+/* Of a list: {name: [...]}.  Between both the elements are added to the builder, which the
+ * second prints and frees. */
+JsonBuilder *gb_json_output_begin(const char *name);
+void gb_json_output_end(JsonBuilder *json);
 
 /* Of a run that has ended: the object of its status.json, with "directory". */
 void gb_json_output_run(const struct gb_run_loop *loop);

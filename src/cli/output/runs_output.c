@@ -155,17 +155,9 @@ static void add_item(JsonBuilder *json, const struct gb_run_list_item *item)
 
 void gb_runs_output_json(const GPtrArray *list)
 {
-    JsonBuilder *json = json_builder_new();
-    json_builder_begin_object(json);
-    json_builder_set_member_name(json, "runs");
-    json_builder_begin_array(json);
+    JsonBuilder *json = gb_json_output_begin("runs");
     for (guint i = 0; i < list->len; i++) {
         add_item(json, item_at(list, i));
     }
-    json_builder_end_array(json);
-    json_builder_end_object(json);
-    JsonNode *root = json_builder_get_root(json);
-    gb_json_output_node(root);
-    json_node_unref(root);
-    g_object_unref(json);
+    gb_json_output_end(json);
 }
