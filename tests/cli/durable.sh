@@ -9,7 +9,7 @@ if ! LD_PRELOAD=$3 "$greenbody" --version >stdout 2>stderr; then
     exit 0
 fi
 
-scene=(default particles.count=300 loading.step=0.02% "loading.until=40 MPa" loading.unload_from=
+scene=(default loading.step=0.02% "loading.until=40 MPa" loading.unload_from=
     output.checkpoint_every=0.1s)
 
 # The rows without their times; seconds are the 14th column.
@@ -18,12 +18,24 @@ rows() {
 }
 
 # --- the order of writing -------------------------------------------------------------------
-export SYNC_LOG=$here/log
-LD_PRELOAD=$3 "$greenbody" run "${scene[@]}" --quiet --out new/run >stdout 2>stderr
-is 'a run' [ $? -eq 0 ]
-unset SYNC_LOG
-# Paths without the folder of the test, and without the ends of temporary names.
-sed -E "s#$(pwd -P)#.#; s#(\.h5|\.ini|\.json)\.[A-Za-z0-9]+\$#\1+#" log >calls
+# A run of so many particles, with a log of what it has the disk do: paths without the folder
+# of the test, and without the ends of temporary names.
+run_logged() {
+    rm -rf new log
+    SYNC_LOG=$here/log LD_PRELOAD=$3 "$greenbody" run "${scene[@]}" "$1" --quiet --out "$2" \
+        >stdout 2>stderr
+    ended=$?
+    sed -E "s#$(pwd -P)#.#; s#(\.h5|\.ini|\.json)\.[A-Za-z0-9]+\$#\1+#" log >calls
+}
+# Larger and larger ones, until one lasts for several checkpoints on this machine.
+count=300
+run_logged particles.count=$count new/run "$3"
+while [ $count -lt 10000 ] && [ "$(grep -c 'rename state.h5' calls)" -lt 4 ]; do
+    count=$((2 * count))
+    run_logged particles.count=$count new/run "$3"
+done
+scene+=(particles.count=$count)
+is 'a run' [ $ended -eq 0 ]
 
 # file, what is synced before it is renamed; the folder is synced behind
 in_order() {
@@ -53,7 +65,7 @@ is 'several states' [ "$(grep -c 'rename state.h5' calls)" -gt 1 ]
 # --- what a failure leaves --------------------------------------------------------------------
 rows new/run >whole.rows
 has_state() {
-    [ -e out/state-before.h5 ]
+    [ -e out/state-before.h5 ] || ! kill -0 $pid
 }
 "$greenbody" run "${scene[@]}" --quiet --out out >stdout 2>stderr &
 pid=$!
