@@ -157,11 +157,16 @@ static bool work(struct rank *rank, bool *stopped)
     return !first_is_gone(rank);
 }
 
-/* Runs under way end as they would have. */
-static void finish_runs(struct gb_pool *local)
+/* Runs under way end as they would have, or are stopped by a signal. */
+static void finish_runs(struct gb_pool *local, bool (*cancelled)(void *data), void *data)
 {
     struct gb_pool_report report;
+    bool stopped = false;
     while (gb_pool_busy(local) > 0) {
+        if (!stopped && cancelled(data)) {
+            stopped = true;
+            gb_pool_stop(local);
+        }
         (void)gb_pool_receive(local, gb_pool_poll_interval(local), &report);
     }
 }
@@ -187,7 +192,7 @@ bool gb_mpi_worker_serve(struct gb_pool *local, size_t workers,
     g_queue_free_full(rank.queue, g_free);
     if (!rank.quit) { /* MPI may still read what is under way */
         *end = GB_MPI_WORKER_FIRST_LOST;
-        finish_runs(local);
+        finish_runs(local, cancelled, data);
         return gb_error_set(err, GB_ERR_MACHINE, "the first rank is gone");
     }
     g_ptr_array_unref(rank.posted);
