@@ -11,7 +11,7 @@
 #include "base/clock.h"
 #include "tui/app/dialog/dialogs.h"
 #include "tui/app/dispatch.h"
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 #include "tui/app/mouse.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/term/term_tty.h"

@@ -1,6 +1,6 @@
 #include "tui/app/dispatch.h"
 
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 
 enum { LAST_ASCII = 126 };
 

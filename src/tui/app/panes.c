@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 
 static void draw_params(struct gb_screen *screen, const struct gb_paint *paint,
                         enum gb_paint_focus focus)

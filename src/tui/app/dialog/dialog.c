@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "tui/app/dialog/dialog_forms.h"
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 
 void gb_dialog_set_note(struct gb_dialog *dialog, enum gb_dialog_note kind,
                         const char *format, ...)

@@ -1,7 +1,7 @@
 #include "tui/app/dialog/dialogs.h"
 
 #include "tui/app/dialog/dialog_forms.h"
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 
 /* One row per dialog.  Accept functions are in the file of the command that opens it. */
 

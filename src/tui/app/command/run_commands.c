@@ -6,7 +6,7 @@
 #include "scene/loading_kind.h"
 #include "scene/path/path.h"
 #include "tui/app/dialog/dialogs.h"
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/session/session_quick.h"
 #include "tui/session/whatif.h"

@@ -1,7 +1,7 @@
 #include <glib.h>
 
 #include "tui/app/dialog/dialogs.h"
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 #include "tui/app/panes.h"
 #include "tui/session/past/session_recall.h"
 

@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "tui/app/dialog/dialogs.h"
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 
 /* The legs of loading.path: keys of their editor. */
 

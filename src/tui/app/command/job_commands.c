@@ -6,7 +6,7 @@
 #include "many/sweep/sweep_target.h"
 #include "study/calibrate/free_keys.h"
 #include "tui/app/dialog/dialogs.h"
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/view/views.h"
 

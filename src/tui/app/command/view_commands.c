@@ -1,6 +1,6 @@
 #include "base/units.h"
 #include "tui/app/dialog/dialogs.h"
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 #include "tui/view/views.h"
 
 /* Focuses the plot where the compact layout hides it. */

@@ -1,7 +1,7 @@
 #include <glib.h>
 
 #include "tui/app/dialog/dialogs.h"
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 #include "tui/session/run_lifecycle.h"
 
 /* Mouse, help and quitting. */

@@ -2,7 +2,7 @@
 
 #include "io/material.h"
 #include "tui/app/dialog/dialogs.h"
-#include "tui/app/key_commands.h"
+#include "tui/app/command/key_commands.h"
 #include "tui/app/preset_browser_kinds.h"
 #include "tui/panel/complete.h"
 #include "tui/session/repeat.h"
