@@ -11,6 +11,8 @@ void gb_screen_options_entries(struct gb_screen_options *options, GOptionEntry *
          "characters of plots: auto, braille, block or ascii", "HOW"},
         {"images", 0, 0, G_OPTION_ARG_STRING, &options->images,
          "the packing as pixels: auto, none, sixel or kitty", "HOW"},
+        {"clipboard", 0, 0, G_OPTION_ARG_STRING, &options->clipboard,
+         "copies by OSC 52: auto, osc52, tmux, screen or off", "HOW"},
         {"mouse", 0, 0, G_OPTION_ARG_STRING, &options->mouse,
          "on or off; dragging with Shift selects text in any case", "on"},
         {"ascii", 0, 0, G_OPTION_ARG_NONE, &options->ascii, "ASCII characters only",
@@ -30,6 +32,7 @@ bool gb_screen_options_settings(const struct gb_screen_options *options,
     } given[] = {{"color", options->color},
                  {"graph", options->graph},
                  {"images", options->images},
+                 {"clipboard", options->clipboard},
                  {"mouse", options->mouse},
                  {"ascii", options->ascii ? "on" : NULL},
                  {"slow", options->slow ? "on" : NULL}};
@@ -52,6 +55,7 @@ void gb_screen_options_finish(struct gb_screen_options *options)
     g_free(options->color);
     g_free(options->graph);
     g_free(options->images);
+    g_free(options->clipboard);
     g_free(options->mouse);
 }
 
@@ -59,7 +63,8 @@ void gb_screen_options_finish(struct gb_screen_options *options)
 static int words_of(const char *word)
 {
     static const char *const flags[] = {"--batch", "--ascii", "--slow"};
-    static const char *const values[] = {"--color", "--graph", "--images", "--mouse"};
+    static const char *const values[] = {"--color", "--graph", "--images", "--clipboard",
+                                         "--mouse"};
     for (size_t i = 0; i < G_N_ELEMENTS(flags); i++) {
         if (strcmp(word, flags[i]) == 0) {
             return 1;

@@ -5,15 +5,24 @@
 #include "tui/app/keys.h"
 #include "tui/view/views.h"
 
+static int scope_of(GHashTable *codes, int code)
+{
+    return GPOINTER_TO_INT(g_hash_table_lookup(codes, GINT_TO_POINTER(code)));
+}
+
+/* In no pane and no dialog has a key two rows. */
 static void test_no_duplicates(void)
 {
     GHashTable *codes = g_hash_table_new(NULL, NULL);
     for (size_t i = 0; i < gb_keys_count(); i++) {
         const struct gb_key key = gb_keys_at(i);
         for (int k = 0; k < GB_KEYS_PER_ROW && key.code[k] != 0; k++) {
-            if (!g_hash_table_add(codes, GINT_TO_POINTER(key.code[k]))) {
+            const int before = scope_of(codes, key.code[k]);
+            if (before & key.scope) {
                 g_error("key %d of \"%s\" is there twice", key.code[k], key.name);
             }
+            g_hash_table_insert(codes, GINT_TO_POINTER(key.code[k]),
+                                GINT_TO_POINTER(before | key.scope));
         }
     }
     g_hash_table_destroy(codes);
@@ -29,13 +38,13 @@ static void test_dispatch(void)
         g_assert_cmpint(key.scope & (GB_KEY_ANY_PANE | GB_KEY_LEGS), !=, 0);
         g_assert_cmpint(key.code[0], !=, 0);
         for (int k = 0; k < GB_KEYS_PER_ROW && key.code[k] != 0; k++) {
-            g_assert_true(gb_keys_find(key.code[k], &found));
+            g_assert_true(gb_keys_find(key.code[k], key.scope, &found));
             g_assert_cmpstr(found.name, ==, key.name);
             g_assert_cmpint(gb_keys_action(key.code[k]), ==, key.action);
         }
     }
-    g_assert_false(gb_keys_find('$', &found));
-    g_assert_false(gb_keys_find(0, &found));
+    g_assert_false(gb_keys_find('$', GB_KEY_EVERYWHERE, &found));
+    g_assert_false(gb_keys_find(0, GB_KEY_EVERYWHERE, &found));
     g_assert_cmpint(gb_keys_action('$'), ==, GB_ACTION_NONE);
 }
 
@@ -52,7 +61,7 @@ static void test_every_row(void)
     }
     for (size_t v = 0; v < gb_views_count(); v++) {
         struct gb_key key;
-        g_assert_true(gb_keys_find(gb_views_at(v)->key[0], &key));
+        g_assert_true(gb_keys_find(gb_views_at(v)->key[0], GB_KEY_ANY_PANE, &key));
         g_assert_true(gb_views_find(key.name) == gb_views_at(v));
     }
     for (size_t i = 0; i < gb_keys_count(); i++) {

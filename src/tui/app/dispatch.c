@@ -19,8 +19,8 @@ static void handle_dialog(struct gb_app *app, const struct gb_term_event *event)
     struct gb_dialog *dialog = &app->screen.dialog;
     const struct gb_dialog_type *type = dialog->type;
     struct gb_key key;
-    if (type->scope != 0 && dialog->legs.typing == GB_LEG_EDITOR_LIST &&
-        gb_keys_find(event->code, &key) && (key.scope & type->scope)) {
+    if (dialog->legs.typing == GB_LEG_EDITOR_LIST &&
+        gb_keys_find(event->code, type->scope, &key)) {
         key.command(app, &key);
         return;
     }
@@ -58,7 +58,7 @@ void gb_dispatch_event(struct gb_app *app, const struct gb_term_event *event)
         return;
     }
     screen->message.text[0] = '\0';
-    if (gb_keys_find(event->code, &key)) {
+    if (gb_keys_find(event->code, GB_KEY_ALWAYS, &key)) {
         gb_dispatch_key(app, &key);
     }
 }

@@ -85,6 +85,8 @@ static const struct gb_key after_views[] = {
      gb_file_commands_data, GB_ACTION_NONE},
     {{'c'}, "c", NULL, "shell command that repeats the run", GB_KEY_ANY_PANE,
      gb_file_commands_shell, GB_ACTION_NONE},
+    {{'y'}, "y", NULL, "copy parameter, values at the cursor, folder",
+     GB_KEY_ANY_PANE | GB_KEY_COPIED, gb_copy_commands_copy, GB_ACTION_NONE},
     {{'t'}, "t", NULL, "take over the attached run", GB_KEY_ANY_PANE,
      gb_run_commands_take_over, GB_ACTION_NONE},
     {{'s'}, "s", NULL, "picture of the last stored packing", GB_KEY_ANY_PANE,
@@ -156,12 +158,13 @@ struct gb_key gb_keys_at(size_t index)
                                     : after_views[index - BEFORE - views];
 }
 
-bool gb_keys_find(int code, struct gb_key *key)
+bool gb_keys_find(int code, int scope, struct gb_key *key)
 {
     const size_t count = gb_keys_count();
     for (size_t i = 0; i < count && code != 0; i++) {
         *key = gb_keys_at(i);
-        for (int k = 0; k < GB_KEYS_PER_ROW && key->code[k] != 0; k++) {
+        for (int k = 0;
+             (key->scope & scope) && k < GB_KEYS_PER_ROW && key->code[k] != 0; k++) {
             if (key->code[k] == code) {
                 return true;
             }
@@ -173,5 +176,5 @@ bool gb_keys_find(int code, struct gb_key *key)
 enum gb_action gb_keys_action(int code)
 {
     struct gb_key key;
-    return gb_keys_find(code, &key) ? key.action : GB_ACTION_NONE;
+    return gb_keys_find(code, GB_KEY_EVERYWHERE, &key) ? key.action : GB_ACTION_NONE;
 }

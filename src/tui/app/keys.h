@@ -21,7 +21,9 @@ enum gb_key_scope {
     GB_KEY_ANY_PANE = GB_KEY_LISTS | GB_KEY_STATE,
     GB_KEY_TOO_SMALL = 1 << GB_PANES,  /* also on a screen that is too small */
     GB_KEY_LEGS = 1 << (GB_PANES + 1), /* in the editor of a loading path */
-    GB_KEY_ALWAYS = GB_KEY_ANY_PANE | GB_KEY_TOO_SMALL
+    GB_KEY_COPIED = 1 << (GB_PANES + 2), /* in a dialog with something to copy */
+    GB_KEY_ALWAYS = GB_KEY_ANY_PANE | GB_KEY_TOO_SMALL,
+    GB_KEY_EVERYWHERE = GB_KEY_ALWAYS | GB_KEY_LEGS | GB_KEY_COPIED
 };
 
 /* One row per key: dispatch, footer, help page, `greenbody --keys` and the manual page
@@ -40,8 +42,9 @@ struct gb_key {
 size_t gb_keys_count(void);
 struct gb_key gb_keys_at(size_t index);
 
-/* Row of a curses key code; false: not assigned. */
-bool gb_keys_find(int code, struct gb_key *key);
+/* Row of a curses key code that has one of the bits of scope; false: none.  Rows of
+ * different scopes may share a code. */
+bool gb_keys_find(int code, int scope, struct gb_key *key);
 
 /* Navigation action of a curses key code. */
 enum gb_action gb_keys_action(int code);

@@ -1,5 +1,6 @@
 #include "tui/app/panes.h"
 
+#include <glib.h>
 #include <stdio.h>
 
 #include "tui/app/command/key_commands.h"
@@ -30,6 +31,13 @@ static void describe_params(struct gb_screen *screen, struct gb_message *message
     gb_panel_params_describe(&screen->params, &screen->session, message);
 }
 
+static char *copied_params(struct gb_screen *screen)
+{
+    char text[GB_PARAMS_VALUE_MAX + 64];
+    gb_panel_params_assignment(&screen->params, &screen->session, text, sizeof text);
+    return g_strdup(text);
+}
+
 static void draw_plot(struct gb_screen *screen, const struct gb_paint *paint,
                       enum gb_paint_focus focus)
 {
@@ -55,6 +63,16 @@ static void click_plot(struct gb_screen *screen, int row, int col)
 static void describe_plot(struct gb_screen *screen, struct gb_message *message)
 {
     gb_panel_plot_cursor_describe(&screen->plot, &screen->session, message);
+}
+
+static char *copied_plot(struct gb_screen *screen)
+{
+    struct gb_message message = {.text = ""};
+    if (!gb_panel_plot_cursor_shown(&screen->plot, &screen->session)) {
+        return NULL;
+    }
+    gb_panel_plot_cursor_describe(&screen->plot, &screen->session, &message);
+    return g_strdup(message.text);
 }
 
 static void draw_state(struct gb_screen *screen, const struct gb_paint *paint,
@@ -84,11 +102,18 @@ static void navigate_events(struct gb_screen *screen, enum gb_action action)
     gb_panel_events_navigate(&screen->events, &screen->session, action);
 }
 
+/* The newest line shown. */
+static char *copied_events(struct gb_screen *screen)
+{
+    return g_strdup(gb_session_event_line(&screen->session, screen->events.back));
+}
+
 static const struct gb_pane_type panes[GB_PANES] = {
-    [GB_PANE_PARAMS] = {draw_params, navigate_params, click_params, describe_params},
-    [GB_PANE_PLOT] = {draw_plot, navigate_plot, click_plot, describe_plot},
-    [GB_PANE_STATE] = {draw_state, NULL, NULL, describe_run},
-    [GB_PANE_EVENTS] = {draw_events, navigate_events, NULL, describe_run},
+    [GB_PANE_PARAMS] = {draw_params, navigate_params, click_params, describe_params,
+                        copied_params},
+    [GB_PANE_PLOT] = {draw_plot, navigate_plot, click_plot, describe_plot, copied_plot},
+    [GB_PANE_STATE] = {draw_state, NULL, NULL, describe_run, NULL},
+    [GB_PANE_EVENTS] = {draw_events, navigate_events, NULL, describe_run, copied_events},
 };
 
 const struct gb_pane_type *gb_panes_type(enum gb_pane pane)

@@ -150,6 +150,29 @@ static void draw_foot(const struct gb_paint *paint, int row)
         "cell.");
 }
 
+char *gb_density_table_text(const struct gb_session *session, bool hide_previous)
+{
+    struct table table;
+    GString *text = g_string_new("density at");
+    fill(&table, session, hide_previous);
+    for (int k = 0; k < LEVELS; k++) {
+        char pressure[24];
+        gb_units_format_short(level_pa[k], GB_DIM_PRESSURE, 4, pressure, sizeof pressure);
+        g_string_append_printf(text, "\t%s", pressure);
+    }
+    g_string_append_c(text, '\n');
+    for (int i = 0; i < table.count; i++) {
+        char *name = g_strstrip(g_strdup(table.line[i].name));
+        g_string_append(text, name);
+        g_free(name);
+        for (int k = 0; k < LEVELS; k++) {
+            g_string_append_printf(text, "\t%s", table.line[i].value[k]);
+        }
+        g_string_append_c(text, '\n');
+    }
+    return g_string_free(text, FALSE);
+}
+
 int gb_density_table_draw(const struct gb_paint *paint, const struct gb_session *session,
                           bool hide_previous, int *top)
 {

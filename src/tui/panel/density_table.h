@@ -12,4 +12,7 @@
 int gb_density_table_draw(const struct gb_paint *paint, const struct gb_session *session,
                           bool hide_previous, int *top);
 
+/* The whole table, columns separated by tabs; g_free. */
+char *gb_density_table_text(const struct gb_session *session, bool hide_previous);
+
 #endif

@@ -204,6 +204,14 @@ static void describe_point(const struct gb_panel_plot *panel,
              point->coordination, 100.0 * point->bridged);
 }
 
+bool gb_panel_plot_cursor_shown(const struct gb_panel_plot *panel,
+                                const struct gb_session *session)
+{
+    return gb_panel_plot_pressure_shown(panel) ||
+           (panel->cursor_on && panel->cursor < gb_session_shown(session).points &&
+            has_cursor(panel));
+}
+
 void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
                                    const struct gb_session *session,
                                    struct gb_message *message)
@@ -212,8 +220,7 @@ void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
     message->style = GB_STYLE_DIM;
     if (gb_panel_plot_pressure_shown(panel)) {
         gb_panel_plot_pressure_describe(panel, session, message);
-    } else if (panel->cursor_on && panel->cursor < gb_session_shown(session).points &&
-               has_cursor(panel)) {
+    } else if (gb_panel_plot_cursor_shown(panel, session)) {
         describe_point(panel, session, message);
     } else if (!(view->options & GB_VIEW_PRESSURE_AXIS) ||
                !describe_misfit(session, message)) {

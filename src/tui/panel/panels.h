@@ -145,6 +145,9 @@ void gb_panel_plot_pressure_describe(const struct gb_panel_plot *panel,
 double gb_panel_plot_cursor_x(const struct gb_panel_plot *panel,
                               const struct gb_session *session,
                               const struct gb_point *point);
+/* Whether there are values at the cursor. */
+bool gb_panel_plot_cursor_shown(const struct gb_panel_plot *panel,
+                                const struct gb_session *session);
 /* Values at the cursor, or the misfit to the measured data, or the view's hint. */
 void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
                                    const struct gb_session *session,

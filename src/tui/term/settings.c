@@ -12,6 +12,8 @@ enum { BYTES_MAX = 1 << 20 };
 static const char *const when[] = {"auto", "always", "never", NULL};
 static const char *const graphs[] = {"auto", "braille", "block", "ascii", NULL};
 static const char *const images[] = {"auto", "none", "sixel", "kitty", NULL};
+static const char *const clipboards[] = {"auto",   "osc52", "tmux",
+                                         "screen", "off",   NULL};
 static const char *const on_off[] = {"on", "off", NULL};
 static const char *const off_on[] = {"off", "on", NULL};
 
@@ -22,6 +24,8 @@ static const struct gb_settings_row table[] = {
      offsetof(struct gb_settings, graph)},
     {"images", images, "the packing in real pixels; auto: where the terminal can",
      offsetof(struct gb_settings, images)},
+    {"clipboard", clipboards, "how y copies: by OSC 52, through tmux or screen, or not",
+     offsetof(struct gb_settings, clipboard)},
     {"mouse", on_off, "clicks and the wheel; M switches it, Shift selects text",
      offsetof(struct gb_settings, mouse)},
     {"ascii", off_on, "nothing but ASCII", offsetof(struct gb_settings, ascii)},

@@ -23,10 +23,18 @@ enum gb_settings_images {
     GB_IMAGES_SIXEL,
     GB_IMAGES_KITTY
 };
+/* How a copied text reaches the terminal: see clipboard.h. */
+enum gb_settings_clipboard {
+    GB_CLIPBOARD_AUTO,
+    GB_CLIPBOARD_OSC52,
+    GB_CLIPBOARD_TMUX,
+    GB_CLIPBOARD_SCREEN,
+    GB_CLIPBOARD_OFF
+};
 
 struct gb_settings {
-    int colour, graph, images; /* of the enums above */
-    int ascii, mouse, slow;    /* 0 or 1 */
+    int colour, graph, images, clipboard; /* of the enums above */
+    int ascii, mouse, slow;               /* 0 or 1 */
 };
 
 /* One row per setting: option --name and key of the file. */

@@ -436,3 +436,14 @@ void gb_term_send(struct gb_term *term, int row, int col, const char *text)
     fprintf(term->out, "\0337\033[%d;%dH%s\0338", row + 1, col + 1, text);
     fflush(term->out);
 }
+
+void gb_term_pass(struct gb_term *term, const char *sequence)
+{
+    fputs(sequence, term->out);
+    fflush(term->out);
+}
+
+int gb_term_clipboard(const struct gb_term *term)
+{
+    return term->profile.clipboard;
+}

@@ -96,6 +96,11 @@ void gb_term_cell(const struct gb_term *term, int *width, int *height);
 int64_t gb_term_repaints(const struct gb_term *term);
 void gb_term_send(struct gb_term *term, int row, int col, const char *text);
 
+/* Sends a sequence that moves no cursor and changes no cell; how copies are sent, one of
+ * enum gb_settings_clipboard. */
+void gb_term_pass(struct gb_term *term, const char *sequence);
+int gb_term_clipboard(const struct gb_term *term);
+
 /* curses attributes of a style. */
 uint64_t gb_term_attributes(const struct gb_term *term, enum gb_style style);
 

@@ -80,6 +80,19 @@ static int detect_images(const struct gb_term_profile *profile,
                                                         : gb_pixels_detect();
 }
 
+/* A terminal named screen without $TMUX is taken as screen: tmux ignores its sequence,
+ * whereas screen would show that of tmux. */
+static int detect_clipboard(const char *type, const struct gb_settings *settings)
+{
+    if (settings->clipboard != GB_CLIPBOARD_AUTO) {
+        return settings->clipboard;
+    }
+    if (*from_env("TMUX") != '\0' || g_str_has_prefix(type, "tmux")) {
+        return GB_CLIPBOARD_TMUX;
+    }
+    return in_multiplexer(type) ? GB_CLIPBOARD_SCREEN : GB_CLIPBOARD_OSC52;
+}
+
 bool gb_term_profile_detect(struct gb_term_profile *profile, int fd,
                             const struct gb_settings *settings, struct gb_error *err)
 {
@@ -100,6 +113,7 @@ bool gb_term_profile_detect(struct gb_term_profile *profile, int fd,
     profile->braille = profile->utf8 && strcmp(profile->type, "linux") != 0;
     profile->can_mouse = reports_mouse(profile->type, fd);
     profile->images = detect_images(profile, settings);
+    profile->clipboard = detect_clipboard(profile->own, settings);
     return true;
 }
 
@@ -149,6 +163,10 @@ static void print_terminal(FILE *out, const struct gb_term_profile *profile,
                          ? "kitty"
                          : "none, the packing is drawn in cells",
                      yes_no(gb_pixels_available()), gb_settings_word(settings, "images"));
+    static const char *const ways[] = {"", "OSC 52", "OSC 52 and tmux",
+                                       "OSC 52 through screen", "none"};
+    gb_visible_print(out, "clipboard  %s (--clipboard=%s)\n", ways[profile->clipboard],
+                     gb_settings_word(settings, "clipboard"));
     gb_visible_print(out, "frames     at most %d a second\n", settings->slow ? 2 : 10);
 }
 

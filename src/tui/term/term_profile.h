@@ -19,6 +19,7 @@ struct gb_term_profile {
     bool coloured;
     bool can_mouse; /* terminfo has a mouse sequence */
     int images;     /* GB_IMAGES_NONE, _SIXEL or _KITTY */
+    int clipboard;  /* of enum gb_settings_clipboard, never auto */
 };
 
 /* Sets the locale, too.  Errors: GB_ERR_MACHINE if no terminal type works; the other

@@ -1,4 +1,5 @@
 #include <glib.h>
+#include <limits.h>
 
 #include "io/material.h"
 #include "tui/app/dialog/dialogs.h"
@@ -218,6 +219,12 @@ void gb_file_commands_report(struct gb_app *app, const struct gb_key *key)
                                           "writing the report..."};
     (void)key;
     make(app, &report);
+}
+
+char *gb_file_commands_shell_text(struct gb_app *app)
+{
+    struct gb_session *session = &app->screen.session;
+    return gb_repeat_command(session->preset, gb_session_params(session), INT_MAX);
 }
 
 void gb_file_commands_shell(struct gb_app *app, const struct gb_key *key)

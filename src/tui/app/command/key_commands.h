@@ -41,6 +41,12 @@ void gb_view_commands_pressure(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_densities(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_accept_pressure(struct gb_app *app);
 
+/* The table of densities, columns separated by tabs; g_free. */
+char *gb_view_commands_densities_text(struct gb_app *app);
+
+/* copy_commands.c: the clipboard. */
+void gb_copy_commands_copy(struct gb_app *app, const struct gb_key *key);
+
 /* run_commands.c: run and quick cell. */
 void gb_run_commands_start(struct gb_app *app, const struct gb_key *key);
 void gb_run_commands_pause(struct gb_app *app, const struct gb_key *key);
@@ -65,6 +71,8 @@ void gb_file_commands_data(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_picture(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_report(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_shell(struct gb_app *app, const struct gb_key *key);
+/* That command in one line; g_free. */
+char *gb_file_commands_shell_text(struct gb_app *app);
 void gb_file_commands_accept_save(struct gb_app *app);
 void gb_file_commands_accept_open(struct gb_app *app);
 void gb_file_commands_accept_material(struct gb_app *app);

@@ -1,6 +1,7 @@
 #include "base/units.h"
 #include "tui/app/dialog/dialogs.h"
 #include "tui/app/command/key_commands.h"
+#include "tui/panel/density_table.h"
 #include "tui/view/views.h"
 
 /* Focuses the plot where the compact layout hides it. */
@@ -83,4 +84,10 @@ void gb_view_commands_densities(struct gb_app *app, const struct gb_key *key)
     (void)key;
     gb_dialog_show_densities(&screen->dialog, &gb_dialogs_densities, &screen->session,
                              screen->plot.hide_previous);
+}
+
+char *gb_view_commands_densities_text(struct gb_app *app)
+{
+    const struct gb_dialog *dialog = &app->screen.dialog;
+    return gb_density_table_text(dialog->session, dialog->hide_previous);
 }

@@ -78,7 +78,7 @@ void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen)
 static bool closes(const struct gb_dialog *dialog, int code)
 {
     struct gb_key key;
-    return gb_keys_find(code, &key) &&
+    return gb_keys_find(code, GB_KEY_EVERYWHERE, &key) &&
            (key.action == GB_ACTION_BACK || key.command == gb_screen_commands_quit ||
             key.command == dialog->type->opened_by);
 }

@@ -34,6 +34,7 @@ struct gb_dialog_type {
     int scope;            /* bit of the keys of the table that act in it; 0: none */
     void (*opened_by)(struct gb_app *app,
                       const struct gb_key *key); /* its key closes the dialog, too */
+    char *(*copied)(struct gb_app *app); /* what y copies, g_free; NULL: nothing */
     void (*accept)(struct gb_app *app);
     void (*decline)(struct gb_app *app); /* NULL: nothing besides closing */
 };

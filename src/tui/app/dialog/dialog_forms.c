@@ -71,6 +71,12 @@ static bool clear_note(struct gb_dialog *dialog, bool edited)
     return edited;
 }
 
+/* What was copied, in place of the title. */
+static const char *told_or_title(const struct gb_dialog *dialog)
+{
+    return dialog->note[0] != '\0' ? dialog->note : dialog->type->title;
+}
+
 /* --- help ------------------------------------------------------------------------- */
 
 static void draw_help(struct gb_dialog *dialog, const struct gb_paint *screen)
@@ -124,7 +130,7 @@ const struct gb_dialog_form gb_dialog_forms_help = {draw_help, NULL, scroll};
 static void draw_densities(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     const struct gb_paint frame =
-        box(screen, DENSITIES_ROWS, DENSITIES_COLS, dialog->type->title);
+        box(screen, DENSITIES_ROWS, DENSITIES_COLS, told_or_title(dialog));
     const struct gb_paint paint = inside(&frame);
     dialog->page = gb_density_table_draw(&paint, dialog->session, dialog->hide_previous,
                                          &dialog->focus);
@@ -253,7 +259,7 @@ static void draw_command(struct gb_dialog *dialog, const struct gb_paint *screen
         gb_paint_cell(&paint, row, 0, rect.cols, GB_STYLE_PLAIN,
                       row <= count ? lines[row - 1] : "");
     }
-    gb_paint_title(&paint, dialog->type->title, GB_PAINT_FOCUSED);
+    gb_paint_title(&paint, told_or_title(dialog), GB_PAINT_FOCUSED);
     const struct gb_rect end = {rect.row + rows - 1, 0, 1, rect.cols};
     const struct gb_paint last = gb_paint_at(screen->term, end);
     gb_paint_title(&last, dialog->type->label, GB_PAINT_UNFOCUSED);

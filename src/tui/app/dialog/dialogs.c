@@ -76,8 +76,10 @@ const struct gb_dialog_type gb_dialogs_pressure = {
 
 const struct gb_dialog_type gb_dialogs_densities = {
     .form = &gb_dialog_forms_densities,
-    .title = "Densities of the curves (Up, Down; Esc closes)",
+    .title = "Densities of the curves (y copies, Esc closes)",
+    .scope = GB_KEY_COPIED,
     .opened_by = gb_view_commands_densities,
+    .copied = gb_view_commands_densities_text,
 };
 
 const struct gb_dialog_type gb_dialogs_replicas = {
@@ -105,8 +107,10 @@ const struct gb_dialog_type gb_dialogs_legs = {
 const struct gb_dialog_type gb_dialogs_shell = {
     .form = &gb_dialog_forms_command,
     .title = "Shell command that repeats this run (Esc closes)",
-    .label = "c closes",
+    .label = "y copies, c closes",
+    .scope = GB_KEY_COPIED,
     .opened_by = gb_file_commands_shell,
+    .copied = gb_file_commands_shell_text,
 };
 
 const struct gb_dialog_type gb_dialogs_quit = {
