@@ -68,6 +68,53 @@ def check_rows(rows, filled):
                 expect(0 < value < 1 or (filled and value == 1), 'density', f'{text} in {row}')
 
 
+# Shares of the largest energy and momentum so far: the error of the time steps (some tenths of
+# a percent, 4 % at the slowest rates) and of the rounding (single precision 1e-7).
+ENERGY_ERROR = 0.15
+MOMENTUM_ERROR = 1e-5
+
+
+def check_energies(rows):
+    """Work = kinetic + elastic + dissipated; the balance is the recorded one; friction takes."""
+    names = ('work', 'kinetic', 'elastic', 'dissipated', 'energy_residual')
+    if not rows or any(name not in rows[0] for name in names):
+        return
+    columns = [rows[0].index(name) for name in names]
+    largest = 0.0
+    for row in rows[1:]:
+        if any(row[column] == '' for column in columns[:4]):
+            continue
+        work, kinetic, elastic, dissipated = (float(row[column]) for column in columns[:4])
+        largest = max(largest, abs(work), abs(kinetic), abs(elastic) + abs(dissipated))
+        lost = work - kinetic - elastic - dissipated
+        expect(kinetic >= 0, 'energy', f'kinetic {kinetic} in {row}')
+        if row[columns[4]] == '':  # before any work
+            continue
+        expect(abs(lost) <= ENERGY_ERROR * largest, 'energy', f'{lost} J are lost in {row}')
+        expect(dissipated >= -ENERGY_ERROR * largest, 'energy',
+               f'{dissipated} J are dissipated in {row}')
+        recorded = float(row[columns[4]]) * abs(work)
+        expect(abs(lost - recorded) <= 1e-9 * largest, 'energy',
+               f'{lost} J are lost, {recorded} J recorded in {row}')
+
+
+def check_momentum(table):
+    """Forces and momenta of the particles of a periodic cell are 0 together."""
+    with open(table, encoding='utf-8') as file:
+        rows = [line.rstrip('\n').split(',') for line in file if not line.startswith('#')]
+    mass = [float(row[rows[0].index('diameter_nm')]) ** 3 for row in rows[1:]]
+    for names, weights in ((('fx_nN', 'fy_nN', 'fz_nN'), [1.0] * len(mass)),
+                           (('vx_m_per_s', 'vy_m_per_s', 'vz_m_per_s'), mass)):
+        if any(name not in rows[0] for name in names):
+            continue
+        columns = [[weight * float(row[rows[0].index(name)] or 0)
+                    for weight, row in zip(weights, rows[1:])] for name in names]
+        every = sum(abs(number) for column in columns for number in column)
+        for name, column in zip(names, columns):
+            expect(abs(sum(column)) <= MOMENTUM_ERROR * every, 'momentum',
+                   f'{name}: {sum(column)} of {every}')
+
+
 def is_prefix(part, whole, what):
     """The rows are the first ones of `whole`."""
     for index, row in enumerate(part):

@@ -39,6 +39,13 @@ found 'a density of 1' density 8 \
 # shellcheck disable=SC2016
 found 'a number that is none' 'finite columns' 8 \
     '[ "$1" != run ] || sed -i "\$s/\(load,[0-9]*,[^,]*\),[^,]*/\1,nan/" "$out/curve.csv"'
+# a scene with inertia: work is column 17 of its curve, a velocity column 13 of its particles
+# shellcheck disable=SC2016
+found 'energy from nowhere' energy 52 '[ "$1" != run ] || {
+    awk -F, -v OFS=, "/^load/ { \$17 *= 2 } 1" "$out/curve.csv" >more && mv more "$out/curve.csv"; }'
+# shellcheck disable=SC2016
+found 'momentum from nowhere' momentum 52 '[ "$1" != export ] || {
+    awk -F, -v OFS=, "/^1,/ { \$13 += 1000 } 1" particles.csv >more && mv more particles.csv; }'
 # shellcheck disable=SC2016
 found 'a file that is left behind' files 8 '[ "$1" != run ] || touch "$out/state.h5.ab12cd"'
 # shellcheck disable=SC2016

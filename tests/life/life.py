@@ -1,5 +1,6 @@
 """One case: a scene and the steps of a run directory, with what must hold after each."""
 import fcntl
+import math
 import os
 import resource
 import shutil
@@ -7,12 +8,15 @@ import signal
 import subprocess
 import time
 
-from check import (Broken, answer, check_files, check_rows, check_status_file, contents, expect,
-                   is_prefix, read_rows)
+from check import (Broken, answer, check_energies, check_files, check_momentum, check_rows,
+                   check_status_file, contents, expect, is_prefix, read_rows)
+import scenes
 
-# Seconds after which only a hang is under way, and of a scene that is too long for a case.
-HANG_S = 300 * int(os.environ.get('GB_TEST_PATIENCE', '1'))
-LONG_S = 12
+# Seconds after which only a hang is under way, and the processor time of a scene that is too long
+# for a case.
+PATIENCE = int(os.environ.get('GB_TEST_PATIENCE', '1'))
+HANG_S = 300 * PATIENCE
+LONG_S = 12 * PATIENCE
 
 SIGNALS = {'kill': signal.SIGKILL, 'term': signal.SIGTERM, 'int': signal.SIGINT,
            'hup': signal.SIGHUP}
@@ -93,16 +97,34 @@ class Life:
             self._send(process, signal.SIGKILL)
             process.wait()
 
-    def _wait(self, process, seconds=None, what=''):
-        """Exit status, and what stderr has."""
+    @staticmethod
+    def _processor_s(process):
+        """Of a process that is under way."""
         try:
-            status = process.wait(seconds or HANG_S)
-        except subprocess.TimeoutExpired as error:
-            self._send(process, signal.SIGKILL)
-            process.wait()
-            if seconds:
-                raise TooLong() from error
-            raise Broken('hang', what) from error
+            with open(f'/proc/{process.pid}/stat', encoding='utf-8') as file:
+                ticks = file.read().rpartition(')')[2].split()[11:13]
+        except OSError:
+            return 0.0
+        return sum(map(int, ticks)) / os.sysconf('SC_CLK_TCK')
+
+    def _ended(self, process, processor_s, what):
+        """Exit status; TooLong beyond the processor time."""
+        end = time.monotonic() + HANG_S
+        while time.monotonic() < end and self._processor_s(process) < processor_s:
+            try:
+                return process.wait(0.2)
+            except subprocess.TimeoutExpired:
+                continue
+        long = self._processor_s(process) >= processor_s
+        self._send(process, signal.SIGKILL)
+        process.wait()
+        if long:
+            raise TooLong()
+        raise Broken('hang', what)
+
+    def _wait(self, process, processor_s=math.inf, what=''):
+        """Exit status, and what stderr has."""
+        status = self._ended(process, processor_s, what)
         with open(self.errors[process], encoding='utf-8', errors='backslashreplace') as file:
             return status, file.read()
 
@@ -119,7 +141,7 @@ class Life:
         """Curve, status and length of the scene without steps."""
         shutil.rmtree(self.straight, ignore_errors=True)
         start = time.monotonic()
-        status, stderr = self._wait(self._start(self._new('straight')), LONG_S)
+        status, stderr = self._wait(self._start(self._new('straight')), LONG_S, 'run')
         self.length = time.monotonic() - start
         answer(status, stderr, {0, 1, 2}, 'run')
         if status == 2:
@@ -130,8 +152,22 @@ class Life:
         self.status, self.filled = status, 'all space is filled' in stderr
         self.rows = read_rows(self.straight)
         check_rows(self.rows, self.filled)
+        if not scenes.is_unstable(self.keys):
+            check_energies(self.rows)
         check_status_file(self.straight, self.rows, True)
         check_files(self.straight)
+        self._balance()
+
+    def _balance(self):
+        """Momentum of the last state, where no wall takes any."""
+        if scenes.has_walls(self.preset) or \
+                not os.path.exists(os.path.join(self.straight, 'state.h5')):
+            return
+        table = os.path.join(self.folder, 'particles.csv')
+        status, stderr = self._command('export', self.straight, '--format', 'csv', '-o', table,
+                                       '--force')
+        answer(status, stderr, {0}, 'export')
+        check_momentum(table)
 
     def _has_run(self):
         return os.path.exists(os.path.join(self.directory, 'preset.ini'))

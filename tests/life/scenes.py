@@ -21,6 +21,16 @@ EXTREMES = [
 ]
 
 
+def has_walls(preset):
+    """A die; the other scenes are periodic cells."""
+    return preset.startswith('p3')
+
+
+def is_unstable(keys):
+    """Steps of time too large for a balance of energy."""
+    return 'numerics.time_step' in keys or keys.get('numerics.safety') == '10'
+
+
 def _sizes(rng, keys, diameter):
     """One size, a log-normal law or a table; diameter is a number and its unit."""
     kind = rng.choice(['mono', 'mono', 'lognormal', 'table'])
