@@ -7,6 +7,8 @@ void gb_screen_options_entries(struct gb_screen_options *options, GOptionEntry *
     const GOptionEntry entries[GB_SCREEN_OPTIONS_ENTRIES] = {
         {"color", 0, 0, G_OPTION_ARG_STRING, &options->color,
          "auto, always or never; auto: unless NO_COLOR is set", "WHEN"},
+        {"theme", 0, 0, G_OPTION_ARG_STRING, &options->theme,
+         "colours: auto, light, dark or contrast", "NAME"},
         {"graph", 0, 0, G_OPTION_ARG_STRING, &options->graph,
          "characters of plots: auto, braille, block or ascii", "HOW"},
         {"images", 0, 0, G_OPTION_ARG_STRING, &options->images,
@@ -30,6 +32,7 @@ bool gb_screen_options_settings(const struct gb_screen_options *options,
     const struct {
         const char *name, *value;
     } given[] = {{"color", options->color},
+                 {"theme", options->theme},
                  {"graph", options->graph},
                  {"images", options->images},
                  {"clipboard", options->clipboard},
@@ -53,6 +56,7 @@ bool gb_screen_options_settings(const struct gb_screen_options *options,
 void gb_screen_options_finish(struct gb_screen_options *options)
 {
     g_free(options->color);
+    g_free(options->theme);
     g_free(options->graph);
     g_free(options->images);
     g_free(options->clipboard);
@@ -63,8 +67,8 @@ void gb_screen_options_finish(struct gb_screen_options *options)
 static int words_of(const char *word)
 {
     static const char *const flags[] = {"--batch", "--ascii", "--slow"};
-    static const char *const values[] = {"--color", "--graph", "--images", "--clipboard",
-                                         "--mouse"};
+    static const char *const values[] = {"--color",  "--theme",     "--graph",
+                                         "--images", "--clipboard", "--mouse"};
     for (size_t i = 0; i < G_N_ELEMENTS(flags); i++) {
         if (strcmp(word, flags[i]) == 0) {
             return 1;

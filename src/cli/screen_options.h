@@ -7,12 +7,12 @@
 
 /* Options of the commands that open a screen. */
 struct gb_screen_options {
-    char *color, *graph, *images, *clipboard, *mouse; /* owned; NULL: not given */
+    char *color, *theme, *graph, *images, *clipboard, *mouse; /* owned; NULL: not given */
     gboolean ascii, slow, diagnose;
 };
 
 /* Puts their entries into a command's list, from *entry on. */
-enum { GB_SCREEN_OPTIONS_ENTRIES = 8 };
+enum { GB_SCREEN_OPTIONS_ENTRIES = 9 };
 void gb_screen_options_entries(struct gb_screen_options *options, GOptionEntry *entry);
 
 /* The settings of the file, overruled by the options. */

@@ -38,7 +38,7 @@ row_of() {
 # --- without a screen
 "$greenbody" --diagnose >"$here/out" 2>&1
 is "--diagnose leaves with 0" [ $? -eq 0 ]
-for word in locale size terminal colours plots mouse images clipboard frames settings log runs; do
+for word in locale size terminal colours theme plots mouse images clipboard frames settings log runs; do
     is "--diagnose tells: $word" grep -q "^$word  " "$here/out"
 done
 is "--diagnose tells of no runs yet" grep -q 'runs: 0 kept, ' "$here/out"

@@ -105,6 +105,8 @@ static const struct gb_key after_views[] = {
      gb_file_commands_open, GB_ACTION_NONE},
     {{'d'}, "d", NULL, "material: a list of names with what changes", GB_KEY_ANY_PANE,
      gb_file_commands_material, GB_ACTION_NONE},
+    {{'H'}, "H", NULL, "colours: next theme, which is remembered", GB_KEY_ANY_PANE,
+     gb_screen_commands_theme, GB_ACTION_NONE},
     {{'M'}, "M", NULL, "mouse on or off (Shift-drag selects text)", GB_KEY_ANY_PANE,
      gb_screen_commands_mouse, GB_ACTION_NONE},
     {{'O'}, "O", "add", "legs of a path: add one behind", GB_KEY_LEGS,

@@ -5,11 +5,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/file.h"
 #include "base/read_file.h"
 
 enum { BYTES_MAX = 1 << 20 };
 
 static const char *const when[] = {"auto", "always", "never", NULL};
+static const char *const themes[] = {"auto", "light", "dark", "contrast", NULL};
 static const char *const graphs[] = {"auto", "braille", "block", "ascii", NULL};
 static const char *const images[] = {"auto", "none", "sixel", "kitty", NULL};
 static const char *const clipboards[] = {"auto",   "osc52", "tmux",
@@ -20,6 +22,9 @@ static const char *const off_on[] = {"off", "on", NULL};
 static const struct gb_settings_row table[] = {
     {"color", when, "colours; auto: unless NO_COLOR is set",
      offsetof(struct gb_settings, colour)},
+    {"theme", themes,
+     "for a light or a dark background of the terminal; contrast: white on black",
+     offsetof(struct gb_settings, theme)},
     {"graph", graphs, "how plots are drawn; auto: braille where the font has it",
      offsetof(struct gb_settings, graph)},
     {"images", images, "the packing in real pixels; auto: where the terminal can",
@@ -123,6 +128,40 @@ bool gb_settings_read(struct gb_settings *settings, const char *path,
     g_key_file_free(file);
     gb_alloc_free(text);
     return good;
+}
+
+/* The file to be changed, empty where there is none; NULL: no key file. */
+static GKeyFile *load(const char *path, struct gb_error *err)
+{
+    GKeyFile *file = g_key_file_new();
+    GError *error = NULL;
+    if (!g_file_test(path, G_FILE_TEST_EXISTS) ||
+        g_key_file_load_from_file(file, path, G_KEY_FILE_KEEP_COMMENTS, &error)) {
+        return file;
+    }
+    gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, error->message);
+    g_clear_error(&error);
+    g_key_file_free(file);
+    return NULL;
+}
+
+bool gb_settings_remember(const char *path, const char *name, const char *value,
+                          struct gb_error *err)
+{
+    GKeyFile *file = load(path, err);
+    if (file == NULL) {
+        return false;
+    }
+    g_key_file_set_string(file, "screen", name, value);
+    gsize length = 0;
+    char *text = g_key_file_to_data(file, &length, NULL);
+    char *folder = g_path_get_dirname(path);
+    g_mkdir_with_parents(folder, 0777);
+    const bool written = gb_file_replace(path, text, length, err);
+    g_free(folder);
+    g_free(text);
+    g_key_file_free(file);
+    return written;
 }
 
 char *gb_settings_path(void)

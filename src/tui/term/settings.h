@@ -32,9 +32,12 @@ enum gb_settings_clipboard {
     GB_CLIPBOARD_OFF
 };
 
+/* Colours: see term_theme.h. */
+enum gb_settings_theme { GB_THEME_AUTO, GB_THEME_LIGHT, GB_THEME_DARK, GB_THEME_CONTRAST };
+
 struct gb_settings {
-    int colour, graph, images, clipboard; /* of the enums above */
-    int ascii, mouse, slow;               /* 0 or 1 */
+    int colour, theme, graph, images, clipboard; /* of the enums above */
+    int ascii, mouse, slow;                      /* 0 or 1 */
 };
 
 /* One row per setting: option --name and key of the file. */
@@ -60,6 +63,11 @@ const char *gb_settings_word(const struct gb_settings *settings, const char *nam
  * ignored. */
 bool gb_settings_read(struct gb_settings *settings, const char *path,
                       struct gb_error *err);
+
+/* Writes one setting into the file, which keeps its other lines and is made where it is
+ * missing.  Errors: GB_ERR_INPUT for a file that is no key file, GB_ERR_MACHINE. */
+bool gb_settings_remember(const char *path, const char *name, const char *value,
+                          struct gb_error *err);
 
 /* Path of the file; g_free. */
 char *gb_settings_path(void);

@@ -6,6 +6,7 @@
 #include <ncurses.h>
 #include <poll.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/signalfd.h>
@@ -17,6 +18,7 @@
 #include "tui/term/crash.h"
 #include "tui/term/term_profile.h"
 #include "tui/term/term_style.h"
+#include "tui/term/term_theme.h"
 #include "tui/term/term_tty.h"
 
 /* Longest time between Esc and the rest of a function key, ms. */
@@ -65,7 +67,7 @@ static bool start_screen(struct gb_term *term, const char *type, struct gb_error
     }
     set_modes();
     set_escdelay(ESCAPE_MS);
-    term->shaded = gb_term_style_init(term->style, term->profile.coloured);
+    gb_term_set_theme(term, term->profile.theme);
     term->keys = newpad(1, 1);
     keypad(term->keys, TRUE);
     nodelay(term->keys, TRUE);
@@ -351,6 +353,19 @@ struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms)
     }
     next_key(term, &event);
     return event;
+}
+
+void gb_term_set_theme(struct gb_term *term, int theme)
+{
+    term->profile.theme = theme;
+    term->shaded =
+        gb_term_style_init(term->style, term->profile.coloured,
+                           gb_term_theme_resolve(theme, getenv("COLORFGBG")));
+}
+
+int gb_term_theme(const struct gb_term *term)
+{
+    return term->profile.theme;
 }
 
 void gb_term_repaint(struct gb_term *term)

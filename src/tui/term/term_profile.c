@@ -12,6 +12,7 @@
 
 #include "base/text/visible.h"
 #include "tui/term/pixels.h"
+#include "tui/term/term_theme.h"
 #include "tui/term/term_tty.h"
 
 static const char *from_env(const char *name)
@@ -113,6 +114,7 @@ bool gb_term_profile_detect(struct gb_term_profile *profile, int fd,
     profile->braille = profile->utf8 && strcmp(profile->type, "linux") != 0;
     profile->can_mouse = reports_mouse(profile->type, fd);
     profile->images = detect_images(profile, settings);
+    profile->theme = settings->theme;
     profile->clipboard = detect_clipboard(profile->own, settings);
     return true;
 }
@@ -154,6 +156,14 @@ static void print_terminal(FILE *out, const struct gb_term_profile *profile,
         : profile->colours >= 256 ? "256 are used"
         : profile->colours >= 16  ? "16 are used"
                                   : "8 are used");
+    static const char *const backgrounds[] = {"a light and a dark background",
+                                              "a light background", "a dark background",
+                                              "high contrast, white on black"};
+    gb_visible_print(out, "theme      for %s (COLORFGBG=%s, --theme=%s)\n",
+                     backgrounds[gb_term_theme_resolve(profile->theme,
+                                                       getenv("COLORFGBG"))],
+                     from_env("COLORFGBG"),
+                     gb_settings_word(settings, "theme"));
     gb_visible_print(out, "plots      %s\n", graph);
     gb_visible_print(out, "mouse      %s, terminfo knows it: %s\n",
                      gb_settings_word(settings, "mouse"), yes_no(profile->can_mouse));
@@ -163,9 +173,9 @@ static void print_terminal(FILE *out, const struct gb_term_profile *profile,
                          ? "kitty"
                          : "none, the packing is drawn in cells",
                      yes_no(gb_pixels_available()), gb_settings_word(settings, "images"));
-    static const char *const ways[] = {"", "OSC 52", "OSC 52 and tmux",
+    static const char *const clipboards[] = {"", "OSC 52", "OSC 52 and tmux",
                                        "OSC 52 through screen", "none"};
-    gb_visible_print(out, "clipboard  %s (--clipboard=%s)\n", ways[profile->clipboard],
+    gb_visible_print(out, "clipboard  %s (--clipboard=%s)\n", clipboards[profile->clipboard],
                      gb_settings_word(settings, "clipboard"));
     gb_visible_print(out, "frames     at most %d a second\n", settings->slow ? 2 : 10);
 }

@@ -19,6 +19,7 @@ struct gb_term_profile {
     bool coloured;
     bool can_mouse; /* terminfo has a mouse sequence */
     int images;     /* GB_IMAGES_NONE, _SIXEL or _KITTY */
+    int theme;      /* of enum gb_settings_theme */
     int clipboard;  /* of enum gb_settings_clipboard, never auto */
 };
 

@@ -4,15 +4,16 @@
 #include <stdbool.h>
 
 #include "tui/term/term.h"
+#include "tui/term/term_theme.h"
 
-/* Palette of Okabe and Ito, distinguishable with every kind of colour vision, in the
- * nearest of 256 colours with enough contrast on a white background; and its nearest of 8
- * colours. */
-static const short series_256[] = {74, 172, 36, 175, 166, 32};
-static const short series_8[] = {COLOR_CYAN,    COLOR_YELLOW, COLOR_GREEN,
-                                 COLOR_MAGENTA, COLOR_RED,    COLOR_BLUE};
-
-enum { SERIES = sizeof series_8 / sizeof series_8[0], GREY_256 = 244, GREY_16 = 8 };
+/* Numbers of colour pairs; those of the shades come last. */
+enum {
+    SERIES = GB_TERM_THEME_SERIES,
+    GREY_PAIR = SERIES + 1,
+    TEXT_PAIR,
+    SHADE_PAIRS,
+    PAIRS = SHADE_PAIRS + GB_TERM_SHADES * (GB_TERM_SHADES + 1)
+};
 
 static void set_plain(uint64_t *style)
 {
@@ -32,18 +33,39 @@ static void set_plain(uint64_t *style)
     }
 }
 
-static void set_colours(uint64_t *style)
+/* The colour that the terminal has. */
+static short of_terminal(short colour_256, short colour_16)
 {
-    const short *series = COLORS >= 256 ? series_256 : series_8;
+    return COLORS >= 256                      ? colour_256
+           : COLORS >= 16 || colour_16 < 0 ? colour_16
+                                              : (short)(colour_16 % 8);
+}
+
+static short background_of(const struct gb_term_theme *theme)
+{
+    return of_terminal(theme->background, theme->background_16);
+}
+
+/* Text without a pair of its own gets the pair of the background, too. */
+static void set_background(const struct gb_term_theme *theme)
+{
+    init_pair(TEXT_PAIR, of_terminal(theme->text, theme->text_16), background_of(theme));
+    bkgdset(theme->background < 0 ? ' ' : (chtype)' ' | (chtype)COLOR_PAIR(TEXT_PAIR));
+}
+
+static void set_colours(uint64_t *style, const struct gb_term_theme *theme)
+{
+    const short back = background_of(theme);
     uint64_t pair[SERIES];
     for (short i = 0; i < SERIES; i++) {
-        init_pair((short)(i + 1), series[i], -1);
+        init_pair((short)(i + 1), of_terminal(theme->series[i], theme->series_16[i]),
+                  back);
         pair[i] = (uint64_t)COLOR_PAIR(i + 1);
         style[GB_STYLE_SERIES + i] = pair[i];
     }
     if (COLORS >= 16) {
-        init_pair(SERIES + 1, COLORS >= 256 ? GREY_256 : GREY_16, -1);
-        style[GB_STYLE_DIM] = (uint64_t)COLOR_PAIR(SERIES + 1);
+        init_pair(GREY_PAIR, of_terminal(theme->grey, theme->grey_16), back);
+        style[GB_STYLE_DIM] = (uint64_t)COLOR_PAIR(GREY_PAIR);
     }
     style[GB_STYLE_CHANGED] = pair[1] | A_BOLD;
     style[GB_STYLE_GOOD] = pair[2];
@@ -55,17 +77,12 @@ static void set_colours(uint64_t *style)
 /* One hue from dark to light: depth is visible with every kind of colour vision. */
 static const short shades_256[GB_TERM_SHADES] = {17, 23, 24, 31, 38, 74, 117, 195};
 
-enum {
-    SHADE_PAIRS = SERIES + 2, /* first colour pair of the shades */
-    PAIRS = SHADE_PAIRS + GB_TERM_SHADES * (GB_TERM_SHADES + 1)
-};
-
 static short shade_pair(int shade, int back)
 {
     return (short)(SHADE_PAIRS + shade * (GB_TERM_SHADES + 1) + back + 1);
 }
 
-static bool set_shades(void)
+static bool set_shades(short background)
 {
     if (COLORS < 256 || COLOR_PAIRS < PAIRS) {
         return false;
@@ -73,7 +90,7 @@ static bool set_shades(void)
     for (int shade = 0; shade < GB_TERM_SHADES; shade++) {
         for (int back = -1; back < GB_TERM_SHADES; back++) {
             init_pair(shade_pair(shade, back), shades_256[shade],
-                      back < 0 ? -1 : shades_256[back]);
+                      back < 0 ? background : shades_256[back]);
         }
     }
     return true;
@@ -84,12 +101,14 @@ uint64_t gb_term_style_shade(int shade, int back)
     return (uint64_t)COLOR_PAIR(shade_pair(shade, back));
 }
 
-bool gb_term_style_init(uint64_t *style, bool coloured)
+bool gb_term_style_init(uint64_t *style, bool coloured, int theme)
 {
+    const struct gb_term_theme *row = gb_term_theme_row(theme);
     set_plain(style);
     if (!coloured || !has_colors() || start_color() != OK || use_default_colors() != OK) {
         return false;
     }
-    set_colours(style);
-    return set_shades();
+    set_background(row);
+    set_colours(style, row);
+    return set_shades(background_of(row));
 }

@@ -86,8 +86,9 @@ void gb_job_commands_moduli(struct gb_app *app, const struct gb_key *key);
 void gb_job_commands_accept_replicas(struct gb_app *app);
 void gb_job_commands_accept_calibrate(struct gb_app *app);
 
-/* screen_commands.c: mouse, help, quitting. */
+/* screen_commands.c: mouse, theme, help, quitting. */
 void gb_screen_commands_mouse(struct gb_app *app, const struct gb_key *key);
+void gb_screen_commands_theme(struct gb_app *app, const struct gb_key *key);
 void gb_screen_commands_repaint(struct gb_app *app, const struct gb_key *key);
 void gb_screen_commands_help(struct gb_app *app, const struct gb_key *key);
 void gb_screen_commands_quit(struct gb_app *app, const struct gb_key *key);

@@ -4,7 +4,7 @@
 #include "tui/app/command/key_commands.h"
 #include "tui/session/run_lifecycle.h"
 
-/* Mouse, help and quitting. */
+/* Mouse, theme, help and quitting. */
 
 void gb_screen_commands_message(struct gb_app *app, enum gb_style style, const char *text)
 {
@@ -23,6 +23,33 @@ void gb_screen_commands_mouse(struct gb_app *app, const struct gb_key *key)
                                    ? "mouse on: clicks and wheel; Shift-drag selects text"
                                : on ? "this terminal reports no mouse"
                                     : "mouse off: the terminal selects text");
+}
+
+/* After the last theme the first one, which asks the terminal. */
+void gb_screen_commands_theme(struct gb_app *app, const struct gb_key *key)
+{
+    static const char *const told[] = {
+        "auto: for a light and a dark background of the terminal",
+        "light: for a light background of the terminal",
+        "dark: for a dark background of the terminal",
+        "contrast: white on a black background"};
+    struct gb_screen *screen = &app->screen;
+    struct gb_settings settings = {
+        .theme = (gb_term_theme(screen->term) + 1) % (int)G_N_ELEMENTS(told)};
+    struct gb_error err = {0};
+    char *path = gb_settings_path();
+    char text[sizeof screen->message.text];
+    (void)key;
+    gb_term_set_theme(screen->term, settings.theme);
+    gb_term_repaint(screen->term);
+    if (gb_settings_remember(path, "theme", gb_settings_word(&settings, "theme"), &err)) {
+        g_snprintf(text, sizeof text, "theme %s; kept in %s", told[settings.theme], path);
+    } else {
+        g_snprintf(text, sizeof text, "theme %s; not kept: %s", told[settings.theme],
+                   err.text);
+    }
+    gb_screen_commands_message(app, GB_STYLE_PLAIN, text);
+    g_free(path);
 }
 
 void gb_screen_commands_repaint(struct gb_app *app, const struct gb_key *key)
