@@ -70,6 +70,50 @@ static void test_once(void)
     }
 }
 
+struct costs {
+    int64_t first;    /* item that one thread holds */
+    atomic_int other; /* first item of another thread; -1 */
+};
+
+/* The first item waits for one of another thread. */
+static void take_costly(void *data, int64_t item)
+{
+    struct costs *costs = data;
+    int none = -1;
+    if (item != costs->first) {
+        (void)atomic_compare_exchange_strong(&costs->other, &none, (int)item);
+    }
+    while (item == costs->first && atomic_load(&costs->other) < 0) {
+        g_usleep(100);
+    }
+}
+
+/* The second of two threads begins where half of the cost lies before its items. */
+static void test_costs(void)
+{
+    static const struct {
+        int64_t cost[7], begin;
+    } cases[] = {
+        {{0, 1, 2, 3, 4, 5, 6}, 3},        {{0, 0, 0, 0, 0, 0, 0}, 3},
+        {{0, 90, 92, 94, 96, 98, 100}, 1}, {{0, 1, 2, 3, 4, 5, 100}, 5},
+        {{0, 30, 49, 70, 90, 95, 100}, 2}, {{0, 0, 0, 0, 50, 100, 100}, 4},
+    };
+    for (size_t c = 0; c < G_N_ELEMENTS(cases); c++) {
+        struct gb_team *team = team_of(2);
+        struct costs costs = {0};
+        atomic_init(&costs.other, -1);
+        gb_team_run_costs(team, 6, cases[c].cost, take_costly, &costs);
+        g_assert_cmpint(atomic_load(&costs.other), ==, cases[c].begin);
+        struct counts *counts = g_new0(struct counts, 1);
+        gb_team_run_costs(team, 6, cases[c].cost, count_item, counts);
+        for (int i = 0; i < 6; i++) {
+            g_assert_cmpint(counts->plain[i], ==, 1);
+        }
+        g_free(counts);
+        gb_team_destroy(team);
+    }
+}
+
 struct meeting {
     atomic_int present;
 };
@@ -251,6 +295,7 @@ int main(int argc, char **argv)
     g_test_add_func("/team/alone", test_alone);
     g_test_add_func("/team/idle", test_idle);
     g_test_add_func("/team/once", test_once);
+    g_test_add_func("/team/costs", test_costs);
     g_test_add_func("/team/threads_work", test_threads_work);
     g_test_add_func("/team/shares_move", test_shares_move);
     g_test_add_func("/team/ranges", test_ranges);

@@ -1,6 +1,7 @@
 #include "base/team/team.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 
 #include "base/alloc.h"
@@ -8,9 +9,11 @@
 #include "base/team/team_pace.h"
 #include "base/thread.h"
 
-/* A thread that waits looks for new work for some time before it sleeps: waking takes as
- * long.  It must not be much longer, for the core may be what the awaited thread lacks. */
-static const double spin_s = 40e-6;
+/* A thread that waits looks for new work for some time before it sleeps: waking takes tens
+ * of microseconds, as long as what a strain step does between two works of the team.  After
+ * the first of these times it offers its core to other threads between its looks, for that
+ * may be what the awaited thread lacks. */
+static const double spin_s = 10e-6, yield_s = 200e-6;
 enum { LOOKS_PER_CLOCK = 32 }; /* readings of the clock cost more than a look */
 
 enum { CACHE_LINE = 64 };
@@ -40,11 +43,11 @@ struct gb_team {
     bool started;
     struct gb_team_pace pace;
     double began_s; /* of the measured work */
-    /* The work: written before its shares, read after an item is taken. */
-    gb_team_item *work;
+    /* The work, in one cache line: written before its shares, read after an item is taken. */
+    _Alignas(CACHE_LINE) gb_team_item *work;
     void *data;
-    _Alignas(CACHE_LINE) atomic_int active; /* threads of this work */
-    atomic_uint generation;                 /* grows with every work and at the end */
+    atomic_int active;      /* threads of this work */
+    atomic_uint generation; /* grows with every work and at the end */
     atomic_bool over;
     _Alignas(CACHE_LINE) _Atomic int64_t left; /* items that are not finished */
 };
@@ -88,14 +91,17 @@ static void bell_await(struct member *member, condition *holds, unsigned seen)
 {
     struct bell *bell = &member->bell;
     const double began_s = gb_clock_s();
-    do {
+    for (double waited_s = 0.0; waited_s < yield_s; waited_s = gb_clock_s() - began_s) {
         for (int look = 0; look < LOOKS_PER_CLOCK; look++) {
             if (holds(member, seen)) {
                 return;
             }
             relax_cpu();
         }
-    } while (gb_clock_s() - began_s < spin_s);
+        if (waited_s > spin_s) {
+            sched_yield();
+        }
+    }
     pthread_mutex_lock(&bell->lock);
     atomic_store(&bell->asleep, true);
     while (!holds(member, seen)) {
@@ -143,11 +149,13 @@ static void work_off(struct gb_team *team, int number)
 {
     for (int k = 0; k < team->size; k++) {
         struct member *from = &team->member[(number + k) % team->size];
-        for (int64_t item; take(from, &item);) {
+        int64_t done = 0;
+        for (int64_t item; take(from, &item); done++) {
             team->work(team->data, item);
-            if (atomic_fetch_sub(&team->left, 1) == 1 && number > 0) {
-                bell_ring(&team->member[0].bell);
-            }
+        }
+        /* No other work begins before these items count as finished. */
+        if (done > 0 && atomic_fetch_sub(&team->left, done) == done && number > 0) {
+            bell_ring(&team->member[0].bell);
         }
     }
 }
@@ -245,7 +253,28 @@ static void run_alone(int64_t items, gb_team_item *work, void *data)
     }
 }
 
+/* First item of the share of thread m: shares have the same number of items or, where it
+ * is known, about the same cost. */
+static int64_t share_begin(int64_t items, const int64_t *cost, int m, int active)
+{
+    if (!cost || cost[items] == 0 || m == 0 || m == active) {
+        return items * m / active;
+    }
+    const int64_t twice = 2 * cost[items] * m / active;
+    int64_t item = m; /* none goes without an item */
+    while (item < items - (active - m) && cost[item] + cost[item + 1] <= twice) {
+        item++;
+    }
+    return item;
+}
+
 void gb_team_run(struct gb_team *team, int64_t items, gb_team_item *work, void *data)
+{
+    gb_team_run_costs(team, items, NULL, work, data);
+}
+
+void gb_team_run_costs(struct gb_team *team, int64_t items, const int64_t *cost,
+                       gb_team_item *work, void *data)
 {
     if (items < 2 || gb_team_active(team) < 2) {
         run_alone(items, work, data);
@@ -258,11 +287,14 @@ void gb_team_run(struct gb_team *team, int64_t items, gb_team_item *work, void *
     const int active = items < limit ? (int)items : limit;
     team->work = work;
     team->data = data;
-    atomic_store(&team->left, items);
-    atomic_store(&team->active, active);
+    /* The stores that name the shares publish those before them. */
+    atomic_store_explicit(&team->left, items, memory_order_relaxed);
+    atomic_store_explicit(&team->active, active, memory_order_relaxed);
     for (int m = 0; m < active; m++) {
-        atomic_store(&team->member[m].share,
-                     share_word(items * m / active, items * (m + 1) / active));
+        atomic_store_explicit(&team->member[m].share,
+                              share_word(share_begin(items, cost, m, active),
+                                         share_begin(items, cost, m + 1, active)),
+                              memory_order_release);
     }
     atomic_fetch_add(&team->generation, 1);
     for (int m = 1; m < active; m++) {

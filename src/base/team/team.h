@@ -37,6 +37,12 @@ int gb_team_active(const struct gb_team *team);
  * last one.  What an item wrote is visible to the caller. */
 void gb_team_run(struct gb_team *team, int64_t items, gb_team_item *work, void *data);
 
+/* The same with items of unequal cost: cost[i] is that of all items before i (items + 1
+ * numbers, ascending, of any unit), and every thread begins with a share of about the same
+ * cost. */
+void gb_team_run_costs(struct gb_team *team, int64_t items, const int64_t *cost,
+                       gb_team_item *work, void *data);
+
 /* work(data, begin, end) for ranges that cover 0 .. count - 1, none shorter than `grain`
  * but a single one.  The ranges depend on the number of threads. */
 void gb_team_run_ranges(struct gb_team *team, int64_t count, int64_t grain,

@@ -1,6 +1,7 @@
 #include "pack/cell/engine_lists.h"
 
 #include "pack/cell/engine.h"
+#include "pack/list/engine_blocks.h"
 #include "pack/list/list_build.h"
 #include "scene/loading_kind.h"
 
@@ -42,6 +43,7 @@ bool gb_engine_lists_build(struct gb_engine *engine, const struct gb_cell *cell,
         gb_neighbour_list_clear(&engine->list);
         return false;
     }
+    gb_engine_blocks_weigh(engine);
     gb_engine_state_build_lists(&engine->state);
     return true;
 }

@@ -12,8 +12,9 @@
 #include "pack/f32/f32_convert.h"
 #include "pack/list/blocks.h"
 
-/* Particles per thread below which a second thread costs more than it gains. */
-enum { PARTICLES_PER_THREAD = 2000 };
+/* Particles per thread below which a second thread costs more than it gains; above it the
+ * team finds out (base/team/team_pace.h). */
+enum { PARTICLES_PER_THREAD = 500 };
 _Static_assert((int)PARTICLES_PER_THREAD * 17 / 16 >= (int)GB_BLOCKS_SIZE,
                "hardly a thread is left without a block");
 
@@ -36,7 +37,8 @@ static bool init_engine(struct gb_engine *engine, const struct gb_model *model,
     gb_pair_results_init(&engine->pair, model);
     engine->check = gb_alloc_array(blocks, sizeof *engine->check, err);
     engine->tally = gb_alloc_array(blocks, sizeof *engine->tally, err);
-    if (!engine->check || !engine->tally ||
+    engine->block_cost = gb_alloc_array(blocks + 1, sizeof *engine->block_cost, err);
+    if (!engine->check || !engine->tally || !engine->block_cost ||
         !gb_team_create(&engine->team, thread_count(model), err) ||
         !gb_particles_init(&engine->particles, model, position, err) ||
         !gb_neighbour_list_init(
@@ -57,6 +59,7 @@ static void finish_engine(struct gb_engine *engine)
     gb_team_destroy(engine->team);
     gb_alloc_free(engine->check);
     gb_alloc_free(engine->tally);
+    gb_alloc_free(engine->block_cost);
     gb_contacts_finish(&engine->contacts);
     gb_pair_results_finish(&engine->pair);
     gb_f32_state_finish(&engine->f32);

@@ -5,6 +5,7 @@
 #include "pack/f32/f32_convert.h"
 #include "pack/f32/integrate_f32_tile.h"
 #include "pack/list/blocks.h"
+#include "pack/list/engine_blocks.h"
 #include "pack/list/list_check.h"
 
 _Static_assert((int)TILE % (int)GB_F32_STATE_GROUP == 0 && (int)SUMMED % (int)TILE == 0 &&
@@ -108,8 +109,7 @@ static void update_item(void *data, int64_t b)
 static void update_all(struct gb_engine *engine, const struct pass *pass)
 {
     struct update update = {engine, pass};
-    gb_team_run(engine->team, gb_blocks_count(engine->particles.count), update_item,
-                &update);
+    gb_engine_blocks_run(engine, update_item, &update);
 }
 
 bool gb_integrate_f32_in_use(const struct gb_world *world)

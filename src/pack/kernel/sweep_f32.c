@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/team/team.h"
 #include "pack/cell/engine.h"
 #include "pack/kernel/register_rows.h"
 #include "pack/kernel/simd.h"
@@ -162,13 +163,20 @@ GB_ROW_INLINE struct target scatter(const struct gb_batch_f32 *batch,
     return k < batch->n ? four(batch, first, other, k, batch->n - k, to) : to;
 }
 
+/* Data of other threads are in the caches of other cores. */
+static bool prefetches(const struct gb_engine *engine)
+{
+    return engine->particles.count >= GB_F32_STATE_PREFETCH ||
+           gb_team_active(engine->team) > 1;
+}
+
 /* Prefetches the second particles of the `count` pairs of a list from slot on, a batch
  * before they are read: their order is random. */
 GB_ROW_INLINE void prefetch_particles(const struct gb_engine *engine,
                                       const struct gb_pair_list *list, int64_t slot,
                                       int64_t count)
 {
-    if (engine->particles.count < GB_F32_STATE_PREFETCH) {
+    if (!prefetches(engine)) {
         return;
     }
     const int32_t *other = list->other + slot;
@@ -276,7 +284,7 @@ GB_ROW_INLINE void prefetch_next(const struct gb_engine *engine, int64_t begin,
                                  int64_t end)
 {
     const int64_t stop = begin + COLLECTED_NEXT < end ? begin + COLLECTED_NEXT : end;
-    if (engine->particles.count >= GB_F32_STATE_PREFETCH && begin < end) {
+    if (prefetches(engine) && begin < end) {
         prefetch_rows(&engine->f32.near, WRENCH, begin, stop);
         prefetch_rows(&engine->f32.far, PULL, begin, stop);
     }

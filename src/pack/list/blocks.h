@@ -9,7 +9,7 @@
  * the number of threads.  Larger blocks leave fewer pairs between two blocks; smaller
  * ones distribute better over threads: one block for every automatic thread (world.c),
  * then 64 in all before their size doubles. */
-enum { GB_BLOCKS_SIZE = 2048, GB_BLOCKS_SIZE_MAX = 8192, GB_BLOCKS_SHARED = 64 };
+enum { GB_BLOCKS_SIZE = 512, GB_BLOCKS_SIZE_MAX = 8192, GB_BLOCKS_SHARED = 64 };
 
 /* Particles in a block, of `count` in all. */
 static inline int64_t gb_blocks_size(int64_t count)

@@ -5,6 +5,7 @@
 #include "base/team/team.h"
 #include "pack/cell/engine.h"
 #include "pack/list/blocks.h"
+#include "pack/list/engine_blocks.h"
 #include "pack/list/escaped_search.h"
 
 /* Escaped particles up to which the check is always worth it, and beyond them one of so
@@ -167,6 +168,6 @@ bool gb_list_check_run(struct gb_engine *engine)
     if (verdict != GB_LIST_CHECK_UNCERTAIN) {
         return verdict == GB_LIST_CHECK_VALID;
     }
-    gb_team_run(engine->team, blocks, find_in_block, engine);
+    gb_engine_blocks_run(engine, find_in_block, engine);
     return !any_missing(engine, blocks);
 }

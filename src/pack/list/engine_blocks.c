@@ -1,0 +1,23 @@
+#include "pack/list/engine_blocks.h"
+
+#include "pack/cell/engine.h"
+#include "pack/list/blocks.h"
+
+/* Cost of a near pair in that of a far pair. */
+enum { NEAR_COST = 4 };
+
+void gb_engine_blocks_weigh(struct gb_engine *engine)
+{
+    const int64_t count = engine->particles.count, blocks = gb_blocks_count(count);
+    const struct gb_pair_list *near = &engine->list.near, *far = &engine->list.far;
+    for (int64_t b = 0; b < blocks; b++) {
+        const int64_t end = gb_blocks_end(count, b);
+        engine->block_cost[b + 1] = NEAR_COST * near->start[end] + far->start[end];
+    }
+}
+
+void gb_engine_blocks_run(struct gb_engine *engine, gb_team_item *work, void *data)
+{
+    const int64_t blocks = gb_blocks_count(engine->particles.count);
+    gb_team_run_costs(engine->team, blocks, engine->block_cost, work, data);
+}
