@@ -7,7 +7,8 @@
 
 #include "base/file.h"
 #include "base/units.h"
-#include "draw/caption.h"
+#include "draw/caption/caption.h"
+#include "draw/caption/force_legend.h"
 #include "draw/gl/renderer.h"
 #include "draw/image/png.h"
 #include "draw/mute_stderr.h"
@@ -20,28 +21,48 @@ void gb_packing_image_init(struct gb_packing_image *packing_image)
     gb_picture_style_init(&packing_image->style);
 }
 
+void gb_packing_image_arrange(const struct gb_packing_image *packing_image,
+                              const struct gb_picture_style *style,
+                              struct gb_scene *scene, struct gb_caption_layout *layout)
+{
+    const struct gb_view *view = &scene->view;
+    const struct gb_caption_page page = {
+        .width = packing_image->width,
+        .height = packing_image->height,
+        .per_inch = packing_image->per_inch,
+        .crop = packing_image->crop,
+        .annotated = packing_image->annotated,
+        .bar = style->scale.title != NULL,
+        .rods = gb_force_legend_lines(style),
+        .aspect = (view->high[1] - view->low[1]) / (view->high[0] - view->low[0])};
+    gb_caption_layout_arrange(&page, layout);
+    gb_view_set_frame(&scene->view, &layout->scene);
+}
+
+/* What is drawn; its camera gets its scale from the page. */
+static bool create_scene(struct gb_scene **scene, struct gb_picture_style **style,
+                         const struct gb_packing_image *packing_image,
+                         const struct gb_state *state, struct gb_error *err)
+{
+    const struct gb_frame page = {0.0, 0.0, packing_image->width, packing_image->height};
+    return gb_picture_style_create(style, state, &packing_image->style, err) &&
+           gb_scene_create(scene, state, *style, &packing_image->viewpoint, &page,
+                           packing_image->background, err);
+}
+
 static bool render(struct gb_image *image, const struct gb_packing_image *packing_image,
-                   const struct gb_state *state, struct gb_error *err)
+                   const struct gb_caption_layout *layout, const struct gb_scene *scene,
+                   const struct gb_picture_style *style, const struct gb_state *state,
+                   struct gb_error *err)
 {
     struct gb_renderer *renderer = packing_image->renderer;
-    struct gb_scene *scene = NULL;
-    struct gb_picture_style *style = NULL;
-    struct gb_caption_layout layout;
     image->per_inch = packing_image->per_inch;
-    gb_caption_arrange(image->width, image->height, image->per_inch,
-                       packing_image->annotated, &layout);
-    const bool done =
-        gb_picture_style_create(&style, state, &packing_image->style, err) &&
-        gb_scene_create(&scene, state, style, &packing_image->viewpoint, &layout.scene,
-                        packing_image->background, err) &&
-        (renderer != NULL || gb_renderer_open(&renderer, err)) &&
-        gb_renderer_render(renderer, scene, image, err) &&
-        gb_caption_draw(image, &layout, scene, style, state, err);
+    const bool done = (renderer != NULL || gb_renderer_open(&renderer, err)) &&
+                      gb_renderer_render(renderer, scene, image, err) &&
+                      gb_caption_draw(image, layout, scene, style, state, err);
     if (renderer != packing_image->renderer) {
         gb_renderer_close(renderer);
     }
-    gb_picture_style_destroy(style);
-    gb_scene_destroy(scene);
     return done;
 }
 
@@ -49,12 +70,20 @@ bool gb_packing_image_render(struct gb_image **out,
                              const struct gb_packing_image *packing_image,
                              const struct gb_state *state, struct gb_error *err)
 {
-    if (!gb_image_create(out, packing_image->width, packing_image->height, err)) {
-        return false;
-    }
+    struct gb_scene *scene = NULL;
+    struct gb_picture_style *style = NULL;
+    struct gb_caption_layout layout;
+    *out = NULL;
     const int saved = gb_mute_stderr_begin();
-    const bool done = render(*out, packing_image, state, err);
+    bool done = create_scene(&scene, &style, packing_image, state, err);
+    if (done) {
+        gb_packing_image_arrange(packing_image, style, scene, &layout);
+        done = gb_image_create(out, layout.width, layout.height, err) &&
+               render(*out, packing_image, &layout, scene, style, state, err);
+    }
     gb_mute_stderr_end(saved);
+    gb_picture_style_destroy(style);
+    gb_scene_destroy(scene);
     if (!done) {
         gb_image_destroy(*out);
         *out = NULL;

@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 
+#include "draw/caption/caption_layout.h"
 #include "draw/gl/renderer.h"
 #include "draw/image/image.h"
 #include "draw/image/png.h"
@@ -14,8 +15,9 @@
 /* Image of a packing: its settings, and the steps to a PNG (layout, scene, rendering,
  * caption, file). */
 struct gb_packing_image {
-    int width, height;
-    int per_inch; /* pixels in print; 0: none (draw/image/print_size.h) */
+    int width, height; /* of the page; the largest ones of a side that is cropped */
+    int per_inch;      /* pixels in print; 0: none (draw/image/print_size.h) */
+    enum gb_caption_layout_crop crop;
     struct gb_viewpoint viewpoint;
     enum gb_background background;
     bool annotated; /* title, colour bar, scale bar, density and pressure */
@@ -24,8 +26,13 @@ struct gb_packing_image {
     const char *preset; /* text of preset.ini, a chunk of the file; NULL: none */
 };
 
-/* 1600 x 1200 pixels, white, view from a corner, annotated. */
+/* 1600 x 1200 pixels without a crop, white, view from a corner, annotated. */
 void gb_packing_image_init(struct gb_packing_image *packing_image);
+
+/* Page around a packing, and the scale of the scene's camera for it. */
+void gb_packing_image_arrange(const struct gb_packing_image *packing_image,
+                              const struct gb_picture_style *style,
+                              struct gb_scene *scene, struct gb_caption_layout *layout);
 
 /* Mesa and fontconfig print to stderr; it is redirected meanwhile (not thread-safe). */
 bool gb_packing_image_render(struct gb_image **out,

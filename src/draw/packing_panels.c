@@ -4,10 +4,15 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "draw/caption.h"
+#include "draw/caption/caption.h"
 #include "draw/gl/renderer.h"
 #include "draw/mute_stderr.h"
 #include "draw/rose.h"
+
+/* Rows of an image: a packing, and its rose or NULL. */
+struct row {
+    struct gb_image *packing, *rose;
+};
 
 static void copy(const struct gb_image *from, struct gb_image *to, int left, int top)
 {
@@ -23,56 +28,47 @@ static bool draw_rose(struct gb_image *image,
                       const struct gb_harmonics *rose, double reach, double newton,
                       struct gb_error *err)
 {
+    const struct gb_frame whole = {0.0, 0.0, image->width, image->height};
+    const struct gb_caption_page page = {.width = image->width,
+                                         .height = image->height,
+                                         .per_inch = packing_image->per_inch,
+                                         .annotated = packing_image->annotated,
+                                         .bar = true,
+                                         .aspect = 1.0};
     struct gb_renderer *renderer = NULL;
     struct gb_scene *scene = NULL;
     struct gb_caption_layout layout;
     image->per_inch = packing_image->per_inch;
-    gb_caption_arrange(image->width, image->height, image->per_inch,
-                       packing_image->annotated, &layout);
-    const bool done =
-        gb_rose_scene(&scene, rose, reach, &packing_image->viewpoint, &layout.scene,
-                      packing_image->background, err) &&
-        gb_renderer_open(&renderer, err) &&
-        gb_renderer_render(renderer, scene, image, err) &&
-        gb_caption_draw_rose(image, &layout, scene, reach, rose->mean * newton, err);
+    gb_caption_layout_arrange(&page, &layout);
+    bool done = gb_rose_scene(&scene, rose, reach, &packing_image->viewpoint, &whole,
+                              packing_image->background, err) &&
+                gb_renderer_open(&renderer, err);
+    if (done) {
+        gb_view_set_frame(&scene->view, &layout.scene);
+        done = gb_renderer_render(renderer, scene, image, err) &&
+               gb_caption_draw_rose(image, &layout, scene, reach, rose->mean * newton,
+                                    err);
+    }
     gb_renderer_close(renderer);
     gb_scene_destroy(scene);
     return done;
 }
 
-static bool add_packing(struct gb_image *page,
-                        const struct gb_packing_image *packing_image,
-                        const struct gb_state *state, int top, struct gb_error *err)
-{
-    struct gb_image *panel = NULL;
-    const bool done = gb_packing_image_render(&panel, packing_image, state, err);
-    if (done) {
-        copy(panel, page, 0, top);
-    }
-    gb_image_destroy(panel);
-    return done;
-}
-
-static bool add_rose(struct gb_image *page, const struct gb_packing_image *packing_image,
-                     const struct gb_state *state, double reach, int top,
-                     struct gb_error *err)
+/* A rose as high as its packing, over the rest of the width. */
+static bool render_rose(struct row *row, const struct gb_packing_image *packing_image,
+                        const struct gb_state *state, double reach, struct gb_error *err)
 {
     struct gb_harmonics rose;
-    struct gb_image *panel = NULL;
-    const int width = page->width - packing_image->width;
     const double newton =
         state->pascal_per_stress * state->metre_per_length * state->metre_per_length;
     if (!gb_rose_of_state(&rose, state, err) ||
-        !gb_image_create(&panel, width, packing_image->height, err)) {
+        !gb_image_create(&row->rose, packing_image->width - row->packing->width,
+                         row->packing->height, err)) {
         return false;
     }
     const int saved = gb_mute_stderr_begin();
-    const bool done = draw_rose(panel, packing_image, &rose, reach, newton, err);
+    const bool done = draw_rose(row->rose, packing_image, &rose, reach, newton, err);
     gb_mute_stderr_end(saved);
-    if (done) {
-        copy(panel, page, packing_image->width, top);
-    }
-    gb_image_destroy(panel);
     return done;
 }
 
@@ -96,22 +92,50 @@ static bool find_reach(struct gb_state *const *states, size_t count, double *rea
     return true;
 }
 
-static bool fill_page(struct gb_image *page, const struct gb_packing_image *packing_image,
-                      enum gb_packing_panels_content content,
-                      struct gb_state *const *states, size_t count, struct gb_error *err)
+static bool render_rows(struct row *rows, const struct gb_packing_image *packing_image,
+                        enum gb_packing_panels_content content,
+                        struct gb_state *const *states, size_t count,
+                        struct gb_error *err)
 {
     const bool roses = content == GB_PACKING_PANELS_WITH_ROSE;
     struct gb_packing_image panel = *packing_image;
     double reach = 1.0;
-    panel.height = page->height / (int)count;
-    panel.width = roses ? page->width / 2 : page->width;
+    panel.width = roses ? packing_image->width / 2 : packing_image->width;
+    if (panel.crop == GB_CAPTION_LAYOUT_NO_CROP) {
+        panel.height = packing_image->height / (int)count;
+    } else {
+        panel.crop = GB_CAPTION_LAYOUT_CROP_HEIGHT; /* panels of one width */
+    }
     bool done = !roses || find_reach(states, count, &reach, err);
     for (size_t i = 0; i < count && done; i++) {
-        const int top = (int)i * panel.height;
-        done = add_packing(page, &panel, states[i], top, err) &&
-               (!roses || add_rose(page, &panel, states[i], reach, top, err));
+        done = gb_packing_image_render(&rows[i].packing, &panel, states[i], err) &&
+               (!roses || render_rose(&rows[i], packing_image, states[i], reach, err));
     }
     return done;
+}
+
+/* Rows one below the other. */
+static bool join_rows(struct gb_image **page, const struct row *rows, size_t count,
+                      struct gb_error *err)
+{
+    const struct row *first = &rows[0];
+    const int left = first->packing->width;
+    int height = 0;
+    for (size_t i = 0; i < count; i++) {
+        height += rows[i].packing->height;
+    }
+    if (!gb_image_create(page, left + (first->rose != NULL ? first->rose->width : 0),
+                         height, err)) {
+        return false;
+    }
+    (*page)->per_inch = first->packing->per_inch;
+    for (size_t i = 0, top = 0; i < count; top += (size_t)rows[i++].packing->height) {
+        copy(rows[i].packing, *page, 0, (int)top);
+        if (rows[i].rose != NULL) {
+            copy(rows[i].rose, *page, left, (int)top);
+        }
+    }
+    return true;
 }
 
 bool gb_packing_panels_write(const struct gb_packing_image *packing_image,
@@ -120,15 +144,19 @@ bool gb_packing_panels_write(const struct gb_packing_image *packing_image,
                              const char *path, struct gb_error *err)
 {
     struct gb_image *page = NULL;
+    struct row rows[GB_PACKING_PANELS_ROWS] = {{NULL, NULL}};
     if (count == 1 && content == GB_PACKING_PANELS_PACKING) {
         return gb_packing_image_write(packing_image, states[0], path, err);
     }
     const bool done =
         gb_file_check_target(path, err) &&
-        gb_image_create(&page, packing_image->width, packing_image->height, err) &&
-        (page->per_inch = packing_image->per_inch, true) &&
-        fill_page(page, packing_image, content, states, count, err) &&
+        render_rows(rows, packing_image, content, states, count, err) &&
+        join_rows(&page, rows, count, err) &&
         gb_packing_image_save(page, packing_image, states[0], path, err);
+    for (size_t i = 0; i < count; i++) {
+        gb_image_destroy(rows[i].packing);
+        gb_image_destroy(rows[i].rose);
+    }
     gb_image_destroy(page);
     return done;
 }

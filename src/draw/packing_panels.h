@@ -3,6 +3,8 @@
 
 #include "draw/packing_image.h"
 
+enum { GB_PACKING_PANELS_ROWS = 6 }; /* most packings of one image */
+
 /* Panels of one image. */
 enum gb_packing_panels_content {
     GB_PACKING_PANELS_PACKING,

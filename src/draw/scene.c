@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/mat.h"
+#include "draw/scene_bounds.h"
 
 /* Share of the background colour in the farthest particles: it shows depth and is too
  * small to be read as another coordination number. */
@@ -212,6 +213,10 @@ bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
         } else {
             set_edges(*out, state);
         }
+        if (!(viewpoint->extent[0] > 0.0)) {
+            gb_scene_bounds_tighten(*out);
+        }
+        gb_view_set_frame(&(*out)->view, frame);
     }
     gb_picture_style_destroy(usual);
     return good;

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "draw/picture_style.h"
+#include "draw/style/picture_style.h"
 #include "draw/view.h"
 #include "greenbody/status.h"
 #include "io/state/state.h"
@@ -34,8 +34,8 @@ struct gb_scene {
     float shadow_share; /* 0: no shadows */
 };
 
-/* Scene of a packing in its periodic box or in its die, in a style.  The box fills the
- * frame.  2D packings are always seen along y without perspective.  style NULL:
+/* Scene of a packing in its periodic box or in its die, in a style.  What is drawn fills
+ * the frame, or the box of the viewpoint's extent does.  2D packings are always seen along y without perspective.  style NULL:
  * all particles by coordination number. */
 bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
                      const struct gb_picture_style *style,

@@ -102,35 +102,45 @@ double gb_view_scale(const struct gb_view *view)
     return view->orthographic ? view->focal : view->focal / view->distance;
 }
 
-/* Bounds of the box grown by margin: pixels low[2], high[2] and depths. */
-static void bounds(struct gb_view *view, const double cell[3], double margin,
-                   double low[2], double high[2])
+/* Bounds of the box grown by margin in the plane of focal length 1, and depths. */
+static void find_bounds(struct gb_view *view, const double cell[3], double margin)
 {
+    double *low = view->low;
+    double *high = view->high;
     low[0] = low[1] = view->near = INFINITY;
     high[0] = high[1] = view->far = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
         double point[3];
         double eye[3];
-        double pixel[2];
         for (int k = 0; k < 3; k++) {
             point[k] = (corner >> k & 1) != 0 ? cell[k] + margin : -margin;
         }
         gb_view_eye(view, point, eye);
-        gb_view_pixel(view, eye, pixel);
         for (int k = 0; k < 2; k++) {
-            low[k] = fmin(low[k], pixel[k]);
-            high[k] = fmax(high[k], pixel[k]);
+            const double at = view->orthographic ? eye[k] : eye[k] / eye[2];
+            low[k] = fmin(low[k], at);
+            high[k] = fmax(high[k], at);
         }
         view->near = fmin(view->near, eye[2]);
         view->far = fmax(view->far, eye[2]);
     }
 }
 
+void gb_view_set_frame(struct gb_view *view, const struct gb_frame *frame)
+{
+    const double *low = view->low;
+    const double *high = view->high;
+    view->focal =
+        fmin(frame->width / (high[0] - low[0]), frame->height / (high[1] - low[1]));
+    view->centre[0] =
+        frame->left + 0.5 * frame->width - 0.5 * view->focal * (low[0] + high[0]);
+    view->centre[1] =
+        frame->top + 0.5 * frame->height + 0.5 * view->focal * (low[1] + high[1]);
+}
+
 void gb_view_init(struct gb_view *view, const struct gb_viewpoint *viewpoint,
                   const double cell[3], double margin, const struct gb_frame *frame)
 {
-    double low[2];
-    double high[2];
     double diagonal = 0.0;
     const double *extent = viewpoint->extent[0] > 0.0 ? viewpoint->extent : cell;
     *view = (struct gb_view){.orthographic = viewpoint->orthographic, .focal = 1.0};
@@ -142,11 +152,6 @@ void gb_view_init(struct gb_view *view, const struct gb_viewpoint *viewpoint,
     if (!viewpoint->orthographic) {
         view->distance = viewer_distance * 0.5 * sqrt(diagonal);
     }
-    bounds(view, extent, margin, low, high);
-    view->focal =
-        fmin(frame->width / (high[0] - low[0]), frame->height / (high[1] - low[1]));
-    view->centre[0] =
-        frame->left + 0.5 * frame->width - 0.5 * view->focal * (low[0] + high[0]);
-    view->centre[1] =
-        frame->top + 0.5 * frame->height - 0.5 * view->focal * (low[1] + high[1]);
+    find_bounds(view, extent, margin);
+    gb_view_set_frame(view, frame);
 }

@@ -34,12 +34,16 @@ struct gb_view {
     double focal, centre[2];
     bool orthographic;
     double near, far; /* depths of the box and the spheres that extend beyond it */
+    double low[2], high[2]; /* what fits the frame: x/w and y/w, x and y when orthographic */
 };
 
 /* Camera with the whole box in its frame, with `margin` around it, as large as the frame
  * allows. */
 void gb_view_init(struct gb_view *view, const struct gb_viewpoint *viewpoint,
                   const double cell[3], double margin, const struct gb_frame *frame);
+
+/* The camera's scale and centre for its bounds and another frame. */
+void gb_view_set_frame(struct gb_view *view, const struct gb_frame *frame);
 
 /* Eye coordinates of a point of the cell. */
 void gb_view_eye(const struct gb_view *view, const double point[3], double eye[3]);

@@ -5,12 +5,12 @@
 #include <png.h>
 #include <string.h>
 
-#include "draw/caption.h"
+#include "draw/caption/caption.h"
 #include "draw/image/palette.h"
 #include "draw/image/png.h"
 #include "draw/image/print_size.h"
 #include "draw/packing_image.h"
-#include "draw/picture_colours.h"
+#include "draw/style/picture_colours.h"
 
 enum { SIDE = 400 };
 
@@ -69,19 +69,31 @@ static const uint8_t *at(const struct gb_image *image, double x, double y)
                         ((size_t)lround(y) * (size_t)image->width + (size_t)lround(x))];
 }
 
+/* The scene and the page of a picture. */
+static struct gb_scene *scene_of(const struct gb_packing_image *packing_image,
+                                 const struct gb_state *state,
+                                 struct gb_caption_layout *layout)
+{
+    const struct gb_frame page = {0.0, 0.0, SIDE, SIDE};
+    struct gb_picture_style *style = NULL;
+    struct gb_scene *scene = NULL;
+    struct gb_error err = {0};
+    g_assert_true(gb_picture_style_create(&style, state, &packing_image->style, &err));
+    g_assert_true(gb_scene_create(&scene, state, style, &packing_image->viewpoint, &page,
+                                  packing_image->background, &err));
+    gb_packing_image_arrange(packing_image, style, scene, layout);
+    gb_picture_style_destroy(style);
+    return scene;
+}
+
 /* Where the camera of a picture sees a particle. */
 static const uint8_t *particle(const struct gb_image *image,
                                const struct gb_packing_image *packing_image,
                                const struct gb_state *state, int index)
 {
     struct gb_caption_layout layout;
-    struct gb_scene *scene = NULL;
-    struct gb_error err = {0};
+    struct gb_scene *scene = scene_of(packing_image, state, &layout);
     double pixel[2];
-    gb_caption_arrange(image->width, image->height, image->per_inch,
-                       packing_image->annotated, &layout);
-    g_assert_true(gb_scene_create(&scene, state, NULL, &packing_image->viewpoint,
-                                  &layout.scene, packing_image->background, &err));
     const float *ball = &scene->sphere[4 * index];
     gb_view_pixel(&scene->view, (const double[3]){ball[0], ball[1], ball[2]}, pixel);
     gb_scene_destroy(scene);
@@ -139,20 +151,17 @@ static void test_silhouette(void)
     struct gb_state *state = packing(3);
     struct gb_packing_image packing_image = front();
     struct gb_caption_layout layout;
-    struct gb_scene *scene = NULL;
     double covered = 0.0;
     double inked = 0.0;
     g_assert_true(gb_view_parse("front,flat", &packing_image.viewpoint, NULL));
     packing_image.background = GB_BACKGROUND_TRANSPARENT;
     struct gb_image *image = paint(&packing_image, state);
-    gb_caption_arrange(SIDE, SIDE, 0, false, &layout);
-    g_assert_true(gb_scene_create(&scene, state, NULL, &packing_image.viewpoint,
-                                  &layout.scene, GB_BACKGROUND_TRANSPARENT, NULL));
+    struct gb_scene *scene = scene_of(&packing_image, state, &layout);
     const double scale = gb_view_scale(&scene->view);
     for (int y = 0; y < SIDE; y++) {
         for (int x = 0; x < SIDE; x++) {
             const double alpha = at(image, x, y)[3] / 255.0;
-            const bool inside = x > 60 && y > 60 && x < SIDE - 60 && y < SIDE - 60;
+            const bool inside = x > 30 && y > 30 && x < SIDE - 30 && y < SIDE - 30;
             covered += inside ? alpha : 0.0;
             inked += inside ? 0.0 : alpha;
         }
@@ -208,7 +217,7 @@ static void test_colour_bar(void)
     packing_image.width = 800;
     packing_image.height = 600;
     struct gb_image *image = paint(&packing_image, state);
-    gb_caption_arrange(800, 600, 0, true, &layout);
+    gb_scene_destroy(scene_of(&packing_image, state, &layout));
     const double step = layout.bar.height / (GB_PALETTE_CONTACTS + 1);
     for (int k = 0; k <= GB_PALETTE_CONTACTS; k++) {
         uint8_t rgb[3];
@@ -236,7 +245,7 @@ static void test_one_value(void)
         state->radius[i] = 1.0;
     }
     struct gb_image *image = paint(&packing_image, state);
-    gb_caption_arrange(800, 600, 0, true, &layout);
+    gb_scene_destroy(scene_of(&packing_image, state, &layout));
     gb_palette_field(0.5, rgb);
     for (double part = 0.05; part < 1.0; part += 0.1) {
         const uint8_t *pixel = at(image, layout.bar.left + 0.5 * layout.bar.width,
@@ -245,6 +254,86 @@ static void test_one_value(void)
     }
     gb_image_destroy(image);
     gb_state_destroy(state);
+}
+
+/* A column that is four times as high as wide, and the other way round. */
+static struct gb_state *column(double width, double height)
+{
+    struct gb_state *state = packing(3);
+    state->cell[0] = state->cell[1] = width;
+    state->cell[2] = height;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            state->position[3 * i + k] *= state->cell[k] / 10.0;
+        }
+    }
+    return state;
+}
+
+/* Empty rows or columns of pixels at a side of an image: 0 left, 1 right, 2 top, 3 bottom. */
+static int margin_at(const struct gb_image *image, int side)
+{
+    const int lines = side < 2 ? image->width : image->height;
+    const int along = side < 2 ? image->height : image->width;
+    for (int k = 0; k < lines; k++) {
+        const int line = side % 2 == 0 ? k : lines - 1 - k;
+        for (int j = 0; j < along; j++) {
+            const uint8_t *pixel = side < 2 ? at(image, line, j) : at(image, j, line);
+            if (pixel[0] != 255 || pixel[1] != 255 || pixel[2] != 255) {
+                return k;
+            }
+        }
+    }
+    return lines;
+}
+
+/* A cropped picture has no empty margin on any side, whatever the shape of the packing; in
+ * print its width stays.  Between packing and bar the gap is that of the bar's title. */
+static void test_crop(void)
+{
+    static const double shapes[][2] = {{3.0, 12.0}, {10.0, 10.0}, {20.0, 5.0}};
+    static const char *const views[] = {"corner", "front,flat", "top", "-20,60"};
+    for (size_t k = 0; k < 3 * G_N_ELEMENTS(views); k++) {
+        struct gb_state *state = column(shapes[k % 3][0], shapes[k % 3][1]);
+        struct gb_packing_image packing_image;
+        gb_packing_image_init(&packing_image);
+        packing_image.width = 400;
+        packing_image.height = 300;
+        packing_image.crop = GB_CAPTION_LAYOUT_CROP_BOTH;
+        g_assert_true(gb_view_parse(views[k / 3], &packing_image.viewpoint, NULL));
+        struct gb_caption_layout layout;
+        struct gb_scene *scene = scene_of(&packing_image, state, &layout);
+        const double unit = layout.unit;
+        struct gb_image *image = paint(&packing_image, state);
+        g_assert_cmpint(image->width, <=, 400);
+        g_assert_cmpint(image->height, <=, 300);
+        for (int side = 0; side < 4; side++) {
+            g_assert_cmpint(margin_at(image, side), <=, (int)(2.5 * unit));
+        }
+        /* the outline meets its room on two sides */
+        const double wide =
+            scene->view.focal * (scene->view.high[0] - scene->view.low[0]);
+        const double high =
+            scene->view.focal * (scene->view.high[1] - scene->view.low[1]);
+        g_assert_cmpfloat_with_epsilon(wide, layout.scene.width, 1.0);
+        g_assert_cmpfloat(layout.bar.left - layout.scene.left - wide, <, 3.0 * unit);
+        g_assert_true(high > layout.scene.height - 1.0 ||
+                      layout.scene.height < 12.5 * unit);
+        gb_image_destroy(image);
+        gb_scene_destroy(scene);
+        packing_image.width = 315;
+        packing_image.height = 300;
+        packing_image.per_inch = 100;
+        packing_image.crop = GB_CAPTION_LAYOUT_CROP_HEIGHT;
+        image = paint(&packing_image, state);
+        g_assert_cmpint(image->width, ==, 315);
+        g_assert_cmpint(image->height, <=, (int)(1.25 * 315) + 1);
+        for (int side = 2; side < 4; side++) {
+            g_assert_cmpint(margin_at(image, side), <=, (int)(2.5 * 10.3));
+        }
+        gb_image_destroy(image);
+        gb_state_destroy(state);
+    }
 }
 
 /* Letters of captions and figures have their size in print, whatever the resolution. */
@@ -259,7 +348,13 @@ static void test_print_size(void)
             g_assert_true(gb_print_size_parse(widths[i], per_inch, &size, &err));
             g_assert_cmpint(size.width, ==, (int)round(8.0 / 2.54 * per_inch));
             g_assert_cmpint(size.height, ==, (int)round(0.75 * size.width));
-            gb_caption_arrange(size.width, size.height, per_inch, true, &layout);
+            const struct gb_caption_page page = {.width = size.width,
+                                                 .height = size.height,
+                                                 .per_inch = per_inch,
+                                                 .annotated = true,
+                                                 .bar = true,
+                                                 .aspect = 0.5};
+            gb_caption_layout_arrange(&page, &layout);
             const double point = per_inch / 72.0;
             g_assert_cmpfloat(layout.unit, >=, 7.0 * point);
             g_assert_cmpfloat(0.85 * layout.unit, >=, 6.0 * point); /* the smallest */
@@ -364,6 +459,68 @@ static void test_forces(void)
     gb_state_destroy(state);
 }
 
+/* Dark or coloured pixels of a column of the image around a row. */
+static int thickness(const struct gb_image *image, double x, double y)
+{
+    int count = 0;
+    for (int side = -1; side <= 1; side += 2) {
+        for (int k = side > 0 ? 0 : 1; k < 60 && at(image, x, y + side * k)[0] < 200; k++) {
+            count++;
+        }
+    }
+    return count;
+}
+
+/* The thickest rod of the legend is as thick as the rod of that force in the picture; those
+ * of smaller forces are as much thinner. */
+static void test_rod_scale(void)
+{
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    struct gb_packing_image packing_image = front();
+    struct gb_caption_layout layout;
+    double pixel[2] = {0.0, 0.0};
+    g_assert_true(gb_state_create(&state, 2, 1, &err));
+    state->dimension = 3;
+    for (int k = 0; k < 3; k++) {
+        state->cell[k] = 20.0;
+        state->position[k] = state->position[3 + k] = 10.0;
+    }
+    state->position[1] = 9.6;
+    state->position[4] = 10.4;
+    state->radius[0] = state->radius[1] = 0.5;
+    state->pair[1] = 1;
+    state->pair_normal[0] = 1.0;
+    state->metre_per_length = 1e-8;
+    state->pascal_per_stress = 1e9; /* 100 nN */
+    packing_image.annotated = true;
+    packing_image.width = 1000;
+    packing_image.height = 750;
+    packing_image.style.show = GB_PICTURE_STYLE_FORCES;
+    g_assert_true(gb_view_parse("side,flat", &packing_image.viewpoint, NULL));
+    struct gb_image *image = paint(&packing_image, state);
+    struct gb_scene *scene = scene_of(&packing_image, state, &layout);
+    for (int end = 0; end < 2; end++) {
+        double one[2];
+        const float *rod = &scene->rod[4 * end];
+        gb_view_pixel(&scene->view, (const double[3]){rod[0], rod[1], rod[2]}, one);
+        pixel[0] += 0.5 * one[0];
+        pixel[1] += 0.5 * one[1];
+    }
+    const int shown = thickness(image, pixel[0], pixel[1]);
+    g_assert_cmpint(shown, >, 10);
+    const double step = GB_CAPTION_LAYOUT_LEGEND_LINE * layout.unit;
+    static const double ratio[] = {1.0, 0.5, 0.2};
+    for (int k = 0; k < 3; k++) {
+        const int drawn = thickness(image, layout.legend.left + 0.95 * layout.unit,
+                                    layout.legend.top + (3.5 + k) * step);
+        g_assert_cmpint(abs(drawn - (int)lround(ratio[k] * shown)), <=, 2);
+    }
+    gb_scene_destroy(scene);
+    gb_image_destroy(image);
+    gb_state_destroy(state);
+}
+
 static void assert_text(png_const_textp text, int count, const char *key,
                         const char *value)
 {
@@ -433,11 +590,13 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/snapshot/colour-bar", test_colour_bar);
     g_test_add_func("/draw/snapshot/one-value", test_one_value);
     g_test_add_func("/draw/snapshot/scale-bar", test_scale_bar);
+    g_test_add_func("/draw/snapshot/crop", test_crop);
     g_test_add_func("/draw/snapshot/print-size", test_print_size);
     g_test_add_func("/draw/snapshot/print-size-refused", test_print_size_refused);
     g_test_add_func("/draw/snapshot/planar", test_planar);
     g_test_add_func("/draw/snapshot/odd-sizes", test_odd_sizes);
     g_test_add_func("/draw/snapshot/forces", test_forces);
+    g_test_add_func("/draw/snapshot/rod-scale", test_rod_scale);
     g_test_add_func("/draw/snapshot/file", test_file);
     return g_test_run();
 }

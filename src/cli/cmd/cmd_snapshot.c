@@ -13,8 +13,8 @@
 #if GB_WITH_PICTURES
 
 #include "draw/packing_panels.h"
-#include "draw/picture_colours.h"
-#include "draw/picture_style_parse.h"
+#include "draw/style/picture_colours.h"
+#include "draw/style/picture_style_parse.h"
 #include "figures/output_formats.h"
 #include "figures/provenance.h"
 #include "figures/sequence/sequence.h"
@@ -70,6 +70,9 @@ static bool parse_request(const struct request *request,
 {
     gb_packing_image_init(packing_image);
     packing_image->annotated = !request->bare;
+    packing_image->crop = request->page.size != NULL    ? GB_CAPTION_LAYOUT_NO_CROP
+                          : request->page.width != NULL ? GB_CAPTION_LAYOUT_CROP_HEIGHT
+                                                        : GB_CAPTION_LAYOUT_CROP_BOTH;
     if (request->output == NULL) {
         return gb_error_set(err, GB_ERR_INPUT,
                             "snapshot needs -o FILE.png for the picture");
@@ -100,7 +103,7 @@ static bool read_since(struct gb_state **out, const char *since, const char *pat
     return gb_states_read(out, is_path ? since : path, is_path ? NULL : since, err);
 }
 
-enum { PATHS_MAX = 6 }; /* rows of one image */
+enum { PATHS_MAX = GB_PACKING_PANELS_ROWS };
 
 /* The states of all paths. */
 static bool read_states(struct gb_state **states, const struct request *request,

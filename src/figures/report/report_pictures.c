@@ -5,7 +5,7 @@
 #if GB_WITH_PICTURES
 
 #include "draw/packing_panels.h"
-#include "draw/picture_colours.h"
+#include "draw/style/picture_colours.h"
 #include "figures/provenance.h"
 #include "figures/states.h"
 
@@ -66,6 +66,7 @@ static bool add_picture(struct gb_report *report, size_t group, struct gb_state 
     struct gb_packing_image packing_image;
     struct gb_error cause = {0};
     gb_packing_image_init(&packing_image);
+    packing_image.crop = GB_CAPTION_LAYOUT_CROP_BOTH;
     packing_image.preset = preset;
     picture->set(&packing_image, state);
     const bool drawn = gb_packing_panels_write(

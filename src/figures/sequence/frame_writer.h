@@ -6,7 +6,8 @@
 /* Files that the frames of a sequence go to. */
 struct gb_frame_output {
     const char *path;
-    const struct gb_packing_image *packing_image; /* size, background, preset */
+    const struct gb_packing_image *packing_image; /* background, preset */
+    int width, height;                            /* of a frame */
     int count;                                    /* of all frames */
     double frames_per_s;
 };

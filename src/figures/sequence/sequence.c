@@ -102,9 +102,12 @@ static bool set_common_scales(struct job *job, struct gb_error *err)
 }
 
 static bool open_writer(struct job *job, const struct gb_state *first,
-                        struct gb_error *err)
+                        const struct gb_image *image, struct gb_error *err)
 {
-    const struct gb_frame_output output = {job->sequence->output, job->packing_image,
+    const struct gb_frame_output output = {job->sequence->output,
+                                           job->packing_image,
+                                           image->width,
+                                           image->height,
                                            (int)job->paths->len,
                                            job->sequence->frames_per_s};
     return job->methods->open(&job->writer, &output, first, err);
@@ -115,8 +118,8 @@ static bool render_frame(struct job *job, guint k, struct gb_error *err)
     struct gb_state *state = NULL;
     struct gb_image *image = NULL;
     const bool done = gb_state_read(&state, g_ptr_array_index(job->paths, k), err) &&
-                      (k > 0 || open_writer(job, state, err)) &&
                       gb_packing_image_render(&image, job->packing_image, state, err) &&
+                      (k > 0 || open_writer(job, state, image, err)) &&
                       job->methods->add(job->writer, image, state, (int)k + 1, err);
     gb_image_destroy(image);
     gb_state_destroy(state);

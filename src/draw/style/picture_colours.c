@@ -1,4 +1,4 @@
-#include "draw/picture_colours.h"
+#include "draw/style/picture_colours.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-#ifndef GB_DRAW_PICTURE_STYLE_H
-#define GB_DRAW_PICTURE_STYLE_H
+#ifndef GB_DRAW_STYLE_PICTURE_STYLE_H
+#define GB_DRAW_STYLE_PICTURE_STYLE_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -64,6 +64,7 @@ struct gb_picture_style {
     struct gb_picture_style_legend legend[2];
     int legend_count;
     double max_force_n; /* force of the thickest rod, N */
+    bool forces_above;  /* larger forces exist */
 };
 
 /* Errors: GB_ERR_INPUT (displacements from a state of another run), GB_ERR_MEMORY. */

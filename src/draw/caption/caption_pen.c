@@ -1,4 +1,4 @@
-#include "draw/caption_pen.h"
+#include "draw/caption/caption_pen.h"
 
 #include <math.h>
 

@@ -1,24 +1,13 @@
-#ifndef GB_DRAW_CAPTION_H
-#define GB_DRAW_CAPTION_H
+#ifndef GB_DRAW_CAPTION_CAPTION_H
+#define GB_DRAW_CAPTION_CAPTION_H
 
 #include <stdbool.h>
 
+#include "draw/caption/caption_layout.h"
 #include "draw/image/image.h"
 #include "draw/scene.h"
 #include "greenbody/status.h"
 #include "io/state/state.h"
-
-/* Text, colour bar and scale bar around the packing. */
-struct gb_caption_layout {
-    struct gb_frame scene; /* space of the packing */
-    struct gb_frame bar;   /* colour bar; width 0: image too small for text */
-    double unit;           /* height of a line of text, pixels */
-};
-
-/* Layout for an image of this size; per_inch: pixels in print, whose letters have their
- * size there (print_size.h); 0: letters by the size of the image. */
-void gb_caption_arrange(int width, int height, int per_inch, bool annotated,
-                        struct gb_caption_layout *layout);
 
 /* Largest of 1, 2, 5 x 10^k m that is at most `max_m`; label: its text. */
 double gb_caption_bar_length(double max_m, char *label, size_t size);

@@ -1,7 +1,7 @@
-#ifndef GB_DRAW_PICTURE_COLOURS_H
-#define GB_DRAW_PICTURE_COLOURS_H
+#ifndef GB_DRAW_STYLE_PICTURE_COLOURS_H
+#define GB_DRAW_STYLE_PICTURE_COLOURS_H
 
-#include "draw/picture_style.h"
+#include "draw/style/picture_style.h"
 
 /* The table of quantities that colour a picture (`--color`).  A quantity is a function and a
  * row in picture_colours.c; parser, messages and help follow from the row. */

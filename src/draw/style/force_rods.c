@@ -1,18 +1,20 @@
-#include "draw/force_rods.h"
+#include "draw/style/force_rods.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "draw/picture_colours.h"
+#include "draw/style/picture_colours.h"
+#include "draw/style/round_number.h"
 #include "pack/cell/cell.h"
 
 /* Radius of the thickest and the thinnest rods, d. */
 static const double max_radius = 0.17;
 static const double min_radius = 0.006;
 
-/* Quantile of the forces that has the thickest rod; larger forces are as thick. */
+/* Quantile of the forces that, rounded up, has the thickest rod; larger forces are as thick:
+ * a few large ones would make all others thin. */
 static const double max_force_quantile = 0.99;
 
 static int compare(const void *a, const void *b)
@@ -22,9 +24,14 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Force of the thickest rods, E d^2; 1 when all forces are zero. */
-static bool find_reference(const struct gb_state *state, double *reference,
-                           struct gb_error *err)
+double gb_force_rods_radius(double ratio)
+{
+    return fmax(max_radius * fmin(ratio, 1.0), min_radius);
+}
+
+/* Quantile of the forces for the thickest rods and the largest force, N. */
+static bool find_largest(const struct gb_state *state, double newton, double *quantile,
+                         double *largest, struct gb_error *err)
 {
     const size_t count = (size_t)state->pair_count;
     double *force = gb_alloc_array(count + 1, sizeof *force, err);
@@ -35,9 +42,12 @@ static bool find_reference(const struct gb_state *state, double *reference,
         force[k] = fabs(state->pair_normal[k]);
     }
     qsort(force, count, sizeof *force, compare);
-    *reference =
-        count > 0 ? force[(size_t)ceil(max_force_quantile * (double)(count - 1))] : 0.0;
-    *reference = *reference > 0.0 ? *reference : 1.0;
+    *quantile = *largest = 0.0;
+    if (count > 0) {
+        *quantile =
+            newton * force[(size_t)ceil(max_force_quantile * (double)(count - 1))];
+        *largest = newton * force[count - 1];
+    }
     gb_alloc_free(force);
     return true;
 }
@@ -85,27 +95,30 @@ bool gb_force_rods_make(struct gb_picture_style *style, const struct gb_state *s
 {
     const struct gb_picture_colours_row *colours = request->forces;
     const size_t max_rods = 2 * (size_t)state->pair_count + 1;
-    double reference = 1.0;
+    const double newton =
+        state->pascal_per_stress * state->metre_per_length * state->metre_per_length;
     const struct gb_cell cell = gb_state_cell(state);
+    double quantile = 0.0;
+    double largest = 0.0;
     style->rod = gb_alloc_array(max_rods, 7 * sizeof *style->rod, err);
     style->rod_colour = gb_alloc_array(max_rods, 3, err);
     if (style->rod == NULL || style->rod_colour == NULL ||
-        !find_reference(state, &reference, err)) {
+        !find_largest(state, newton, &quantile, &largest, err)) {
         return false;
     }
-    const double newton =
-        state->pascal_per_stress * state->metre_per_length * state->metre_per_length;
-    reference = request->max_force_n > 0.0 ? request->max_force_n / newton : reference;
     memcpy(style->legend, colours->legend, sizeof style->legend);
     style->legend_count = 2;
-    style->max_force_n = reference * newton;
+    style->max_force_n = request->max_force_n > 0.0 ? request->max_force_n
+                         : quantile > 0.0 ? gb_round_number_above(quantile)
+                                          : newton;
+    style->forces_above = largest > style->max_force_n;
     for (int64_t k = 0; k < state->pair_count; k++) {
         const int32_t *ends = &state->pair[2 * k];
         if (style->hidden[ends[0]] != 0 || style->hidden[ends[1]] != 0) {
             continue;
         }
-        const double ratio = fmin(fabs(state->pair_normal[k]) / reference, 1.0);
-        put_contact(style, state, &cell, k, fmax(max_radius * ratio, min_radius),
+        const double ratio = fabs(state->pair_normal[k]) * newton / style->max_force_n;
+        put_contact(style, state, &cell, k, gb_force_rods_radius(ratio),
                     style->legend[colours->force_class(state, k)].rgb);
     }
     return true;

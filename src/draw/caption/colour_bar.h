@@ -1,8 +1,8 @@
-#ifndef GB_DRAW_COLOUR_BAR_H
-#define GB_DRAW_COLOUR_BAR_H
+#ifndef GB_DRAW_CAPTION_COLOUR_BAR_H
+#define GB_DRAW_CAPTION_COLOUR_BAR_H
 
-#include "draw/caption_pen.h"
-#include "draw/picture_style.h"
+#include "draw/caption/caption_pen.h"
+#include "draw/style/picture_style.h"
 #include "draw/view.h"
 
 /* Colour bar with its labels and title beside a packing; none for a scale without title. */

@@ -1,98 +1,20 @@
-#include "draw/caption.h"
+#include "draw/caption/caption.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/units.h"
-#include "draw/caption_pen.h"
-#include "draw/colour_bar.h"
-#include "draw/image/print_size.h"
-
-/* Minimum length of the shorter side for readable text, pixels. */
-static const int min_annotated_px = 240;
-
-/* A quantity with its unit; the prefix micro as a Greek letter. */
-static void format_short(double value, enum gb_dimension dimension, int digits,
-                         char *text, size_t size)
-{
-    char plain[48];
-    gb_units_format_short(value, dimension, digits, plain, sizeof plain);
-    const char *micro = strstr(plain, " u");
-    if (micro != NULL) {
-        snprintf(text, size, "%.*s \xce\xbc%s", (int)(micro - plain), plain, micro + 2);
-    } else {
-        snprintf(text, size, "%s", plain);
-    }
-}
-
-void gb_caption_arrange(int width, int height, int per_inch, bool annotated,
-                        struct gb_caption_layout *layout)
-{
-    const double shorter = width < height ? width : height;
-    const double pad = 0.03 * shorter;
-    *layout = (struct gb_caption_layout){
-        .scene = {pad, pad, width - 2.0 * pad, height - 2.0 * pad}};
-    if (!annotated || shorter < min_annotated_px) {
-        return;
-    }
-    const double unit = per_inch > 0 ? gb_print_size_pixels(per_inch, GB_PRINT_SIZE_TEXT)
-                                     : fmax(shorter / 44.0, 10.0);
-    const double column = 7.5 * unit; /* of the colour bar and its title */
-    layout->unit = unit;
-    layout->scene.top = 2.6 * unit;
-    layout->scene.height = height - 2.6 * unit - 4.4 * unit;
-    layout->scene.width = width - pad - column;
-    layout->bar.width = 1.1 * unit;
-    layout->bar.height = fmin(0.62 * height, height - 12.0 * unit);
-    layout->bar.left = width - 5.0 * unit;
-    layout->bar.top = 0.5 * (height - layout->bar.height) - 0.5 * unit;
-}
+#include "draw/caption/caption_number.h"
+#include "draw/caption/caption_pen.h"
+#include "draw/caption/colour_bar.h"
+#include "draw/caption/force_legend.h"
+#include "draw/style/round_number.h"
 
 double gb_caption_bar_length(double max_m, char *label, size_t size)
 {
-    static const double steps[] = {5.0, 2.0, 1.0};
-    const double decade = pow(10.0, floor(log10(max_m) + 1e-9));
-    double length = decade;
-    for (size_t k = 0; k < sizeof steps / sizeof steps[0]; k++) {
-        if (steps[k] * decade <= max_m * (1.0 + 1e-9)) {
-            length = steps[k] * decade;
-            break;
-        }
-    }
-    format_short(length, GB_DIM_LENGTH, 3, label, size);
+    const double length = gb_round_number_below(max_m);
+    gb_caption_number_format(length, GB_DIM_LENGTH, 3, label, size);
     return length;
-}
-
-/* Classes of forces and the force of the thickest rod, in the upper right corner. */
-static void draw_legend(const struct gb_caption_pen *pen,
-                        const struct gb_picture_style *style, double right)
-{
-    const double unit = pen->unit;
-    double y = 1.5 * unit;
-    for (int k = 0; k < style->legend_count; k++) {
-        const uint8_t *rgb = style->legend[k].rgb;
-        double wide = 0.0;
-        double high = 0.0;
-        gb_text_measure(&pen->text, style->legend[k].name, 0.95 * unit, 0.0, &wide,
-                        &high);
-        gb_caption_pen_line(pen, style->legend[k].name, right, y, 1.0, 0.95, 0.0);
-        cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
-        cairo_set_line_width(pen->cairo, 0.45 * unit);
-        cairo_set_line_cap(pen->cairo, CAIRO_LINE_CAP_ROUND);
-        cairo_move_to(pen->cairo, right - wide - 2.2 * unit, y);
-        cairo_line_to(pen->cairo, right - wide - 0.8 * unit, y);
-        cairo_stroke(pen->cairo);
-        cairo_set_line_cap(pen->cairo, CAIRO_LINE_CAP_BUTT);
-        y += 1.45 * unit;
-    }
-    if (style->legend_count > 0) {
-        char force[48];
-        char line[80];
-        format_short(style->max_force_n, GB_DIM_FORCE, 2, force, sizeof force);
-        snprintf(line, sizeof line, "thickest rod: %s", force);
-        gb_caption_pen_line(pen, line, right, y, 1.0, 0.85, 0.0);
-    }
 }
 
 /* In perspective the bar is valid in one plane only: the middle of the box. */
@@ -120,7 +42,7 @@ static void draw_point(const struct gb_caption_pen *pen, const struct gb_state *
     char words[160], symbols[96], pressure[48] = "";
     const double density = state->point.density;
     if (isfinite(state->point.p_pa)) {
-        format_short(state->point.p_pa, GB_DIM_PRESSURE, 3, pressure, sizeof pressure);
+        gb_caption_number_format(state->point.p_pa, GB_DIM_PRESSURE, 3, pressure, sizeof pressure);
         snprintf(words, sizeof words, "relative density %.3f     pressure %s", density,
                  pressure);
         snprintf(symbols, sizeof symbols, "\xcf\x81 %.3f   p %s", density, pressure);
@@ -138,10 +60,11 @@ static void draw_all(const struct gb_caption_pen *pen, const struct gb_image *im
 {
     const double unit = layout->unit;
     const double left = 1.4 * unit;
-    const double max_width =
-        image->width - 2.0 * left - (style->legend_count > 0 ? 12.0 * unit : 0.0);
+    const double max_width = image->width - 2.0 * left;
     gb_colour_bar_draw(pen, &layout->bar, &style->scale);
-    draw_legend(pen, style, image->width - left);
+    if (style->legend_count > 0) {
+        gb_force_legend_draw(pen, &layout->legend, style, gb_view_scale(&scene->view));
+    }
     gb_caption_pen_line(pen, state->preset, left, 1.5 * unit, 0.0, 1.05, max_width);
     draw_point(pen, state, left, image->height - 2.9 * unit, image->width - 2.0 * left);
     draw_scale_bar(pen, scene, state, left, image->height - 1.4 * unit,
@@ -153,7 +76,7 @@ bool gb_caption_draw(struct gb_image *image, const struct gb_caption_layout *lay
                      const struct gb_state *state, struct gb_error *err)
 {
     struct gb_caption_pen pen;
-    if (layout->bar.width <= 0.0) {
+    if (layout->unit <= 0.0) {
         return true;
     }
     const bool good =
@@ -190,7 +113,7 @@ bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout
     struct gb_caption_pen pen;
     char force[48];
     char line[96], mean[64];
-    if (layout->bar.width <= 0.0) {
+    if (layout->unit <= 0.0) {
         return true;
     }
     const struct gb_picture_style_scale scale = {
@@ -206,7 +129,7 @@ bool gb_caption_draw_rose(struct gb_image *image, const struct gb_caption_layout
                                              "mean normal force", "forces", NULL};
         gb_caption_pen_line_that_fits(&pen, titles, 1.4 * unit, 1.5 * unit, 0.0, 1.05,
                                       max_width);
-        format_short(mean_n, GB_DIM_FORCE, 3, force, sizeof force);
+        gb_caption_number_format(mean_n, GB_DIM_FORCE, 3, force, sizeof force);
         snprintf(line, sizeof line,
                  "\xe2\x9f\xa8"
                  "f\xe2\x9f\xa9 = %s; reference ring: f / \xe2\x9f\xa8"

@@ -1,4 +1,4 @@
-#include "draw/colour_bar.h"
+#include "draw/caption/colour_bar.h"
 
 #include <math.h>
 #include <stdio.h>

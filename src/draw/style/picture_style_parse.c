@@ -1,11 +1,11 @@
-#include "draw/picture_style_parse.h"
+#include "draw/style/picture_style_parse.h"
 
 #include <string.h>
 
 #include <glib.h>
 
 #include "base/units.h"
-#include "draw/picture_colours.h"
+#include "draw/style/picture_colours.h"
 
 static const char *const shows[] = {"particles", "forces", "both"};
 

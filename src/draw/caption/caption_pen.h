@@ -1,5 +1,5 @@
-#ifndef GB_DRAW_CAPTION_PEN_H
-#define GB_DRAW_CAPTION_PEN_H
+#ifndef GB_DRAW_CAPTION_CAPTION_PEN_H
+#define GB_DRAW_CAPTION_CAPTION_PEN_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,11 +1,11 @@
-#include "draw/picture_style.h"
+#include "draw/style/picture_style.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "draw/force_rods.h"
-#include "draw/picture_colours.h"
+#include "draw/style/force_rods.h"
+#include "draw/style/picture_colours.h"
 
 /* Drawn radius over particle radius: between small particles forces are visible, and with
  * forces alone the particles are dots. */

@@ -1,7 +1,7 @@
-#ifndef GB_DRAW_PICTURE_STYLE_PARSE_H
-#define GB_DRAW_PICTURE_STYLE_PARSE_H
+#ifndef GB_DRAW_STYLE_PICTURE_STYLE_PARSE_H
+#define GB_DRAW_STYLE_PICTURE_STYLE_PARSE_H
 
-#include "draw/picture_style.h"
+#include "draw/style/picture_style.h"
 
 /* "coordination", "pressure", ... into colour or force; "particles", "forces", "both";
  * "z=0.5" or "z=0.5:3 d"; "corner" or "y=0.5".  Errors: GB_ERR_INPUT with what is
