@@ -198,6 +198,11 @@ bool gb_experiment_missed(const struct gb_experiment *experiment, char *text, si
     return text[0] != '\0';
 }
 
+bool gb_experiment_over(const struct gb_experiment *experiment)
+{
+    return experiment->over;
+}
+
 const struct gb_point *gb_experiment_point(const struct gb_experiment *experiment)
 {
     return &experiment->point;

@@ -36,6 +36,9 @@ enum gb_step_outcome gb_experiment_advance(struct gb_experiment *experiment,
 bool gb_experiment_missed(const struct gb_experiment *experiment, char *text,
                           size_t size);
 
+/* True after the last point, and after a stop. */
+bool gb_experiment_over(const struct gb_experiment *experiment);
+
 /* The last recorded point; its seconds field is the caller's to fill. */
 const struct gb_point *gb_experiment_point(const struct gb_experiment *experiment);
 

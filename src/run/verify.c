@@ -10,9 +10,7 @@
 #include "run/experiment.h"
 #include "run/record/run_journal.h"
 #include "run/record/run_recorder.h"
-
-/* Force evaluations between two calls of cancelled. */
-enum { SLICE = 200 };
+#include "run/repeat_points.h"
 
 struct pair {
     struct gb_record kept, other; /* the state to arrive at; where to begin, then there */
@@ -34,32 +32,6 @@ static bool begin(struct gb_experiment **out, struct gb_verify *verify,
     }
     verify->from = 0;
     return gb_experiment_create(out, params, cancelled, data, err);
-}
-
-static bool repeat(struct gb_experiment *experiment, const struct gb_verify *verify,
-                   bool (*cancelled)(void *data), void *data, struct gb_error *err)
-{
-    int64_t step = verify->from;
-    char text[GB_EVENT_TEXT];
-    while (step < verify->to) {
-        const enum gb_step_outcome how = gb_experiment_advance(experiment, SLICE, err);
-        while (gb_experiment_event(experiment, NULL, text, sizeof text)) {
-        }
-        if (cancelled(data)) {
-            return gb_error_set(err, GB_ERR_CANCELLED, "stopped on request");
-        }
-        if (how == GB_STEP_STOPPED) {
-            return false;
-        }
-        if (how == GB_STEP_DONE) {
-            return gb_error_set(err, GB_ERR_GUARD,
-                                "the repeated run ends at step %lld, before the "
-                                "checkpoint of step %lld",
-                                (long long)step, (long long)verify->to);
-        }
-        step += how == GB_STEP_POINT;
-    }
-    return true;
 }
 
 static void compare(struct gb_verify *verify, struct pair *pair)
@@ -105,11 +77,12 @@ static bool verify_locked(struct gb_verify *verify, const char *directory,
         return false;
     }
     verify->to = gb_checkpoint_step(&pair->kept);
-    const bool done = check_curve(directory, &params, &pair->kept, err) &&
-                      begin(&experiment, verify, directory, &params, &pair->other,
-                            cancelled, data, err) &&
-                      repeat(experiment, verify, cancelled, data, err) &&
-                      gb_checkpoint_take(experiment, &pair->other, err);
+    const bool done =
+        check_curve(directory, &params, &pair->kept, err) &&
+        begin(&experiment, verify, directory, &params, &pair->other, cancelled, data,
+              err) &&
+        gb_repeat_points(experiment, verify->from, verify->to, cancelled, data, err) &&
+        gb_checkpoint_take(experiment, &pair->other, err);
     if (done) {
         compare(verify, pair);
     }

@@ -9,6 +9,7 @@
 #include "pack/cell/world_measure.h"
 #include "run/checkpoint.h"
 #include "run/experiment.h"
+#include "run/repeat_points.h"
 
 static struct gb_experiment *create(const struct gb_params *params)
 {
@@ -80,13 +81,27 @@ static void compare_pressures(const struct gb_world *one, const struct gb_world 
     g_assert_true(memcmp(a, b, sizeof a) == 0);
 }
 
+/* The record of an earlier point, computed up to the present one, is that of the present
+ * one. */
+static void check_repeated(const struct gb_params *params, struct gb_record *early,
+                           const struct gb_record *now)
+{
+    struct gb_error err = {0};
+    const int64_t from = gb_checkpoint_step(early), to = gb_checkpoint_step(now);
+    g_assert_cmpint(from, <, to);
+    if (!gb_repeat_points_record(early, params, to, &err)) {
+        g_error("from %lld to %lld: %s", (long long)from, (long long)to, err.text);
+    }
+    compare(early, now, to);
+}
+
 /* Runs to the end twice, the second time stopped after every `every`-th point; threads
  * change at each stop. */
 static void check(struct gb_params params, int every, int64_t least)
 {
     struct gb_experiment *whole = create(&params);
     struct gb_experiment *broken = create(&params);
-    struct gb_record one = {0}, other = {0};
+    struct gb_record one = {0}, other = {0}, early = {0};
     GString *events = g_string_new(NULL), *again = g_string_new(NULL);
     int64_t points = 0;
     bool more = true;
@@ -99,6 +114,12 @@ static void check(struct gb_params params, int every, int64_t least)
             take(broken, &other);
             compare(&one, &other, points);
             g_assert_cmpint(gb_checkpoint_step(&one), ==, points);
+            if (early.count > 0 && points % every == every - 1) {
+                check_repeated(&params, &early, &one);
+            }
+            if (points % every == 0) {
+                take(whole, &early);
+            }
         }
         if (more && points % every == 0) {
             gb_experiment_destroy(broken);
@@ -118,6 +139,7 @@ static void check(struct gb_params params, int every, int64_t least)
     gb_experiment_destroy(broken);
     gb_record_finish(&one);
     gb_record_finish(&other);
+    gb_record_finish(&early);
     g_string_free(events, TRUE);
     g_string_free(again, TRUE);
 }

@@ -3,7 +3,9 @@
 #include <math.h>
 
 #include "base/mat.h"
+#include "base/team/team.h"
 #include "pack/cell/world_private.h"
+#include "pack/kernel/share.h"
 
 /* Coordinates over the edges do not change in an affine motion. */
 static void moved_from_scaled(const double edge[3], const double edge_then[3],
@@ -27,28 +29,64 @@ static void moved_from_affine(const struct gb_cell *cell,
     gb_cell_nearest(cell, moved);
 }
 
-struct gb_nonaffine gb_nonaffine_since(const struct gb_world *world,
-                                       const struct gb_world_copy *copy)
+/* Parts of the particles, whose sums are added in order: the bits do not depend on the
+ * number of threads. */
+enum { PARTS = 64 };
+
+struct comparison {
+    const struct gb_particles *particles;
+    const struct gb_world_copy *copy;
+    struct gb_deformation motion;
+    bool tilted;
+    struct part {
+        double sum, most; /* of squared distances, d^2 */
+        int64_t particle; /* with the largest */
+    } part[PARTS];
+};
+
+static void compare_part(void *data, int64_t p)
 {
-    const struct gb_particles *particles = &world->engine.particles;
-    struct gb_nonaffine result = {0};
-    const bool tilted = gb_cell_tilted(&particles->cell) || gb_cell_tilted(&copy->cell);
-    const struct gb_deformation motion = gb_cell_motion(&copy->cell, &particles->cell);
-    double sum = 0.0, most = 0.0;
-    for (int64_t i = 0; i < particles->count; i++) {
+    struct comparison *comparison = data;
+    const struct gb_particles *particles = comparison->particles;
+    const struct gb_world_copy *copy = comparison->copy;
+    struct part part = {0};
+    const int64_t end = gb_share(particles->count, (int)p + 1, PARTS);
+    for (int64_t i = gb_share(particles->count, (int)p, PARTS); i < end; i++) {
         const double *now = particles->position + 3 * i, *then = copy->position + 3 * i;
         double moved[3];
-        if (tilted) {
-            moved_from_affine(&particles->cell, &motion, now, then, moved);
+        if (comparison->tilted) {
+            moved_from_affine(&particles->cell, &comparison->motion, now, then, moved);
         } else {
             moved_from_scaled(particles->cell.edge, copy->cell.edge, now, then, moved);
         }
         const double square = gb_vec_dot(moved, moved);
-        if (square > most) {
-            most = square;
-            result.particle = i;
+        if (square > part.most) {
+            part.most = square;
+            part.particle = i;
         }
-        sum += square;
+        part.sum += square;
+    }
+    comparison->part[p] = part;
+}
+
+struct gb_nonaffine gb_nonaffine_since(const struct gb_world *world,
+                                       const struct gb_world_copy *copy)
+{
+    const struct gb_particles *particles = &world->engine.particles;
+    struct comparison comparison = {
+        .particles = particles,
+        .copy = copy,
+        .motion = gb_cell_motion(&copy->cell, &particles->cell),
+        .tilted = gb_cell_tilted(&particles->cell) || gb_cell_tilted(&copy->cell)};
+    gb_team_run(world->engine.team, PARTS, compare_part, &comparison);
+    struct gb_nonaffine result = {0};
+    double sum = 0.0, most = 0.0;
+    for (int p = 0; p < PARTS; p++) {
+        sum += comparison.part[p].sum;
+        if (comparison.part[p].most > most) {
+            most = comparison.part[p].most;
+            result.particle = comparison.part[p].particle;
+        }
     }
     result.farthest = sqrt(most);
     result.rms = sqrt(sum / (double)particles->count);

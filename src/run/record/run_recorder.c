@@ -1,6 +1,5 @@
 #include "run/record/run_recorder.h"
 #include <stdio.h>
-
 #include <string.h>
 
 #include <glib.h>
@@ -11,6 +10,7 @@
 #include "io/rundir_files.h"
 #include "io/state/state_record.h"
 #include "run/checkpoint.h"
+#include "run/record/held_record.h"
 #include "run/record/kept_states.h"
 #include "run/record/live_export.h"
 #include "run/record/run_journal.h"
@@ -24,8 +24,8 @@ struct gb_run_recorder {
     struct gb_kept_states states;
     struct gb_live_export live;
     struct gb_run_journal journal; /* events and seconds as they grow */
-    bool fresh;                    /* the record in memory is newer than state.h5 */
-    double written_at;             /* seconds of the run at the last checkpoint */
+    struct gb_held_record held;
+    double written_at; /* seconds of the run at the last checkpoint */
 };
 
 static bool create(struct gb_run_recorder **out, const struct gb_params *params,
@@ -49,8 +49,12 @@ static bool create(struct gb_run_recorder **out, const struct gb_params *params,
 
 static bool start_writer(struct gb_run_recorder *recorder, struct gb_error *err)
 {
-    return gb_writer_create(&recorder->writer, recorder->store, &recorder->params,
-                            &recorder->model, err);
+    if (!gb_writer_create(&recorder->writer, recorder->store, &recorder->params,
+                          &recorder->model, err)) {
+        return false;
+    }
+    gb_held_record_init(&recorder->held, &recorder->params, recorder->writer);
+    return true;
 }
 
 bool gb_run_recorder_create(struct gb_run_recorder **out, const char *directory,
@@ -239,16 +243,18 @@ int64_t gb_run_recorder_events(const struct gb_run_recorder *recorder)
     return recorder->journal.events;
 }
 
-/* Adds the journal to the record of the last point. */
-static bool add_journal(struct gb_run_recorder *recorder, double seconds,
-                        struct gb_error *err)
+/* The directory as of the last point. */
+static void note_point(struct gb_run_recorder *recorder, double seconds)
 {
     recorder->journal.extent = gb_store_extent(recorder->store);
     recorder->journal.live = recorder->live.extent;
     recorder->journal.seconds = seconds;
-    recorder->fresh = gb_run_journal_record(&recorder->journal,
-                                            gb_writer_record(recorder->writer), err);
-    return recorder->fresh;
+    recorder->held.journal = recorder->journal;
+}
+
+static bool checkpoint_due(const struct gb_run_recorder *recorder, double seconds)
+{
+    return seconds - recorder->written_at >= recorder->params.checkpoint_every_s;
 }
 
 bool gb_run_recorder_row(struct gb_run_recorder *recorder, const struct gb_point *point,
@@ -257,31 +263,42 @@ bool gb_run_recorder_row(struct gb_run_recorder *recorder, const struct gb_point
     return gb_store_point(recorder->store, point, err);
 }
 
-/* The journal and, where one is due, the kept state; its frame comes before the journal,
- * which counts it. */
+/* The kept state; its frame comes before the journal, which counts it. */
 static bool keep(struct gb_run_recorder *recorder, const struct gb_point *point,
-                 const struct gb_record *record, struct gb_state **state,
+                 const struct gb_kept_names *names, struct gb_state **state,
                  struct gb_error *err)
 {
     const struct gb_rundir *dir = gb_store_rundir(recorder->store);
-    struct gb_kept_names names;
-    gb_kept_states_due(&recorder->states, point, gb_run_recorder_points(recorder),
-                       &names);
-    gb_kept_states_pass(&recorder->states, point);
-    if (names.count == 0) {
-        return add_journal(recorder, point->seconds, err);
-    }
+    const struct gb_record *record = gb_writer_record(recorder->writer);
     if (!gb_state_record(state, record, &recorder->params, &recorder->model, err)) {
         return false;
     }
     gb_live_export_frame(&recorder->live, dir->held, *state);
-    if (!add_journal(recorder, point->seconds, err) ||
+    note_point(recorder, point->seconds);
+    if (!gb_held_record_complete(&recorder->held, err) ||
         !gb_rundir_result(
-            dir, gb_kept_states_write(dir->held, &names, *state, record, err), err)) {
+            dir, gb_kept_states_write(dir->held, names, *state, record, err), err)) {
         return false;
     }
-    gb_live_export_files(&recorder->live, dir->held, &names, *state);
+    gb_live_export_files(&recorder->live, dir->held, names, *state);
     return true;
+}
+
+/* The record of a point and, where one is due, the kept state. */
+static bool record_state(struct gb_run_recorder *recorder,
+                         struct gb_experiment *experiment, const struct gb_point *point,
+                         const struct gb_kept_names *names, struct gb_error *err)
+{
+    struct gb_state *state = NULL;
+    if (!gb_held_record_take(&recorder->held, experiment, err)) {
+        return false;
+    }
+    if (names->count == 0) {
+        return gb_held_record_complete(&recorder->held, err);
+    }
+    const bool good = keep(recorder, point, names, &state, err);
+    gb_state_destroy(state);
+    return good;
 }
 
 bool gb_run_recorder_point(struct gb_run_recorder *recorder,
@@ -294,12 +311,17 @@ bool gb_run_recorder_point(struct gb_run_recorder *recorder,
     if (!recorder->writer) {
         return true;
     }
-    struct gb_record *record = gb_writer_record(recorder->writer);
-    struct gb_state *state = NULL;
-    const bool good = gb_checkpoint_take(experiment, record, err) &&
-                      keep(recorder, point, record, &state, err);
-    gb_state_destroy(state);
-    return good;
+    struct gb_kept_names names;
+    gb_kept_states_due(&recorder->states, point, gb_run_recorder_points(recorder),
+                       &names);
+    gb_kept_states_pass(&recorder->states, point);
+    note_point(recorder, point->seconds);
+    if (names.count > 0 || checkpoint_due(recorder, point->seconds) ||
+        gb_held_record_due(&recorder->held, experiment)) {
+        return record_state(recorder, experiment, point, &names, err);
+    }
+    gb_held_record_skip(&recorder->held, point);
+    return true;
 }
 
 bool gb_run_recorder_adopt(struct gb_run_recorder *recorder,
@@ -315,11 +337,8 @@ bool gb_run_recorder_adopt(struct gb_run_recorder *recorder,
     if (count == 0 || !recorder->writer) {
         return true;
     }
-    struct gb_record *last = gb_writer_record(recorder->writer);
-    gb_record_finish(last);
-    *last = *record;
-    *record = (struct gb_record){0};
-    return add_journal(recorder, points[count - 1].seconds, err);
+    note_point(recorder, points[count - 1].seconds);
+    return gb_held_record_adopt(&recorder->held, record, err);
 }
 
 bool gb_run_recorder_event(struct gb_run_recorder *recorder, int64_t step,
@@ -332,15 +351,18 @@ bool gb_run_recorder_event(struct gb_run_recorder *recorder, int64_t step,
 bool gb_run_recorder_tick(struct gb_run_recorder *recorder, double seconds,
                           enum gb_run_recorder_when when, struct gb_error *err)
 {
-    const bool due =
-        when == GB_RUN_RECORDER_NOW ||
-        seconds - recorder->written_at >= recorder->params.checkpoint_every_s;
-    if (!recorder->fresh || !due) {
+    const bool now = when == GB_RUN_RECORDER_NOW;
+    if (now && !gb_held_record_catch_up(&recorder->held, err)) {
+        return false;
+    }
+    /* a due checkpoint waits for a point, which will have a record */
+    if (!gb_held_record_ready(&recorder->held) ||
+        !(now || checkpoint_due(recorder, seconds))) {
         return true;
     }
     switch (gb_writer_send(recorder->writer, err)) {
     case GB_WRITER_SENT:
-        recorder->fresh = false;
+        recorder->held.fresh = false;
         recorder->written_at = seconds;
         return true;
     case GB_WRITER_BUSY:

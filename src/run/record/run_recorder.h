@@ -8,8 +8,10 @@
 
 /* Records a run in its directory: rows, events, status, checkpoints.
  *
- * A checkpoint belongs to a recorded point.  The state of the last point is always held
- * in memory, so that a run that is stopped between two points is saved at once. */
+ * A checkpoint belongs to a recorded point.  The state of the last point, or of one shortly
+ * before it, is always held in memory: a run that is stopped between two points is saved at
+ * once, or after the points in between are computed again, which takes less than a second
+ * and gives the same bits. */
 struct gb_run_recorder;
 
 /* For a new run; errors as of gb_store_create. */
@@ -46,8 +48,8 @@ int64_t gb_run_recorder_points(const struct gb_run_recorder *recorder);
 int64_t gb_run_recorder_events(const struct gb_run_recorder *recorder);
 double gb_run_recorder_seconds(const struct gb_run_recorder *recorder);
 
-/* Records a point: its row, and the state in memory.  Once per point, after its events.
- */
+/* Records a point: its row, and the state in memory where one is due.  Once per point,
+ * after its events. */
 bool gb_run_recorder_point(struct gb_run_recorder *recorder,
                            struct gb_experiment *experiment, const struct gb_point *point,
                            struct gb_error *err);
@@ -74,8 +76,8 @@ enum gb_run_recorder_when {
     GB_RUN_RECORDER_NOW
 };
 
-/* Writes the state in memory to state.h5 unless it is there already; returns before it is
- * written.
+/* Writes the state of the last point to state.h5 unless it is there already; returns before
+ * it is written.
  *
  * seconds  of the run */
 bool gb_run_recorder_tick(struct gb_run_recorder *recorder, double seconds,
