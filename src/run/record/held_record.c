@@ -8,19 +8,19 @@
 
 /* How much computing may have to be repeated, s: so long that records cost a twentieth of
  * the time, within these limits. */
-static const double ahead_least_s = 0.1, ahead_most_s = 1.0, cost_share = 0.05;
+static const double age_least_s = 0.1, age_most_s = 1.0, cost_share = 0.05;
 
 void gb_held_record_init(struct gb_held_record *held, const struct gb_params *params,
                          struct gb_writer *writer)
 {
-    *held = (struct gb_held_record){.params = params, .writer = writer, .ahead = -1};
+    *held = (struct gb_held_record){.params = params, .writer = writer, .missing = -1};
 }
 
 bool gb_held_record_due(const struct gb_held_record *held,
                         const struct gb_experiment *experiment)
 {
     const double allowed_s =
-        fmin(fmax(held->cost_s / cost_share, ahead_least_s), ahead_most_s);
+        fmin(fmax(held->cost_s / cost_share, age_least_s), age_most_s);
     return !held->fresh || gb_clock_s() - held->taken_s >= allowed_s ||
            gb_experiment_over(experiment);
 }
@@ -37,14 +37,14 @@ bool gb_held_record_take(struct gb_held_record *held, struct gb_experiment *expe
 
 void gb_held_record_skip(struct gb_held_record *held, const struct gb_point *point)
 {
-    held->ahead = point->step + 1;
+    held->missing = point->step + 1;
 }
 
 bool gb_held_record_complete(struct gb_held_record *held, struct gb_error *err)
 {
     held->fresh =
         gb_run_journal_record(&held->journal, gb_writer_record(held->writer), err);
-    held->ahead = -1;
+    held->missing = -1;
     return held->fresh;
 }
 
@@ -62,18 +62,18 @@ bool gb_held_record_adopt(struct gb_held_record *held, struct gb_record *record,
 bool gb_held_record_catch_up(struct gb_held_record *held, struct gb_error *err)
 {
     struct gb_error why = {0};
-    if (!held->fresh || held->ahead < 0) {
+    if (!held->fresh || held->missing < 0) {
         return true;
     }
-    if (gb_repeat_points_record(gb_writer_record(held->writer), held->params, held->ahead,
-                                &why)) {
+    if (gb_repeat_points_record(gb_writer_record(held->writer), held->params,
+                                held->missing, &why)) {
         return gb_held_record_complete(held, err);
     }
-    held->ahead = -1;
+    held->missing = -1;
     return why.code != GB_ERR_MEMORY || gb_error_set(err, why.code, "%s", why.text);
 }
 
 bool gb_held_record_ready(const struct gb_held_record *held)
 {
-    return held->fresh && held->ahead < 0;
+    return held->fresh && held->missing < 0;
 }

@@ -13,7 +13,7 @@ struct gb_held_record {
     struct gb_writer *writer;
     struct gb_run_journal journal; /* as of the last point */
     bool fresh;                    /* there is a record that is newer than state.h5 */
-    int64_t ahead; /* gb_checkpoint_step of the last point; -1: it has the record */
+    int64_t missing; /* gb_checkpoint_step of the last point; -1: it has the record */
     double taken_s, cost_s; /* clock at the last record, and how long it took */
 };
 

@@ -358,12 +358,11 @@ struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms)
 void gb_term_set_theme(struct gb_term *term, int theme)
 {
     term->profile.theme = theme;
-    term->shaded =
-        gb_term_style_init(term->style, term->profile.coloured,
-                           gb_term_theme_resolve(theme, getenv("COLORFGBG")));
+    term->shaded = gb_term_style_init(term->style, term->profile.coloured,
+                                      gb_term_theme_resolve(theme, getenv("COLORFGBG")));
 }
 
-int gb_term_theme(const struct gb_term *term)
+int gb_term_present_theme(const struct gb_term *term)
 {
     return term->profile.theme;
 }

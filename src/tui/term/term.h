@@ -104,7 +104,7 @@ int gb_term_clipboard(const struct gb_term *term);
 /* The colours, one of enum gb_settings_theme; without colours it has no effect.  Takes
  * effect with the next frame. */
 void gb_term_set_theme(struct gb_term *term, int theme);
-int gb_term_theme(const struct gb_term *term);
+int gb_term_present_theme(const struct gb_term *term);
 
 /* curses attributes of a style. */
 uint64_t gb_term_attributes(const struct gb_term *term, enum gb_style style);

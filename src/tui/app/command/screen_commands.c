@@ -1,7 +1,7 @@
 #include <glib.h>
 
-#include "tui/app/dialog/dialogs.h"
 #include "tui/app/command/key_commands.h"
+#include "tui/app/dialog/dialogs.h"
 #include "tui/session/run_lifecycle.h"
 
 /* Mouse, theme, help and quitting. */
@@ -34,8 +34,8 @@ void gb_screen_commands_theme(struct gb_app *app, const struct gb_key *key)
         "dark: for a dark background of the terminal",
         "contrast: white on a black background"};
     struct gb_screen *screen = &app->screen;
-    struct gb_settings settings = {
-        .theme = (gb_term_theme(screen->term) + 1) % (int)G_N_ELEMENTS(told)};
+    struct gb_settings settings = {.theme = (gb_term_present_theme(screen->term) + 1) %
+                                            (int)G_N_ELEMENTS(told)};
     struct gb_error err = {0};
     char *path = gb_settings_path();
     char text[sizeof screen->message.text];
