@@ -27,6 +27,32 @@ bool gb_page_options_take(const struct gb_page_options *options, int *width, int
     return true;
 }
 
+static void append_column(GString *text, const struct gb_print_size_journal *row,
+                          const char *columns, double mm)
+{
+    if (mm > 0.0) {
+        char *name = g_strconcat(row->name, columns, NULL);
+        g_string_append_printf(text, "  %-13s%5g mm", name, mm);
+        g_free(name);
+    } else {
+        g_string_append_printf(text, "  %21s", "");
+    }
+}
+
+char *gb_page_options_journals(void)
+{
+    GString *text = g_string_new("Columns of journals for --width: one, one and a half, "
+                                 "two (sources in docs/figures.md):\n");
+    for (const struct gb_print_size_journal *row = gb_print_size_journals;
+         row->name != NULL; row++) {
+        append_column(text, row, "", row->single_mm);
+        append_column(text, row, "-1.5", row->middle_mm);
+        append_column(text, row, "-2", row->double_mm);
+        g_string_append_c(text, '\n');
+    }
+    return g_string_free(text, FALSE);
+}
+
 void gb_page_options_finish(struct gb_page_options *options)
 {
     g_free(options->size);

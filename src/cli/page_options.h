@@ -21,8 +21,9 @@ struct gb_page_options {
          0,                                                                              \
          G_OPTION_ARG_STRING,                                                            \
          &(options)->width,                                                              \
-         "in print, as in 8cm, 80mm or 3.3in: letters of 6 to 9 points there",           \
-         "LENGTH"},                                                                      \
+         "in print, as in 8cm, 80mm or a journal's column, as elsevier: letters of 6 "   \
+         "to 9 points there",                                                            \
+         "WIDTH"},                                                                       \
     {                                                                                    \
         "dpi", 0, 0, G_OPTION_ARG_INT, &(options)->per_inch,                             \
             "pixels per inch of print, with --width (300)", "N"                          \
@@ -32,6 +33,8 @@ struct gb_page_options {
  * saying what is accepted. */
 bool gb_page_options_take(const struct gb_page_options *options, int *width, int *height,
                           int *per_inch, struct gb_error *err);
+/* Widths of the columns of journals for the help of a command, with a line above; g_free. */
+char *gb_page_options_journals(void);
 void gb_page_options_finish(struct gb_page_options *options);
 
 #endif

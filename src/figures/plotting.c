@@ -149,15 +149,15 @@ static bool has_label(const struct gb_series *series, const char *label)
 
 /* Rows of one word of the column of words as columns and a curve. */
 static void draw_words(struct gb_series *series, const struct data *data,
-                       const char *word, int style)
+                       const char *word, int number)
 {
     const size_t rows = gb_table_rows(data->table);
-    double *x = gb_series_column(series, "data_%d_%s", style + 1, series->x.name);
-    double *y = gb_series_column(series, "data_%d_%s", style + 1, series->y.name);
+    double *x = gb_series_column(series, "data_%d_%s", number + 1, series->x.name);
+    double *y = gb_series_column(series, "data_%d_%s", number + 1, series->y.name);
     double *y_error =
-        gb_series_column(series, "data_%d_%s_error", style + 1, series->y.name);
+        gb_series_column(series, "data_%d_%s_error", number + 1, series->y.name);
     double *x_error =
-        gb_series_column(series, "data_%d_%s_error", style + 1, series->x.name);
+        gb_series_column(series, "data_%d_%s_error", number + 1, series->x.name);
     size_t filled = 0;
     for (size_t k = 0; k < rows; k++) {
         if (strcmp(gb_table_word(data->table, k), word) == 0) {
@@ -172,8 +172,8 @@ static void draw_words(struct gb_series *series, const struct data *data,
     char *label =
         g_strconcat(escaped, has_label(series, escaped) ? ", points" : "", NULL);
     struct gb_series_curve *curve =
-        gb_series_draw(series, x, y, y_error, GB_FIGURE_POINTS, style, label);
-    curve->open = true;
+        gb_series_draw(series, x, y, y_error, GB_FIGURE_POINTS, gb_figure_black(number),
+                       label);
     curve->x_error = curve->error + 1;
     curve->rows = filled;
     g_free(label);
@@ -183,7 +183,7 @@ static void draw_words(struct gb_series *series, const struct data *data,
 /* A curve for every word, in the order of the table. */
 static void draw_data(struct gb_series *series, const struct data *data)
 {
-    int style = 0;
+    int number = 0;
     for (size_t k = 0; k < gb_table_rows(data->table); k++) {
         const char *word = gb_table_word(data->table, k);
         bool seen = false;
@@ -191,7 +191,7 @@ static void draw_data(struct gb_series *series, const struct data *data)
             seen = strcmp(gb_table_word(data->table, i), word) == 0;
         }
         if (!seen) {
-            draw_words(series, data, word, style++);
+            draw_words(series, data, word, number++);
         }
     }
 }

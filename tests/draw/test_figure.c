@@ -397,6 +397,26 @@ static void test_styles(void)
     }
 }
 
+/* The colours of gb_figure_colours, the markers of all styles also in black. */
+static void test_black(void)
+{
+    for (int k = 0; k < 2 * GB_FIGURE_STYLES; k++) {
+        double coloured[3], black[3];
+        gb_figure_marker_colour(k, coloured);
+        gb_figure_marker_colour(gb_figure_black(k), black);
+        for (int c = 0; c < 3; c++) {
+            g_assert_cmpfloat_with_epsilon(
+                255.0 * coloured[c], gb_figure_colours[k % GB_FIGURE_STYLES][c], 1e-9);
+            g_assert_cmpfloat_with_epsilon(255.0 * black[c], gb_figure_colours_black[c],
+                                           1e-9);
+        }
+        g_assert_cmpint(gb_figure_marker_shape(gb_figure_black(k)), ==,
+                        gb_figure_marker_shape(k));
+        g_assert_cmpint(gb_figure_marker_round(gb_figure_black(k)), ==,
+                        gb_figure_marker_round(k));
+    }
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -413,5 +433,6 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/figure/nothing", test_nothing);
     g_test_add_func("/draw/figure/files", test_files);
     g_test_add_func("/draw/figure/styles", test_styles);
+    g_test_add_func("/draw/figure/black", test_black);
     return g_test_run();
 }

@@ -363,6 +363,31 @@ static void test_print_size(void)
     }
 }
 
+/* Columns of journals by name, and what those without one and a half columns lack. */
+static void test_print_size_columns(void)
+{
+    static const struct {
+        const char *name;
+        double mm;
+    } columns[] = {{"elsevier", 90.0}, {"elsevier-1.5", 140.0}, {"elsevier-2", 190.0},
+                   {"aps", 86.0},      {"nature-2", 183.0},     {"rsc", 83.0}};
+    struct gb_error err = {0};
+    struct gb_print_size size;
+    for (size_t i = 0; i < G_N_ELEMENTS(columns); i++) {
+        g_assert_true(gb_print_size_parse(columns[i].name, 600, &size, &err));
+        g_assert_cmpint(size.width, ==, (int)round(columns[i].mm / 25.4 * 600.0));
+    }
+    for (const struct gb_print_size_journal *row = gb_print_size_journals;
+         row->name != NULL; row++) {
+        char *middle = g_strconcat(row->name, "-1.5", NULL);
+        g_assert_true(gb_print_size_parse(row->name, 300, &size, &err));
+        g_assert_cmpint(gb_print_size_parse(middle, 300, &size, NULL), ==,
+                        row->middle_mm > 0.0);
+        g_assert_cmpfloat(row->single_mm, <, row->double_mm);
+        g_free(middle);
+    }
+}
+
 static void test_print_size_refused(void)
 {
     static const struct {
@@ -371,6 +396,8 @@ static void test_print_size_refused(void)
         const char *text;
     } wrong[] = {{"8", 300, "8cm, 80mm, 3.3in"}, {"8 m", 300, "2.54 to 50 cm"},
                  {"1mm", 300, "2.54 to 50 cm"},  {"8cm", 50, "100 to 1200"},
+                 {"elsevier-3", 300, "elsevier-1.5"}, {"rsc-1.5", 300, "plot --help lists"},
+                 {"elsevier90", 300, "elsevier-1.5"}, {"", 300, "8cm"},
                  {"-8cm", 300, "2.54 to 50 cm"}, {"50cm", 1200, "accepted 16384"}};
     for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
         struct gb_print_size size;
@@ -592,6 +619,7 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/snapshot/scale-bar", test_scale_bar);
     g_test_add_func("/draw/snapshot/crop", test_crop);
     g_test_add_func("/draw/snapshot/print-size", test_print_size);
+    g_test_add_func("/draw/snapshot/print-size-columns", test_print_size_columns);
     g_test_add_func("/draw/snapshot/print-size-refused", test_print_size_refused);
     g_test_add_func("/draw/snapshot/planar", test_planar);
     g_test_add_func("/draw/snapshot/odd-sizes", test_odd_sizes);

@@ -581,6 +581,41 @@ static void test_series(void)
     gb_series_finish(&series);
 }
 
+/* Measured points are black and filled, one marker for each series, with their errors; runs
+ * keep their colours. */
+static void test_measured(void)
+{
+    static const char *const runs[] = {"a1", "a2", "b1", NULL};
+    struct gb_series series = {0};
+    struct gb_table *table = NULL;
+    struct gb_error err = {0};
+    char *path = figure_folder_path("a1", "lab.csv");
+    g_assert_true(g_file_set_contents(path,
+                                      "density,p_MPa,p_MPa_error,series\n"
+                                      "0.50,100,5,Lab\n0.52,150,6,Lab\n0.5,90,,Other\n",
+                                      -1, NULL));
+    g_assert_true(gb_table_read(&table, path, "series", &err));
+    g_assert_true(figure_folder_named("densification", runs, &series, &err));
+    const guint first = series.curves->len;
+    g_assert_true(gb_plotting_data(&series, table, &err));
+    g_assert_cmpuint(series.curves->len, ==, first + 2);
+    for (guint k = 0; k < series.curves->len; k++) {
+        const struct gb_series_curve *curve =
+            &g_array_index(series.curves, struct gb_series_curve, k);
+        g_assert_cmpint(curve->style, ==,
+                        k < first ? (int)k : gb_figure_black((int)(k - first)));
+        g_assert_false(curve->open);
+    }
+    const struct gb_series_curve *lab =
+        &g_array_index(series.curves, struct gb_series_curve, first);
+    const double *error = g_ptr_array_index(series.columns, (guint)lab->error);
+    g_assert_cmpfloat(error[1], ==, 6.0);
+    gb_table_destroy(table);
+    gb_series_finish(&series);
+    g_unlink(path);
+    g_free(path);
+}
+
 /* Forces between grains of 50 um are in mN: 0.01 * 1e9 Pa * (5e-5 m)^2 = 25 mN. */
 static void test_force_unit(void)
 {
@@ -840,6 +875,7 @@ int main(int argc, char **argv)
     g_test_add_func("/figures/strength_at", test_strength_at);
     g_test_add_func("/figures/errors", test_errors);
     g_test_add_func("/figures/series", test_series);
+    g_test_add_func("/figures/measured", test_measured);
     g_test_add_func("/figures/force-unit", test_force_unit);
     g_test_add_func("/figures/labels", test_labels);
     g_test_add_func("/figures/fit", test_fit);

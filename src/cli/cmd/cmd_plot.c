@@ -312,7 +312,9 @@ static char *describe_figures(void)
         "A figure has a twin ending in .csv beside it;\n"
         "the table of --data has the columns of its axes, and may have "
         "series (words) and\n<column>_error.\n\n");
-    g_string_append(text, gb_lab_input_help);
+    char *journals = gb_page_options_journals();
+    g_string_append_printf(text, "%s\n%s", journals, gb_lab_input_help);
+    g_free(journals);
     return g_string_free(text, FALSE);
 }
 

@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "draw/figure/figure_axis.h"
+#include "draw/figure/figure_colours.h"
 #include "draw/image/image.h"
 #include "draw/image/png.h"
 #include "greenbody/status.h"
@@ -24,15 +25,23 @@ enum gb_figure_kind {
 struct gb_figure_curve {
     const char *label; /* NULL or "": none */
     enum gb_figure_kind kind;
-    int style; /* colour, dash and marker; colours repeat after GB_FIGURE_STYLES */
-    bool open; /* hollow markers, for measured data */
+    int style; /* colour, dash and marker; colours repeat after GB_FIGURE_STYLES; below 0:
+                * gb_figure_black */
+    bool open; /* hollow markers, for points that are not in equilibrium */
     size_t count;
     const double *x, *y;   /* NaN: a gap; on a log axis also values <= 0 */
     const double *error;   /* of y, half the length of the bar; NULL or NaN: none */
     const double *x_error; /* of points */
 };
 
-enum { GB_FIGURE_STYLES = 7 };
+enum { GB_FIGURE_STYLES = GB_FIGURE_COLOURS };
+
+/* Style of measured points and of lines that are no run: black, with dash and marker of a
+ * number; and the number of such a style. */
+static inline int gb_figure_black(int number)
+{
+    return -1 - number;
+}
 
 struct gb_figure_axis {
     const char *label; /* with its unit */

@@ -6,10 +6,12 @@
 
 /* Dashes in points, ended by 0. */
 static const double dashes[GB_FIGURE_STYLES][7] = {
-    {0},          {6, 2.4, 0},
-    {1.4, 2, 0},  {7, 2, 1.4, 2, 0},
-    {11, 2.6, 0}, {7, 2, 1.4, 2, 1.4, 2, 0},
-    {3, 1.8, 0},
+    {0},
+    {6, 2.4, 0},
+    {1.4, 2, 0},
+    {7, 2, 1.4, 2, 0},
+    {11, 2.6, 0},
+    {7, 2, 1.4, 2, 1.4, 2, 0},
 };
 
 static const double line_width = 1.35;
@@ -22,7 +24,9 @@ static const double marker_distance = 46.0;
 static void set_pen(cairo_t *cairo, const struct gb_figure_curve *curve)
 {
     const double *dash =
-        dashes[(curve->style + gb_figure_marker_round(curve->style)) % GB_FIGURE_STYLES];
+        dashes[(gb_figure_marker_shape(curve->style) +
+                gb_figure_marker_round(curve->style)) %
+               GB_FIGURE_STYLES];
     const bool faint = curve->kind == GB_FIGURE_FAINT;
     const bool dashed = curve->kind == GB_FIGURE_LINE || curve->kind == GB_FIGURE_BOTH;
     int count = 0;
@@ -149,7 +153,7 @@ static void draw_line_markers(cairo_t *cairo, const struct gb_figure_layout *lay
                               const struct gb_figure_curve *curve)
 {
     double next = marker_distance *
-                  (0.3 + 0.6 * (curve->style % GB_FIGURE_STYLES) / GB_FIGURE_STYLES);
+                  (0.3 + 0.6 * gb_figure_marker_shape(curve->style) / GB_FIGURE_STYLES);
     double last[2] = {NAN, NAN};
     for (size_t k = 0; k < curve->count; k++) {
         double at[2];

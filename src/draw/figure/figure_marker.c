@@ -1,48 +1,51 @@
 #include "draw/figure/figure_marker.h"
 
 #include <math.h>
+#include <stdint.h>
 
 /* Radius of a disc, and of the core of markers that repeat a colour, points. */
 const double gb_figure_marker_radius = 2.6;
 static const double core_radius = 1.1;
 
-/* Colours of Okabe and Ito without yellow, which has no contrast on white; neighbours
- * also differ in lightness. */
-static const double colours[GB_FIGURE_STYLES][3] = {
-    {0.000, 0.447, 0.698}, /* blue */
-    {0.835, 0.369, 0.000}, /* vermilion */
-    {0.000, 0.620, 0.451}, /* bluish green */
-    {0.100, 0.100, 0.120}, /* black */
-    {0.800, 0.475, 0.655}, /* reddish purple */
-    {0.902, 0.624, 0.000}, /* orange */
-    {0.337, 0.706, 0.914}, /* sky blue */
-};
+/* Of a style or of a black one. */
+static int number_of(int style)
+{
+    return style < 0 ? gb_figure_black(style) : style;
+}
 
 void gb_figure_marker_colour(int style, double rgb[3])
 {
+    const uint8_t *from = style < 0 ? gb_figure_colours_black
+                                    : gb_figure_colours[style % GB_FIGURE_STYLES];
     for (int k = 0; k < 3; k++) {
-        rgb[k] = colours[style % GB_FIGURE_STYLES][k];
+        rgb[k] = from[k] / 255.0;
     }
 }
 
 int gb_figure_marker_round(int style)
 {
-    return style / GB_FIGURE_STYLES;
+    return number_of(style) / GB_FIGURE_STYLES;
+}
+
+int gb_figure_marker_shape(int style)
+{
+    return number_of(style) % GB_FIGURE_STYLES;
 }
 
 void gb_figure_marker_set_colour(cairo_t *cairo, int style, double alpha)
 {
-    const double *rgb = colours[style % GB_FIGURE_STYLES];
+    double rgb[3];
+    gb_figure_marker_colour(style, rgb);
     cairo_set_source_rgba(cairo, rgb[0], rgb[1], rgb[2], alpha);
 }
 
 static void outline(cairo_t *cairo, int style, const double at[2])
 {
-    static const int corners[GB_FIGURE_STYLES] = {0, 4, 3, 4, 3, 5, 6};
-    /* disc, square, triangle up, diamond, triangle down, pentagon, hexagon */
-    static const double rotation[GB_FIGURE_STYLES] = {0.0, 0.25, 0.5, 0.0, 0.0, 0.5, 0.5};
-    static const double scale[GB_FIGURE_STYLES] = {1.0, 1.2, 1.3, 1.3, 1.3, 1.1, 1.1};
-    const int s = style % GB_FIGURE_STYLES;
+    static const int corners[GB_FIGURE_STYLES] = {0, 4, 3, 4, 3, 5};
+    /* disc, square, triangle up, diamond, triangle down, pentagon */
+    static const double rotation[GB_FIGURE_STYLES] = {0.0, 0.25, 0.5, 0.0, 0.0, 0.5};
+    static const double scale[GB_FIGURE_STYLES] = {1.0, 1.2, 1.3, 1.3, 1.3, 1.1};
+    const int s = gb_figure_marker_shape(style);
     const double r = gb_figure_marker_radius * scale[s];
     if (corners[s] == 0) {
         cairo_new_sub_path(cairo);

@@ -16,6 +16,8 @@ void gb_figure_marker_set_colour(cairo_t *cairo, int style, double alpha);
 /* Number of earlier styles of the same colour.  Repeated colours have other dashes,
  * markers with a core, and markers along lines. */
 int gb_figure_marker_round(int style);
+/* Of the marker, 0 to GB_FIGURE_STYLES - 1, also of a black style. */
+int gb_figure_marker_shape(int style);
 
 void gb_figure_marker_draw(cairo_t *cairo, const struct gb_figure_curve *curve,
                            const double at[2]);

@@ -14,7 +14,17 @@ struct gb_print_size {
 #define GB_PRINT_SIZE_TEXT  7.4
 #define GB_PRINT_SIZE_LEAST 6.0
 
-/* width      "8cm", "80 mm" or "3.3 in"
+/* Column widths of journals; 0: it has none of this kind. */
+struct gb_print_size_journal {
+    const char *name;
+    double single_mm, middle_mm, double_mm; /* one column, one and a half, the page */
+    const char *source;                     /* the guide that has them */
+};
+
+/* The last row has no name.  Widths are called by the name, "-1.5" or "-2" behind it. */
+extern const struct gb_print_size_journal gb_print_size_journals[];
+
+/* width      "8cm", "80 mm", "3.3 in", or a column as "elsevier" or "elsevier-2"
  * per_inch   100 to 1200
  * Errors: GB_ERR_INPUT saying what is accepted, also for more pixels than an image has. */
 bool gb_print_size_parse(const char *width, int per_inch, struct gb_print_size *size,

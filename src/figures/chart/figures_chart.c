@@ -43,7 +43,8 @@ static void draw_front(struct gb_series *series, const struct gb_chart_columns *
         cost[at] = chart->cpu_s[k];
         bound[at] = 100.0 * chart->bound[k];
     }
-    gb_series_draw(series, cost, bound, NULL, GB_FIGURE_FAINT, 3, NULL);
+    gb_series_draw(series, cost, bound, NULL, GB_FIGURE_FAINT,
+                   gb_figure_black(0), NULL);
 }
 
 static void draw_chosen(struct gb_series *series, const struct gb_chart_columns *chart)
@@ -54,8 +55,8 @@ static void draw_chosen(struct gb_series *series, const struct gb_chart_columns 
         if (chart->chosen[k] == 1.0 && isfinite(chart->bound[k])) {
             cost[0] = chart->cpu_s[k];
             bound[0] = 100.0 * chart->bound[k];
-            gb_series_draw(series, cost, bound, NULL, GB_FIGURE_POINTS, 6,
-                           "chosen setting")
+            gb_series_draw(series, cost, bound, NULL, GB_FIGURE_POINTS,
+                           gb_figure_black(5), "chosen setting")
                 ->open = true;
             return;
         }

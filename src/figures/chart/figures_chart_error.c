@@ -95,7 +95,8 @@ static void draw_scatter(struct gb_series *series, const struct gb_chart_columns
         zero[end] = 0.0;
         scatter[end] = deviation;
     }
-    gb_series_draw(series, cost, zero, scatter, GB_FIGURE_FAINT, 3, NULL);
+    gb_series_draw(series, cost, zero, scatter, GB_FIGURE_FAINT,
+                   gb_figure_black(0), NULL);
     gb_series_caption(series,
                       "Band: standard deviation between seeds of one cell, %.2g %%.",
                       deviation);

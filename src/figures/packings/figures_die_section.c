@@ -55,7 +55,8 @@ static void draw_particles(struct gb_series *series, const struct gb_state *stat
             at += CIRCLE;
         }
     }
-    gb_series_draw(series, x, z, NULL, GB_FIGURE_FAINT, 3, NULL);
+    gb_series_draw(series, x, z, NULL, GB_FIGURE_FAINT,
+                   gb_figure_black(0), NULL);
 }
 
 /* Wall, floor and the height of the powder. */

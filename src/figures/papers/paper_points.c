@@ -108,8 +108,10 @@ static void colour(struct gb_series *series, guint first, const struct points *p
             seen = strcmp(points->word[i], points->word[k]) == 0;
         }
         if (!seen && first < series->curves->len) {
-            g_array_index(series->curves, struct gb_series_curve, first++).style =
-                points->group[k];
+            struct gb_series_curve *curve =
+                &g_array_index(series->curves, struct gb_series_curve, first++);
+            curve->style = points->group[k];
+            curve->open = true;
         }
     }
 }

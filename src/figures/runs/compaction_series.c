@@ -101,6 +101,16 @@ static void draw_equation(struct gb_series *series,
         true;
 }
 
+/* Points of a run are hollow beside their curves, measured ones are black. */
+static void draw_points(struct gb_series *series, const struct gb_compaction_series *one,
+                        const double *column[3], int style)
+{
+    const bool measured = one->data.curves == 0;
+    gb_series_draw(series, column[0], column[1], column[2], GB_FIGURE_POINTS,
+                   measured ? gb_figure_black(style) : style, one->label)
+        ->open = !measured;
+}
+
 /* The zero line of the residuals, with the errors of the points. */
 static void draw_zero(struct gb_series *series, const struct gb_compaction_series *one,
                       size_t number, const double *pressure, const double *error)
@@ -123,8 +133,7 @@ static void draw_powder(struct gb_series *series, const struct gb_compaction_ser
     double *pressure = point_columns(series, one, number, &density, &error);
     size_t drawn = 0;
     draw_zero(series, one, number, pressure, error);
-    gb_series_draw(series, pressure, density, error, GB_FIGURE_POINTS, first, one->label)
-        ->open = true;
+    draw_points(series, one, (const double *[]){pressure, density, error}, first);
     for (size_t i = 0; i < one->fits.fitted && drawn < most; i++) {
         if (is_drawn(&one->fits, i)) {
             const struct gb_compaction_fit *row = &one->fits.fit[i];
@@ -203,8 +212,7 @@ static bool draw_heckel(struct gb_series *series, const struct gb_compaction_ser
         number, points->pressure[fits->stretch.first], points->pressure[end - 1],
         fits->stretch.count, fits->stretch.determination);
     const int style = (int)number - 1;
-    gb_series_draw(series, pressure, y, error, GB_FIGURE_POINTS, style, one->label)
-        ->open = true;
+    draw_points(series, one, (const double *[]){pressure, y, error}, style);
     gb_series_draw(series, pressure, line, NULL, GB_FIGURE_LINE, style, label);
     g_free(label);
     return true;

@@ -80,7 +80,8 @@ static bool draw_group(struct gb_series *series, const struct gb_runset *set,
     gb_mean_curves_finish(&curves);
     char *label = gb_figures_label(set, group, NULL);
     gb_series_draw(series, column[0], column[1], NULL, GB_FIGURE_LINE, (int)group, label);
-    gb_series_draw(series, column[0], column[2], NULL, GB_FIGURE_FAINT, 3, NULL);
+    gb_series_draw(series, column[0], column[2], NULL, GB_FIGURE_FAINT,
+                   gb_figure_black(0), NULL);
     g_free(label);
     return good;
 }

@@ -127,7 +127,8 @@ static void draw_beds(struct gb_series *series, const struct beds *beds, size_t 
                        beds[k].label);
         draw_statistics(series, &beds[k], count, edge);
     }
-    gb_series_draw(series, edge, published, NULL, GB_FIGURE_LINE, 3, "P3, measured mean");
+    gb_series_draw(series, edge, published, NULL, GB_FIGURE_LINE,
+                   gb_figure_black(1), "P3, measured mean");
     series->x.low = 0.5;
     series->x.high = 0.5 + (double)count;
 }
