@@ -173,6 +173,11 @@ die_ends 'a punch too light for the time step' 0 'thrown off the punch' die.punc
 
 misses 'no equilibrium' '[1-9][0-9]* of [0-9]* points are not in equilibrium' \
     numerics.max_evaluations=10 loading.unload_from=
+above() { # the residual of each event is above the tolerance that it names
+    sed -n 's/.*not fully relaxed: residual \([^ ]*\) .* tolerance \([^ ]*\)$/\1 \2/p' \
+        out/events.log | awk '{ n++; bad += $1 <= $2 } END { exit bad > 0 || n == 0 }'
+}
+is 'each residual is told with the tolerance that it misses' above
 points=$(awk -F, '$37 == 1' out/curve.csv | wc -l)
 loaded=$(awk -F, '/^load/ && $37 == 1' out/curve.csv | wc -l)
 is 'as many are marked' grep -q "error.*\"$points of" out/status.json
