@@ -7,9 +7,9 @@
 #include "base/mat.h"
 #include "draw/scene_bounds.h"
 
-/* Share of the background colour in the farthest particles: it shows depth and is too
- * small to be read as another coordination number. */
-static const float depth_cue = 0.14F;
+/* Share of the background colour in the farthest edges of the box.  Particles and rods do
+ * not fade: their colours are values. */
+static const float depth_cue = 0.3F;
 /* Share of the key light that a shadow removes; the ambient light stays. */
 static const float shadow_share = 0.75F;
 

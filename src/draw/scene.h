@@ -30,7 +30,7 @@ struct gb_scene {
     float diameter;                /* 1 d: length of occlusion and shadows */
     float light[3];                /* towards the key light, eye coordinates */
     enum gb_background background;
-    float depth_cue;    /* share of the background colour at the far end */
+    float depth_cue;    /* share of the background colour in the farthest edges */
     float shadow_share; /* 0: no shadows */
 };
 

@@ -106,6 +106,15 @@ refused "size 100000" "16 to 16384" snapshot a -o x.png --size 100000x100000
 refused "no such point" "keeps states at" snapshot a -o x.png --at "p=5 GPa"
 refused "no point" "--at 5" snapshot a -o x.png --at 5
 refused "unknown colour" "coordination, pressure" snapshot a -o x.png --color red
+good "a range, a scale of colours" snapshot a -o range.png --size 300x300 --color pressure \
+    --range 0:200MPa --colormap diverging
+good "a logarithmic scale" snapshot a -o log.png --size 300x300 --color pressure --log
+good "a range of forces" snapshot a -o rods.png --show forces --range 0:50nN
+refused "a range of another quantity" "as in 0:200MPa" snapshot a -o x.png --color pressure \
+    --range 0:5nm
+refused "no such scale of colours" "viridis, fire, blue-yellow, grey, diverging" \
+    snapshot a -o x.png --colormap jet
+refused "the logarithm of counts" "whole numbers" snapshot a -o x.png --log
 refused "displacement without a start" "--since" snapshot a -o x.png --color displacement
 refused "no folder" "no/x.png" snapshot a -o no/x.png --size 300x300
 refused "no picture" "No such file" run --from none.png

@@ -486,6 +486,31 @@ static void test_forces(void)
     gb_state_destroy(state);
 }
 
+/* The colour of a value does not depend on the depth: no fog. */
+static void test_no_fog(void)
+{
+    struct gb_state *state = packing(3);
+    struct gb_packing_image packing_image = front();
+    g_assert_true(gb_view_parse("front,flat", &packing_image.viewpoint, NULL));
+    for (int i = 0; i < 3; i++) { /* apart, at three depths */
+        state->position[3 * i] = 2.0 + 3.0 * i;
+        state->position[3 * i + 1] = 1.0 + 4.0 * i;
+        state->position[3 * i + 2] = 8.0 - 3.0 * i;
+        state->radius[i] = 1.0;
+        state->contacts[i] = 6;
+    }
+    struct gb_image *image = paint(&packing_image, state);
+    const uint8_t *near = particle(image, &packing_image, state, 0);
+    for (int i = 1; i < 3; i++) {
+        const uint8_t *far = particle(image, &packing_image, state, i);
+        for (int c = 0; c < 3; c++) {
+            g_assert_cmpint(abs(near[c] - far[c]), <=, 4);
+        }
+    }
+    gb_image_destroy(image);
+    gb_state_destroy(state);
+}
+
 /* Dark or coloured pixels of a column of the image around a row. */
 static int thickness(const struct gb_image *image, double x, double y)
 {
@@ -624,6 +649,7 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/snapshot/planar", test_planar);
     g_test_add_func("/draw/snapshot/odd-sizes", test_odd_sizes);
     g_test_add_func("/draw/snapshot/forces", test_forces);
+    g_test_add_func("/draw/snapshot/no-fog", test_no_fog);
     g_test_add_func("/draw/snapshot/rod-scale", test_rod_scale);
     g_test_add_func("/draw/snapshot/file", test_file);
     return g_test_run();

@@ -175,6 +175,186 @@ static void test_displacement(void)
     gb_state_destroy(state);
 }
 
+/* A hundred particles of sizes 10.3 to 99.7 nm, and two far beyond. */
+static struct gb_state *sizes(double outlier)
+{
+    struct gb_state *state = NULL;
+    struct gb_error err = {0};
+    g_assert_true(gb_state_create(&state, 102, 0, &err));
+    state->dimension = 3;
+    state->metre_per_length = 1e-8;
+    state->pascal_per_stress = 1e9;
+    for (int i = 0; i < 102; i++) {
+        state->radius[i] = i < 100 ? 0.515 + (4.985 - 0.515) * i / 99.0 : outlier;
+    }
+    return state;
+}
+
+/* Ends at ticks; outliers that would make all others one colour are beyond the scale, near
+ * ones are on it; given ends stay. */
+static void test_range(void)
+{
+    struct gb_picture_style_request request;
+    struct gb_state *state = sizes(500.0);
+    struct gb_error err = {0};
+    gb_picture_style_init(&request);
+    g_assert_true(gb_picture_style_parse_colour(&request, "size", &err));
+    struct gb_picture_style *style = create_style(state, &request);
+    g_assert_cmpfloat_with_epsilon(style->scale.low, 0.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(style->scale.high, 100.0, 1e-9);
+    g_assert_true(style->scale.above && !style->scale.below);
+    gb_picture_style_destroy(style);
+    gb_state_destroy(state);
+    state = sizes(6.0);
+    style = create_style(state, &request);
+    g_assert_cmpfloat_with_epsilon(style->scale.high, 120.0, 1e-9);
+    g_assert_false(style->scale.above);
+    gb_picture_style_destroy(style);
+    gb_state_destroy(state);
+}
+
+static void test_range_given(void)
+{
+    struct gb_picture_style_request request;
+    struct gb_state *state = sizes(6.0);
+    struct gb_error err = {0};
+    uint8_t rgb[3];
+    gb_picture_style_init(&request);
+    g_assert_true(gb_picture_style_parse_colour(&request, "size", &err));
+    g_assert_true(gb_picture_style_parse_range(&request, "20 nm:0.05um", &err));
+    struct gb_picture_style *style = create_style(state, &request);
+    g_assert_cmpfloat_with_epsilon(style->scale.low, 20.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(style->scale.high, 50.0, 1e-9);
+    g_assert_true(style->scale.below && style->scale.above);
+    gb_palette_field(0.0, rgb);
+    g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
+    gb_palette_field(1.0, rgb);
+    g_assert_cmpint(memcmp(style->colour + 3 * 99, rgb, 3), ==, 0);
+    gb_picture_style_destroy(style);
+    gb_state_destroy(state);
+    static const char *const wrong[] = {"",      "5",       "20:10nm", "0:5", "0:5MPa",
+                                        "a:5nm", "0:5nm:7", "0:nan",   ":",   "0:0nm"};
+    for (size_t k = 0; k < G_N_ELEMENTS(wrong); k++) {
+        g_assert_false(gb_picture_style_parse_range(&request, wrong[k], &err));
+        g_assert_nonnull(strstr(err.text, "as in 0:20nm"));
+    }
+    request.show = GB_PICTURE_STYLE_FORCES;
+    g_assert_true(gb_picture_style_parse_range(&request, "0:50nN", &err));
+    g_assert_cmpfloat_with_epsilon(request.max_force_n, 5e-8, 1e-20);
+    g_assert_false(gb_picture_style_parse_range(&request, "1:50nN", &err));
+    g_assert_nonnull(strstr(err.text, "0:50nN"));
+}
+
+/* Equal ratios have equal steps of colour; what is not above 0 has the first one. */
+static void test_log(void)
+{
+    struct gb_picture_style_request request;
+    struct gb_state *state = row();
+    struct gb_error err = {0};
+    uint8_t rgb[3];
+    gb_picture_style_init(&request);
+    g_assert_true(gb_picture_style_parse_colour(&request, "size", &err));
+    request.log = true;
+    for (int i = 0; i < 4; i++) {
+        state->radius[i] = 0.5 * pow(10.0, i);
+    }
+    struct gb_picture_style *style = create_style(state, &request);
+    g_assert_true(style->scale.log);
+    g_assert_cmpfloat_with_epsilon(style->scale.low, 10.0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(style->scale.high, 1e4, 1e-6);
+    for (int i = 0; i < 4; i++) {
+        gb_palette_field(i / 3.0, rgb);
+        g_assert_cmpint(memcmp(style->colour + 3 * i, rgb, 3), ==, 0);
+    }
+    gb_picture_style_destroy(style);
+    g_assert_true(gb_picture_style_parse_range(&request, "0:50nm", &err));
+    g_assert_false(gb_picture_style_create(&style, state, &request, &err));
+    g_assert_nonnull(strstr(err.text, "above 0 with --log"));
+    request.ranged = false;
+    g_assert_true(gb_picture_style_parse_colour(&request, "coordination", &err));
+    g_assert_false(gb_picture_style_create(&style, state, &request, &err));
+    g_assert_nonnull(strstr(err.text, "--log: whole numbers"));
+    gb_state_destroy(state);
+}
+
+/* A diverging scale has its light middle at 0; whole numbers take scale and range, too. */
+static void test_colormap(void)
+{
+    struct gb_picture_style_request request;
+    struct gb_state *state = row();
+    struct gb_error err = {0};
+    uint8_t rgb[3];
+    gb_picture_style_init(&request);
+    g_assert_false(gb_picture_style_parse_colormap(&request, "jet", &err));
+    g_assert_nonnull(strstr(err.text, "viridis, fire, blue-yellow, grey, diverging"));
+    g_assert_true(gb_picture_style_parse_colormap(&request, "diverging", &err));
+    g_assert_true(gb_picture_style_parse_colour(&request, "pressure", &err));
+    state->pair_normal[2] = -5.0;
+    state->pair_force[8] = 5.0;
+    struct gb_picture_style *style = create_style(state, &request);
+    g_assert_cmpfloat(style->scale.low, <, 0.0);
+    g_assert_cmpfloat(style->scale.high, ==, -style->scale.low);
+    gb_picture_style_destroy(style);
+    g_assert_true(gb_picture_style_parse_colour(&request, "coordination", &err));
+    g_assert_true(gb_picture_style_parse_range(&request, "1:3", &err));
+    style = create_style(state, &request);
+    gb_palette_value(request.map, 0.5, rgb); /* 2 of 1, 2, 3 */
+    g_assert_cmpint(memcmp(style->colour, rgb, 3), ==, 0);
+    g_assert_cmpint(rgb[0], >, 230);
+    gb_picture_style_destroy(style);
+    gb_state_destroy(state);
+}
+
+/* CIELAB of sRGB. */
+static void lab_of(const uint8_t rgb[3], double lab[3])
+{
+    static const double m[3][3] = {{0.4124564, 0.3575761, 0.1804375},
+                                   {0.2126729, 0.7151522, 0.0721750},
+                                   {0.0193339, 0.1191920, 0.9503041}};
+    static const double white[3] = {0.95047, 1.0, 1.08883};
+    double f[3];
+    for (int k = 0; k < 3; k++) {
+        double sum = 0.0;
+        for (int c = 0; c < 3; c++) {
+            const double x = rgb[c] / 255.0;
+            sum += m[k][c] * (x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4));
+        }
+        const double t = sum / white[k];
+        f[k] = t > 0.008856 ? cbrt(t) : 7.787 * t + 16.0 / 116.0;
+    }
+    lab[0] = 116.0 * f[1] - 16.0;
+    lab[1] = 500.0 * (f[0] - f[1]);
+    lab[2] = 200.0 * (f[1] - f[2]);
+}
+
+/* Equal steps for the eye (viridis is uniform in another space), lightness that grows, or
+ * falls alike on both sides of the middle. */
+static void test_maps(void)
+{
+    for (const struct gb_palette_map *map = gb_palette_maps(); map->name; map++) {
+        double lab[17][3], mean = 0.0;
+        for (int k = 0; k < 17; k++) {
+            lab_of(map->anchor[k], lab[k]);
+        }
+        for (int k = 0; k < 16; k++) {
+            mean += hypot(hypot(lab[k + 1][0] - lab[k][0], lab[k + 1][1] - lab[k][1]),
+                          lab[k + 1][2] - lab[k][2]) /
+                    16.0;
+            const double sign = map->diverging && k >= 8 ? -1.0 : 1.0;
+            g_assert_cmpfloat(sign * (lab[k + 1][0] - lab[k][0]), >, 0.0);
+        }
+        for (int k = 0; k < 16 && strcmp(map->name, "viridis") != 0; k++) {
+            const double step =
+                hypot(hypot(lab[k + 1][0] - lab[k][0], lab[k + 1][1] - lab[k][1]),
+                      lab[k + 1][2] - lab[k][2]);
+            g_assert_cmpfloat(fabs(step / mean - 1.0), <, 0.15);
+        }
+        for (int k = 0; k < 8 && map->diverging; k++) {
+            g_assert_cmpfloat(fabs(lab[k][0] - lab[16 - k][0]), <, 1.0);
+        }
+    }
+}
+
 static void test_selection(void)
 {
     struct gb_picture_style_request request;
@@ -226,6 +406,11 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/picture_style/colours", test_colours);
     g_test_add_func("/draw/picture_style/one-size", test_one_size);
     g_test_add_func("/draw/picture_style/displacement", test_displacement);
+    g_test_add_func("/draw/picture_style/range", test_range);
+    g_test_add_func("/draw/picture_style/range-given", test_range_given);
+    g_test_add_func("/draw/picture_style/log", test_log);
+    g_test_add_func("/draw/picture_style/colormap", test_colormap);
+    g_test_add_func("/draw/picture_style/maps", test_maps);
     g_test_add_func("/draw/picture_style/selection", test_selection);
     g_test_add_func("/draw/picture_style/parse", test_parse);
     return g_test_run();

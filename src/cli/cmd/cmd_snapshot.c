@@ -22,8 +22,9 @@
 
 /* The options of the command line. */
 struct request {
-    char *at, *view, *background, *output, *color, *show, *slice, *cut, *since;
-    gboolean force, bare, rose, sequence, quiet;
+    char *at, *view, *background, *output, *color, *show, *slice, *cut, *since, *range,
+        *colormap;
+    gboolean force, bare, rose, sequence, quiet, log;
     struct gb_page_options page;
     double fps;
 };
@@ -32,7 +33,8 @@ static void free_request(struct request *request)
 {
     char *const texts[] = {request->at,     request->view,  request->background,
                            request->output, request->color, request->show,
-                           request->slice,  request->cut,   request->since};
+                           request->slice,  request->cut,   request->since,  request->range,
+                           request->colormap};
     for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
         g_free(texts[k]);
     }
@@ -56,10 +58,15 @@ static bool parse_background(const char *text, enum gb_background *background,
 static bool parse_style(const struct request *request,
                         struct gb_picture_style_request *style, struct gb_error *err)
 {
+    style->log = request->log;
     return (request->color == NULL ||
             gb_picture_style_parse_colour(style, request->color, err)) &&
            (request->show == NULL ||
             gb_picture_style_parse_show(style, request->show, err)) &&
+           (request->range == NULL ||
+            gb_picture_style_parse_range(style, request->range, err)) &&
+           (request->colormap == NULL ||
+            gb_picture_style_parse_colormap(style, request->colormap, err)) &&
            (request->slice == NULL ||
             gb_picture_style_parse_slice(style, request->slice, err)) &&
            (request->cut == NULL || gb_picture_style_parse_cut(style, request->cut, err));
@@ -236,6 +243,7 @@ int gb_cmd_snapshot(int argc, char **argv)
     struct request request = {.fps = 8.0};
     char *colours = describe_colours();
     char *sequence = describe_sequence();
+    char *colormaps = gb_picture_style_parse_colormaps();
     const GOptionEntry entries[] = {
         {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, "the picture",
          "FILE.png"},
@@ -254,6 +262,13 @@ int gb_cmd_snapshot(int argc, char **argv)
         {"show", 0, 0, G_OPTION_ARG_STRING, &request.show,
          "particles, forces (rods as thick as the force between two particles) or both",
          "WHAT"},
+        {"range", 0, 0, G_OPTION_ARG_STRING, &request.range,
+         "ends of the colours, as 0:200MPa (default: of the values, without outliers); "
+         "0:50nN: force of the thickest rod",
+         "LOW:HIGH"},
+        {"colormap", 0, 0, G_OPTION_ARG_STRING, &request.colormap, colormaps, "NAME"},
+        {"log", 0, 0, G_OPTION_ARG_NONE, &request.log, "logarithmic scale of colours",
+         NULL},
         {"slice", 0, 0, G_OPTION_ARG_STRING, &request.slice,
          "a slab at a fraction of an edge: y=0.5, or z=0.25:3d for 3 diameters (2)",
          "PLANE"},
@@ -285,6 +300,7 @@ int gb_cmd_snapshot(int argc, char **argv)
     int status = 0;
     struct gb_error err = {0};
     const bool parsed = gb_options_parse(&page, entries, argc, argv, &words, &status);
+    g_free(colormaps);
     g_free(sequence);
     g_free(colours);
     if (!parsed) {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "draw/figure/figure_axis.h"
-#include "draw/image/palette.h"
+#include "draw/style/picture_scale.h"
 
 static void frame_bar(const struct gb_caption_pen *pen, const struct gb_frame *bar,
                       const char *title)
@@ -17,22 +17,36 @@ static void frame_bar(const struct gb_caption_pen *pen, const struct gb_frame *b
                                 bar->top + 0.5 * bar->height);
 }
 
-/* Whole numbers: one cell each, 0 at the bottom. */
+static void set_colour(const struct gb_caption_pen *pen, const uint8_t rgb[3])
+{
+    cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+}
+
+/* Whole numbers: one cell each, the lowest at the bottom; every n-th has a label where they
+ * are low. */
 static void draw_cells(const struct gb_caption_pen *pen, const struct gb_frame *bar,
                        const struct gb_picture_style_scale *scale)
 {
+    const int first = (int)scale->low;
     const int last = (int)scale->high;
-    const double step = bar->height / (last + 1);
-    for (int k = 0; k <= last; k++) {
+    const double step = bar->height / (last - first + 1);
+    const int every = (int)fmax(ceil(0.95 * pen->unit / step), 1.0);
+    for (int k = first; k <= last; k++) {
         uint8_t rgb[3];
         char label[16];
-        const double top = bar->top + bar->height - (k + 1) * step;
-        gb_palette_contacts(k, rgb);
-        cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+        const double top = bar->top + bar->height - (k - first + 1) * step;
+        gb_picture_scale_colour(scale, k, rgb);
+        set_colour(pen, rgb);
         cairo_rectangle(pen->cairo, bar->left, top, bar->width, step + 0.5);
         cairo_fill(pen->cairo);
+        if ((last - k) % every != 0) {
+            continue;
+        }
         snprintf(label, sizeof label, "%s%d",
-                 k == last && scale->above ? "\xe2\x89\xa5" : "", k);
+                 k == last && scale->above    ? "\xe2\x89\xa5"
+                 : k == first && scale->below ? "\xe2\x89\xa4"
+                                              : "",
+                 k);
         gb_caption_pen_line(pen, label, bar->left + bar->width + 0.5 * pen->unit,
                             top + 0.5 * step, 0.0, 0.85, 0.0);
     }
@@ -42,14 +56,14 @@ enum bar_end { AT_LOW_END, AT_HIGH_END };
 
 /* Triangle at an end of the bar: values exist beyond it. */
 static void draw_arrow(const struct gb_caption_pen *pen, const struct gb_frame *bar,
-                       enum bar_end end)
+                       const struct gb_picture_style_scale *scale, enum bar_end end)
 {
     const bool above = end == AT_HIGH_END;
     const double base = above ? bar->top : bar->top + bar->height;
     const double tip = base + (above ? -1.0 : 1.0) * 0.8 * pen->unit;
     uint8_t rgb[3];
-    gb_palette_field(above ? 1.0 : 0.0, rgb);
-    cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+    gb_palette_value(scale->map, above ? 1.0 : 0.0, rgb);
+    set_colour(pen, rgb);
     cairo_move_to(pen->cairo, bar->left, base);
     cairo_line_to(pen->cairo, bar->left + 0.5 * bar->width, tip);
     cairo_line_to(pen->cairo, bar->left + bar->width, base);
@@ -73,33 +87,48 @@ static void draw_tick(const struct gb_caption_pen *pen, const struct gb_frame *b
                   (double[2]){0.0, 0.5}, 0);
 }
 
+/* The ends, and the ticks between them that leave room for those. */
 static void draw_ticks(const struct gb_caption_pen *pen, const struct gb_frame *bar,
                        const struct gb_picture_style_scale *scale)
 {
     static const bool exact[2] = {true, true};
+    const double room = 1.1 * pen->unit;
+    const int wanted = (int)fmin(fmax(bar->height / (2.0 * pen->unit), 2.0), 6.0);
     struct gb_figure_axis_scale axis;
-    gb_figure_axis_fit(&axis, GB_FIGURE_AXIS_LINEAR, scale->low, scale->high, 6, exact);
+    gb_figure_axis_fit(&axis, scale->log ? GB_FIGURE_AXIS_LOG : GB_FIGURE_AXIS_LINEAR,
+                       scale->low, scale->high, wanted, exact);
     axis.from = bar->top + bar->height;
     axis.to = bar->top;
     for (int k = 0; k < axis.ticks; k++) {
         char plain[48]; /* no space for a power of ten */
+        const double y = gb_figure_axis_position(&axis, axis.tick[k]);
+        if (y > axis.from - room || y < axis.to + room) {
+            continue;
+        }
         snprintf(plain, sizeof plain, "%.4g", axis.tick[k]);
-        draw_tick(pen, bar, gb_figure_axis_position(&axis, axis.tick[k]),
-                  axis.power == 0 ? axis.label[k] : plain);
+        draw_tick(pen, bar, y, axis.power == 0 ? axis.label[k] : plain);
+    }
+    for (int end = 0; end < 2; end++) {
+        char label[48];
+        const double value = end == 0 ? scale->low : scale->high;
+        const double magnitude = fabs(value);
+        snprintf(label, sizeof label, "%s%.4g", value < 0.0 ? "\xe2\x88\x92" : "",
+                 magnitude);
+        draw_tick(pen, bar, end == 0 ? axis.from : axis.to, label);
     }
 }
 
 /* One colour, one tick. */
 static void draw_one_value(const struct gb_caption_pen *pen, const struct gb_frame *bar,
-                           double value)
+                           const struct gb_picture_style_scale *scale)
 {
     uint8_t rgb[3];
     char label[48];
-    gb_palette_field(0.5, rgb);
-    cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+    gb_palette_value(scale->map, 0.5, rgb);
+    set_colour(pen, rgb);
     cairo_rectangle(pen->cairo, bar->left, bar->top, bar->width, bar->height);
     cairo_fill(pen->cairo);
-    snprintf(label, sizeof label, "%.4g", value);
+    snprintf(label, sizeof label, "%.4g", scale->low);
     draw_tick(pen, bar, bar->top + 0.5 * bar->height, label);
 }
 
@@ -109,18 +138,18 @@ static void draw_gradient(const struct gb_caption_pen *pen, const struct gb_fram
     const int steps = 256;
     for (int k = 0; k < steps; k++) {
         uint8_t rgb[3];
-        gb_palette_field((k + 0.5) / steps, rgb);
+        gb_palette_value(scale->map, (k + 0.5) / steps, rgb);
         const double top = bar->top + bar->height * (1.0 - (k + 1.0) / steps);
-        cairo_set_source_rgb(pen->cairo, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+        set_colour(pen, rgb);
         cairo_rectangle(pen->cairo, bar->left, top, bar->width,
                         bar->height / steps + 0.6);
         cairo_fill(pen->cairo);
     }
     if (scale->below) {
-        draw_arrow(pen, bar, AT_LOW_END);
+        draw_arrow(pen, bar, scale, AT_LOW_END);
     }
     if (scale->above) {
-        draw_arrow(pen, bar, AT_HIGH_END);
+        draw_arrow(pen, bar, scale, AT_HIGH_END);
     }
     draw_ticks(pen, bar, scale);
 }
@@ -134,7 +163,7 @@ void gb_colour_bar_draw(const struct gb_caption_pen *pen, const struct gb_frame 
     if (scale->whole) {
         draw_cells(pen, bar, scale);
     } else if (!(scale->high > scale->low)) {
-        draw_one_value(pen, bar, scale->low);
+        draw_one_value(pen, bar, scale);
     } else {
         draw_gradient(pen, bar, scale);
     }

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "draw/style/round_number.h"
+
 #define MINUS "\xe2\x88\x92"
 
 void gb_figure_axis_number(double value, int decimals, char *text, size_t size)
@@ -39,14 +41,12 @@ static void put_minor(struct gb_figure_axis_scale *scale, double value)
     }
 }
 
-/* Tick step, 1, 2 or 5 times a power of ten; *parts: number of minor steps in it. */
-static double round_step(double rough, int *parts)
+/* Tick step; *parts: number of minor steps in it. */
+static double tick_step(double rough, int *parts)
 {
-    const double decade = pow(10.0, floor(log10(rough)));
-    const double share = rough / decade;
-    const double step = share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0;
-    *parts = step == 2.0 ? 4 : 5;
-    return step * decade;
+    const double step = gb_round_number_step(rough);
+    *parts = lround(step / pow(10.0, floor(log10(step) + 1e-9))) == 2 ? 4 : 5;
+    return step;
 }
 
 /* Power of 1000 that is shown in the label of the axis. */
@@ -62,7 +62,7 @@ static void fit_linear(struct gb_figure_axis_scale *scale, int wanted,
                        const bool exact[2])
 {
     int parts = 5;
-    const double step = round_step((scale->high - scale->low) / wanted, &parts);
+    const double step = tick_step((scale->high - scale->low) / wanted, &parts);
     const double part = step / parts;
     if (!exact[0]) {
         scale->low = part * floor(scale->low / part + 1e-6);

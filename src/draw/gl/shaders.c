@@ -313,9 +313,9 @@ static const char shade_main[] =
     "        discard;\n"
     "    }\n"
     "    float depth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;\n"
-    "    float fade = cue * smoothstep(0.0, 1.0, depth);\n"
     "    if (id == 0xfffffffeu) {\n"
-    "        colour = vec4(mix(foreground, background, 1.3 * fade), 1.0);\n"
+    "        float fade = cue * smoothstep(0.0, 1.0, depth);\n"
+    "        colour = vec4(mix(foreground, background, fade), 1.0);\n"
     "        return;\n"
     "    }\n"
     "    vec3 p = position_at(gl_FragCoord.xy, depth);\n"
@@ -337,7 +337,7 @@ static const char shade_main[] =
     "    vec3 sum = albedo * (0.66 * dome * unblocked * cool +\n"
     "                         0.86 * key * direct * warm);\n"
     "    sum += 0.09 * gloss * direct * unblocked;\n"
-    "    colour = vec4(mix(sum, background, fade), 1.0);\n"
+    "    colour = vec4(sum, 1.0);\n"
     "}\n";
 
 /* Mean of the samples with a tent filter two pixels wide: anti-aliased box edges. */

@@ -1,101 +1,49 @@
 #include "draw/style/picture_colours.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <glib.h>
 
 #include "base/alloc.h"
 #include "base/mat.h"
-#include "draw/image/palette.h"
+#include "draw/style/picture_scale.h"
 #include "io/state/state_stress.h"
 #include "pack/cell/cell.h"
-
-/* Quantiles at the ends of the scale: outliers would extend it. */
-static const double low_quantile = 0.02;
-static const double high_quantile = 0.98;
-
-/* Values that differ by less than this fraction are one value. */
-static const double one_value = 1e-9;
 
 /* Diameters below this are shown in nm, others in um; m. */
 static const double nanometre_below = 0.5e-6;
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static bool is_one_value(const struct gb_picture_style_scale *scale)
-{
-    return !(scale->high - scale->low >
-             one_value * fmax(fabs(scale->low), fabs(scale->high)));
-}
-
-enum scale_start { FROM_QUANTILE, FROM_ZERO };
-
-/* Ends of the scale from the values, or those of the request; equal for one value. */
-static bool fit_scale(struct gb_picture_style_scale *scale, const double *value,
-                      size_t count, enum scale_start start,
-                      const struct gb_picture_style_request *request,
-                      struct gb_error *err)
-{
-    double *sorted = gb_alloc_array(count, sizeof *sorted, err);
-    if (sorted == NULL) {
-        return false;
-    }
-    memcpy(sorted, value, count * sizeof *sorted);
-    qsort(sorted, count, sizeof *sorted, compare);
-    const double last = (double)(count - 1);
-    scale->low = start == FROM_ZERO ? 0.0 : sorted[(size_t)(low_quantile * last)];
-    scale->high = sorted[(size_t)ceil(high_quantile * last)];
-    if (request->high > request->low) {
-        scale->low = request->low;
-        scale->high = request->high;
-    }
-    if (is_one_value(scale)) { /* outliers are the only other values */
-        scale->low = fmin(scale->low, sorted[0]);
-        scale->high = sorted[count - 1];
-    }
-    if (is_one_value(scale)) {
-        scale->low = scale->high;
-    }
-    scale->below = scale->low < scale->high && sorted[0] < scale->low;
-    scale->above = scale->low < scale->high && sorted[count - 1] > scale->high;
-    gb_alloc_free(sorted);
-    return true;
-}
+/* Pascal in the unit of stresses. */
+static const double mpa_per_pa = 1e-6;
 
 static bool colour_values(struct gb_picture_style *style, const double *value,
-                          enum scale_start start,
+                          enum gb_picture_scale_start start, double per_si,
                           const struct gb_picture_style_request *request,
                           struct gb_error *err)
 {
-    struct gb_picture_style_scale *scale = &style->scale;
-    if (!fit_scale(scale, value, style->count, start, request, err)) {
+    if (!gb_picture_scale_fit(&style->scale, value, style->count, start, per_si, request,
+                              err)) {
         return false;
     }
-    const double span = scale->high - scale->low;
     for (size_t i = 0; i < style->count; i++) {
-        gb_palette_field(span > 0.0 ? (value[i] - scale->low) / span : 0.5,
-                         &style->colour[3 * i]);
+        gb_picture_scale_colour(&style->scale, value[i], &style->colour[3 * i]);
     }
     return true;
 }
 
-static void colour_counts(struct gb_picture_style *style, const int32_t *number,
-                          const char *title)
+static bool colour_counts(struct gb_picture_style *style, const int32_t *number,
+                          const char *title,
+                          const struct gb_picture_style_request *request,
+                          struct gb_error *err)
 {
     style->scale.title = title;
-    style->scale.whole = true;
-    style->scale.high = GB_PALETTE_CONTACTS;
-    for (size_t i = 0; i < style->count; i++) {
-        gb_palette_contacts(number[i], &style->colour[3 * i]);
-        style->scale.above = style->scale.above || number[i] > GB_PALETTE_CONTACTS;
+    if (!gb_picture_scale_fit_whole(&style->scale, number, style->count, request, err)) {
+        return false;
     }
+    for (size_t i = 0; i < style->count; i++) {
+        gb_picture_scale_colour(&style->scale, number[i], &style->colour[3 * i]);
+    }
+    return true;
 }
 
 static bool colour_coordination(struct gb_picture_style *style,
@@ -103,17 +51,13 @@ static bool colour_coordination(struct gb_picture_style *style,
                                 const struct gb_picture_style_request *request,
                                 struct gb_error *err)
 {
-    (void)request;
-    (void)err;
-    colour_counts(style, state->contacts, "coordination number");
-    return true;
+    return colour_counts(style, state->contacts, "coordination number", request, err);
 }
 
 static bool colour_bridges(struct gb_picture_style *style, const struct gb_state *state,
                            const struct gb_picture_style_request *request,
                            struct gb_error *err)
 {
-    (void)request;
     int32_t *number = gb_alloc_array(style->count, sizeof *number, err);
     if (number == NULL) {
         return false;
@@ -124,9 +68,10 @@ static bool colour_bridges(struct gb_picture_style *style, const struct gb_state
             number[state->pair[2 * k + 1]]++;
         }
     }
-    colour_counts(style, number, "bridges per particle");
+    const bool good =
+        colour_counts(style, number, "bridges per particle", request, err);
     gb_alloc_free(number);
-    return true;
+    return good;
 }
 
 static bool colour_pressure(struct gb_picture_style *style, const struct gb_state *state,
@@ -139,10 +84,11 @@ static bool colour_pressure(struct gb_picture_style *style, const struct gb_stat
     }
     gb_state_stress_mean(state, value);
     for (size_t i = 0; i < style->count; i++) {
-        value[i] *= 1e-6;
+        value[i] *= mpa_per_pa;
     }
     style->scale.title = "mean particle stress (MPa)";
-    const bool good = colour_values(style, value, FROM_QUANTILE, request, err);
+    const bool good = colour_values(style, value, GB_PICTURE_SCALE_FROM_DATA, mpa_per_pa,
+                                    request, err);
     gb_alloc_free(value);
     return good;
 }
@@ -172,7 +118,8 @@ static bool colour_size(struct gb_picture_style *style, const struct gb_state *s
     }
     style->scale.title =
         uses_nanometres(state) ? "diameter (nm)" : "diameter (\xce\xbcm)";
-    const bool good = colour_values(style, value, FROM_QUANTILE, request, err);
+    const bool good = colour_values(style, value, GB_PICTURE_SCALE_FROM_DATA,
+                                    units_per_metre(state), request, err);
     gb_alloc_free(value);
     return good;
 }
@@ -225,7 +172,8 @@ static bool colour_displacement(struct gb_picture_style *style,
     }
     style->scale.title =
         uses_nanometres(state) ? "displacement (nm)" : "displacement (\xce\xbcm)";
-    const bool good = colour_values(style, value, FROM_ZERO, request, err);
+    const bool good = colour_values(style, value, GB_PICTURE_SCALE_FROM_ZERO,
+                                    units_per_metre(state), request, err);
     gb_alloc_free(value);
     return good;
 }
@@ -244,12 +192,14 @@ static const struct gb_picture_colours_row table[] = {
     {"coordination", "contacts per particle", GB_PICTURE_COLOURS_PARTICLES,
      .particles = colour_coordination},
     {"pressure", "mean particle stress", GB_PICTURE_COLOURS_PARTICLES,
-     .particles = colour_pressure},
+     .particles = colour_pressure, .dimension = GB_DIM_PRESSURE},
     {"bridges", "bridges per particle", GB_PICTURE_COLOURS_PARTICLES,
      .particles = colour_bridges},
-    {"size", "particle diameter", GB_PICTURE_COLOURS_PARTICLES, .particles = colour_size},
+    {"size", "particle diameter", GB_PICTURE_COLOURS_PARTICLES, .particles = colour_size,
+     .dimension = GB_DIM_LENGTH},
     {"displacement", "displacement since --since without the strain of the cell",
-     GB_PICTURE_COLOURS_PARTICLES, .particles = colour_displacement},
+     GB_PICTURE_COLOURS_PARTICLES, .particles = colour_displacement,
+     .dimension = GB_DIM_LENGTH},
     {"sign", "compressive or tensile force", GB_PICTURE_COLOURS_FORCES,
      .legend = {{"compressive", {38, 96, 160}}, {"tensile", {222, 104, 24}}},
      .force_class = by_sign},

@@ -2,6 +2,7 @@
 #define GB_DRAW_STYLE_PICTURE_COLOURS_H
 
 #include "draw/style/picture_style.h"
+#include "greenbody/dimension.h"
 
 /* The table of quantities that colour a picture (`--color`).  A quantity is a function and a
  * row in picture_colours.c; parser, messages and help follow from the row. */
@@ -16,6 +17,7 @@ struct gb_picture_colours_row {
     bool (*particles)(struct gb_picture_style *style, const struct gb_state *state,
                       const struct gb_picture_style_request *request,
                       struct gb_error *err);
+    enum gb_dimension dimension; /* of --range */
     /* Of forces: two classes, and the class of a contact (0 or 1). */
     struct gb_picture_style_legend legend[2];
     int (*force_class)(const struct gb_state *state, int64_t pair);

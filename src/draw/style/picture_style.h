@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "draw/image/palette.h"
 #include "greenbody/status.h"
 #include "io/state/state.h"
 
@@ -30,7 +31,11 @@ struct gb_picture_style_request {
     double cut_at;      /* fraction of the edge */
     bool cut_corner;    /* hides the octant nearest to the viewer */
     const struct gb_state *since; /* origin of displacements */
-    double low, high;             /* ends of the colour scale; equal: from the state */
+    double low, high;   /* ends of the colour scale in its unit; equal: see the next */
+    bool ranged;        /* ends of the colour scale are given; else from the state */
+    double range_si[2];
+    const struct gb_palette_map *map; /* colours of values; NULL: viridis */
+    bool log;                         /* logarithmic scale */
     double max_force_n;           /* force of the thickest rod, N; 0: from the state */
 };
 
@@ -40,9 +45,11 @@ void gb_picture_style_init(struct gb_picture_style_request *request);
 /* Scale of the colour bar. */
 struct gb_picture_style_scale {
     const char *title; /* with its unit; NULL: no bar */
-    bool whole;        /* one cell for each of 0, 1, ..., high */
+    bool whole;        /* one cell for each of low, low + 1, ..., high */
     double low, high;  /* values at the ends; equal: all particles have this value */
+    bool log;          /* low and high are above 0 */
     bool below, above; /* values exist beyond the ends */
+    const struct gb_palette_map *map;
 };
 
 /* Legend entry of a class of forces. */

@@ -12,6 +12,14 @@ bool gb_picture_style_parse_show(struct gb_picture_style_request *request,
                                  const char *text, struct gb_error *err);
 bool gb_picture_style_parse_slice(struct gb_picture_style_request *request,
                                   const char *text, struct gb_error *err);
+/* "0:200MPa" of the quantity that colours particles, with its unit, or "0:50nN" of forces:
+ * of the thickest rod.  After the colour. */
+bool gb_picture_style_parse_range(struct gb_picture_style_request *request,
+                                  const char *text, struct gb_error *err);
+bool gb_picture_style_parse_colormap(struct gb_picture_style_request *request,
+                                     const char *text, struct gb_error *err);
+/* Names of the scales of colours, separated by commas; g_free. */
+char *gb_picture_style_parse_colormaps(void);
 bool gb_picture_style_parse_cut(struct gb_picture_style_request *request,
                                 const char *text, struct gb_error *err);
 

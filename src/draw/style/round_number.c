@@ -29,3 +29,10 @@ double gb_round_number_above(double min)
     }
     return 10.0 * decade;
 }
+
+double gb_round_number_step(double rough)
+{
+    const double decade = pow(10.0, floor(log10(rough)));
+    const double share = rough / decade;
+    return (share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0) * decade;
+}
