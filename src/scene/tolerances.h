@@ -282,6 +282,11 @@
  * a rebuild.  More: an escaped particle moves the bed before a guard acts. */
 #define GB_ESCAPE_CHECK_STEPS 16
 
+/* Falls through the height of the die in which powder has to come to rest.  Fewer: beds without
+ * friction, which creep for some ten falls, are given up.  More: a bed that an unstable step
+ * keeps moving is given up later. */
+#define GB_REST_FALLS_MAX 100.0
+
 /* The same two while pouring, to detect that no particle falls any more. */
 #define GB_POURED_FALL       0.1
 #define GB_POURED_UNBALANCED 0.2

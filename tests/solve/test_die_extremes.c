@@ -167,6 +167,19 @@ static void test_bounce(void)
     finish(&outcome);
 }
 
+/* Contacts without dissipation keep the poured powder moving. */
+static void test_restless(void)
+{
+    const struct gb_params params =
+        die_params("particles.count=20", "contact.damping=0", NULL);
+    struct outcome outcome = press(&params, NULL);
+    g_assert_cmpint(outcome.how, ==, GB_STEP_STOPPED);
+    g_assert_cmpint(outcome.err.code, ==, GB_ERR_GUARD);
+    g_assert_nonnull(strstr(outcome.err.text, "does not come to rest"));
+    g_assert_cmpint(outcome.count, ==, 0);
+    finish(&outcome);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -174,5 +187,6 @@ int main(int argc, char **argv)
     g_test_add_func("/die/extremes/light_punch", test_light_punch);
     g_test_add_func("/die/extremes/sudden", test_sudden);
     g_test_add_func("/die/extremes/bounce", test_bounce);
+    g_test_add_func("/die/extremes/restless", test_restless);
     return g_test_run();
 }

@@ -41,6 +41,26 @@ static int64_t left_in_funnel(const struct gb_bed *bed)
     return left;
 }
 
+/* Duration of a fall through the die, free or with drag (T). */
+static double fall_time(const struct gb_leapfrog *leapfrog, double height)
+{
+    const double square = height / leapfrog->gravity;
+    return sqrt(2.0 * square) + leapfrog->drag * square;
+}
+
+bool gb_die_rest_check_time(const struct gb_die_stages *stages, const struct gb_bed *bed,
+                            struct gb_error *err)
+{
+    const struct gb_die_progress *now = &stages->now;
+    return now->stage_time <=
+               GB_REST_FALLS_MAX * fall_time(&now->leapfrog, bed->die.height) ||
+           gb_error_set(
+               err, GB_ERR_GUARD,
+               "the powder does not come to rest: it has moved for %.3g us, "
+               "%.0f falls through the die; accepted: a smaller numerics.safety, more contact.damping",
+               1e6 * now->stage_time * stages->scene.second_per_time, GB_REST_FALLS_MAX);
+}
+
 bool gb_die_rest_lasts(struct gb_die_stages *stages, const struct gb_bed *bed)
 {
     struct gb_die_progress *now = &stages->now;

@@ -6,6 +6,11 @@
 /* Whether the powder in a die is at rest.  Limits: GB_REST_... and GB_POURED_... of
  * scene/tolerances.h. */
 
+/* Fails with GB_ERR_GUARD when the powder has moved for GB_REST_FALLS_MAX falls through the
+ * die in a stage that ends at rest: its steps are unstable, say. */
+bool gb_die_rest_check_time(const struct gb_die_stages *stages, const struct gb_bed *bed,
+                            struct gb_error *err);
+
 /* Checks every GB_REST_CHECK_STEPS steps; true when the last GB_REST_CHECKS checks have
  * found the powder at rest. */
 bool gb_die_rest_lasts(struct gb_die_stages *stages, const struct gb_bed *bed);

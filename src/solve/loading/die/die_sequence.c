@@ -58,6 +58,14 @@ static void write_stage_event(const struct gb_die_stages *stages, const char *wh
              (long long)stages->now.steps);
 }
 
+static enum gb_die_sequence_state still_moves(const struct gb_die_stages *stages,
+                                              const struct gb_bed *bed,
+                                              struct gb_error *err)
+{
+    return gb_die_rest_check_time(stages, bed, err) ? GB_DIE_SEQUENCE_CONTINUES
+                                                    : GB_DIE_SEQUENCE_FAILED;
+}
+
 /* One function a stage: whether it has ended; the next one has then begun. */
 
 static enum gb_die_sequence_state check_pour(struct gb_die_stages *stages,
@@ -65,7 +73,7 @@ static enum gb_die_sequence_state check_pour(struct gb_die_stages *stages,
                                              struct gb_error *err)
 {
     if (!gb_die_rest_lasts(stages, bed)) {
-        return GB_DIE_SEQUENCE_CONTINUES;
+        return still_moves(stages, bed, err);
     }
     if (!gb_die_rest_check_funnel(bed, err)) {
         return GB_DIE_SEQUENCE_FAILED;
@@ -101,9 +109,8 @@ static enum gb_die_sequence_state check_settle(struct gb_die_stages *stages,
                                                struct gb_bed *bed, char *text,
                                                size_t size, struct gb_error *err)
 {
-    (void)err;
     if (!gb_die_rest_lasts(stages, bed)) {
-        return GB_DIE_SEQUENCE_CONTINUES;
+        return still_moves(stages, bed, err);
     }
     write_stage_event(stages, "settled", text, size);
     begin_flatten(stages, bed);
@@ -148,7 +155,7 @@ static enum gb_die_sequence_state check_rest(struct gb_die_stages *stages,
                                              struct gb_error *err)
 {
     if (!gb_die_rest_lasts(stages, bed)) {
-        return GB_DIE_SEQUENCE_CONTINUES;
+        return still_moves(stages, bed, err);
     }
     write_stage_event(stages, "at rest", text, size);
     return gb_die_sequence_begin_press(stages, bed, err) ? GB_DIE_SEQUENCE_ENDED
