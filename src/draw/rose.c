@@ -7,8 +7,11 @@
 #include "draw/image/palette.h"
 #include "pack/cell/cell.h"
 
-/* Meridians and parallels of the surface, segments of a ring. */
-enum { AROUND = 160, DOWN = 80, RING = 72 };
+/* Meridians and parallels of the surface, segments of a ring and of a planar rose. */
+enum { AROUND = 160, DOWN = 80, RING = 72, PLANAR = 2 * DOWN };
+
+/* Half a turn: the meridian of x > 0 goes on in that of x < 0. */
+enum { OPPOSITE = AROUND / 2 };
 
 static const double ring_radius = 0.008;
 static const double axis_radius = 0.012;
@@ -54,7 +57,8 @@ double gb_rose_reach(const struct gb_harmonics *rose)
 {
     double most = 1.0;
     for (int down = 0; down <= DOWN; down++) {
-        for (int around = 0; around < AROUND; around++) {
+        for (int around = 0; around < AROUND;
+             around += rose->dimension == 2 ? OPPOSITE : 1) {
             double towards[3];
             direction(around, down, towards);
             most = fmax(most, radius_at(rose, towards));
@@ -106,6 +110,30 @@ static void set_surface(struct gb_scene *scene, const struct gb_harmonics *rose,
     }
 }
 
+/* Of 2D: triangles from the centre to the outline in the plane y = 0. */
+static void set_plane(struct gb_scene *scene, const struct gb_harmonics *rose,
+                      double reach)
+{
+    const double centre[3] = {reach, reach, reach};
+    uint8_t *colour = scene->colour + 4 * (scene->count + scene->rods);
+    double eye[3];
+    gb_view_eye(&scene->view, centre, eye);
+    for (int k = 0; k < PLANAR; k++) {
+        float *facet = scene->facet + 9 * k;
+        double sum = 0.0;
+        for (int j = 0; j < 3; j++) {
+            facet[j] = (float)eye[j];
+        }
+        for (int end = 0; end < 2; end++) { /* 0 to DOWN on one side, back on the other */
+            const int at = k + end;
+            corner(scene, rose, reach, at <= DOWN ? 0 : OPPOSITE,
+                   at <= DOWN ? at : PLANAR - at, facet + 3 + 3 * end, &sum);
+        }
+        gb_palette_field(sum / 2.0 / reach, colour + 4 * k);
+        colour[4 * k + 3] = 255;
+    }
+}
+
 static void set_rod(struct gb_scene *scene, size_t index, const double from[3],
                     const double to[3], double reach, double radius)
 {
@@ -127,19 +155,23 @@ static void set_rod(struct gb_scene *scene, size_t index, const double from[3],
     colour[3] = 255;
 }
 
-/* Three axes through the centre, and three rings of radius 1. */
-static void set_frame(struct gb_scene *scene, double reach)
+/* Three axes through the centre, and three rings of radius 1; of 2D those of its plane. */
+static void set_frame(struct gb_scene *scene, const struct gb_harmonics *rose,
+                      double reach)
 {
+    const bool planar = rose->dimension == 2;
     size_t index = 0;
     for (int k = 0; k < 3; k++) {
         double from[3] = {0.0, 0.0, 0.0};
         double to[3] = {0.0, 0.0, 0.0};
         from[k] = -reach;
         to[k] = reach;
-        set_rod(scene, index++, from, to, reach, axis_radius);
+        if (!planar || k != 1) {
+            set_rod(scene, index++, from, to, reach, axis_radius);
+        }
     }
-    for (int k = 0; k < 3; k++) {
-        for (int piece = 0; piece < RING; piece++) {
+    for (int k = 0; k < 3; k++) { /* around axis k */
+        for (int piece = 0; piece < RING && (!planar || k == 1); piece++) {
             double ends[2][3] = {{0.0}};
             for (int end = 0; end < 2; end++) {
                 const double a = 2.0 * M_PI * (piece + end) / RING;
@@ -155,13 +187,23 @@ bool gb_rose_scene(struct gb_scene **out, const struct gb_harmonics *rose, doubl
                    const struct gb_viewpoint *viewpoint, const struct gb_frame *frame,
                    enum gb_background background, struct gb_error *err)
 {
-    const size_t parts[3] = {0, 3 + 3 * RING, 2 * (size_t)AROUND * DOWN};
+    static const struct gb_viewpoint along_y = {.azimuth_deg = -90.0,
+                                                .orthographic = true};
+    const bool planar = rose->dimension == 2;
+    const size_t parts[3] = {0, planar ? 2 + RING : 3 + 3 * RING,
+                             planar ? PLANAR : 2 * (size_t)AROUND * DOWN};
     const double cell[3] = {2.0 * reach, 2.0 * reach, 2.0 * reach};
-    if (!gb_scene_begin(out, cell, 0.0, parts, viewpoint, frame, background, err)) {
+    if (!gb_scene_begin(out, cell, 0.0, parts, planar ? &along_y : viewpoint, frame,
+                        background, err)) {
         return false;
     }
-    set_frame(*out, reach);
-    set_surface(*out, rose, reach);
+    set_frame(*out, rose, reach);
+    if (planar) {
+        set_plane(*out, rose, reach);
+        (*out)->shadow_share = 0.0F;
+    } else {
+        set_surface(*out, rose, reach);
+    }
     (*out)->diameter = 0.15F; /* length of occlusion and shadows */
     (*out)->depth_cue = 0.0F;
     return true;

@@ -8,7 +8,8 @@
 
 /* The rose of forces as a closed surface: its radius in each direction is the mean
  * normal force of the contacts along it, over the mean of all.  Without anisotropy it is
- * a sphere of radius 1; the rings have that radius. */
+ * a sphere of radius 1; the rings have that radius.  Of a packing in 2D it is a figure in
+ * the plane of x and z, seen along y, with one ring. */
 
 /* Fits the contacts of a packing.  Errors: those of gb_harmonics_fit. */
 bool gb_rose_of_state(struct gb_harmonics *rose, const struct gb_state *state,

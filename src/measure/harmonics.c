@@ -63,7 +63,7 @@ bool gb_harmonics_fit(struct gb_harmonics *rose, int dimension, const double *ax
     double matrix[GB_HARMONICS_TERMS * GB_HARMONICS_TERMS];
     double right[GB_HARMONICS_TERMS];
     const size_t terms = dimension == 2 ? PLANAR_TERMS : GB_HARMONICS_TERMS;
-    *rose = (struct gb_harmonics){.count = count};
+    *rose = (struct gb_harmonics){.count = count, .dimension = dimension};
     if (count < terms) {
         return gb_error_set(err, GB_ERR_INPUT, "rose of %zu forces: must be at least %zu",
                             count, terms);

@@ -15,6 +15,7 @@ struct gb_harmonics {
     double term[GB_HARMONICS_TERMS];
     double mean; /* over all values, not over directions */
     size_t count;
+    int dimension; /* 2: of the plane y = 0 */
 };
 
 /* Least squares over count values; axis: count x 3, of any length above 0.  In 2D

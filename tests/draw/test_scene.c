@@ -7,6 +7,7 @@
 
 #include "draw/image/image.h"
 #include "draw/image/palette.h"
+#include "draw/rose.h"
 
 static const struct gb_frame frame = {100.0, 50.0, 800.0, 600.0};
 
@@ -209,6 +210,36 @@ static void test_planar(void)
     gb_state_destroy(state);
 }
 
+/* Forces of discs have no direction out of their plane: neither has the rose. */
+static void test_planar_rose(void)
+{
+    enum { FORCES = 64 };
+    static double axis[3 * FORCES], value[FORCES];
+    struct gb_error err = {0};
+    struct gb_scene *scene = NULL;
+    struct gb_harmonics rose;
+    const struct gb_viewpoint viewpoint = {.azimuth_deg = -58.0, .elevation_deg = 20.0};
+    for (int k = 0; k < FORCES; k++) {
+        axis[3 * k] = cos(M_PI * k / FORCES);
+        axis[3 * k + 2] = sin(M_PI * k / FORCES);
+        value[k] = 1.0 + 0.5 * axis[3 * k + 2] * axis[3 * k + 2];
+    }
+    g_assert_true(gb_harmonics_fit(&rose, 2, axis, value, FORCES, &err));
+    const double reach = gb_rose_reach(&rose);
+    g_assert_cmpfloat_with_epsilon(reach, 1.4, 1e-9); /* 1.5/1.25, rounded up */
+    g_assert_true(gb_rose_scene(&scene, &rose, reach, &viewpoint, &frame,
+                                GB_BACKGROUND_WHITE, &err));
+    g_assert_true(scene->view.orthographic);
+    for (size_t k = 0; k < 3 * scene->facets; k++) { /* eye coordinates: x, y, depth */
+        g_assert_cmpfloat_with_epsilon(scene->facet[3 * k + 2], scene->facet[2], 1e-6F);
+    }
+    for (size_t k = 0; k < scene->rods; k++) {
+        g_assert_cmpfloat_with_epsilon(scene->rod[8 * k + 2], scene->facet[2], 1e-6F);
+        g_assert_cmpfloat_with_epsilon(scene->rod[8 * k + 6], scene->facet[2], 1e-6F);
+    }
+    gb_scene_destroy(scene);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -220,5 +251,6 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/scene/scene", test_scene);
     g_test_add_func("/draw/scene/die", test_die);
     g_test_add_func("/draw/scene/planar", test_planar);
+    g_test_add_func("/draw/scene/planar-rose", test_planar_rose);
     return g_test_run();
 }

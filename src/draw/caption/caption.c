@@ -97,6 +97,9 @@ static void label_axes(const struct gb_caption_pen *pen, const struct gb_scene *
         double eye[3];
         double pixel[2];
         const double side = scene->view.away[k] > 0.3 ? -1.0 : 1.0;
+        if (fabs(scene->view.away[k]) > 0.99) { /* along the view: in the middle */
+            continue;
+        }
         point[k] += 1.08 * side * reach;
         gb_view_eye(&scene->view, point, eye);
         gb_view_pixel(&scene->view, eye, pixel);
