@@ -49,6 +49,7 @@ bool gb_quick_params(const struct gb_params *full, struct gb_params *quick)
     quick->tolerance = NAN;
     quick->tolerance_scale = GB_TOLERANCE_CONTACT;
     quick->strain_part = NAN;
+    quick->precision = GB_PRECISION_AUTO;
     snprintf(quick->relaxer, sizeof quick->relaxer, "auto");
     const struct gb_loading_kind *kind = gb_loading_kind_of(full);
     if (kind->follows_time && !(kind->given_rate && shrink_dynamic(quick))) {
@@ -57,8 +58,11 @@ bool gb_quick_params(const struct gb_params *full, struct gb_params *quick)
     return gb_params_check(quick, NULL);
 }
 
+/* The reference takes the work of a small cell 36 times (run/cost.c). */
 bool gb_quick_enough(const struct gb_params *full)
 {
     struct gb_params quick;
-    return gb_quick_params(full, &quick) && full->count <= quick.count;
+    const bool slow = full->fidelity == GB_FIDELITY_REFERENCE &&
+                      !gb_loading_kind_of(full)->follows_time;
+    return gb_quick_params(full, &quick) && full->count <= quick.count && !slow;
 }

@@ -36,6 +36,29 @@ static void test_small(void)
     g_assert_cmpfloat(quick.base.value, ==, 6.0);
 }
 
+/* Whatever the accuracy of the full cell: a small one in the accuracy of the reference is no
+ * quick cell itself. */
+static void test_reference(void)
+{
+    struct gb_params quick, of_fast;
+    const struct gb_params full =
+        scene_params("particles.count=1000", "numerics.fidelity=reference",
+                     "numerics.precision=double", "numerics.relaxer=fire", NULL);
+    const struct gb_params fast =
+        scene_params("particles.count=1000", "numerics.fidelity=fast", NULL);
+    g_assert_true(gb_quick_params(&full, &quick));
+    g_assert_true(gb_quick_params(&fast, &of_fast));
+    for (size_t i = 0, count = 0; i == 0 || i < count; i++) {
+        char of[256], other[256];
+        const struct gb_field *field = &gb_params_fields(&count)[i];
+        gb_params_format(&quick, field, of, sizeof of);
+        gb_params_format(&of_fast, field, other, sizeof other);
+        g_assert_cmpstr(of, ==, other);
+    }
+    g_assert_false(gb_quick_enough(&full));
+    g_assert_true(gb_quick_enough(&fast));
+}
+
 static struct gb_params planar(const char *rate)
 {
     static const char *const scene[] = {
@@ -67,6 +90,7 @@ int main(int argc, char **argv)
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/run/quick/quasistatic", test_quasistatic);
     g_test_add_func("/run/quick/small", test_small);
+    g_test_add_func("/run/quick/reference", test_reference);
     g_test_add_func("/run/quick/dynamic", test_dynamic);
     return g_test_run();
 }
