@@ -33,8 +33,8 @@ below() {
 layer_of_public() {
     case $1 in
     dimension.h | status.h) echo base ;;
-    params.h) echo scene ;;
-    curve.h | point.h | snapshot.h) echo io ;;
+    params.h | stage.h) echo scene ;;
+    curve.h | point.h | snapshot.h | view_sample.h) echo io ;;
     outcome.h) echo run ;;
     array.h | contact_law.h | greenbody.h | parameters.h | recorded_run.h | \
         saved_state.h | simulation.h) echo api ;;

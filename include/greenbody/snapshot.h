@@ -5,7 +5,9 @@
 #include <stdint.h>
 
 #include "greenbody/curve.h"
+#include "greenbody/stage.h"
 #include "greenbody/status.h"
+#include "greenbody/view_sample.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,6 +32,7 @@ struct gb_snapshot {
     enum gb_run_state state;
     struct gb_point now; /* the last relaxed state (also between recorded points) */
     bool now_valid;
+    struct gb_stage_report stage; /* GB_STAGE_NONE: a run that is not in a die */
     double
         histogram[GB_SNAPSHOT_HISTOGRAM]; /* share of particles with 0, 1, ... contacts */
     double rose[GB_SNAPSHOT_ROSE]; /* mean f_n (E d^2) in 5 degree bins of angle to z;
@@ -46,23 +49,6 @@ struct gb_snapshot {
     struct gb_error
         error; /* why it failed or stopped; of a run that is done, goals that it
                               has not reached */
-};
-
-enum { GB_VIEW_SAMPLE_POINTS = 4096, GB_VIEW_SAMPLE_RDF = 160 };
-
-/* Particles near the front of the cell and g(r), for the screen: plain data, taken less
- * often than the snapshot.  Lengths in mean particle diameters. */
-struct gb_view_sample {
-    bool valid;
-    int dimension;
-    double density;
-    double edge[3];   /* of the whole cell */
-    double window[3]; /* the part that is shown; its front is y = 0 */
-    int count;
-    float position[GB_VIEW_SAMPLE_POINTS][3];
-    float radius[GB_VIEW_SAMPLE_POINTS];
-    double rdf_reach;               /* g(r) ends there; 0: it is missing */
-    double rdf[GB_VIEW_SAMPLE_RDF]; /* bin k: [k, k+1) rdf_reach / GB_VIEW_SAMPLE_RDF */
 };
 
 #ifdef __cplusplus

@@ -8,7 +8,7 @@
 #include "base/alloc.h"
 #include "hdf/hdf_record.h"
 #include "io/follow.h"
-#include "io/status_json.h"
+#include "io/status/status_json.h"
 #include "run/checkpoint.h"
 
 struct gb_recorded_run {

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/text/visible.h"
+#include "io/status/stage_text.h"
 
 static const double terminal_every_s = 0.25;
 static const double plain_every_s = 5.0;
@@ -65,10 +66,30 @@ static void format_left(double seconds, char *text, size_t size)
     }
 }
 
+/* A run in a die: its stage, and the density where that changes by the pressure.  Powder comes
+ * to rest when it does: no time is told then. */
+static void format_stage(const struct gb_snapshot *shot, char *line, size_t size)
+{
+    char left[48], where[128], density[32] = "";
+    const enum gb_stage stage = shot->stage.stage;
+    format_left(shot->seconds_left, left, sizeof left);
+    gb_stage_text_line(&shot->stage, where, sizeof where);
+    if (shot->now_valid && (stage == GB_STAGE_PRESS || stage == GB_STAGE_UNLOADING)) {
+        snprintf(density, sizeof density, "  density %.4f", shot->now.density);
+    }
+    snprintf(line, size, "%s%s  %.3gk steps/s  %.0f %%  %s", where, density,
+             shot->evaluations_per_s / 1e3, 100.0 * shot->progress,
+             shot->seconds_left >= 0.0 ? left : "estimating");
+}
+
 static void format_line(const struct gb_snapshot *shot, char *line, size_t size)
 {
     char left[48];
     char where[64] = "relaxing the start";
+    if (shot->stage.stage != GB_STAGE_NONE) {
+        format_stage(shot, line, size);
+        return;
+    }
     format_left(shot->seconds_left, left, sizeof left);
     if (shot->now_valid) {
         snprintf(where, sizeof where, "density %.4f  p %.4g MPa", shot->now.density,

@@ -12,7 +12,8 @@
 #include "base/table.h"
 #include "io/point_columns.h"
 #include "io/preset.h"
-#include "io/status_json.h"
+#include "io/status/stage_text.h"
+#include "io/status/status_json.h"
 #include "scene/path/path.h"
 
 bool gb_follow_params(const char *directory, struct gb_params *params,
@@ -157,6 +158,26 @@ static void fill_array(JsonObject *json, const char *name, double *values, guint
     }
 }
 
+static void fill_stage(JsonObject *json, struct gb_stage_report *stage)
+{
+    JsonNode *node = json_object_get_member(json, "stage");
+    *stage = (struct gb_stage_report){.timed = (double)NAN};
+    if (node == NULL || !JSON_NODE_HOLDS_OBJECT(node)) {
+        return;
+    }
+    JsonObject *from = json_node_get_object(node);
+    stage->stage = gb_stage_text_find(word(from, "name"));
+    stage->measure = gb_stage_text_find_quantity(word(from, "measure"));
+    stage->value = number(from, "value", (double)NAN);
+    stage->goal = number(from, "goal", (double)NAN);
+    stage->share = number(from, "share", (double)NAN);
+    stage->poured = (int64_t)number(from, "poured", 0.0);
+    stage->time_s = number(from, "time_s", (double)NAN);
+    stage->height_m = number(from, "height_m", (double)NAN);
+    stage->kinetic_j = number(from, "kinetic_J", (double)NAN);
+    stage->coordination = number(from, "coordination", (double)NAN);
+}
+
 static void fill_status(JsonObject *json, struct gb_snapshot *shot,
                         struct gb_follow_engine *engine)
 {
@@ -173,6 +194,7 @@ static void fill_status(JsonObject *json, struct gb_snapshot *shot,
     shot->events = (int64_t)number(json, "events", 0.0);
     fill_array(json, "histogram", shot->histogram, GB_SNAPSHOT_HISTOGRAM);
     fill_array(json, "rose", shot->rose, GB_SNAPSHOT_ROSE);
+    fill_stage(json, &shot->stage);
     g_strlcpy(shot->event, word(json, "event"), sizeof shot->event);
     shot->error = (struct gb_error){0};
     if (word(json, "error")[0] != '\0') {

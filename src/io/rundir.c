@@ -12,7 +12,7 @@
 #include <glib/gstdio.h>
 
 #include "io/rundir_files.h"
-#include "io/status_json.h"
+#include "io/status/status_json.h"
 
 static int open_directory(const char *path)
 {

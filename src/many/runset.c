@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "io/follow.h"
-#include "io/status_json.h"
+#include "io/status/status_json.h"
 #include "many/key_difference.h"
 
 bool gb_runset_same(const struct gb_params *a, const struct gb_params *b)

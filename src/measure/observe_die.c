@@ -76,6 +76,19 @@ void gb_observe_die_contacts(const struct gb_bed *bed, struct gb_contact_counts 
     counts->coordination = 2.0 * (double)counts->contacts / (double)bed->count;
 }
 
+double gb_observe_die_filled(const struct gb_bed *bed)
+{
+    double top = 0.0;
+    count_each(bed, true, bed->counts);
+    for (int64_t i = 0; i < bed->count; i++) {
+        const double *x = bed->position[i];
+        if (bed->counts[i] > 0 && x[2] < bed->die.height) {
+            top = fmax(top, x[2] + x[3]);
+        }
+    }
+    return top;
+}
+
 void gb_observe_die_wall(const struct gb_bed *bed, double height, int bands,
                          double *pressure)
 {

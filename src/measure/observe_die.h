@@ -20,6 +20,10 @@ double gb_observe_die_central(const struct gb_bed *bed, double height, double ra
 void gb_observe_die_contacts(const struct gb_bed *bed, struct gb_contact_counts *counts,
                              double *share, int bins, int32_t *each);
 
+/* Height of the powder below the funnel: of the highest particle there that touches
+ * another one or a wall; 0 without one. */
+double gb_observe_die_filled(const struct gb_bed *bed);
+
 /* As gb_observe_rose, of contacts between particles. */
 void gb_observe_die_rose(const struct gb_bed *bed, int bins, double *mean);
 

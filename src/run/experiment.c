@@ -257,3 +257,8 @@ const struct gb_world *gb_experiment_world(const struct gb_experiment *experimen
 {
     return experiment->loading->world;
 }
+
+const struct gb_bed *gb_experiment_bed(const struct gb_experiment *experiment)
+{
+    return experiment->loading->bed;
+}

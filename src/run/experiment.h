@@ -15,6 +15,7 @@
 /* One simulation: parameters to recorded points.  No threads, no files, no printing. */
 struct gb_experiment;
 struct gb_world;
+struct gb_bed;
 
 /* Freezes the parameters and builds the initial structure.  cancelled (may be NULL) is
  * polled with its data during the growth; true makes it fail with GB_ERR_CANCELLED. */
@@ -63,6 +64,8 @@ const struct gb_model *gb_experiment_model(const struct gb_experiment *experimen
 const struct gb_params *gb_experiment_params(const struct gb_experiment *experiment);
 /* NULL for dies. */
 const struct gb_world *gb_experiment_world(const struct gb_experiment *experiment);
+/* NULL for periodic cells. */
+const struct gb_bed *gb_experiment_bed(const struct gb_experiment *experiment);
 /* Of the forces, since the start. */
 int64_t gb_experiment_evaluations(const struct gb_experiment *experiment);
 

@@ -1,5 +1,6 @@
 #include "run/pace.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Bounds of a slice, s: shorter slices spend noticeable time between them, longer ones
@@ -25,12 +26,18 @@ void gb_pace_init(struct gb_pace *pace)
  * mean whose memory is a third of the time so far. */
 static void add_progress(struct gb_pace *pace, double seconds, double progress)
 {
+    if (!isfinite(progress) || !pace->begun) {
+        pace->begun = isfinite(progress);
+        pace->progress = pace->begun ? progress : 0.0;
+        pace->progress_at = pace->progress_from = seconds;
+        return;
+    }
     const double dt = seconds - pace->progress_at;
     if (!(dt > 0.0) || !(progress >= pace->progress)) {
         return;
     }
     const double rate = (progress - pace->progress) / dt;
-    double weight = 3.0 * dt / seconds;
+    double weight = 3.0 * dt / (seconds - pace->progress_from);
     if (weight > 1.0) {
         weight = 1.0;
     }
@@ -80,7 +87,8 @@ double gb_pace_left(const struct gb_pace *pace)
     if (pace->progress >= 1.0) {
         return 0.0;
     }
-    if (pace->progress_at < left_known_s || pace->progress < left_known_progress ||
+    if (pace->progress_at - pace->progress_from < left_known_s ||
+        pace->progress < left_known_progress ||
         !(pace->progress_rate > 0.0)) {
         return -1.0;
     }

@@ -15,12 +15,14 @@ struct gb_pace {
     int filled, next;
     /* progress per second, recent times weighing more */
     double progress, progress_at, progress_rate;
+    double progress_from; /* seconds of the first report of it */
+    bool begun;           /* there was one */
     int64_t slice;
 };
 
 void gb_pace_init(struct gb_pace *pace);
 
-/* Takes in one report. */
+/* Takes in one report; progress: NaN while it says nothing of the time left. */
 void gb_pace_add(struct gb_pace *pace, double seconds, int64_t evaluations,
                  double progress);
 

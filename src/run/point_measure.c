@@ -221,6 +221,29 @@ void gb_point_measure_step(const struct gb_loading *loading, double elastic_star
     }
 }
 
+/* Before its first point a run in a die is known by these alone. */
+static void measure_stage(const struct gb_loading *loading, double coordination,
+                          struct gb_stage_report *report)
+{
+    const double none = (double)NAN;
+    *report = (struct gb_stage_report){.value = none,
+                                       .goal = none,
+                                       .share = none,
+                                       .timed = none,
+                                       .time_s = none,
+                                       .height_m = none,
+                                       .kinetic_j = none,
+                                       .coordination = coordination};
+    if (loading->mode->stage == NULL) {
+        return;
+    }
+    loading->mode->stage(loading, report);
+    if (loading->bed->die.funnel) {
+        report->height_m =
+            gb_observe_die_filled(loading->bed) * loading->model->metre_per_length;
+    }
+}
+
 void gb_point_measure_live(const struct gb_loading *loading, struct gb_snapshot *snapshot)
 {
     const struct gb_loading_report report = loading->mode->report(loading);
@@ -234,6 +257,7 @@ void gb_point_measure_live(const struct gb_loading *loading, struct gb_snapshot 
                             GB_SNAPSHOT_HISTOGRAM, NULL);
         gb_observe_rose(loading->world, GB_SNAPSHOT_ROSE, snapshot->rose);
     }
+    measure_stage(loading, counts.coordination, &snapshot->stage);
     snapshot->evaluations = gb_loading_evaluations(loading);
     snapshot->live_residual = report.residual;
     if (gb_loading_kind_of(loading->params)->follows_time) {

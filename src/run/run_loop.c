@@ -84,7 +84,8 @@ static void observe_rate(struct gb_run_loop *loop)
 {
     struct gb_snapshot *snapshot = &loop->snapshot;
     gb_pace_add(&loop->pace, snapshot->seconds - loop->packed_s, snapshot->evaluations,
-                snapshot->progress);
+                snapshot->stage.stage != GB_STAGE_NONE ? snapshot->stage.timed
+                                                       : snapshot->progress);
     snapshot->evaluations_per_s = gb_pace_rate(&loop->pace);
     snapshot->particle_evaluations_per_s =
         snapshot->evaluations_per_s *

@@ -16,6 +16,7 @@
 static void free_runner(struct gb_runner *runner)
 {
     gb_record_finish(&runner->record);
+    gb_view_sampling_finish(&runner->view_start);
     gb_simulation_destroy(runner->simulation);
     g_free(runner->directory);
     gb_alloc_free(runner);

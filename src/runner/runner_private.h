@@ -8,6 +8,7 @@
 #include "api/simulation_private.h"
 #include "runner/publish.h"
 #include "runner/runner.h"
+#include "runner/view_sampling.h"
 
 /* Members of gb_runner, for runner.c (creation, calls of the screen's thread),
  * engine_thread.c and follow_thread.c (the two threads) and runner_publish.c (what the
@@ -28,6 +29,7 @@ struct gb_runner {
     struct gb_publish publish;
     struct gb_publish_slots view_slots; /* of the view samples */
     struct gb_view_sample view[3];
+    struct gb_view_start view_start; /* of the thread alone */
     struct gb_command_ring ring;
 
     /* guarded by the mutex: a paused engine sleeps on wake */

@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "runner/runner_private.h"
-#include "runner/view_sample.h"
+#include "runner/view_sampling.h"
 
 /* The screen draws at most ten frames per second, and each snapshot costs a sweep over
  * the contacts: the shortest interval (s), and the largest share of the engine's time. */
@@ -60,7 +60,8 @@ void gb_runner_publish_view(struct gb_runner *runner)
     if (gb_runner_loop(runner)->experiment == NULL || !runner->view_wanted) {
         return;
     }
-    gb_view_sample_take(gb_runner_loop(runner)->experiment, &runner->view[runner->view_slots.back]);
+    gb_view_sampling_take(gb_runner_loop(runner)->experiment, &runner->view_start,
+                        &runner->view[runner->view_slots.back]);
     gb_publish_slots_swap(&runner->view_slots);
     runner->sampled_s = gb_clock_s();
     runner->sample_cost_s = runner->sampled_s - before;

@@ -13,7 +13,7 @@
 #include "io/follow.h"
 #include "io/preset.h"
 #include "io/rundir.h"
-#include "io/status_json.h"
+#include "io/status/status_json.h"
 #include "io/store.h"
 
 static char *base; /* a folder of its own for each test */

@@ -315,11 +315,100 @@ static void test_resume(void)
     gb_record_finish(&resumed);
 }
 
+/* What a display is told of a run, slice by slice. */
+struct told {
+    bool seen[GB_STAGES];
+    enum gb_stage stage;
+    double progress, timed;
+    int64_t poured;
+};
+
+static void check_stage(const struct gb_stage_report *now, const struct told *before)
+{
+    g_assert_cmpint(now->stage, >=, before->stage);
+    g_assert_cmpint(now->measure, !=, GB_STAGE_MEASURE_NONE);
+    g_assert_true(now->share >= 0.0 && now->share <= 1.0);
+    g_assert_true(now->time_s >= 0.0 && now->kinetic_j >= 0.0 && now->height_m >= 0.0);
+    g_assert_cmpint(now->poured, <=, 150);
+    switch (now->stage) {
+    case GB_STAGE_FILLING:
+        g_assert_cmpfloat(now->goal, ==, 150.0);
+        g_assert_cmpfloat(now->value, ==, (double)now->poured);
+        break;
+    case GB_STAGE_RESTING:
+        g_assert_cmpfloat(now->goal, ==, 1.0);
+        break;
+    case GB_STAGE_FLATTENING:
+        g_assert_cmpfloat(now->value, <, 1.01 * now->goal);
+        break;
+    case GB_STAGE_PRESS:
+        g_assert_cmpint(now->measure, ==, GB_STAGE_MEASURE_PRESSURE);
+        g_assert_cmpfloat_with_epsilon(now->goal, 50e6, 1.0);
+        break;
+    default:
+        break;
+    }
+    /* The time left is estimated from pressing on alone; how far the punch is drawn off is known
+     * when pressing has ended. */
+    const double known = now->stage > before->stage ? 0.05 : 0.0;
+    g_assert_true(now->stage >= GB_STAGE_PRESS ? now->timed >= before->timed - known
+                                               : isnan(now->timed));
+}
+
+static struct told tell(const struct gb_params *params)
+{
+    struct told told = {.stage = GB_STAGE_NONE};
+    static struct gb_snapshot shot;
+    struct gb_error err = {0};
+    struct gb_experiment *experiment = NULL;
+    enum gb_step_outcome how = GB_STEP_MORE;
+    if (!gb_experiment_create(&experiment, params, NULL, NULL, &err)) {
+        g_error("%s", err.text);
+    }
+    while ((how = gb_experiment_advance(experiment, 1000, &err)) <= GB_STEP_POINT) {
+        gb_experiment_observe(experiment, &shot);
+        g_assert_cmpfloat(shot.progress, >=, told.progress - 1e-12);
+        told.progress = shot.progress;
+        if (shot.stage.stage != GB_STAGE_NONE) {
+            check_stage(&shot.stage, &told);
+            told.stage = shot.stage.stage;
+            told.timed = told.stage < GB_STAGE_PRESS ? 0.0 : shot.stage.timed;
+            told.seen[told.stage] = true;
+            g_assert_cmpint(shot.stage.poured, >=, told.poured);
+            told.poured = shot.stage.poured;
+        }
+    }
+    g_assert_cmpint(how, ==, GB_STEP_DONE);
+    gb_experiment_destroy(experiment);
+    return told;
+}
+
+/* Every stage is told, in its order, with a measure of its own; progress never falls. */
+static void test_stages(void)
+{
+    const struct gb_params params = die_params(NULL);
+    const struct told told = tell(&params);
+    for (int k = GB_STAGE_FILLING; k <= GB_STAGE_PRESS; k++) {
+        g_assert_true(told.seen[k]);
+    }
+    g_assert_false(told.seen[GB_STAGE_UNLOADING]);
+    g_assert_cmpint(told.poured, ==, 150);
+    g_assert_cmpfloat(told.timed, >, 0.98);
+    const struct gb_params whole = die_params("die.cycle=full", "loading.rest_time=4 us",
+                                              "die.eject_speed=4 m/s", NULL);
+    const struct told cycle = tell(&whole);
+    for (int k = GB_STAGE_FILLING; k < GB_STAGES; k++) {
+        g_assert_true(cycle.seen[k]);
+    }
+    g_assert_cmpfloat(cycle.timed, >, 0.98);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
     g_test_add_func("/die/whole", test_whole);
     g_test_add_func("/die/same_bits", test_same_bits);
+    g_test_add_func("/die/stages", test_stages);
     g_test_add_func("/die/clogged", test_clogged);
     g_test_add_func("/die/step_above_critical", test_step_above_critical);
     g_test_add_func("/die/faults", test_faults);

@@ -1,4 +1,5 @@
 #include <glib.h>
+#include <math.h>
 
 #include "run/pace.h"
 
@@ -38,6 +39,29 @@ static void test_end(void)
     g_assert_cmpfloat(gb_pace_left(&pace), ==, 0.0);
 }
 
+/* A run that says nothing of its time left for 40 s, as a die that is filled: then the rate
+ * is that from there on, and the time falls as time passes. */
+static void test_begins_late(void)
+{
+    struct gb_pace pace;
+    gb_pace_init(&pace);
+    for (int i = 0; i <= 400; i++) {
+        gb_pace_add(&pace, 0.1 * i, i, NAN);
+        g_assert_cmpfloat(gb_pace_left(&pace), <, 0.0);
+    }
+    for (int i = 1; i <= 200; i++) {
+        gb_pace_add(&pace, 40.0 + 0.1 * i, 400 + i, 0.001 * i);
+        if (i >= 10) {
+            g_assert_cmpfloat_with_epsilon(gb_pace_left(&pace), 0.1 * (1000 - i), 1.0);
+        }
+    }
+    gb_pace_init(&pace); /* one that is resumed at half of its way */
+    for (int i = 0; i <= 20; i++) {
+        gb_pace_add(&pace, 0.1 * i, i, 0.5 + 0.001 * i);
+    }
+    g_assert_cmpfloat_with_epsilon(gb_pace_left(&pace), 48.0, 1.0);
+}
+
 static void test_slice(void)
 {
     struct gb_pace pace;
@@ -62,6 +86,7 @@ int main(int argc, char **argv)
     g_test_add_func("/run/pace/rate", test_rate);
     g_test_add_func("/run/pace/window-slides", test_window_slides);
     g_test_add_func("/run/pace/end", test_end);
+    g_test_add_func("/run/pace/begins-late", test_begins_late);
     g_test_add_func("/run/pace/slice", test_slice);
     return g_test_run();
 }

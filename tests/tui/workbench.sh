@@ -111,6 +111,15 @@ hides "c closes it" 'greenbody run mine'
 
 # --- a picture from the stored run, made beside the screen
 keys s
+shows "s asks what to show" 'colour *coordination number'
+keys Down Right Down Right
+shows "a choice is changed" 'colour *pressure'
+shows "another" '< the nearest corner >'
+keys Escape
+hides "Esc makes none" 'coordination number'
+keys s
+shows "as it opens it is the usual picture" '< particles >'
+keys Enter
 if "$greenbody" --version | grep -q 'no pictures'; then
     told "s says that there are no pictures" 'this build has no pictures'
 else

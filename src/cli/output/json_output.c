@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/text/visible.h"
-#include "io/status_json.h"
+#include "io/status/status_json.h"
 
 static void print_node(JsonNode *root)
 {

@@ -6,7 +6,7 @@
 
 #include "io/follow.h"
 #include "io/rundir.h"
-#include "io/status_json.h"
+#include "io/status/status_json.h"
 
 enum { BLOCK = 512 }; /* unit of st_blocks */
 

@@ -7,6 +7,7 @@
 
 #include "base/record.h"
 #include "greenbody/params.h"
+#include "greenbody/stage.h"
 #include "greenbody/status.h"
 #include "pack/cell/world.h"
 #include "pack/die/bed.h"
@@ -109,6 +110,10 @@ struct gb_loading_mode {
     /* Goals that a loading which has ended never reached, as one line into text; false:
      * none.  NULL where a mode ends by its goals or stops. */
     bool (*missed)(const struct gb_loading *loading, char *text, size_t size);
+    /* Stage of the run and how far it has come, right after an evaluation; coordination and
+     * height of the powder stay unknown where the mode does not measure them.  NULL where
+     * a mode has no stages. */
+    void (*stage)(const struct gb_loading *loading, struct gb_stage_report *report);
 };
 
 /* THE table, by enum gb_kind. */

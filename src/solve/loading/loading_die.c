@@ -5,6 +5,7 @@
 #include "base/units.h"
 #include "pack/die/filling.h"
 #include "scene/tolerances.h"
+#include "solve/loading/die/die_measure.h"
 #include "solve/loading/die/die_stages.h"
 #include "solve/loading/loading.h"
 
@@ -201,6 +202,26 @@ static bool missed(const struct gb_loading *loading, char *text, size_t size)
     return never || scale * die->last < enough;
 }
 
+static void stage(const struct gb_loading *loading, struct gb_stage_report *report)
+{
+    const struct die_loading *die = (const struct die_loading *)(const void *)loading;
+    const struct gb_model *model = loading->model;
+    const double scale[GB_STAGE_MEASURES] = {
+        [GB_STAGE_MEASURE_TRAVEL] = model->metre_per_length,
+        [GB_STAGE_MEASURE_PRESSURE] = model->pascal_per_stress,
+        [GB_STAGE_MEASURE_TIME] = model->die.second_per_time};
+    gb_die_measure_stage(die->stages, loading->bed, report);
+    if (scale[report->measure] > 0.0) {
+        report->value *= scale[report->measure];
+        report->goal *= scale[report->measure];
+    }
+    const struct gb_die_stages_report now = stages_report(loading);
+    report->time_s = now.time * model->die.second_per_time;
+    report->height_m = now.height * model->metre_per_length;
+    report->kinetic_j = gb_bed_kinetic_energy(loading->bed).translational *
+                        model->newton_per_force * model->metre_per_length;
+}
+
 const struct gb_loading_mode gb_loading_die = {
     .size = sizeof(struct die_loading),
     .build = build,
@@ -212,4 +233,5 @@ const struct gb_loading_mode gb_loading_die = {
     .report = report,
     .progress = progress,
     .missed = missed,
+    .stage = stage,
 };

@@ -96,7 +96,7 @@ static void draw(struct gb_app *app)
     }
     gb_term_flush(screen->term);
     gb_term_image_after(&screen->image, screen->term, gb_screen_sample(screen),
-                        &screen->plot.field, gb_clock_s());
+                        &screen->plot.look, &screen->plot.field, gb_clock_s());
     app->frame_s[app->frames++ % app->frames_max] = gb_clock_s();
     app->redraw = app->input_pending = false;
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "tui/app/command/key_commands.h"
+#include "tui/view/views.h"
 
 static void draw_params(struct gb_screen *screen, const struct gb_paint *paint,
                         enum gb_paint_focus focus)
@@ -47,6 +48,10 @@ static void draw_plot(struct gb_screen *screen, const struct gb_paint *paint,
 
 static void navigate_plot(struct gb_screen *screen, enum gb_action action)
 {
+    if (screen->plot.view->navigate != NULL) {
+        screen->plot.view->navigate(&screen->plot, action);
+        return;
+    }
     gb_panel_plot_cursor_navigate(&screen->plot, &screen->session, action);
 }
 

@@ -27,12 +27,18 @@ static void draw_header(struct gb_screen *screen)
     } else if (shown.curve != NULL) {
         word = gb_panel_state_word(session->run_state, session->now.error.text, &style);
     }
-    char right[64];
-    snprintf(right, sizeof right, "%s%s", session->frozen ? "view frozen  " : "", word);
     const int cols = paint.rect.cols;
+    char right[192], stage[128], staged[144];
+    if (!shown.quick && shown.curve != NULL &&
+        gb_panel_state_stage(shown.now, session->run_state, cols / 2 - 4, stage,
+                             sizeof stage)) {
+        snprintf(staged, sizeof staged, "\u25b6 %s", stage);
+        word = staged;
+    }
+    snprintf(right, sizeof right, "%s%s", session->frozen ? "view frozen  " : "", word);
     const int from = cols - gb_paint_width(right) - 1;
     const int name = gb_paint_text(&paint, 0, 1, GB_STYLE_BOLD, "greenbody") + 2;
-    const struct gb_params *params = gb_session_params(&screen->session);
+    const struct gb_params *params = shown.params; /* of what the word on the right is about */
     char title[192];
     snprintf(title, sizeof title, "%s \u00b7 N %lld", params->title,
              (long long)params->count);

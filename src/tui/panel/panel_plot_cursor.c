@@ -142,6 +142,14 @@ static bool describe_misfit(const struct gb_session *session, struct gb_message 
     char *name = g_path_get_basename(session->measured->path);
     gb_session_misfit(session, &misfit);
     char file[64];
+    if (gb_session_measured(session) == NULL) {
+        snprintf(message->text, sizeof message->text,
+                 "%s: loaded for a scene in %dD, not compared with this one in %dD",
+                 gb_text_fit_copy(file, sizeof file, name), session->measured_dimension,
+                 gb_session_shown(session).params->dimension);
+        g_free(name);
+        return true;
+    }
     int n = snprintf(message->text, sizeof message->text, "%s: %zu of %zu points reached",
                      gb_text_fit_copy(file, sizeof file, name), misfit.reached,
                      session->measured->count);

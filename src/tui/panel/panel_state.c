@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "io/status/stage_text.h"
 #include "tui/panel/panel_state_items.h"
 #include "tui/panel/panels.h"
 
@@ -30,6 +31,23 @@ const char *gb_panel_state_word(enum gb_run_state state, const char *error,
     return words[state].word;
 }
 
+bool gb_panel_state_stage(const struct gb_snapshot *now, enum gb_run_state state,
+                          int cols, char *text, size_t size)
+{
+    char value[112];
+    const struct gb_stage_report *stage = &now->stage;
+    if (state != GB_RUN_RUNNING || stage->stage == GB_STAGE_NONE) {
+        return false;
+    }
+    gb_stage_text_value(stage, value, sizeof value);
+    snprintf(text, size, "%s%s%s", gb_stage_text_name(stage->stage),
+             value[0] != '\0' ? " " : "", value);
+    if ((int)strlen(text) > cols) {
+        snprintf(text, size, "%s", gb_stage_text_name(stage->stage));
+    }
+    return (int)strlen(text) <= cols;
+}
+
 /* "done in 0.7 s", "stopped after 3:04"; of a live run only the state. */
 static void write_state(const struct gb_snapshot *now, const char *word, char *text,
                         size_t size)
@@ -44,22 +62,34 @@ static void write_state(const struct gb_snapshot *now, const char *word, char *t
     }
 }
 
-/* " 45 %", " 45 % 0:12 left". */
+/* " 45 %", " 45 % 0:12 left"; " 45 % estimating" where powder comes to rest when it does. */
 static void write_share(const struct gb_snapshot *now, double share, char *text,
                         size_t size)
 {
     char time[24];
     const bool live = now->seconds_left >= 0.0 && now->state <= GB_RUN_PAUSED;
+    const bool stages = now->stage.stage != GB_STAGE_NONE && now->state <= GB_RUN_PAUSED;
     snprintf(text, size, "%4.0f %%%s%s%s", floor(100.0 * share), live ? " " : "",
              live ? gb_paint_time(now->seconds_left, time, sizeof time) : "",
-             live ? " left" : "");
+             live     ? " left"
+             : stages ? " estimating"
+                      : "");
+}
+
+/* The stage in place of the word "running". */
+static void write_stage(const struct gb_snapshot *now, int cols, char *text, size_t size)
+{
+    char stage[128];
+    if (gb_panel_state_stage(now, now->state, cols - 2, stage, sizeof stage)) {
+        snprintf(text, size, "\u25b6 %s", stage);
+    }
 }
 
 /* State, bar, percentage and time in one row, or the bar in a row of its own. */
 static void draw_progress(const struct gb_paint *paint, const struct gb_session *session,
                           bool own_row)
 {
-    char state[64] = "not started";
+    char state[160] = "not started";
     char tail[48];
     enum gb_style style = GB_STYLE_DIM;
     const struct gb_session_shown shown = gb_session_shown(session);
@@ -72,12 +102,18 @@ static void draw_progress(const struct gb_paint *paint, const struct gb_session 
     const bool done = shown.curve != NULL && now->state == GB_RUN_DONE;
     const double share = done ? 1.0 : now->progress;
     const int inner = paint->rect.cols - 2;
-    const int end = gb_paint_text(paint, 1, 1, style, state) + 1;
     write_share(now, share, tail, sizeof tail);
+    if (!own_row && shown.curve != NULL) {
+        write_stage(now, inner - (int)strlen(tail), state, sizeof state);
+    }
+    const int end = gb_paint_text(paint, 1, 1, style, state) + 1;
     const int room = inner + 1 - end - (int)strlen(tail);
     const int bar = own_row || room <= BAR_MIN ? 0 : room;
     if (own_row) {
         gb_paint_bar(paint, 2, 1, inner, share);
+        if (gb_panel_state_stage(now, now->state, inner, state, sizeof state)) {
+            gb_paint_text(paint, 3, 1, GB_STYLE_PLAIN, state);
+        }
         gb_paint_text(paint, 1, 1 + inner - (int)strlen(tail), GB_STYLE_PLAIN, tail);
         return;
     }

@@ -6,16 +6,8 @@
 #include "scene/loading_kind.h"
 #include "scene/path/path.h"
 #include "tui/panel/panel_state_items.h"
+#include "tui/panel/panel_state_text.h"
 #include "tui/panel/panels.h"
-
-static void write_number(char *text, size_t size, const char *format, double value)
-{
-    if (isfinite(value)) {
-        snprintf(text, size, format, value);
-    } else {
-        snprintf(text, size, "-");
-    }
-}
 
 /* All four pressures in the unit of the largest, for comparison. */
 static void write_pressure(const struct gb_snapshot *now, double value, char *text,
@@ -32,40 +24,25 @@ static void write_pressure(const struct gb_snapshot *now, double value, char *te
     }
 }
 
-/* "812", "6.31 k", "12.3 M": three digits. */
-static void write_count(char *text, size_t size, double value)
-{
-    static const char *const prefix[] = {"", "k", "M", "G", "T"};
-    size_t k = 0;
-    while (fabs(value) >= 999.5 && k < 4) {
-        value *= 1e-3;
-        k++;
-    }
-    const int decimals = k == 0 || fabs(value) >= 99.95 ? 0
-                         : fabs(value) >= 9.995         ? 1
-                                                        : 2;
-    snprintf(text, size, "%.*f%s%s", decimals, value, k > 0 ? " " : "", prefix[k]);
-}
-
 static void density(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.4f", shown->now->now.density);
+    gb_panel_state_text_number(text, size, "%.4f", shown->now->now.density);
 }
 
 static void contacts(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.2f", shown->now->now.coordination);
+    gb_panel_state_text_number(text, size, "%.2f", shown->now->now.coordination);
 }
 
 static void bridged(const struct gb_session_shown *shown, char *text, size_t size)
 {
     const double percent = 100.0 * shown->now->now.bridged;
-    write_number(text, size, percent >= 99.95 ? "%.0f %%" : "%.1f %%", percent);
+    gb_panel_state_text_number(text, size, percent >= 99.95 ? "%.0f %%" : "%.1f %%", percent);
 }
 
 static void rattlers(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.1f %%", 100.0 * shown->now->now.rattlers);
+    gb_panel_state_text_number(text, size, "%.1f %%", 100.0 * shown->now->now.rattlers);
 }
 
 static void p(const struct gb_session_shown *shown, char *text, size_t size)
@@ -91,7 +68,7 @@ static void pz(const struct gb_session_shown *shown, char *text, size_t size)
 static void simulated(const struct gb_session_shown *shown, char *text, size_t size)
 {
     const double ns = 1e9 * shown->now->now.time_s;
-    write_number(text, size, ns < 99.995 ? "%.2f ns" : "%.0f ns", ns);
+    gb_panel_state_text_number(text, size, ns < 99.995 ? "%.2f ns" : "%.0f ns", ns);
 }
 
 static void stage(const struct gb_session_shown *shown, char *text, size_t size)
@@ -99,48 +76,29 @@ static void stage(const struct gb_session_shown *shown, char *text, size_t size)
     snprintf(text, size, "%s", gb_panel_plot_stage(shown->now->now.branch));
 }
 
-/* "31.2 aJ", "214 fJ": three digits, the prefix below one joule. */
-static void write_energy(char *text, size_t size, double value)
-{
-    static const char *const prefix[] = {"", "m", "u", "n", "p", "f", "a"};
-    size_t k = 0;
-    while (fabs(value) < 0.9995 && k < 6) {
-        value *= 1e3;
-        k++;
-    }
-    const int decimals = fabs(value) >= 99.95 ? 0 : fabs(value) >= 9.995 ? 1 : 2;
-    if (!isfinite(value)) {
-        snprintf(text, size, "-");
-    } else if (fabs(value) < 0.005) {
-        snprintf(text, size, "0 J");
-    } else {
-        snprintf(text, size, "%.*f %sJ", decimals, value, prefix[k]);
-    }
-}
-
 static void kinetic(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_energy(text, size, shown->now->now.kinetic);
+    gb_panel_state_text_energy(text, size, shown->now->now.kinetic);
 }
 
 static void work(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_energy(text, size, shown->now->now.work);
+    gb_panel_state_text_energy(text, size, shown->now->now.work);
 }
 
 static void elastic(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_energy(text, size, shown->now->now.elastic);
+    gb_panel_state_text_energy(text, size, shown->now->now.elastic);
 }
 
 static void dissipated(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_energy(text, size, shown->now->now.dissipated);
+    gb_panel_state_text_energy(text, size, shown->now->now.dissipated);
 }
 
 static void energy_error(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.2g %%", 100.0 * shown->now->now.energy_residual);
+    gb_panel_state_text_number(text, size, "%.2g %%", 100.0 * shown->now->now.energy_residual);
 }
 
 static void time_step(const struct gb_session_shown *shown, char *text, size_t size)
@@ -152,17 +110,17 @@ static void time_step(const struct gb_session_shown *shown, char *text, size_t s
 
 static void residual(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_number(text, size, "%.0e", shown->now->live_residual);
+    gb_panel_state_text_number(text, size, "%.0e", shown->now->live_residual);
 }
 
 static void evaluations(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_count(text, size, (double)shown->now->evaluations);
+    gb_panel_state_text_count(text, size, (double)shown->now->evaluations);
 }
 
 static void rate(const struct gb_session_shown *shown, char *text, size_t size)
 {
-    write_count(text, size, shown->now->evaluations_per_s);
+    gb_panel_state_text_count(text, size, shown->now->evaluations_per_s);
 }
 
 char *gb_panel_state_items_duration(double seconds, char *text, size_t size)
@@ -208,6 +166,59 @@ static void stress_xz(const struct gb_session_shown *shown, char *text, size_t s
 static void stress_yz(const struct gb_session_shown *shown, char *text, size_t size)
 {
     write_pressure(shown->now, -shown->now->now.shear_pa[2], text, size);
+}
+
+/* Lengths, "24.1 um"; times, "40.6 us". */
+static void write_unit(double value, enum gb_dimension dimension, char *text, size_t size)
+{
+    if (isfinite(value)) {
+        gb_units_format_short(value, dimension, 3, text, size);
+    }
+}
+
+static void poured(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    snprintf(text, size, "%lld", (long long)shown->now->stage.poured);
+}
+
+static void filled_height(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    write_unit(shown->now->stage.height_m, GB_DIM_LENGTH, text, size);
+}
+
+static void live_contacts(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    gb_panel_state_text_number(text, size, "%.2f", shown->now->stage.coordination);
+}
+
+static void live_kinetic(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    gb_panel_state_text_energy(text, size, shown->now->stage.kinetic_j);
+}
+
+static void live_time(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    write_unit(shown->now->stage.time_s, GB_DIM_TIME, text, size);
+}
+
+static void height(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    write_unit(shown->now->now.height_m, GB_DIM_LENGTH, text, size);
+}
+
+static void wall(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    write_pressure(shown->now, shown->now->now.wall_pa, text, size);
+}
+
+static void floor_ratio(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    gb_panel_state_text_number(text, size, "%.3f", shown->now->now.floor_over_punch);
+}
+
+static void die_time(const struct gb_session_shown *shown, char *text, size_t size)
+{
+    write_unit(shown->now->now.time_s, GB_DIM_TIME, text, size);
 }
 
 /* Order of the columns when all fit. */
@@ -264,6 +275,69 @@ enum { MOVING_ITEMS = sizeof moving_items / sizeof moving_items[0] };
 static const int moving_weight[MOVING_ITEMS] = {2,  3,  1,  0,  7,  8, 9, 10, 11,
                                                 15, 12, 16, 17, 13, 4, 6, 14, 5};
 
+/* Of a die, before its first point: of the bed as it is now. */
+static const struct gb_panel_state_item filling_items[] = {
+    {"in die", "particles in the die", poured},
+    {"height", "height of the powder", filled_height},
+    {"coord.", "mean coordination number", live_contacts},
+    {"kin", "kinetic energy", live_kinetic},
+    {"unbal.", "unbalanced force", residual},
+    {"t", "simulated time", live_time},
+    {"step", "time step", time_step},
+    {"steps", "time steps", evaluations},
+    {"steps/s", "time steps/s", rate},
+    {"elapsed", "elapsed time", elapsed_time},
+};
+
+enum { FILLING_ITEMS = sizeof filling_items / sizeof filling_items[0] };
+
+static const int filling_weight[FILLING_ITEMS] = {0, 1, 3, 2, 4, 8, 5, 9, 7, 6};
+
+/* And at its points. */
+static const struct gb_panel_state_item die_items[] = {
+    {"density", "relative density", density},
+    {"height", "height of the powder", height},
+    {"coord.", "mean coordination number", contacts},
+    {"rattlers", "rattlers", rattlers},
+    {"p", "pressure p", p},
+    {"wall", "radial pressure on the wall", wall},
+    {"floor/p", "floor-to-punch force ratio", floor_ratio},
+    {"unbal.", "unbalanced force", residual},
+    {"t", "simulated time", die_time},
+    {"steps", "time steps", evaluations},
+    {"steps/s", "time steps/s", rate},
+    {"elapsed", "elapsed time", elapsed_time},
+};
+
+enum { DIE_ITEMS = sizeof die_items / sizeof die_items[0] };
+
+static const int die_weight[DIE_ITEMS] = {0, 4, 2, 1, 6, 5, 10, 3, 7, 8, 11, 9};
+
+/* The quantities of a run, and their order of importance. */
+struct list {
+    const struct gb_panel_state_item *item;
+    const int *weight;
+    int count;
+};
+
+static const struct list still = {still_items, still_weight, STILL_ITEMS},
+                         moving = {moving_items, moving_weight, MOVING_ITEMS},
+                         filling = {filling_items, filling_weight, FILLING_ITEMS},
+                         die = {die_items, die_weight, DIE_ITEMS};
+
+static const struct list *list_of(const struct gb_session_shown *shown)
+{
+    switch (gb_loading_kind_of(shown->params)->columns) {
+    case GB_COLUMNS_ENERGY:
+        return &moving;
+    case GB_COLUMNS_DIE:
+        return shown->now->now_valid ? &die : &filling;
+    case GB_COLUMNS_COMMON:
+        break;
+    }
+    return &still;
+}
+
 /* Some leg of the path strains or holds this component. */
 static bool sheared(const struct gb_path *path, int component)
 {
@@ -290,10 +364,9 @@ static bool applies(const struct gb_panel_state_item *item,
 
 struct gb_panel_state_choice gb_panel_state_items_choose(const struct gb_session *session)
 {
-    const struct gb_params *params = gb_session_shown(session).params;
-    const bool moving = gb_loading_kind_of(params)->columns == GB_COLUMNS_ENERGY;
-    const struct gb_panel_state_item *all = moving ? moving_items : still_items;
-    const int *weight = moving ? moving_weight : still_weight;
+    const struct gb_session_shown shown = gb_session_shown(session);
+    const struct gb_params *params = shown.params;
+    const struct list *list = list_of(&shown);
     struct gb_panel_state_choice choice = {.count = 0};
     struct gb_path path = {.count = 0};
     int weighed = 0;
@@ -301,26 +374,33 @@ struct gb_panel_state_choice gb_panel_state_items_choose(const struct gb_session
         !gb_path_parse(&path, params->path, params->dimension, NULL)) {
         path.count = 0;
     }
-    for (int i = 0; i < (moving ? (int)MOVING_ITEMS : (int)STILL_ITEMS); i++) {
-        if (applies(&all[i], params, &path)) {
-            choice.item[choice.count++] = &all[i];
+    for (int i = 0; i < list->count; i++) {
+        if (applies(&list->item[i], params, &path)) {
+            choice.item[choice.count++] = &list->item[i];
         }
-        if (applies(&all[weight[i]], params, &path)) {
-            choice.by_weight[weighed++] = &all[weight[i]];
+        if (applies(&list->item[list->weight[i]], params, &path)) {
+            choice.by_weight[weighed++] =
+                &list->item[list->weight[i]];
         }
     }
     return choice;
 }
 
-/* Items of a run without state: elapsed time and evaluations. */
+static bool is_of(const struct list *list, const struct gb_panel_state_item *item)
+{
+    return item >= list->item && item < list->item + list->count;
+}
+
+/* Items of a run without state: elapsed time, the residual, those of a die that is filled. */
 void gb_panel_state_items_write(const struct gb_panel_state_item *item,
                                 const struct gb_session_shown *shown, char *text,
                                 size_t size)
 {
     const struct gb_snapshot *now = shown->now;
     snprintf(text, size, "-");
-    if (now->now_valid || item->write == elapsed_time ||
-        (item->write == residual && now->evaluations > 0)) {
+    const bool evaluated = now->evaluations > 0 &&
+                           (item->write == residual || is_of(&filling, item));
+    if (now->now_valid || item->write == elapsed_time || evaluated) {
         item->write(shown, text, size);
     }
 }

@@ -3,6 +3,7 @@
 
 #include "tui/panel/action.h"
 #include "tui/panel/prompt.h"
+#include "tui/plot/packing_look.h"
 #include "tui/session/overlay/compaction_cache.h"
 #include "tui/session/session.h"
 #include "tui/term/paint.h"
@@ -95,6 +96,7 @@ struct gb_panel_plot {
     bool utf8;   /* UTF-8, not ASCII only */
     bool pixels; /* the packing is a pixel image; its cells stay empty */
     enum gb_plot_glyphs glyphs;
+    struct gb_packing_look look; /* of the view of the packing */
     bool cursor_on;
     size_t cursor;        /* point of the curve */
     double at_pa;         /* pressure that was typed; 0: none */
@@ -161,6 +163,10 @@ void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *
  * snapshot; a run that is done has not reached a goal where it is not empty. */
 const char *gb_panel_state_word(enum gb_run_state state, const char *error,
                                 enum gb_style *style);
+/* "filling 812 of 1751", or the stage alone where that is wider than cols: of a run in a die
+ * that computes.  False: no stage, or no room. */
+bool gb_panel_state_stage(const struct gb_snapshot *now, enum gb_run_state state,
+                          int cols, char *text, size_t size);
 
 /* --- events ------------------------------------------------------------------------- */
 

@@ -225,6 +225,7 @@ static void set_measured(struct gb_session *session, struct gb_measured *measure
     gb_measured_destroy(session->measured);
     g_free(session->reading);
     session->measured = measured;
+    session->measured_dimension = gb_session_shown(session).params->dimension;
     session->reading = g_strdup(reading);
 }
 
@@ -262,12 +263,27 @@ enum gb_lab_outcome gb_session_load_data(struct gb_session *session, const char 
     return outcome;
 }
 
+const struct gb_measured *gb_session_measured(const struct gb_session *session)
+{
+    const int dimension = gb_session_shown(session).params->dimension;
+    return session->measured_dimension == dimension ? session->measured : NULL;
+}
+
+const struct gb_runset_view_group *gb_session_replicas(const struct gb_session *session)
+{
+    const int dimension = gb_session_shown(session).params->dimension;
+    return session->replica_band.params.dimension == dimension
+               ? gb_replica_band_group(&session->replica_band)
+               : NULL;
+}
+
 void gb_session_misfit(const struct gb_session *session, struct gb_measured_misfit *out)
 {
     const struct gb_session_shown shown = gb_session_shown(session);
     *out = (struct gb_measured_misfit){.reached = 0};
-    if (session->measured != NULL && shown.curve != NULL) {
-        gb_measured_compare(session->measured, shown.curve, shown.points, out);
+    const struct gb_measured *measured = gb_session_measured(session);
+    if (measured != NULL && shown.curve != NULL) {
+        gb_measured_compare(measured, shown.curve, shown.points, out);
     }
 }
 

@@ -59,6 +59,7 @@ struct gb_session {
     struct gb_replica_band replica_band; /* mean of the replicas */
     struct gb_moduli_job moduli;         /* elastic moduli of the run */
     struct gb_measured *measured;        /* measured data; NULL: none */
+    int measured_dimension; /* of the scene that was shown when they were loaded */
     char *reading; /* how its file was asked to be read, as --columns; owned */
     struct gb_chart_csv *chart;  /* chart of numerical settings; NULL: none */
     int runs;                    /* number of started runs */
@@ -117,6 +118,10 @@ enum gb_lab_outcome gb_session_load_data(struct gb_session *session, const char 
                                          const char *reading,
                                          struct gb_lab_report *report,
                                          struct gb_error *err);
+/* The measured data and the mean of the replicas where the scene on display has their
+ * dimension: densities of spheres say nothing of discs.  NULL: none. */
+const struct gb_measured *gb_session_measured(const struct gb_session *session);
+const struct gb_runset_view_group *gb_session_replicas(const struct gb_session *session);
 /* Misfit of the curve on display to the measured data; reached is 0 without data. */
 void gb_session_misfit(const struct gb_session *session, struct gb_measured_misfit *out);
 

@@ -22,7 +22,7 @@ const char *gb_pixels_wipe(int images)
 static const uint8_t ramp[][3] = {{0, 0, 95},      {0, 95, 95},    {0, 95, 135},
                                   {0, 135, 175},   {0, 175, 215},  {95, 175, 215},
                                   {135, 215, 255}, {215, 255, 255}};
-static const uint8_t background[3] = {12, 12, 16};
+static const uint8_t background[3] = {12, 12, 16}, outline[3] = {150, 150, 150};
 
 enum { RAMP = sizeof ramp / sizeof ramp[0], LEVELS = 28, PIXELS_MAX = 1600 * 1200 };
 
@@ -54,6 +54,10 @@ static void put_pixel(uint8_t *pixel, float shade)
 {
     if (shade < 0.0F) {
         memcpy(pixel, background, sizeof background);
+        return;
+    }
+    if (shade > 1.0F) {
+        memcpy(pixel, outline, sizeof outline);
         return;
     }
     /* in levels: runs of one colour compress well */
@@ -95,8 +99,9 @@ static char *print(int images, const uint8_t *rgb, int high, int wide, int rows,
     return g_string_free(text, FALSE);
 }
 
-char *gb_pixels_encode(int images, const struct gb_view_sample *sample, int rows,
-                       int cols, struct gb_pixels_cell cell)
+char *gb_pixels_encode(int images, const struct gb_view_sample *sample,
+                       const struct gb_packing_look *look, int rows, int cols,
+                       struct gb_pixels_cell cell)
 {
     const int wide = cols * cell.width, high = rows * cell.height;
     const size_t count = (size_t)wide * (size_t)high;
@@ -107,7 +112,7 @@ char *gb_pixels_encode(int images, const struct gb_view_sample *sample, int rows
     uint8_t *rgb = gb_alloc_array(count, 3, NULL);
     char *text = NULL;
     if (shade != NULL && rgb != NULL) {
-        gb_sphere_shading_render(sample, high, wide, shade);
+        gb_sphere_shading_render(sample, look, high, wide, shade);
         for (size_t i = 0; i < count; i++) {
             put_pixel(rgb + 3 * i, shade[i]);
         }
@@ -130,11 +135,13 @@ int gb_pixels_detect(void)
     return GB_IMAGES_NONE;
 }
 
-char *gb_pixels_encode(int images, const struct gb_view_sample *sample, int rows,
-                       int cols, struct gb_pixels_cell cell)
+char *gb_pixels_encode(int images, const struct gb_view_sample *sample,
+                       const struct gb_packing_look *look, int rows, int cols,
+                       struct gb_pixels_cell cell)
 {
     (void)images;
     (void)sample;
+    (void)look;
     (void)rows;
     (void)cols;
     (void)cell;

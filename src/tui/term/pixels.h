@@ -4,6 +4,7 @@
 #include <stdbool.h>
 
 #include "greenbody/snapshot.h"
+#include "tui/plot/packing_look.h"
 #include "tui/term/rect.h"
 
 /* The packing as a pixel image, for terminals with an image protocol, encoded by
@@ -22,8 +23,9 @@ struct gb_pixels_cell {
 
 /* The shaded view of a packing as an escape sequence, sent with the cursor at the upper
  * left cell; g_free.  NULL: out of memory, or no libchafa. */
-char *gb_pixels_encode(int images, const struct gb_view_sample *sample, int rows,
-                       int cols, struct gb_pixels_cell cell);
+char *gb_pixels_encode(int images, const struct gb_view_sample *sample,
+                       const struct gb_packing_look *look, int rows, int cols,
+                       struct gb_pixels_cell cell);
 
 /* Sequence that deletes all images of the terminal; "" where text overwrites them. */
 const char *gb_pixels_wipe(int images);

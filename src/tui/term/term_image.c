@@ -29,17 +29,25 @@ static bool same_rect(const struct gb_rect *a, const struct gb_rect *b)
            a->cols == b->cols;
 }
 
+static bool same_look(const struct gb_packing_look *a, const struct gb_packing_look *b)
+{
+    return a->colour == b->colour && a->azimuth_deg == b->azimuth_deg &&
+           a->elevation_deg == b->elevation_deg;
+}
+
 bool gb_term_image_due(const struct gb_term_image *image, double now_s)
 {
     return image->waiting && now_s >= image->last_s + spacing_s;
 }
 
 static void show(struct gb_term_image *image, struct gb_term *term,
-                 const struct gb_view_sample *sample, const struct gb_rect *cells)
+                 const struct gb_view_sample *sample,
+                 const struct gb_packing_look *look, const struct gb_rect *cells)
 {
     struct gb_pixels_cell cell;
     gb_term_cell(term, &cell.width, &cell.height);
-    char *text = gb_pixels_encode(image->images, sample, cells->rows, cells->cols, cell);
+    char *text = gb_pixels_encode(image->images, sample, look, cells->rows,
+                                  cells->cols, cell);
     if (text != NULL) {
         gb_term_send(term, cells->row, cells->col, gb_pixels_wipe(image->images));
         gb_term_send(term, cells->row, cells->col, text);
@@ -48,7 +56,8 @@ static void show(struct gb_term_image *image, struct gb_term *term,
 }
 
 void gb_term_image_after(struct gb_term_image *image, struct gb_term *term,
-                         const struct gb_view_sample *sample, const struct gb_rect *cells,
+                         const struct gb_view_sample *sample,
+                         const struct gb_packing_look *look, const struct gb_rect *cells,
                          double now_s)
 {
     const bool wiped = image->repaints != gb_term_repaints(term);
@@ -56,15 +65,17 @@ void gb_term_image_after(struct gb_term_image *image, struct gb_term *term,
     if (sample == NULL || cells->rows < 1 || cells->cols < 1) {
         return;
     }
-    const bool other = !image->shown || wiped || !same_rect(cells, &image->rect);
+    const bool other = !image->shown || wiped || !same_rect(cells, &image->rect) ||
+                       !same_look(look, &image->look);
     image->waiting = sample->density != image->density;
     if (!other && !gb_term_image_due(image, now_s)) {
         return;
     }
-    show(image, term, sample, cells);
+    show(image, term, sample, look, cells);
     image->shown = true;
     image->waiting = false;
     image->rect = *cells;
     image->density = sample->density;
+    image->look = *look;
     image->last_s = now_s;
 }

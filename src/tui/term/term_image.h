@@ -4,6 +4,7 @@
 #include <stdbool.h>
 
 #include "greenbody/snapshot.h"
+#include "tui/plot/packing_look.h"
 #include "tui/term/rect.h"
 #include "tui/term/term.h"
 
@@ -14,7 +15,8 @@ struct gb_term_image {
     bool shown;   /* visible now */
     bool waiting; /* a new one is due */
     struct gb_rect rect;
-    double density; /* hash of the packing shown */
+    double density;              /* hash of the packing shown */
+    struct gb_packing_look look; /* at it */
     int64_t repaints;
     double last_s; /* clock of the last image, s */
 };
@@ -27,7 +29,8 @@ bool gb_term_image_before(struct gb_term_image *image, struct gb_term *term,
                           const struct gb_view_sample *sample);
 /* Call after a frame: draws the image into the cells if it is new or was deleted. */
 void gb_term_image_after(struct gb_term_image *image, struct gb_term *term,
-                         const struct gb_view_sample *sample, const struct gb_rect *cells,
+                         const struct gb_view_sample *sample,
+                         const struct gb_packing_look *look, const struct gb_rect *cells,
                          double now_s);
 
 /* Whether a pending image may be drawn now. */

@@ -70,8 +70,7 @@ bool gb_view_curve_quick_shown(const struct gb_view_curve *view)
 const struct gb_runset_view_group *
 gb_view_curve_replicas(const struct gb_view_curve *view)
 {
-    return against_time(view) ? NULL
-                              : gb_replica_band_group(&view->session->replica_band);
+    return against_time(view) ? NULL : gb_session_replicas(view->session);
 }
 
 /* Range of the data. */
@@ -105,7 +104,7 @@ static void extend_by_curve(struct ends *ends, const struct gb_view_curve *view,
 static void extend_by_overlays(struct ends *ends, const struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
-    const struct gb_measured *data = session->measured;
+    const struct gb_measured *data = gb_session_measured(session);
     for (size_t i = 0; data != NULL && !against_time(view) && i < data->count; i++) {
         extend(ends, data->density[i], data->pressure_pa[i]);
     }

@@ -149,7 +149,7 @@ static void draw_measured_point(struct gb_view_curve *view, size_t i)
 
 void gb_view_overlays_measured(struct gb_view_curve *view)
 {
-    const struct gb_measured *data = view->session->measured;
+    const struct gb_measured *data = gb_session_measured(view->session);
     struct gb_measured_misfit misfit;
     char name[GB_PLOT_NAME] = "measured";
     if (data == NULL || view->panel->view->abscissa != GB_VIEW_DENSITY) {

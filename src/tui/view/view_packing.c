@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "tui/plot/sphere_shading.h"
@@ -20,10 +21,32 @@ static int level(float shade, int levels)
     return k < 0 ? 0 : k >= levels ? levels - 1 : k;
 }
 
+static bool is_outline(float dot)
+{
+    return dot > 1.0F;
+}
+
+/* A dot of an outline before a sphere or the background. */
+static void put_outline(struct gb_plot_cell *cell, float above, float below)
+{
+    const float behind = is_outline(above) ? below : above;
+    cell->fixed = true;
+    cell->ink = GB_PLOT_INK_AXIS;
+    cell->ch = is_outline(above) && is_outline(below) ? 0x2588
+               : is_outline(above)                    ? 0x2580
+                                                      : 0x2584;
+    cell->back = behind < 0.0F || is_outline(behind) ? 0
+                                                     : level(behind, GB_PLOT_SHADES) + 1;
+}
+
 /* A half block shows two dots of a cell: foreground above, background below. */
 static void put_halves(struct gb_plot_cell *cell, float above, float below)
 {
     if (above < 0.0F && below < 0.0F) {
+        return;
+    }
+    if (is_outline(above) || is_outline(below)) {
+        put_outline(cell, above, below);
         return;
     }
     const int up = above < 0.0F ? -1 : level(above, GB_PLOT_SHADES);
@@ -34,8 +57,22 @@ static void put_halves(struct gb_plot_cell *cell, float above, float below)
     cell->back = up < 0 ? 0 : down + 1;
 }
 
+static void put_sign(struct gb_plot_cell *cell, float dot, bool ascii)
+{
+    static const uint32_t signs[2][4] = {{0x2502, 0x2500, '/', '\\'},
+                                         {'|', '-', '/', '\\'}};
+    const int k = (int)(dot - GB_SPHERE_SHADING_UPRIGHT);
+    cell->fixed = true;
+    cell->ink = GB_PLOT_INK_AXIS;
+    cell->ch = signs[ascii][k];
+}
+
 static void put_mean(struct gb_plot_cell *cell, float above, float below, bool ascii)
 {
+    if (is_outline(above) || is_outline(below)) {
+        put_sign(cell, is_outline(above) ? above : below, ascii);
+        return;
+    }
     const float mean = above < 0.0F   ? 0.5F * below
                        : below < 0.0F ? 0.5F * above
                                       : 0.5F * (above + below);
@@ -47,25 +84,102 @@ static void put_mean(struct gb_plot_cell *cell, float above, float below, bool a
     cell->ch = ascii ? ascii_ramp[level(mean, ASCII)] : wide_ramp[level(mean, WIDE)];
 }
 
+/* One cell of the ramp of colours. */
+static void put_shade(const struct gb_panel_plot *panel, struct gb_plot_cell *cell, int k,
+                      int cells)
+{
+    const float shade = ((float)k + 0.5F) / (float)cells;
+    const bool ascii = panel->plot.glyphs == GB_PLOT_ASCII;
+    if (panel->shades && !ascii) {
+        put_halves(cell, shade, shade);
+    } else {
+        put_mean(cell, shade, shade, ascii);
+    }
+}
+
+/* "coordination number 0 ######## 9"; ">" where some particles are beyond the range. */
+static void write_legend(struct gb_panel_plot *panel, const struct gb_view_sample *sample)
+{
+    struct gb_plot *plot = &panel->plot;
+    const struct gb_packing_range range =
+        gb_packing_look_range(sample, panel->look.colour);
+    char text[96];
+    snprintf(text, sizeof text, "%s %.3g ", gb_packing_look_name(panel->look.colour),
+             range.low);
+    const int from = 3, at = from + (int)strlen(text);
+    gb_plot_text(plot, 0, from, GB_PLOT_INK_TEXT, text);
+    for (int k = 0; k < GB_PLOT_SHADES && at + k < plot->cols; k++) {
+        put_shade(panel, &plot->cell[at + k], k, GB_PLOT_SHADES);
+    }
+    snprintf(text, sizeof text, " %s%.3g", range.beyond ? ">" : "", range.high);
+    gb_plot_text(plot, 0, at + GB_PLOT_SHADES, GB_PLOT_INK_TEXT, text);
+}
+
 enum caption { CAPTION_CORNER, CAPTION_BELOW };
 
 /* The caption: two short lines in the corner, or one below an image. */
-static void write_caption(struct gb_plot *plot, const struct gb_view_sample *sample,
+static void write_caption(struct gb_panel_plot *panel, const struct gb_view_sample *sample,
                           const struct gb_params *params, enum caption caption)
 {
+    struct gb_plot *plot = &panel->plot;
+    char legend[96] = "";
     char share[48];
     char size[48];
-    char text[128];
+    char text[256];
     snprintf(share, sizeof share, "%d of %lld", sample->count, (long long)params->count);
     snprintf(size, sizeof size, "%.3g x %.3g d", sample->window[0], sample->window[2]);
     if (caption == CAPTION_BELOW) {
-        snprintf(text, sizeof text, "%s, %s, z upwards", share, size);
+        if (panel->look.colour != GB_PACKING_COLOUR_DEPTH) {
+            const struct gb_packing_range range =
+                gb_packing_look_range(sample, panel->look.colour);
+            snprintf(legend, sizeof legend, ", %s %.3g to %s%.3g",
+                     gb_packing_look_name(panel->look.colour), range.low,
+                     range.beyond ? ">" : "", range.high);
+        }
+        snprintf(text, sizeof text, "%s, %s, z upwards%s", share, size, legend);
         gb_plot_text(plot, plot->rows - 1, 0, GB_PLOT_INK_TEXT, text);
         return;
     }
     gb_plot_text(plot, plot->rows - 1, 0, GB_PLOT_INK_TEXT, share);
     gb_plot_text(plot, plot->rows - 2, 0, GB_PLOT_INK_TEXT, size);
     gb_plot_text(plot, 0, 0, GB_PLOT_INK_TEXT, "z");
+    if (panel->look.colour != GB_PACKING_COLOUR_DEPTH) {
+        write_legend(panel, sample);
+    }
+    if (panel->look.azimuth_deg != 0.0 || panel->look.elevation_deg != 0.0) {
+        snprintf(text, sizeof text, "turned by %.0f, %.0f degrees",
+                 panel->look.azimuth_deg, panel->look.elevation_deg);
+        gb_plot_text(plot, plot->rows - 1, plot->cols - (int)strlen(text) - 1,
+                     GB_PLOT_INK_TEXT, text);
+    }
+}
+
+/* Arrows turn the packing by this, degrees. */
+static const double step_deg = 15.0;
+
+/* Left: the packing turns to the left, the viewer to the right. */
+void gb_view_packing_navigate(struct gb_panel_plot *panel, enum gb_action action)
+{
+    switch (action) {
+    case GB_ACTION_LEFT:
+        gb_packing_look_rotate(&panel->look, step_deg, 0.0);
+        break;
+    case GB_ACTION_RIGHT:
+        gb_packing_look_rotate(&panel->look, -step_deg, 0.0);
+        break;
+    case GB_ACTION_UP:
+        gb_packing_look_rotate(&panel->look, 0.0, step_deg);
+        break;
+    case GB_ACTION_DOWN:
+        gb_packing_look_rotate(&panel->look, 0.0, -step_deg);
+        break;
+    case GB_ACTION_HOME:
+    case GB_ACTION_BACK:
+        panel->look.azimuth_deg = panel->look.elevation_deg = 0.0;
+        break;
+    default:
+        break;
+    }
 }
 
 void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *session)
@@ -77,7 +191,7 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
         return;
     }
     if (panel->pixels) { /* the image covers these cells */
-        write_caption(plot, shown.sample, shown.params, CAPTION_BELOW);
+        write_caption(panel, shown.sample, shown.params, CAPTION_BELOW);
         return;
     }
     const size_t dots = (size_t)plot->rows * (size_t)plot->cols * 2;
@@ -85,7 +199,7 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
     if (shade == NULL) {
         return;
     }
-    gb_sphere_shading_render(shown.sample, 2 * plot->rows, plot->cols, shade);
+    gb_sphere_shading_render(shown.sample, &panel->look, 2 * plot->rows, plot->cols, shade);
     const bool ascii = plot->glyphs == GB_PLOT_ASCII;
     for (int r = 0; r < plot->rows; r++) {
         for (int c = 0; c < plot->cols; c++) {
@@ -100,5 +214,5 @@ void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *
         }
     }
     gb_alloc_free(shade);
-    write_caption(plot, shown.sample, shown.params, CAPTION_CORNER);
+    write_caption(panel, shown.sample, shown.params, CAPTION_CORNER);
 }

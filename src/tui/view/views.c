@@ -98,9 +98,11 @@ static const struct gb_plot_view views[] = {
         .key = "9",
         .help = "the packing itself",
         .title = "Packing",
-        .hint = "front of the cell along y, darker with depth",
+        .hint = "darker with depth; Tab to this pane: arrows turn it, Home to the front; F "
+                "colours it",
         .need = GB_VIEW_NEEDS_SAMPLE,
         .draw = gb_view_packing_draw,
+        .navigate = gb_view_packing_navigate,
     },
     {
         .key = "0",

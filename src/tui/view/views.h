@@ -41,6 +41,8 @@ struct gb_plot_view {
     enum gb_view_abscissa abscissa;
     int options; /* bits of enum gb_view_option */
     void (*draw)(struct gb_panel_plot *panel, const struct gb_session *session);
+    /* Takes the navigation keys of the pane; NULL: they move the cursor. */
+    void (*navigate)(struct gb_panel_plot *panel, enum gb_action action);
     bool (*applies)(const struct gb_params *params); /* scenes of the view; NULL: all */
     const char *excluded;                            /* reason for the other scenes */
 };
@@ -93,6 +95,8 @@ void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *ses
 
 /* The packing along y: shaded spheres, darker with depth; discs in 2D. */
 void gb_view_packing_draw(struct gb_panel_plot *panel, const struct gb_session *session);
+/* Arrows turn the packing, Home and Esc turn it to the front. */
+void gb_view_packing_navigate(struct gb_panel_plot *panel, enum gb_action action);
 
 /* Leg by leg: the path in the plane of mean pressure and deviatoric stress; deviatoric
  * stress, and volume strain, against the strain that the path is about. */

@@ -254,27 +254,7 @@ void gb_die_cycle_springback(const struct gb_die_stages *stages, const struct gb
     }
 }
 
-/* Half of the run is filling; a full cycle gives pressing a tenth and each later stage its
- * part by the time that it takes. */
-double gb_die_cycle_progress(const struct gb_die_stages *stages, const struct gb_bed *bed)
+double gb_die_cycle_share(const struct gb_die_stages *stages, const struct gb_bed *bed)
 {
-    static const double full[GB_DIE_STAGES_COUNT + 1] = {
-        [GB_DIE_STAGES_PRESS] = 0.3,    [GB_DIE_STAGES_UNLOAD] = 0.4,
-        [GB_DIE_STAGES_WITHDRAW] = 0.5, [GB_DIE_STAGES_CONFINED] = 0.52,
-        [GB_DIE_STAGES_EJECT] = 0.6,    [GB_DIE_STAGES_FREE] = 0.94,
-        [GB_DIE_STAGES_FREE + 1] = 1.0,
-    };
-    const enum gb_die_stages_stage stage = stages->now.stage;
-    const bool cycle = stages->scene.full_cycle;
-    if (stage == GB_DIE_STAGES_OVER) {
-        return 1.0;
-    }
-    if (!gb_die_cycle_contains(stage)) {
-        return (cycle ? full[GB_DIE_STAGES_PRESS] : 0.5) * (double)stage /
-               GB_DIE_STAGES_PRESS;
-    }
-    const double share = row_of(stages)->share(stages, bed);
-    const enum gb_die_stages_stage next =
-        stage == GB_DIE_STAGES_FREE ? GB_DIE_STAGES_COUNT : row_of(stages)->next;
-    return cycle ? full[stage] + (full[next] - full[stage]) * share : 0.5 + 0.5 * share;
+    return row_of(stages)->share(stages, bed);
 }

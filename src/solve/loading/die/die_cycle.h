@@ -39,8 +39,7 @@ bool gb_die_cycle_after_point(struct gb_die_stages *stages, struct gb_bed *bed,
 void gb_die_cycle_springback(const struct gb_die_stages *stages, const struct gb_bed *bed,
                              double *axial, double *radial);
 
-/* Share of the whole run that is done, 0 to 1. */
-double gb_die_cycle_progress(const struct gb_die_stages *stages,
-                             const struct gb_bed *bed);
+/* Share of the present stage that is done, 0 to 1, where it is one of the table. */
+double gb_die_cycle_share(const struct gb_die_stages *stages, const struct gb_bed *bed);
 
 #endif

@@ -17,22 +17,44 @@ static bool top_is_supported(const struct gb_bed *bed, double gravity)
     return bed->force[highest][2] > GB_REST_SUPPORT_MIN * bed->mass[highest] * gravity;
 }
 
-/* Translational kinetic energy over that of a small fall, resultant over contact forces,
- * and support of the highest particle.  Rotation is left out: nothing damps the spin of a
- * smooth sphere. */
-static bool at_rest(const struct gb_die_stages *stages, const struct gb_bed *bed)
+struct gb_die_rest_state gb_die_rest_state(const struct gb_die_stages *stages,
+                                           const struct gb_bed *bed)
 {
     const bool pours = stages->now.stage == GB_DIE_STAGES_POUR;
     const double gravity = stages->now.leapfrog.gravity;
     const double weight = gravity * gb_bed_solid_volume(bed) / (M_PI / 6.0);
-    return gb_bed_kinetic_energy(bed).translational <
-               (pours ? GB_POURED_FALL : GB_REST_FALL) * weight &&
-           gb_bed_unbalanced_force(bed, gravity) <
-               (pours ? GB_POURED_UNBALANCED : GB_REST_UNBALANCED) &&
-           top_is_supported(bed, gravity);
+    return (struct gb_die_rest_state){
+        .kinetic = gb_bed_kinetic_energy(bed).translational,
+        .kinetic_limit = (pours ? GB_POURED_FALL : GB_REST_FALL) * weight,
+        .unbalanced = gb_bed_unbalanced_force(bed, gravity),
+        .unbalanced_limit = pours ? GB_POURED_UNBALANCED : GB_REST_UNBALANCED,
+    };
 }
 
-static int64_t left_in_funnel(const struct gb_bed *bed)
+/* Motion decays about exponentially: the share of its logarithm. */
+static double share_of(const struct gb_die_rest_state *rest, double most)
+{
+    const double kinetic = rest->kinetic / rest->kinetic_limit;
+    return most > 1.0 && kinetic < most
+               ? fmin(1.0 - log(fmax(kinetic, 1.0)) / log(most), 1.0)
+               : 0.0;
+}
+
+static void note_share(struct gb_die_progress *now, const struct gb_die_rest_state *rest)
+{
+    now->most_kinetic = fmax(now->most_kinetic, rest->kinetic / rest->kinetic_limit);
+    now->rest_share = fmax(now->rest_share, share_of(rest, now->most_kinetic));
+}
+
+static bool at_rest(struct gb_die_stages *stages, const struct gb_bed *bed)
+{
+    const struct gb_die_rest_state rest = gb_die_rest_state(stages, bed);
+    note_share(&stages->now, &rest);
+    return rest.kinetic < rest.kinetic_limit && rest.unbalanced < rest.unbalanced_limit &&
+           top_is_supported(bed, stages->now.leapfrog.gravity);
+}
+
+int64_t gb_die_rest_in_funnel(const struct gb_bed *bed)
 {
     int64_t left = 0;
     for (int64_t i = 0; i < bed->count; i++) {
@@ -73,7 +95,7 @@ bool gb_die_rest_lasts(struct gb_die_stages *stages, const struct gb_bed *bed)
 
 bool gb_die_rest_check_funnel(const struct gb_bed *bed, struct gb_error *err)
 {
-    const int64_t left = left_in_funnel(bed);
+    const int64_t left = gb_die_rest_in_funnel(bed);
     return left == 0 ||
            gb_error_set(err, GB_ERR_GUARD,
                         "the funnel is clogged: %lld particles rest in it; accepted: a "

@@ -13,6 +13,7 @@ void gb_die_sequence_enter(struct gb_die_stages *stages, enum gb_die_stages_stag
     stages->now.stage_time = 0.0;
     stages->now.steps = 0;
     stages->now.checks_at_rest = 0;
+    stages->now.most_kinetic = stages->now.rest_share = 0.0;
 }
 
 /* Speed of the flattening punch (d/T): a particle thrown up at it rises by a quarter of

@@ -9,6 +9,7 @@
 #include "pack/die/bed_welds.h"
 #include "scene/tolerances.h"
 #include "solve/loading/die/die_cycle.h"
+#include "solve/loading/die/die_measure.h"
 #include "solve/loading/die/die_sequence.h"
 #include "solve/loading/die/die_state.h"
 
@@ -279,7 +280,7 @@ struct gb_die_stages_report gb_die_stages_report(const struct gb_die_stages *sta
         report.drag *= scale;
     }
     gb_die_cycle_springback(stages, bed, &report.axial, &report.radial);
-    report.progress = gb_die_cycle_progress(stages, bed);
+    report.progress = gb_die_measure_progress(stages, bed);
     return report;
 }
 

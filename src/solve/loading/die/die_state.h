@@ -23,6 +23,9 @@ struct gb_die_progress {
     int64_t steps; /* of the stage */
     int64_t since_point;
     int checks_at_rest; /* checks in a row that found the powder at rest */
+    /* For the display alone: the highest kinetic energy of the checks over its limit, and the
+     * share of the way from there to rest. */
+    double most_kinetic, rest_share;
     double punch_from;  /* position of the punch when flattening began */
     double height0, next_record;
     bool at_point; /* the last step ended in a point */

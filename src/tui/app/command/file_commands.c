@@ -173,52 +173,86 @@ void gb_file_commands_accept_reading(struct gb_app *app)
     g_free(reading);
 }
 
-/* A file that a child command makes from the run directory. */
-struct product {
-    const char *name, *command;
-    const char *middle, *end; /* path: directory, middle, first free number, end */
-    const char *started;      /* message */
-};
-
-static void make(struct gb_app *app, const struct product *product)
+/* Directory of the run; NULL with a message: it is not stored. */
+static const char *run_directory(struct gb_app *app)
 {
-    struct gb_session *session = &app->screen.session;
+    const struct gb_session *session = &app->screen.session;
     const char *directory =
         session->runner != NULL ? gb_runner_directory(session->runner) : NULL;
-    struct gb_error err = {0};
     if (directory == NULL) {
         gb_screen_commands_message(app, GB_STYLE_WARN, "no stored run yet: r starts one");
-        return;
     }
+    return directory;
+}
+
+/* directory, middle, first free number, end; g_free. */
+static char *free_path(const char *directory, const char *middle, const char *end)
+{
     char *path = NULL;
     for (int i = 1; path == NULL || g_file_test(path, G_FILE_TEST_EXISTS); i++) {
         g_free(path);
-        path = g_strdup_printf("%s%s%d%s", directory, product->middle, i, product->end);
+        path = g_strdup_printf("%s%s%d%s", directory, middle, i, end);
     }
-    const char *const words[] = {product->command, directory, "-o", path, NULL};
-    if (gb_child_command_start(&session->child, product->name, path,
+    return path;
+}
+
+/* Starts a child command that makes the file `path`. */
+static void make(struct gb_app *app, const char *name, const char *path,
+                 const char *const *words, const char *started)
+{
+    struct gb_error err = {0};
+    if (gb_child_command_start(&app->screen.session.child, name, path,
                                GB_CHILD_COMMAND_SHORT, words, &err)) {
-        gb_screen_commands_message(app, GB_STYLE_PLAIN, product->started);
+        gb_screen_commands_message(app, GB_STYLE_PLAIN, started);
     } else {
         gb_screen_commands_message(app, GB_STYLE_BAD, err.text);
     }
-    g_free(path);
 }
 
 void gb_file_commands_picture(struct gb_app *app, const struct gb_key *key)
 {
-    static const struct product picture = {"picture", "snapshot", "/picture-", ".png",
-                                           "rendering..."};
+    const char *directory = run_directory(app);
     (void)key;
-    make(app, &picture);
+    if (directory != NULL) {
+        char *path = free_path(directory, "/picture-", ".png");
+        gb_dialog_show_picture(&app->screen.dialog, &gb_dialogs_picture, path);
+        g_free(path);
+    }
+}
+
+void gb_file_commands_accept_picture(struct gb_app *app)
+{
+    struct gb_dialog *dialog = &app->screen.dialog;
+    const char *directory = run_directory(app);
+    const char *words[4 + GB_PICTURE_FORM_WORDS + 1] = {"snapshot", directory, "-o"};
+    char *path = gb_complete_home(gb_prompt_text(&dialog->picture.file));
+    if (directory == NULL) {
+        gb_dialog_close(dialog);
+    } else if (*path == '\0' || g_file_test(path, G_FILE_TEST_EXISTS)) {
+        gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR,
+                           *path == '\0' ? "file: a name that ends in .png%s"
+                                         : "%s exists: accepted a new name",
+                           path);
+        dialog->picture.row = GB_PICTURE_FORM_FILE;
+    } else {
+        words[3] = path;
+        gb_picture_form_words(&dialog->picture, words + 4);
+        make(app, "picture", path, words, "rendering...");
+        gb_dialog_close(dialog);
+    }
+    g_free(path);
 }
 
 void gb_file_commands_report(struct gb_app *app, const struct gb_key *key)
 {
-    static const struct product report = {"report", "report", "-report-", "",
-                                          "writing the report..."};
+    const char *directory = run_directory(app);
     (void)key;
-    make(app, &report);
+    if (directory != NULL) {
+        char *path = free_path(directory, "-report-", "");
+        const char *const words[] = {"report", directory, "-o", path, NULL};
+        make(app, "report", path, words, "writing the report...");
+        g_free(path);
+    }
 }
 
 char *gb_file_commands_shell_text(struct gb_app *app)

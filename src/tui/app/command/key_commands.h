@@ -35,6 +35,7 @@ void gb_view_commands_show(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_next(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_previous(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_log(struct gb_app *app, const struct gb_key *key);
+void gb_view_commands_colour(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_previous_curves(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_glyphs(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_pressure(struct gb_app *app, const struct gb_key *key);
@@ -69,6 +70,7 @@ void gb_file_commands_open(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_material(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_data(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_picture(struct gb_app *app, const struct gb_key *key);
+void gb_file_commands_accept_picture(struct gb_app *app);
 void gb_file_commands_report(struct gb_app *app, const struct gb_key *key);
 void gb_file_commands_shell(struct gb_app *app, const struct gb_key *key);
 /* That command in one line; g_free. */

@@ -91,3 +91,15 @@ char *gb_view_commands_densities_text(struct gb_app *app)
     const struct gb_dialog *dialog = &app->screen.dialog;
     return gb_density_table_text(dialog->session, dialog->hide_previous);
 }
+
+/* The view of the packing comes with it: elsewhere nothing would be seen. */
+void gb_view_commands_colour(struct gb_app *app, const struct gb_key *key)
+{
+    struct gb_panel_plot *plot = &app->screen.plot;
+    (void)key;
+    uncover_plot(&app->screen);
+    if (plot->view->draw == gb_view_packing_draw) {
+        plot->look.colour = (plot->look.colour + 1) % GB_PACKING_COLOURS;
+    }
+    plot->view = gb_views_find("9");
+}

@@ -59,6 +59,14 @@ void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_t
     dialog->hide_previous = hide_previous;
 }
 
+void gb_dialog_show_picture(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const char *path)
+{
+    gb_dialog_close(dialog);
+    dialog->type = type;
+    gb_picture_form_init(&dialog->picture, path);
+}
+
 void gb_dialog_close(struct gb_dialog *dialog)
 {
     gb_preset_browser_finish(&dialog->browser);

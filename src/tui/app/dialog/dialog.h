@@ -1,6 +1,7 @@
 #ifndef GB_TUI_APP_DIALOG_DIALOG_H
 #define GB_TUI_APP_DIALOG_DIALOG_H
 
+#include "tui/app/dialog/picture_form.h"
 #include "tui/app/keys.h"
 #include "tui/app/preset_browser.h"
 #include "tui/legs/leg_editor.h"
@@ -48,6 +49,7 @@ struct gb_dialog {
     int top, focus, page; /* first line, focused line and lines per page of a list */
     struct gb_preset_browser browser; /* of presets or materials */
     struct gb_leg_editor legs;
+    struct gb_picture_form picture;
     const struct gb_session *session; /* of the table of densities */
     bool hide_previous;               /* in that table */
     char *text;               /* shell command shown, or file asked about; owned */
@@ -69,6 +71,9 @@ void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *
 /* The table of densities, drawn anew with each frame. */
 void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                               const struct gb_session *session, bool hide_previous);
+/* The form of a picture, which goes to `path` unless another file is typed. */
+void gb_dialog_show_picture(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const char *path);
 void gb_dialog_close(struct gb_dialog *dialog);
 
 void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);

@@ -243,6 +243,27 @@ static enum gb_dialog_result accept_prompt(struct gb_dialog *dialog, int code)
 const struct gb_dialog_form gb_dialog_forms_prompt = {draw_prompt, edit_prompt,
                                                       accept_prompt};
 
+/* --- picture ------------------------------------------------------------------------ */
+
+static void draw_picture(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    const int note = dialog->note[0] != '\0' ? NOTE_ROWS : 0;
+    const struct gb_paint frame = box(screen, GB_PICTURE_FORM_ROWS + 2 + note,
+                                      PROMPT_COLS, dialog->type->title);
+    const struct gb_paint paint = inside(&frame);
+    gb_picture_form_draw(&dialog->picture, &paint);
+    draw_note(dialog, &paint, GB_PICTURE_FORM_ROWS, note);
+}
+
+static bool edit_picture(struct gb_dialog *dialog, const struct gb_term_event *event)
+{
+    return clear_note(dialog, gb_picture_form_handle(&dialog->picture, event,
+                                                     gb_keys_action(event->code)));
+}
+
+const struct gb_dialog_form gb_dialog_forms_picture = {draw_picture, edit_picture,
+                                                       accept_prompt};
+
 /* --- command ---------------------------------------------------------------------- */
 
 /* No frame at the sides, so that the mouse can select the text: the lines end in

@@ -9,6 +9,7 @@ extern const struct gb_dialog_form gb_dialog_forms_densities; /* the table */
 extern const struct gb_dialog_form gb_dialog_forms_presets;   /* list with a preview */
 extern const struct gb_dialog_form gb_dialog_forms_legs;      /* legs of a loading path */
 extern const struct gb_dialog_form gb_dialog_forms_prompt;    /* input line */
+extern const struct gb_dialog_form gb_dialog_forms_picture;   /* rows of choices */
 extern const struct gb_dialog_form gb_dialog_forms_command;   /* shell command */
 extern const struct gb_dialog_form gb_dialog_forms_question;  /* y or n */
 

@@ -98,6 +98,13 @@ const struct gb_dialog_type gb_dialogs_calibrate = {
     .accept = gb_job_commands_accept_calibrate,
 };
 
+const struct gb_dialog_type gb_dialogs_picture = {
+    .form = &gb_dialog_forms_picture,
+    .title = "Picture of the last stored packing (Enter, Esc)",
+    .opened_by = gb_file_commands_picture,
+    .accept = gb_file_commands_accept_picture,
+};
+
 const struct gb_dialog_type gb_dialogs_legs = {
     .form = &gb_dialog_forms_legs,
     .title = "Legs of loading.path (y takes them, Esc restores)",

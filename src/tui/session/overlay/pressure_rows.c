@@ -45,8 +45,7 @@ void gb_pressure_rows_list(struct gb_pressure_rows *rows,
                            const struct gb_session *session, bool hide_previous)
 {
     const struct gb_quick_cell *quick = &session->quick_cell;
-    const struct gb_runset_view_group *group =
-        gb_replica_band_group(&session->replica_band);
+    const struct gb_runset_view_group *group = gb_session_replicas(session);
     char text[64];
     rows->count = 0;
     if (session->runner != NULL) {
@@ -64,7 +63,7 @@ void gb_pressure_rows_list(struct gb_pressure_rows *rows,
         name(add(rows, GB_PRESSURE_ROW_REPLICAS, &session->replica_band.params), "mean",
              text);
     }
-    if (session->measured != NULL) {
+    if (gb_session_measured(session) != NULL) {
         name(add(rows, GB_PRESSURE_ROW_MEASURED, NULL), "measured", "measured");
     }
     if (!hide_previous) {

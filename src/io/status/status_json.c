@@ -1,4 +1,4 @@
-#include "io/status_json.h"
+#include "io/status/status_json.h"
 
 #include <math.h>
 #include <string.h>
@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/read_file.h"
+#include "io/status/stage_text.h"
 #include <glib.h>
 
 enum { BYTES_MOST = 1 << 20, DEPTH_MOST = 8 };
@@ -132,6 +133,24 @@ static void add_array(JsonBuilder *json, const char *name, const double *values,
     json_builder_end_array(json);
 }
 
+/* Of a run in a die: values in SI, as far as they are known. */
+static void add_stage(JsonBuilder *json, const struct gb_stage_report *stage)
+{
+    json_builder_set_member_name(json, "stage");
+    json_builder_begin_object(json);
+    add_text(json, "name", gb_stage_text_name(stage->stage));
+    add_text(json, "measure", gb_stage_text_quantity(stage->measure));
+    add_double(json, "value", stage->value);
+    add_double(json, "goal", stage->goal);
+    add_double(json, "share", stage->share);
+    add_integer(json, "poured", stage->poured);
+    add_double(json, "time_s", stage->time_s);
+    add_double(json, "height_m", stage->height_m);
+    add_double(json, "kinetic_J", stage->kinetic_j);
+    add_double(json, "coordination", stage->coordination);
+    json_builder_end_object(json);
+}
+
 static void add_progress(JsonBuilder *json, const struct gb_snapshot *shot,
                          int64_t points)
 {
@@ -154,6 +173,9 @@ static void add_progress(JsonBuilder *json, const struct gb_snapshot *shot,
     add_double(json, "time_step_s", shot->time_step_s);
     add_array(json, "histogram", shot->histogram, GB_SNAPSHOT_HISTOGRAM);
     add_array(json, "rose", shot->rose, GB_SNAPSHOT_ROSE);
+    if (shot->stage.stage != GB_STAGE_NONE) {
+        add_stage(json, &shot->stage);
+    }
 }
 
 char *gb_status_json_text(const struct gb_snapshot *snapshot, int64_t points)

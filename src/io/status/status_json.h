@@ -1,5 +1,5 @@
-#ifndef GB_IO_STATUS_JSON_H
-#define GB_IO_STATUS_JSON_H
+#ifndef GB_IO_STATUS_STATUS_JSON_H
+#define GB_IO_STATUS_STATUS_JSON_H
 
 #include <json-glib/json-glib.h>
 

@@ -1,0 +1,187 @@
+#include "runner/view_sampling.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "io/state/state_stress.h"
+#include "measure/structure.h"
+#include "pack/cell/cell.h"
+#include "pack/die/bed.h"
+#include "scene/loading_kind.h"
+
+/* Largest distance of g(r), diameters: P1 finds no order beyond. */
+static const double rdf_reach = 5.0;
+
+/* Share of the array that is planned for, because the front may be denser than the mean. */
+static const double filling = 0.9;
+
+/* A slab behind the front less deep than this would look full of holes. */
+static const double depth_least = 2.5;
+
+/* The part of the cell that is shown: all of its front, as deep as fits; of a very large
+ * cell a corner of the front.  2D: the same in the plane. */
+static void choose_window(const struct gb_state *state, double window[3])
+{
+    const double *edge = state->cell;
+    const double part = fmin(1.0, filling * GB_VIEW_SAMPLE_POINTS / (double)state->count);
+    memcpy(window, edge, 3 * sizeof *window);
+    double share = part;
+    if (state->dimension == 3) {
+        window[1] = fmin(edge[1], fmax(depth_least, part * edge[1]));
+        share = fmin(1.0, part * edge[1] / window[1]);
+    }
+    window[0] = sqrt(share) * edge[0];
+    window[2] = sqrt(share) * edge[2];
+}
+
+/* The walls.  While the powder falls out of its funnel, the box keeps the size that it had at
+ * first, so that the picture does not grow. */
+static void describe_die(const struct gb_die *die, struct gb_view_start *start,
+                         struct gb_view_sample *sample)
+{
+    sample->die = (struct gb_view_die){
+        .shown = true,
+        .radius = die->radius,
+        .top = die->funnel                      ? die->height
+               : die->bore == GB_DIE_BORE_OPEN ? die->top
+                                               : sample->window[2],
+        .gone = die->bore == GB_DIE_BORE_GONE,
+        .funnel = die->funnel,
+        .outlet = die->outlet,
+        .funnel_slope = die->funnel ? die->sine / die->cosine : 0.0,
+        .punch = die->punch,
+        .punch_height = die->punch_position,
+    };
+    if (die->funnel) {
+        start->half_width = fmax(start->half_width, 0.5 * sample->window[0]);
+        start->height = fmax(start->height, sample->window[2]);
+        sample->window[0] = 2.0 * start->half_width;
+        sample->window[2] = start->height;
+    }
+}
+
+/* Distance from where the particle was; in a cell beside its affine motion. */
+static double displacement(const struct gb_state *state,
+                           const struct gb_view_start *start, int64_t i)
+{
+    const struct gb_cell cell = gb_state_cell(state);
+    double moved[3];
+    if (start->count != state->count) {
+        return 0.0;
+    }
+    for (int c = 0; c < 3; c++) {
+        const double scale = state->die_radius > 0.0 ? 1.0 : state->cell[c] / start->edge[c];
+        const double middle = state->die_radius > 0.0 && c < 2
+                                  ? 0.5 * (state->cell[c] - start->edge[c])
+                                  : 0.0;
+        moved[c] = state->position[3 * i + c] - middle - scale * start->position[3 * i + c];
+    }
+    if (!(state->die_radius > 0.0)) {
+        gb_cell_nearest(&cell, moved);
+    }
+    return sqrt(moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]);
+}
+
+/* Particles of the window.  A periodic cell is cut at y = 0; a die through its middle, unless
+ * all of its particles fit. */
+static void copy_front(const struct gb_state *state, const struct gb_view_start *start,
+                       const double *stress, struct gb_view_sample *sample)
+{
+    const double cut = sample->die.shown ? 0.5 * state->cell[1] : 0.0;
+    const double shift =
+        sample->die.shown ? 0.5 * (sample->window[0] - state->cell[0]) : 0.0;
+    sample->whole = sample->die.shown && state->count <= GB_VIEW_SAMPLE_POINTS;
+    for (int64_t i = 0; i < state->count && sample->count < GB_VIEW_SAMPLE_POINTS; i++) {
+        const double *at = state->position + 3 * i;
+        const double position[3] = {at[0] + shift, at[1] - cut, at[2]};
+        bool inside = position[1] >= 0.0;
+        for (int c = 0; c < 3; c++) {
+            inside = inside && position[c] <= sample->window[c];
+        }
+        if (inside || sample->whole) {
+            const int k = sample->count++;
+            for (int c = 0; c < 3; c++) {
+                sample->position[k][c] = (float)position[c];
+            }
+            sample->radius[k] = (float)state->radius[i];
+            sample->value[GB_VIEW_VALUE_CONTACTS][k] = (float)state->contacts[i];
+            sample->value[GB_VIEW_VALUE_PRESSURE][k] =
+                stress != NULL ? (float)(1e-6 * stress[i]) : NAN;
+            sample->value[GB_VIEW_VALUE_DISPLACEMENT][k] =
+                (float)displacement(state, start, i);
+        }
+    }
+}
+
+/* g(r), in periodic cells only: layers at walls would distort it. */
+static void measure_distances(const struct gb_state *state, struct gb_view_sample *sample)
+{
+    const struct gb_cell cell = gb_state_cell(state);
+    const double reach = fmin(rdf_reach, 0.499 * gb_cell_shortest(&cell));
+    if (gb_structure_rdf(&cell, state->count, state->position, reach, GB_VIEW_SAMPLE_RDF,
+                         sample->rdf, NULL)) {
+        sample->rdf_reach = reach;
+    }
+}
+
+void gb_view_sampling_finish(struct gb_view_start *start)
+{
+    gb_alloc_free(start->position);
+    *start = (struct gb_view_start){.count = 0};
+}
+
+/* At the first sample, and again when pressing has begun. */
+static void note_start(const struct gb_state *state, bool pressed,
+                       struct gb_view_start *start)
+{
+    const size_t bytes = 3 * (size_t)state->count * sizeof *start->position;
+    if (start->count == state->count && start->pressed == pressed) {
+        return;
+    }
+    if (start->position == NULL) {
+        start->position = gb_alloc_array((size_t)state->count,
+                                         3 * sizeof *start->position, NULL);
+    }
+    if (start->position != NULL) {
+        memcpy(start->position, state->position, bytes);
+        memcpy(start->edge, state->cell, sizeof start->edge);
+        start->count = state->count;
+        start->pressed = pressed;
+    }
+}
+
+void gb_view_sampling_take(const struct gb_experiment *experiment,
+                         struct gb_view_start *start, struct gb_view_sample *sample)
+{
+    struct gb_state *state = NULL;
+    const struct gb_bed *bed = gb_experiment_bed(experiment);
+    sample->valid = false;
+    if (!gb_experiment_state(experiment, &state, NULL)) {
+        return;
+    }
+    sample->dimension = state->dimension;
+    sample->density = state->point.density;
+    sample->count = 0;
+    sample->rdf_reach = 0.0;
+    sample->die.shown = false;
+    memcpy(sample->edge, state->cell, sizeof sample->edge);
+    choose_window(state, sample->window);
+    if (bed != NULL) {
+        memcpy(sample->window, state->cell, sizeof sample->window);
+        describe_die(&bed->die, start, sample);
+    }
+    note_start(state, bed == NULL || gb_experiment_point(experiment)->height_m > 0.0,
+               start);
+    double *stress = gb_alloc_array((size_t)state->count, sizeof *stress, NULL);
+    if (stress != NULL) {
+        gb_state_stress_mean(state, stress);
+    }
+    copy_front(state, start, stress, sample);
+    gb_alloc_free(stress);
+    if (bed == NULL) {
+        measure_distances(state, sample);
+    }
+    gb_state_destroy(state);
+    sample->valid = true;
+}
