@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/size/sizes.h"
+#include "scene/tolerances.h"
 
 static bool attracts(const struct gb_params *params)
 {
@@ -46,8 +47,7 @@ void gb_quasistatic_scene_freeze(struct gb_model *model, const struct gb_params 
     (void)params;
 }
 
-const char *gb_quasistatic_scene_note(const struct gb_model *model, int index,
-                                      char *buffer, size_t size)
+static void note_relaxer(const struct gb_model *model, char *buffer, size_t size)
 {
     static const char *const unit[] = {
         [GB_TOLERANCE_CONTACT] = "of the mean contact force",
@@ -57,9 +57,6 @@ const char *gb_quasistatic_scene_note(const struct gb_model *model, int index,
     const struct gb_numerics *numerics = &model->numerics;
     const bool lighter = numerics->tolerance_scale == GB_TOLERANCE_CONTACT &&
                          strcmp(numerics->relaxer, "predict") == 0;
-    if (index != 0) {
-        return NULL;
-    }
     snprintf(
         buffer, size,
         "relaxer %s, strain steps in %d part%s, tolerance %g %s%s, at most %lld evaluations per part, %s precision",
@@ -67,5 +64,33 @@ const char *gb_quasistatic_scene_note(const struct gb_model *model, int index,
         numerics->tolerance, unit[numerics->tolerance_scale],
         lighter ? " (less under light loads)" : "", (long long)numerics->max_evaluations,
         numerics->single ? "single" : "double");
+}
+
+/* A cell so much higher than wide that the forces left over by the relaxer can add up to a
+ * pressure that differs along its height. */
+static bool is_column(const struct gb_model *model)
+{
+    const double *edges = model->edges;
+    return model->numerics.tolerance_scale == GB_TOLERANCE_CONTACT &&
+           edges[2] > GB_COLUMN_ASPECT * fmin(edges[0], edges[1]) &&
+           edges[2] * model->numerics.tolerance > GB_COLUMN_UNBALANCED;
+}
+
+const char *gb_quasistatic_scene_note(const struct gb_model *model, int index,
+                                      char *buffer, size_t size)
+{
+    if (index == 0) {
+        note_relaxer(model, buffer, size);
+    } else if (index == 1 && is_column(model)) {
+        snprintf(
+            buffer, size,
+            "the cell is %.0f d high and %.0f d wide: at this tolerance its layers are "
+            "not in equilibrium, densities too low; better structure.base = auto, or "
+            "numerics.tolerance = %.1g",
+            model->edges[2], fmin(model->edges[0], model->edges[1]),
+            GB_COLUMN_UNBALANCED / model->edges[2]);
+    } else {
+        return NULL;
+    }
     return buffer;
 }

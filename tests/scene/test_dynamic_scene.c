@@ -142,8 +142,10 @@ static void test_refusals(void)
 
 static void test_accepted(void)
 {
-    static const char *const sets[] = {"contact.viscosity=0 Pa s", "loading.relax=0 s",
-                                       "loading.hold=0 s", "numerics.time_step=0.03 ps",
+    static const char *const sets[] = {"contact.viscosity=0 Pa s",
+                                       "loading.relax=0 s",
+                                       "loading.hold=0 s",
+                                       "numerics.time_step=0.03 ps",
                                        "loading.rate=6.8e4 1/s",
                                        "loading.geometry=uniaxial",
                                        "particles.distribution=lognormal"};
@@ -199,6 +201,24 @@ static void test_notes(void)
     notes_say(&p, "viscous", false);
 }
 
+/* High columns are told to be out of equilibrium, with what to do. */
+static void test_columns(void)
+{
+    struct gb_params p;
+    gb_params_init(&p);
+    g_assert_true(gb_params_assign(&p, "structure.base=18 d", NULL));
+    p.count = 8000;
+    notes_say(&p, "equilibrium", false);
+    p.count = 40000;
+    notes_say(&p, "d high and 18 d wide", true);
+    notes_say(&p, "or numerics.tolerance = 0.00", true);
+    p.tolerance = 0.007;
+    notes_say(&p, "equilibrium", false);
+    p.tolerance = NAN;
+    g_assert_true(gb_params_assign(&p, "structure.base=auto", NULL));
+    notes_say(&p, "equilibrium", false);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -210,5 +230,6 @@ int main(int argc, char **argv)
     g_test_add_func("/dynamics/refusals", test_refusals);
     g_test_add_func("/dynamics/accepted", test_accepted);
     g_test_add_func("/dynamics/notes", test_notes);
+    g_test_add_func("/quasistatic/columns", test_columns);
     return g_test_run();
 }
