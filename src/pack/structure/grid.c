@@ -129,7 +129,8 @@ static void window_start(struct gb_grid_window *window, const struct gb_grid *gr
     for (int k = 0; k < 3; k++) {
         window_rewind(window, k);
     }
-    window->item = grid->first[cell_index(grid, window->cell)];
+    window->first = grid->first + cell_index(grid, window->cell);
+    window->item = *window->first;
 }
 
 static bool window_step(struct gb_grid_window *window, const struct gb_grid *grid)
@@ -148,14 +149,30 @@ static bool window_step(struct gb_grid_window *window, const struct gb_grid *gri
     return false;
 }
 
+/* To the next grid cell, mostly the neighbour in memory. */
+static bool window_advance(struct gb_grid_window *window, const struct gb_grid *grid)
+{
+    if (window->at[2] < window->high[2] && window->cell[2] + 1 < grid->cells[2]) {
+        window->at[2]++;
+        window->cell[2]++;
+        window->first++;
+        return true;
+    }
+    if (!window_step(window, grid)) {
+        return false;
+    }
+    window->first = grid->first + cell_index(grid, window->cell);
+    return true;
+}
+
 /* Index of the next point in the window, or -1. */
 static int64_t window_next(struct gb_grid_window *window, const struct gb_grid *grid)
 {
     while (window->item == 0) {
-        if (!window_step(window, grid)) {
+        if (!window_advance(window, grid)) {
             return -1;
         }
-        window->item = grid->first[cell_index(grid, window->cell)];
+        window->item = *window->first;
     }
     const int64_t index = window->item - 1;
     window->item = grid->next[index];

@@ -36,6 +36,7 @@ struct gb_grid_window {
     int low[3], high[3], at[3]; /* unwrapped grid indices */
     int low_cell[3], cell[3];   /* the same wrapped */
     int low_image[3], image[3]; /* and which image of the cell they lie in */
+    const int32_t *first;       /* of the grid cell; see gb_grid */
     int32_t item;
 };
 
