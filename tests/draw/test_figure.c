@@ -417,6 +417,36 @@ static void test_black(void)
     }
 }
 
+/* In a column of a journal a legend without space takes that of the inset, and not half of
+ * the page. */
+static void test_narrow(void)
+{
+    struct page page;
+    struct gb_figure_layout layout;
+    struct gb_error err = {0};
+    struct gb_image *image = NULL;
+    make(&page);
+    for (int k = 0; k < POINTS; k++) {
+        page.y[0][k] = 600.0 * pow(page.x[k], 3.0);
+    }
+    page.figure.title = NULL;
+    page.figure.inset[0] = 0.0;
+    page.figure.inset[1] = 0.3;
+    page.figure.per_inch = 300;
+    page.curve[0].label = "alumina 10 nm, set II";
+    page.curve[0].kind = GB_FIGURE_BOTH;
+    page.curve[1] = page.curve[2];
+    page.curve[1].label = "Laboratory A";
+    page.curve[1].x = page.x + 12;
+    page.curve[2].label = "Laboratory B";
+    g_assert_true(gb_figure_render(&image, &page.figure, 945, 709, &layout, &err));
+    g_assert_cmpfloat(layout.frame[2] - layout.frame[0], >, 0.65 * 945.0);
+    if (layout.inset[2] > layout.inset[0]) {
+        g_assert_cmpfloat(layout.inset[2] - layout.inset[0], >, 80.0 * layout.unit);
+    }
+    gb_image_destroy(image);
+}
+
 int main(int argc, char **argv)
 {
     g_test_init(&argc, &argv, NULL);
@@ -434,5 +464,6 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/figure/files", test_files);
     g_test_add_func("/draw/figure/styles", test_styles);
     g_test_add_func("/draw/figure/black", test_black);
+    g_test_add_func("/draw/figure/narrow", test_narrow);
     return g_test_run();
 }

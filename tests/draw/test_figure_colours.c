@@ -104,8 +104,8 @@ static double hue_of(double a, double b)
 /* CIEDE2000: Sharma, Wu, Dalal, Color Res. Appl. 30 (2005) 21. */
 static double difference(const double one[3], const double two[3])
 {
-    const double g = 0.5 * (1.0 - power7_share(0.5 * (hypot(one[1], one[2]) +
-                                                      hypot(two[1], two[2]))));
+    const double g =
+        0.5 * (1.0 - power7_share(0.5 * (hypot(one[1], one[2]) + hypot(two[1], two[2]))));
     const double a[2] = {one[1] * (1.0 + g), two[1] * (1.0 + g)};
     const double chroma[2] = {hypot(a[0], one[2]), hypot(a[1], two[2])};
     const double hue[2] = {hue_of(a[0], one[2]), hue_of(a[1], two[2])};
@@ -123,8 +123,7 @@ static double difference(const double one[3], const double two[3])
                      0.32 * cos_deg(3.0 * h + 6.0) - 0.2 * cos_deg(4.0 * h - 63.0);
     const double h_positive = h < 0.0 ? h + 360.0 : h;
     const double rotation = 30.0 * exp(-pow((h_positive - 275.0) / 25.0, 2.0));
-    const double s_l =
-        1.0 + 0.015 * pow(l - 50.0, 2.0) / sqrt(20.0 + pow(l - 50.0, 2.0));
+    const double s_l = 1.0 + 0.015 * pow(l - 50.0, 2.0) / sqrt(20.0 + pow(l - 50.0, 2.0));
     const double by_l = d_l / s_l;
     const double by_c = d_c / (1.0 + 0.045 * c);
     const double by_h = d_h / (1.0 + 0.015 * c * t);

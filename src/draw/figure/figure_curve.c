@@ -6,12 +6,9 @@
 
 /* Dashes in points, ended by 0. */
 static const double dashes[GB_FIGURE_STYLES][7] = {
-    {0},
-    {6, 2.4, 0},
-    {1.4, 2, 0},
-    {7, 2, 1.4, 2, 0},
-    {11, 2.6, 0},
-    {7, 2, 1.4, 2, 1.4, 2, 0},
+    {0},          {6, 2.4, 0},
+    {1.4, 2, 0},  {7, 2, 1.4, 2, 0},
+    {11, 2.6, 0}, {7, 2, 1.4, 2, 1.4, 2, 0},
 };
 
 static const double line_width = 1.35;
@@ -23,10 +20,9 @@ static const double marker_distance = 46.0;
 
 static void set_pen(cairo_t *cairo, const struct gb_figure_curve *curve)
 {
-    const double *dash =
-        dashes[(gb_figure_marker_shape(curve->style) +
-                gb_figure_marker_round(curve->style)) %
-               GB_FIGURE_STYLES];
+    const double *dash = dashes[(gb_figure_marker_shape(curve->style) +
+                                 gb_figure_marker_round(curve->style)) %
+                                GB_FIGURE_STYLES];
     const bool faint = curve->kind == GB_FIGURE_FAINT;
     const bool dashed = curve->kind == GB_FIGURE_LINE || curve->kind == GB_FIGURE_BOTH;
     int count = 0;

@@ -15,8 +15,8 @@ static int number_of(int style)
 
 void gb_figure_marker_colour(int style, double rgb[3])
 {
-    const uint8_t *from = style < 0 ? gb_figure_colours_black
-                                    : gb_figure_colours[style % GB_FIGURE_STYLES];
+    const uint8_t *from =
+        style < 0 ? gb_figure_colours_black : gb_figure_colours[style % GB_FIGURE_STYLES];
     for (int k = 0; k < 3; k++) {
         rgb[k] = from[k] / 255.0;
     }

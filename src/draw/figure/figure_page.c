@@ -17,6 +17,7 @@ const double gb_figure_page_gap = 4.0;
 
 static const double inset_tick_size = 7.4;
 static const double margin = 12.0;
+static const double legend_most = 0.3; /* of the page, beside an inset */
 
 /* Height of the panel below over that of both, and the gap between them. */
 static const double below_share = 0.28;
@@ -167,6 +168,9 @@ static void set_frame(struct gb_figure_page *page)
     set_axis_ends(layout);
 }
 
+/* Least width and height of an inset, whose tick labels would overlap. */
+static const double inset_least[2] = {80.0, 60.0};
+
 /* Finds the largest free box for the inset, from these fractions of the frame. */
 static void find_inset(struct gb_figure_page *page)
 {
@@ -178,19 +182,32 @@ static void find_inset(struct gb_figure_page *page)
     }
     gb_figure_occupancy_init(&occupancy, page->figure, &page->layout);
     for (size_t k = 0; k < G_N_ELEMENTS(fractions); k++) {
-        if (gb_figure_occupancy_find(&occupancy, fractions[k] * (f[2] - f[0]),
-                                     fractions[k] * (f[3] - f[1]), page->layout.inset)) {
+        const double wide = fractions[k] * (f[2] - f[0]);
+        const double high = fractions[k] * (f[3] - f[1]);
+        if (wide < inset_least[0] || high < inset_least[1] ||
+            gb_figure_occupancy_find(&occupancy, wide, high, page->layout.inset)) {
             break;
         }
     }
     gb_figure_occupancy_finish(&occupancy);
 }
 
+static void arrange_again(struct gb_figure_page *page)
+{
+    gb_figure_labels_finish(&page->labels);
+    gb_figure_labels_arrange(&page->labels, page->figure, &page->layout, &page->text);
+}
+
 /* Places labels and legend; a legend without space in the frame goes to its right, and the
- * frame shrinks. */
+ * frame shrinks.  Where that would take much of the page, the inset gives way first. */
 static void set_labels(struct gb_figure_page *page)
 {
     gb_figure_labels_arrange(&page->labels, page->figure, &page->layout, &page->text);
+    if (page->labels.outside && page->layout.inset[2] > page->layout.inset[0] &&
+        page->labels.legend[2] > legend_most * page->width) {
+        memset(page->layout.inset, 0, sizeof page->layout.inset);
+        arrange_again(page);
+    }
     if (!page->labels.outside) {
         return;
     }
@@ -202,8 +219,7 @@ static void set_labels(struct gb_figure_page *page)
     find_inset(page);
     const double wide = page->labels.legend[2];
     const double high = page->labels.legend[3];
-    gb_figure_labels_finish(&page->labels);
-    gb_figure_labels_arrange(&page->labels, page->figure, &page->layout, &page->text);
+    arrange_again(page);
     if (page->labels.outside) {
         const double left =
             page->layout.frame[2] + gb_figure_second_width(page) + gb_figure_page_gap;

@@ -32,7 +32,7 @@ static double column_inches(const char *text)
         const size_t length = strlen(row->name);
         if (strncmp(text, row->name, length) == 0) {
             const char *columns = text + length;
-            const double mm = *columns == '\0'              ? row->single_mm
+            const double mm = *columns == '\0'               ? row->single_mm
                               : strcmp(columns, "-1.5") == 0 ? row->middle_mm
                               : strcmp(columns, "-2") == 0   ? row->double_mm
                                                              : 0.0;
