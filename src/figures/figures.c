@@ -16,11 +16,11 @@
     }
 #define MODULUS_AXIS                                                                     \
     {                                                                                    \
-        .name = "modulus_GPa", .label = "modulus (GPa)"                                  \
+        .name = "modulus_GPa", .label = "elastic modulus (GPa)"                          \
     }
 #define HEIGHT_AXIS                                                                      \
     {                                                                                    \
-        .name = "z", .label = "height over that of the powder <i>z</i> / <i>H</i>"       \
+        .name = "z", .label = "relative height <i>z</i> / <i>H</i>"                      \
     }
 #define RATE_AXIS                                                                        \
     {                                                                                    \
@@ -116,7 +116,7 @@ static const struct gb_figures_row table[] = {
      "P1 Fig. 6", GB_FIGURES_RUNS, GB_FIGURES_IN_REPORT, GB_FIGURES_PRESSURE,
      .x = {.name = "diameter_nm", .label = "particle diameter <i>d</i> (nm)"},
      .y = {.name = "difference_points",
-           .label = "density difference " DELTA RHO " (% of theoretical density)"},
+           .label = "difference of relative density " DELTA RHO " (%)"},
      .compute = gb_figures_size_effect},
     {"sweep",
      "density at one pressure against a varied key, one line per value of others", "",
@@ -127,14 +127,16 @@ static const struct gb_figures_row table[] = {
      .x = {.name = "r", .label = "distance <i>r</i> / <i>d</i>"},
      .y = {.name = "g", .label = "radial distribution function <i>g</i>(<i>r</i>)"},
      .compute = gb_figures_rdf},
-    {"contacts", "share of particles with each number of contacts", "P1 sec. V",
+    {"contacts", "fraction of particles with each coordination number", "P1 sec. V",
      GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,
-     .x = {.name = "contacts", .label = "number of contacts"},
-     .y = {.name = "share_percent", .label = "share of particles (%)"},
+     .x = {.name = "contacts", .label = "coordination number"},
+     .y = {.name = "share_percent", .label = "fraction of particles (%)"},
      .compute = gb_figures_contacts},
     {"force-angle", "mean normal force against the contact angle to z", "P1 Fig. 14",
      GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,
-     .x = {.name = "angle_deg", .label = "angle of the contact to <i>z</i> (degrees)"},
+     .x = {.name = "angle_deg",
+           .label =
+               "angle between contact and <i>z</i> axis, <i>\xce\xb8</i> (\xc2\xb0)"},
      .compute = gb_figures_force_angle},
     {"sizes", "particle sizes by number, with the log-normal law",
      "P1 Fig. 10, P3 Fig. 14", GB_FIGURES_STATES, GB_FIGURES_IN_REPORT, GB_FIGURES_AT,
@@ -218,7 +220,7 @@ static const struct gb_figures_row table[] = {
      .compute = gb_figures_pair_step},
     {"card", "yield points and fitted Drucker-Prager cap, from greenbody card", "",
      GB_FIGURES_TABLE, .x = {.name = "p_MPa", .label = "mean pressure <i>p</i> (MPa)"},
-     .y = {.name = "q_MPa", .label = "deviator <i>q</i> (MPa)"},
+     .y = {.name = "q_MPa", .label = "deviatoric stress <i>q</i> (MPa)"},
      .compute = gb_figures_card},
     {"card-uniaxial", "lateral-to-axial stress ratio, simulated and of the card", "",
      GB_FIGURES_TABLE, .x = DENSITY_AXIS,
@@ -228,15 +230,16 @@ static const struct gb_figures_row table[] = {
      .compute = gb_figures_card_uniaxial},
     {"yield", "yield points, fitted ellipse and plastic flow, from greenbody yield", "",
      GB_FIGURES_TABLE, .x = {.name = "p_MPa", .label = "mean pressure <i>p</i> (MPa)"},
-     .y = {.name = "q_MPa", .label = "deviator <i>q</i> (MPa)"},
+     .y = {.name = "q_MPa", .label = "deviatoric stress <i>q</i> (MPa)"},
      .compute = gb_figures_yield},
     {"strength", "strength after unloading against pressing, from greenbody strength", "",
-     GB_FIGURES_TABLE, .y = {.name = "strength_MPa", .label = "strength (MPa)"},
+     GB_FIGURES_TABLE,
+     .y = {.name = "strength_MPa", .label = "strength <i>\xcf\x83</i> (MPa)"},
      .compute = gb_figures_strength},
     {"strength-curves", "stress against strain of the tests of greenbody strength", "",
      GB_FIGURES_TABLE, .options = GB_FIGURES_AT,
-     .x = {.name = "strain_percent", .label = "strain (%)"},
-     .y = {.name = "stress_MPa", .label = "stress (MPa)"},
+     .x = {.name = "strain_percent", .label = "strain <i>\xce\xb5</i> (%)"},
+     .y = {.name = "stress_MPa", .label = "stress <i>\xcf\x83</i> (MPa)"},
      .compute = gb_figures_strength_curves},
     {"moduli", "Young's, bulk, shear modulus and Poisson's ratio, of greenbody moduli",
      "", GB_FIGURES_TABLE, .x = DENSITY_AXIS, .y = MODULUS_AXIS,

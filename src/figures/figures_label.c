@@ -4,20 +4,14 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/field/field_symbol.h"
 
-/* Keys with a symbol or phrase of their own; others are written "key = value". */
+/* Keys with a phrase of their own; others are written "symbol = value", or "key = value"
+ * where they have no symbol. */
 static const struct {
     const char *key, *format;
 } short_forms[] = {
-    {"particles.diameter", "<i>d</i> = %s"},
-    {"particles.count", "<i>N</i> = %s"},
-    {"contact.mu", "<i>\xce\xbc</i> = %s"},
-    {"contact.alpha", "<i>\xce\xb1</i> = %s"},
-    {"contact.bridge_length", "\xce\x94<i>r</i><sub>ch</sub> = %s"},
-    {"contact.shear_strength", "<i>\xcf\x83</i><sub>b</sub> = %s"},
-    {"structure.density", "<i>\xcf\x81</i><sub>0</sub> = %s"},
     {"loading.geometry", "%s"},
-    {"loading.rate", "<i>v</i> = %s"},
     {"contact.normal", "%s"},
     {"material.name", "%s"},
     {"numerics.fidelity", "%s"},
@@ -69,13 +63,22 @@ static const char *short_form(const char *key)
     return NULL;
 }
 
+/* Symbol of "group.key", or the key without its group; g_free. */
+static char *symbol_of(const char *name)
+{
+    const struct gb_field *field = gb_params_find_name(name, NULL);
+    const char *symbol = field != NULL ? gb_field_symbol(field) : NULL;
+    const char *dot = strchr(name, '.');
+    return symbol != NULL ? g_strdup(symbol)
+                          : g_markup_escape_text(dot ? dot + 1 : name, -1);
+}
+
 /* Adds "group.key = value" in short form. */
 static void append_part(GString *label, const char *part, const char *except)
 {
     char **sides = g_strsplit(part, " = ", 2);
     if (sides[0] != NULL && sides[1] != NULL && !is_omitted(sides[0], except)) {
         char *value = value_markup(sides[1]);
-        const char *dot = strchr(sides[0], '.');
         g_string_append(label, label->len > 0 ? ", " : "");
         const char *form = short_form(sides[0]);
         if (form != NULL) {
@@ -83,7 +86,9 @@ static void append_part(GString *label, const char *part, const char *except)
             g_string_append_printf(label, "%s%s%s", halves[0], value, halves[1]);
             g_strfreev(halves);
         } else {
-            g_string_append_printf(label, "%s = %s", dot ? dot + 1 : sides[0], value);
+            char *symbol = symbol_of(sides[0]);
+            g_string_append_printf(label, "%s = %s", symbol, value);
+            g_free(symbol);
         }
         g_free(value);
     }
@@ -164,11 +169,7 @@ char *gb_figures_label(const struct gb_runset *set, size_t group, const char *ex
 
 char *gb_figures_label_axis(const char *key, const char *unit)
 {
-    const char *form = short_form(key);
-    const char *equals = form != NULL ? strstr(form, " = %s") : NULL;
-    const char *dot = strchr(key, '.');
-    char *symbol = equals != NULL ? g_strndup(form, (gsize)(equals - form))
-                                  : g_markup_escape_text(dot ? dot + 1 : key, -1);
+    char *symbol = symbol_of(key);
     char *value = g_strconcat("1 ", unit, NULL);
     char *shown = value_markup(value);
     char *label =
