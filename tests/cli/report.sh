@@ -15,7 +15,7 @@ refused() { # name, status, part of the line, arguments
 }
 
 for seed in 1 2; do
-    "$greenbody" run default particles.count=200 "loading.until=5 MPa" \
+    "$greenbody" run default particles.count=200 "loading.until=12 MPa" \
         loading.unload_from="2 MPa" numerics.fidelity=fast structure.seed=$seed -q \
         --out "run $seed" >stdout 2>stderr || { cat stderr; exit 1; }
 done
@@ -46,6 +46,49 @@ result "curves as they are" $?
     cut -d, -f1-13 again/curve.csv | grep -v '^#' >one &&
     cut -d, -f1-13 "run 1/curve.csv" | grep -v '^#' >two && cmp -s one two
 result "the preset makes the run again" $?
+
+# first page: results with errors, misfit, conditions; the laboratory file inside; everything
+# from outside escaped
+lab='lab <i>&|1.csv'
+printf 'density,p_MPa,density_error\n0.30,2,0.01\n0.32,4,0.01\n0.5,900,0.01\n' >"$lab"
+"$greenbody" report "run 1" "run 2" --data "$lab" -o with >stdout 2>stderr
+result "a report with measured points" $?
+first=$(sed -n '/^## Results/,/^## Figures/p' with/report.md)
+has() { printf '%s\n' "$first" | grep -qE -- "$1"; }
+has '^\| .* springback by volume from 2 MPa \| [0-9.]+ ± [0-9.]+ \| % \| 2 \| standard error'
+result "springback with its error" $?
+has '^\| .* RMS misfit to the laboratory file \| [0-9.]+ \| % of theoretical density \| 2 \| 2 of 3 measured points'
+result "misfit to the points that are reached" $?
+has '^\| .* alumina \| 200 spheres, d = 10 nm \| 2 \| 1, 2 \| rod, .* uniaxial to 12 MPa, unloading from 2 MPa \| fast'
+result "conditions" $?
+copy=$(sed -n 's/^[0-9a-f]*  \(data\/.*\)/\1/p' with/SHA256SUMS)
+cmp -s "with/$copy" "$lab" && (cd with && sha256sum -c --quiet SHA256SUMS) >/dev/null 2>&1 &&
+    grep -q "$(sha256sum <"$lab" | cut -d' ' -f1)" with/index.html
+result "the laboratory file inside, with its checksum" $?
+! grep -q 'lab <i>' with/index.html && grep -q 'lab &lt;i&gt;&amp;|1.csv' with/index.html &&
+    grep -qF 'lab \<i\>&\|1.csv' with/report.md
+result "names from outside are escaped" $?
+! grep -qi "left out\|not in this report\|no data for" with/index.html with/report.md
+result "nothing about what is missing" $?
+sed -n '/^## Parameters/,/^## References/p' with/report.md >keys
+grep -q '^| material.young | <i>E</i> | 382 | GPa | .* | P1 V |' keys &&
+    ! grep -q "| loading.rate |\|| material.yield |\|| output\." keys
+result "the keys in use, with symbol, unit and source" $?
+sed -n '/^## References/,/^## Provenance/p' with/report.md >papers
+grep -q "P1: .* Three-dimensional simulations of nanopowder .*88, 012209 (2013)" papers &&
+    grep -q "R. W. Heckel, Density-pressure relationships .* (1961)" papers &&
+    ! grep -q "Rojek" papers
+result "references in full, of the laws and equations in use" $?
+"$greenbody" report "run 1" "run 2" --data "$lab" -o twice >stdout 2>stderr
+same=0
+for page in index.html report.md SHA256SUMS tables/results.csv tables/keys.csv; do
+    grep -v 'runs of 1 scene' "with/$page" >one
+    grep -v 'runs of 1 scene' "twice/$page" | cmp -s - one || { echo "# $page"; same=1; }
+done
+result "the same report again" $same
+"$greenbody" report "run 1" -o single >stdout 2>stderr &&
+    grep -q '"expected scatter of one cell"' single/tables/results.csv
+result "one cell has its expected scatter" $?
 
 refused "never over something" 2 "out: exists" "run 1" -o out
 refused "no folder" 3 "cannot be made" "run 1" -o no/where/out

@@ -419,7 +419,7 @@ static void test_black(void)
 
 /* In a column of a journal a legend without space takes that of the inset, and not half of
  * the page. */
-static void test_narrow(void)
+static void test_column(void)
 {
     struct page page;
     struct gb_figure_layout layout;
@@ -464,6 +464,6 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/figure/files", test_files);
     g_test_add_func("/draw/figure/styles", test_styles);
     g_test_add_func("/draw/figure/black", test_black);
-    g_test_add_func("/draw/figure/narrow", test_narrow);
+    g_test_add_func("/draw/figure/column", test_column);
     return g_test_run();
 }

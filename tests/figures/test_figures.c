@@ -581,6 +581,52 @@ static void test_series(void)
     gb_series_finish(&series);
 }
 
+/* "pressure <i>p</i> (MPa)": the quantity in words of ISO, small letters, the unit of the
+ * column in parentheses at the end. */
+static void check_axis(const struct gb_series_axis *axis)
+{
+    static const char *const units[][2] = {
+        {"_MPa", "(MPa)"},    {"_GPa", "(GPa)"},
+        {"_ns", "(ns)"},      {"_nm", "(nm)"},
+        {"_nN", "(nN)"},      {"_mN", "(mN)"},
+        {"_um", "(\u00b5m)"}, {"_percent", "(%)"},
+        {"_per_s", "(1/s)"},  {"_deg", "(\u00b0)"},
+        {"_points", "(%"},    {"_s", "(s)"}}; /* longer ones before "_s" */
+    bool found = false;
+    static const char *const informal[] = {
+        "share", "deviator ", "degrees", "rms", "[", "height over", "number of contacts"};
+    if (axis->name == NULL || axis->label == NULL) {
+        return;
+    }
+    g_test_message("%s: %s", axis->name, axis->label);
+    for (size_t k = 0; k < G_N_ELEMENTS(informal); k++) {
+        g_assert_null(strstr(axis->label, informal[k]));
+    }
+    for (size_t k = 0; k < G_N_ELEMENTS(units); k++) {
+        if (!found && g_str_has_suffix(axis->name, units[k][0])) {
+            found = true;
+            const char *unit = strrchr(axis->label, '(');
+            g_assert_nonnull(unit);
+            g_assert_true(g_str_has_prefix(unit, units[k][1]));
+        }
+    }
+    const char first = axis->label[0] == '<' ? axis->label[3] : axis->label[0];
+    g_assert_false(g_ascii_isupper(first));
+}
+
+static void test_axes(void)
+{
+    for (const struct gb_figures_row *row = gb_figures_table(); row->name; row++) {
+        check_axis(&row->x);
+        check_axis(&row->y);
+    }
+    g_assert_cmpstr(gb_figures_find("densification")->y.label, ==,
+                    "pressure <i>p</i> (MPa)");
+    g_assert_cmpstr(gb_figures_find("lateral")->y.label, ==,
+                    "lateral-to-axial stress ratio <i>p<sub>x</sub></i> / "
+                    "<i>p<sub>z</sub></i>");
+}
+
 /* Measured points are black and filled, one marker for each series, with their errors; runs
  * keep their colours. */
 static void test_measured(void)
@@ -808,6 +854,25 @@ static void test_formats(void)
     g_free(pictures);
 }
 
+/* Captions are numbered from 1 on, and name the conditions of the runs where they show
+ * data. */
+static void assert_numbered(const char *page, const char *before)
+{
+    int number = 0;
+    const bool figures = strstr(before, "Figure") != NULL;
+    for (const char *at = strstr(page, before); at != NULL; at = strstr(at + 1, before)) {
+        g_assert_cmpint(atoi(at + strlen(before)), ==, ++number);
+        const char *end = strchr(at + strlen(before), '<');
+        char *caption = g_strndup(at, (gsize)(end - at));
+        if (figures) {
+            g_assert_nonnull(strstr(caption, "Conditions: alumina; "));
+            g_assert_nonnull(strstr(caption, "fidelity "));
+        }
+        g_free(caption);
+    }
+    g_assert_cmpint(number, >, 3);
+}
+
 /* Every part of the report has its heading and its files. */
 static void test_report(void)
 {
@@ -835,7 +900,10 @@ static void test_report(void)
         g_assert_nonnull(strstr(page, heading));
         g_free(heading);
     }
-    g_assert_nonnull(strstr(page, "die-height (")); /* left out, with the reason */
+    g_assert_null(strstr(page, "die-height")); /* no figure without data */
+    g_assert_null(strstr(page, "Left out"));
+    assert_numbered(page, "<caption>Table ");
+    assert_numbered(page, "<figcaption>Figure ");
     g_assert_false(gb_report_write(&set, NULL, output, &err));
     g_assert_nonnull(strstr(err.text, "exists"));
     gb_runset_finish(&set);
@@ -875,6 +943,7 @@ int main(int argc, char **argv)
     g_test_add_func("/figures/strength_at", test_strength_at);
     g_test_add_func("/figures/errors", test_errors);
     g_test_add_func("/figures/series", test_series);
+    g_test_add_func("/figures/axes", test_axes);
     g_test_add_func("/figures/measured", test_measured);
     g_test_add_func("/figures/force-unit", test_force_unit);
     g_test_add_func("/figures/labels", test_labels);

@@ -75,9 +75,10 @@ int gb_cmd_report(int argc, char **argv)
     };
     static const struct gb_options_page page = {
         .usage = "DIR... -o OUT",
-        .summary = "Figures with their data, pictures, tables, presets and checksums\n"
-                   "in one folder with the pages index.html (for a browser) and\n"
-                   "report.md.",
+        .summary = "A folder with the pages index.html (for a browser) and report.md:\n"
+                   "key results with errors and conditions on the first one, numbered\n"
+                   "figures with their data, tables, pictures, the keys in use, papers in\n"
+                   "full, presets, curves and the file of --data with checksums.",
         .description = gb_lab_input_help,
     };
     GOptionEntry *entries = gb_lab_input_entries(&measured.lab, own);

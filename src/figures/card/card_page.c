@@ -78,10 +78,11 @@ static void add_parameters(struct gb_page *page, const struct gb_card_study *stu
                             cell(&study->quantity[k][n], gb_card_study_rows[n].factor));
         }
     }
-    gb_page_table(page,
-                  "Parameters against relative density with their 95 % intervals "
-                  "(jackknife over the cells, Student's t).",
-                  "card.csv", heads, GB_CARD_QUANTITIES + 1, cells);
+    const struct gb_page_table_content content = {
+        "Parameters against relative density with their 95 % intervals "
+        "(jackknife over the cells, Student's t).",
+        "card.csv", heads, GB_CARD_QUANTITIES + 1, -1};
+    gb_page_table(page, &content, cells);
     g_ptr_array_free(cells, TRUE);
     for (int n = 0; n < GB_CARD_QUANTITIES; n++) {
         g_free(made[n]);

@@ -1,5 +1,6 @@
 #include "figures/report/page.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 #include "base/text/visible.h"
@@ -21,11 +22,14 @@ static const char style[] =
     "th,td{text-align:right;padding:.22rem .7rem;border-bottom:1px solid #dfe2e6;"
     "font-variant-numeric:tabular-nums}"
     "th{border-bottom:1.5px solid #50565f;font-weight:600;vertical-align:bottom}"
-    "th:first-child,td:first-child{text-align:left}"
+    "th.text,td.text,td.symbol{text-align:left}"
+    "td{vertical-align:top}"
+    "td.symbol{white-space:nowrap}"
+    "li{margin:.3rem 0}"
     "caption{text-align:left;font-size:.88rem;color:#444a54;padding-bottom:.4rem}"
     "@media print{body{font-size:10pt;max-width:none;margin:0}a{color:inherit;"
     "text-decoration:none}h2{break-after:avoid}tr{break-inside:avoid}"
-    "figure img{max-width:14cm}}";
+    "figure img{max-width:14cm}.break{break-after:page}}";
 
 static char *escape(const char *text)
 {
@@ -134,10 +138,69 @@ void gb_page_image(struct gb_page *page, const char *file, const char *caption,
     g_free(safe);
 }
 
-static void append_cell(struct gb_page *page, const char *tag, const char *text)
+char *gb_page_plain(const char *markup)
+{
+    GString *text = g_string_new(NULL);
+    bool inside = false;
+    for (const char *c = markup; *c != '\0'; c++) {
+        if (*c == '<' || *c == '>') {
+            inside = *c == '<';
+        } else if (!inside) {
+            g_string_append_c(text, *c);
+        }
+    }
+    return g_string_free(text, FALSE);
+}
+
+void gb_page_list(struct gb_page *page, const GPtrArray *items)
+{
+    g_string_append(page->html, items->len > 0 ? "<ol>\n" : "");
+    g_string_append(page->markdown, items->len > 0 ? "\n" : "");
+    for (guint k = 0; k < items->len; k++) {
+        const char *text = g_ptr_array_index(items, k);
+        char *safe = escape(text);
+        g_string_append_printf(page->html, "<li>%s</li>\n", safe);
+        g_string_append_printf(page->markdown, "%u. ", k + 1);
+        append_plain(page->markdown, text);
+        g_string_append(page->markdown, "\n");
+        g_free(safe);
+    }
+    g_string_append(page->html, items->len > 0 ? "</ol>\n" : "");
+}
+
+void gb_page_break(struct gb_page *page)
+{
+    g_string_append(page->html, "<div class=\"break\"></div>\n");
+}
+
+/* Markup of constant tables stands in both pages as it is: Markdown takes tags of HTML. */
+static void append_markup(struct gb_page *page, const char *markup)
+{
+    g_string_append_printf(page->html, "<td class=\"symbol\">%s</td>", markup);
+    g_string_append_printf(page->markdown, " %s |", markup);
+}
+
+/* A column of words, on the left, and not of numbers. */
+static bool is_words(const struct gb_page_table_content *content, const GPtrArray *cells,
+                     guint column)
+{
+    bool found = column == 0;
+    for (guint k = column; k < cells->len && !found; k += content->columns) {
+        const char *cell = g_ptr_array_index(cells, k);
+        found = *cell == '<';
+        for (const char *c = cell; *c != '\0' && !found; c++) {
+            found = g_ascii_isalpha(c[0]) && g_ascii_isalpha(c[1]);
+        }
+    }
+    return found;
+}
+
+static void append_cell(struct gb_page *page, const char *tag, const char *text,
+                        bool words)
 {
     char *safe = escape(text);
-    g_string_append_printf(page->html, "<%s>%s</%s>", tag, safe, tag);
+    g_string_append_printf(page->html, "<%s%s>%s</%s>", tag,
+                           words ? " class=\"text\"" : "", safe, tag);
     g_string_append(page->markdown, " ");
     append_plain(page->markdown, text);
     g_string_append(page->markdown, " |");
@@ -145,39 +208,50 @@ static void append_cell(struct gb_page *page, const char *tag, const char *text)
 }
 
 static void append_row(struct gb_page *page, const char *tag, const char *const *cells,
-                       guint columns)
+                       const struct gb_page_table_content *content, const bool *words)
 {
+    const bool body = strcmp(tag, "td") == 0;
     g_string_append(page->html, "<tr>");
     g_string_append(page->markdown, "|");
-    for (guint k = 0; k < columns; k++) {
-        append_cell(page, tag, cells[k]);
+    for (guint k = 0; k < content->columns; k++) {
+        if (body && (int)k == content->markup) {
+            append_markup(page, cells[k]);
+        } else {
+            append_cell(page, tag, cells[k], words[k]);
+        }
     }
     g_string_append(page->html, "</tr>\n");
     g_string_append(page->markdown, "\n");
 }
 
-void gb_page_table(struct gb_page *page, const char *caption, const char *file,
-                   const char *const *heads, guint columns, const GPtrArray *cells)
+void gb_page_table(struct gb_page *page, const struct gb_page_table_content *content,
+                   const GPtrArray *cells)
 {
-    char *safe = escape(caption);
+    const guint columns = content->columns;
+    bool *words = g_new(bool, columns);
+    for (guint k = 0; k < columns; k++) {
+        words[k] = is_words(content, cells, k);
+    }
+    char *safe = escape(content->caption);
     g_string_append_printf(page->html, "<div class=\"scroll\"><table>\n<caption>%s",
                            safe);
     g_string_append(page->markdown, "\n");
-    append_plain(page->markdown, caption);
-    if (file != NULL) {
-        append_link(page, file);
+    append_plain(page->markdown, content->caption);
+    if (content->file != NULL) {
+        append_link(page, content->file);
     }
     g_string_append(page->html, "</caption>\n");
     g_string_append(page->markdown, "\n\n");
-    append_row(page, "th", heads, columns);
+    append_row(page, "th", content->heads, content, words);
     g_string_append(page->markdown, "|");
     for (guint k = 0; k < columns; k++) {
-        g_string_append(page->markdown, k == 0 ? "---|" : "---:|");
+        g_string_append(page->markdown, words[k] ? "---|" : "---:|");
     }
     g_string_append(page->markdown, "\n");
     for (guint row = 0; row + columns <= cells->len; row += columns) {
-        append_row(page, "td", (const char *const *)cells->pdata + row, columns);
+        append_row(page, "td", (const char *const *)cells->pdata + row, content, words);
     }
     g_string_append(page->html, "</table></div>\n");
+    g_free(words);
     g_free(safe);
 }

@@ -5,8 +5,11 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "figures/report/report_conditions.h"
 
 static const struct gb_report_part parts[] = {
+    {"results", "Results", "first page: conditions, key results with errors",
+     gb_report_results},
     {"figures", "Figures", "every figure that the runs have data for", gb_report_figures},
     {"tables", "Tables", "densities at round pressures, ends of branches",
      gb_report_tables},
@@ -14,6 +17,9 @@ static const struct gb_report_part parts[] = {
      gb_report_fits},
     {"pictures", "Pictures", "last state of each scene: coordination, stress, forces",
      gb_report_pictures},
+    {"keys", "Parameters", "keys in use with symbols, units and sources", gb_report_keys},
+    {"references", "References", "papers whose laws and equations are used",
+     gb_report_references},
     {"provenance", "Provenance", "runs with seeds, presets, curves and checksums",
      gb_report_provenance},
     {"preset", "Preset", "preset.ini of the first run", gb_report_preset},
@@ -21,17 +27,22 @@ static const struct gb_report_part parts[] = {
 };
 
 /* Folders of the files of the parts. */
-static const char *const folders[] = {"figures", "pictures", "tables", "runs"};
+static const char *const folders[] = {"figures", "pictures", "tables", "runs", "data"};
 
 const struct gb_report_part *gb_report_parts(void)
 {
     return parts;
 }
 
-void gb_report_leave_out(struct gb_report *report, const char *what, const char *reason)
+char *gb_report_caption(const struct gb_report *report, const char *text)
 {
-    g_string_append_printf(report->left_out, "%s%s (%s)",
-                           report->left_out->len > 0 ? "; " : "", what, reason);
+    return g_strdup_printf("%s %s", text, report->conditions);
+}
+
+char *gb_report_figure_caption(struct gb_report *report, const char *text)
+{
+    report->figures++;
+    return g_strdup_printf("Figure %d. %s %s", report->figures, text, report->conditions);
 }
 
 static const char *plural(size_t count)
@@ -57,16 +68,14 @@ static bool write_page(struct gb_report *report, struct gb_error *err)
 {
     char *html = g_build_filename(report->folder, "index.html", NULL);
     char *markdown = g_build_filename(report->folder, "report.md", NULL);
-    if (report->left_out->len > 0) {
-        char *line = g_strdup_printf("Left out: %s.", report->left_out->str);
-        gb_page_paragraph(&report->page, line);
-        g_free(line);
-    }
+    char *sums = g_build_filename(report->folder, "SHA256SUMS", NULL);
     gb_page_end(&report->page);
     const bool good =
         gb_file_replace(html, report->page.html->str, report->page.html->len, err) &&
         gb_file_replace(markdown, report->page.markdown->str, report->page.markdown->len,
-                        err);
+                        err) &&
+        gb_file_replace(sums, report->sums->str, report->sums->len, err);
+    g_free(sums);
     g_free(markdown);
     g_free(html);
     return good;
@@ -75,7 +84,9 @@ static bool write_page(struct gb_report *report, struct gb_error *err)
 static bool make_folders(const struct gb_report *report, struct gb_error *err)
 {
     bool good = true;
-    for (size_t k = 0; k < G_N_ELEMENTS(folders) && good; k++) {
+    const size_t count =
+        G_N_ELEMENTS(folders) - (report->data == NULL); /* the last one */
+    for (size_t k = 0; k < count && good; k++) {
         char *path = g_build_filename(report->folder, folders[k], NULL);
         good = g_mkdir(path, 0777) == 0 ||
                gb_error_set(err, GB_ERR_MACHINE, "%s: cannot be made", path);
@@ -84,18 +95,39 @@ static bool make_folders(const struct gb_report *report, struct gb_error *err)
     return good;
 }
 
+/* A part without content has no heading; the first one is a printed page of its own. */
+static bool write_part(struct gb_report *report, const struct gb_report_part *part,
+                       struct gb_error *err)
+{
+    const gsize before[2] = {report->page.html->len, report->page.markdown->len};
+    if (part == &parts[1]) {
+        gb_page_break(&report->page);
+    }
+    gb_page_heading(&report->page, part->heading);
+    const gsize empty = report->page.html->len;
+    const bool good = part->write(report, err);
+    if (report->page.html->len == empty) {
+        g_string_truncate(report->page.html, before[0]);
+        g_string_truncate(report->page.markdown, before[1]);
+    }
+    return good;
+}
+
 static bool fill_folder(struct gb_report *report, struct gb_error *err)
 {
     bool good = make_folders(report, err);
-    report->left_out = g_string_new(NULL);
+    report->conditions = gb_report_conditions_caption(report->set);
+    report->cited = g_ptr_array_new_with_free_func(g_free);
+    report->sums = g_string_new(NULL);
     begin_page(report);
     for (const struct gb_report_part *part = parts; part->name != NULL && good; part++) {
-        gb_page_heading(&report->page, part->heading);
-        good = part->write(report, err);
+        good = write_part(report, part, err);
     }
     good = good && write_page(report, err);
     gb_page_finish(&report->page);
-    g_string_free(report->left_out, TRUE);
+    g_string_free(report->sums, TRUE);
+    g_ptr_array_unref(report->cited);
+    g_free(report->conditions);
     return good;
 }
 

@@ -1,6 +1,7 @@
 #include "figures/figures.h"
 #include "figures/plotting.h"
 #include "figures/report/report.h"
+#include "figures/report/report_references.h"
 
 /* Formats of every figure: the page shows the SVG and links to the others. */
 static const char *const extensions[] = {"svg", "png", "pdf"};
@@ -29,10 +30,12 @@ static void show_files(struct gb_report *report, const struct gb_figures_row *ro
     char *pdf = g_strdup_printf("figures/%s.pdf", row->name);
     char *csv = g_strdup_printf("figures/%s.csv", row->name);
     char *text = gb_figures_describe(row);
-    char *caption = g_strdup_printf("%c%s.", g_ascii_toupper(text[0]), text + 1);
+    char *sentence = g_strdup_printf("%c%s.", g_ascii_toupper(text[0]), text + 1);
+    char *caption = gb_report_figure_caption(report, sentence);
+    gb_report_references_cite(report, row->source);
     const char *const others[] = {png, pdf, csv, NULL};
     gb_page_image(&report->page, svg, caption, others);
-    char *const texts[] = {svg, png, pdf, csv, text, caption};
+    char *const texts[] = {svg, png, pdf, csv, text, sentence, caption};
     for (size_t k = 0; k < G_N_ELEMENTS(texts); k++) {
         g_free(texts[k]);
     }
@@ -68,7 +71,6 @@ static bool add_figure(struct gb_report *report, const struct gb_figures_row *ro
     bool good = true;
     if (!compute(&series, report, row, &cause)) {
         good = is_missing_data(&cause);
-        gb_report_leave_out(report, row->name, cause.text);
     } else if (series.curves->len > 0 || series.map != NULL) {
         good = write_files(&series, report, row->name, &cause);
         show_files(report, row);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "figures/report/report.h"
+#include "figures/report/report_references.h"
 #include "figures/report/report_table.h"
 #include "many/lab/compaction_data.h"
 #include "measure/fit/compaction/compaction_fits.h"
@@ -63,7 +64,6 @@ static bool add_group(struct gb_report *report, struct gb_report_table *table,
     struct gb_compaction_fits fits;
     struct gb_error cause = {0};
     if (!gb_compaction_data_runs(&data, report->set, group, &window, &cause)) {
-        gb_report_leave_out(report, "equations of compaction", cause.text);
         return cause.code == GB_ERR_INPUT ||
                gb_error_set(err, cause.code, "%s", cause.text);
     }
@@ -73,10 +73,9 @@ static bool add_group(struct gb_report *report, struct gb_report_table *table,
         char *scene = gb_report_table_scene(report->set, group);
         describe(report, scene, &data, &fits);
         for (size_t i = 0; i < fits.fitted; i++) {
+            const struct gb_equation *equation = fits.fit[i].equation;
             put_fit(table, scene, &fits, i);
-        }
-        for (size_t i = fits.fitted; i < fits.count; i++) {
-            gb_report_leave_out(report, "fit", fits.fit[i].refusal.text);
+            gb_report_references_cite_name(report, equation->name, equation->source);
         }
         g_free(scene);
     }
@@ -94,10 +93,11 @@ bool gb_report_fits(struct gb_report *report, struct gb_error *err)
     for (size_t g = 0; g < report->set->groups && good; g++) {
         good = add_group(report, &table, g, err);
     }
-    return gb_report_table_end(
-               report, &table, "fits",
-               "Equations of compaction by AICc, least squares in the density: "
-               "parameters with 95 % intervals; an empty cell has no bound.",
-               good ? err : NULL) &&
-           good;
+    char *caption = gb_report_caption(
+        report, "Equations of compaction by AICc, least squares in the density: "
+                "parameters with 95 % intervals; an empty cell has no bound.");
+    const bool written =
+        gb_report_table_end(report, &table, "fits", caption, good ? err : NULL);
+    g_free(caption);
+    return written && good;
 }

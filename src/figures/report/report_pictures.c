@@ -56,13 +56,22 @@ static const struct picture {
      CONTACTS_REQUIRED, GB_PACKING_PANELS_PACKING, set_forces},
 };
 
+static void show(struct gb_report *report, const struct gb_state *state, const char *file,
+                 const char *content)
+{
+    char *text = g_strdup_printf("%s: %s.", state->preset, content);
+    char *caption = gb_report_figure_caption(report, text);
+    gb_page_image(&report->page, file, caption, NULL);
+    g_free(caption);
+    g_free(text);
+}
+
 static bool add_picture(struct gb_report *report, size_t group, struct gb_state *state,
                         const struct picture *picture, const char *preset,
                         struct gb_error *err)
 {
     char *file = g_strdup_printf("pictures/%zu-%s.png", group + 1, picture->name);
     char *path = g_build_filename(report->folder, file, NULL);
-    char *caption = g_strdup_printf("%s: %s", state->preset, picture->caption);
     struct gb_packing_image packing_image;
     struct gb_error cause = {0};
     gb_packing_image_init(&packing_image);
@@ -75,13 +84,10 @@ static bool add_picture(struct gb_report *report, size_t group, struct gb_state 
         path, &cause);
     const bool no_data = !drawn && cause.code == GB_ERR_INPUT;
     if (drawn) {
-        gb_page_image(&report->page, file, caption, NULL);
-    } else if (no_data) {
-        gb_report_leave_out(report, file, cause.text);
-    } else if (err != NULL) {
+        show(report, state, file, picture->caption);
+    } else if (!no_data && err != NULL) {
         *err = cause;
     }
-    g_free(caption);
     g_free(path);
     g_free(file);
     return drawn || no_data;
@@ -94,8 +100,7 @@ static bool add_scene(struct gb_report *report, size_t group, struct gb_error *e
     struct gb_error cause = {0};
     bool good = true;
     if (!gb_states_read(&state, directory, NULL, &cause)) {
-        gb_report_leave_out(report, "pictures", cause.text);
-        return true;
+        return true; /* of a run without a state */
     }
     char *preset = gb_provenance_preset(directory);
     for (size_t k = 0; k < G_N_ELEMENTS(pictures) && good; k++) {
@@ -110,13 +115,16 @@ static bool add_scene(struct gb_report *report, size_t group, struct gb_error *e
 
 bool gb_report_pictures(struct gb_report *report, struct gb_error *err)
 {
+    const int before = report->figures;
     bool good = true;
-    gb_page_paragraph(&report->page,
-                      "The last kept state of the first run of each scene. Each file "
-                      "contains its preset: greenbody run --from FILE.png repeats the "
-                      "run.");
     for (size_t g = 0; g < report->set->groups && good; g++) {
         good = add_scene(report, g, err);
+    }
+    if (report->figures > before) {
+        gb_page_paragraph(&report->page,
+                          "The last kept state of the first run of each scene. Each file "
+                          "contains its preset: greenbody run --from FILE.png repeats "
+                          "the run.");
     }
     return good;
 }
@@ -125,8 +133,8 @@ bool gb_report_pictures(struct gb_report *report, struct gb_error *err)
 
 bool gb_report_pictures(struct gb_report *report, struct gb_error *err)
 {
+    (void)report;
     (void)err;
-    gb_report_leave_out(report, "pictures", "this build has none");
     return true;
 }
 

@@ -9,6 +9,7 @@
 void gb_report_table_begin(struct gb_report_table *table, const char *const *heads)
 {
     table->columns = 0;
+    table->markup = -1;
     for (int k = 0; heads[k] != NULL; k++) {
         table->heads[table->columns++] = heads[k];
     }
@@ -40,13 +41,17 @@ void gb_report_table_put_mean(struct gb_report_table *table, double mean, double
     }
 }
 
-static void append_csv(GString *text, const char *const *cells, guint columns)
+static void append_csv(GString *text, const char *const *cells,
+                       const struct gb_report_table *table)
 {
-    for (guint k = 0; k < columns; k++) {
-        char **parts = g_strsplit(cells[k], "\"", -1);
+    for (guint k = 0; k < table->columns; k++) {
+        char *plain =
+            (int)k == table->markup ? gb_page_plain(cells[k]) : g_strdup(cells[k]);
+        char **parts = g_strsplit(plain, "\"", -1);
         char *quoted = g_strjoinv("\"\"", parts);
         g_string_append_printf(text, "%s\"%s\"", k > 0 ? "," : "", quoted);
         g_free(quoted);
+        g_free(plain);
         g_strfreev(parts);
     }
     g_string_append_c(text, '\n');
@@ -55,17 +60,24 @@ static void append_csv(GString *text, const char *const *cells, guint columns)
 bool gb_report_table_end(struct gb_report *report, struct gb_report_table *table,
                          const char *name, const char *caption, struct gb_error *err)
 {
+    if (table->cells->len == 0) {
+        g_ptr_array_unref(table->cells);
+        return true;
+    }
+    char *numbered = g_strdup_printf("Table %d. %s", ++report->tables, caption);
     char *file = g_strdup_printf("tables/%s.csv", name);
     char *path = g_build_filename(report->folder, file, NULL);
     GString *text = g_string_new(NULL);
-    append_csv(text, table->heads, table->columns);
+    append_csv(text, table->heads, table);
     for (guint k = 0; k + table->columns <= table->cells->len; k += table->columns) {
-        append_csv(text, (const char *const *)table->cells->pdata + k, table->columns);
+        append_csv(text, (const char *const *)table->cells->pdata + k, table);
     }
     const bool good = gb_file_replace(path, text->str, text->len, err);
-    gb_page_table(&report->page, caption, file, table->heads, table->columns,
-                  table->cells);
+    const struct gb_page_table_content content = {numbered, file, table->heads,
+                                                  table->columns, table->markup};
+    gb_page_table(&report->page, &content, table->cells);
     g_string_free(text, TRUE);
+    g_free(numbered);
     g_free(path);
     g_free(file);
     g_ptr_array_unref(table->cells);

@@ -9,6 +9,7 @@ enum { GB_REPORT_TABLE_COLUMNS = 12 };
 struct gb_report_table {
     const char *heads[GB_REPORT_TABLE_COLUMNS];
     guint columns;
+    int markup;       /* column of cells with <i>, <sub>, <sup>; -1: none */
     GPtrArray *cells; /* row by row */
 };
 
@@ -20,7 +21,8 @@ void gb_report_table_put(struct gb_report_table *table, const char *format, ...)
 /* "mean ± error"; without error when it is NaN, empty when the mean is. */
 void gb_report_table_put_mean(struct gb_report_table *table, double mean, double error,
                               int decimals);
-/* Adds it to the page and to tables/NAME.csv; frees it. */
+/* Adds it to the page, with the next number before its caption, and to tables/NAME.csv;
+ * a table without cells is in neither.  Frees it. */
 bool gb_report_table_end(struct gb_report *report, struct gb_report_table *table,
                          const char *name, const char *caption, struct gb_error *err);
 

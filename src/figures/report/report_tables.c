@@ -10,9 +10,19 @@
 /* Pressures of the table of densities, MPa. */
 static const double levels[] = {10.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0};
 
+/* With the conditions behind its caption. */
+static bool end_table(struct gb_report *report, struct gb_report_table *table,
+                      const char *name, const char *text, struct gb_error *err)
+{
+    char *caption = gb_report_caption(report, text);
+    const bool good = gb_report_table_end(report, table, name, caption, err);
+    g_free(caption);
+    return good;
+}
+
 static bool density_table(struct gb_report *report, struct gb_error *err)
 {
-    static const char *const heads[] = {"scene", "runs", "pressure (MPa)", "density",
+    static const char *const heads[] = {"scene", "runs", "p (MPa)", "relative density",
                                         NULL};
     const struct gb_runset *set = report->set;
     struct gb_report_table table;
@@ -31,11 +41,10 @@ static bool density_table(struct gb_report *report, struct gb_error *err)
         }
         g_free(name);
     }
-    return gb_report_table_end(
-        report, &table, "density",
-        "Density where loading first reaches a pressure; mean and standard "
-        "error over the runs.",
-        err);
+    return end_table(report, &table, "density",
+                     "Relative density where loading first reaches a pressure; mean and "
+                     "standard error over the runs.",
+                     err);
 }
 
 /* Last row of a branch; the number of rows when there is none. */
@@ -89,8 +98,8 @@ static GPtrArray *branches_of(const struct gb_runset_run *run)
 static bool ends_table(struct gb_report *report, struct gb_error *err)
 {
     static const char *const heads[] = {
-        "scene",        "branch",           "density",  "p (MPa)",
-        "coordination", "bridged fraction", "rattlers", NULL};
+        "scene",        "branch",           "relative density", "p (MPa)",
+        "coordination", "bridged fraction", "rattlers",         NULL};
     const struct gb_runset *set = report->set;
     struct gb_report_table table;
     gb_report_table_begin(&table, heads);
@@ -110,9 +119,9 @@ static bool ends_table(struct gb_report *report, struct gb_error *err)
         g_free(name);
         g_ptr_array_unref(branches);
     }
-    return gb_report_table_end(
-        report, &table, "ends",
-        "Last point of each branch; mean and standard error over the runs.", err);
+    return end_table(report, &table, "ends",
+                     "Last point of each branch; mean and standard error over the runs.",
+                     err);
 }
 
 bool gb_report_tables(struct gb_report *report, struct gb_error *err)
