@@ -1,5 +1,4 @@
 #include <signal.h>
-#include <stdio.h>
 #include <unistd.h>
 
 #include <glib.h>
@@ -7,15 +6,15 @@
 #include "base/text/visible.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "cli/output/runs_output.h"
 #include "cli/progress.h"
 #include "cli/runs_folders.h"
 #include "cli/screen_options.h"
 #include "cli/signals.h"
-#include "io/runs/run_list.h"
 #include "io/rundir.h"
+#include "io/runs/run_list.h"
 #include "runner/runner.h"
 #include "tui/app/app.h"
+#include "tui/runs/runs_picker.h"
 #include "tui/term/term_profile.h"
 #include "tui/watch/runset_files.h"
 #include "tui/watch/watch.h"
@@ -88,32 +87,33 @@ static int show(const char *directory, const struct gb_settings *settings,
     return err->code != GB_OK ? gb_options_fail(err) : status;
 }
 
-/* The number of a line of the list, typed; an empty one takes none. */
-static char *choose(const GPtrArray *list, struct gb_error *err)
+static GPtrArray *list_runs(void)
 {
-    char line[64] = "";
-    guint64 number = 0;
-    gb_runs_output_choices(list);
-    gb_visible_print(stdout, "number (Enter: none): ");
-    fflush(stdout);
-    if (fgets(line, sizeof line, stdin) == NULL || *g_strstrip(line) == '\0') {
-        gb_error_set(err, GB_OK, "none");
-        return NULL;
-    }
-    if (!g_ascii_string_to_unsigned(line, 10, 1, list->len, &number, NULL)) {
-        gb_error_set(err, GB_ERR_INPUT, "attach: %s: accepted a number from 1 to %u",
-                     line, list->len);
-        return NULL;
-    }
-    const struct gb_run_list_item *item = g_ptr_array_index(list, number - 1);
-    return g_strdup(item->directory);
+    return gb_runs_folders_list(NULL);
 }
 
-/* The only live run, or one of them that is chosen; without a terminal they are named. */
-static char *find_live(struct gb_error *err)
+/* The run that is chosen on the screen, g_free; NULL: none, or an error. */
+static char *choose(const struct gb_settings *settings, int *status, struct gb_error *err)
+{
+    char *directory = NULL;
+    GPtrArray *list = list_runs();
+    if (list->len == 0) {
+        char *where = gb_runs_folders_text();
+        gb_error_set(err, GB_ERR_INPUT,
+                     "attach: there are no runs below %.200s; accepted a run directory",
+                     where);
+        g_free(where);
+    } else {
+        *status = gb_runs_picker_run(list_runs, settings, &directory, err);
+    }
+    g_ptr_array_unref(list);
+    return directory;
+}
+
+/* Without a terminal the live runs are named. */
+static void name_live(struct gb_error *err)
 {
     GPtrArray *list = gb_runs_folders_live();
-    char *directory = NULL;
     if (list->len == 0) {
         char *where = gb_runs_folders_text();
         gb_error_set(err, GB_ERR_INPUT,
@@ -121,27 +121,26 @@ static char *find_live(struct gb_error *err)
                      "(`greenbody runs` lists all)",
                      where);
         g_free(where);
-    } else if (!isatty(STDOUT_FILENO) || !isatty(STDIN_FILENO)) {
+    } else {
         const struct gb_run_list_item *first = g_ptr_array_index(list, 0);
         gb_error_set(err, GB_ERR_INPUT,
                      "attach: accepted one run directory; %u live, the newest in %.200s "
                      "(`greenbody runs` lists all)",
                      list->len, first->directory);
-    } else if (list->len == 1) {
-        const struct gb_run_list_item *only = g_ptr_array_index(list, 0);
-        directory = g_strdup(only->directory);
-    } else {
-        directory = choose(list, err);
     }
     g_ptr_array_unref(list);
-    return directory;
 }
 
-/* g_free; NULL after an error, with GB_OK where none was chosen. */
-static char *find_directory(char **words, struct gb_error *err)
+/* g_free; NULL: none, or an error. */
+static char *find_directory(char **words, const struct gb_settings *settings, int *status,
+                            struct gb_error *err)
 {
+    if (words[0] == NULL && isatty(STDOUT_FILENO) && isatty(STDIN_FILENO)) {
+        return choose(settings, status, err);
+    }
     if (words[0] == NULL) {
-        return find_live(err);
+        name_live(err);
+        return NULL;
     }
     const char *name = gb_options_directory(words, "attach", err);
     return name != NULL ? gb_runs_folders_find(name) : NULL;
@@ -158,10 +157,14 @@ static int attach(const struct gb_screen_options *screen, char **words)
     if (!gb_screen_options_settings(screen, &settings, &err)) {
         return gb_options_fail(&err);
     }
-    char *directory = find_directory(words, &err);
-    const int status = directory == NULL       ? gb_options_fail(&err)
-                       : isatty(STDOUT_FILENO) ? show(directory, &settings, &err)
-                                               : print_progress(directory, &err);
+    int status = 0;
+    char *directory = find_directory(words, &settings, &status, &err);
+    if (err.code != GB_OK) {
+        status = gb_options_fail(&err);
+    } else if (directory != NULL) {
+        status = isatty(STDOUT_FILENO) ? show(directory, &settings, &err)
+                                       : print_progress(directory, &err);
+    }
     g_free(directory);
     return status;
 }
@@ -171,8 +174,9 @@ int gb_cmd_attach(int argc, char **argv)
     static const struct gb_options_page page = {
         "[DIR]",
         "Shows a running simulation of another process, live, from its directory;\n"
-        "without one the only live run, or a list of them to choose from.  A name\n"
-        "of `greenbody runs` is enough for a run of the workbench.\n"
+        "without one a list of live, detached and past runs to choose from, with a\n"
+        "filter, sizes and a key that deletes.  A name of `greenbody runs` is enough\n"
+        "for a run of the workbench.\n"
         "Leaving does not affect it.  For a directory of many runs (sweep, calibrate)\n"
         "it shows their mean curves with standard errors, the density over the varied\n"
         "values, and the progress of each run.",

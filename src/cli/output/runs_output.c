@@ -3,14 +3,12 @@
 #include <json-glib/json-glib.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/text/visible.h"
-#include "base/units.h"
 #include "cli/output/json_output.h"
-#include "io/runs/run_list.h"
+#include "io/runs/run_line.h"
 
-enum { NAME_COLS_MIN = 4, STATE_COLS = 14 };
+enum { NAME_COLS_MIN = 4 };
 
 static const struct gb_run_list_item *item_at(const GPtrArray *list, guint index)
 {
@@ -26,89 +24,20 @@ static int name_cols(const GPtrArray *list)
     return (int)cols;
 }
 
-/* "done", "live 45 %", "detached 45 %", "paused 45 %". */
-static void write_state(const struct gb_run_list_item *item, char *text, size_t size)
+static void print_line(const char *name, int cols, char *values)
 {
-    const bool paused = strcmp(item->state, "paused") == 0;
-    if (item->engine == GB_RUN_LIST_NONE) {
-        snprintf(text, size, "%s", item->state);
-    } else {
-        snprintf(text, size, "%s %.0f %%",
-                 paused ? item->state : gb_run_list_engine_word(item->engine),
-                 floor(100.0 * item->progress));
-    }
-}
-
-/* "94.2 kB" and "11-25 23:58", or "2025-11-25" of another year. */
-static char *size_text(int64_t bytes)
-{
-    char *size = g_format_size((guint64)bytes);
-    char **parts = g_strsplit(size, "\u00a0", 2); /* no-break space */
-    char *text = g_strjoinv(" ", parts);
-    g_strfreev(parts);
-    g_free(size);
-    return text;
-}
-
-static char *date_text(int64_t seconds)
-{
-    GDateTime *time = g_date_time_new_from_unix_local(seconds);
-    GDateTime *now = g_date_time_new_now_local();
-    const bool known = time != NULL && now != NULL;
-    char *text = !known ? g_strdup("-")
-                        : g_date_time_format(time, g_date_time_get_year(time) ==
-                                                           g_date_time_get_year(now)
-                                                       ? "%m-%d %H:%M"
-                                                       : "%Y-%m-%d");
-    g_clear_pointer(&time, g_date_time_unref);
-    g_clear_pointer(&now, g_date_time_unref);
-    return text;
-}
-
-static void print_line(const struct gb_run_list_item *item, int cols)
-{
-    char state[48];
-    char density[16] = "-";
-    char pressure[32] = "-";
-    char *date = date_text(item->modified_s);
-    char *size = size_text(item->bytes);
-    write_state(item, state, sizeof state);
-    if (isfinite(item->density)) {
-        snprintf(density, sizeof density, "%.4f", item->density);
-    }
-    if (isfinite(item->pressure_pa)) {
-        gb_units_format_short(item->pressure_pa, GB_DIM_PRESSURE, 3, pressure,
-                              sizeof pressure);
-    }
-    const int pad = cols - (int)g_utf8_strlen(item->name, -1);
-    gb_visible_line(stdout, "%s%*s  %-*s  %7s  %8s  %8s  %s", item->name, pad, "",
-                    STATE_COLS, state, density, pressure, size, date);
-    g_free(size);
-    g_free(date);
-}
-
-static void print_head(int cols, const char *before)
-{
-    gb_visible_line(stdout, "%s%-*s  %-*s  %7s  %8s  %8s  %s", before, cols, "name",
-                    STATE_COLS, "state", "density", "pressure", "size", "date");
+    const int pad = cols - (int)g_utf8_strlen(name, -1);
+    gb_visible_line(stdout, "%s%*s  %s", name, pad, "", values);
+    g_free(values);
 }
 
 void gb_runs_output_table(const GPtrArray *list)
 {
     const int cols = name_cols(list);
-    print_head(cols, "");
+    print_line("name", cols, gb_run_line_head(GB_RUN_LINE_ALL));
     for (guint i = 0; i < list->len; i++) {
-        print_line(item_at(list, i), cols);
-    }
-}
-
-void gb_runs_output_choices(const GPtrArray *list)
-{
-    const int cols = name_cols(list);
-    print_head(cols, "    ");
-    for (guint i = 0; i < list->len; i++) {
-        gb_visible_print(stdout, "%2u  ", i + 1);
-        print_line(item_at(list, i), cols);
+        const struct gb_run_list_item *item = item_at(list, i);
+        print_line(item->name, cols, gb_run_line_values(item, GB_RUN_LINE_ALL));
     }
 }
 

@@ -8,7 +8,4 @@
 void gb_runs_output_table(const GPtrArray *list);
 void gb_runs_output_json(const GPtrArray *list);
 
-/* The same line, numbered from 1: a list to choose from. */
-void gb_runs_output_choices(const GPtrArray *list);
-
 #endif
