@@ -125,6 +125,7 @@ fitted() {
     [ -s "$(find "$here/state" -name calibration.csv)" ]
 }
 is "it ends with a table" until_true fitted
+shows "and a card" 'Result: calibration'
 leaves "closes"
 fit=$(dirname "$(find "$here/state" -name calibration.csv)")
 start attach "$fit"

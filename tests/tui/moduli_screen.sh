@@ -26,6 +26,9 @@ shows 'without moduli the view names the key' 'no moduli yet: Y measures'
 sums >"$here/before"
 keys Y
 shows 'Y measures in the background' 'measuring'
+shows 'at its end a card has the numbers' 'Result: elastic moduli'
+keys Escape
+hides 'Esc closes it' 'Result: '
 shows 'the numbers of the last state' 'C11 .* C33 .* C44 .* C12 .* C13'
 shows 'E, K and G have their markers' 'E [0-9.]*  .* K [0-9.]*  .* G [0-9.]* GPa'
 shows 'probe and elastic range' 'nu 0\.[0-9]*; probe .*, elastic to'

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The list of runs in a terminal, and attach that offers the live ones.
+# The list of runs in a terminal, attach that offers them, a run that is left with d.
 # Usage: runs_screen.sh GREENBODY PRESET_FOLDER
 . "$(dirname "$0")/terminal.sh"
 
@@ -18,53 +18,110 @@ has_rows() { # directory
     grep -qs '^load,[2-9]' "$1/curve.csv"
 }
 
+pid_of() { # directory
+    python3 -c 'import json, sys
+print(json.load(open(sys.argv[1]))["pid"])' "$1/status.json"
+}
+
 begin() { # name: a run without a terminal
     # shellcheck disable=SC2086  # words
     setsid "$greenbody" run $long --quiet --out "$runs/$1" >/dev/null 2>&1 &
     is "$1 begins" until_true has_rows "$runs/$1"
-    pids="$pids $(python3 -c 'import json, sys
-print(json.load(open(sys.argv[1]))["pid"])' "$runs/$1/status.json")"
+    pids="$pids $(pid_of "$runs/$1")"
+}
+
+listed() { # pattern among the lines of `greenbody runs`
+    XDG_STATE_HOME=$here/state "$greenbody" runs >"$here/list"
+    grep -q "$1" "$here/list"
+}
+
+rows() { # directory
+    wc -l <"$1/curve.csv"
+}
+
+has_more_rows() { # directory, number
+    [ "$(rows "$1")" -gt "$2" ]
+}
+
+# The full cell of the workbench: where the machine is slow it asks first.
+computes() { # directory
+    has 'takes long: r' && keys r
+    has 'A long run' && keys y
+    has_rows "$1"
 }
 
 open_terminal
 start attach
-shows "attach without a live run says so" 'no run is live below'
-shows "and what is accepted" 'status=2'
+shows "attach without a run says so" 'there are no runs below'
+shows "with status 2" 'status=2'
 begin first
 start attach
-shows "the only live run is shown at once" 'The run\|N 6000'
-shows "in the workbench" 'Parameters'
-keys q
-shows "q asks" 'Quit?'
-keys y
-shows "and leaves" 'status=0'
-begin second
-start attach
-shows "of two a list is offered" '^ 1  [fs].* detached'
-shows "both have a number" '^ 2  [fs].* detached'
-shows "a number is asked for" 'number (Enter: none):'
-keys 7 Enter
-shows "another number is refused" 'accepted a number from 1 to 2'
-shows "with status 2" 'status=2'
-start attach
-shows "the list again" 'number (Enter: none):'
+shows "a run is offered" '^ first  *detached [0-9]* %'
+shows "and counted" '1 run, 1 live'
 keys Enter
-shows "Enter takes none" 'status=0'
+shows "Enter shows it in the workbench" 'Parameters'
+leaves "where it is left"
+begin second
+"$greenbody" run default particles.count=60 loading.until=0.1MPa loading.unload_from= --quiet \
+    --out "$runs/old" 2>/dev/null
 start attach
-shows "the list a third time" 'number (Enter: none):'
-keys 2 Enter
-shows "a number opens that run" 'Parameters'
-leaves "and it is left"
+shows "past runs are offered, too" '^ old  *done '
+shows "behind the live ones" '3 runs, 2 live'
+shows "with what the keys do" 'Enter shows  Del ^D deletes  typing filters  Esc leaves'
+keys -l 'SEC'
+hides "typing filters" '^ old '
+shows "by the name" '^ second  *detached'
+keys DC
+shows "a live run is not deleted" 'a live run is not deleted'
+keys Escape
+shows "Esc ends the filter" '^ old '
+keys -l 'done'
+hides "the state counts, too" '^ second '
+keys DC
+shows "Del asks, with number and size" 'Delete it, [0-9]* files, [0-9.]* [kM]B? y deletes'
+keys n
+hides "n keeps it" 'y deletes'
+is "with its files" [ -e "$runs/old/preset.ini" ]
+keys C-d
+shows "^D asks, too" 'y deletes'
+term resize-window -x 60 -y 20
+shows "at 60 x 20 nothing is cut" 'Esc leaves'
+shows "density and pressure stand back" 'name  *state  *size  date'
+shows "the question stays" 'y deletes, n keeps'
+term resize-window -x 80 -y 24
+keys y
+shows "y deletes" 'deleted: old'
+is "the folder" until_true [ ! -e "$runs/old" ]
+shows "nothing else is listed now" 'no run matches'
+keys Escape Escape
+shows "Esc leaves" 'status=0'
 start attach second
 shows "a name is enough" 'Parameters'
 leaves "and is left"
-# live: a run of this terminal, beside those without
+
+# --- a run of this terminal, left to go on
 start "$long"
-is "the workbench computes one" until_true has_rows "$runs/default-1"
-XDG_STATE_HOME=$here/state "$greenbody" runs >"$here/list"
-is "which is live" grep -q '^default-1  *live [0-9]* %' "$here/list"
+is "the workbench computes one" until_true computes "$runs/default-1"
+is "which is live" listed '^default-1  *live [0-9]* %'
 is "the others are detached" [ "$(grep -c 'detached [0-9]* %' "$here/list")" -eq 2 ]
-leaves "and leaves"
+keys q
+shows "q offers to leave it running" 'd leave it running'
+keys d
+shows "d tells where it goes on" 'goes on without a terminal; .greenbody attach'
+shows "and leaves" 'status=0'
+is "the run is detached" until_true listed '^default-1  *detached [0-9]* %'
+pids="$pids $(pid_of "$runs/default-1")"
+before=$(rows "$runs/default-1")
+is "and goes on" until_true has_more_rows "$runs/default-1" "$before"
+start attach
+shows "attach finds it again" '^ default-1  *detached'
+keys -l 'default-1'
+hides "by its name" '^ first '
+keys Enter
+shows "and shows it" 'Parameters'
+keys t
+told "t takes it back" 'continues here'
+leaves "and quits it"
 start runs
 shows "past ones stay listed" '^default-1  *stopped '
 shows "the detached ones first" '^second  *detached\|^first  *detached'

@@ -113,6 +113,7 @@ press
 seen 'measured, RMS misfit'
 press
 is "$what: the fit has a table" until_true is_there '*calibration.csv'
+seen 'Result: calibration'
 end_task
 
 begin_task 4 'replicas to 0.002'
@@ -124,6 +125,7 @@ end_task
 begin_task 8 'report'
 press
 is "$what: a page" until_true is_there '*/report*.md'
+seen 'Result: report'
 end_task
 leaves "quits"
 

@@ -121,8 +121,12 @@ asks_or_has_left() {
     has 'Quit?' || has 'status='
 }
 
-# q, and y where a live run is asked about.
+# q, and y where a live run is asked about; a result card would take the q.
 leaves() { # name
+    if has 'Result: '; then
+        keys Escape
+        until_true has_not 'Result: '
+    fi
     keys q
     until_true asks_or_has_left
     has 'status=' || keys y

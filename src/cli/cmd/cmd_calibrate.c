@@ -128,7 +128,8 @@ static const char about_file[] =
     "unloading_modulus_GPa (secant from p to p/2); several quantities need their\n"
     "errors, lateral_ratio_error ...; weight counts a row more or less than its error.\n"
     "Repeated, the command continues an interrupted fit.  DIR receives rounds.csv\n"
-    "during the fit, then calibration.csv, fit.csv, calibrated.ini and the runs.\n\n";
+    "during the fit, then calibration.csv, calibration.txt (the text printed), fit.csv,\n"
+    "calibrated.ini and the runs.\n\n";
 static const char example[] =
     "\n\n  greenbody calibrate p1-set1-uniaxial --data lab.csv \\\n"
     "    --free contact.mu,contact.alpha --out fit";

@@ -8,6 +8,8 @@
 
 enum { NAME_MAX_BYTES = 96 };
 
+static const char no_influence[] = ": the data do not depend on it";
+
 static const char *name_of(const struct gb_calibration *calibration, size_t k,
                            char *buffer)
 {
@@ -96,6 +98,14 @@ static bool write_table(const struct gb_calibration *calibration, const char *na
     return good;
 }
 
+static const char not_converged[] = "the fit has not converged";
+
+bool gb_calibration_table_warns(const char *line)
+{
+    return line[0] == ' ' || g_str_has_prefix(line, not_converged) ||
+           g_str_has_suffix(line, no_influence);
+}
+
 bool gb_calibration_table_write(const struct gb_calibration *calibration,
                                 struct gb_preset *preset, struct gb_error *err)
 {
@@ -107,6 +117,8 @@ bool gb_calibration_table_write(const struct gb_calibration *calibration,
     const bool saved = gb_preset_save(preset, path, GB_PRESET_CHANGED_KEYS, err);
     g_free(path);
     return saved && write_table(calibration, "fit.csv", fit_table(calibration), err) &&
+           write_table(calibration, GB_CALIBRATION_TABLE_TEXT,
+                       gb_calibration_table_text(calibration), err) &&
            write_table(calibration, "calibration.csv", parameter_table(calibration), err);
 }
 
@@ -127,7 +139,7 @@ static void add_parameter(GString *text, const struct gb_calibration *calibratio
     char name[NAME_MAX_BYTES];
     name_of(calibration, k, name);
     if (isinf(result->error[k])) {
-        g_string_append_printf(text, "%s: the data do not depend on it\n", name);
+        g_string_append_printf(text, "%s%s\n", name, no_influence);
         return;
     }
     char number[GB_NUMBER_ERROR_MAX];
@@ -180,9 +192,8 @@ GString *gb_calibration_table_text(const struct gb_calibration *calibration)
     g_string_append_printf(text, "\n%zu cells simulated, %zu of them failed\n",
                            result->simulated, result->failed);
     if (!result->converged) {
-        g_string_append(text,
-                        "the fit has not converged within its rounds: intervals may "
-                        "be too wide\n");
+        g_string_append_printf(text, "%s within its rounds: intervals may be too wide\n",
+                               not_converged);
     }
     return text;
 }

@@ -53,10 +53,15 @@ static bool lock_directory(struct gb_chart_log *log, struct gb_error *err)
                         log->directory);
 }
 
+/* Apart from the preset that the workbench puts there. */
 static bool is_empty(const char *directory)
 {
     GDir *dir = g_dir_open(directory, 0, NULL);
-    const bool empty = dir != NULL && g_dir_read_name(dir) == NULL;
+    bool empty = dir != NULL;
+    const char *name;
+    while (empty && (name = g_dir_read_name(dir)) != NULL) {
+        empty = strcmp(name, "scene.ini") == 0;
+    }
     if (dir) {
         g_dir_close(dir);
     }

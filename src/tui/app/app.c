@@ -9,9 +9,9 @@
 
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "tui/app/command/key_commands.h"
 #include "tui/app/dialog/dialogs.h"
 #include "tui/app/dispatch.h"
-#include "tui/app/command/key_commands.h"
 #include "tui/app/mouse.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/term/term_tty.h"
@@ -91,12 +91,12 @@ static void draw(struct gb_app *app)
 {
     struct gb_screen *screen = &app->screen;
     gb_screen_draw(screen);
-    if (gb_term_image_before(&screen->image, screen->term, gb_screen_sample(screen))) {
+    const struct gb_term_picture picture = gb_screen_picture(screen);
+    if (gb_term_image_before(&screen->image, screen->term, &picture)) {
         gb_term_repaint(screen->term);
     }
     gb_term_flush(screen->term);
-    gb_term_image_after(&screen->image, screen->term, gb_screen_sample(screen),
-                        &screen->plot.look, &screen->plot.field, gb_clock_s());
+    gb_term_image_after(&screen->image, screen->term, &picture, gb_clock_s());
     app->frame_s[app->frames++ % app->frames_max] = gb_clock_s();
     app->redraw = app->input_pending = false;
 }
@@ -122,6 +122,7 @@ static void loop(struct gb_app *app)
                       gb_term_image_due(&app->screen.image, gb_clock_s());
         app->redraw = poll_stderr(app) || app->redraw;
         gb_run_commands_follow_quick(app);
+        gb_result_commands_follow(app);
         if (app->redraw && !app->leave && frame_wait(app) <= 0.0) {
             draw(app);
         }
@@ -164,8 +165,24 @@ static void close_screen(struct gb_app *app)
         app->status = gb_run_lifecycle_run_detached(&screen->session);
     } else {
         gb_term_stop(screen->term);
-        gb_run_lifecycle_print_resume_hint(&screen->session);
+        if (!app->detach) {
+            gb_run_lifecycle_print_resume_hint(&screen->session);
+        }
     }
+}
+
+/* Ends the engines of this process; a run that is left goes on from its checkpoint. */
+static void end_session(struct gb_app *app)
+{
+    struct gb_session *session = &app->screen.session;
+    char *directory = app->detach && session->runner != NULL
+                          ? g_strdup(gb_runner_directory(session->runner))
+                          : NULL;
+    gb_session_finish(session);
+    if (directory != NULL) {
+        gb_run_lifecycle_detach(directory);
+    }
+    g_free(directory);
 }
 
 int gb_app_run(struct gb_preset *preset, const char *folder, const char *attached,
@@ -193,7 +210,7 @@ int gb_app_run(struct gb_preset *preset, const char *folder, const char *attache
         loop(app);
     }
     close_screen(app);
-    gb_session_finish(&screen->session);
+    end_session(app);
     gb_panel_plot_finish(&screen->plot);
     gb_dialog_close(&screen->dialog);
     gb_term_destroy(screen->term);

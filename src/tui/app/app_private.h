@@ -12,6 +12,7 @@ struct gb_app {
     struct gb_screen screen;
     struct gb_stderr_tail stderr_tail;
     bool leave;
+    bool detach;        /* the run goes on in a process of its own */
     int status;         /* exit status */
     bool terminal_lost; /* hang-up: no more output to the terminal */
     bool redraw;        /* the screen has changed */

@@ -24,6 +24,9 @@ static void handle_dialog(struct gb_app *app, const struct gb_term_event *event)
         key.command(app, &key);
         return;
     }
+    if (type->press != NULL && type->press(app, event)) {
+        return;
+    }
     switch (gb_dialog_handle(dialog, event)) {
     case GB_DIALOG_OPEN:
         break;

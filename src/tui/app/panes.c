@@ -52,6 +52,10 @@ static void navigate_plot(struct gb_screen *screen, enum gb_action action)
         screen->plot.view->navigate(&screen->plot, action);
         return;
     }
+    if (action == GB_ACTION_ENTER) {
+        gb_chart_commands_apply(screen);
+        return;
+    }
     gb_panel_plot_cursor_navigate(&screen->plot, &screen->session, action);
 }
 

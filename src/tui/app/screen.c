@@ -218,11 +218,22 @@ void gb_screen_draw(struct gb_screen *screen)
     gb_dialog_draw(&screen->dialog, &paint);
 }
 
-const struct gb_view_sample *gb_screen_sample(const struct gb_screen *screen)
+struct gb_term_picture gb_screen_picture(const struct gb_screen *screen)
 {
     const struct gb_session_shown shown = gb_session_shown(&screen->session);
-    const bool wanted =
-        screen->plot.pixels && screen->plot.view->draw == gb_view_packing_draw &&
-        screen->dialog.type == NULL && gb_layout_shows(&screen->layout, GB_PANE_PLOT);
-    return wanted && shown.sample != NULL && shown.sample->valid ? shown.sample : NULL;
+    const struct gb_dialog *dialog = &screen->dialog;
+    if (dialog->type != NULL) {
+        return (struct gb_term_picture){
+            .picture = dialog->pixels.rgb != NULL ? &dialog->pixels : NULL,
+            .look = &screen->plot.look,
+            .cells = &dialog->field};
+    }
+    const bool wanted = screen->plot.pixels &&
+                        screen->plot.view->draw == gb_view_packing_draw &&
+                        gb_layout_shows(&screen->layout, GB_PANE_PLOT);
+    return (struct gb_term_picture){
+        .sample = wanted && shown.sample != NULL && shown.sample->valid ? shown.sample
+                                                                        : NULL,
+        .look = &screen->plot.look,
+        .cells = &screen->plot.field};
 }

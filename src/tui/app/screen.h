@@ -24,8 +24,8 @@ struct gb_screen {
  * the terminal. */
 void gb_screen_draw(struct gb_screen *screen);
 
-/* The packing to be shown in pixels; NULL: none. */
-const struct gb_view_sample *gb_screen_sample(const struct gb_screen *screen);
+/* The packing or picture to be shown in pixels. */
+struct gb_term_picture gb_screen_picture(const struct gb_screen *screen);
 
 /* The key at a cell of the footer; false: none. */
 bool gb_screen_key_at(const struct gb_screen *screen, int row, int col,

@@ -45,6 +45,10 @@ void gb_panel_plot_cursor_navigate(struct gb_panel_plot *panel,
                                    const struct gb_session *session,
                                    enum gb_action action)
 {
+    if (panel->view->abscissa == GB_VIEW_SETTINGS) {
+        gb_panel_plot_settings_navigate(panel, session, action);
+        return;
+    }
     panel->at_pa = 0.0;
     switch (action) {
     case GB_ACTION_LEFT:
@@ -102,7 +106,7 @@ void gb_panel_plot_cursor_click(struct gb_panel_plot *panel,
     const int down = row - 1 - panel->plot.top; /* the plot begins at 1, 1 */
     const int right = col - 1 - panel->plot.left;
     double nearest = HUGE_VAL;
-    if (!has_cursor(panel) || panel->view->abscissa == GB_VIEW_OWN ||
+    if (!has_cursor(panel) || panel->view->abscissa >= GB_VIEW_OWN ||
         panel->plot.field_cols <= 0) {
         return;
     }
@@ -226,7 +230,9 @@ void gb_panel_plot_cursor_describe(const struct gb_panel_plot *panel,
 {
     const struct gb_plot_view *view = panel->view;
     message->style = GB_STYLE_DIM;
-    if (gb_panel_plot_pressure_shown(panel)) {
+    if (view->abscissa == GB_VIEW_SETTINGS) {
+        gb_panel_plot_settings_describe(panel, session, message);
+    } else if (gb_panel_plot_pressure_shown(panel)) {
         gb_panel_plot_pressure_describe(panel, session, message);
     } else if (gb_panel_plot_cursor_shown(panel, session)) {
         describe_point(panel, session, message);

@@ -100,6 +100,8 @@ struct gb_panel_plot {
     bool cursor_on;
     size_t cursor;        /* point of the curve */
     double at_pa;         /* pressure that was typed; 0: none */
+    bool setting_on;
+    size_t setting; /* row of the chart under its cursor */
     double unit_pa;       /* of the pressure axis */
     struct gb_rect field; /* the view's cells on the screen */
     struct gb_plot plot, inset[GB_PANEL_INSETS];
@@ -143,6 +145,16 @@ double gb_panel_plot_pressure_density(const struct gb_panel_plot *panel,
 void gb_panel_plot_pressure_describe(const struct gb_panel_plot *panel,
                                      const struct gb_session *session,
                                      struct gb_message *message);
+/* The same over the settings of a chart: panel_plot_settings.c. */
+void gb_panel_plot_settings_navigate(struct gb_panel_plot *panel,
+                                     const struct gb_session *session,
+                                     enum gb_action action);
+void gb_panel_plot_settings_describe(const struct gb_panel_plot *panel,
+                                     const struct gb_session *session,
+                                     struct gb_message *message);
+/* The row under the cursor; false: none. */
+bool gb_panel_plot_settings_at(const struct gb_panel_plot *panel,
+                               const struct gb_session *session, size_t *row);
 /* x coordinate of a point in the view: relative density, ns or step. */
 double gb_panel_plot_cursor_x(const struct gb_panel_plot *panel,
                               const struct gb_session *session,

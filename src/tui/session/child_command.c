@@ -94,11 +94,14 @@ void gb_child_command_stop(const struct gb_child_command *child)
     }
 }
 
-/* "12 of 40 runs, 0 failed, 3 min left", "1 of 3 states: ...": replaced by the next one. */
+/* "12 of 40 runs, 0 failed, 3 min left", "1 of 3 states: ...", " 5 of 82  0.1 CPU s  fire,
+ * ...": replaced by the next one. */
 static bool is_progress(const char *line)
 {
+    line += strspn(line, " ");
     return g_ascii_isdigit(line[0]) && strstr(line, " of ") != NULL &&
-           (strstr(line, " runs, ") != NULL || strstr(line, " states: ") != NULL);
+           (strstr(line, " runs, ") != NULL || strstr(line, " states: ") != NULL ||
+            strstr(line, " CPU s ") != NULL);
 }
 
 static const char error_prefix[] = "greenbody: ";
@@ -109,10 +112,9 @@ static bool is_error(const char *line)
     return g_str_has_prefix(line, error_prefix);
 }
 
-static void write_outcome(const struct gb_child_command *child, int status, char *text,
-                          size_t size)
+static void write_outcome(const struct gb_child_command *child, char *text, size_t size)
 {
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+    if (child->succeeded) {
         snprintf(text, size, "%s saved: %s", child->name, child->path);
     } else {
         const char *line =
@@ -130,7 +132,8 @@ enum gb_child_command_event gb_child_command_poll(struct gb_child_command *child
     }
     while (read_line(child)) {
         if (child->kind != GB_CHILD_COMMAND_SHORT && is_progress(child->line)) {
-            g_strlcpy(child->progress, child->line, sizeof child->progress);
+            g_strlcpy(child->progress, child->line + strspn(child->line, " "),
+                      sizeof child->progress);
             return GB_CHILD_COMMAND_PROGRESS;
         }
         /* an error is part of the outcome */
@@ -144,6 +147,7 @@ enum gb_child_command_event gb_child_command_poll(struct gb_child_command *child
     }
     child->pid = 0;
     child->progress[0] = '\0';
-    write_outcome(child, status, text, size);
+    child->succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    write_outcome(child, text, size);
     return GB_CHILD_COMMAND_ENDED;
 }

@@ -25,6 +25,7 @@ struct gb_child_command {
     char progress[GB_CHILD_COMMAND_LINE]; /* "12 of 40 runs, ...", "1 of 3 states: ..." */
     char line[GB_CHILD_COMMAND_LINE];     /* incomplete line, or the last one */
     size_t length;
+    bool succeeded; /* of the last one that has ended */
 };
 
 /* words: command and arguments without the program's name, NULL at the end, 14 at most.

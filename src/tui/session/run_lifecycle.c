@@ -4,10 +4,12 @@
 #include <signal.h>
 #include <stdio.h>
 #include <time.h>
+#include <unistd.h>
 
+#include "base/program.h"
 #include "base/text/visible.h"
-#include "io/runs/run_list.h"
 #include "io/rundir.h"
+#include "io/runs/run_list.h"
 #include "io/store.h"
 #include "tui/session/session_quick.h"
 
@@ -114,6 +116,54 @@ static char *describe_end(const struct gb_session *session)
     }
     const bool ends = runs || gb_quick_cell_live(&session->quick_cell);
     return g_strdup(ends ? "The run ends and is not stored. " : "");
+}
+
+enum gb_run_lifecycle_detaching
+gb_run_lifecycle_detaching(const struct gb_session *session)
+{
+    if (gb_session_run_is_live(session)) {
+        return !shows_other(session) && gb_runner_directory(session->runner) != NULL
+                   ? GB_DETACH_RUN
+                   : GB_DETACH_NOTHING;
+    }
+    return gb_quick_cell_live(&session->quick_cell) && session->folder != NULL
+               ? GB_DETACH_START
+               : GB_DETACH_NOTHING;
+}
+
+/* In the child: a session without terminal, and no signal blocked. */
+static void leave_terminal(gpointer data)
+{
+    sigset_t none;
+    (void)data;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+    (void)setsid();
+}
+
+void gb_run_lifecycle_detach(const char *directory)
+{
+    static char program[] = "greenbody", command[] = "resume", quiet[] = "--quiet";
+    char *file = gb_program_executable();
+    char *argv[] = {file, program, command, quiet, (char *)directory, NULL};
+    GError *error = NULL;
+    const bool started =
+        g_spawn_async(NULL, argv, NULL,
+                      G_SPAWN_FILE_AND_ARGV_ZERO | G_SPAWN_STDOUT_TO_DEV_NULL |
+                          G_SPAWN_STDERR_TO_DEV_NULL,
+                      leave_terminal, NULL, NULL, &error);
+    if (started) {
+        gb_visible_line(
+            stderr,
+            "greenbody: the run goes on without a terminal; `greenbody attach "
+            "%s` shows it",
+            directory);
+    } else {
+        gb_visible_line(stderr, "greenbody: %s; `greenbody resume %s` continues the run",
+                        error->message, directory);
+        g_error_free(error);
+    }
+    g_free(file);
 }
 
 void gb_run_lifecycle_quit_text(const struct gb_session *session, char *text, size_t size)

@@ -30,6 +30,15 @@ int gb_run_lifecycle_run_detached(struct gb_session *session);
 void gb_run_lifecycle_quit_text(const struct gb_session *session, char *text,
                                 size_t size);
 
+/* What `d` does before quitting: an engine of this process goes on in one without a
+ * terminal.  GB_DETACH_START: the quick cell computes, and the full one is started. */
+enum gb_run_lifecycle_detaching { GB_DETACH_NOTHING, GB_DETACH_RUN, GB_DETACH_START };
+enum gb_run_lifecycle_detaching
+gb_run_lifecycle_detaching(const struct gb_session *session);
+/* Resumes a run without terminal, in a session of its own, and prints where it is on
+ * standard error.  Call it when the engine of the run has ended with its checkpoint. */
+void gb_run_lifecycle_detach(const char *directory);
+
 /* Prints on standard error, after the screen is closed, how a live run is resumed. */
 void gb_run_lifecycle_print_resume_hint(const struct gb_session *session);
 

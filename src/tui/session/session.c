@@ -31,9 +31,11 @@ void gb_session_finish(struct gb_session *session)
     }
     gb_replica_band_finish(&session->replica_band);
     gb_moduli_job_finish(&session->moduli);
+    gb_results_finish(&session->results);
     gb_measured_destroy(session->measured);
     g_free(session->reading);
     gb_chart_csv_destroy(session->chart);
+    gb_chart_job_finish(&session->chart_job);
     gb_kept_runs_finish(&session->kept);
     gb_param_steps_finish(&session->steps);
     if (session->opened != NULL) {
@@ -245,6 +247,7 @@ enum gb_lab_outcome gb_session_load_data(struct gb_session *session, const char 
     }
     if (gb_chart_csv_read(&chart, path, NULL)) {
         gb_chart_csv_destroy(session->chart);
+        gb_chart_job_finish(&session->chart_job);
         session->chart = chart;
         return GB_LAB_READ;
     }

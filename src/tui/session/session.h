@@ -7,6 +7,7 @@
 #include "io/measured.h"
 #include "io/preset.h"
 #include "runner/runner.h"
+#include "tui/session/chart_job.h"
 #include "tui/session/child_command.h"
 #include "tui/session/moduli_job.h"
 #include "tui/session/overlay/chart_csv.h"
@@ -15,6 +16,7 @@
 #include "tui/session/past/kept_runs.h"
 #include "tui/session/past/param_steps.h"
 #include "tui/session/quick_cell.h"
+#include "tui/session/result/results.h"
 
 /* State of the workbench without its screen: the parameters being edited, the current
  * run, its data on display and the previous curves. */
@@ -58,10 +60,12 @@ struct gb_session {
     struct gb_child_command child; /* picture, report, replicas, calibration, moduli */
     struct gb_replica_band replica_band; /* mean of the replicas */
     struct gb_moduli_job moduli;         /* elastic moduli of the run */
+    struct gb_results results;           /* what the jobs have found */
     struct gb_measured *measured;        /* measured data; NULL: none */
     int measured_dimension; /* of the scene that was shown when they were loaded */
     char *reading; /* how its file was asked to be read, as --columns; owned */
     struct gb_chart_csv *chart;  /* chart of numerical settings; NULL: none */
+    struct gb_chart_job chart_job;
     int runs;                    /* number of started runs */
     double particle_steps_per_s; /* speed of the last dynamic run; 0: none yet */
     int64_t events_seen;

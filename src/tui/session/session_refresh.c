@@ -54,8 +54,9 @@ static bool refresh_run(struct gb_session *session)
     return other_state;
 }
 
-/* Updates of the child command and of the replicas that it computes. */
-static bool refresh_child(struct gb_session *session)
+/* Updates of the child command and of the replicas that it computes.  *succeeded: it has
+ * ended well. */
+static bool refresh_child(struct gb_session *session, bool *succeeded)
 {
     char text[GB_EVENT_TEXT];
     bool some = false;
@@ -70,6 +71,7 @@ static bool refresh_child(struct gb_session *session)
         some = true;
         ended = news == GB_CHILD_COMMAND_ENDED;
     }
+    *succeeded = ended && session->child.succeeded;
     return (live && gb_replica_band_refresh(&session->replica_band, ended)) || some;
 }
 
@@ -82,15 +84,21 @@ bool gb_session_refresh(struct gb_session *session)
     session->waiting = session->waiting && session->quick_cell.state == before;
     const bool ran = refresh_run(session);
     gb_whatif_refresh(session);
-    const bool made = refresh_child(session);
+    bool succeeded = false;
+    const bool made = refresh_child(session, &succeeded);
     const bool measured =
         gb_moduli_job_refresh(&session->moduli, session->runner, &session->child, made);
     if (session->moduli.failed.code != GB_OK) {
         gb_session_note(session, "moduli: %s", session->moduli.failed.text);
         session->moduli.failed = (struct gb_error){0};
     }
+    const bool charted = gb_chart_job_refresh(&session->chart_job, &session->chart);
+    if (succeeded) {
+        gb_results_take(&session->results, session, session->child.name,
+                        session->child.path);
+    }
     if (news == GB_QUICK_CELL_ENDED) {
         gb_session_quick_finish(session);
     }
-    return news != GB_QUICK_CELL_SAME || ran || made || measured;
+    return news != GB_QUICK_CELL_SAME || ran || made || measured || charted;
 }

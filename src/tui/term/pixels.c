@@ -123,6 +123,12 @@ char *gb_pixels_encode(int images, const struct gb_view_sample *sample,
     return text;
 }
 
+char *gb_pixels_encode_picture(int images, const struct gb_png_pixels *picture, int rows,
+                               int cols, struct gb_pixels_cell cell)
+{
+    return print(images, picture->rgb, picture->high, picture->wide, rows, cols, cell);
+}
+
 #else
 
 bool gb_pixels_available(void)
@@ -142,6 +148,17 @@ char *gb_pixels_encode(int images, const struct gb_view_sample *sample,
     (void)images;
     (void)sample;
     (void)look;
+    (void)rows;
+    (void)cols;
+    (void)cell;
+    return NULL;
+}
+
+char *gb_pixels_encode_picture(int images, const struct gb_png_pixels *picture, int rows,
+                               int cols, struct gb_pixels_cell cell)
+{
+    (void)images;
+    (void)picture;
     (void)rows;
     (void)cols;
     (void)cell;

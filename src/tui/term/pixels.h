@@ -5,10 +5,11 @@
 
 #include "greenbody/snapshot.h"
 #include "tui/plot/packing_look.h"
+#include "tui/term/png_pixels.h"
 #include "tui/term/rect.h"
 
-/* The packing as a pixel image, for terminals with an image protocol, encoded by
- * libchafa; without libchafa there are no images. */
+/* The packing, or a picture, as a pixel image for terminals with an image protocol, encoded
+ * by libchafa; without libchafa there are no images. */
 
 bool gb_pixels_available(void);
 
@@ -26,6 +27,10 @@ struct gb_pixels_cell {
 char *gb_pixels_encode(int images, const struct gb_view_sample *sample,
                        const struct gb_packing_look *look, int rows, int cols,
                        struct gb_pixels_cell cell);
+
+/* The same of a picture, over all of the cells. */
+char *gb_pixels_encode_picture(int images, const struct gb_png_pixels *picture, int rows,
+                               int cols, struct gb_pixels_cell cell);
 
 /* Sequence that deletes all images of the terminal; "" where text overwrites them. */
 const char *gb_pixels_wipe(int images);

@@ -80,15 +80,16 @@ void gb_view_chart_draw(struct gb_panel_plot *panel, const struct gb_session *se
         }
     }
     if (!(x_ends[1] > 0.0)) {
-        gb_plot_text(plot, plot->rows / 2 - 1, 2, GB_PLOT_INK_TEXT,
-                     chart == NULL ? "no chart yet: e loads a chart.csv,"
-                                   : "the chart has no finished row yet:");
         gb_plot_text(plot, plot->rows / 2, 2, GB_PLOT_INK_TEXT,
-                     "greenbody chart PRESET --out DIR measures one");
+                     "the chart has no finished row yet");
         return;
     }
     plot->log_x = true;
     gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LOG, "CPU time per cell, s",
                  "density error bound");
+    size_t row = 0;
+    if (gb_panel_plot_settings_at(panel, session, &row)) { /* below points and legend */
+        gb_plot_cursor(plot, chart->seconds[row], chart->error[row]);
+    }
     draw_settings(plot, chart);
 }

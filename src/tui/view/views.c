@@ -106,10 +106,12 @@ static const struct gb_plot_view views[] = {
     },
     {
         .key = "0",
-        .help = "accuracy against cost, from a chart.csv",
+        .help = "accuracy against cost: X, or a chart.csv",
         .title = "Accuracy against cost",
-        .hint = "density error and CPU time of each numerical setting of the chart",
+        .hint = "density error and CPU time of each setting; Left and Right move a "
+                "cursor, Enter applies",
         .need = GB_VIEW_NEEDS_CHART,
+        .abscissa = GB_VIEW_SETTINGS,
         .draw = gb_view_chart_draw,
     },
     {
@@ -238,9 +240,12 @@ const char *gb_views_missing(const struct gb_plot_view *view,
     case GB_VIEW_NEEDS_SAMPLE:
         return shown.sample == NULL || !shown.sample->valid ? "no packing yet" : NULL;
     case GB_VIEW_NEEDS_CHART:
-        return session->chart == NULL ? "no chart loaded: e loads a chart.csv\n"
-                                        "made by: greenbody chart PRESET --out DIR"
-                                      : NULL;
+        return session->chart != NULL ? NULL
+               : gb_chart_job_runs(&session->child)
+                   ? "measuring; the points follow the reference\n"
+                     "progress among the events, X stops"
+                   : "no chart yet: X measures this scene,\n"
+                     "e loads a chart.csv of greenbody chart";
     }
     return NULL;
 }

@@ -18,7 +18,8 @@ enum gb_view_abscissa {
     GB_VIEW_NO_CURSOR,
     GB_VIEW_DENSITY,
     GB_VIEW_ELAPSED,
-    GB_VIEW_OWN
+    GB_VIEW_OWN,
+    GB_VIEW_SETTINGS /* settings of a chart in place of points of the curve */
 };
 
 /* Longest texts that 80 columns show whole. */

@@ -5,8 +5,8 @@
 #include "io/store.h"
 #include "many/sweep/sweep_target.h"
 #include "study/calibrate/free_keys.h"
-#include "tui/app/dialog/dialogs.h"
 #include "tui/app/command/key_commands.h"
+#include "tui/app/dialog/dialogs.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/view/views.h"
 
@@ -102,11 +102,8 @@ static char *new_directory(const struct gb_session *session, const char *name)
 /* Indices of words of the child command. */
 enum { SCENE = 1, DIRECTORY = 3 };
 
-/* Fills in the scene and the directory, and starts the command.  True: started, the
- * dialog is closed; false: the dialog shows the reason.  band: to show the runs; NULL:
- * none. */
-static bool start_job(struct gb_app *app, const char *name, const char **words,
-                      struct gb_replica_band *band)
+bool gb_job_commands_start(struct gb_app *app, const char *name,
+                           enum gb_child_command_kind kind, const char **words)
 {
     struct gb_session *session = &app->screen.session;
     struct gb_dialog *dialog = &app->screen.dialog;
@@ -116,13 +113,10 @@ static bool start_job(struct gb_app *app, const char *name, const char **words,
     words[SCENE] = scene;
     words[DIRECTORY] = directory;
     const bool started =
-        scene != NULL && gb_child_command_start(&session->child, name, directory,
-                                                GB_CHILD_COMMAND_LONG, words, &err);
+        scene != NULL &&
+        gb_child_command_start(&session->child, name, directory, kind, words, &err);
     if (started) {
         gb_session_note(session, "%s: computed in %s", name, directory);
-        if (band != NULL) {
-            gb_replica_band_follow(band, directory, gb_session_params(session));
-        }
         gb_dialog_close(dialog);
     } else {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
@@ -133,12 +127,12 @@ static bool start_job(struct gb_app *app, const char *name, const char **words,
 }
 
 /* "0.002@100MPa"; NULL or blank: none. */
-static bool is_target(const char *text, struct gb_error *err)
+static bool is_target(const char *text, struct gb_sweep_target *target,
+                      struct gb_error *err)
 {
-    struct gb_sweep_target target = {0};
     const bool good =
-        text == NULL || *text == '\0' || gb_sweep_target_parse(&target, text, err);
-    gb_sweep_target_finish(&target);
+        text == NULL || *text == '\0' || gb_sweep_target_parse(target, text, err);
+    gb_sweep_target_finish(target);
     return good;
 }
 
@@ -148,6 +142,7 @@ void gb_job_commands_accept_replicas(struct gb_app *app)
     char *answer = g_strdup(gb_dialog_answer(dialog));
     char **parts = g_strsplit(g_strstrip(answer), " ", 2);
     guint64 cells = 0;
+    struct gb_sweep_target wanted = {0};
     struct gb_error err = {0};
     if (parts[0] == NULL || !g_ascii_string_to_unsigned(parts[0], 10, REPLICAS_MIN,
                                                         REPLICAS_MAX, &cells, NULL)) {
@@ -155,7 +150,7 @@ void gb_job_commands_accept_replicas(struct gb_app *app)
                            "the number of cells must be between %d and %d; then, if "
                            "wanted, a standard error at a pressure: 0.002@100MPa",
                            REPLICAS_MIN, REPLICAS_MAX);
-    } else if (parts[1] != NULL && !is_target(g_strstrip(parts[1]), &err)) {
+    } else if (parts[1] != NULL && !is_target(g_strstrip(parts[1]), &wanted, &err)) {
         gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
     } else {
         const bool target = parts[1] != NULL && *parts[1] != '\0';
@@ -168,7 +163,13 @@ void gb_job_commands_accept_replicas(struct gb_app *app)
                                target ? "--until-se" : NULL,
                                target ? parts[1] : NULL,
                                NULL};
-        start_job(app, "replicas", words, &app->screen.session.replica_band);
+        struct gb_session *session = &app->screen.session;
+        struct gb_replica_band *band = &session->replica_band;
+        if (gb_job_commands_start(app, "replicas", GB_CHILD_COMMAND_LONG, words)) {
+            gb_replica_band_follow(band, session->child.path, gb_session_params(session));
+            band->target = wanted.standard_error;
+            band->target_pa = wanted.pressure_pa;
+        }
     }
     g_strfreev(parts);
     g_free(answer);
@@ -202,7 +203,7 @@ void gb_job_commands_accept_calibrate(struct gb_app *app)
                            read ? "--columns" : NULL,
                            read ? session->reading : NULL,
                            NULL};
-    if (start_job(app, "calibration", words, NULL)) {
+    if (gb_job_commands_start(app, "calibration", GB_CHILD_COMMAND_LONG, words)) {
         gb_screen_commands_message(app, GB_STYLE_PLAIN,
                                    "calibration started: progress among the events");
     }

@@ -87,6 +87,25 @@ void gb_job_commands_calibrate(struct gb_app *app, const struct gb_key *key);
 void gb_job_commands_moduli(struct gb_app *app, const struct gb_key *key);
 void gb_job_commands_accept_replicas(struct gb_app *app);
 void gb_job_commands_accept_calibrate(struct gb_app *app);
+/* Starts a command with the scene and a new directory in words[1] and words[3].  True: the
+ * dialog is closed; false: it shows the reason. */
+bool gb_job_commands_start(struct gb_app *app, const char *name,
+                           enum gb_child_command_kind kind, const char **words);
+
+/* chart_commands.c: accuracy against cost. */
+void gb_chart_commands_open(struct gb_app *app, const struct gb_key *key);
+void gb_chart_commands_accept(struct gb_app *app);
+/* The setting under the cursor becomes that of the parameters. */
+void gb_chart_commands_apply(struct gb_screen *screen);
+
+/* result_commands.c: results of the jobs. */
+void gb_result_commands_show(struct gb_app *app, const struct gb_key *key);
+void gb_result_commands_accept(struct gb_app *app);
+/* The card as copied; g_free. */
+char *gb_result_commands_text(struct gb_app *app);
+bool gb_result_commands_press(struct gb_app *app, const struct gb_term_event *event);
+/* Shows the result of a job that has ended. */
+void gb_result_commands_follow(struct gb_app *app);
 
 /* screen_commands.c: mouse, theme, help, quitting. */
 void gb_screen_commands_mouse(struct gb_app *app, const struct gb_key *key);
@@ -95,6 +114,7 @@ void gb_screen_commands_repaint(struct gb_app *app, const struct gb_key *key);
 void gb_screen_commands_help(struct gb_app *app, const struct gb_key *key);
 void gb_screen_commands_quit(struct gb_app *app, const struct gb_key *key);
 void gb_screen_commands_accept_quit(struct gb_app *app);
+bool gb_screen_commands_press_quit(struct gb_app *app, const struct gb_term_event *event);
 /* Opens the question before quitting with a live run. */
 void gb_screen_commands_ask_quit(struct gb_app *app);
 void gb_screen_commands_leave(struct gb_app *app, int status);

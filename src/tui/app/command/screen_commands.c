@@ -75,6 +75,36 @@ void gb_screen_commands_ask_quit(struct gb_app *app)
     char text[sizeof app->screen.dialog.note];
     gb_run_lifecycle_quit_text(&app->screen.session, text, sizeof text);
     gb_dialog_show(&app->screen.dialog, &gb_dialogs_quit, text);
+    static const char *const answers[] = {[GB_DETACH_NOTHING] = NULL,
+                                          [GB_DETACH_RUN] = "d leave it running",
+                                          [GB_DETACH_START] = "d run the full cell"};
+    app->screen.dialog.other = answers[gb_run_lifecycle_detaching(&app->screen.session)];
+}
+
+/* d: the run goes on in a process of its own. */
+bool gb_screen_commands_press_quit(struct gb_app *app, const struct gb_term_event *event)
+{
+    struct gb_session *session = &app->screen.session;
+    struct gb_dialog *dialog = &app->screen.dialog;
+    struct gb_error err = {0};
+    if (event->code != 'd' || dialog->other == NULL) {
+        return false;
+    }
+    switch (gb_run_lifecycle_detaching(session)) {
+    case GB_DETACH_NOTHING: /* it has ended meanwhile */
+        return false;
+    case GB_DETACH_START:
+        if (!gb_session_start(session, &err)) {
+            gb_dialog_set_note(dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
+            return true;
+        }
+        break;
+    case GB_DETACH_RUN:
+        break;
+    }
+    app->detach = true;
+    gb_screen_commands_leave(app, 0);
+    return true;
 }
 
 void gb_screen_commands_quit(struct gb_app *app, const struct gb_key *key)

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "tui/app/dialog/dialog_forms.h"
 #include "tui/app/command/key_commands.h"
+#include "tui/app/dialog/dialog_forms.h"
 
 void gb_dialog_set_note(struct gb_dialog *dialog, enum gb_dialog_note kind,
                         const char *format, ...)
@@ -67,8 +67,28 @@ void gb_dialog_show_picture(struct gb_dialog *dialog, const struct gb_dialog_typ
     gb_picture_form_init(&dialog->picture, path);
 }
 
+void gb_dialog_show_results(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const struct gb_session *session)
+{
+    gb_dialog_close(dialog);
+    dialog->type = type;
+    dialog->session = session;
+}
+
+void gb_dialog_show_pixels(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const struct gb_png_pixels *picture, const char *path)
+{
+    char *text = g_strdup(path); /* of the card that is closed */
+    gb_dialog_close(dialog);
+    dialog->type = type;
+    dialog->pixels = *picture;
+    gb_dialog_set_note(dialog, GB_DIALOG_NOTE_WARNING, "%s", text);
+    g_free(text);
+}
+
 void gb_dialog_close(struct gb_dialog *dialog)
 {
+    gb_png_pixels_finish(&dialog->pixels);
     gb_preset_browser_finish(&dialog->browser);
     gb_leg_editor_finish(&dialog->legs);
     g_free(dialog->text);

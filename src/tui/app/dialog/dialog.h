@@ -7,6 +7,7 @@
 #include "tui/legs/leg_editor.h"
 #include "tui/panel/prompt.h"
 #include "tui/term/paint.h"
+#include "tui/term/png_pixels.h"
 
 struct gb_dialog;
 struct gb_session;
@@ -36,6 +37,8 @@ struct gb_dialog_type {
     void (*opened_by)(struct gb_app *app,
                       const struct gb_key *key); /* its key closes the dialog, too */
     char *(*copied)(struct gb_app *app); /* what y copies, g_free; NULL: nothing */
+    /* Takes a key before the form does; NULL: none. */
+    bool (*press)(struct gb_app *app, const struct gb_term_event *event);
     void (*accept)(struct gb_app *app);
     void (*decline)(struct gb_app *app); /* NULL: nothing besides closing */
 };
@@ -50,10 +53,13 @@ struct gb_dialog {
     struct gb_preset_browser browser; /* of presets or materials */
     struct gb_leg_editor legs;
     struct gb_picture_form picture;
-    const struct gb_session *session; /* of the table of densities */
+    const struct gb_session *session; /* of the table of densities and of results */
+    struct gb_png_pixels pixels;     /* shown in pixels; owned */
+    struct gb_rect field;             /* its cells on the screen */
     bool hide_previous;               /* in that table */
-    char *text;               /* shell command shown, or file asked about; owned */
-    char note[480];           /* question, or why the last answer was refused */
+    char *text;        /* shell command shown, or file asked about; owned */
+    char note[480];    /* question, or why the last answer was refused */
+    const char *other; /* a third answer of a question, its key first; NULL: none */
     enum gb_dialog_note kind; /* of the note; after a warning the same answer is taken */
     struct gb_prompt prompt;
 };
@@ -74,6 +80,12 @@ void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_t
 /* The form of a picture, which goes to `path` unless another file is typed. */
 void gb_dialog_show_picture(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                             const char *path);
+/* The results of the session, the newest first. */
+void gb_dialog_show_results(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const struct gb_session *session);
+/* A picture, which the dialog takes over, and the path below it. */
+void gb_dialog_show_pixels(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                            const struct gb_png_pixels *picture, const char *path);
 void gb_dialog_close(struct gb_dialog *dialog);
 
 void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);

@@ -3,6 +3,7 @@
 #include <glib.h>
 #include <stdio.h>
 
+#include "tui/app/dialog/dialog_box.h"
 #include "tui/panel/complete.h"
 #include "tui/panel/density_table.h"
 
@@ -21,26 +22,6 @@ enum {
     NAME_COLS = 10,
     NOTE_ROWS = 3
 };
-
-/* A centred box, at most as large as the screen. */
-static struct gb_paint box(const struct gb_paint *screen, int rows, int cols,
-                           const char *title)
-{
-    rows = MIN(rows, screen->rect.rows - 2);
-    cols = MIN(cols, screen->rect.cols - 2);
-    const struct gb_rect rect = {(screen->rect.rows - rows) / 2,
-                                 (screen->rect.cols - cols) / 2, rows, cols};
-    const struct gb_paint paint = gb_paint_at(screen->term, rect);
-    gb_paint_box(&paint, title);
-    return paint;
-}
-
-static struct gb_paint inside(const struct gb_paint *paint)
-{
-    const struct gb_rect rect = {paint->rect.row + 1, paint->rect.col + 2,
-                                 paint->rect.rows - 2, paint->rect.cols - 4};
-    return gb_paint_at(paint->term, rect);
-}
 
 static void draw_note(const struct gb_dialog *dialog, const struct gb_paint *paint,
                       int row, int rows)
@@ -82,8 +63,9 @@ static const char *told_or_title(const struct gb_dialog *dialog)
 static void draw_help(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     const int count = (int)gb_keys_count();
-    const struct gb_paint frame = box(screen, count + 2, HELP_COLS, dialog->type->title);
-    const struct gb_paint paint = inside(&frame);
+    const struct gb_paint frame =
+        gb_dialog_box(screen, count + 2, HELP_COLS, dialog->type->title);
+    const struct gb_paint paint = gb_dialog_box_inside(&frame);
     dialog->page = paint.rect.rows;
     dialog->top = MAX(0, MIN(dialog->focus, count - dialog->page));
     dialog->focus = dialog->top;
@@ -130,8 +112,8 @@ const struct gb_dialog_form gb_dialog_forms_help = {draw_help, NULL, scroll};
 static void draw_densities(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     const struct gb_paint frame =
-        box(screen, DENSITIES_ROWS, DENSITIES_COLS, told_or_title(dialog));
-    const struct gb_paint paint = inside(&frame);
+        gb_dialog_box(screen, DENSITIES_ROWS, DENSITIES_COLS, told_or_title(dialog));
+    const struct gb_paint paint = gb_dialog_box_inside(&frame);
     dialog->page = gb_density_table_draw(&paint, dialog->session, dialog->hide_previous,
                                          &dialog->focus);
 }
@@ -144,8 +126,8 @@ static void draw_presets(struct gb_dialog *dialog, const struct gb_paint *screen
 {
     const int note = dialog->note[0] != '\0' ? NOTE_ROWS : 0;
     const struct gb_paint frame =
-        box(screen, PRESETS_ROWS, PRESETS_COLS, dialog->type->title);
-    struct gb_paint paint = inside(&frame);
+        gb_dialog_box(screen, PRESETS_ROWS, PRESETS_COLS, dialog->type->title);
+    struct gb_paint paint = gb_dialog_box_inside(&frame);
     draw_note(dialog, &paint, paint.rect.rows - note, note);
     paint.rect.rows -= note;
     gb_preset_browser_draw(&dialog->browser, &paint);
@@ -172,8 +154,9 @@ const struct gb_dialog_form gb_dialog_forms_presets = {draw_presets, edit_preset
 static void draw_legs(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     const int note = dialog->note[0] != '\0' ? NOTE_ROWS : 0;
-    const struct gb_paint frame = box(screen, LEGS_ROWS, LEGS_COLS, dialog->type->title);
-    struct gb_paint paint = inside(&frame);
+    const struct gb_paint frame =
+        gb_dialog_box(screen, LEGS_ROWS, LEGS_COLS, dialog->type->title);
+    struct gb_paint paint = gb_dialog_box_inside(&frame);
     draw_note(dialog, &paint, paint.rect.rows - note, note);
     paint.rect.rows -= note;
     gb_leg_editor_draw(&dialog->legs, &paint);
@@ -205,8 +188,8 @@ static void draw_prompt(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     const int rows = MAX(note_rows(dialog, screen, screen->rect.rows - 7), NOTE_ROWS);
     const struct gb_paint frame =
-        box(screen, PROMPT_ROWS + rows, PROMPT_COLS, dialog->type->title);
-    const struct gb_paint paint = inside(&frame);
+        gb_dialog_box(screen, PROMPT_ROWS + rows, PROMPT_COLS, dialog->type->title);
+    const struct gb_paint paint = gb_dialog_box_inside(&frame);
     gb_paint_text(&paint, 0, 1, GB_STYLE_PLAIN, dialog->type->label);
     gb_prompt_draw(&dialog->prompt, &paint, 1, 1, paint.rect.cols - 2);
     draw_note(dialog, &paint, 3, rows);
@@ -248,9 +231,9 @@ const struct gb_dialog_form gb_dialog_forms_prompt = {draw_prompt, edit_prompt,
 static void draw_picture(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     const int note = dialog->note[0] != '\0' ? NOTE_ROWS : 0;
-    const struct gb_paint frame = box(screen, GB_PICTURE_FORM_ROWS + 2 + note,
+    const struct gb_paint frame = gb_dialog_box(screen, GB_PICTURE_FORM_ROWS + 2 + note,
                                       PROMPT_COLS, dialog->type->title);
-    const struct gb_paint paint = inside(&frame);
+    const struct gb_paint paint = gb_dialog_box_inside(&frame);
     gb_picture_form_draw(&dialog->picture, &paint);
     draw_note(dialog, &paint, GB_PICTURE_FORM_ROWS, note);
 }
@@ -298,22 +281,28 @@ const struct gb_dialog_form gb_dialog_forms_command = {draw_command, NULL, stay_
 
 /* --- question --------------------------------------------------------------------- */
 
-/* Both answers in one row. */
+/* The answers in one row. */
 static void draw_answers(const struct gb_dialog *dialog, const struct gb_paint *paint,
                          int row)
 {
     gb_paint_text(paint, row, 1, GB_STYLE_BOLD, "y");
     const int col = gb_paint_text(paint, row, 3, GB_STYLE_PLAIN, dialog->type->yes) + 4;
     gb_paint_text(paint, row, col, GB_STYLE_BOLD, "n");
-    gb_paint_text(paint, row, col + 2, GB_STYLE_PLAIN, dialog->type->no);
+    const int end = gb_paint_text(paint, row, col + 2, GB_STYLE_PLAIN, dialog->type->no);
+    if (dialog->other != NULL) {
+        const char key[] = {dialog->other[0], '\0'};
+        gb_paint_text(paint, row, end + 4, GB_STYLE_BOLD, key);
+        gb_paint_text(paint, row, end + 5, GB_STYLE_PLAIN, dialog->other + 1);
+    }
 }
 
 /* The height follows from the wrapped question. */
 static void draw_question(struct gb_dialog *dialog, const struct gb_paint *screen)
 {
     const int rows = note_rows(dialog, screen, screen->rect.rows - 5);
-    const struct gb_paint frame = box(screen, rows + 4, PROMPT_COLS, dialog->type->title);
-    const struct gb_paint paint = inside(&frame);
+    const struct gb_paint frame =
+        gb_dialog_box(screen, rows + 4, PROMPT_COLS, dialog->type->title);
+    const struct gb_paint paint = gb_dialog_box_inside(&frame);
     gb_paint_wrap(&paint, 0, paint.rect.rows - 2, GB_STYLE_PLAIN, dialog->note);
     draw_answers(dialog, &paint, paint.rect.rows - 1);
 }

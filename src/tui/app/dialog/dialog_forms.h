@@ -12,5 +12,7 @@ extern const struct gb_dialog_form gb_dialog_forms_prompt;    /* input line */
 extern const struct gb_dialog_form gb_dialog_forms_picture;   /* rows of choices */
 extern const struct gb_dialog_form gb_dialog_forms_command;   /* shell command */
 extern const struct gb_dialog_form gb_dialog_forms_question;  /* y or n */
+extern const struct gb_dialog_form gb_result_form_cards;      /* result_form.c: cards */
+extern const struct gb_dialog_form gb_result_form_picture;    /* pixels */
 
 #endif

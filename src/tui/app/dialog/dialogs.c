@@ -126,6 +126,7 @@ const struct gb_dialog_type gb_dialogs_quit = {
     .yes = "quit",
     .no = "stay",
     .opened_by = gb_screen_commands_quit,
+    .press = gb_screen_commands_press_quit,
     .accept = gb_screen_commands_accept_quit,
 };
 
@@ -136,4 +137,27 @@ const struct gb_dialog_type gb_dialogs_cost = {
     .no = "cancel",
     .accept = gb_run_commands_accept_cost,
     .decline = gb_run_commands_decline_cost,
+};
+
+const struct gb_dialog_type gb_dialogs_results = {
+    .form = &gb_result_form_cards,
+    .title = "Result",
+    .scope = GB_KEY_COPIED,
+    .opened_by = gb_result_commands_show,
+    .copied = gb_result_commands_text,
+    .press = gb_result_commands_press,
+    .accept = gb_result_commands_accept,
+};
+
+const struct gb_dialog_type gb_dialogs_pixels = {
+    .form = &gb_result_form_picture,
+    .title = "Picture (Esc closes)",
+};
+
+const struct gb_dialog_type gb_dialogs_chart = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "Accuracy against cost of this scene (Esc cancels)",
+    .label = "Cells of each setting; CPU time; pressures:",
+    .opened_by = gb_chart_commands_open,
+    .accept = gb_chart_commands_accept,
 };

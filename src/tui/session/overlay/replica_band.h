@@ -12,7 +12,8 @@ struct gb_replica_band {
     char *directory; /* NULL: none */
     struct gb_params params;
     struct gb_runset_view runset;
-    double due; /* clock of the next reading, s */
+    double target, target_pa; /* standard error of density asked for; 0: none */
+    double due;               /* clock of the next reading, s */
 };
 
 /* Shows the replicas in a directory from now on. */
