@@ -16,6 +16,10 @@ enum { OPPOSITE = AROUND / 2 };
 static const double ring_radius = 0.008;
 static const double axis_radius = 0.012;
 
+/* Around a planar rose, over its reach: names of the axes beside the colour bar and below the
+ * title.  The corners of the box around a body leave that room. */
+static const double label_room = 0.2;
+
 bool gb_rose_of_state(struct gb_harmonics *rose, const struct gb_state *state,
                       struct gb_error *err)
 {
@@ -193,8 +197,8 @@ bool gb_rose_scene(struct gb_scene **out, const struct gb_harmonics *rose, doubl
     const size_t parts[3] = {0, planar ? 2 + RING : 3 + 3 * RING,
                              planar ? PLANAR : 2 * (size_t)AROUND * DOWN};
     const double cell[3] = {2.0 * reach, 2.0 * reach, 2.0 * reach};
-    if (!gb_scene_begin(out, cell, 0.0, parts, planar ? &along_y : viewpoint, frame,
-                        background, err)) {
+    if (!gb_scene_begin(out, cell, planar ? label_room * reach : 0.0, parts,
+                        planar ? &along_y : viewpoint, frame, background, err)) {
         return false;
     }
     set_frame(*out, rose, reach);

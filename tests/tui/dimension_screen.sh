@@ -42,7 +42,7 @@ leaves 'quits'
 
 # --- a small cell in the accuracy of the reference
 start default particles.count=500 numerics.fidelity=reference
-told 'it has a quick cell first' 'quick cell of 500 particles: curve in'
+shows 'it has a quick cell first' 'quick cell, N 500'
 leaves 'quits the reference'
 
 echo "1..$tests"

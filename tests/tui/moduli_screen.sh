@@ -46,7 +46,7 @@ leaves 'quits'
 
 rm -rf "$here/state"
 start default particles.count=1000 loading.step=0.005% numerics.fidelity=reference
-shows 'a packing of 1000 is pressed' 'running'
+shows 'a packing of 1000 is pressed behind its quick cell' '^ greenbody .*▶ running'
 keys Y
 shows 'a live run is measured once it has stored its state' 'measuring the first state'
 keys Y
