@@ -97,9 +97,17 @@ is "u goes back" until_true value_is mu '0\.1 '
 leaves "quits"
 
 # --- a live run is not disturbed, nor what is typed
-start "$long"
-shows "a long run" 'running'
-until_true has 'density  *0\.2'
+states() {
+    find "$here/state" -name state.h5 | wc -l
+}
+is_stored() {
+    has 'takes long: r' && keys r
+    has 'A long run' && keys y
+    [ "$(states)" -gt "$stored" ]
+}
+stored=$(states)
+start "$long output.checkpoint_every=1s"
+is "a long run has stored its packing" until_true is_stored
 keys s
 shows "s asks" 'Picture'
 keys Enter
