@@ -98,7 +98,7 @@ bool gb_die_rest_check_funnel(const struct gb_bed *bed, struct gb_error *err)
     const int64_t left = gb_die_rest_in_funnel(bed);
     return left == 0 ||
            gb_error_set(err, GB_ERR_GUARD,
-                        "the funnel is clogged: %lld particles rest in it; accepted: a "
-                        "larger die.outlet or smaller particles",
-                        (long long)left);
+                        "the funnel is clogged: %lld particle%s in it; accepted: a larger "
+                        "die.outlet or smaller particles",
+                        (long long)left, left == 1 ? " rests" : "s rest");
 }
