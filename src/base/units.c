@@ -243,10 +243,25 @@ static const struct unit *find_unit(const char *typed, enum gb_dimension dimensi
     return NULL;
 }
 
+char *gb_units_comma(const char *text, char *buffer, size_t size)
+{
+    struct literal literal;
+    buffer[0] = '\0';
+    if (scan(text, &literal) && literal.end[0] == ',' && g_ascii_isdigit(literal.end[1])) {
+        const bool once = strchr(literal.end + 1, ',') == NULL &&
+                          memchr(literal.start, '.', literal.length) == NULL;
+        snprintf(buffer, size, "decimals have a point, thousands no mark%s%.*s%s%.40s",
+                 once ? ": " : "", once ? (int)literal.length : 0, literal.start,
+                 once ? "." : "", once ? literal.end + 1 : "");
+    }
+    return buffer;
+}
+
 bool gb_units_parse(const char *text, enum gb_dimension dimension, double *value_si,
                     struct gb_error *err)
 {
     struct literal literal;
+    char advice[128];
     double value = 0.0;
     const bool read = scan(text, &literal);
     const struct unit *unit =
@@ -255,6 +270,9 @@ bool gb_units_parse(const char *text, enum gb_dimension dimension, double *value
         isfinite(value * unit->factor)) {
         *value_si = value * unit->factor;
         return true;
+    }
+    if (*gb_units_comma(text, advice, sizeof advice) != '\0') {
+        return gb_error_set(err, GB_ERR_INPUT, "'%.60s': %s", text, advice);
     }
     /* a number can overflow alone and not with its unit: "1e309 %" */
     if (!read || !evaluate(&literal, 0, &value)) {

@@ -31,6 +31,10 @@ char *gb_units_format_short(double value_si, enum gb_dimension dimension, int di
 /* "nm, um, mm, m, ..." for messages and help; "none" for pure numbers. */
 const char *gb_units_accepted(enum gb_dimension dimension);
 
+/* For a number with a comma among its digits, as "0,15" or "1,000 MPa", the advice
+ * "decimals have a point, thousands no mark: 0.15"; "" for other texts.  Returns buffer. */
+char *gb_units_comma(const char *text, char *buffer, size_t size);
+
 /* Strict decimal number without unit; locale-independent.  *end as in strtod. */
 bool gb_units_number(const char *text, const char **end, double *value);
 

@@ -121,7 +121,7 @@ static const char *const refused[][2] = {
     {"contact.mu=-1", "contact.mu = -1: must be between 0 and 2"},
     {"contact.mu=2.1", "must be between 0 and 2"},
     {"contact.mu=nan", "must be between 0 and 2"},
-    {"contact.mu=0,1", "must be between 0 and 2"},
+    {"contact.mu=0,1", "decimals have a point, thousands no mark: 0.1"},
     {"contact.mu=", "must be between 0 and 2"},
     {"material.poisson=0.5", "must be between 0 and 0.49"},
     {"particles.diameter=10", "units nm"},

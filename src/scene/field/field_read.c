@@ -21,6 +21,11 @@ static bool refuse(const struct gb_field *field, const char *text, enum fault fa
                    struct gb_error *err)
 {
     char accepted[256];
+    if (field->type != GB_FIELD_CHOICE &&
+        *gb_units_comma(text, accepted, sizeof accepted) != '\0') {
+        return gb_error_set(err, GB_ERR_INPUT, "%s.%s = %.80s: %s", field->group,
+                            field->key, text, accepted);
+    }
     gb_field_accepted_sentence(field, accepted, sizeof accepted);
     const enum gb_dimension dimension = (enum gb_dimension)field->dimension;
     const bool units =

@@ -4,6 +4,7 @@
 
 #include <glib.h>
 
+#include "scene/field/field_words.h"
 #include "scene/field/params_table.h"
 
 enum { NAME_MAX_BYTES = 40 };
@@ -60,6 +61,12 @@ static int distance_to(const struct gb_field *field, const char *name, bool with
     return edits;
 }
 
+static const char *without_group(const char *name)
+{
+    const char *dot = strchr(name, '.');
+    return dot != NULL ? dot + 1 : name;
+}
+
 char *gb_nearest_key(const char *name, char *buffer, size_t size)
 {
     size_t count = 0, nearest = 0;
@@ -76,9 +83,11 @@ char *gb_nearest_key(const char *name, char *buffer, size_t size)
             nearest = i;
         }
     }
-    if (best <= allowed(name) && !several) {
-        g_snprintf(buffer, (gulong)size, "did you mean %s.%s? ", fields[nearest].group,
-                   fields[nearest].key);
+    const struct gb_field *meant = best <= allowed(name) && !several
+                                       ? &fields[nearest]
+                                       : gb_field_words_find(without_group(name));
+    if (meant != NULL) {
+        g_snprintf(buffer, (gulong)size, "did you mean %s.%s? ", meant->group, meant->key);
     }
     return buffer;
 }
