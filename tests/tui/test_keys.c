@@ -35,7 +35,7 @@ static void test_dispatch(void)
     for (size_t i = 0; i < gb_keys_count(); i++) {
         const struct gb_key key = gb_keys_at(i);
         g_assert_nonnull(key.command);
-        g_assert_cmpint(key.scope & (GB_KEY_ANY_PANE | GB_KEY_LEGS), !=, 0);
+        g_assert_cmpint(key.scope & (GB_KEY_ANY_PANE | GB_KEY_LEGS | GB_KEY_CURVES), !=, 0);
         g_assert_cmpint(key.code[0], !=, 0);
         for (int k = 0; k < GB_KEYS_PER_ROW && key.code[k] != 0; k++) {
             g_assert_true(gb_keys_find(key.code[k], key.scope, &found));

@@ -52,7 +52,7 @@ static void test_steps(void)
 /* A run of a few points, not recorded. */
 static struct gb_kept_run small_run(double mu)
 {
-    struct gb_kept_run run = {.marker = 'a'};
+    struct gb_kept_run run = {.label = {.marker = 'a'}};
     struct gb_error err = {0};
     gb_params_init(&run.params);
     g_assert_true(gb_params_assign(&run.params, "particles.count=60", &err));
@@ -82,7 +82,7 @@ static void test_kept(void)
     g_assert_cmpint(kept.count, ==, 2);
     const size_t points = gb_curve_count(gb_runner_curve(first.runner));
     g_assert_true(gb_kept_runs_take(&kept, &params, false, &out));
-    g_assert_true(out.runner == first.runner && out.marker == 'a');
+    g_assert_true(out.runner == first.runner && out.label.marker == 'a');
     g_assert_cmpuint(gb_curve_count(gb_runner_curve(out.runner)), ==, points);
     g_assert_cmpint(gb_runner_snapshot(out.runner, NULL)->state, >=, GB_RUN_DONE);
     g_assert_false(gb_kept_runs_take(&kept, &params, false, &out));

@@ -33,7 +33,7 @@ static void add_previous(struct gb_session *session, const struct gb_params *par
     struct gb_curve *curve = curve_of(density);
     struct gb_previous_curve *previous = &session->previous[session->previous_count++];
     g_assert_true(gb_previous_curve_copy(previous, params, curve, LAST));
-    previous->marker = (char)('a' + session->previous_count - 1);
+    previous->label.marker = (char)('a' + session->previous_count - 1);
     previous->quick = quick;
     gb_curve_destroy(curve);
 }

@@ -19,8 +19,7 @@ static void handle_dialog(struct gb_app *app, const struct gb_term_event *event)
     struct gb_dialog *dialog = &app->screen.dialog;
     const struct gb_dialog_type *type = dialog->type;
     struct gb_key key;
-    if (dialog->legs.typing == GB_LEG_EDITOR_LIST &&
-        gb_keys_find(event->code, type->scope, &key)) {
+    if (gb_dialog_takes_keys(dialog) && gb_keys_find(event->code, type->scope, &key)) {
         key.command(app, &key);
         return;
     }

@@ -22,8 +22,9 @@ enum gb_key_scope {
     GB_KEY_TOO_SMALL = 1 << GB_PANES,  /* also on a screen that is too small */
     GB_KEY_LEGS = 1 << (GB_PANES + 1), /* in the editor of a loading path */
     GB_KEY_COPIED = 1 << (GB_PANES + 2), /* in a dialog with something to copy */
+    GB_KEY_CURVES = 1 << (GB_PANES + 3), /* in the list of curves */
     GB_KEY_ALWAYS = GB_KEY_ANY_PANE | GB_KEY_TOO_SMALL,
-    GB_KEY_EVERYWHERE = GB_KEY_ALWAYS | GB_KEY_LEGS | GB_KEY_COPIED
+    GB_KEY_EVERYWHERE = GB_KEY_ALWAYS | GB_KEY_LEGS | GB_KEY_COPIED | GB_KEY_CURVES
 };
 
 /* One row per key: dispatch, footer, help page, `greenbody --keys` and the manual page

@@ -13,7 +13,8 @@ static const double level_pa[] = {10e6, 50e6, 100e6, 500e6};
 enum {
     LEVELS = sizeof level_pa / sizeof level_pa[0],
     VALUE_COLS = 9,
-    NAME_COLS_MIN = 12,
+    MISFIT_COLS = 7,
+    NAME_COLS_MIN = 11,
     NAME_COLS_MAX = 40,
     FOOT_ROWS = 3, /* what the signs mean */
     LINES_MAX = 3 * GB_PRESSURE_ROWS
@@ -23,6 +24,7 @@ enum {
 struct line {
     char name[64];
     char value[LEVELS][VALUE_COLS + 1];
+    char misfit[MISFIT_COLS + 1]; /* to the measured data */
     enum gb_style name_style, style[LEVELS];
 };
 
@@ -43,15 +45,15 @@ static struct line *add(struct table *table, const char *name, enum gb_style sty
 }
 
 static void write_densities(struct table *table, const struct gb_pressure_row *row,
-                            const struct gb_pressure_value value[LEVELS])
+                            const struct gb_pressure_value value[LEVELS],
+                            double misfit)
 {
     struct line *line = add(table, row->name, GB_STYLE_PLAIN);
+    if (isfinite(misfit)) {
+        snprintf(line->misfit, sizeof line->misfit, "%.2f %%", 100.0 * misfit);
+    }
     for (int k = 0; k < LEVELS; k++) {
-        if (isnan(value[k].density)) {
-            snprintf(line->value[k], sizeof line->value[k], "-");
-        } else {
-            snprintf(line->value[k], sizeof line->value[k], "%.4f", value[k].density);
-        }
+        gb_pressure_rows_write(value[k], line->value[k], sizeof line->value[k]);
     }
 }
 
@@ -76,20 +78,12 @@ static void write_differences(struct table *table, const struct gb_pressure_row 
                               const struct gb_pressure_row *base,
                               const struct gb_pressure_value base_value[LEVELS])
 {
-    static const char sign[] = {[GB_PRESSURE_VERDICT_NONE] = ' ',
-                                [GB_PRESSURE_VERDICT_WITHIN] = '~',
-                                [GB_PRESSURE_VERDICT_BEYOND] = '!'};
     struct line *line = add(table, "  - run", GB_STYLE_DIM);
     bool some = false;
     for (int k = 0; k < LEVELS; k++) {
-        const double difference = value[k].density - base_value[k].density;
-        const enum gb_pressure_verdict verdict =
-            gb_pressure_rows_verdict(row, value[k], base, base_value[k]);
-        if (isfinite(difference)) {
-            snprintf(line->value[k], sizeof line->value[k], "%+.4f%c", difference,
-                     sign[verdict]);
-            some = true;
-        }
+        const enum gb_pressure_verdict verdict = gb_pressure_rows_write_difference(
+            row, value[k], base, base_value[k], line->value[k], sizeof line->value[k]);
+        some = some || line->value[k][0] != '\0';
         if (verdict == GB_PRESSURE_VERDICT_BEYOND) {
             line->style[k] = GB_STYLE_BOLD;
         }
@@ -109,7 +103,8 @@ static void fill(struct table *table, const struct gb_session *session,
         for (int k = 0; k < LEVELS; k++) {
             value[i][k] = gb_pressure_rows_at(session, row, level_pa[k]);
         }
-        write_densities(table, row, value[i]);
+        write_densities(table, row, value[i],
+                        gb_pressure_rows_misfit(session, row));
         write_errors(table, row, value[i]);
         if (i > 0 && rows.row[0].kind == GB_PRESSURE_ROW_RUN) {
             write_differences(table, row, value[i], &rows.row[0], value[0]);
@@ -117,7 +112,7 @@ static void fill(struct table *table, const struct gb_session *session,
     }
 }
 
-static void draw_head(const struct gb_paint *paint, int name_cols)
+static void draw_head(const struct gb_paint *paint, int name_cols, bool misfit)
 {
     gb_paint_cell(paint, 0, 0, name_cols, GB_STYLE_BOLD, "density at");
     for (int k = 0; k < LEVELS; k++) {
@@ -125,6 +120,10 @@ static void draw_head(const struct gb_paint *paint, int name_cols)
         gb_units_format_short(level_pa[k], GB_DIM_PRESSURE, 4, pressure, sizeof pressure);
         const int end = name_cols + (k + 1) * VALUE_COLS - 1; /* the sign stays free */
         gb_paint_text(paint, 0, end - gb_paint_width(pressure), GB_STYLE_BOLD, pressure);
+    }
+    if (misfit) {
+        const int from = name_cols + LEVELS * VALUE_COLS;
+        gb_paint_text(paint, 0, from, GB_STYLE_BOLD, " misfit");
     }
 }
 
@@ -139,6 +138,9 @@ static void draw_line(const struct gb_paint *paint, int row, int name_cols,
         const int end = name_cols + (k + 1) * VALUE_COLS - 1 + signs;
         gb_paint_text(paint, row, end - gb_paint_width(value), line->style[k], value);
     }
+    const int end = name_cols + LEVELS * VALUE_COLS + MISFIT_COLS;
+    gb_paint_text(paint, row, end - gb_paint_width(line->misfit), line->name_style,
+                  line->misfit);
 }
 
 static void draw_foot(const struct gb_paint *paint, int row)
@@ -147,7 +149,7 @@ static void draw_foot(const struct gb_paint *paint, int row)
         paint, row, FOOT_ROWS, GB_STYLE_DIM,
         "~ within, ! beyond two standard deviations of the difference; +- cell: "
         "measured scatter of one cell; no sign: error unknown, or quick against full "
-        "cell.");
+        "cell; misfit: RMS of density.");
 }
 
 char *gb_density_table_text(const struct gb_session *session, bool hide_previous)
@@ -178,11 +180,13 @@ int gb_density_table_draw(const struct gb_paint *paint, const struct gb_session 
 {
     struct table table;
     const int page = MAX(1, paint->rect.rows - FOOT_ROWS - 1);
-    const int name_cols =
-        CLAMP(paint->rect.cols - LEVELS * VALUE_COLS, NAME_COLS_MIN, NAME_COLS_MAX);
+    const bool misfit = gb_session_measured(session) != NULL;
+    const int name_cols = CLAMP(paint->rect.cols - LEVELS * VALUE_COLS -
+                                    (misfit ? MISFIT_COLS : 0),
+                                NAME_COLS_MIN, NAME_COLS_MAX);
     fill(&table, session, hide_previous);
     *top = CLAMP(*top, 0, MAX(0, table.count - page));
-    draw_head(paint, name_cols);
+    draw_head(paint, name_cols, misfit);
     for (int i = 0; i < page && *top + i < table.count; i++) {
         draw_line(paint, 1 + i, name_cols, &table.line[*top + i]);
     }

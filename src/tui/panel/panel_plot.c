@@ -81,12 +81,14 @@ static void write_title(const struct gb_panel_plot *panel,
 {
     const struct gb_plot_view *view = panel->view;
     const struct gb_session_shown shown = gb_session_shown(session);
-    const bool pressure = view->options & GB_VIEW_PRESSURE_AXIS;
+    const bool across = view->options & GB_VIEW_PRESSURE_ACROSS;
+    const bool pressure = across || view->options & GB_VIEW_PRESSURE_AXIS;
     const bool dynamic = gb_loading_kind_of(shown.params)->given_rate;
-    snprintf(title, size, "%s %s%s%s%s", view->key,
+    snprintf(title, size, "%s %s%s%s%s%s", view->key,
              view->title_quasistatic != NULL && !dynamic ? view->title_quasistatic
                                                          : view->title,
              pressure && panel->log ? " (log)" : "",
+             gb_panel_plot_ranges_any(&panel->ranges) ? ", Z" : "",
              shown.quick && !pressure ? ", quick cell" : "",
              session->frozen ? ", view frozen" : "");
 }

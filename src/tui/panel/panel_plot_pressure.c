@@ -26,7 +26,7 @@ void gb_panel_plot_pressure_set(struct gb_panel_plot *panel,
                                 const struct gb_session *session, double pressure_pa)
 {
     const struct gb_session_shown shown = gb_session_shown(session);
-    if (!(panel->view->options & GB_VIEW_PRESSURE_AXIS)) {
+    if (!(panel->view->options & (GB_VIEW_PRESSURE_AXIS | GB_VIEW_PRESSURE_ACROSS))) {
         panel->view = gb_views_at(0);
     }
     panel->at_pa = pressure_pa;
@@ -36,7 +36,8 @@ void gb_panel_plot_pressure_set(struct gb_panel_plot *panel,
 
 bool gb_panel_plot_pressure_shown(const struct gb_panel_plot *panel)
 {
-    return panel->at_pa > 0.0 && panel->view->options & GB_VIEW_PRESSURE_AXIS;
+    return panel->at_pa > 0.0 &&
+           panel->view->options & (GB_VIEW_PRESSURE_AXIS | GB_VIEW_PRESSURE_ACROSS);
 }
 
 double gb_panel_plot_pressure_density(const struct gb_panel_plot *panel,

@@ -2,12 +2,18 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
+#include "base/units.h"
 #include "io/status/stage_text.h"
 #include "tui/panel/panel_state_items.h"
 #include "tui/panel/panels.h"
+#include "tui/session/overlay/pressure_rows.h"
 
 /* Width of a column from which on names are not abbreviated; least width of the bar. */
 enum { FULL_NAME_COLS = 30, BAR_MIN = 4 };
+
+/* Height of a pane that has a line for the density at a pressure. */
+enum { DENSITY_FROM_ROWS = 5 };
 
 const char *gb_panel_state_word(enum gb_run_state state, const char *error,
                                 enum gb_style *style)
@@ -157,6 +163,76 @@ static void draw_items(const struct gb_paint *paint, int first, int rows,
     }
 }
 
+/* What the density is of: the quick cell or the run, or the mean of replicas of the run. */
+static bool find_row(const struct gb_session *session,
+                     const struct gb_session_shown *shown, struct gb_pressure_row *row)
+{
+    const struct gb_replica_band *band = &session->replica_band;
+    struct gb_pressure_rows rows;
+    bool found = false;
+    gb_pressure_rows_list(&rows, session, false);
+    for (int i = 0; i < rows.count; i++) {
+        const enum gb_pressure_row_kind kind = rows.row[i].kind;
+        const bool of_shown =
+            kind == (shown->quick ? GB_PRESSURE_ROW_QUICK : GB_PRESSURE_ROW_RUN);
+        const bool mean = kind == GB_PRESSURE_ROW_REPLICAS && !shown->quick &&
+                          gb_params_diff_count(&band->params, shown->params) == 0;
+        if (of_shown || mean) {
+            *row = rows.row[i];
+            found = true;
+        }
+    }
+    return found;
+}
+
+/* "(5 cells)", "(cell scatter)": what the error is, the longest of three that fits. */
+static void write_origin(const struct gb_session *session,
+                         const struct gb_pressure_row *row, double error, int cols,
+                         char *text, size_t size)
+{
+    static const char *const scatter[] = {"(scatter expected of one cell)",
+                                          "(cell scatter)", "(1 cell)"};
+    static const char *const unknown[] = {"(1 cell, scatter unknown)", "(1 cell)", ""};
+    const char *const *choice = isnan(error) ? unknown : scatter;
+    int fits = 0;
+    if (row->kind == GB_PRESSURE_ROW_REPLICAS) {
+        snprintf(text, size, "(%zu cells)",
+                 gb_replica_band_group(&session->replica_band)->members);
+        return;
+    }
+    while (fits < 2 && (int)strlen(choice[fits]) > cols) {
+        fits++;
+    }
+    snprintf(text, size, "%s", choice[fits]);
+}
+
+/* "rho(100 MPa) = 0.4062 +- 0.0064 (cell scatter)" in so many columns; "": not reached. */
+static void write_density(const struct gb_session *session,
+                          const struct gb_session_shown *shown, int cols, char *text,
+                          size_t size)
+{
+    char number[GB_NUMBER_ERROR_MAX], pressure[24], origin[32], head[128];
+    struct gb_pressure_row row;
+    const double at_pa = gb_pressure_rows_usual(session, 0.0);
+    text[0] = '\0';
+    if (!find_row(session, shown, &row)) {
+        return;
+    }
+    const struct gb_pressure_value value = gb_pressure_rows_at(session, &row, at_pa);
+    if (isfinite(value.density)) {
+        gb_units_format_short(at_pa, GB_DIM_PRESSURE, 4, pressure, sizeof pressure);
+        if (isnan(value.error)) {
+            snprintf(number, sizeof number, "%.4f", value.density);
+        } else {
+            gb_number_error(value.density, value.error, 2, " +- ", number);
+        }
+        snprintf(head, sizeof head, "rho(%s) = %s", pressure, number);
+        write_origin(session, &row, value.error, cols - (int)strlen(head) - 1, origin,
+                     sizeof origin);
+        snprintf(text, size, "%s %s", head, origin);
+    }
+}
+
 void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *session,
                          enum gb_paint_focus focus)
 {
@@ -164,9 +240,14 @@ void gb_panel_state_draw(const struct gb_paint *paint, const struct gb_session *
     const struct gb_snapshot *now = shown.now;
     gb_paint_title(paint, shown.quick ? "State of the quick cell" : "State", focus);
     const struct gb_panel_state_choice choice = gb_panel_state_items_choose(session);
-    const bool roomy = paint->rect.rows >= choice.count + 5;
+    const bool roomy = paint->rect.rows >= choice.count + 6;
     draw_progress(paint, session, roomy);
     int row = roomy ? 4 : 2;
+    char density[192];
+    write_density(session, &shown, paint->rect.cols - 1, density, sizeof density);
+    if (density[0] != '\0' && paint->rect.rows >= DENSITY_FROM_ROWS) {
+        gb_paint_text(paint, row++, 1, GB_STYLE_BOLD, density);
+    }
     draw_items(paint, row, paint->rect.rows - row, &shown, &choice);
     if (roomy && now->error.text[0] != '\0') {
         row += choice.count + 1;

@@ -2,6 +2,7 @@
 #define GB_TUI_PANEL_PANELS_H
 
 #include "tui/panel/action.h"
+#include "tui/panel/panel_plot_ranges.h"
 #include "tui/panel/prompt.h"
 #include "tui/plot/packing_look.h"
 #include "tui/session/overlay/compaction_cache.h"
@@ -103,6 +104,7 @@ struct gb_panel_plot {
     bool setting_on;
     size_t setting; /* row of the chart under its cursor */
     double unit_pa;       /* of the pressure axis */
+    struct gb_plot_ranges ranges; /* of axes, as typed */
     struct gb_rect field; /* the view's cells on the screen */
     struct gb_plot plot, inset[GB_PANEL_INSETS];
     struct gb_plot *target;  /* target of the current drawing: plot or an inset */

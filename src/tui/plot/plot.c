@@ -58,6 +58,7 @@ bool gb_plot_resize(struct gb_plot *plot, int rows, int cols, enum gb_plot_glyph
     plot->cols = cells > 0 ? cols : 0;
     plot->glyphs = glyphs;
     plot->log_x = false;
+    plot->exact_x = plot->exact_y = false;
     plot->foot = 0;
     for (size_t i = 0; i < cells; i++) {
         plot->cell[i] = (struct gb_plot_cell){' ', GB_PLOT_INK_NONE, false, 0};
@@ -171,6 +172,9 @@ void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_e
     const int rows = plot->rows - 2 - plot->foot;
     gb_plot_axis_fit(&plot->y, y_ends[0], y_ends[1], y_scale == GB_PLOT_LOG,
                      limit(rows / 2 + 1, 2, 10));
+    if (plot->exact_y) {
+        gb_plot_axis_end(&plot->y, y_ends[0], y_ends[1]);
+    }
     const int left = widest_tick(&plot->y) + 1;
     const int cols = plot->cols - left;
     if (rows < 2 || cols < 8) {
@@ -182,6 +186,9 @@ void gb_plot_axes(struct gb_plot *plot, const double x_ends[2], const double y_e
     plot->field_cols = cols;
     gb_plot_axis_fit(&plot->x, x_ends[0], x_ends[1], plot->log_x,
                      limit(cols / TICK_COLS + 1, 2, TICKS_MAX));
+    if (plot->exact_x) {
+        gb_plot_axis_end(&plot->x, x_ends[0], x_ends[1]);
+    }
     draw_y_axis(plot);
     draw_x_axis(plot);
     gb_plot_text(plot, 0, left + 1, GB_PLOT_INK_TEXT, y_label);
@@ -275,6 +282,13 @@ void gb_plot_bar(struct gb_plot *plot, double x_from, double x_to, double y, int
     }
 }
 
+/* Blanks of a text are not free. */
+static bool is_free(const struct gb_plot *plot, int row, int col)
+{
+    const struct gb_plot_cell *cell = &plot->cell[row * plot->cols + col];
+    return cell->ch == ' ' && !cell->fixed;
+}
+
 void gb_plot_cursor(struct gb_plot *plot, double x, double y)
 {
     const double px = gb_plot_axis_position(&plot->x, x);
@@ -285,12 +299,12 @@ void gb_plot_cursor(struct gb_plot *plot, double x, double y)
     const int row = field_row(plot, py);
     const int col = field_col(plot, px);
     for (int r = plot->top; r < plot->top + plot->field_rows; r++) {
-        if (plot->cell[r * plot->cols + col].ch == ' ') {
+        if (is_free(plot, r, col)) {
             gb_plot_put(plot, r, col, line_char(plot, 0x2502, '|'), GB_PLOT_INK_CURSOR);
         }
     }
     for (int c = plot->left; c < plot->left + plot->field_cols; c++) {
-        if (plot->cell[row * plot->cols + c].ch == ' ') {
+        if (is_free(plot, row, c)) {
             gb_plot_put(plot, row, c, line_char(plot, 0x2500, '-'), GB_PLOT_INK_CURSOR);
         }
     }

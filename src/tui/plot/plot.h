@@ -59,6 +59,7 @@ struct gb_plot {
     int field_rows, field_cols;
     enum gb_plot_glyphs glyphs;
     bool log_x; /* set before gb_plot_axes; cleared by gb_plot_resize */
+    bool exact_x, exact_y; /* axes end where they are asked to; as log_x */
     int foot;   /* rows for the legend below the axes; set and cleared as log_x */
     struct gb_plot_axis x, y;
     struct gb_plot_cell *cell; /* rows x cols */

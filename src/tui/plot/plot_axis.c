@@ -139,6 +139,26 @@ void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool l
     fit_linear(axis, low, high, max);
 }
 
+void gb_plot_axis_end(struct gb_plot_axis *axis, double low, double high)
+{
+    const struct gb_plot_axis fitted = *axis;
+    axis->low = axis->log && low <= 0.0 ? fitted.low : low;
+    axis->high = high;
+    const double rest = 1e-9 * (axis->high - axis->low);
+    axis->ticks = 0;
+    for (int i = 0; i < fitted.ticks; i++) {
+        if (fitted.tick[i] >= axis->low - rest && fitted.tick[i] <= axis->high + rest) {
+            axis->tick[axis->ticks] = fitted.tick[i];
+            memcpy(axis->text[axis->ticks++], fitted.text[i], GB_PLOT_TICK_TEXT);
+        }
+    }
+    if (axis->ticks < 2) {
+        axis->ticks = 0;
+        add_tick(axis, axis->low, (axis->high - axis->low) / 10.0);
+        add_tick(axis, axis->high, (axis->high - axis->low) / 10.0);
+    }
+}
+
 double gb_plot_axis_position(const struct gb_plot_axis *axis, double value)
 {
     if (!axis->log) {

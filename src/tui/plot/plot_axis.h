@@ -24,6 +24,10 @@ struct gb_plot_axis {
 void gb_plot_axis_fit(struct gb_plot_axis *axis, double low, double high, bool log,
                       int max);
 
+/* Ends a fitted axis exactly at these values, of which a low one without a logarithm is
+ * ignored; at least two ticks remain, at the ends if need be. */
+void gb_plot_axis_end(struct gb_plot_axis *axis, double low, double high);
+
 /* 0 at low, 1 at high; NaN for values without a logarithm on a logarithmic axis. */
 double gb_plot_axis_position(const struct gb_plot_axis *axis, double value);
 

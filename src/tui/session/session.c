@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include "tui/session/cost_confirm.h"
+#include "tui/session/overlay/previous_list.h"
 #include "tui/session/past/session_recall.h"
 #include "tui/session/run_lifecycle.h"
 #include "tui/session/session_quick.h"
 #include "tui/session/session_refresh.h"
 #include "tui/term/crash.h"
-#include "tui/term/text_fit.h"
 
 void gb_session_init(struct gb_session *session, struct gb_preset *preset)
 {
@@ -71,47 +71,6 @@ const char *gb_session_event_line(const struct gb_session *session, int index)
     return session->log[at % GB_SESSION_LOG];
 }
 
-void gb_session_keep_curve(struct gb_session *session, const struct gb_params *params,
-                           const struct gb_runner *runner, enum gb_session_cell cell)
-{
-    const struct gb_curve *curve = gb_runner_curve(runner);
-    const size_t count = gb_curve_count(curve);
-    struct gb_previous_curve previous;
-    if (count < 2 || !gb_previous_curve_copy(&previous, params, curve, count)) {
-        return;
-    }
-    if (session->previous_count == GB_SESSION_PREVIOUS) {
-        gb_previous_curve_finish(&session->previous[0]);
-        memmove(session->previous, session->previous + 1,
-                (GB_SESSION_PREVIOUS - 1) * sizeof session->previous[0]);
-        session->previous_count--;
-    }
-    previous.quick = cell == GB_SESSION_QUICK_CELL;
-    if (!previous.quick && session->run_marker != '\0') {
-        previous.marker = session->run_marker;
-    } else {
-        previous.marker = (char)('a' + session->previous_total++ % 26);
-    }
-    if (!previous.quick) {
-        session->run_marker = previous.marker;
-    }
-    session->previous[session->previous_count++] = previous;
-}
-
-void gb_session_describe_previous(struct gb_session *session,
-                                  const struct gb_params *params)
-{
-    for (int i = 0; i < session->previous_count; i++) {
-        struct gb_previous_curve *previous = &session->previous[i];
-        const char *head = previous->quick ? "quick: " : "";
-        char text[GB_PARAMS_DIFF_TEXT];
-        gb_params_diff_describe(&previous->params, params, text, sizeof text);
-        char *whole = g_strconcat(head, text, NULL);
-        gb_text_fit_copy(previous->difference, sizeof previous->difference, whole);
-        g_free(whole);
-    }
-}
-
 bool gb_session_cost_question(struct gb_session *session, char *text, size_t size)
 {
     double seconds = NAN;
@@ -125,7 +84,7 @@ bool gb_session_cost_question(struct gb_session *session, char *text, size_t siz
 void gb_session_adopt(struct gb_session *session, struct gb_runner *runner)
 {
     if (session->runner != NULL) {
-        gb_session_keep_curve(session, gb_runner_params(session->runner), session->runner,
+        gb_previous_list_keep(session, gb_runner_params(session->runner), session->runner,
                               GB_SESSION_FULL_CELL);
         gb_session_recall_keep_run(session);
     }
@@ -143,13 +102,13 @@ void gb_session_adopt(struct gb_session *session, struct gb_runner *runner)
     session->events_seen = 0;
     memset(&session->now, 0, sizeof session->now);
     session->now.seconds_left = -1.0;
-    gb_session_describe_previous(session, gb_runner_params(runner));
+    gb_previous_list_describe(session, gb_runner_params(runner));
 }
 
 void gb_session_replace(struct gb_session *session, struct gb_runner *runner)
 {
     gb_session_adopt(session, runner);
-    session->run_marker = '\0';
+    session->run_label = (struct gb_curve_label){.marker = '\0'};
     session->runs++;
 }
 

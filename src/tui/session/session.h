@@ -50,7 +50,7 @@ struct gb_session {
     bool start_due;  /* the full cell is due */
     struct gb_previous_curve previous[GB_SESSION_PREVIOUS];
     int previous_count, previous_total; /* number of previous curves, and of all so far */
-    char run_marker;             /* that the run had as a previous curve; 0: none */
+    struct gb_curve_label run_label; /* of the run on display */
     struct gb_kept_runs kept;    /* runs and quick cells that can be shown again */
     struct gb_param_steps steps; /* changes of the parameters */
     char whatif_text
@@ -103,14 +103,6 @@ bool gb_session_start(struct gb_session *session, struct gb_error *err);
 void gb_session_replace(struct gb_session *session, struct gb_runner *runner);
 /* The same, by one that was shown before. */
 void gb_session_adopt(struct gb_session *session, struct gb_runner *runner);
-
-/* Adds the curve of a run or quick cell to the previous curves, unless it has fewer than two
- * points or memory is short. */
-void gb_session_keep_curve(struct gb_session *session, const struct gb_params *params,
-                           const struct gb_runner *runner, enum gb_session_cell cell);
-/* Updates the differences of the previous curves to these parameters. */
-void gb_session_describe_previous(struct gb_session *session,
-                                  const struct gb_params *params);
 
 /* Opens a preset for editing; does not start it. */
 bool gb_session_open(struct gb_session *session, const char *name, struct gb_error *err);

@@ -4,9 +4,11 @@
 
 #include "run/cost.h"
 #include "tui/session/cost_confirm.h"
+#include "tui/session/overlay/previous_list.h"
 #include "tui/session/past/session_recall.h"
 
-/* A live run is not replaced automatically after this computing time, s. */
+/* A live run of more computing time, s, past and to come, is not replaced
+ * automatically. */
 static const double replaced_max_s = 60.0;
 
 bool gb_session_quick_matches(const struct gb_session *session,
@@ -26,7 +28,7 @@ static bool full_run_started(const struct gb_session *session)
 void gb_session_quick_keep_curve(struct gb_session *session)
 {
     if (session->quick_cell.runner != NULL && !full_run_started(session)) {
-        gb_session_keep_curve(session, &session->quick_cell.full_params,
+        gb_previous_list_keep(session, &session->quick_cell.full_params,
                               session->quick_cell.runner, GB_SESSION_QUICK_CELL);
     }
 }
@@ -87,7 +89,7 @@ bool gb_session_quick_start(struct gb_session *session)
         return false;
     }
     session->frozen = false;
-    gb_session_describe_previous(session, params);
+    gb_previous_list_describe(session, params);
     return true;
 }
 
@@ -111,7 +113,22 @@ static void note_estimate(struct gb_session *session)
     }
 }
 
-/* The full run follows unless it would replace a run with much computing time. */
+/* What only r replaces: a live what-if, and a live run that takes long. */
+static const char *irreplaceable(const struct gb_session *session)
+{
+    const bool what_if = session->whatifs > 0 || session->whatif_text[0] != '\0';
+    if (!gb_session_run_is_live(session)) {
+        return NULL;
+    }
+    const double whole = session->now.seconds_left >= 0.0
+                             ? session->now.seconds + session->now.seconds_left
+                             : gb_cost_assumed_s(gb_runner_params(session->runner));
+    return what_if                                              ? "the what-if continues"
+           : fmax(whole, session->now.seconds) > replaced_max_s ? "the current run continues"
+                                                                : NULL;
+}
+
+/* The full run follows unless it would replace a run that has to go on. */
 void gb_session_quick_finish(struct gb_session *session)
 {
     const struct gb_quick_cell *quick_cell = &session->quick_cell;
@@ -126,13 +143,13 @@ void gb_session_quick_finish(struct gb_session *session)
     if (full_run_started(session)) {
         return;
     }
-    const bool works =
-        gb_session_run_is_live(session) && session->now.seconds > replaced_max_s;
+    const char *running = irreplaceable(session);
     note_estimate(session);
     /* a pause requested during the quick cell also applies to the full run */
-    session->start_due = session->auto_start && !works && !session->pause_wanted;
+    session->start_due =
+        session->auto_start && running == NULL && !session->pause_wanted;
     if (!session->start_due) {
-        gb_session_note(session, "%sr starts the full cell",
-                        works ? "the current run continues; " : "");
+        gb_session_note(session, "%s%sr starts the full cell",
+                        running != NULL ? running : "", running != NULL ? "; " : "");
     }
 }

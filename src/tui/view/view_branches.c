@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "scene/loading_kind.h"
+#include "tui/term/text_fit.h"
 #include "tui/view/view_curve.h"
 #include "tui/view/view_legs.h"
 
@@ -115,10 +116,21 @@ static struct gb_plot_series branch_style(int branch, bool dynamic, double from_
     }
 }
 
+/* "dense: loading" of a run that the user has named. */
+static void name_run(const struct gb_view_curve *view, char *name, size_t size)
+{
+    const char *given = view->session->run_label.name;
+    if (given[0] != '\0') {
+        char *whole = g_strdup_printf("%s: %s", given, name);
+        gb_text_fit_copy(name, size, whole);
+        g_free(whole);
+    }
+}
+
 static void draw_branch(struct gb_view_curve *view, int branch)
 {
     double from_pa = 0.0;
-    char name[64];
+    char name[GB_PLOT_NAME];
     const size_t count = gather(view, branch, &from_pa);
     if (count == 0) {
         return;
@@ -130,9 +142,13 @@ static void draw_branch(struct gb_view_curve *view, int branch)
         series = gb_view_legs_style(leg);
         gb_view_legs_name(&view->path, leg, name, sizeof name);
     }
+    if (gb_view_curve_several(view)) {
+        series.ink = GB_PLOT_INK_SERIES;
+    }
     series.x = view->panel->x;
     series.y = view->panel->y;
     series.count = count;
+    name_run(view, name, sizeof name);
     gb_view_curve_add(view, &series, name);
 }
 

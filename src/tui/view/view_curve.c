@@ -5,14 +5,26 @@
 #include <string.h>
 
 #include "scene/loading_kind.h"
+#include "tui/session/overlay/previous_list.h"
 #include "tui/term/text_fit.h"
 #include "tui/view/view_legs.h"
 
 /* Largest ratio of pressures on a logarithmic axis: smaller pressures come from single
  * contacts. */
 static const double log_range = 1e5;
-/* From this pressure on the axis is in GPa. */
+
+/* From this pressure on an axis is in GPa. */
 static const double giga_from_pa = 9.9e9;
+
+double gb_view_curve_unit(double highest_pa)
+{
+    return highest_pa >= giga_from_pa ? 1e9 : 1e6;
+}
+
+const char *gb_view_curve_unit_label(double unit_pa)
+{
+    return unit_pa > 1e6 ? "p, GPa" : "p, MPa";
+}
 
 void gb_view_curve_add(struct gb_view_curve *view, const struct gb_plot_series *series,
                        const char *name)
@@ -67,20 +79,49 @@ bool gb_view_curve_quick_shown(const struct gb_view_curve *view)
            !(view->panel->hide_previous && gb_view_curve_quick_superseded(session));
 }
 
+int gb_view_curve_quick_ink(const struct gb_session *session)
+{
+    const int colour = gb_previous_list_free_colour(session);
+    return colour > 0 ? gb_views_curve_ink(colour) : GB_PLOT_INK_TEXT;
+}
+
+bool gb_view_curve_several(const struct gb_view_curve *view)
+{
+    const struct gb_session *session = view->session;
+    bool several = session->runner != NULL && gb_view_curve_quick_shown(view) &&
+                   !gb_view_curve_quick_superseded(session);
+    for (int k = 0; k < session->previous_count; k++) {
+        const struct gb_previous_curve *previous = &session->previous[k];
+        several |= previous->label.colour > 0 &&
+                   gb_previous_list_shown(previous, view->panel->hide_previous);
+    }
+    return several;
+}
+
 const struct gb_runset_view_group *
 gb_view_curve_replicas(const struct gb_view_curve *view)
 {
     return against_time(view) ? NULL : gb_session_replicas(view->session);
 }
 
+static enum gb_plot_range_of across(const struct gb_view_curve *view)
+{
+    return against_time(view) ? GB_PLOT_RANGE_TIME : GB_PLOT_RANGE_DENSITY;
+}
+
 /* Range of the data. */
 struct ends {
+    const struct gb_plot_ranges *typed;
+    enum gb_plot_range_of across; /* quantity of the x axis */
     double x[2], y[2], min_positive;
 };
 
+/* Points outside a typed range do not count for the other axis. */
 static void extend(struct ends *ends, double x, double y)
 {
-    if (!isfinite(x) || !isfinite(y)) {
+    if (!isfinite(x) || !isfinite(y) ||
+        !gb_panel_plot_ranges_inside(ends->typed, ends->across, x) ||
+        !gb_panel_plot_ranges_inside(ends->typed, GB_PLOT_RANGE_PRESSURE, y)) {
         return;
     }
     ends->x[0] = fmin(ends->x[0], x);
@@ -108,9 +149,11 @@ static void extend_by_overlays(struct ends *ends, const struct gb_view_curve *vi
     for (size_t i = 0; data != NULL && !against_time(view) && i < data->count; i++) {
         extend(ends, data->density[i], data->pressure_pa[i]);
     }
-    for (int k = 0; !view->panel->hide_previous && k < session->previous_count; k++) {
+    for (int k = 0; k < session->previous_count; k++) {
         const struct gb_previous_curve *previous = &session->previous[k];
-        const double *x = gb_view_curve_previous_x(view, previous);
+        const double *x = gb_previous_list_shown(previous, view->panel->hide_previous)
+                              ? gb_view_curve_previous_x(view, previous)
+                              : NULL;
         for (size_t i = 0; x != NULL && i < previous->count; i++) {
             extend(ends, x[i], previous->pressure_pa[i]);
         }
@@ -124,7 +167,9 @@ static void extend_by_overlays(struct ends *ends, const struct gb_view_curve *vi
 static struct ends find_ends(const struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
-    struct ends ends = {{HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}, HUGE_VAL};
+    struct ends ends = {
+        &view->panel->ranges,  across(view), {HUGE_VAL, -HUGE_VAL},
+        {HUGE_VAL, -HUGE_VAL}, HUGE_VAL};
     if (session->runner != NULL) {
         extend_by_curve(&ends, view, gb_runner_curve(session->runner), session->points);
     }
@@ -141,18 +186,21 @@ static struct ends find_ends(const struct gb_view_curve *view)
 
 static void draw_axes(struct gb_view_curve *view)
 {
-    const struct ends ends = find_ends(view);
+    struct ends ends = find_ends(view);
+    const struct gb_plot_ranges *typed = &view->panel->ranges;
     const char *x_label = !against_time(view) ? "relative density"
                           : gb_loading_kind_at(kind_of(view->session))->given_rate
                               ? "t, ns"
                               : "step";
-    const bool giga = ends.y[1] >= giga_from_pa;
-    view->unit_pa = giga ? 1e9 : 1e6;
+    view->unit_pa = gb_view_curve_unit(ends.y[1]);
     view->panel->unit_pa = view->unit_pa;
-    const double y_ends[2] = {ends.y[0] / view->unit_pa, ends.y[1] / view->unit_pa};
+    double y_ends[2] = {ends.y[0] / view->unit_pa, ends.y[1] / view->unit_pa};
+    gb_panel_plot_ranges_x(typed, across(view), 1.0, &view->panel->plot, ends.x);
+    gb_panel_plot_ranges_y(typed, GB_PLOT_RANGE_PRESSURE, view->unit_pa,
+                           &view->panel->plot, y_ends);
     gb_plot_axes(&view->panel->plot, ends.x, y_ends,
                  view->panel->log ? GB_PLOT_LOG : GB_PLOT_LINEAR, x_label,
-                 giga ? "p, GPa" : "p, MPa");
+                 gb_view_curve_unit_label(view->unit_pa));
 }
 
 /* Text of the empty plot before the first point. */

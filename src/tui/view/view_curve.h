@@ -4,6 +4,18 @@
 #include "scene/path/path.h"
 #include "tui/view/views.h"
 
+/* The mean of replicas: its colour; its band ends at so many standard errors and is filled
+ * with lines on either side. */
+enum {
+    GB_VIEW_INK_REPLICAS = GB_PLOT_INK_SERIES + 5,
+    GB_VIEW_BAND_ERRORS = 2,
+    GB_VIEW_BAND_LINES = 6
+};
+
+/* Unit of an axis that ends at a pressure, Pa: 1 MPa, or 1 GPa; its label is "p, MPa". */
+double gb_view_curve_unit(double highest_pa);
+const char *gb_view_curve_unit_label(double unit_pa);
+
 /* Parts of the view of the pressure curve, drawn from back to front. */
 
 enum {
@@ -35,6 +47,10 @@ const double *gb_view_curve_previous_x(const struct gb_view_curve *view,
  * supersedes it. */
 bool gb_view_curve_quick_shown(const struct gb_view_curve *view);
 bool gb_view_curve_quick_superseded(const struct gb_session *session);
+/* Colour that the quick cell would have as a previous curve; plain where all are taken. */
+int gb_view_curve_quick_ink(const struct gb_session *session);
+/* Whether a curve of another run is shown in a colour: a run has one colour then. */
+bool gb_view_curve_several(const struct gb_view_curve *view);
 /* Mean of the replicas; NULL: none. */
 const struct gb_runset_view_group *
 gb_view_curve_replicas(const struct gb_view_curve *view);

@@ -160,10 +160,14 @@ static void draw_axes(struct view *view)
     const bool giga = highest >= giga_from_mpa;
     view->unit_mpa = giga ? 1e3 : 1.0;
     panel->unit_pa = 1e6 * view->unit_mpa;
-    const double x_ends[2] = {points->density[0], points->density[points->count - 1]};
-    const double y_ends[2] = {panel->log ? points->pressure[0] / view->unit_mpa : 0.0,
+    double x_ends[2] = {points->density[0], points->density[points->count - 1]};
+    double y_ends[2] = {panel->log ? points->pressure[0] / view->unit_mpa : 0.0,
                               highest / view->unit_mpa};
     panel->plot.foot = gb_plot_legend_foot(&panel->plot, view->entry, view->entries);
+    gb_panel_plot_ranges_x(&panel->ranges, GB_PLOT_RANGE_DENSITY, 1.0, &panel->plot,
+                           x_ends);
+    gb_panel_plot_ranges_y(&panel->ranges, GB_PLOT_RANGE_PRESSURE, panel->unit_pa,
+                           &panel->plot, y_ends);
     gb_plot_axes(&panel->plot, x_ends, y_ends, panel->log ? GB_PLOT_LOG : GB_PLOT_LINEAR,
                  "relative density", giga ? "p, GPa" : "p, MPa");
 }

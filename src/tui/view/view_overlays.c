@@ -1,24 +1,22 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "tui/session/overlay/previous_list.h"
 #include "tui/view/view_curve.h"
 
 enum { MARK_MEASURED = 5, REPLICA_SPACING = 8 };
 
-enum {
-    INK_QUICK = GB_PLOT_INK_SERIES + 1,
-    INK_MEASURED = GB_PLOT_INK_SERIES + 3,
-    INK_REPLICAS = GB_PLOT_INK_SERIES + 5
-};
+/* Measurements have markers in the colour of texts; colours are those of runs. */
+enum { INK_MEASURED = GB_PLOT_INK_TEXT };
 
 void gb_view_overlays_previous(struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
     struct gb_panel_plot *panel = view->panel;
-    for (int k = 0; !panel->hide_previous && k < session->previous_count; k++) {
+    for (int k = 0; k < session->previous_count; k++) {
         const struct gb_previous_curve *previous = &session->previous[k];
         const double *x = gb_view_curve_previous_x(view, previous);
-        if (x == NULL) {
+        if (x == NULL || !gb_previous_list_shown(previous, panel->hide_previous)) {
             continue;
         }
         if (!gb_panel_plot_reserve(panel, previous->count)) {
@@ -30,9 +28,10 @@ void gb_view_overlays_previous(struct gb_view_curve *view)
         const struct gb_plot_series series = {.x = x,
                                               .y = panel->y,
                                               .count = previous->count,
-                                              .ink = GB_PLOT_INK_DIM,
-                                              .marker = previous->marker};
-        gb_view_curve_add(view, &series, previous->difference);
+                                              .ink = gb_views_curve_ink(
+                                                  previous->label.colour),
+                                              .marker = previous->label.marker};
+        gb_view_curve_add(view, &series, gb_previous_list_name(previous));
     }
 }
 
@@ -50,7 +49,7 @@ static void write_difference(const struct gb_session *session,
     }
 }
 
-/* Bright until the full cell is started, then dim. */
+/* In the next colour until the full cell is started, then dim. */
 void gb_view_overlays_quick(struct gb_view_curve *view)
 {
     const struct gb_session *session = view->session;
@@ -71,7 +70,9 @@ void gb_view_overlays_quick(struct gb_view_curve *view)
     const struct gb_plot_series series = {.x = panel->x,
                                           .y = panel->y,
                                           .count = quick->points,
-                                          .ink = superseded ? GB_PLOT_INK_DIM : INK_QUICK,
+                                          .ink = superseded ? GB_PLOT_INK_DIM
+                                                            : gb_view_curve_quick_ink(
+                                                                  session),
                                           .marker = 'q'};
     write_difference(session, &quick->full_params, difference, sizeof difference);
     snprintf(name, sizeof name, "quick cell, N %lld%s",
@@ -79,7 +80,7 @@ void gb_view_overlays_quick(struct gb_view_curve *view)
     gb_view_curve_add(view, &series, name);
 }
 
-/* The mean of the replicas plus `shift` standard errors. */
+/* The mean of the replicas plus standard errors. */
 static void shift_mean(const struct gb_view_curve *view, double errors,
                        double x[GB_RUNSET_VIEW_LEVELS], double y[GB_RUNSET_VIEW_LEVELS])
 {
@@ -90,7 +91,7 @@ static void shift_mean(const struct gb_view_curve *view, double errors,
     }
 }
 
-/* Mean of the replicas with its standard error on both sides. */
+/* Mean of the replicas, in a band of two standard errors on both sides. */
 void gb_view_overlays_replicas(struct gb_view_curve *view)
 {
     const struct gb_runset_view_group *group = gb_view_curve_replicas(view);
@@ -105,18 +106,19 @@ void gb_view_overlays_replicas(struct gb_view_curve *view)
                                     .y = y,
                                     .count = view->session->replica_band.runset.levels,
                                     .ink = GB_PLOT_INK_DIM};
-    for (double sign = -1.0; sign <= 1.0; sign += 2.0) {
-        shift_mean(view, sign, x, y);
+    for (int i = -GB_VIEW_BAND_LINES; i <= GB_VIEW_BAND_LINES; i++) {
+        shift_mean(view, (double)GB_VIEW_BAND_ERRORS * i / GB_VIEW_BAND_LINES, x, y);
         gb_plot_line(&view->panel->plot, &series);
     }
     shift_mean(view, 0.0, x, y);
-    series.ink = INK_REPLICAS;
+    series.ink = GB_VIEW_INK_REPLICAS;
     series.marker = 'R';
     series.spacing = REPLICA_SPACING;
     write_difference(view->session, &view->session->replica_band.params, difference,
                      sizeof difference);
-    snprintf(name, sizeof name, "mean of %zu %s%s", group->members,
-             group->members == 1 ? "cell" : "cells", difference);
+    snprintf(name, sizeof name, "mean of %zu %s%s%s", group->members,
+             group->members == 1 ? "cell" : "cells",
+             group->members == 1 ? "" : ", +- 2 errors", difference);
     gb_view_curve_add(view, &series, name);
 }
 

@@ -18,7 +18,7 @@ void gb_view_ratio_draw(struct gb_panel_plot *panel, const struct gb_session *se
     const struct gb_session_shown shown = gb_session_shown(session);
     struct gb_plot *plot = &panel->plot;
     double x_ends[2] = {HUGE_VAL, -HUGE_VAL};
-    const double y_ends[2] = {0.0, 1.2};
+    double y_ends[2] = {0.0, 1.2};
     double max = 0.0;
     size_t count = 0;
     for (size_t i = 0; i < shown.points; i++) {
@@ -38,11 +38,14 @@ void gb_view_ratio_draw(struct gb_panel_plot *panel, const struct gb_session *se
             x_ends[1] = fmax(x_ends[1], point->density);
         }
     }
+    gb_panel_plot_ranges_x(&panel->ranges, GB_PLOT_RANGE_DENSITY, 1.0, plot, x_ends);
+    gb_panel_plot_ranges_y(&panel->ranges, GB_PLOT_RANGE_RATIO, 1.0, plot, y_ends);
     gb_plot_axes(plot, x_ends, y_ends, GB_PLOT_LINEAR, "relative density",
                  "px/pz, loading");
     const double one[2] = {1.0, 1.0};
+    const double ends[2] = {plot->x.low, plot->x.high};
     gb_plot_line(plot, &(struct gb_plot_series){
-                           .x = x_ends, .y = one, .count = 2, .ink = GB_PLOT_INK_AXIS});
+                           .x = ends, .y = one, .count = 2, .ink = GB_PLOT_INK_AXIS});
     gb_plot_line(plot, &(struct gb_plot_series){.x = panel->x,
                                                 .y = panel->y,
                                                 .count = count,

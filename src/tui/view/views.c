@@ -115,6 +115,15 @@ static const struct gb_plot_view views[] = {
         .draw = gb_view_chart_draw,
     },
     {
+        .key = "K",
+        .help = "density differences to the run, over pressure",
+        .title = "Density difference to the run",
+        .hint = "each curve minus the run at equal pressure; band: twice the scatter of a "
+                "difference; L log or linear",
+        .options = GB_VIEW_PRESSURE_ACROSS,
+        .draw = gb_view_difference_draw,
+    },
+    {
         .key = "E",
         .help = "equations of compaction fitted to the curve",
         .title = "Equations of compaction",
@@ -220,6 +229,11 @@ const struct gb_plot_view *gb_views_step(const struct gb_plot_view *view, int st
         at = (at + (size_t)(VIEWS + step)) % VIEWS;
     } while (excluded(&views[at], params));
     return &views[at];
+}
+
+int gb_views_curve_ink(int colour)
+{
+    return colour > 0 ? GB_PLOT_INK_SERIES + colour : GB_PLOT_INK_DIM;
 }
 
 const char *gb_views_missing(const struct gb_plot_view *view,

@@ -27,7 +27,8 @@ enum { GB_VIEW_TITLE = 43, GB_VIEW_HINT = 120 };
 
 enum gb_view_option {
     GB_VIEW_PRESSURE_AXIS = 1, /* y is the pressure: L switches its axis */
-    GB_VIEW_INSET = 2          /* also drawn below the curve, if there is room */
+    GB_VIEW_PRESSURE_ACROSS = 4, /* x is the pressure, the same */
+    GB_VIEW_INSET = 2            /* also drawn below the curve, if there is room */
 };
 
 /* One row per view: key, help, title, footer hint, cursor, insets and `v` follow from
@@ -57,6 +58,10 @@ const struct gb_plot_view *gb_views_with(enum gb_view_need need);
 /* The next (1) or previous (-1) view that applies to the scene. */
 const struct gb_plot_view *gb_views_step(const struct gb_plot_view *view, int step,
                                          const struct gb_params *params);
+
+/* Ink of a run: 0 dim, 1 to GB_CURVE_COLOURS as in its label; the run on display has
+ * GB_PLOT_INK_SERIES. */
+int gb_views_curve_ink(int colour);
 
 /* Text in place of a view that lacks its data; NULL: it can be drawn. */
 const char *gb_views_missing(const struct gb_plot_view *view,
@@ -90,6 +95,10 @@ void gb_view_law_strength(struct gb_panel_plot *panel, const struct gb_session *
 
 /* Equations of compaction fitted to the loading branch, beside it. */
 void gb_view_fit_draw(struct gb_panel_plot *panel, const struct gb_session *session);
+
+/* Density of each curve minus that of the run, at equal pressure. */
+void gb_view_difference_draw(struct gb_panel_plot *panel,
+                             const struct gb_session *session);
 
 /* Law of Hertz or Storakers, for scenes with it; called by gb_view_law_force. */
 void gb_view_pair_draw(struct gb_panel_plot *panel, const struct gb_session *session);

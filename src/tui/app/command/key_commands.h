@@ -30,6 +30,13 @@ void gb_leg_commands_up(struct gb_app *app, const struct gb_key *key);
 void gb_leg_commands_text(struct gb_app *app, const struct gb_key *key);
 void gb_leg_commands_take(struct gb_app *app, const struct gb_key *key);
 
+/* curve_commands.c: the list of curves. */
+void gb_curve_commands_open(struct gb_app *app, const struct gb_key *key);
+void gb_curve_commands_pin(struct gb_app *app, const struct gb_key *key);
+void gb_curve_commands_hide(struct gb_app *app, const struct gb_key *key);
+void gb_curve_commands_delete(struct gb_app *app, const struct gb_key *key);
+void gb_curve_commands_accept_name(struct gb_app *app);
+
 /* view_commands.c: views and their options. */
 void gb_view_commands_show(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_next(struct gb_app *app, const struct gb_key *key);
@@ -40,6 +47,8 @@ void gb_view_commands_previous_curves(struct gb_app *app, const struct gb_key *k
 void gb_view_commands_glyphs(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_pressure(struct gb_app *app, const struct gb_key *key);
 void gb_view_commands_densities(struct gb_app *app, const struct gb_key *key);
+void gb_view_commands_ranges(struct gb_app *app, const struct gb_key *key);
+void gb_view_commands_accept_ranges(struct gb_app *app);
 void gb_view_commands_accept_pressure(struct gb_app *app);
 
 /* The table of densities, columns separated by tabs; g_free. */
@@ -55,6 +64,7 @@ void gb_run_commands_freeze(struct gb_app *app, const struct gb_key *key);
 void gb_run_commands_take_over(struct gb_app *app, const struct gb_key *key);
 void gb_run_commands_auto_start(struct gb_app *app, const struct gb_key *key);
 void gb_run_commands_what_if(struct gb_app *app, const struct gb_key *key);
+void gb_run_commands_drop_changes(struct gb_app *app, const struct gb_key *key);
 void gb_run_commands_accept_what_if(struct gb_app *app);
 void gb_run_commands_accept_cost(struct gb_app *app);
 void gb_run_commands_decline_cost(struct gb_app *app);

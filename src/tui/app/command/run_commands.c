@@ -22,6 +22,35 @@ static bool is_refusal(const struct gb_message *message)
            (message->style == GB_STYLE_WARN || message->style == GB_STYLE_BAD);
 }
 
+/* Changes that a what-if or a preset has left are those of the next run, too. */
+static void tell_changes(struct gb_app *app)
+{
+    const char *changes = gb_session_params(&app->screen.session)->changes;
+    if (changes[0] != '\0') {
+        char *text = g_strdup_printf("this run has the changes after step %s; D drops them",
+                                     changes);
+        gb_session_note(&app->screen.session, "%s", text);
+        gb_screen_commands_message(app, GB_STYLE_WARN, text);
+        g_free(text);
+    }
+}
+
+void gb_run_commands_drop_changes(struct gb_app *app, const struct gb_key *key)
+{
+    struct gb_screen *screen = &app->screen;
+    struct gb_params *params = gb_session_params(&screen->session);
+    (void)key;
+    if (params->changes[0] == '\0') {
+        gb_screen_commands_message(app, GB_STYLE_WARN,
+                                   "there are no changes during the run to drop");
+        return;
+    }
+    gb_session_note(&screen->session, "dropped: the changes after step %s",
+                    params->changes);
+    params->changes[0] = '\0';
+    gb_panel_params_edit_changed(&screen->session, &screen->message);
+}
+
 static void start_run(struct gb_app *app)
 {
     struct gb_error err = {0};
@@ -30,6 +59,7 @@ static void start_run(struct gb_app *app)
         if (!is_refusal(&app->screen.message)) {
             app->screen.message.text[0] = '\0';
         }
+        tell_changes(app);
     } else {
         gb_screen_commands_message(app, GB_STYLE_BAD, err.text);
         gb_session_note(&app->screen.session, "not started: %s", err.text);

@@ -78,6 +78,26 @@ void gb_view_commands_accept_pressure(struct gb_app *app)
     }
 }
 
+void gb_view_commands_ranges(struct gb_app *app, const struct gb_key *key)
+{
+    char text[GB_PARAMS_VALUE_MAX];
+    (void)key;
+    gb_panel_plot_ranges_write(&app->screen.plot.ranges, text, sizeof text);
+    gb_dialog_show(&app->screen.dialog, &gb_dialogs_ranges, text);
+}
+
+void gb_view_commands_accept_ranges(struct gb_app *app)
+{
+    struct gb_screen *screen = &app->screen;
+    struct gb_error err = {0};
+    if (gb_panel_plot_ranges_parse(&screen->plot.ranges,
+                                   gb_dialog_answer(&screen->dialog), &err)) {
+        gb_dialog_close(&screen->dialog);
+    } else {
+        gb_dialog_set_note(&screen->dialog, GB_DIALOG_NOTE_ERROR, "%s", err.text);
+    }
+}
+
 void gb_view_commands_densities(struct gb_app *app, const struct gb_key *key)
 {
     struct gb_screen *screen = &app->screen;

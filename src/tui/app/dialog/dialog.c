@@ -51,7 +51,7 @@ void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *
 }
 
 void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_type *type,
-                              const struct gb_session *session, bool hide_previous)
+                              struct gb_session *session, bool hide_previous)
 {
     gb_dialog_close(dialog);
     dialog->type = type;
@@ -68,7 +68,7 @@ void gb_dialog_show_picture(struct gb_dialog *dialog, const struct gb_dialog_typ
 }
 
 void gb_dialog_show_results(struct gb_dialog *dialog, const struct gb_dialog_type *type,
-                            const struct gb_session *session)
+                            struct gb_session *session)
 {
     gb_dialog_close(dialog);
     dialog->type = type;
@@ -84,6 +84,21 @@ void gb_dialog_show_pixels(struct gb_dialog *dialog, const struct gb_dialog_type
     dialog->pixels = *picture;
     gb_dialog_set_note(dialog, GB_DIALOG_NOTE_WARNING, "%s", text);
     g_free(text);
+}
+
+void gb_dialog_show_curves(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                           struct gb_session *session, double typed_pa)
+{
+    gb_dialog_close(dialog);
+    dialog->type = type;
+    dialog->session = session;
+    gb_curve_list_init(&dialog->curves, session, typed_pa);
+}
+
+bool gb_dialog_takes_keys(const struct gb_dialog *dialog)
+{
+    return dialog->type->scope != 0 && dialog->legs.typing == GB_LEG_EDITOR_LIST &&
+           !dialog->curves.naming;
 }
 
 void gb_dialog_close(struct gb_dialog *dialog)

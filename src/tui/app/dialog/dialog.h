@@ -1,6 +1,7 @@
 #ifndef GB_TUI_APP_DIALOG_DIALOG_H
 #define GB_TUI_APP_DIALOG_DIALOG_H
 
+#include "tui/app/dialog/curve_list.h"
 #include "tui/app/dialog/picture_form.h"
 #include "tui/app/keys.h"
 #include "tui/app/preset_browser.h"
@@ -53,9 +54,10 @@ struct gb_dialog {
     struct gb_preset_browser browser; /* of presets or materials */
     struct gb_leg_editor legs;
     struct gb_picture_form picture;
-    const struct gb_session *session; /* of the table of densities and of results */
-    struct gb_png_pixels pixels;     /* shown in pixels; owned */
-    struct gb_rect field;             /* its cells on the screen */
+    struct gb_curve_list curves;
+    struct gb_session *session;  /* of the tables of densities, results and curves */
+    struct gb_png_pixels pixels; /* shown in pixels; owned */
+    struct gb_rect field;        /* its cells on the screen */
     bool hide_previous;               /* in that table */
     char *text;        /* shell command shown, or file asked about; owned */
     char note[480];    /* question, or why the last answer was refused */
@@ -76,19 +78,25 @@ void gb_dialog_show_legs(struct gb_dialog *dialog, const struct gb_dialog_type *
                          const struct gb_params *params, enum gb_plot_glyphs glyphs);
 /* The table of densities, drawn anew with each frame. */
 void gb_dialog_show_densities(struct gb_dialog *dialog, const struct gb_dialog_type *type,
-                              const struct gb_session *session, bool hide_previous);
+                              struct gb_session *session, bool hide_previous);
 /* The form of a picture, which goes to `path` unless another file is typed. */
 void gb_dialog_show_picture(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                             const char *path);
 /* The results of the session, the newest first. */
 void gb_dialog_show_results(struct gb_dialog *dialog, const struct gb_dialog_type *type,
-                            const struct gb_session *session);
+                            struct gb_session *session);
 /* A picture, which the dialog takes over, and the path below it. */
 void gb_dialog_show_pixels(struct gb_dialog *dialog, const struct gb_dialog_type *type,
                             const struct gb_png_pixels *picture, const char *path);
+/* The list of curves with their densities at the pressure `typed_pa`, or the usual one. */
+void gb_dialog_show_curves(struct gb_dialog *dialog, const struct gb_dialog_type *type,
+                           struct gb_session *session, double typed_pa);
 void gb_dialog_close(struct gb_dialog *dialog);
 
 void gb_dialog_draw(struct gb_dialog *dialog, const struct gb_paint *screen);
+
+/* Whether keys of the table act in it: not while something is typed. */
+bool gb_dialog_takes_keys(const struct gb_dialog *dialog);
 
 enum gb_dialog_result gb_dialog_handle(struct gb_dialog *dialog,
                                        const struct gb_term_event *event);

@@ -11,6 +11,8 @@ enum {
     HELP_COLS = 60,
     DENSITIES_ROWS = 36,
     DENSITIES_COLS = 80,
+    CURVES_ROWS = 14,
+    CURVES_COLS = 80,
     PRESETS_ROWS = 34,
     PRESETS_COLS = 84,
     LEGS_ROWS = 40,
@@ -119,6 +121,42 @@ static void draw_densities(struct gb_dialog *dialog, const struct gb_paint *scre
 }
 
 const struct gb_dialog_form gb_dialog_forms_densities = {draw_densities, NULL, scroll};
+
+/* --- list of curves --------------------------------------------------------------- */
+
+static void draw_curves(struct gb_dialog *dialog, const struct gb_paint *screen)
+{
+    const int note = dialog->note[0] != '\0';
+    const struct gb_paint frame =
+        gb_dialog_box(screen, CURVES_ROWS, CURVES_COLS, dialog->type->title);
+    struct gb_paint paint = gb_dialog_box_inside(&frame);
+    draw_note(dialog, &paint, paint.rect.rows - note, note);
+    paint.rect.rows -= note;
+    gb_curve_list_draw(&dialog->curves, dialog->session, &paint);
+}
+
+static bool edit_curves(struct gb_dialog *dialog, const struct gb_term_event *event)
+{
+    return gb_curve_list_type(&dialog->curves, event);
+}
+
+static enum gb_dialog_result go_in_curves(struct gb_dialog *dialog, int code)
+{
+    struct gb_curve_list *list = &dialog->curves;
+    const enum gb_action action = gb_keys_action(code);
+    if (list->naming) {
+        return action == GB_ACTION_ENTER ? GB_DIALOG_ACCEPTED : GB_DIALOG_OPEN;
+    }
+    if (action == GB_ACTION_ENTER) {
+        gb_curve_list_rename(list, dialog->session);
+        return GB_DIALOG_OPEN;
+    }
+    gb_curve_list_go(list, dialog->session, list_step(action, list->page));
+    return GB_DIALOG_OPEN;
+}
+
+const struct gb_dialog_form gb_dialog_forms_curves = {draw_curves, edit_curves,
+                                                      go_in_curves};
 
 /* --- presets ---------------------------------------------------------------------- */
 

@@ -74,12 +74,28 @@ const struct gb_dialog_type gb_dialogs_pressure = {
     .accept = gb_view_commands_accept_pressure,
 };
 
+const struct gb_dialog_type gb_dialogs_ranges = {
+    .form = &gb_dialog_forms_prompt,
+    .title = "Ranges of the axes (Esc cancels)",
+    .label = "p=10 MPa:500 MPa rho=0.3:0.6 (empty: automatic):",
+    .opened_by = gb_view_commands_ranges,
+    .accept = gb_view_commands_accept_ranges,
+};
+
 const struct gb_dialog_type gb_dialogs_densities = {
     .form = &gb_dialog_forms_densities,
     .title = "Densities of the curves (y copies, Esc closes)",
     .scope = GB_KEY_COPIED,
     .opened_by = gb_view_commands_densities,
     .copied = gb_view_commands_densities_text,
+};
+
+const struct gb_dialog_type gb_dialogs_curves = {
+    .form = &gb_dialog_forms_curves,
+    .title = "Curves (Enter names, * pins, m hides, D deletes, Esc)",
+    .scope = GB_KEY_CURVES,
+    .opened_by = gb_curve_commands_open,
+    .accept = gb_curve_commands_accept_name,
 };
 
 const struct gb_dialog_type gb_dialogs_replicas = {

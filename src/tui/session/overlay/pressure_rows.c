@@ -6,6 +6,8 @@
 
 #include "measure/cell_scatter.h"
 #include "run/quick.h"
+#include "tui/session/overlay/previous_list.h"
+#include "tui/term/text_fit.h"
 
 /* Standard deviations of a difference that chance is taken to exceed no more: 5 %. */
 static const double verdict_deviations = 2.0;
@@ -27,18 +29,35 @@ static void name(struct gb_pressure_row *row, const char *brief, const char *tex
     g_strlcpy(row->name, text, sizeof row->name);
 }
 
-static void list_previous(struct gb_pressure_rows *rows, const struct gb_session *session)
+/* "a mu 0.2", "run dense"; cut with an ellipsis. */
+static void name_after(struct gb_pressure_row *row, const char *brief, const char *text)
 {
-    for (int i = session->previous_count - 1; i >= 0; i--) {
-        const struct gb_previous_curve *previous = &session->previous[i];
-        struct gb_pressure_row *row =
-            add(rows, GB_PRESSURE_ROW_PREVIOUS, &previous->params);
-        row->previous = i;
-        row->quick = previous->quick;
-        snprintf(row->brief, sizeof row->brief, "%c", previous->marker);
-        snprintf(row->name, sizeof row->name, "%c %.60s", previous->marker,
-                 previous->difference);
-    }
+    char *whole =
+        text[0] != '\0' ? g_strdup_printf("%s %s", brief, text) : g_strdup(brief);
+    g_strlcpy(row->brief, brief, sizeof row->brief);
+    gb_text_fit_copy(row->name, sizeof row->name, whole);
+    g_free(whole);
+}
+
+struct gb_pressure_row gb_pressure_rows_run(const struct gb_session *session)
+{
+    struct gb_pressure_row row = {.kind = GB_PRESSURE_ROW_RUN,
+                                  .params = gb_runner_params(session->runner)};
+    name_after(&row, "run", session->run_label.name);
+    return row;
+}
+
+struct gb_pressure_row gb_pressure_rows_previous(const struct gb_session *session,
+                                                 int index)
+{
+    const struct gb_previous_curve *previous = &session->previous[index];
+    const char marker[2] = {previous->label.marker, '\0'};
+    struct gb_pressure_row row = {.kind = GB_PRESSURE_ROW_PREVIOUS,
+                                  .previous = index,
+                                  .quick = previous->quick,
+                                  .params = &previous->params};
+    name_after(&row, marker, gb_previous_list_name(previous));
+    return row;
 }
 
 void gb_pressure_rows_list(struct gb_pressure_rows *rows,
@@ -49,8 +68,7 @@ void gb_pressure_rows_list(struct gb_pressure_rows *rows,
     char text[64];
     rows->count = 0;
     if (session->runner != NULL) {
-        name(add(rows, GB_PRESSURE_ROW_RUN, gb_runner_params(session->runner)), "run",
-             "run");
+        rows->row[rows->count++] = gb_pressure_rows_run(session);
     }
     if (quick->runner != NULL && quick->points > 0) {
         struct gb_pressure_row *row =
@@ -66,8 +84,10 @@ void gb_pressure_rows_list(struct gb_pressure_rows *rows,
     if (gb_session_measured(session) != NULL) {
         name(add(rows, GB_PRESSURE_ROW_MEASURED, NULL), "measured", "measured");
     }
-    if (!hide_previous) {
-        list_previous(rows, session);
+    for (int i = session->previous_count - 1; i >= 0; i--) { /* the newest first */
+        if (gb_previous_list_shown(&session->previous[i], hide_previous)) {
+            rows->row[rows->count++] = gb_pressure_rows_previous(session, i);
+        }
     }
 }
 
@@ -172,16 +192,104 @@ struct gb_pressure_value gb_pressure_rows_at(const struct gb_session *session,
     return none;
 }
 
+double gb_pressure_rows_limit(const struct gb_pressure_row *row,
+                              struct gb_pressure_value value,
+                              const struct gb_pressure_row *base,
+                              struct gb_pressure_value base_value)
+{
+    return row->quick == base->quick
+               ? verdict_deviations * hypot(value.error, base_value.error)
+               : (double)NAN;
+}
+
 enum gb_pressure_verdict gb_pressure_rows_verdict(const struct gb_pressure_row *row,
                                                   struct gb_pressure_value value,
                                                   const struct gb_pressure_row *base,
                                                   struct gb_pressure_value base_value)
 {
-    const double error = hypot(value.error, base_value.error);
+    const double limit = gb_pressure_rows_limit(row, value, base, base_value);
     const double difference = fabs(value.density - base_value.density);
-    if (row->quick != base->quick || isnan(error) || isnan(difference)) {
+    if (isnan(limit) || isnan(difference)) {
         return GB_PRESSURE_VERDICT_NONE;
     }
-    return difference > verdict_deviations * error ? GB_PRESSURE_VERDICT_BEYOND
-                                                   : GB_PRESSURE_VERDICT_WITHIN;
+    return difference > limit ? GB_PRESSURE_VERDICT_BEYOND : GB_PRESSURE_VERDICT_WITHIN;
+}
+
+/* Whether the run, or without a run any previous curve or quick cell, has reached it. */
+static bool reached(const struct gb_session *session, double pressure_pa)
+{
+    struct gb_pressure_rows rows;
+    gb_pressure_rows_list(&rows, session, false);
+    for (int i = 0; i < rows.count; i++) {
+        const bool here = isfinite(
+            gb_pressure_rows_at(session, &rows.row[i], pressure_pa).density);
+        if (here || rows.row[i].kind == GB_PRESSURE_ROW_RUN) {
+            return here;
+        }
+    }
+    return false;
+}
+
+double gb_pressure_rows_usual(const struct gb_session *session, double typed_pa)
+{
+    static const double round_pa[] = {100e6, 50e6, 10e6, 1e6};
+    if (typed_pa > 0.0) {
+        return typed_pa;
+    }
+    for (size_t i = 0; i < G_N_ELEMENTS(round_pa); i++) {
+        if (reached(session, round_pa[i])) {
+            return round_pa[i];
+        }
+    }
+    return round_pa[0];
+}
+
+double gb_pressure_rows_misfit(const struct gb_session *session,
+                               const struct gb_pressure_row *row)
+{
+    const struct gb_measured *measured = gb_session_measured(session);
+    double squares = 0.0;
+    int reached_points = 0;
+    if (measured == NULL || row->kind == GB_PRESSURE_ROW_MEASURED) {
+        return NAN;
+    }
+    for (size_t i = 0; i < measured->count; i++) {
+        const double difference =
+            gb_pressure_rows_at(session, row, measured->pressure_pa[i]).density -
+            measured->density[i];
+        if (isfinite(difference)) {
+            squares += difference * difference;
+            reached_points++;
+        }
+    }
+    return reached_points > 0 ? sqrt(squares / reached_points) : (double)NAN;
+}
+
+char *gb_pressure_rows_write(struct gb_pressure_value value, char *text, size_t size)
+{
+    if (isnan(value.density)) {
+        g_strlcpy(text, "-", size);
+    } else {
+        snprintf(text, size, "%.4f", value.density);
+    }
+    return text;
+}
+
+enum gb_pressure_verdict gb_pressure_rows_write_difference(
+    const struct gb_pressure_row *row, struct gb_pressure_value value,
+    const struct gb_pressure_row *base, struct gb_pressure_value base_value, char *text,
+    size_t size)
+{
+    static const char sign[] = {[GB_PRESSURE_VERDICT_NONE] = ' ',
+                                [GB_PRESSURE_VERDICT_WITHIN] = '~',
+                                [GB_PRESSURE_VERDICT_BEYOND] = '!'};
+    const double difference = value.density - base_value.density;
+    const enum gb_pressure_verdict verdict =
+        gb_pressure_rows_verdict(row, value, base, base_value);
+    if (isfinite(difference)) {
+        snprintf(text, size, "%+.4f%c", difference, sign[verdict]);
+    } else {
+        g_strlcpy(text, "", size);
+    }
+    return verdict;
 }

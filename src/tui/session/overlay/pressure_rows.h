@@ -30,9 +30,19 @@ struct gb_pressure_rows {
     int count;
 };
 
-/* The run first.  hide_previous: without previous curves. */
+/* The run first.  hide_previous: without previous curves that are not
+ * pinned; hidden ones are not listed. */
 void gb_pressure_rows_list(struct gb_pressure_rows *rows,
                            const struct gb_session *session, bool hide_previous);
+
+/* Row of the run on display, and of a previous curve. */
+struct gb_pressure_row gb_pressure_rows_run(const struct gb_session *session);
+struct gb_pressure_row gb_pressure_rows_previous(const struct gb_session *session,
+                                                 int index);
+
+/* The pressure for one density per curve: the typed one, or 100 MPa, or a lower round one
+ * where the run, or without a run every curve, has not reached that. */
+double gb_pressure_rows_usual(const struct gb_session *session, double typed_pa);
 
 /* A density and its standard error: of the mean of replicas, as given with a measurement;
  * of one cell gb_cell_scatter.  NaN: not reached, or not known. */
@@ -57,5 +67,25 @@ enum gb_pressure_verdict gb_pressure_rows_verdict(const struct gb_pressure_row *
                                                   struct gb_pressure_value value,
                                                   const struct gb_pressure_row *base,
                                                   struct gb_pressure_value base_value);
+
+/* The difference from which on the verdict is beyond; NaN: none. */
+double gb_pressure_rows_limit(const struct gb_pressure_row *row,
+                              struct gb_pressure_value value,
+                              const struct gb_pressure_row *base,
+                              struct gb_pressure_value base_value);
+
+/* RMS misfit of densities to the measured points that the row has reached; NaN: none, and
+ * that of the measurement itself. */
+double gb_pressure_rows_misfit(const struct gb_session *session,
+                               const struct gb_pressure_row *row);
+
+/* "0.4062", "-" where it was not reached. */
+char *gb_pressure_rows_write(struct gb_pressure_value value, char *text, size_t size);
+/* "+0.0103!": the difference with its verdict, ~ within, ! beyond, a blank where there is
+ * none; "" where a value is missing. */
+enum gb_pressure_verdict gb_pressure_rows_write_difference(
+    const struct gb_pressure_row *row, struct gb_pressure_value value,
+    const struct gb_pressure_row *base, struct gb_pressure_value base_value, char *text,
+    size_t size);
 
 #endif

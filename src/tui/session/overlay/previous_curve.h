@@ -5,10 +5,21 @@
 #include "greenbody/params.h"
 #include "tui/session/params_diff.h"
 
+enum { GB_CURVE_NAME = 40, GB_CURVE_COLOURS = 5 /* besides that of the run */ };
+
+/* How a curve is called and drawn; a run keeps it when it is shown again. */
+struct gb_curve_label {
+    char marker;              /* 'a', 'b', ...: marker in the plot; 0: none yet */
+    int colour;               /* 1 to GB_CURVE_COLOURS; 0: dim */
+    bool pinned;              /* stays among the previous curves */
+    bool hidden;              /* not drawn and in no table */
+    char name[GB_CURVE_NAME]; /* given by the user; "": its differences are its name */
+};
+
 /* Curve of a replaced run or quick cell, as the plot shows it. */
 struct gb_previous_curve {
     struct gb_params params;
-    char marker;                          /* 'a', 'b', ...: marker in the plot */
+    struct gb_curve_label label;
     bool quick;                           /* of a quick cell */
     char difference[GB_PARAMS_DIFF_TEXT]; /* its different values */
     size_t count;

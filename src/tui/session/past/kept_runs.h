@@ -2,6 +2,7 @@
 #define GB_TUI_SESSION_PAST_KEPT_RUNS_H
 
 #include "runner/runner.h"
+#include "tui/session/overlay/previous_curve.h"
 
 /* Runs and quick cells that were replaced, with their curve, state and packing as they
  * ended, so that their parameters show them again. */
@@ -13,7 +14,7 @@ struct gb_kept_run {
     struct gb_runner *runner; /* its engine has ended; owned */
     bool quick;               /* a quick cell */
     bool stopped;             /* before its end, by being replaced */
-    char marker;              /* of its curve among the previous ones; 0: none */
+    struct gb_curve_label label; /* of its curve among the previous ones */
     size_t whatif_at[GB_KEPT_RUN_WHATIFS]; /* as in the session */
     int whatifs;
 };

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "tui/session/overlay/previous_list.h"
 #include "tui/session/session_quick.h"
 #include "tui/session/session_refresh.h"
 
@@ -17,7 +18,7 @@ void gb_session_recall_keep_run(struct gb_session *session)
     struct gb_kept_run run = {.params = *gb_runner_params(session->runner),
                               .runner = session->runner,
                               .stopped = gb_session_run_is_live(session),
-                              .marker = session->run_marker,
+                              .label = session->run_label,
                               .whatifs = session->whatifs};
     memcpy(run.whatif_at, session->whatif_at, sizeof run.whatif_at);
     session->runner = NULL;
@@ -38,22 +39,6 @@ void gb_session_recall_keep_quick(struct gb_session *session)
         gb_kept_runs_add(&session->kept, &run);
     }
     gb_quick_cell_drop(cell);
-}
-
-/* The curve is on display and no longer a previous one. */
-static void forget_previous(struct gb_session *session, const struct gb_params *params,
-                            bool quick)
-{
-    for (int i = session->previous_count - 1; i >= 0; i--) {
-        struct gb_previous_curve *previous = &session->previous[i];
-        if (previous->quick == quick &&
-            gb_params_diff_count(&previous->params, params) == 0) {
-            gb_previous_curve_finish(previous);
-            session->previous_count--;
-            memmove(previous, previous + 1,
-                    (size_t)(session->previous_count - i) * sizeof *previous);
-        }
-    }
 }
 
 static void show(struct gb_session *session, struct gb_kept_run *run)
@@ -86,11 +71,11 @@ static bool recall_run(struct gb_session *session, const struct gb_params *param
         show(session, &run);
         gb_session_note(session, "this run is from memory");
     }
-    session->run_marker = run.marker;
+    session->run_label = run.label;
     session->whatifs = run.whatifs;
     memcpy(session->whatif_at, run.whatif_at, sizeof session->whatif_at);
-    forget_previous(session, params, false);
-    forget_previous(session, params, true);
+    gb_previous_list_forget(session, params, false);
+    gb_previous_list_forget(session, params, true);
     return true;
 }
 
@@ -103,8 +88,8 @@ static bool recall_quick(struct gb_session *session, const struct gb_params *par
     gb_session_quick_keep_curve(session);
     gb_session_recall_keep_quick(session);
     gb_quick_cell_adopt(&session->quick_cell, &run.params, run.runner);
-    forget_previous(session, params, true);
-    gb_session_describe_previous(session, params);
+    gb_previous_list_forget(session, params, true);
+    gb_previous_list_describe(session, params);
     gb_session_quick_finish(session);
     return true;
 }
@@ -116,7 +101,7 @@ void gb_session_recall_answer(struct gb_session *session)
     const bool on_display = session->runner != NULL && gb_session_changes(session) == 0;
     if (on_display ||
         (!recall_run(session, &params) && !recall_quick(session, &params))) {
-        forget_previous(session, &params, true); /* it is computed anew */
+        gb_previous_list_forget(session, &params, true); /* it is computed anew */
         gb_session_quick_start(session);
     }
 }
