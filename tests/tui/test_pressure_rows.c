@@ -64,6 +64,7 @@ static void test_rows(void)
     add_previous(&session, &params, 0.30, false);
     add_previous(&session, &params, 0.31, true);
     session.measured = measured_of();
+    session.measured_dimension = params.dimension;
     gb_pressure_rows_list(&rows, &session, false);
     g_assert_cmpint(rows.count, ==, 3);
     const struct gb_pressure_row *measured = &rows.row[0];

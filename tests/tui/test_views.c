@@ -92,6 +92,7 @@ static void test_replicas(void)
         .members = 2, .mean = {0.3, 0.4, 0.5}, .error = {0.01, 0.01, 0.01}};
     g_assert_true(gb_preset_create(&preset, NULL));
     gb_session_init(&session, preset);
+    session.replica_band.params = *gb_preset_params(preset);
     session.replica_band.directory = (char[]){"cells"};
     session.replica_band.runset = (struct gb_runset_view){
         .group = &group, .groups = 1, .level_pa = {1e7, 1e8, 1e9}, .levels = 3};
