@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/mat.h"
+#include "base/vec.h"
 #include "draw/scene_bounds.h"
 
 /* Share of the background colour in the farthest edges of the box.  Particles and rods do
@@ -37,7 +38,7 @@ static void set_spheres(struct gb_scene *scene, const struct gb_state *state,
 {
     size_t shown = 0;
     for (size_t i = 0; i < scene->count; i++) {
-        if (style->hidden[i] != 0) {
+        if (style->hidden[i] == GB_PICTURE_STYLE_HIDDEN) {
             continue;
         }
         set_point(&scene->view, &state->position[3 * i], &scene->sphere[4 * shown]);
@@ -47,6 +48,23 @@ static void set_spheres(struct gb_scene *scene, const struct gb_state *state,
         shown++;
     }
     scene->count = shown;
+}
+
+/* Planes in eye coordinates. */
+static void set_cuts(struct gb_scene *scene, const struct gb_picture_style *style)
+{
+    const struct gb_view *view = &scene->view;
+    scene->cuts = style->cuts;
+    for (int i = 0; i < style->cuts; i++) {
+        const double *n = style->cut[i];
+        const double eye[3] = {gb_vec_dot(n, view->right), gb_vec_dot(n, view->up),
+                               gb_vec_dot(n, view->away)};
+        for (int k = 0; k < 3; k++) {
+            scene->cut[i][k] = (float)eye[k];
+        }
+        scene->cut[i][3] =
+            (float)(n[3] - gb_vec_dot(n, view->target) + eye[2] * view->distance);
+    }
 }
 
 static void set_rods(struct gb_scene *scene, const struct gb_picture_style *style)
@@ -208,6 +226,7 @@ bool gb_scene_create(struct gb_scene **out, const struct gb_state *state,
     if (good) {
         set_spheres(*out, state, used);
         set_rods(*out, used);
+        set_cuts(*out, used);
         if (state->die_radius > 0.0) {
             set_die(*out, state);
         } else {

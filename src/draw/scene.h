@@ -27,6 +27,8 @@ struct gb_scene {
     uint8_t *colour; /* of spheres, rods, facets x 4: sRGB and 255 */
     int edge_count;
     float edge[GB_SCENE_EDGES][6]; /* both ends of the edges of box or die */
+    int cuts;        /* half-spaces n p > c, whose common part of spheres is cut away */
+    float cut[3][4]; /* n and c, eye coordinates */
     float diameter;                /* 1 d: length of occlusion and shadows */
     float light[3];                /* towards the key light, eye coordinates */
     enum gb_background background;

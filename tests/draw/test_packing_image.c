@@ -11,6 +11,7 @@
 #include "draw/image/print_size.h"
 #include "draw/packing_image.h"
 #include "draw/style/picture_colours.h"
+#include "draw/style/picture_style_parse.h"
 
 enum { SIDE = 400 };
 
@@ -486,16 +487,16 @@ static void test_forces(void)
     gb_state_destroy(state);
 }
 
-/* The colour of a value does not depend on the depth: no fog. */
+/* The colour of a value does not depend on the depth: no fog, which would add 70 to red. */
 static void test_no_fog(void)
 {
     struct gb_state *state = packing(3);
     struct gb_packing_image packing_image = front();
     g_assert_true(gb_view_parse("front,flat", &packing_image.viewpoint, NULL));
-    for (int i = 0; i < 3; i++) { /* apart, at three depths */
+    for (int i = 0; i < 3; i++) { /* at three depths, none in the shadow of another */
         state->position[3 * i] = 2.0 + 3.0 * i;
         state->position[3 * i + 1] = 1.0 + 4.0 * i;
-        state->position[3 * i + 2] = 8.0 - 3.0 * i;
+        state->position[3 * i + 2] = 2.0 + 3.0 * i;
         state->radius[i] = 1.0;
         state->contacts[i] = 6;
     }
@@ -507,6 +508,51 @@ static void test_no_fog(void)
             g_assert_cmpint(abs(near[c] - far[c]), <=, 4);
         }
     }
+    gb_image_destroy(image);
+    gb_state_destroy(state);
+}
+
+/* A cut is flat: particles on either side of its plane show discs of their sections, all of
+ * one shade; what is beyond is not there. */
+static void test_cut_faces(void)
+{
+    struct gb_state *state = packing(3);
+    struct gb_packing_image packing_image = front();
+    struct gb_caption_layout layout;
+    struct gb_error err = {0};
+    static const double depth[3] = {4.6, 5.5, 6.2}; /* y of the centres, plane at 5 */
+    static const double radius[3] = {1.0, 1.0, 1.0};
+    for (int i = 0; i < 3; i++) {
+        state->position[3 * i] = state->position[3 * i + 2] = 2.0 + 3.0 * i;
+        state->position[3 * i + 1] = depth[i];
+        state->radius[i] = radius[i];
+        state->contacts[i] = 6;
+    }
+    g_assert_true(gb_view_parse("90,0,flat", &packing_image.viewpoint, NULL));
+    g_assert_true(gb_picture_style_parse_cut(&packing_image.style, "y=0.5", &err));
+    struct gb_scene *scene = scene_of(&packing_image, state, &layout);
+    struct gb_image *image = paint(&packing_image, state);
+    g_assert_cmpuint(scene->count, ==, 2);
+    const double scale = gb_view_scale(&scene->view);
+    const uint8_t *face = NULL;
+    for (int i = 0; i < 2; i++) {
+        const float *ball = &scene->sphere[4 * i];
+        const double section = sqrt(1.0 - (depth[i] - 5.0) * (depth[i] - 5.0));
+        double pixel[2];
+        gb_view_pixel(&scene->view, (const double[3]){ball[0], ball[1], ball[2]}, pixel);
+        face = face != NULL ? face : at(image, pixel[0], pixel[1]);
+        for (int k = 0; k < 16; k++) {
+            const double x = scale * section * cos(G_PI * k / 8.0);
+            const double y = scale * section * sin(G_PI * k / 8.0);
+            const uint8_t *inside = at(image, pixel[0] + 0.9 * x, pixel[1] + 0.9 * y);
+            const uint8_t *outside = at(image, pixel[0] + 1.08 * x, pixel[1] + 1.08 * y);
+            for (int c = 0; c < 3; c++) {
+                g_assert_cmpint(abs(inside[c] - face[c]), <=, 6);
+            }
+            g_assert_true(i == 0 || outside[0] == 255);
+        }
+    }
+    gb_scene_destroy(scene);
     gb_image_destroy(image);
     gb_state_destroy(state);
 }
@@ -650,6 +696,7 @@ int main(int argc, char **argv)
     g_test_add_func("/draw/snapshot/odd-sizes", test_odd_sizes);
     g_test_add_func("/draw/snapshot/forces", test_forces);
     g_test_add_func("/draw/snapshot/no-fog", test_no_fog);
+    g_test_add_func("/draw/snapshot/cut-faces", test_cut_faces);
     g_test_add_func("/draw/snapshot/rod-scale", test_rod_scale);
     g_test_add_func("/draw/snapshot/file", test_file);
     return g_test_run();

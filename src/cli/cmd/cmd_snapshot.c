@@ -273,7 +273,7 @@ int gb_cmd_snapshot(int argc, char **argv)
          "a slab at a fraction of an edge: y=0.5, or z=0.25:3d for 3 diameters (2)",
          "PLANE"},
         {"cut", 0, 0, G_OPTION_ARG_STRING, &request.cut,
-         "hide particles beyond y=0.5, or the corner nearest to the viewer", "PLANE"},
+         "cut away what is beyond y=0.5, or the corner nearest to the viewer", "PLANE"},
         {"rose", 0, 0, G_OPTION_ARG_NONE, &request.rose,
          "beside it the mean normal force by direction, as a surface", NULL},
         {"at", 0, 0, G_OPTION_ARG_STRING, &request.at,

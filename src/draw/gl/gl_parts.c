@@ -46,6 +46,7 @@ static void draw_spheres(struct gb_gl_pass *pass, const struct gb_camera *camera
     }
     pass->gl->UseProgram(program);
     gb_gl_uniform_camera(pass->gl, program, camera, width, height);
+    gb_gl_uniform_cuts(pass->gl, program, pass->scene, camera);
     gb_gl_uniform_sampler(pass->gl, program, "spheres", GB_GL_TEXTURE_SPHERES);
     pass->gl->BindVertexArray(pass->array[GB_GL_ARRAY_SPHERES]);
     pass->gl->BindBuffer(GL_ARRAY_BUFFER, pass->buffer[GB_GL_BUFFER_INDICES]);

@@ -69,6 +69,7 @@ void gb_gl_shading_draw(struct gb_gl_pass *pass, int width, int height)
         pass->scene->background == GB_BACKGROUND_TRANSPARENT ? nothing : background);
     pass->gl->UseProgram(program);
     gb_gl_uniform_camera(pass->gl, program, &pass->eye, width, height);
+    gb_gl_uniform_cuts(pass->gl, program, pass->scene, &pass->eye);
     gb_gl_uniform_sampler(pass->gl, program, "seen", GB_GL_TEXTURE_SEEN);
     gb_gl_uniform_sampler(pass->gl, program, "depths", GB_GL_TEXTURE_DEPTH);
     gb_gl_uniform_sampler(pass->gl, program, "shadows", GB_GL_TEXTURE_SHADOW);

@@ -36,4 +36,23 @@ static inline void gb_gl_uniform_camera(const struct gb_gl *gl, GLuint program,
     gl->Uniform2f(gl->GetUniformLocation(program, "size"), (float)width, (float)height);
 }
 
+/* The planes of the cut in the coordinates of a camera. */
+static inline void gb_gl_uniform_cuts(const struct gb_gl *gl, GLuint program,
+                                      const struct gb_scene *scene,
+                                      const struct gb_camera *camera)
+{
+    const float *m = camera->rotation;
+    const float *t = camera->translation;
+    float cut[3][4] = {{0.0F}};
+    for (int i = 0; i < scene->cuts; i++) {
+        const float *n = scene->cut[i];
+        for (int k = 0; k < 3; k++) {
+            cut[i][k] = m[k] * n[0] + m[3 + k] * n[1] + m[6 + k] * n[2];
+        }
+        cut[i][3] = n[3] + gb_gl_pass_dot(cut[i], t);
+    }
+    gl->Uniform1i(gl->GetUniformLocation(program, "cuts"), scene->cuts);
+    gl->Uniform4fv(gl->GetUniformLocation(program, "cut"), 3, &cut[0][0]);
+}
+
 #endif

@@ -197,6 +197,18 @@ static int choose_cell(const struct gb_scene *scene, const struct gb_camera *cam
     return (int)ceil(fmin(fmax(fmax(fine, coarse), 1.0), 64.0));
 }
 
+/* Whether a sphere may have lost its front. */
+static bool is_cut(const struct gb_scene *scene, const float *sphere)
+{
+    bool cut = scene->cuts > 0;
+    for (int k = 0; k < scene->cuts; k++) {
+        const float *n = scene->cut[k];
+        cut = cut && n[0] * sphere[0] + n[1] * sphere[1] + n[2] * sphere[2] - n[3] >
+                         -sphere[3];
+    }
+    return cut;
+}
+
 static void find(struct screen *screen, const struct gb_scene *scene, uint8_t *hidden)
 {
     const size_t cells = (size_t)screen->width * (size_t)screen->height;
@@ -205,7 +217,9 @@ static void find(struct screen *screen, const struct gb_scene *scene, uint8_t *h
     }
     for (size_t i = 0; i < scene->count; i++) {
         const float *at = &scene->sphere[4 * i];
-        cover(screen, in_view(screen->camera, at, at[3]));
+        if (!is_cut(scene, at)) {
+            cover(screen, in_view(screen->camera, at, at[3]));
+        }
     }
     for (size_t i = 0; i < scene->count; i++) {
         hidden[i] = sphere_is_behind(screen, &scene->sphere[4 * i]);

@@ -3,6 +3,8 @@
 /* projection: pixel of the axis, focal length in samples, 1 when orthographic.
  * depth_range: depth of 0 and of 1 in the depth buffer, which is linear. */
 #define CAMERA "uniform vec4 projection;\nuniform vec2 depth_range;\n"
+/* Half-spaces n p > c: normal and c. */
+#define CUTS "uniform int cuts;\nuniform vec4 cut[3];\n"
 
 /* Intersection of a ray and a sphere.  Distances are measured from the point of the ray
  * nearest to the centre: the plain quadratic loses all digits when the viewer is many
@@ -33,8 +35,10 @@ static const char sphere_vertex[] =
     "    gl_Position = vec4(2.0 * pixel / size - 1.0, 0.0, 1.0);\n"
     "}\n";
 
+/* What lies in all half-spaces of the cut is not there: a ray that would enter the sphere in
+ * it goes on to its end. */
 static const char sphere_fragment[] =
-    "#version 330 core\n" CAMERA "flat in vec4 ball;\n"
+    "#version 330 core\n" CAMERA CUTS "flat in vec4 ball;\n"
     "flat in uint id;\n"
     "out uint seen;\n"
     "void main()\n"
@@ -42,7 +46,8 @@ static const char sphere_fragment[] =
     "    vec2 s = (gl_FragCoord.xy - projection.xy) /\n"
     "             vec2(projection.z, -projection.z);\n"
     "    vec3 ray = projection.w == 0.0 ? vec3(s, 1.0) : vec3(0.0, 0.0, 1.0);\n"
-    "    vec3 to = projection.w == 0.0 ? ball.xyz : ball.xyz - vec3(s, 0.0);\n"
+    "    vec3 from = projection.w == 0.0 ? vec3(0.0) : vec3(s, 0.0);\n"
+    "    vec3 to = ball.xyz - from;\n"
     "    float a = dot(ray, ray);\n"
     "    float t = dot(to, ray) / a;\n"
     "    vec3 offset = to - t * ray;\n"
@@ -51,6 +56,20 @@ static const char sphere_fragment[] =
     "        discard;\n"
     "    }\n"
     "    float depth = t - sqrt(h / a);\n"
+    "    float gap_end = 1e30;\n"
+    "    bool in_gap = cuts > 0;\n"
+    "    for (int k = 0; k < cuts; k++) {\n"
+    "        float slope = dot(cut[k].xyz, ray);\n"
+    "        float above = dot(cut[k].xyz, from + depth * ray) - cut[k].w;\n"
+    "        in_gap = in_gap && above > 0.0;\n"
+    "        gap_end = slope < 0.0 ? min(gap_end, depth - above / slope) : gap_end;\n"
+    "    }\n"
+    "    if (in_gap) {\n"
+    "        if (gap_end > t + sqrt(h / a)) {\n"
+    "            discard;\n"
+    "        }\n"
+    "        depth = gap_end;\n"
+    "    }\n"
     "    gl_FragDepth = (depth - depth_range.x) / (depth_range.y - depth_range.x);\n"
     "    seen = id;\n"
     "}\n";
@@ -215,7 +234,7 @@ static const char edge_fragment[] =
  * rotate the spiral by quarters of its step: the pixel has four times as many
  * directions. */
 static const char shade_fragment[] =
-    "#version 330 core\n" CAMERA "uniform usampler2D seen;\n"
+    "#version 330 core\n" CAMERA CUTS "uniform usampler2D seen;\n"
     "uniform sampler2D depths;\n"
     "uniform sampler2D shadows;\n"
     "uniform samplerBuffer spheres;\n"
@@ -250,7 +269,15 @@ static const char shade_fragment[] =
     "vec3 normal_at(vec3 p, uint id)\n"
     "{\n"
     "    if (id < first_rod) {\n"
-    "        return normalize(p - texelFetch(spheres, int(id)).xyz);\n"
+    "        vec4 ball = texelFetch(spheres, int(id));\n"
+    "        vec3 n = p - ball.xyz;\n"
+    "        float face = length(n) < 0.998 * ball.w ? 1e30 : 0.0;\n"
+    "        for (int k = 0; k < cuts && face > 0.0; k++) {\n" /* inside: on a cut */
+    "            float away = abs(dot(cut[k].xyz, p) - cut[k].w);\n"
+    "            n = away < face ? cut[k].xyz : n;\n"
+    "            face = min(face, away);\n"
+    "        }\n"
+    "        return normalize(n);\n"
     "    }\n"
     "    if (id < first_facet) {\n"
     "        int k = 2 * int(id - first_rod);\n"

@@ -27,9 +27,9 @@ struct gb_picture_style_request {
     int slice_axis;     /* slab normal to axis 0, 1 or 2; -1: none */
     double slice_at;    /* middle of the slab, fraction of the edge */
     double slice_width; /* d */
-    int cut_axis;       /* particles beyond cut_at of this edge are hidden; -1: none */
+    int cut_axis;       /* what is beyond cut_at of this edge is cut away; -1: none */
     double cut_at;      /* fraction of the edge */
-    bool cut_corner;    /* hides the octant nearest to the viewer */
+    bool cut_corner;    /* cuts away the octant nearest to the viewer */
     const struct gb_state *since; /* origin of displacements */
     double low, high;   /* ends of the colour scale in its unit; equal: see the next */
     bool ranged;        /* ends of the colour scale are given; else from the state */
@@ -58,11 +58,20 @@ struct gb_picture_style_legend {
     uint8_t rgb[3];
 };
 
+/* A particle behind the plane of a cut that reaches through it is drawn, its forces are not. */
+enum gb_picture_style_hidden {
+    GB_PICTURE_STYLE_SHOWN,
+    GB_PICTURE_STYLE_HIDDEN,
+    GB_PICTURE_STYLE_CUT
+};
+
 /* The style of one state. */
 struct gb_picture_style {
     size_t count;       /* particles of the state */
     uint8_t *colour;    /* count x 3, sRGB */
-    uint8_t *hidden;    /* count; 1: not drawn */
+    uint8_t *hidden;    /* count; enum gb_picture_style_hidden */
+    int cuts;           /* half-spaces n x > c, whose common part is cut away */
+    double cut[3][4];   /* n in cell axes, of length 1, and c; d */
     float radius_scale; /* drawn radius over particle radius */
     struct gb_picture_style_scale scale;
     size_t rods;         /* a contact across a periodic wall has two */
@@ -78,6 +87,8 @@ struct gb_picture_style {
 bool gb_picture_style_create(struct gb_picture_style **out, const struct gb_state *state,
                              const struct gb_picture_style_request *request,
                              struct gb_error *err);
+/* How far a point lies within what is cut away, d; negative outside. */
+double gb_picture_style_depth(const struct gb_picture_style *style, const double x[3]);
 void gb_picture_style_destroy(struct gb_picture_style *style); /* NULL is fine */
 
 #endif
