@@ -91,7 +91,9 @@ shows "a pressure without its unit is refused" 'as in 0.002@100MPa'
 keys C-u
 keys -l '3'
 keys Enter
-shows "their mean lies over the plot" 'mean of 3 cells'
+shows "their mean is a card, which lies over the plot" 'Result: replicas'
+keys Escape
+shows "so does their mean" 'mean of 3 cells'
 told "the events say where they are" 'replicas: computed in'
 printf 'p_MPa,density,density_error\n5,0.26,0.01\n10,0.28,0.01\n' >"$here/lab.csv"
 keys e
