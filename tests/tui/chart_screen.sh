@@ -47,7 +47,7 @@ shows "what was measured stays" 'Enter applies'
 # the costliest one that was measured, as the message has it
 tolerance=$(screen | tail -n 4 | tr '\n' ' ' | sed -n 's/.*tolerance \([0-9.e-]*\),.*/\1/p')
 keys Enter
-shows "Enter applies the setting" 's: setting of the chart: '
+told "Enter applies the setting" 'setting of the chart: '
 go_to tolerance
 is "to the parameters" until_true has "tolerance  *$tolerance "
 keys u

@@ -55,6 +55,6 @@ bool gb_result_chart_fill(struct gb_result_card *card, const struct gb_session *
                            "more cells or CPU time tell more");
     }
     gb_result_card_add(card, GB_RESULT_NOTE, "%zu of %zu settings measured, view 0",
-                       chart->known + isfinite(chart->reference_s), chart->count);
+                       chart->known + (isfinite(chart->reference_s) ? 1U : 0U), chart->count);
     return true;
 }
