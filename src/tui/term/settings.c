@@ -14,8 +14,7 @@ static const char *const when[] = {"auto", "always", "never", NULL};
 static const char *const themes[] = {"auto", "light", "dark", "contrast", NULL};
 static const char *const graphs[] = {"auto", "braille", "block", "ascii", NULL};
 static const char *const images[] = {"auto", "none", "sixel", "kitty", NULL};
-static const char *const clipboards[] = {"auto",   "osc52", "tmux",
-                                         "screen", "off",   NULL};
+static const char *const clipboards[] = {"auto", "osc52", "tmux", "screen", "off", NULL};
 static const char *const on_off[] = {"on", "off", NULL};
 static const char *const off_on[] = {"off", "on", NULL};
 
@@ -107,42 +106,42 @@ static bool take_all(struct gb_settings *settings, GKeyFile *file, const char *p
     return good;
 }
 
-bool gb_settings_read(struct gb_settings *settings, const char *path,
-                      struct gb_error *err)
+/* The key file, empty where there is none; NULL: it cannot be read. */
+static GKeyFile *load(const char *path, struct gb_error *err)
 {
     char *text = NULL;
     size_t length = 0;
+    GError *error = NULL;
+    GKeyFile *file = g_key_file_new();
+    if (!g_file_test(path, G_FILE_TEST_EXISTS)) {
+        return file;
+    }
+    bool good = gb_read_file(path, BYTES_MAX, &text, &length, err);
+    if (good && !g_key_file_load_from_data(file, text, length, G_KEY_FILE_KEEP_COMMENTS,
+                                           &error)) {
+        good = gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, error->message);
+    }
+    g_clear_error(&error);
+    gb_alloc_free(text);
+    if (!good) {
+        g_key_file_free(file);
+        return NULL;
+    }
+    return file;
+}
+
+bool gb_settings_read(struct gb_settings *settings, const char *path,
+                      struct gb_error *err)
+{
     if (!g_file_test(path, G_FILE_TEST_EXISTS)) {
         return true;
     }
-    if (!gb_read_file(path, BYTES_MAX, &text, &length, err)) {
-        return false;
+    GKeyFile *file = load(path, err);
+    const bool good = file != NULL && take_all(settings, file, path, err);
+    if (file != NULL) {
+        g_key_file_free(file);
     }
-    GKeyFile *file = g_key_file_new();
-    GError *error = NULL;
-    const bool good =
-        g_key_file_load_from_data(file, text, length, G_KEY_FILE_NONE, &error)
-            ? take_all(settings, file, path, err)
-            : gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, error->message);
-    g_clear_error(&error);
-    g_key_file_free(file);
-    gb_alloc_free(text);
     return good;
-}
-
-/* The file to be changed, empty where there is none; NULL: no key file. */
-static GKeyFile *load(const char *path, struct gb_error *err)
-{
-    GKeyFile *file = g_key_file_new();
-    GError *error = NULL;
-    if (!g_file_test(path, G_FILE_TEST_EXISTS) ||
-        g_key_file_load_from_file(file, path, G_KEY_FILE_KEEP_COMMENTS, &error)) {
-        return file;
-    }
-    gb_error_set(err, GB_ERR_INPUT, "%s: %s", path, error->message);
-    g_clear_error(&error);
-    g_key_file_free(file);
-    return NULL;
 }
 
 bool gb_settings_remember(const char *path, const char *name, const char *value,

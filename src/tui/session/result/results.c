@@ -65,7 +65,8 @@ void gb_results_take(struct gb_results *results, const struct gb_session *sessio
                      const char *job, const char *path)
 {
     for (int k = 0; k < GB_RESULTS_KINDS; k++) {
-        if (g_strcmp0(kinds[k].job, job) == 0 && make(results, session, k, path)) {
+        if (g_strcmp0(kinds[k].job, job) == 0 &&
+            make(results, session, (enum gb_results_kind)k, path)) {
             results->news = true;
         }
     }
