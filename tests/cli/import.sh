@@ -97,7 +97,8 @@ else
     echo '# no LAMMPS here: its files are not tested'
 fi
 
-in_patience "$greenbody" sweep default structure.from=kept.csv --vary contact.mu=0.1,0.2 --replicas 2 \
+"$greenbody" export first --format csv -o again.csv >stdout 2>stderr
+in_patience "$greenbody" sweep p1-set2-lognormal structure.from=again.csv --vary contact.mu=0.1,0.2 --replicas 2 \
     --out many >stdout 2>stderr
 is 'replicas of one packing are refused' [ $? -eq 2 ]
 is 'with the reason' grep -q 'replicas: must be 1 with structure.from' stderr
