@@ -40,6 +40,9 @@ bool gb_repeat_points_record(struct gb_record *record, const struct gb_params *p
                        gb_repeat_points(experiment, from, to, NULL, NULL, err);
     record->loading = false;
     const bool done = there && gb_checkpoint_take(experiment, record, err);
+    if (there && !done) {
+        gb_record_clear(record);
+    }
     gb_experiment_destroy(experiment);
     return done;
 }

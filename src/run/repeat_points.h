@@ -11,8 +11,8 @@
 bool gb_repeat_points(struct gb_experiment *experiment, int64_t from, int64_t to,
                       bool (*cancelled)(void *data), void *data, struct gb_error *err);
 
-/* Replaces a record by that of a later point of the same run, step `to`.  Fails before
- * anything is replaced, or with GB_ERR_MEMORY; other errors as above. */
+/* Replaces a record by that of a later point of the same run, step `to`.  Where that fails,
+ * it is as before, or empty (GB_ERR_MEMORY); errors as above. */
 bool gb_repeat_points_record(struct gb_record *record, const struct gb_params *params,
                              int64_t to, struct gb_error *err);
 

@@ -21,7 +21,8 @@ bool gb_held_record_due(const struct gb_held_record *held,
 {
     const double allowed_s =
         fmin(fmax(held->cost_s / cost_share, age_least_s), age_most_s);
-    return !held->fresh || gb_clock_s() - held->taken_s >= allowed_s ||
+    const double age_s = gb_clock_s() - held->taken_s; /* negative: the clock went back */
+    return !held->fresh || age_s < 0.0 || age_s >= allowed_s ||
            gb_experiment_over(experiment);
 }
 
@@ -61,15 +62,16 @@ bool gb_held_record_adopt(struct gb_held_record *held, struct gb_record *record,
 
 bool gb_held_record_catch_up(struct gb_held_record *held, struct gb_error *err)
 {
+    struct gb_record *record = gb_writer_record(held->writer);
     struct gb_error why = {0};
     if (!held->fresh || held->missing < 0) {
         return true;
     }
-    if (gb_repeat_points_record(gb_writer_record(held->writer), held->params,
-                                held->missing, &why)) {
+    if (gb_repeat_points_record(record, held->params, held->missing, &why)) {
         return gb_held_record_complete(held, err);
     }
     held->missing = -1;
+    held->fresh = record->count > 0;
     return why.code != GB_ERR_MEMORY || gb_error_set(err, why.code, "%s", why.text);
 }
 
