@@ -27,21 +27,30 @@ static double bound_given(struct gb_dynamic *motion, double critical, char *text
     return motion->limit;
 }
 
-/* The automatic step: velocity Verlet has the error GB_STEP_ERROR_UNIT (omega step)^2.
- * Strong damping bounds the step more. */
+/* Step at which velocity Verlet has the error unit (omega step)^2 that is allowed. */
+static double accurate_step(const struct gb_dynamic *motion, double frequency,
+                            double unit)
+{
+    const double share = sqrt(motion->model->dynamics.step_error / unit);
+    return share / fmax(frequency, GB_FREQUENCY_MIN);
+}
+
+/* The automatic step, of accuracy or of stability.  Strong damping bounds it more. */
 static double pick_step(struct gb_dynamic *motion, double frequency, double critical,
                         char *text, size_t size)
 {
-    const double share = sqrt(motion->model->dynamics.step_error / GB_STEP_ERROR_UNIT);
-    const double accurate = share / fmax(frequency, GB_FREQUENCY_MIN);
+    const bool driven = motion->stage == GB_DYNAMIC_LOAD;
+    const double pressed = accurate_step(motion, frequency, GB_STEP_ERROR_UNIT);
+    const double accurate =
+        driven ? pressed : accurate_step(motion, frequency, GB_STEP_ERROR_UNIT_FREE);
     const double stable = GB_STEP_CRITICAL_FRACTION * critical;
-    if (stable < 0.5 * accurate && !motion->limit_reported) {
+    if (stable < 0.5 * pressed && !motion->limit_reported) {
         motion->limit_reported = true;
         snprintf(
             text, size,
             "guard: contact.viscosity bounds the time step to %.3g T (accuracy alone: "
             "%.3g T)",
-            stable, accurate);
+            stable, pressed);
     }
     return fmin(fmin(accurate, stable), motion->limit);
 }
