@@ -392,8 +392,8 @@ static void test_critical(void)
     g_assert_cmpfloat_with_epsilon(frequency, sqrt(0.5), 1e-9);
 }
 
-/* Time step of holding over that of pressing, and the pressure 20 ps after the end of
- * pressing, which has the usual error of a step; the hold has the given one. */
+/* Time step of holding over that of loading, and the pressure 20 ps after the end of
+ * loading, which has the usual error of a step; the hold has the given one. */
 static double hold(double step_error, double *pressure)
 {
     const struct gb_params params = planar("numerics.time_step=auto", "structure.seed=2");
@@ -402,7 +402,7 @@ static double hold(double step_error, double *pressure)
     struct gb_dynamic *motion = NULL;
     struct gb_error err = {0};
     char text[500];
-    double pressing = 0.0, holding = 0.0, tensor[3][3];
+    double loading = 0.0, holding = 0.0, tensor[3][3];
     gb_world_set_step(world, 1.0);
     scene_evaluate(world);
     g_assert_true(gb_dynamic_create(&motion, world, &err));
@@ -412,7 +412,7 @@ static double hold(double step_error, double *pressure)
         g_assert_true(outcome == GB_STEP_POINT || outcome == GB_STEP_MORE);
         const struct gb_dynamic_report report = gb_dynamic_report(motion);
         const bool holds = report.stage == GB_DYNAMIC_HOLD;
-        *(holds ? &holding : &pressing) = report.time_step;
+        *(holds ? &holding : &loading) = report.time_step;
         points += holds && outcome == GB_STEP_POINT;
         if (gb_observe_density(world) >= model.until_density - 1e-9) {
             model.dynamics.step_error = step_error;
@@ -422,7 +422,7 @@ static double hold(double step_error, double *pressure)
     *pressure = tensor[0][0] + tensor[2][2];
     gb_dynamic_destroy(motion);
     gb_world_destroy(world);
-    return holding / pressing;
+    return holding / loading;
 }
 
 /* Nothing is driven while the packing is held: the usual error allows the step of
@@ -431,7 +431,7 @@ static void test_hold(void)
 {
     double usual, exact;
     const double longer = hold(1e-3, &usual), shorter = hold(1e-6, &exact);
-    g_test_message("steps %.2f and %.2f of those of pressing: p differs by %.1e", longer,
+    g_test_message("steps %.2f and %.2f of those of loading: p differs by %.1e", longer,
                    shorter, usual / exact - 1.0);
     g_assert_cmpfloat(longer, >, 3.0);
     g_assert_cmpfloat(shorter, <, 0.2 * longer);
