@@ -39,18 +39,18 @@ static double accurate_step(const struct gb_dynamic *motion, double frequency,
 static double pick_step(struct gb_dynamic *motion, double frequency, double critical,
                         char *text, size_t size)
 {
-    const bool driven = motion->stage == GB_DYNAMIC_LOAD;
-    const double pressed = accurate_step(motion, frequency, GB_STEP_ERROR_UNIT);
+    const bool loading = motion->stage == GB_DYNAMIC_LOAD;
+    const double loaded = accurate_step(motion, frequency, GB_STEP_ERROR_UNIT);
     const double accurate =
-        driven ? pressed : accurate_step(motion, frequency, GB_STEP_ERROR_UNIT_FREE);
+        loading ? loaded : accurate_step(motion, frequency, GB_STEP_ERROR_UNIT_FREE);
     const double stable = GB_STEP_CRITICAL_FRACTION * critical;
-    if (stable < 0.5 * pressed && !motion->limit_reported) {
+    if (stable < 0.5 * loaded && !motion->limit_reported) {
         motion->limit_reported = true;
         snprintf(
             text, size,
             "guard: contact.viscosity bounds the time step to %.3g T (accuracy alone: "
             "%.3g T)",
-            stable, pressed);
+            stable, loaded);
     }
     return fmin(fmin(accurate, stable), motion->limit);
 }
