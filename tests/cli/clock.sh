@@ -59,5 +59,25 @@ kept() { # written beside the screen
 is 'the workbench shows its run to the end' until_true shown
 is 'and it is kept' until_true kept
 
+# --- keys while the clock is set back between any two looks at it ---------------------------
+tmux -L clock kill-server
+tmux -L clock -f /dev/null new-session -d -x 100 -y 30 \
+    "env LEAP_CLOCK=back LD_PRELOAD=$leap GB_PRESET_DIR=$presets XDG_STATE_HOME=$here/back \
+    $greenbody default particles.count=300 2>screen.err; echo left; sleep 100"
+on_screen() {
+    tmux -L clock capture-pane -p >stdout 2>/dev/null
+    grep -q "$1" stdout
+}
+gone() {
+    ! on_screen "$1"
+}
+is 'the workbench starts by a clock that is set back' until_true on_screen 'q quit'
+tmux -L clock send-keys '?'
+is 'a key works' until_true on_screen 'Esc closes'
+tmux -L clock send-keys Escape
+is 'Esc alone works, too' until_true gone 'Esc closes'
+tmux -L clock send-keys F10
+is 'and a key of several bytes' until_true on_screen 'left\|Quit'
+
 echo "1..$tests"
 exit $bad

@@ -1,8 +1,10 @@
-/* For LD_PRELOAD: every few calls the wall clock jumps by a day forward or back.  The
- * monotonic clock is unchanged. */
+/* For LD_PRELOAD: every few calls the wall clock jumps by a day forward or back; with
+ * LEAP_CLOCK=back each call finds it set back by a day more.  The monotonic clock is
+ * unchanged. */
 #include <dlfcn.h>
 #include <stdatomic.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <sys/time.h>
 #include <time.h>
 
@@ -16,7 +18,10 @@ static time_t jump(void)
 {
     static atomic_uint calls;
     static const time_t days[] = {0, 1, -1, 2, -2};
-    const unsigned k = atomic_fetch_add(&calls, 1) / CALLS;
+    const unsigned call = atomic_fetch_add(&calls, 1), k = call / CALLS;
+    if (getenv("LEAP_CLOCK") != NULL) {
+        return -DAY * (time_t)call;
+    }
     return DAY * days[k % (sizeof days / sizeof days[0])];
 }
 

@@ -9,34 +9,28 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <sys/signalfd.h>
 #include <term.h>
 #include <unistd.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "tui/term/crash.h"
+#include "tui/term/input/term_keys.h"
+#include "tui/term/input/term_signals.h"
 #include "tui/term/term_profile.h"
 #include "tui/term/term_style.h"
 #include "tui/term/term_theme.h"
 #include "tui/term/term_tty.h"
 
-/* Longest time between Esc and the rest of a function key, ms. */
-enum { ESCAPE_MS = 40 };
-
 /* Width of a cell in pixels where the terminal does not report it. */
 enum { DEFAULT_CELL_WIDTH = 10 };
 
-static const int handled_signals[] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,
-                                      SIGTSTP, SIGCONT, SIGWINCH};
-
-enum { HANDLED_SIGNALS = sizeof handled_signals / sizeof handled_signals[0] };
-
 struct gb_term {
     SCREEN *screen;
-    WINDOW *keys; /* a pad: reading from it does not refresh the screen */
     FILE *out, *in;
-    int out_fd, in_fd, signal_fd;
+    int out_fd, in_fd;
+    struct gb_term_keys keys;
+    struct gb_term_signals signals;
     int saved_out, saved_err;
     int64_t frames;
     double since_s; /* clock at the start, s */
@@ -44,8 +38,6 @@ struct gb_term {
     bool shaded, mouse;
     struct gb_term_profile profile;
     struct termios modes;
-    sigset_t mask_before;
-    struct sigaction before[HANDLED_SIGNALS], pipe_before;
     uint64_t style[GB_STYLE_COUNT];
 };
 
@@ -55,6 +47,7 @@ static void set_modes(void)
     noecho();
     nonl();
     curs_set(0);
+    keypad(stdscr, TRUE); /* arrows and keypad send what terminfo says */
 }
 
 static bool start_screen(struct gb_term *term, const char *type, struct gb_error *err)
@@ -66,40 +59,8 @@ static bool start_screen(struct gb_term *term, const char *type, struct gb_error
         return gb_error_set(err, GB_ERR_MACHINE, "cannot use the terminal type %s", type);
     }
     set_modes();
-    set_escdelay(ESCAPE_MS);
     gb_term_set_theme(term, term->profile.theme);
-    term->keys = newpad(1, 1);
-    keypad(term->keys, TRUE);
-    nodelay(term->keys, TRUE);
     return true;
-}
-
-static void catch_signals(struct gb_term *term)
-{
-    sigset_t mask;
-    sigemptyset(&mask);
-    for (int i = 0; i < HANDLED_SIGNALS; i++) {
-        sigaction(handled_signals[i], NULL, &term->before[i]);
-        sigaddset(&mask, handled_signals[i]);
-    }
-    const struct sigaction ignore = {.sa_handler = SIG_IGN};
-    sigaction(SIGPIPE, &ignore, &term->pipe_before);
-    pthread_sigmask(SIG_BLOCK, &mask, &term->mask_before);
-    term->signal_fd = signalfd(-1, &mask, SFD_CLOEXEC | SFD_NONBLOCK);
-}
-
-/* Pending signals requested the end that has come, and are discarded. */
-static void release_signals(struct gb_term *term)
-{
-    struct signalfd_siginfo late;
-    while (read(term->signal_fd, &late, sizeof late) == (ssize_t)sizeof late) {
-    }
-    for (int i = 0; i < HANDLED_SIGNALS; i++) {
-        sigaction(handled_signals[i], &term->before[i], NULL);
-    }
-    sigaction(SIGPIPE, &term->pipe_before, NULL);
-    close(term->signal_fd);
-    pthread_sigmask(SIG_SETMASK, &term->mask_before, NULL);
 }
 
 static void install_crash_handler(const struct gb_term *term)
@@ -172,9 +133,9 @@ bool gb_term_start(struct gb_term **out, const struct gb_settings *settings,
     if (!gb_term_profile_detect(&term->profile, term->out_fd, settings, err)) {
         goto fail;
     }
-    catch_signals(term);
+    gb_term_signals_catch(&term->signals);
     if (!start_screen(term, term->profile.type, err)) {
-        release_signals(term);
+        gb_term_signals_release(&term->signals);
         goto fail;
     }
     gb_term_tty_redirect();
@@ -192,7 +153,6 @@ fail:
 void gb_term_stop(struct gb_term *term)
 {
     gb_crash_remove();
-    delwin(term->keys);
     endwin();
     delscreen(term->screen);
     fprintf(stderr, "greenbody: frames drawn: %lld in %.1f s\n", /* into the log */
@@ -204,8 +164,7 @@ void gb_term_stop(struct gb_term *term)
 void gb_term_abandon(struct gb_term *term)
 {
     gb_crash_remove();
-    close(term->signal_fd);
-    term->signal_fd = -1;
+    gb_term_signals_give_up(&term->signals);
     close_streams(term);
     const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
     if (nothing >= 0) {
@@ -216,8 +175,8 @@ void gb_term_abandon(struct gb_term *term)
 
 void gb_term_destroy(struct gb_term *term)
 {
-    if (term != NULL && term->signal_fd >= 0) {
-        release_signals(term);
+    if (term != NULL) {
+        gb_term_signals_release(&term->signals);
     }
     gb_alloc_free(term);
 }
@@ -226,14 +185,7 @@ void gb_term_suspend(struct gb_term *term)
 {
     endwin();
     gb_term_tty_restore(term->saved_out, term->saved_err);
-    sigset_t stop;
-    sigemptyset(&stop);
-    sigaddset(&stop, SIGTSTP);
-    const struct sigaction plain = {.sa_handler = SIG_DFL};
-    sigaction(SIGTSTP, &plain, NULL);
-    pthread_sigmask(SIG_UNBLOCK, &stop, NULL);
-    raise(SIGTSTP); /* returns after SIGCONT */
-    pthread_sigmask(SIG_BLOCK, &stop, NULL);
+    gb_term_signals_stop();
     gb_term_tty_redirect();
     set_modes();
 }
@@ -252,18 +204,13 @@ static struct gb_term_event resized(struct gb_term *term)
 
 static struct gb_term_event from_signal(struct gb_term *term)
 {
-    struct signalfd_siginfo info;
-    const struct gb_term_event nothing = {.kind = GB_TERM_TIMEOUT};
-    if (read(term->signal_fd, &info, sizeof info) != (ssize_t)sizeof info) {
-        return nothing;
-    }
-    switch (info.ssi_signo) {
+    const int signal = gb_term_signals_read(&term->signals);
+    switch (signal) {
     case SIGINT:
         return (struct gb_term_event){.kind = GB_TERM_INTERRUPT, .code = SIGINT};
     case SIGTERM:
     case SIGQUIT:
-        return (struct gb_term_event){.kind = GB_TERM_TERMINATE,
-                                      .code = (int32_t)info.ssi_signo};
+        return (struct gb_term_event){.kind = GB_TERM_TERMINATE, .code = signal};
     case SIGHUP:
         return (struct gb_term_event){.kind = GB_TERM_HANGUP, .code = SIGHUP};
     case SIGTSTP:
@@ -277,51 +224,8 @@ static struct gb_term_event from_signal(struct gb_term *term)
     case SIGWINCH:
         return resized(term);
     default:
-        return nothing;
+        return (struct gb_term_event){.kind = GB_TERM_TIMEOUT};
     }
-}
-
-/* Left button and wheel; other mouse events are ignored. */
-static struct gb_term_event from_mouse(void)
-{
-    struct gb_term_event event = {.kind = GB_TERM_TIMEOUT};
-    MEVENT mouse;
-    if (getmouse(&mouse) != OK) {
-        return event;
-    }
-    event.row = mouse.y;
-    event.col = mouse.x;
-    event.kind = GB_TERM_MOUSE;
-    if (mouse.bstate & BUTTON1_PRESSED) {
-        event.code = GB_TERM_CLICK;
-    } else if (mouse.bstate & BUTTON4_PRESSED) {
-        event.code = GB_TERM_WHEEL_UP;
-    } else if (mouse.bstate & BUTTON5_PRESSED) {
-        event.code = GB_TERM_WHEEL_DOWN;
-    } else {
-        event.kind = GB_TERM_TIMEOUT;
-    }
-    return event;
-}
-
-static bool next_key(struct gb_term *term, struct gb_term_event *event)
-{
-    wint_t code = 0;
-    const int how = wget_wch(term->keys, &code);
-    if (how == ERR) {
-        return false;
-    }
-    if (how == KEY_CODE_YES && code == KEY_MOUSE) {
-        *event = from_mouse();
-        return true;
-    }
-    if (how == KEY_CODE_YES) {
-        event->kind = code == KEY_RESIZE ? GB_TERM_RESIZED : GB_TERM_KEY;
-    } else {
-        event->kind = code < 32 || code == 127 ? GB_TERM_KEY : GB_TERM_TEXT;
-    }
-    event->code = (int32_t)code;
-    return true;
 }
 
 /* A closed terminal returns 0 bytes at once for every read: polling would spin. */
@@ -335,23 +239,33 @@ static bool is_closed(const struct gb_term *term, short revents)
            waiting == 0;
 }
 
+static void read_keys(struct gb_term *term)
+{
+    size_t size;
+    char *room = gb_term_keys_room(&term->keys, &size);
+    const ssize_t got = read(term->in_fd, room, size);
+    gb_term_keys_add(&term->keys, got > 0 ? (size_t)got : 0, gb_clock_s());
+}
+
 struct gb_term_event gb_term_wait(struct gb_term *term, int timeout_ms)
 {
     struct gb_term_event event = {.kind = GB_TERM_TIMEOUT};
-    if (next_key(term, &event)) {
+    if (gb_term_keys_next(&term->keys, gb_clock_s(), &event)) {
         return event;
     }
-    struct pollfd fds[] = {{term->signal_fd, POLLIN, 0}, {term->in_fd, POLLIN, 0}};
-    if (poll(fds, 2, timeout_ms) <= 0) {
-        return event;
-    }
-    if (fds[0].revents != 0) {
+    struct pollfd fds[] = {{term->signals.fd, POLLIN, 0}, {term->in_fd, POLLIN, 0}};
+    const int wait_ms = gb_term_keys_wait_ms(&term->keys, gb_clock_s(), timeout_ms);
+    const int ready = poll(fds, 2, wait_ms);
+    if (ready > 0 && fds[0].revents != 0) {
         return from_signal(term);
     }
-    if (is_closed(term, fds[1].revents)) {
+    if (ready > 0 && is_closed(term, fds[1].revents)) {
         return (struct gb_term_event){.kind = GB_TERM_HANGUP, .code = SIGHUP};
     }
-    next_key(term, &event);
+    if (ready > 0) {
+        read_keys(term);
+    }
+    gb_term_keys_next(&term->keys, gb_clock_s(), &event);
     return event;
 }
 
