@@ -126,8 +126,24 @@ static void test_refused(void)
 {
     static const char *const bad[] = {"particles.count=160", "mu", "mu=-1", "mu=a b",
                                       "until=1 GPa; count=3"};
+    static const char *const reason[][2] = {
+        {"friction=0.2", "friction: no such key; did you mean contact.mu? "},
+        {"contact.muu=1", "contact.muu: no such key; did you mean contact.mu? "},
+        {"mu", "mu: missing \"=value\""},
+        {"count=3", "count=3: cannot change during a run; keys that can: contact.alpha"},
+        {"mu=a", "contact.mu"},
+    };
     struct gb_error err = {0};
     struct gb_params params = scene(NULL);
+    for (size_t i = 0; i < G_N_ELEMENTS(reason); i++) {
+        g_assert_false(gb_changes_add(&params, 10, reason[i][0], &err));
+        if (!g_str_has_prefix(err.text, reason[i][1])) {
+            g_error("%s: \"%s\"", reason[i][0], err.text);
+        }
+    }
+    g_assert_true(gb_params_assign(&params, "loading.changes=10 mu=0.3", &err));
+    g_assert_true(gb_changes_check(&params, &err));
+    g_assert_true(gb_params_assign(&params, "loading.changes=", &err));
     for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
         g_assert_false(gb_changes_add(&params, 10, bad[i], &err));
         g_assert_null(strchr(err.text, '\n'));

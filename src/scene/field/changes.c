@@ -20,14 +20,40 @@ struct entry {
     char *assignment;
 };
 
-static bool is_allowed(const char *assignment)
+static bool assigns(const char *assignment, const char *key)
+{
+    const size_t length = strlen(key);
+    return strncmp(assignment, key, length) == 0 && assignment[length] == '=';
+}
+
+/* The allowed key that is assigned, with its group or without it; NULL: none. */
+static const char *allowed_key(const char *assignment)
 {
     for (size_t i = 0; allowed[i] != NULL; i++) {
-        const size_t length = strlen(allowed[i]);
-        if (strncmp(assignment, allowed[i], length) == 0 && assignment[length] == '=') {
-            return true;
+        if (assigns(assignment, allowed[i]) ||
+            assigns(assignment, strchr(allowed[i], '.') + 1)) {
+            return allowed[i];
         }
     }
+    return NULL;
+}
+
+/* The likely key comes before the list of those that may change. */
+static bool refuse_key(const char *assignment, struct gb_error *err)
+{
+    char *name = g_strndup(assignment, strcspn(assignment, "="));
+    char *names = g_strjoinv(", ", (char **)allowed);
+    if (gb_params_find_name(g_strstrip(name), err) != NULL) {
+        if (strchr(assignment, '=') == NULL) {
+            gb_error_set(err, GB_ERR_INPUT, "%.60s: missing \"=value\"", assignment);
+        } else {
+            gb_error_set(err, GB_ERR_INPUT,
+                         "%.60s: cannot change during a run; keys that can: %s",
+                         assignment, names);
+        }
+    }
+    g_free(names);
+    g_free(name);
     return false;
 }
 
@@ -40,12 +66,7 @@ static bool refuse(const char *text, const struct entry *entry, struct gb_error 
                             "by ';', in the order of steps",
                             text);
     }
-    char *names = g_strjoinv(", ", (char **)allowed);
-    gb_error_set(err, GB_ERR_INPUT,
-                 "%.60s: cannot change during a run; keys that can: %s",
-                 entry->assignment, names);
-    g_free(names);
-    return false;
+    return refuse_key(entry->assignment, err);
 }
 
 /* "120 contact.mu=0.3", without blanks at its ends.  False: it is no entry. */
@@ -61,7 +82,7 @@ static bool parse(const char *text, struct entry *entry)
         rest++;
     }
     entry->assignment = rest;
-    return is_allowed(rest);
+    return allowed_key(rest) != NULL;
 }
 
 /* Calls take with each entry up to a step until it returns false. */
@@ -179,16 +200,10 @@ int64_t gb_changes_next(const struct gb_params *params, int64_t step)
 /* "mu=0.3" becomes "contact.mu=0.3" where the key is one of the allowed. */
 static char *with_group(const char *assignment)
 {
-    for (size_t i = 0; allowed[i] != NULL; i++) {
-        const char *key = strchr(allowed[i], '.') + 1;
-        const size_t length = strlen(key);
-        if (strncmp(assignment, key, length) == 0 && assignment[length] == '=') {
-            const char *dot = strchr(allowed[i], '.');
-            return g_strdup_printf("%.*s.%s", (int)(dot - allowed[i]), allowed[i],
-                                   assignment);
-        }
-    }
-    return g_strdup(assignment);
+    const char *key = allowed_key(assignment);
+    return key == NULL || assigns(assignment, key)
+               ? g_strdup(assignment)
+               : g_strdup_printf("%.*s.%s", (int)strcspn(key, "."), key, assignment);
 }
 
 /* "mu = 0.3" is written without blanks around the sign. */
